@@ -1,0 +1,1 @@
+"""texvent: text prompts and videos to event-camera streams."""

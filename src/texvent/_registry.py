@@ -1,0 +1,90 @@
+"""Name → class, for every kind of part that can be added: one line here, one new file there.
+
+Values are `"module:attribute"` strings, so naming a part does not import it: torch, numba,
+OpenCV and PyAV load only when a part that needs them is used. Packages outside texvent add
+their own parts through entry points in the group `texvent.<kind>s`.
+"""
+
+from __future__ import annotations
+
+import difflib
+import importlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib import metadata
+from typing import Any
+
+from texvent.errors import ConfigError
+
+
+def load_object(target: str) -> Any:
+    """Import and return the object named by a `"module:attribute"` string."""
+    module, _, attribute = target.partition(":")
+    return getattr(importlib.import_module(module), attribute)
+
+
+def suggest(name: str, allowed: tuple[str, ...]) -> str:
+    """Say what is allowed, and the closest match if there is one: ` did you mean 'blend'?`."""
+    close = difflib.get_close_matches(name, allowed, n=1)
+    hint = f"; did you mean {close[0]!r}?" if close else ""
+    return f"allowed: {', '.join(allowed)}{hint}"
+
+
+@dataclass(frozen=True)
+class Registry:
+    """A table of interchangeable parts of one kind."""
+
+    kind: str
+    """What the parts are, in the singular, as error messages say it."""
+    builtin: Mapping[str, str]
+    """Name → `"module:attribute"` of the parts that ship with texvent."""
+
+    def entries(self) -> dict[str, str]:
+        """Name → target of built-in and plugged-in parts; built-in names cannot be replaced."""
+        plugged = metadata.entry_points(group=f"texvent.{self.kind.replace(' ', '_')}s")
+        return {**{point.name: point.value for point in plugged}, **self.builtin}
+
+    def names(self) -> tuple[str, ...]:
+        """All names, in table order."""
+        return tuple(self.entries())
+
+    def load(self, name: str) -> Any:
+        """Return the part called `name`.
+
+        Raises:
+            ConfigError: no part has that name.
+        """
+        entries = self.entries()
+        if name not in entries:
+            raise ConfigError(f"unknown {self.kind} {name!r}; {suggest(name, tuple(entries))}")
+        return load_object(entries[name])
+
+
+GENERATORS = Registry(
+    "generator",
+    {"procedural": "texvent.generate.procedural.generator:ProceduralGenerator"},
+)
+INTERPOLATORS = Registry(
+    "interpolator",
+    {
+        "none": "texvent.interpolate.none:NoInterpolator",
+        "blend": "texvent.interpolate.blend:BlendInterpolator",
+        "flow": "texvent.interpolate.flow:FlowInterpolator",
+        "exact": "texvent.interpolate.exact:ExactInterpolator",
+    },
+)
+SIMULATORS = Registry(
+    "simulator",
+    {"texvent": "texvent.simulate.texvent:TexventSimulator"},
+)
+CODECS = Registry(
+    "event format",
+    {
+        "hdf5": "texvent.io.hdf5:Hdf5Codec",
+        "npz": "texvent.io.npz:NpzCodec",
+        "ecd": "texvent.io.ecd:EcdCodec",
+    },
+)
+REGISTRIES = {
+    registry.kind: registry for registry in (GENERATORS, INTERPOLATORS, SIMULATORS, CODECS)
+}

@@ -1,0 +1,31 @@
+"""Optional packages: import them when used, and name the exact command when one is missing."""
+
+from __future__ import annotations
+
+import importlib
+from types import ModuleType
+
+from texvent.errors import MissingDependencyError
+
+
+def require(module: str, *, extra: str | None = None) -> ModuleType:
+    """Import `module`, or say what to install.
+
+    Args:
+        module: dotted module name, such as `"torch"`.
+        extra: the texvent extra that brings it, or None for a base dependency.
+
+    Returns:
+        The imported module.
+
+    Raises:
+        MissingDependencyError: the module is not installed.
+    """
+    try:
+        return importlib.import_module(module)
+    except ImportError as error:
+        target = f"texvent[{extra}]" if extra else "texvent"
+        raise MissingDependencyError(
+            f"{module} is needed here and could not be imported ({error}); "
+            f"install it with: pip install '{target}'"
+        ) from error

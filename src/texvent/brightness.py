@@ -1,0 +1,72 @@
+"""Intensity → luma → brightness: the logarithm that Eqs. 1, 4 and 5 compare.
+
+Intensity is what a frame holds, on the 0..255 scale; brightness is its balanced natural
+logarithm `L = ln(α + I)`. Kernels take brightness, not intensity, because two libraries may
+round a logarithm differently in the last bit and an event threshold would show it.
+"""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.errors import ConfigError
+
+LUMA_WEIGHTS = (0.299, 0.587, 0.114)
+"""Red, green, blue weights of ITU-R BT.601: what OpenCV, v2e and ESIM use for grey input."""
+
+Float64Array: TypeAlias = NDArray[np.float64]
+
+
+def luma_bt601(rgb: NDArray[Any]) -> NDArray[np.float32]:
+    """Luma of an RGB picture, never rounded to whole levels.
+
+    Args:
+        rgb: [H, W, 3], any numeric type.
+
+    Returns:
+        [H, W] float32, on the scale of `rgb`.
+
+    Source: ITU-R BT.601, Y' = 0.299 R' + 0.587 G' + 0.114 B'.
+    """
+    red, green, blue = (np.float32(weight) for weight in LUMA_WEIGHTS)
+    luma = rgb[..., 0] * red
+    luma += rgb[..., 1] * green
+    luma += rgb[..., 2] * blue
+    return np.asarray(luma, dtype=np.float32)
+
+
+def balanced_log(intensity: NDArray[Any], balance: float) -> Float64Array:
+    """Brightness `L(α + I)` of Eq. 5, natural logarithm.
+
+    Args:
+        intensity: luma on the 0..255 scale, [H, W], uint8 or float.
+        balance: α, on the same scale.
+
+    Returns:
+        [H, W] float64, log units.
+
+    Raises:
+        ConfigError: α + I is zero somewhere, so the logarithm does not exist.
+
+    Equation: (5), section 3.2.2; supplement 9.1.
+    """
+    if intensity.dtype == np.uint8:
+        if balance <= 0 and not intensity.all():
+            _refuse_zero(balance)
+        with np.errstate(divide="ignore"):
+            table = np.log(balance + np.arange(256, dtype=np.float64))
+        return np.asarray(table[intensity])
+    shifted = intensity + np.float64(balance)
+    if balance <= 0 and not shifted.all():
+        _refuse_zero(balance)
+    return np.asarray(np.log(shifted, dtype=np.float64))
+
+
+def _refuse_zero(balance: float) -> None:
+    raise ConfigError(
+        f"balance is {balance:g} and a pixel has intensity 0, so ln(balance + I) does not exist; "
+        "use a balance above 0, or raise the black level of the frames"
+    )

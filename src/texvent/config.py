@@ -1,0 +1,226 @@
+"""Stage configurations: frozen dataclasses that the command line, config files and API share.
+
+A field is one option. Its name is the flag (`max_intermediate` → `--max-intermediate`), the key
+in a TOML or YAML file and the keyword in Python; its default is written once, here or in the
+part's own file (every generator and simulator declares its `config_type` beside its code); the
+text under it is its help. Field names are therefore unique across stages.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import types
+import typing
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Any, Literal, TypeVar
+
+from texvent._registry import suggest
+from texvent.errors import ConfigError
+
+Config = TypeVar("Config")
+
+
+def check_range(name: str, value: float, low: float, high: float = float("inf")) -> None:
+    """Refuse an option outside `low..high` (both allowed; NaN never is).
+
+    Raises:
+        ConfigError: with the option's name, its value and the range.
+    """
+    if not low <= value <= high:
+        allowed = f"at least {low:g}" if high == float("inf") else f"{low:g}..{high:g}"
+        raise ConfigError(f"{name} is {value:g}; it must be {allowed}")
+
+
+@dataclass(frozen=True, kw_only=True)
+class RunConfig:
+    """What decides a run as a whole."""
+
+    simulator: str = "texvent"
+    """Pixel model that turns brightness into events."""
+    preset: str = "paper"
+    """Named set of simulator options; single options override it."""
+    sensor: str | None = None
+    """Sensor to imitate: a name such as davis346, or WIDTHxHEIGHT; frames are fitted to its size.
+    Without it, a video keeps its own size and a generated scene is davis346."""
+    seed: int = 0
+    """Seed of everything random. The same seed and options give the same events, on any machine
+    and with any number of threads."""
+
+    def __post_init__(self) -> None:
+        check_range("seed", self.seed, 0, 2**63 - 1)
+
+
+@dataclass(frozen=True, kw_only=True)
+class CaptureConfig:
+    """How frames are read from a video, a folder, an array or a camera."""
+
+    fps: Fraction | None = None
+    """Frame rate, as 24, 29.97 or 30000/1001. Needed for image folders and arrays without
+    timestamps; for a video it overrides the file's own times (for slow-motion footage)."""
+    timestamps: Path | None = None
+    """Text file with one frame time per line (a file name may follow, as in images.txt)."""
+    timestamps_unit: Literal["s", "ms", "us", "ns"] = "s"
+    """Unit of the times in that file."""
+    start: float = 0.0
+    """Skip this much of the input, in seconds."""
+    stop: float | None = None
+    """Stop at this time of the input, in seconds."""
+    fit: Literal["cover", "contain", "stretch"] = "cover"
+    """How frames are fitted to the sensor's size: cut the excess, add black bars, or distort."""
+
+    def __post_init__(self) -> None:
+        check_range("start", self.start, 0.0)
+        if self.fps is not None and not 0 < self.fps <= 1_000_000:
+            raise ConfigError(f"fps is {self.fps}; it must be above 0 and at most 1000000")
+        if self.stop is not None and not self.stop > self.start:
+            raise ConfigError(f"stop is {self.stop:g} s; it must be after start ({self.start:g} s)")
+
+
+@dataclass(frozen=True, kw_only=True)
+class InterpolateConfig:
+    """How many intermediate frames there are, and what they show."""
+
+    interpolate: str = "flow"
+    """What fills the time between two source frames: none, blend (mix of both), flow (motion
+    compensation by DIS optical flow), or exact (the generator renders the instant itself)."""
+    count: Literal["brightness", "fixed"] = "brightness"
+    """How many intermediate frames: as many as the brightness change needs (Eq. 4), or a fixed
+    number."""
+    fixed_count: int = 10
+    """Intermediate frames per pair with --count fixed (10 is the paper's ablation E7)."""
+    max_intermediate: int = 64
+    """Upper limit of Eq. 4's count per pair."""
+    count_percentile: float = 100.0
+    """Percentile of the brightness change that Eq. 4 uses: 100 is the paper's maximum; 99.9 keeps
+    one hot pixel from deciding for all."""
+    count_threshold: float | None = None
+    """Contrast threshold in Eq. 4; without it, the simulator's own."""
+    count_balance: float | None = None
+    """Balance α in Eq. 4; without it, the simulator's own."""
+    detect_cuts: bool = True
+    """Detect scene cuts and flashes and let them happen at one instant instead of smearing them
+    over the frame interval."""
+
+    def __post_init__(self) -> None:
+        check_range("fixed_count", self.fixed_count, 0, 10_000)
+        check_range("max_intermediate", self.max_intermediate, 0, 10_000)
+        check_range("count_percentile", self.count_percentile, 0.0, 100.0)
+        if self.count_threshold is not None:
+            check_range("count_threshold", self.count_threshold, 1e-4, 10.0)
+        if self.count_balance is not None:
+            check_range("count_balance", self.count_balance, 0.0, 1e6)
+
+
+def option_names(config_type: type) -> tuple[str, ...]:
+    """Names of the options of a config dataclass, in order."""
+    return tuple(field.name for field in dataclasses.fields(config_type))
+
+
+def with_options(config: Config, options: Mapping[str, Any], *, where: str) -> Config:
+    """A copy of `config` with some options replaced, each converted to its declared type.
+
+    Args:
+        config: an instance of a config dataclass.
+        options: name → value; text such as "30000/1001" is accepted where the type allows.
+        where: what to call the source of the options in messages, such as "config file run.toml".
+
+    Raises:
+        ConfigError: an unknown name, a value of the wrong type, or one out of range.
+    """
+    config_type = type(config)
+    names = option_names(config_type)
+    hints = typing.get_type_hints(config_type)
+    converted: dict[str, Any] = {}
+    for name, value in options.items():
+        if name not in names:
+            raise ConfigError(f"{where}: unknown option {name!r}; {suggest(name, names)}")
+        converted[name] = _convert(value, hints[name], f"{where}: {name}")
+    return dataclasses.replace(config, **converted)  # type: ignore[type-var]
+
+
+def plain(value: Any) -> Any:
+    """A config (or any nesting of them) as JSON- and TOML-ready values; None entries are left out."""
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        named = {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
+        return plain(named)
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items() if item is not None}
+    if isinstance(value, (list, tuple)):
+        return [plain(item) for item in value]
+    if isinstance(value, Fraction):
+        return int(value) if value.denominator == 1 else str(value)
+    if isinstance(value, Path):
+        return str(value)
+    return value
+
+
+def _convert(value: Any, hint: Any, where: str) -> Any:
+    """`value` as type `hint`; bool, int, float, str, Path, Fraction, Literal and unions of them."""
+    origin, arguments = typing.get_origin(hint), typing.get_args(hint)
+    if origin is Literal:
+        if value not in arguments:
+            allowed = tuple(str(argument) for argument in arguments)
+            raise ConfigError(f"{where} is {value!r}; {suggest(str(value), allowed)}")
+        return value
+    if origin in (typing.Union, types.UnionType):
+        if value is None and type(None) in arguments:
+            return None
+        return _convert(value, next(one for one in arguments if one is not type(None)), where)
+    try:
+        return _SCALARS[hint](value)
+    except KeyError:
+        return value
+    except (TypeError, ValueError, ZeroDivisionError):
+        raise ConfigError(f"{where} is {value!r}; it must be {_SCALAR_NAMES[hint]}") from None
+
+
+def _bool(value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise TypeError
+    return value
+
+
+def _int(value: Any) -> int:
+    if isinstance(value, bool) or int(value) != value:
+        raise TypeError
+    return int(value)
+
+
+def _float(value: Any) -> float:
+    if isinstance(value, (bool, str)):
+        raise TypeError
+    return float(value)
+
+
+def _text(value: Any) -> str:
+    if not isinstance(value, str):
+        raise TypeError
+    return value
+
+
+def parse_fraction(value: Any) -> Fraction:
+    """A rate from 24, 29.97, "29.97" or "30000/1001", exactly as written in decimal."""
+    if isinstance(value, bool):
+        raise TypeError
+    return Fraction(str(value)) if isinstance(value, float) else Fraction(value)
+
+
+_SCALARS: dict[Any, Any] = {
+    bool: _bool,
+    int: _int,
+    float: _float,
+    str: _text,
+    Path: Path,
+    Fraction: parse_fraction,
+}
+_SCALAR_NAMES = {
+    bool: "true or false",
+    int: "a whole number",
+    float: "a number",
+    str: "text",
+    Path: "a path",
+    Fraction: "a number or a fraction such as 30000/1001",
+}

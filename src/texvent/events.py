@@ -1,0 +1,209 @@
+"""Events: `(x, y, t, p)` in four arrays, with the size of the sensor they came from.
+
+What always holds:
+
+* `x`, `y` are uint16 inside the sensor, origin top left; `t` is int64 µs, non-decreasing;
+  `p` is uint8, 1 = ON (brighter), 0 = OFF. `polarity` gives the signed ±1 form.
+* Ties in time are ordered by (t, y, x, p).
+* Arrays are read-only views; the caller's own array stays writable.
+* "No events" is an empty stream, never None.
+* Other codings (±1, seconds, other column orders) are converted in `texvent.io` only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from texvent._registry import load_object
+from texvent.errors import InputError
+from texvent.sensor import MAX_SIDE, SensorSize, checked_size
+
+
+@dataclass(frozen=True, eq=False)
+class EventStream:
+    """Events in time order: a whole recording, or one packet of it.
+
+    Raises:
+        InputError: lengths differ, a coordinate lies outside the sensor, time decreases, or a
+            polarity is not 0/1.
+
+    Example:
+        >>> events = EventStream([3, 4], [0, 0], [10, 20], [1, 0], SensorSize(8, 6))
+        >>> len(events), events.polarity.tolist()
+        (2, [1, -1])
+    """
+
+    x: NDArray[np.uint16]
+    """Column, pixels, [n] uint16."""
+    y: NDArray[np.uint16]
+    """Row, pixels from the top, [n] uint16."""
+    t: NDArray[np.int64]
+    """Time, µs, [n] int64, non-decreasing."""
+    p: NDArray[np.uint8]
+    """Polarity, [n] uint8: 1 = ON, 0 = OFF."""
+    size: SensorSize
+    """Width and height of the sensor, pixels."""
+    metadata: Mapping[str, Any] = field(default_factory=dict, repr=False)
+    """How the events were made (JSON-serialisable): prompt, config, seed, version."""
+
+    def __post_init__(self) -> None:
+        size = checked_size(*self.size)
+        columns = {name: np.asarray(getattr(self, name)) for name in "xytp"}
+        _check_columns(columns, size)
+        for name, dtype in (("x", np.uint16), ("y", np.uint16), ("t", np.int64), ("p", np.uint8)):
+            view = columns[name].astype(dtype, copy=False).view()
+            view.flags.writeable = False
+            object.__setattr__(self, name, view)
+        object.__setattr__(self, "size", size)
+
+    @classmethod
+    def empty(cls, size: SensorSize, metadata: Mapping[str, Any] | None = None) -> EventStream:
+        """A stream with no event."""
+        nothing: list[int] = []
+        return cls.from_columns(nothing, nothing, nothing, nothing, size=size, metadata=metadata)
+
+    @classmethod
+    def from_columns(
+        cls,
+        x: ArrayLike,
+        y: ArrayLike,
+        t: ArrayLike,
+        p: ArrayLike,
+        *,
+        size: SensorSize,
+        metadata: Mapping[str, Any] | None = None,
+    ) -> EventStream:
+        """A stream from anything array-like, such as lists; empty columns may have any dtype."""
+        columns = [np.asarray(column) for column in (x, y, t, p)]
+        columns = [column.astype(np.int64) if column.size == 0 else column for column in columns]
+        return cls(columns[0], columns[1], columns[2], columns[3], size, metadata or {})
+
+    @classmethod
+    def concat(cls, streams: Iterable[EventStream]) -> EventStream:
+        """One stream from packets in time order; metadata comes from the first.
+
+        Raises:
+            InputError: there is no packet, the sizes differ, or a packet starts before the end
+                of the one before it.
+        """
+        packets = list(streams)
+        if not packets:
+            raise InputError("nothing to concatenate; give at least one (possibly empty) packet")
+        size = packets[0].size
+        for packet in packets:
+            if packet.size != size:
+                raise InputError(f"cannot concatenate sensors of {size} and {packet.size}")
+        return cls(
+            np.concatenate([packet.x for packet in packets]),
+            np.concatenate([packet.y for packet in packets]),
+            np.concatenate([packet.t for packet in packets]),
+            np.concatenate([packet.p for packet in packets]),
+            size,
+            packets[0].metadata,
+        )
+
+    def __len__(self) -> int:
+        return len(self.t)
+
+    def __getitem__(self, index: slice | NDArray[np.bool_]) -> EventStream:
+        """The events of a slice with a positive step, or where a mask is true."""
+        return EventStream(
+            self.x[index], self.y[index], self.t[index], self.p[index], self.size, self.metadata
+        )
+
+    @property
+    def polarity(self) -> NDArray[np.int8]:
+        """Polarity as ±1 (ON = +1, OFF = −1), [n] int8."""
+        return self.p.astype(np.int8) * np.int8(2) - np.int8(1)
+
+    @property
+    def time_range(self) -> tuple[int, int] | None:
+        """Half-open range [first, last + 1) of the event times, µs, or None without events."""
+        return (int(self.t[0]), int(self.t[-1]) + 1) if len(self) else None
+
+    def between(self, start_us: int, stop_us: int) -> EventStream:
+        """Events with `start_us <= t < stop_us`."""
+        first, last = np.searchsorted(self.t, (start_us, stop_us), side="left")
+        return self[int(first) : int(last)]
+
+    def equals(self, other: EventStream) -> bool:
+        """True if size and every column agree; metadata does not count."""
+        return self.size == other.size and all(
+            np.array_equal(getattr(self, name), getattr(other, name)) for name in "xytp"
+        )
+
+    def with_metadata(self, metadata: Mapping[str, Any]) -> EventStream:
+        """The same events with other metadata."""
+        return EventStream(self.x, self.y, self.t, self.p, self.size, metadata)
+
+    # These two name their implementation by text because `io` and `view` lie above this module.
+    def save(self, path: str | Path, *, format: str | None = None, overwrite: bool = False) -> Path:
+        """Write to a file, its format taken from the extension unless given; see `texvent.io`."""
+        saved: Path = load_object("texvent.io.files:save")(
+            path, self, format=format, overwrite=overwrite
+        )
+        return saved
+
+    def show(self, path: str | Path | None = None) -> Path:
+        """Make a self-contained page (x-y-t cloud, rate curve) and open it in the browser.
+
+        Args:
+            path: where to save the page; then nothing is opened. Default: a temporary file.
+        """
+        shown: Path = load_object("texvent.view.page:show")(self, path)
+        return shown
+
+
+@dataclass(frozen=True, eq=False)
+class EventPackets:
+    """Events packet by packet, for recordings that need not fit in memory."""
+
+    packets: Iterable[EventStream]
+    """Packets in time order; each starts no earlier than the one before it ends."""
+    size: SensorSize
+    metadata: Mapping[str, Any] = field(default_factory=dict)
+
+    def __iter__(self) -> Iterator[EventStream]:
+        return iter(self.packets)
+
+    def collect(self) -> EventStream:
+        """All packets in one stream, in memory."""
+        whole = EventStream.concat([EventStream.empty(self.size), *self.packets])
+        return whole.with_metadata(self.metadata)
+
+
+def _check_columns(columns: Mapping[str, NDArray[Any]], size: SensorSize) -> None:
+    lengths = {name: column.shape for name, column in columns.items()}
+    if any(column.ndim != 1 for column in columns.values()) or len(set(lengths.values())) != 1:
+        raise InputError(f"x, y, t, p must be one-dimensional and equally long; got {lengths}")
+    if columns["t"].size == 0:
+        return
+    for name, column in columns.items():
+        if column.dtype.kind not in "iub":
+            raise InputError(f"{name} must hold integers; got {column.dtype}")
+    for name, side in (("x", size.width), ("y", size.height)):
+        low, high = int(columns[name].min()), int(columns[name].max())
+        if low < 0 or high >= side:
+            raise InputError(
+                f"{name} runs from {low} to {high}; a {size} sensor allows 0..{side - 1} "
+                f"(largest possible: {MAX_SIDE - 1})"
+            )
+    low, high = int(columns["p"].min()), int(columns["p"].max())
+    if low < 0 or high > 1:
+        raise InputError(
+            f"p runs from {low} to {high}; it must be 0 (OFF) or 1 (ON). "
+            "Read ±1 data through texvent.io"
+        )
+    backwards = np.flatnonzero(columns["t"][1:] < columns["t"][:-1])
+    if backwards.size:
+        raise InputError(
+            f"time decreases after event {int(backwards[0])} "
+            f"({int(columns['t'][backwards[0]])} → {int(columns['t'][backwards[0] + 1])} µs); "
+            "events must be in time order"
+        )

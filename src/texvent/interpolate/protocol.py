@@ -1,0 +1,26 @@
+"""What every interpolator offers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Protocol
+
+from texvent.video import Frame
+
+
+class Interpolator(Protocol):
+    """Makes the frames between two source frames."""
+
+    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
+        """Intermediate luma frames at `times_us`, all strictly inside (first, second).
+
+        Args:
+            first: the earlier source frame.
+            second: the later source frame.
+            times_us: times of the intermediate frames, µs, strictly increasing.
+
+        Yields:
+            One frame per time: [H, W] float32 on the 0..255 scale, never rounded to whole levels,
+            with `is_source` False.
+        """
+        ...

@@ -1,0 +1,60 @@
+"""What every event-file codec offers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from types import TracebackType
+from typing import Any, ClassVar, Protocol, Self
+
+from texvent.events import EventPackets, EventStream
+from texvent.sensor import SensorSize
+
+
+class EventWriter(Protocol):
+    """Writes one file, packet by packet; leaving the `with` block by an exception leaves no file."""
+
+    def append(self, packet: EventStream) -> None:
+        """Add the events of a packet, which starts no earlier than the one before it ended."""
+        ...
+
+    def __enter__(self) -> Self: ...
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None: ...
+
+
+class EventCodec(Protocol):
+    """Reads and writes one event-file format. Units, order and polarity are converted here only."""
+
+    name: ClassVar[str]
+    extensions: ClassVar[tuple[str, ...]]
+    """Lower case, with the dot; the first one is the usual one."""
+
+    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
+        """Events of a file, packet by packet.
+
+        Args:
+            path: the file.
+            size: sensor size, for formats that do not store it.
+
+        Raises:
+            InputError: no such file, or the size is not stored and not given.
+            FileFormatError: the file is damaged or of another format.
+        """
+        ...
+
+    def open_writer(
+        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
+    ) -> EventWriter:
+        """Start a file. It appears under its name only when it is complete.
+
+        Raises:
+            OutputError: it exists already, or its folder cannot be written.
+            InputError: the format cannot hold this sensor size.
+        """
+        ...

@@ -1,0 +1,88 @@
+"""Sensor sizes and the presets of sensors people use."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from texvent._registry import suggest
+from texvent.errors import ConfigError
+
+MAX_SIDE = 65_535
+"""Largest width or height: coordinates are uint16."""
+
+
+class SensorSize(NamedTuple):
+    """Width and height of a sensor, in pixels. Arrays are indexed [y, x], shape (height, width)."""
+
+    width: int
+    height: int
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Array shape (height, width)."""
+        return (self.height, self.width)
+
+    def __str__(self) -> str:
+        return f"{self.width}x{self.height}"
+
+
+@dataclass(frozen=True)
+class Sensor:
+    """A sensor that events can be simulated for."""
+
+    name: str
+    size: SensorSize
+    description: str
+    source: str
+    """Where the numbers come from."""
+
+
+SENSORS: dict[str, Sensor] = {
+    sensor.name: sensor
+    for sensor in (
+        Sensor("dvs128", SensorSize(128, 128), "iniLabs DVS128", "Lichtsteiner 2008"),
+        Sensor("davis240c", SensorSize(240, 180), "iniLabs DAVIS240C", "Brandli 2014"),
+        Sensor("davis346", SensorSize(346, 260), "iniVation DAVIS346", "iniVation data sheet"),
+        Sensor("gen3-vga", SensorSize(640, 480), "Samsung Gen3 VGA (N-ImageNet)", "Son 2017"),
+        Sensor("gen4-hd", SensorSize(1280, 720), "Prophesee Gen4 HD", "Finateu 2020"),
+        Sensor(
+            "evk4", SensorSize(1280, 720), "Prophesee EVK4 (Sony IMX636)", "Prophesee data sheet"
+        ),
+    )
+}
+
+
+def parse_sensor(text: str) -> SensorSize:
+    """Size of a sensor given by name or as `WIDTHxHEIGHT`.
+
+    Raises:
+        ConfigError: the name is unknown or a side is not in 1..65535.
+
+    Example:
+        >>> parse_sensor("davis346")
+        SensorSize(width=346, height=260)
+        >>> parse_sensor("64x48")
+        SensorSize(width=64, height=48)
+    """
+    match = re.fullmatch(r"(\d+)[xX×](\d+)", text.strip())
+    if match:
+        return checked_size(int(match[1]), int(match[2]))
+    sensor = SENSORS.get(text.strip().lower())
+    if sensor is None:
+        raise ConfigError(
+            f"unknown sensor {text!r}; {suggest(text.lower(), tuple(SENSORS))}, or WIDTHxHEIGHT"
+        )
+    return sensor.size
+
+
+def checked_size(width: int, height: int) -> SensorSize:
+    """A SensorSize whose sides are in 1..65535.
+
+    Raises:
+        ConfigError: a side is out of range.
+    """
+    if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
+        raise ConfigError(f"sensor size {width}x{height}; each side must be 1..{MAX_SIDE}")
+    return SensorSize(int(width), int(height))

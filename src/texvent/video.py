@@ -1,0 +1,232 @@
+"""Frames with integer-microsecond times, and streams of them.
+
+What always holds:
+
+* A frame's time is integer µs, computed as `t0 + round(i · 10⁶ / fps)` or read from the file;
+  it is never accumulated, so it never drifts.
+* Pixels keep the precision they came with: uint8 stays uint8, uint16 stays uint16, float stays
+  float. Intermediate frames are float32 and are never rounded back to whole levels.
+* A stream has one size, strictly increasing times, and can be iterated again (live sources
+  excepted: their `is_live` is true).
+* `is_source` says which frames came from the video and which were interpolated; the paper's
+  local brightness cache resets at source frames.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from typing import Any, Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.brightness import luma_bt601
+from texvent.errors import InputError
+from texvent.sensor import SensorSize
+
+MICROSECONDS = 1_000_000
+UINT16_PER_LEVEL = 257.0
+"""65535 / 255: a uint16 pixel is full scale, so this brings it to the 0..255 scale."""
+
+PixelArray = NDArray[Any]
+
+
+def frame_time_us(index: int, fps: Fraction, start_us: int = 0) -> int:
+    """Time of frame `index` in integer µs: `start_us + round(index · 10⁶ / fps)`.
+
+    Example:
+        >>> frame_time_us(30_000, Fraction(30_000, 1001))  # 1001 s exactly: no drift
+        1001000000
+    """
+    return start_us + round(index * MICROSECONDS / fps)
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """One picture and its time.
+
+    Raises:
+        InputError: pixels are not [H, W] or [H, W, 3], or not uint8, uint16 or float.
+    """
+
+    pixels: PixelArray
+    """[H, W] luma or [H, W, 3] RGB; uint8 (0..255), uint16 (0..65535) or float (0..255 scale),
+    gamma-coded as in ordinary video."""
+    t_us: int
+    """Time, µs."""
+    is_source: bool = True
+    """False for a frame made by interpolation."""
+
+    def __post_init__(self) -> None:
+        shape, dtype = self.pixels.shape, self.pixels.dtype
+        if not (self.pixels.ndim == 2 or (self.pixels.ndim == 3 and shape[2] == 3)):
+            raise InputError(f"a frame must be [H, W] or [H, W, 3]; got shape {list(shape)}")
+        if 0 in shape:
+            raise InputError(f"a frame must have at least one pixel; got shape {list(shape)}")
+        if dtype not in (np.uint8, np.uint16, np.float32, np.float64):
+            raise InputError(f"frame pixels must be uint8, uint16, float32 or float64; got {dtype}")
+
+    @property
+    def size(self) -> SensorSize:
+        """Width and height, pixels."""
+        return SensorSize(self.pixels.shape[1], self.pixels.shape[0])
+
+    @cached_property
+    def luma(self) -> PixelArray:
+        """BT.601 luma on the 0..255 scale, [H, W]: uint8 if the frame is 8-bit grey, else float32."""
+        pixels = self.pixels
+        luma = luma_bt601(pixels) if pixels.ndim == 3 else pixels
+        if pixels.dtype == np.uint16:
+            return np.asarray(luma / np.float32(UINT16_PER_LEVEL), dtype=np.float32)
+        if luma.dtype == np.uint8:
+            return luma
+        return np.asarray(luma, dtype=np.float32)
+
+
+@runtime_checkable
+class FrameStream(Protocol):
+    """Frames of one size in strictly increasing time order."""
+
+    @property
+    def size(self) -> SensorSize:
+        """Width and height of every frame, pixels."""
+        ...
+
+    @property
+    def fps(self) -> Fraction | None:
+        """Nominal frame rate, or None where the times are irregular and nothing was stated."""
+        ...
+
+    @property
+    def frame_count(self) -> int | None:
+        """How many frames there are (an estimate from the container, for progress), or None."""
+        ...
+
+    @property
+    def is_live(self) -> bool:
+        """True if the frames can be read only once."""
+        ...
+
+    @property
+    def metadata(self) -> Mapping[str, Any]:
+        """Where the frames come from (JSON-serialisable), stored in every output."""
+        ...
+
+    def __iter__(self) -> Iterator[Frame]:
+        """Frames in time order."""
+        ...
+
+
+@runtime_checkable
+class RenderableStream(FrameStream, Protocol):
+    """A stream that can also render the scene at any instant, such as the embedded generator's."""
+
+    def at(self, t_us: int) -> Frame:
+        """The frame at `t_us` (`is_source` False), float32, as exact as any other frame."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class Video:
+    """Frames held in memory.
+
+    Raises:
+        InputError: no frame, another number of times than of frames, or times that do not
+            strictly increase.
+    """
+
+    pixels: PixelArray
+    """[N, H, W] or [N, H, W, 3]; see `Frame.pixels`."""
+    times_us: Sequence[int]
+    """N times, µs."""
+    fps: Fraction | None = None
+    metadata: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.pixels.ndim not in (3, 4):
+            raise InputError(
+                f"frames must be [N, H, W] or [N, H, W, 3]; got shape {list(self.pixels.shape)}"
+            )
+        if len(self.pixels) == 0:
+            raise InputError("the video has no frame; give at least two")
+        if len(self.times_us) != len(self.pixels):
+            raise InputError(
+                f"{len(self.pixels)} frames but {len(self.times_us)} times; give one per frame"
+            )
+        checker = StreamChecker()
+        for index in range(len(self.pixels)):
+            checker.check(self[index])
+
+    def __len__(self) -> int:
+        return len(self.pixels)
+
+    def __getitem__(self, index: int) -> Frame:
+        return Frame(self.pixels[index], int(self.times_us[index]))
+
+    def __iter__(self) -> Iterator[Frame]:
+        return (self[index] for index in range(len(self.pixels)))
+
+    @property
+    def size(self) -> SensorSize:
+        """Width and height, pixels."""
+        return SensorSize(self.pixels.shape[2], self.pixels.shape[1])
+
+    @property
+    def frame_count(self) -> int:
+        """How many frames there are."""
+        return len(self.pixels)
+
+    @property
+    def is_live(self) -> bool:
+        """False: frames in memory can be read again."""
+        return False
+
+
+class StreamChecker:
+    """Checks, frame by frame, what a FrameStream promises. Costs one pass over float pixels."""
+
+    def __init__(self) -> None:
+        self._size: SensorSize | None = None
+        self._last_us: int | None = None
+        self._index = 0
+
+    def check(self, frame: Frame) -> Frame:
+        """Return `frame` if it keeps the promises.
+
+        Raises:
+            InputError: another size than before, a time that does not increase, or a pixel that
+                is NaN, infinite or negative.
+        """
+        where = f"frame {self._index} (t = {frame.t_us} µs)"
+        if self._size is not None and frame.size != self._size:
+            raise InputError(f"{where} is {frame.size}, the frames before it are {self._size}")
+        if self._last_us is not None and frame.t_us <= self._last_us:
+            raise InputError(
+                f"{where} does not come after the frame before it (t = {self._last_us} µs); "
+                "frame times must strictly increase"
+            )
+        check_intensity(frame.pixels, where)
+        self._size, self._last_us = frame.size, frame.t_us
+        self._index += 1
+        return frame
+
+
+def check_intensity(pixels: PixelArray, where: str) -> None:
+    """Refuse NaN, infinite and negative intensities; integer pixels cannot hold any.
+
+    Raises:
+        InputError: a pixel is NaN, infinite or negative; the message counts them.
+    """
+    if pixels.dtype.kind != "f":
+        return
+    low, high = float(pixels.min()), float(pixels.max())
+    if low >= 0.0 and high < float("inf"):
+        return
+    bad = pixels[~(np.isfinite(pixels) & (pixels >= 0))]
+    raise InputError(
+        f"{where} has {bad.size} pixel(s) that are NaN, infinite or negative (first: {bad[0]:g}); "
+        "intensities must be finite and at least 0"
+    )
