@@ -142,7 +142,7 @@ def with_options(config: Config, options: Mapping[str, Any], *, where: str) -> C
 
 
 def plain(value: Any) -> Any:
-    """A config (or any nesting of them) as JSON- and TOML-ready values; None entries are left out."""
+    """A config (or a nesting of them) as JSON- and TOML-ready values, without None entries."""
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         named = {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
         return plain(named)

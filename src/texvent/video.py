@@ -76,7 +76,7 @@ class Frame:
 
     @cached_property
     def luma(self) -> PixelArray:
-        """BT.601 luma on the 0..255 scale, [H, W]: uint8 if the frame is 8-bit grey, else float32."""
+        """BT.601 luma, 0..255 scale, [H, W]: uint8 if the frame is 8-bit grey, else float32."""
         pixels = self.pixels
         luma = luma_bt601(pixels) if pixels.ndim == 3 else pixels
         if pixels.dtype == np.uint16:

@@ -1,0 +1,1 @@
+"""Frames in: video files, image folders, arrays, cameras and streams."""

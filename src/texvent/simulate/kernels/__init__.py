@@ -1,0 +1,1 @@
+"""The numerical hearts of the simulators: a readable reference and fast equals of it."""
