@@ -1,0 +1,1 @@
+"""Everyday things built from unit shapes: one file per family, one table of nouns."""
