@@ -1,0 +1,35 @@
+"""The compiled twin of `texvent.simulate.draws`, to be called inside Numba kernels: same bits."""
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+
+from texvent.simulate import draws
+
+# Numba turns a sum of uint64 and int64 into a float, so every constant is uint64.
+_GOLDEN = np.uint64(draws.GOLDEN)
+_MULTIPLIER_1 = np.uint64(draws.MULTIPLIER_1)
+_MULTIPLIER_2 = np.uint64(draws.MULTIPLIER_2)
+_UNIT = draws.UNIT
+_11, _16, _27, _30, _31, _32 = (np.uint64(bits) for bits in (11, 16, 27, 30, 31, 32))
+
+
+@numba.njit(cache=True, nogil=True, inline="always")
+def _mix(word: np.uint64) -> np.uint64:
+    word = (word ^ (word >> _30)) * _MULTIPLIER_1
+    word = (word ^ (word >> _27)) * _MULTIPLIER_2
+    return word ^ (word >> _31)
+
+
+@numba.njit(cache=True, nogil=True, inline="always")
+def draw_word(key: np.uint64, y: int, x: int, draw: int) -> np.uint64:
+    """64 random bits of one pixel; see `draws.draw_words`. `key` must be a uint64."""
+    counter = (np.uint64(draw) << _32) | (np.uint64(y) << _16) | np.uint64(x)
+    return _mix(_mix(counter * _GOLDEN + key) ^ key)
+
+
+@numba.njit(cache=True, nogil=True, inline="always")
+def draw_uniform(key: np.uint64, y: int, x: int, draw: int) -> float:
+    """One uniform number in [0, 1); see `draws.draw_uniforms`. `key` must be a uint64."""
+    return np.float64(draw_word(key, y, x, draw) >> _11) * _UNIT
