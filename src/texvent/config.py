@@ -8,14 +8,18 @@ text under it is its help. Field names are therefore unique across stages.
 
 from __future__ import annotations
 
+import ast
 import dataclasses
+import inspect
+import itertools
+import textwrap
 import types
 import typing
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, Literal, TypeVar
+from typing import Any, Literal, TypeVar, cast
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError
@@ -117,6 +121,24 @@ class InterpolateConfig:
 def option_names(config_type: type) -> tuple[str, ...]:
     """Names of the options of a config dataclass, in order."""
     return tuple(field.name for field in dataclasses.fields(config_type))
+
+
+def option_help(config_type: type) -> dict[str, str]:
+    """Option name → the text under its field, on one line; also what `--help` shows."""
+    texts: dict[str, str] = {}
+    for owner in reversed(config_type.__mro__):
+        if not dataclasses.is_dataclass(owner):
+            continue
+        body = cast("ast.ClassDef", ast.parse(textwrap.dedent(inspect.getsource(owner))).body[0])
+        for field, text in itertools.pairwise(body.body):
+            if (
+                isinstance(field, ast.AnnAssign)
+                and isinstance(field.target, ast.Name)
+                and isinstance(text, ast.Expr)
+                and isinstance(text.value, ast.Constant)
+            ):
+                texts[field.target.id] = " ".join(str(text.value.value).split())
+    return texts
 
 
 def with_options(config: Config, options: Mapping[str, Any], *, where: str) -> Config:

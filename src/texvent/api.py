@@ -1,0 +1,130 @@
+"""The Python API: `generate`, `simulate`, `load`.
+
+Keywords are the options of the command line: the same names and the same defaults, from the same
+dataclasses; None means "as the preset has it".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any, Literal, overload
+
+from texvent._registry import load_object
+from texvent.events import EventPackets, EventStream
+from texvent.pipeline import Simulation, text_to_events, video_to_events
+from texvent.settings import resolve
+from texvent.video import FrameStream
+
+__all__ = ["generate", "load", "simulate"]
+
+
+@overload
+def generate(
+    prompt: str,
+    *,
+    as_packets: Literal[False] = False,
+    config: str | Path | None = None,
+    **options: Any,
+) -> EventStream: ...
+@overload
+def generate(
+    prompt: str, *, as_packets: Literal[True], config: str | Path | None = None, **options: Any
+) -> EventPackets: ...
+def generate(
+    prompt: str,
+    *,
+    as_packets: bool = False,
+    config: str | Path | None = None,
+    **options: Any,
+) -> EventStream | EventPackets:
+    """Events of the scene that a prompt describes.
+
+    Args:
+        prompt: what to show, such as "a red car drives left past two trees at dusk".
+        as_packets: give packets one by one, with flat memory, instead of one stream.
+        config: a TOML or YAML file with options.
+        **options: options of `texvent generate --help`, such as `seed=3`, `generator=...`,
+            `simulator=...`, `preset=...`, `interpolate=...`, `sensor=...`, `duration=...`,
+            `contrast_threshold=...`, `noise=...`.
+
+    Returns:
+        The events, with their provenance in `metadata`.
+
+    Raises:
+        InputError: the prompt is empty.
+        ConfigError: an unknown option, or a value out of range.
+    """
+    return _events(text_to_events(prompt, resolve("generate", options, config=config)), as_packets)
+
+
+@overload
+def simulate(
+    source: Any,
+    *,
+    t_us: Sequence[int] | None = None,
+    as_packets: Literal[False] = False,
+    config: str | Path | None = None,
+    **options: Any,
+) -> EventStream: ...
+@overload
+def simulate(
+    source: Any,
+    *,
+    t_us: Sequence[int] | None = None,
+    as_packets: Literal[True],
+    config: str | Path | None = None,
+    **options: Any,
+) -> EventPackets: ...
+def simulate(
+    source: str | Path | FrameStream | Iterable[Any],
+    *,
+    t_us: Sequence[int] | None = None,
+    as_packets: bool = False,
+    config: str | Path | None = None,
+    **options: Any,
+) -> EventStream | EventPackets:
+    """Events that an event camera would have recorded of a video.
+
+    Args:
+        source: a video file, an image folder, a camera or network address, an array [N, H, W] or
+            [N, H, W, 3] (uint8, uint16, or float on the 0..255 scale), or a FrameStream.
+        t_us: frame times, µs, for arrays; otherwise give `fps=`.
+        as_packets: give packets one by one, with flat memory, instead of one stream.
+        config: a TOML or YAML file with options.
+        **options: options of `texvent simulate --help`, such as `fps=24`, `simulator="texvent"`,
+            `preset="paper"`, `interpolate="flow"`, `sensor="davis346"`,
+            `contrast_threshold=0.2`, `noise="none"`, `seed=0`.
+
+    Returns:
+        The events, with their provenance in `metadata`.
+
+    Raises:
+        InputError: the source cannot be read, or holds NaN, negative or infinite intensities.
+        ConfigError: an unknown option, or a value out of range.
+    """
+    settings = resolve("simulate", options, config=config)
+    open_frames = load_object("texvent.capture.open:open_frames")
+    video = open_frames(source, settings.source, size=settings.size, t_us=t_us)
+    return _events(video_to_events(video, settings), as_packets)
+
+
+def load(path: str | Path, *, format: str | None = None, size: Any = None) -> EventStream:
+    """Events of a file, in memory; see `texvent.io.files` for the formats.
+
+    Args:
+        path: the file.
+        format: its format, where the extension does not say.
+        size: sensor size (width, height), for formats that do not store it.
+
+    Raises:
+        InputError: no such file, or the size is not stored and not given.
+        FileFormatError: the file is damaged or of another format.
+    """
+    events: EventStream = load_object("texvent.io.files:load")(path, format=format, size=size)
+    return events
+
+
+def _events(simulation: Simulation, as_packets: bool) -> EventStream | EventPackets:
+    packets = simulation.packets
+    return packets if as_packets else packets.collect()

@@ -1,0 +1,87 @@
+"""`texvent`: find the command, run it, and turn every error into one line and an exit code."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import sys
+from collections.abc import Sequence
+
+from texvent._registry import suggest
+from texvent._version import __version__
+from texvent.errors import ConfigError, TexventError
+
+COMMANDS = {
+    "generate": "Events, film, picture and page from a text prompt.",
+    "simulate": "Events from a video, an image folder or a camera.",
+    "render": "A film, GIF or picture of an event file.",
+    "info": "What an event file or video holds, and how it was made.",
+    "data": "Recordings and clips to try things on: list them, fetch them.",
+    "doctor": "What is installed, what is missing, how to get it.",
+}
+"""Command → what it does; each is `texvent.cli.<command>` with a function `run(arguments)`."""
+
+INTERRUPTED = 130
+"""Exit code after Ctrl-C: 128 + SIGINT, as shells expect."""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line.
+
+    Args:
+        arguments: words after `texvent`; default: those of the process.
+
+    Returns:
+        Exit code: 0, or the `exit_code` of the error (2 for bad input), or 130 after Ctrl-C.
+    """
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        return _dispatch(words)
+    except TexventError as error:
+        _say(f"error: {error}")
+        return error.exit_code
+    except KeyboardInterrupt:
+        _say("interrupted; nothing half-written was left behind")
+        return INTERRUPTED
+    except BrokenPipeError:
+        # The reader of our output (head, less) left; leave as quietly as other tools do.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+
+
+def _dispatch(words: list[str]) -> int:
+    if not words or words[0] in ("-h", "--help", "help"):
+        _show_help()
+        return 0 if words else 2
+    if words[0] in ("-V", "--version"):
+        sys.stdout.write(f"texvent {__version__}\n")
+        return 0
+    if words[0] not in COMMANDS:
+        raise ConfigError(f"unknown command {words[0]!r}; {suggest(words[0], tuple(COMMANDS))}")
+    command = importlib.import_module(f"texvent.cli.{words[0]}")
+    code: int = command.run(words[1:])
+    return code
+
+
+def _show_help() -> None:
+    width = max(map(len, COMMANDS))
+    lines = [
+        "usage: texvent COMMAND [OPTIONS]",
+        "",
+        "Text prompts and videos to the stream of an event camera.",
+        "",
+        *(f"  {name:<{width}}  {text}" for name, text in COMMANDS.items()),
+        "",
+        "Try:  texvent generate 'a red car drives left past two trees at dusk' -o out.h5",
+        "Help: texvent COMMAND --help    Version: texvent --version",
+        "",
+    ]
+    sys.stdout.write("\n".join(lines))
+
+
+def _say(line: str) -> None:
+    sys.stderr.write(" ".join(line.split()) + "\n")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,57 @@
+"""Words of a command line → resolved settings, for the commands that run a simulation."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from typing import Any
+
+from texvent.cli.options import parse_options, peek_options
+from texvent.cli.outputs import OutputOptions
+from texvent.settings import Command, Settings, apply_options, default_settings, read_config
+
+DECIDING = ("generator", "simulator", "preset", "config")
+"""Options that decide which other options there are, and their defaults."""
+
+
+def resolve_command(
+    command: Command, arguments: Sequence[str], subject: Any, *, description: str
+) -> tuple[Settings, Any, OutputOptions]:
+    """Settings, the command's own options and the output options from a command line.
+
+    The deciding options are read first, so that `--help` lists the flags of the simulator and
+    generator that were named, with the values of the preset and the config file as defaults.
+
+    Args:
+        command: "generate" or "simulate".
+        arguments: words after the command.
+        subject: the command's own config, such as its prompt.
+        description: first lines of its help.
+
+    Raises:
+        ConfigError: an unknown flag or name, or a value that does not fit.
+        SystemExit: `--help` was asked for and shown.
+    """
+    peeked = peek_options(arguments, DECIDING)
+    file_options = read_config(peeked["config"]) if peeked["config"] else {}
+    parts = {
+        name: peeked[name] or file_options.pop(name, None)
+        for name in ("generator", "simulator", "preset")
+        if name != "generator" or command == "generate"
+    }
+    for name in parts:
+        file_options.pop(name, None)
+    defaults = apply_options(
+        default_settings(command, **parts), file_options, where=f"config file {peeked['config']}"
+    )
+    groups = {"input": subject, "output": OutputOptions(), **defaults.groups()}
+    values = parse_options(arguments, groups, prog=f"texvent {command}", description=description)
+    own, output = _take(subject, values), _take(OutputOptions(), values)
+    named = {"simulator": defaults.run.simulator, "preset": defaults.run.preset}
+    return apply_options(defaults, {**values, **named}, where="options"), own, output
+
+
+def _take(config: Any, values: dict[str, Any]) -> Any:
+    """A copy of `config` with its values, which are removed from `values`."""
+    names = [field.name for field in dataclasses.fields(config)]
+    return dataclasses.replace(config, **{name: values.pop(name) for name in names})

@@ -1,0 +1,120 @@
+"""`texvent doctor`: what is installed, what is missing, how to get it."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import platform
+import shutil
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib import metadata
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from texvent._registry import REGISTRIES
+from texvent._version import __version__
+from texvent.errors import ConfigError
+
+BASE = {
+    "numpy": "arrays",
+    "numba": "fast kernels and the scene renderer",
+    "h5py": "HDF5 event files",
+    "av": "reading and writing video",
+    "opencv-python-headless": "optical flow, pictures, resizing",
+    "tyro": "command line",
+    "rich": "progress and tables",
+    "pyyaml": "YAML config files",
+    "tomli-w": "--print-config",
+    "pypi-simple": "texvent data pull",
+}
+"""Package → what it is for; `pip install texvent` brings all of them."""
+
+MODULES = {"opencv-python-headless": "cv2", "pyyaml": "yaml", "tomli-w": "tomli_w"}
+"""Packages whose module has another name."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One line of the report."""
+
+    name: str
+    is_fine: bool
+    state: str
+    remedy: str = ""
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Print the report; returns 0 if everything texvent needs is there, else 1."""
+    if set(arguments) & {"-h", "--help"}:
+        sys.stdout.write(
+            "usage: texvent doctor\n\nSay what is installed, what is missing, "
+            "and how to get it. Exit code 1 if something needed is missing.\n"
+        )
+        return 0
+    if arguments:
+        raise ConfigError(f"texvent doctor takes no arguments; got {' '.join(arguments)!r}")
+    findings = examine()
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for title in ("", "what", "state", "what to do"):
+        table.add_column(title)
+    for finding in findings:
+        mark = "[green]ok[/]" if finding.is_fine else "[red]no[/]"
+        table.add_row(mark, finding.name, finding.state, finding.remedy)
+    console = Console(highlight=False)
+    console.print(table)
+    for kind, registry in REGISTRIES.items():
+        console.print(f"   {kind + 's':<16}{', '.join(registry.names())}", markup=False)
+    return 0 if all(finding.is_fine for finding in findings) else 1
+
+
+def examine() -> list[Finding]:
+    """Everything worth knowing about this installation."""
+    findings = [_python(), Finding("texvent", True, __version__)]
+    findings += [_package(name, purpose) for name, purpose in BASE.items()]
+    findings += [_encoder(), _processors(), _folder("current folder", Path.cwd())]
+    return findings
+
+
+def _python() -> Finding:
+    is_fine = sys.version_info >= (3, 11)
+    state = f"{platform.python_version()} on {platform.system()} {platform.machine()}"
+    return Finding("Python", is_fine, state, "" if is_fine else "install Python 3.11 or newer")
+
+
+def _package(name: str, purpose: str) -> Finding:
+    try:
+        version = metadata.version(name)
+        importlib.import_module(MODULES.get(name, name.replace("-", "_")))
+    except ImportError as error:
+        return Finding(name, False, f"cannot be imported: {error}", f"pip install {name}")
+    return Finding(name, True, f"{version:<12} {purpose}")
+
+
+def _encoder() -> Finding:
+    """Whether films can be written: some builds of FFmpeg have no H.264 encoder."""
+    try:
+        av = importlib.import_module("av")
+        av.codec.Codec("libx264", "w")
+    except ImportError:
+        return Finding("H.264 encoder", False, "PyAV is missing", "pip install av")
+    except ValueError:
+        remedy = "pip install --force-reinstall --only-binary :all: av"
+        return Finding("H.264 encoder", False, "PyAV was built without libx264", remedy)
+    return Finding("H.264 encoder", True, "libx264")
+
+
+def _processors() -> Finding:
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
+    return Finding("processors", True, f"{os.cpu_count()} cores, {memory:.0f} GB memory")
+
+
+def _folder(name: str, path: Path) -> Finding:
+    free = shutil.disk_usage(path).free / 2**30
+    if not os.access(path, os.W_OK):
+        return Finding(name, False, f"{path} is not writable", "go to another folder, or use -o")
+    is_fine = free > 0.1
+    return Finding(name, is_fine, f"{free:.1f} GB free", "" if is_fine else "free some space")

@@ -1,0 +1,172 @@
+"""Flags from config dataclasses, parsed by tyro; wrong ones become one clear line."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import dataclasses
+import io
+import re
+import types
+import typing
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from pathlib import Path
+from typing import Annotated, Any
+
+import tyro
+
+from texvent.config import option_help, parse_fraction
+from texvent.errors import ConfigError
+
+_SCALARS: dict[Any, tuple[str, Any]] = {
+    int: ("INT", int),
+    float: ("FLOAT", float),
+    str: ("TEXT", str),
+    Path: ("PATH", Path),
+    Fraction: ("RATE", parse_fraction),
+}
+
+
+def parse_options(
+    arguments: Sequence[str], groups: Mapping[str, Any], *, prog: str, description: str
+) -> dict[str, Any]:
+    """Values of all options after parsing a command line.
+
+    Args:
+        arguments: command-line words after the command's name.
+        groups: title → config instance whose values are the defaults that `--help` shows; a field
+            named in the class attribute `positional` is given without a flag, and one in
+            `short_flags` also has a short one.
+        prog: how the command is called.
+        description: first lines of its help.
+
+    Returns:
+        Option name → value, every option included.
+
+    Raises:
+        ConfigError: a flag that does not exist, or a value of the wrong type.
+        SystemExit: `--help` was asked for and shown.
+    """
+    form = dataclasses.make_dataclass(
+        "Form", [(title.replace(" ", "_"), _group(group)) for title, group in groups.items()]
+    )
+    complaint = io.StringIO()
+    try:
+        with _registry, contextlib.redirect_stderr(complaint):
+            parsed: Any = tyro.cli(
+                form,
+                args=list(arguments),
+                prog=prog,
+                description=description,
+                config=(tyro.conf.OmitArgPrefixes,),
+            )
+    except SystemExit as stop:
+        if not stop.code:
+            raise
+        raise ConfigError(f"{_first_message(complaint.getvalue())} (see {prog} --help)") from None
+    values: dict[str, Any] = {}
+    for part in dataclasses.fields(parsed):
+        group = getattr(parsed, part.name)
+        values.update({one.name: getattr(group, one.name) for one in dataclasses.fields(group)})
+    return values
+
+
+def peek_options(arguments: Sequence[str], names: Sequence[str]) -> dict[str, str | None]:
+    """The values of a few flags that decide which other flags there are, without checking."""
+    parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False, exit_on_error=False)
+    for name in names:
+        parser.add_argument(f"--{name.replace('_', '-')}", nargs="?", dest=name)
+    try:
+        known, _ = parser.parse_known_args(list(arguments))
+    except argparse.ArgumentError as error:
+        raise ConfigError(str(error)) from error
+    return vars(known)
+
+
+def _group(config: Any) -> Any:
+    """A copy of a config's class whose fields carry help text and the current values."""
+    hints = typing.get_type_hints(type(config))
+    helps = option_help(type(config))
+    positional = getattr(config, "positional", ())
+    fields: list[Any] = []
+    for field in dataclasses.fields(config):
+        short = getattr(config, "short_flags", {}).get(field.name)
+        notes: list[Any] = [
+            tyro.conf.arg(help=helps.get(field.name, ""), aliases=[short] if short else None)
+        ]
+        if field.name in positional:
+            notes.append(tyro.conf.Positional)
+        default = dataclasses.field(default=getattr(config, field.name))
+        hint: Any = Annotated.__class_getitem__((hints[field.name], *notes))  # type: ignore[attr-defined]
+        if default.default is REQUIRED:
+            fields.insert(0, (field.name, hint))
+        else:
+            fields.append((field.name, hint, default))
+    group = dataclasses.make_dataclass(type(config).__name__, fields, frozen=True)
+    group.__doc__ = (type(config).__doc__ or "").strip()
+    return group
+
+
+class _Required:
+    """Type of the marker for an option that has no default."""
+
+
+REQUIRED: Any = _Required()
+"""Default of a config field that the user must give."""
+
+_registry = tyro.constructors.ConstructorRegistry()
+
+
+@_registry.primitive_rule
+def _scalar_rule(
+    info: tyro.constructors.PrimitiveTypeInfo,
+) -> tyro.constructors.PrimitiveConstructorSpec[Any] | None:
+    """`FLOAT` instead of `{None}|FLOAT`, exact rates, and messages that say what is expected."""
+    hint, optional = info.type, False
+    if typing.get_origin(hint) in (typing.Union, types.UnionType):
+        inner = [one for one in typing.get_args(hint) if one is not type(None)]
+        hint, optional = inner[0], len(inner) < len(typing.get_args(hint))
+    if hint not in _SCALARS:
+        return None
+    metavar, convert = _SCALARS[hint]
+
+    def read(words: list[str]) -> Any:
+        if optional and words[0].lower() == "none":
+            return None
+        try:
+            return convert(words[0])
+        except (ValueError, ZeroDivisionError):
+            raise ValueError(f"{words[0]!r} is not {_EXPECTED[metavar]}") from None
+
+    return tyro.constructors.PrimitiveConstructorSpec(
+        nargs=1,
+        metavar=metavar,
+        instance_from_str=read,
+        is_instance=lambda value: value is None or isinstance(value, (hint, int)),
+        str_from_instance=lambda value: ["none" if value is None else str(value)],
+    )
+
+
+_EXPECTED = {
+    "INT": "a whole number",
+    "FLOAT": "a number",
+    "TEXT": "text",
+    "PATH": "a path",
+    "RATE": "a rate such as 24, 29.97 or 30000/1001",
+}
+
+
+def _first_message(complaint: str) -> str:
+    """The message in tyro's box as one line, with its suggestion if it makes one."""
+    lines = [line.strip("│ ").strip() for line in complaint.splitlines()]
+    message: list[str] = []
+    for line in lines:
+        if line.startswith("╭"):
+            continue
+        if re.fullmatch(r"[─╰╯]*", line) or line.startswith(("╰", "─")):
+            break
+        message.append(line)
+    close = [line.split()[0] for line in lines if line.startswith("--")]
+    hint = f"; did you mean {close[0]}?" if close and "nrecognized" in " ".join(message) else ""
+    return " ".join(" ".join(message).split()) + hint

@@ -1,0 +1,196 @@
+"""Carry out a simulation: write its events and previews, show progress, sum it up."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, field
+from fractions import Fraction
+from pathlib import Path
+from typing import Any, Protocol
+
+import tomli_w
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    SpinnerColumn,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
+
+from texvent.cli.estimate import describe_estimate, estimate_run
+from texvent.cli.outputs import OutputOptions
+from texvent.events import EventStream
+from texvent.interpolate.cuts import Jump
+from texvent.io.files import open_writer
+from texvent.pipeline import Simulation
+from texvent.settings import Settings
+from texvent.video import MICROSECONDS, Frame
+from texvent.view.preview import Preview
+
+FALLBACK_FPS = Fraction(30)
+"""Film rate where the source states none."""
+
+
+def print_settings(settings: Settings) -> int:
+    """Write the resolved options to stdout as TOML; returns exit code 0."""
+    sys.stdout.write(tomli_w.dumps(settings.as_tables()))
+    return 0
+
+
+@dataclass
+class Tally:
+    """What a run made, counted while it runs."""
+
+    events: int = 0
+    on_events: int = 0
+    source_frames: int = 0
+    intermediate_frames: int = 0
+    last_us: int = 0
+    first_us: int | None = None
+    jumps: list[str] = field(default_factory=list)
+
+    def add(self, frame: Frame, packet: EventStream) -> None:
+        """Count one step."""
+        self.events += len(packet)
+        self.on_events += int(packet.p.sum())
+        self.source_frames += frame.is_source
+        self.intermediate_frames += not frame.is_source
+        self.first_us = frame.t_us if self.first_us is None else self.first_us
+        self.last_us = frame.t_us
+
+    def add_jump(self, jump: Jump, t_us: int) -> None:
+        """Note a scene cut or flash at `t_us`."""
+        self.jumps.append(f"{jump.name.lower()} at {t_us / MICROSECONDS:.3f} s")
+
+    @property
+    def seconds(self) -> float:
+        """Time covered, s."""
+        return (self.last_us - (self.first_us or 0)) / MICROSECONDS
+
+
+class Sink(Protocol):
+    """Something that takes every dense frame and its packet."""
+
+    def append(self, frame: Frame, packet: EventStream) -> None:
+        """Take one step."""
+        ...
+
+
+def execute(simulation: Simulation, options: OutputOptions, subject: str) -> int:
+    """Run a simulation into its files; nothing appears under its name before it is complete.
+
+    Returns:
+        Exit code 0.
+
+    Raises:
+        OutputError: a file exists already, or cannot be written.
+        InputError: the frames cannot be used.
+    """
+    path = options.event_file(subject)
+    if options.dry_run:
+        sys.stdout.write(describe_estimate(estimate_run(simulation)) + "\n")
+        return 0
+    console = Console(stderr=True, quiet=options.quiet, highlight=False)
+    _report_understanding(console, simulation)
+    tally, started = Tally(), time.perf_counter()
+    with ExitStack() as outputs:
+        sinks = _open_outputs(outputs, simulation, options, path)
+        advance = outputs.enter_context(_progress(simulation, console))
+        for frame, packet in simulation.steps(tally.add_jump):
+            for sink in sinks:
+                sink.append(frame, packet)
+            tally.add(frame, packet)
+            advance(frame)
+    _report(console, tally, time.perf_counter() - started)
+    if not options.quiet:
+        for written in (path, *(path.with_suffix(f".{kind}") for kind in options.previews)):
+            sys.stdout.write(f"{written}\n")
+    return 0
+
+
+class _EventFile:
+    """The event file as a sink: it wants packets, not frames."""
+
+    def __init__(self, writer: Any) -> None:
+        self._writer = writer
+
+    def append(self, frame: Frame, packet: EventStream) -> None:
+        del frame
+        self._writer.append(packet)
+
+
+def _open_outputs(
+    outputs: ExitStack, simulation: Simulation, options: OutputOptions, path: Path
+) -> list[Sink]:
+    """Open every output; all are checked (existing file, folder, format) before any work."""
+    size, metadata = simulation.video.size, simulation.provenance
+    sinks: list[Sink] = []
+    # The exit stack closes in reverse: the event file is safe on disk before the previews end.
+    if options.previews:
+        sinks.append(
+            outputs.enter_context(
+                Preview(
+                    path.with_suffix(""),
+                    size=size,
+                    fps=simulation.video.fps or FALLBACK_FPS,
+                    kinds=options.previews,
+                    palette=options.palette,
+                    overwrite=options.overwrite,
+                    metadata=metadata,
+                )
+            )
+        )
+    writer = open_writer(path, size=size, metadata=metadata, overwrite=options.overwrite)
+    sinks.append(_EventFile(outputs.enter_context(writer)))
+    return sinks
+
+
+@contextmanager
+def _progress(simulation: Simulation, console: Console) -> Iterator[Any]:
+    """A progress bar on stderr over source frames; silent when stderr is not a terminal."""
+    bar = Progress(
+        SpinnerColumn(),
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TextColumn("frames"),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+        console=console,
+        disable=console.quiet or not console.is_terminal,
+        transient=True,
+    )
+    with bar:
+        task = bar.add_task("events", total=simulation.video.frame_count)
+        yield lambda frame: bar.advance(task, 1 if frame.is_source else 0)
+
+
+def _report_understanding(console: Console, simulation: Simulation) -> None:
+    metadata = simulation.video.metadata
+    for line in metadata.get("understood", ()):
+        console.print(f"scene    {line}", markup=False)
+    unknown = metadata.get("not_understood", ())
+    if unknown:
+        console.print(f"ignored  words not understood: {', '.join(unknown)}", markup=False)
+
+
+def _report(console: Console, tally: Tally, seconds: float) -> None:
+    rate = tally.events / tally.seconds if tally.seconds else 0.0
+    share = f", {tally.on_events / tally.events:.0%} ON" if tally.events else ""
+    console.print(
+        f"events   {tally.events:,} in {tally.seconds:.3f} s ({rate:,.0f} per second{share})\n"
+        f"frames   {tally.source_frames:,} source + {tally.intermediate_frames:,} intermediate, "
+        f"{seconds:.1f} s of work",
+        markup=False,
+    )
+    if tally.jumps:
+        shown = ", ".join(tally.jumps[:8]) + (", ..." if len(tally.jumps) > 8 else "")
+        console.print(f"note     not smeared over the interval: {shown}", markup=False)
+    if tally.source_frames == 1:
+        console.print("note     one frame only, so nothing could change", markup=False)

@@ -1,0 +1,41 @@
+"""`texvent simulate VIDEO`: events, film, picture and page from recorded frames."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import ClassVar
+
+from texvent.capture.open import open_frames
+from texvent.cli.command import resolve_command
+from texvent.cli.options import REQUIRED
+from texvent.cli.run import execute, print_settings
+from texvent.pipeline import video_to_events
+
+DESCRIPTION = """Turn a video into the events a camera would have seen.
+
+Any video file, a folder of pictures, a camera (/dev/video0), a network stream (rtsp://...) or
+standard input (-)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class VideoOptions:
+    """Which frames."""
+
+    positional: ClassVar[tuple[str, ...]] = ("source",)
+
+    source: str = REQUIRED
+    """Video file, image folder, camera, network address, or - for standard input."""
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the command; returns its exit code."""
+    settings, own, output = resolve_command(
+        "simulate", arguments, VideoOptions(), description=DESCRIPTION
+    )
+    if output.print_config:
+        return print_settings(settings)
+    video = open_frames(own.source, settings.source, size=settings.size)
+    subject = "standard input" if own.source == "-" else Path(own.source).stem
+    return execute(video_to_events(video, settings), output, subject=subject)

@@ -1,0 +1,88 @@
+"""The main path of the paper's Figure 2: prompt → video → dense frames → events.
+
+    video = generate(prompt)                 Eq. 3   texvent.generate
+    dense = densify(video)                   Eq. 4   texvent.interpolate
+    packet = simulator.step(frame)           Eq. 5-7 texvent.simulate
+
+Everything is pulled through one frame at a time, so memory does not grow with the clip.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS
+from texvent._version import __version__
+from texvent.events import EventPackets, EventStream
+from texvent.interpolate.densify import OnCut, densify
+from texvent.settings import Settings
+from texvent.video import Frame, FrameStream
+
+
+def text_to_events(prompt: str, settings: Settings) -> Simulation:
+    """Events for a text prompt (Eq. 2); nothing is computed before the result is iterated.
+
+    Raises:
+        InputError: the prompt is empty.
+    """
+    generator_class = GENERATORS.load(settings.generator or "procedural")
+    generator = generator_class(settings.source, seed=settings.run.seed, size=settings.size)
+    return video_to_events(generator.generate(prompt), settings, prompt=prompt)
+
+
+def video_to_events(
+    video: FrameStream, settings: Settings, *, prompt: str | None = None
+) -> Simulation:
+    """Events for a video; nothing is computed before the result is iterated."""
+    return Simulation(video=video, settings=settings, prompt=prompt)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Simulation:
+    """One run, not started: `steps` makes the events."""
+
+    video: FrameStream
+    settings: Settings
+    prompt: str | None = None
+
+    def steps(self, on_cut: OnCut | None = None) -> Iterator[tuple[Frame, EventStream]]:
+        """Every dense frame with the packet of events that ends at it.
+
+        Args:
+            on_cut: told of every scene cut and flash that was not smeared.
+        """
+        settings = self.settings
+        interpolate, simulate = settings.interpolate, settings.run.simulator
+        simulator = SIMULATORS.load(simulate)(settings.simulate, seed=settings.run.seed)
+        interpolator = INTERPOLATORS.load(interpolate.interpolate)(interpolate, self.video)
+        dense = densify(
+            self.video,
+            interpolator,
+            interpolate,
+            balance=simulator.balance,
+            contrast_threshold=simulator.contrast_threshold,
+            on_cut=on_cut,
+        )
+        for frame in dense:
+            yield frame, simulator.step(frame)
+
+    @property
+    def packets(self) -> EventPackets:
+        """The events alone, packet by packet."""
+        return EventPackets((packet for _, packet in self.steps()), self.video.size, self.provenance)
+
+    @property
+    def provenance(self) -> dict[str, Any]:
+        """What made these events: stored in every output, enough to make them again."""
+        return {
+            "prompt": self.prompt,
+            "source": dict(self.video.metadata),
+            "generator": self.settings.generator,
+            "simulator": self.settings.run.simulator,
+            "preset": self.settings.run.preset,
+            "seed": self.settings.run.seed,
+            "settings": self.settings.as_tables(),
+            "texvent_version": __version__,
+        }

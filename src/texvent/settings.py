@@ -1,0 +1,201 @@
+"""From names and single options to the resolved settings of a run.
+
+Precedence, weakest first: the parts' defaults, the preset, the config file, single options. The
+command line and the Python API both come through `resolve`, so they cannot disagree.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS, suggest
+from texvent.config import (
+    CaptureConfig,
+    InterpolateConfig,
+    RunConfig,
+    option_names,
+    plain,
+    with_options,
+)
+from texvent.errors import ConfigError, InputError
+from texvent.sensor import SensorSize, parse_sensor
+
+Command = Literal["generate", "simulate"]
+DEFAULT_SENSOR = "davis346"
+"""Size of a generated scene when no sensor is named."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Settings:
+    """Everything that decides a run's events; it is stored in every output."""
+
+    run: RunConfig
+    source: Any
+    """The generator's config, or a CaptureConfig for recorded frames."""
+    interpolate: InterpolateConfig
+    simulate: Any
+    """The simulator's config."""
+    generator: str | None = None
+    """Name of the generator; None when frames were recorded."""
+
+    @property
+    def size(self) -> SensorSize | None:
+        """Size of the sensor asked for, or None to keep the size of the frames."""
+        return parse_sensor(self.run.sensor) if self.run.sensor else None
+
+    def groups(self) -> dict[str, Any]:
+        """Table name (as in config files) → config."""
+        source = "generate" if self.generator else "capture"
+        return {
+            "run": self.run,
+            source: self.source,
+            "interpolate": self.interpolate,
+            "simulate": self.simulate,
+        }
+
+    def as_tables(self) -> dict[str, Any]:
+        """Nested plain values, ready for TOML and JSON; reading them back gives these settings."""
+        tables: dict[str, Any] = plain(self.groups())
+        if self.generator:
+            tables["generate"] = {"generator": self.generator, **tables["generate"]}
+        return tables
+
+
+def default_settings(
+    command: Command,
+    *,
+    generator: str | None = None,
+    simulator: str | None = None,
+    preset: str | None = None,
+) -> Settings:
+    """Settings before any single option: the defaults of the named parts and preset.
+
+    Raises:
+        ConfigError: a part or preset of that name does not exist.
+    """
+    simulator_name = simulator or RunConfig.simulator
+    simulator_class = SIMULATORS.load(simulator_name)
+    presets = simulator_class.presets
+    preset_name = preset or next(iter(presets))
+    if preset_name not in presets:
+        raise ConfigError(
+            f"simulator {simulator_name!r} has no preset {preset_name!r}; "
+            f"{suggest(preset_name, tuple(presets))}"
+        )
+    run = RunConfig(simulator=simulator_name, preset=preset_name)
+    if command == "simulate":
+        return Settings(
+            run=run,
+            source=CaptureConfig(),
+            interpolate=InterpolateConfig(),
+            simulate=presets[preset_name],
+        )
+    generator_name = generator or next(iter(GENERATORS.builtin))
+    generator_class = GENERATORS.load(generator_name)
+    return Settings(
+        run=dataclasses.replace(run, sensor=DEFAULT_SENSOR),
+        source=generator_class.config_type(),
+        interpolate=InterpolateConfig(interpolate=generator_class.default_interpolate),
+        simulate=presets[preset_name],
+        generator=generator_name,
+    )
+
+
+def resolve(
+    command: Command, options: Mapping[str, Any], *, config: str | Path | None = None
+) -> Settings:
+    """Settings of a run from a config file and single options.
+
+    Args:
+        command: "generate" (from a prompt) or "simulate" (from frames).
+        options: option name → value; None means "not given". Names as in `texvent --help`, with
+            underscores.
+        config: a TOML or YAML file with options, flat or in the tables `run`, `generate`,
+            `capture`, `interpolate`, `simulate`.
+
+    Raises:
+        ConfigError: an unknown name, a wrong type, a value out of range, an unreadable file.
+    """
+    file_options = read_config(config) if config is not None else {}
+    given = {name: value for name, value in options.items() if value is not None}
+    chosen = {**file_options, **given}
+    parts = {name: chosen.pop(name, None) for name in ("generator", "simulator", "preset")}
+    if command == "simulate" and parts["generator"] is not None:
+        raise ConfigError("generator is set, but frames are simulated, not generated; leave it out")
+    settings = default_settings(command, **parts)
+    where = f"config file {config}" if config is not None and not given else "options"
+    return apply_options(settings, chosen, where=where)
+
+
+def apply_options(settings: Settings, options: Mapping[str, Any], *, where: str) -> Settings:
+    """The settings with single options replaced, each in the config that declares it.
+
+    Raises:
+        ConfigError: a name that no config declares, or a value that does not fit.
+    """
+    groups = {
+        "run": settings.run,
+        "source": settings.source,
+        "interpolate": settings.interpolate,
+        "simulate": settings.simulate,
+    }
+    owners = {name: key for key, group in groups.items() for name in option_names(type(group))}
+    changed: dict[str, dict[str, Any]] = {}
+    for name, value in options.items():
+        if name not in owners:
+            raise ConfigError(f"{where}: unknown option {name!r}; {suggest(name, tuple(owners))}")
+        changed.setdefault(owners[name], {})[name] = value
+    replaced = {
+        key: with_options(groups[key], values, where=where) for key, values in changed.items()
+    }
+    result = dataclasses.replace(settings, **replaced)
+    if result.interpolate.interpolate not in INTERPOLATORS.names():
+        INTERPOLATORS.load(result.interpolate.interpolate)
+    result.size  # noqa: B018  (parses the sensor, so a wrong name fails before any work)
+    return result
+
+
+def read_config(path: str | Path) -> dict[str, Any]:
+    """Options in a TOML or YAML file, tables flattened.
+
+    Raises:
+        InputError: the file cannot be read.
+        ConfigError: it is not valid TOML or YAML, or two tables set the same option.
+    """
+    path = Path(path)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"cannot read config file {path}: {error}") from error
+    try:
+        document = _parse(path, text)
+    except (tomllib.TOMLDecodeError, ValueError) as error:
+        reason = " ".join(str(error).split())
+        raise ConfigError(f"config file {path} is not valid: {reason}") from error
+    if not isinstance(document, Mapping):
+        raise ConfigError(f"config file {path} must hold options by name, such as: seed = 3")
+    flat: dict[str, Any] = {}
+    for name, value in document.items():
+        for option, item in (value if isinstance(value, Mapping) else {name: value}).items():
+            if option in flat:
+                raise ConfigError(f"config file {path} sets {option!r} twice")
+            flat[str(option).replace("-", "_")] = item
+    return flat
+
+
+def _parse(path: Path, text: str) -> Any:
+    if path.suffix.lower() in (".yaml", ".yml"):
+        import yaml  # only a YAML config needs it
+
+        try:
+            return yaml.safe_load(text) or {}
+        except yaml.YAMLError as error:
+            raise ValueError(error) from error
+    if path.suffix.lower() == ".toml":
+        return tomllib.loads(text)
+    raise ValueError(f"its name must end in .toml, .yaml or .yml, not {path.suffix!r}")
