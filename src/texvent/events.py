@@ -24,6 +24,17 @@ from texvent._registry import load_object
 from texvent.errors import InputError
 from texvent.sensor import MAX_SIDE, SensorSize, checked_size
 
+SIGNAL, NOISE = 0, 1
+"""Values of `EventStream.label`: fired by a brightness change, or by noise."""
+
+COLUMN_TYPES: dict[str, type[np.generic]] = {
+    "x": np.uint16,
+    "y": np.uint16,
+    "t": np.int64,
+    "p": np.uint8,
+    "label": np.uint8,
+}
+
 
 @dataclass(frozen=True, eq=False)
 class EventStream:
@@ -34,7 +45,7 @@ class EventStream:
             polarity is not 0/1.
 
     Example:
-        >>> events = EventStream([3, 4], [0, 0], [10, 20], [1, 0], SensorSize(8, 6))
+        >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size=SensorSize(8, 6))
         >>> len(events), events.polarity.tolist()
         (2, [1, -1])
     """
@@ -51,12 +62,17 @@ class EventStream:
     """Width and height of the sensor, pixels."""
     metadata: Mapping[str, Any] = field(default_factory=dict, repr=False)
     """How the events were made (JSON-serialisable): prompt, config, seed, version."""
+    label: NDArray[np.uint8] | None = field(default=None, repr=False)
+    """Where each event comes from, [n] uint8: `SIGNAL` or `NOISE`; None where nobody knows."""
 
     def __post_init__(self) -> None:
         size = checked_size(*self.size)
         columns = {name: np.asarray(getattr(self, name)) for name in "xytp"}
         _check_columns(columns, size)
-        for name, dtype in (("x", np.uint16), ("y", np.uint16), ("t", np.int64), ("p", np.uint8)):
+        if self.label is not None:
+            columns["label"] = _checked_label(np.asarray(self.label), len(columns["t"]))
+        for name in columns:
+            dtype = COLUMN_TYPES[name]
             view = columns[name].astype(dtype, copy=False).view()
             view.flags.writeable = False
             object.__setattr__(self, name, view)
@@ -99,6 +115,8 @@ class EventStream:
         for packet in packets:
             if packet.size != size:
                 raise InputError(f"cannot concatenate sensors of {size} and {packet.size}")
+        labels = [packet.label for packet in packets if len(packet)]
+        known = [label for label in labels if label is not None]
         return cls(
             np.concatenate([packet.x for packet in packets]),
             np.concatenate([packet.y for packet in packets]),
@@ -106,6 +124,7 @@ class EventStream:
             np.concatenate([packet.p for packet in packets]),
             size,
             packets[0].metadata,
+            np.concatenate(known) if known and len(known) == len(labels) else None,
         )
 
     def __len__(self) -> int:
@@ -113,9 +132,13 @@ class EventStream:
 
     def __getitem__(self, index: slice | NDArray[np.bool_]) -> EventStream:
         """The events of a slice with a positive step, or where a mask is true."""
-        return EventStream(
-            self.x[index], self.y[index], self.t[index], self.p[index], self.size, self.metadata
-        )
+        chosen = {name: column[index] for name, column in self.columns().items()}
+        return EventStream(**chosen, size=self.size, metadata=self.metadata)
+
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """Name → array: x, y, t, p, and label where it is known."""
+        names = ("x", "y", "t", "p") if self.label is None else tuple(COLUMN_TYPES)
+        return {name: getattr(self, name) for name in names}
 
     @property
     def polarity(self) -> NDArray[np.int8]:
@@ -134,13 +157,20 @@ class EventStream:
 
     def equals(self, other: EventStream) -> bool:
         """True if size and every column agree; metadata does not count."""
-        return self.size == other.size and all(
-            np.array_equal(getattr(self, name), getattr(other, name)) for name in "xytp"
+        mine, theirs = self.columns(), other.columns()
+        return (
+            self.size == other.size
+            and mine.keys() == theirs.keys()
+            and all(np.array_equal(mine[name], theirs[name]) for name in mine)
         )
 
     def with_metadata(self, metadata: Mapping[str, Any]) -> EventStream:
         """The same events with other metadata."""
-        return EventStream(self.x, self.y, self.t, self.p, self.size, metadata)
+        return EventStream(**self.columns(), size=self.size, metadata=metadata)
+
+    def without_label(self) -> EventStream:
+        """The same events without the signal/noise column."""
+        return EventStream(self.x, self.y, self.t, self.p, self.size, self.metadata)
 
     # These two name their implementation by text because `io` and `view` lie above this module.
     def save(self, path: str | Path, *, format: str | None = None, overwrite: bool = False) -> Path:
@@ -176,6 +206,16 @@ class EventPackets:
         """All packets in one stream, in memory."""
         whole = EventStream.concat([EventStream.empty(self.size), *self.packets])
         return whole.with_metadata(self.metadata)
+
+
+def _checked_label(label: NDArray[Any], count: int) -> NDArray[Any]:
+    if label.shape != (count,) or label.dtype.kind not in "iub":
+        raise InputError(
+            f"label must hold {count} integers; got {label.dtype} of shape {label.shape}"
+        )
+    if count and not 0 <= int(label.min()) <= int(label.max()) <= 1:
+        raise InputError(f"label runs up to {int(label.max())}; it must be 0 (signal) or 1 (noise)")
+    return label
 
 
 def _check_columns(columns: Mapping[str, NDArray[Any]], size: SensorSize) -> None:
