@@ -45,7 +45,8 @@ class EventStream:
             polarity is not 0/1.
 
     Example:
-        >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size=SensorSize(8, 6))
+        >>> size = SensorSize(8, 6)
+        >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size=size)
         >>> len(events), events.polarity.tolist()
         (2, [1, -1])
     """
