@@ -1,0 +1,131 @@
+"""Files that appear under their name only when they are complete.
+
+Every file texvent writes goes through `atomic_file`: it is written beside its target under a
+hidden name, flushed to disk, and renamed. A crash, Ctrl-C or a full disk leaves the old file (or
+none). Only a process that is killed outright can leave the hidden file `.texvent-….part…` behind;
+it may be deleted.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import secrets
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from texvent.errors import OutputError
+
+DISK_FULL = (errno.ENOSPC, errno.EDQUOT)
+_DISK_FULL_TEXTS = ("No space left on device", "Disk quota exceeded", "errno = 28", "errno = 122")
+"""HDF5 reports the system's error inside its text instead of in `errno`."""
+
+
+def check_output(path: str | Path, *, overwrite: bool) -> Path:
+    """The path, if a file can be put there.
+
+    Args:
+        path: the file to be written.
+        overwrite: whether an existing file may be replaced.
+
+    Returns:
+        The path, symbolic links resolved, so that replacing it replaces what it points to.
+
+    Raises:
+        OutputError: it exists already, it is not a regular file, or its folder is missing or
+            not writable.
+    """
+    target = Path(os.path.realpath(path))
+    folder = target.parent
+    if target.exists() and not target.is_file():
+        what = "a folder" if target.is_dir() else "not a regular file"
+        raise OutputError(f"cannot write {path}: it is {what}; give the name of a file")
+    if target.exists() and not overwrite:
+        raise OutputError(
+            f"{path} exists already; choose another name, or allow replacing it "
+            "(--overwrite, or overwrite=True in Python)"
+        )
+    if not folder.is_dir():
+        raise OutputError(
+            f"cannot write {path}: the folder {folder} does not exist; "
+            f"create it with: mkdir -p '{folder}'"
+        )
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise OutputError(
+            f"cannot write {path}: the folder {folder} is not writable; "
+            "choose another folder or change its permissions"
+        )
+    return target
+
+
+@contextmanager
+def atomic_file(path: str | Path, *, overwrite: bool) -> Iterator[Path]:
+    """A path to write to, which becomes `path` if the `with` block ends without an exception.
+
+    The path given lies in the same folder and has the same extension.
+
+    Args:
+        path: the file to be written.
+        overwrite: whether an existing file may be replaced.
+
+    Raises:
+        OutputError: see `check_output`; or the disk became full inside the block.
+    """
+    target = check_output(path, overwrite=overwrite)
+    part = target.parent / f".texvent-{secrets.token_hex(6)}.part{target.suffix}"
+    try:
+        _create(part, path)
+        yield part
+        _flush_to_disk(part)
+        # Somebody may have made the file while this one was being written.
+        check_output(path, overwrite=overwrite)
+        os.replace(part, target)
+    except BaseException as error:
+        # BaseException: Ctrl-C and SystemExit must not leave a half-written file either.
+        part.unlink(missing_ok=True)
+        if is_disk_full(error):
+            raise OutputError(
+                f"cannot write {path}: the disk is full ({target.parent}); nothing was kept. "
+                "Free some space or choose another folder"
+            ) from error
+        raise
+    _flush_folder(target.parent)
+
+
+def is_disk_full(error: BaseException) -> bool:
+    """True if `error` says that the disk, or the user's share of it, is full."""
+    if isinstance(error, OSError) and error.errno in DISK_FULL:
+        return True
+    return isinstance(error, (OSError, RuntimeError)) and any(
+        text in str(error) for text in _DISK_FULL_TEXTS
+    )
+
+
+def _create(part: Path, path: str | Path) -> None:
+    """Make the hidden file now, so that a refusal comes before any work is done."""
+    try:
+        os.close(os.open(part, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+    except OSError as error:
+        if is_disk_full(error):
+            raise
+        raise OutputError(
+            f"cannot write {path}: {error.strerror}; choose another folder or name"
+        ) from error
+
+
+def _flush_to_disk(part: Path) -> None:
+    descriptor = os.open(part, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def _flush_folder(folder: Path) -> None:
+    """Make the rename itself durable."""
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

@@ -1,0 +1,221 @@
+"""Text rows `t x y p` (seconds, pixels, 0/1): the Event Camera Dataset's events.txt.
+
+The rows hold neither the sensor size nor how the events were made, so texvent writes both into
+`NAME.txt.json` beside the text, and reads the size from there. Any other file needs the size
+from the caller; it is never guessed from the largest coordinate.
+
+Times are written with exactly six decimals: whole µs, read back unchanged.
+
+Source: Mueggler et al., The Event-Camera Dataset and Simulator, IJRR 2017.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack
+from pathlib import Path
+from types import TracebackType
+from typing import Any, BinaryIO, ClassVar, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.errors import FileFormatError, InputError, OutputError
+from texvent.events import EventPackets, EventStream
+from texvent.io.atomic import atomic_file, check_output
+from texvent.io.columns import (
+    existing_file,
+    metadata_from_json,
+    metadata_to_json,
+    stored_or_given_size,
+    stream_from_file,
+)
+from texvent.sensor import SensorSize
+
+BLOCK_BYTES = 16 * 2**20
+"""Text parsed at once: about 800,000 events."""
+MICROSECONDS = 1_000_000
+MAX_EXACT_S = 2**33
+"""Up to here (272 years) float64 seconds keep every µs."""
+
+
+class EcdCodec:
+    """Event Camera Dataset text."""
+
+    name: ClassVar[str] = "ecd"
+    extensions: ClassVar[tuple[str, ...]] = (".txt",)
+
+    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
+        """Events of a text file, block by block.
+
+        Raises:
+            InputError: no such file, or no size is given and none lies beside it.
+            FileFormatError: a row is not `t x y p`.
+        """
+        path = existing_file(path)
+        stored, metadata = _read_sidecar(path)
+        final_size = stored_or_given_size(path, stored, size)
+        return EventPackets(_Packets(path, final_size, metadata), final_size, metadata)
+
+    def open_writer(
+        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
+    ) -> EcdWriter:
+        """Start a text file; see `EventCodec.open_writer`."""
+        return EcdWriter(path, size=size, metadata=metadata, overwrite=overwrite)
+
+
+class EcdWriter:
+    """Appends rows as packets come, and writes size and metadata beside them.
+
+    Raises:
+        OutputError: a file exists already, its folder refuses it, or the disk is full.
+        InputError: a packet of another size, before the one before it, or before time 0.
+    """
+
+    def __init__(
+        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
+    ) -> None:
+        self._path = Path(path)
+        self._sidecar = sidecar_path(path)
+        for one in (self._path, self._sidecar):
+            check_output(one, overwrite=overwrite)
+        self._size = size
+        self._overwrite = overwrite
+        self._sidecar_text = json.dumps(
+            {
+                "width": size.width,
+                "height": size.height,
+                "texvent": json.loads(metadata_to_json(metadata)),
+            },
+            indent=1,
+        )
+        self._stack = ExitStack()
+        self._file: Any = None
+        self._last_us = 0
+
+    def __enter__(self) -> Self:
+        with ExitStack() as stack:
+            part = stack.enter_context(atomic_file(self._path, overwrite=self._overwrite))
+            beside = stack.enter_context(atomic_file(self._sidecar, overwrite=self._overwrite))
+            beside.write_text(self._sidecar_text + "\n", encoding="utf-8")
+            self._file = stack.enter_context(part.open("w", encoding="ascii", newline="\n"))
+            self._stack = stack.pop_all()
+        return self
+
+    def append(self, packet: EventStream) -> None:
+        """Add the events of a packet, which starts no earlier than the one before it ended."""
+        if self._file is None:
+            raise OutputError(f"{self._path} is not open; append inside the writer's with block")
+        if packet.size != self._size:
+            raise InputError(f"the packet is {packet.size}, the file is {self._size}")
+        if len(packet) == 0:
+            return
+        first = int(packet.t[0])
+        if first < self._last_us:
+            raise InputError(
+                f"a packet starts at {first} µs, before {self._last_us} µs; "
+                "append packets in time order, from 0 on"
+            )
+        self._last_us = int(packet.t[-1])
+        self._file.write(_rows(packet))
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._stack.__exit__(kind, error, trace)
+
+
+class _Packets:
+    """Re-iterable packets of a text file."""
+
+    def __init__(self, path: Path, size: SensorSize, metadata: Mapping[str, Any]) -> None:
+        self._path = path
+        self._size = size
+        self._metadata = metadata
+
+    def __iter__(self) -> Iterator[EventStream]:
+        last_us: int | None = None
+        with self._path.open("rb") as file:
+            for block in _blocks(file):
+                columns = _parse(block, self._path)
+                packet = stream_from_file(self._path, columns, self._size, self._metadata)
+                if len(packet) == 0:
+                    continue
+                if last_us is not None and int(packet.t[0]) < last_us:
+                    raise FileFormatError(f"{self._path}: time decreases at {packet.t[0]} µs")
+                last_us = int(packet.t[-1])
+                yield packet
+
+
+def sidecar_path(path: str | Path) -> Path:
+    """Where size and metadata of a text file lie: `events.txt` → `events.txt.json`."""
+    path = Path(path)
+    return path.with_name(path.name + ".json")
+
+
+def _rows(packet: EventStream) -> str:
+    columns = (packet.t.tolist(), packet.x.tolist(), packet.y.tolist(), packet.p.tolist())
+    return "".join(
+        f"{t // MICROSECONDS}.{t % MICROSECONDS:06d} {x} {y} {p}\n"
+        for t, x, y, p in zip(*columns, strict=True)
+    )
+
+
+def _blocks(file: BinaryIO) -> Iterator[bytes]:
+    """The file in pieces that end with a line."""
+    rest = b""
+    while piece := file.read(BLOCK_BYTES):
+        cut = piece.rfind(b"\n") + 1
+        if cut == 0 and len(rest) > BLOCK_BYTES:
+            raise FileFormatError("a line longer than 16 MiB: this is not a text event file")
+        if cut:
+            yield rest + piece[:cut]
+            rest = piece[cut:]
+        else:
+            rest += piece
+    if rest:
+        yield rest
+
+
+def _parse(block: bytes, path: Path) -> dict[str, NDArray[Any]]:
+    if not block.strip():
+        return dict.fromkeys("xytp", np.empty(0, dtype=np.int64))
+    try:
+        table = np.loadtxt(io.StringIO(block.decode("ascii")), dtype=np.float64, ndmin=2)
+    except (ValueError, OverflowError, MemoryError) as error:
+        reason = " ".join(str(error).split())[:160]
+        raise FileFormatError(f"{path} is not text rows of `t x y p` ({reason})") from error
+    if table.shape[1] != 4:
+        raise FileFormatError(
+            f"{path} has rows of {table.shape[1]} values; event rows are `t x y p`"
+        )
+    seconds, pixels = table[:, 0], table[:, 1:]
+    if not (np.abs(seconds) < MAX_EXACT_S).all():
+        raise FileFormatError(f"{path} holds times that are not seconds (first column)")
+    if not (np.abs(pixels) < 2**31).all() or (pixels != np.rint(pixels)).any():
+        raise FileFormatError(f"{path} holds x, y or p that are not whole numbers")
+    whole = pixels.astype(np.int64)
+    times = np.rint(seconds * MICROSECONDS).astype(np.int64)
+    return {"t": times, "x": whole[:, 0], "y": whole[:, 1], "p": whole[:, 2]}
+
+
+def _read_sidecar(path: Path) -> tuple[tuple[int, int] | None, dict[str, Any]]:
+    beside = sidecar_path(path)
+    if not beside.is_file():
+        return None, {}
+    try:
+        text = beside.read_bytes()
+    except OSError as error:
+        raise InputError(f"cannot read {beside}: {error.strerror}") from error
+    facts = metadata_from_json(beside, text)
+    try:
+        stored = int(facts["width"]), int(facts["height"])
+    except (KeyError, TypeError, ValueError) as error:
+        raise FileFormatError(f"{beside} states no width and height") from error
+    metadata = facts.get("texvent")
+    return stored, metadata if isinstance(metadata, dict) else {}

@@ -1,0 +1,370 @@
+"""Universal HDF5: DSEC's layout with absolute times, read by most event-camera software.
+
+    events/x  u2   events/y  u2   events/t  i8, µs   events/p  u1, 1 = ON
+    ms_to_idx u8   ms_to_idx[m] = index of the first event with t >= 1000 m (n if there is none)
+    t_offset  i8   added to events/t; 0
+    root attributes: width, height, timestamp_scale_ms = 0.001,
+                     texvent = all metadata as JSON, and its top-level scalars by name
+
+Files are streamed in compressed chunks (gzip 1 + shuffle), so plain h5py reads them. Metadata
+blocks carry HDF5's checksums (file version 1.10) and gzip checks its data, so damage is noticed
+instead of read as events. DSEC's own files (t u4 relative to t_offset) are read too.
+
+Deviation from DSEC: ms_to_idx has one closing entry n, so that a window that ends after the last
+event needs no special case. A recording that starts more than 19 hours after zero (clock times)
+is stored relative to its first millisecond in t_offset, as DSEC does, because ms_to_idx would
+not fit otherwise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from types import TracebackType
+from typing import Any, ClassVar, Self
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent._require import require
+from texvent.errors import FileFormatError, InputError, MissingDependencyError, OutputError
+from texvent.events import EventPackets, EventStream
+from texvent.io.atomic import atomic_file, check_output
+from texvent.io.columns import (
+    existing_file,
+    metadata_from_json,
+    metadata_to_json,
+    stored_or_given_size,
+    stream_from_file,
+)
+from texvent.sensor import SensorSize
+
+TIMESTAMP_SCALE_MS = 0.001
+"""Milliseconds per unit of events/t: µs."""
+CHUNK_EVENTS = 65_536
+BATCH_EVENTS = 4 * CHUNK_EVENTS
+"""Events held before they are compressed and written."""
+PACKET_EVENTS = 1_048_576
+INDEX_PIECE = 1_048_576
+MAX_START_US = 1 << 36
+"""19 h: a later start is stored in t_offset."""
+MAX_SPAN_US = 1 << 37
+"""38 h: ms_to_idx would pass 1 GB beyond this."""
+MAX_ATTRIBUTE_BYTES = 32_768
+"""Longer metadata goes to a dataset: many readers stop at 64 kB per attribute."""
+MAX_PLAIN_ATTRIBUTES = 64
+MAX_PLAIN_BYTES = 2048
+COLUMNS: Mapping[str, str] = {"x": "<u2", "y": "<u2", "t": "<i8", "p": "|u1"}
+RESERVED = ("width", "height", "timestamp_scale_ms", "texvent")
+
+_DAMAGE = (OSError, RuntimeError, KeyError, ValueError, TypeError, AttributeError, MemoryError)
+"""h5py raises any of these on a damaged file."""
+
+
+class Hdf5Codec:
+    """Universal HDF5 and DSEC files."""
+
+    name: ClassVar[str] = "hdf5"
+    extensions: ClassVar[tuple[str, ...]] = (".h5", ".hdf5")
+
+    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
+        """Events of a file, a million at a time; the file is opened anew for each pass.
+
+        Raises:
+            InputError: no such file, or it stores no sensor size and none is given.
+            FileFormatError: the file is damaged or has another layout.
+            MissingDependencyError: it is compressed with a filter that needs hdf5plugin.
+        """
+        path = existing_file(path)
+        with _reporting_damage(path), h5py.File(path, "r") as file:
+            _checked_columns(file, path)
+            stored = _stored_size(file)
+            metadata = _read_metadata(file, path)
+        final_size = stored_or_given_size(path, stored, size)
+        return EventPackets(_Packets(path, final_size, metadata), final_size, metadata)
+
+    def open_writer(
+        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
+    ) -> Hdf5Writer:
+        """Start a file; see `EventCodec.open_writer`."""
+        return Hdf5Writer(path, size=size, metadata=metadata, overwrite=overwrite)
+
+
+class Hdf5Writer:
+    """Appends packets to a universal HDF5 file; memory does not grow with the recording.
+
+    Raises:
+        OutputError: the file exists already, its folder refuses it, or the disk is full.
+        InputError: a packet of another size, before the one before it, or before time 0.
+    """
+
+    def __init__(
+        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
+    ) -> None:
+        check_output(path, overwrite=overwrite)
+        self._path = path
+        self._size = size
+        self._overwrite = overwrite
+        self._metadata = metadata
+        self._json = metadata_to_json(metadata)
+        self._stack = ExitStack()
+        self._file: Any = None
+        self._pending: list[EventStream] = []
+        self._pending_events = 0
+        self._written = 0
+        self._next_ms = 0
+        self._last_us = 0
+        self._offset_us: int | None = None
+
+    def __enter__(self) -> Self:
+        with ExitStack() as stack:
+            part = stack.enter_context(atomic_file(self._path, overwrite=self._overwrite))
+            # v110: object headers and chunk indexes then carry checksums.
+            self._file = h5py.File(part, "w", libver=("v110", "v110"))
+            stack.callback(_close_quietly, self._file)
+            self._create_layout()
+            self._stack = stack.pop_all()
+        return self
+
+    def append(self, packet: EventStream) -> None:
+        """Add the events of a packet, which starts no earlier than the one before it ended."""
+        if self._file is None:
+            raise OutputError(f"{self._path} is not open; append inside the writer's with block")
+        if packet.size != self._size:
+            raise InputError(f"the packet is {packet.size}, the file is {self._size}")
+        if len(packet) == 0:
+            return
+        self._check_time(packet)
+        self._pending.append(packet)
+        self._pending_events += len(packet)
+        if self._pending_events >= BATCH_EVENTS:
+            self._write_pending(final=False)
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if error is not None:
+            self._stack.__exit__(kind, error, trace)
+            return
+        with self._stack:
+            self._finish()
+
+    def _check_time(self, packet: EventStream) -> None:
+        first, last = int(packet.t[0]), int(packet.t[-1])
+        if first < 0:
+            raise InputError(f"an event has time {first} µs; event files start at 0 or later")
+        if first < self._last_us:
+            raise InputError(
+                f"a packet starts at {first} µs, before the one before it ends "
+                f"({self._last_us} µs); append packets in time order"
+            )
+        if self._offset_us is None:
+            self._offset_us = first // 1000 * 1000 if first >= MAX_START_US else 0
+        if last - self._offset_us > MAX_SPAN_US:
+            raise InputError(
+                f"events span {(last - self._offset_us) / 3.6e9:.1f} h; an HDF5 file with a "
+                "millisecond index holds up to 38 h: split the recording, or check its time unit"
+            )
+        self._last_us = last
+
+    def _create_layout(self) -> None:
+        file = self._file
+        filters = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
+        for name, dtype in COLUMNS.items():
+            file.create_dataset(
+                f"events/{name}",
+                shape=(0,),
+                maxshape=(None,),
+                dtype=dtype,
+                chunks=(CHUNK_EVENTS,),
+                **filters,
+            )
+        file.create_dataset(
+            "ms_to_idx", shape=(0,), maxshape=(None,), dtype="<u8", chunks=(4096,), **filters
+        )
+        file.attrs["width"], file.attrs["height"] = self._size
+        file.attrs["timestamp_scale_ms"] = TIMESTAMP_SCALE_MS
+        _write_metadata(file, self._json, self._metadata)
+
+    def _write_pending(self, *, final: bool) -> None:
+        """Write whole chunks, so that none is compressed twice; at the end, the rest too."""
+        whole = EventStream.concat(self._pending)
+        count = len(whole) if final else len(whole) // CHUNK_EVENTS * CHUNK_EVENTS
+        stop = self._written + count
+        times = whole.t[:count] - (self._offset_us or 0)
+        self._index(times)
+        for name in COLUMNS:
+            column = times if name == "t" else getattr(whole, name)[:count]
+            dataset = self._file[f"events/{name}"]
+            dataset.resize((stop,))
+            dataset[self._written : stop] = column
+        self._written = stop
+        self._pending = [whole[count:]]
+        self._pending_events = len(whole) - count
+
+    def _index(self, times: NDArray[np.int64]) -> None:
+        """Extend ms_to_idx up to the last of these times, µs after t_offset."""
+        last_ms = int(times[-1]) // 1000
+        while self._next_ms <= last_ms:
+            stop = min(last_ms + 1, self._next_ms + INDEX_PIECE)
+            starts_us = np.arange(self._next_ms, stop, dtype=np.int64) * 1000
+            self._append_index(np.searchsorted(times, starts_us, side="left") + self._written)
+            self._next_ms = stop
+
+    def _append_index(self, indexes: NDArray[Any]) -> None:
+        dataset = self._file["ms_to_idx"]
+        known = dataset.shape[0]
+        dataset.resize((known + len(indexes),))
+        dataset[known:] = indexes
+
+    def _finish(self) -> None:
+        if self._pending_events:
+            self._write_pending(final=True)
+        self._append_index(np.array([self._written], dtype=np.uint64))
+        # Compact: the value then lies inside the checksummed header.
+        properties = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+        properties.set_layout(h5py.h5d.COMPACT)
+        offset = self._file.create_dataset("t_offset", shape=(), dtype="<i8", dcpl=properties)
+        offset[()] = self._offset_us or 0
+        self._file.close()
+
+
+class _Packets:
+    """Re-iterable packets of a checked file."""
+
+    def __init__(self, path: Path, size: SensorSize, metadata: Mapping[str, Any]) -> None:
+        self._path = path
+        self._size = size
+        self._metadata = metadata
+
+    def __iter__(self) -> Iterator[EventStream]:
+        with _reporting_damage(self._path):
+            file = h5py.File(self._path, "r")
+        with file:
+            with _reporting_damage(self._path):
+                columns = _checked_columns(file, self._path)
+                count = columns["t"].shape[0]
+                offset_us = _time_offset(file, self._path)
+            last_us: int | None = None
+            for start in range(0, count, PACKET_EVENTS):
+                with _reporting_damage(self._path):
+                    packet = self._packet(columns, start, offset_us)
+                if last_us is not None and int(packet.t[0]) < last_us:
+                    raise FileFormatError(f"{self._path}: time decreases at event {start}")
+                last_us = int(packet.t[-1])
+                # Outside `_reporting_damage`: the caller's own errors are not the file's.
+                yield packet
+
+    def _packet(self, columns: Mapping[str, Any], start: int, offset_us: int) -> EventStream:
+        part = {name: columns[name][start : start + PACKET_EVENTS] for name in COLUMNS}
+        part["t"] = part["t"].astype(np.int64) + offset_us
+        return stream_from_file(self._path, part, self._size, self._metadata)
+
+
+def _checked_columns(file: Any, path: Path) -> dict[str, Any]:
+    """The four datasets, if the file has this layout."""
+    missing = [name for name in COLUMNS if f"events/{name}" not in file]
+    if missing:
+        raise FileFormatError(
+            f"{path} is HDF5 but has no events/{missing[0]}; texvent reads the DSEC and universal "
+            "layout: events/x, events/y, events/t, events/p"
+        )
+    columns = {name: file[f"events/{name}"] for name in COLUMNS}
+    shapes = {name: column.shape for name, column in columns.items()}
+    if any(len(shape) != 1 for shape in shapes.values()) or len(set(shapes.values())) != 1:
+        raise FileFormatError(f"{path}: events/x, y, t, p differ in length: {shapes}")
+    for name, column in columns.items():
+        if column.dtype.kind not in "iub":
+            raise FileFormatError(f"{path}: events/{name} holds {column.dtype}, not integers")
+        _check_filters(column, path)
+    scale = float(file.attrs.get("timestamp_scale_ms", TIMESTAMP_SCALE_MS))
+    if not np.isclose(scale, TIMESTAMP_SCALE_MS):
+        raise FileFormatError(f"{path} counts time in units of {scale:g} ms; texvent reads 0.001")
+    return columns
+
+
+def _check_filters(column: Any, path: Path) -> None:
+    """Ask for hdf5plugin where a file, such as DSEC's, is compressed with a foreign filter."""
+    properties = column.id.get_create_plist()
+    filters = [properties.get_filter(index)[0] for index in range(properties.get_nfilters())]
+    if all(h5py.h5z.filter_avail(code) for code in filters):
+        return
+    try:
+        require("hdf5plugin")
+    except MissingDependencyError as error:
+        raise MissingDependencyError(
+            f"{path} is compressed with an HDF5 filter that h5py does not bring (blosc in DSEC "
+            "files); install it with: pip install hdf5plugin"
+        ) from error
+
+
+def _time_offset(file: Any, path: Path) -> int:
+    if "t_offset" not in file:
+        return 0
+    value = np.asarray(file["t_offset"][()])
+    if value.size != 1 or value.dtype.kind not in "iu":
+        raise FileFormatError(f"{path}: t_offset must be one whole number; it is {value!r}")
+    return int(value.reshape(-1)[0])
+
+
+def _stored_size(file: Any) -> tuple[int, int] | None:
+    if "width" not in file.attrs or "height" not in file.attrs:
+        return None
+    return int(file.attrs["width"]), int(file.attrs["height"])
+
+
+def _write_metadata(file: Any, text: str, metadata: Mapping[str, Any]) -> None:
+    """All metadata as JSON, and its top-level scalars by name for people who look inside."""
+    if len(text) <= MAX_ATTRIBUTE_BYTES:
+        file.attrs["texvent"] = text
+    else:
+        file.create_dataset("texvent", data=text)
+    scalars = [
+        (name, value)
+        for name, value in metadata.items()
+        if name not in RESERVED and _is_plain_attribute(name) and _is_plain_attribute(value)
+    ]
+    for name, value in scalars[:MAX_PLAIN_ATTRIBUTES]:
+        file.attrs[name] = value
+
+
+def _is_plain_attribute(value: Any) -> bool:
+    if isinstance(value, str):
+        # HDF5 text cannot hold NUL or unpaired surrogates; the JSON form can.
+        encoded = value.encode("utf-8", errors="replace")
+        sound = encoded.decode("utf-8") == value and "\0" not in value
+        return sound and 0 < len(encoded) <= MAX_PLAIN_BYTES
+    if isinstance(value, int):
+        return -(2**63) <= value < 2**63
+    return isinstance(value, float)
+
+
+def _read_metadata(file: Any, path: Path) -> dict[str, Any]:
+    text = file.attrs.get("texvent")
+    if text is None and isinstance(file.get("texvent"), h5py.Dataset):
+        text = file["texvent"][()]
+    return {} if text is None else metadata_from_json(path, text)
+
+
+@contextmanager
+def _reporting_damage(path: Path) -> Iterator[None]:
+    try:
+        yield
+    except (InputError, MissingDependencyError):
+        raise
+    except _DAMAGE as error:
+        reason = " ".join(str(error).split())[:200]
+        raise FileFormatError(f"{path} is damaged or not an HDF5 event file ({reason})") from error
+
+
+def _close_quietly(file: Any) -> None:
+    """Close a file that is closed already or will be thrown away (a full disk refuses that too)."""
+    try:
+        file.close()
+    except (OSError, RuntimeError):
+        return
