@@ -1,0 +1,62 @@
+"""The public names, pinned; and what importing them costs."""
+
+import subprocess
+import sys
+
+import texvent
+
+PUBLIC = {
+    "SENSORS",
+    "ConfigError",
+    "EventPackets",
+    "EventStream",
+    "FileFormatError",
+    "Frame",
+    "FrameStream",
+    "InputError",
+    "MissingDependencyError",
+    "OutputError",
+    "Sensor",
+    "SensorSize",
+    "TexventError",
+    "Video",
+    "__version__",
+    "generate",
+    "load",
+    "simulate",
+}
+HEAVY = ("torch", "numba", "cv2", "av", "h5py", "tyro", "rich")
+
+
+def loaded_by(statement: str) -> set[str]:
+    code = f"{statement}\nimport sys; print(' '.join(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return set(done.stdout.split())
+
+
+def test_the_public_names_are_these_and_all_exist():
+    assert set(texvent.__all__) == PUBLIC
+    assert all(hasattr(texvent, name) for name in PUBLIC)
+    assert set(dir(texvent)) == PUBLIC
+
+
+def test_importing_texvent_loads_no_heavy_package():
+    assert not set(HEAVY) & loaded_by("import texvent")
+
+
+def test_the_api_and_the_value_types_load_no_heavy_package():
+    loaded = loaded_by("import texvent; texvent.generate; texvent.simulate; texvent.EventStream")
+    assert not set(HEAVY) & loaded
+
+
+def test_api_functions_stay_functions_when_their_stage_packages_are_imported():
+    code = (
+        "import texvent, texvent.generate.protocol, texvent.simulate.protocol;"
+        "from texvent.generate import protocol;"
+        "assert callable(texvent.generate) and callable(texvent.simulate)"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_an_unknown_name_is_an_attribute_error():
+    assert not hasattr(texvent, "no_such_name")

@@ -1,0 +1,36 @@
+"""Balanced log: Eq. 5's L(α + I), the same for every dtype."""
+
+import math
+
+import numpy as np
+import pytest
+
+from texvent.brightness import balanced_log, luma_bt601
+from texvent.errors import ConfigError
+
+
+def test_balanced_log_is_the_natural_logarithm_of_alpha_plus_intensity():
+    got = balanced_log(np.array([[0, 255]], np.uint8), 30.0)
+    assert got.dtype == np.float64
+    assert got[0].tolist() == pytest.approx([math.log(30), math.log(285)], abs=1e-15)
+
+
+def test_eight_bit_and_float_input_give_the_same_bits():
+    grey = np.arange(256, dtype=np.uint8).reshape(16, 16)
+    for balance in (0.5, 30.0):
+        table = balanced_log(grey, balance)
+        assert np.array_equal(table, balanced_log(grey.astype(np.float32), balance))
+        assert np.array_equal(table, balanced_log(grey.astype(np.float64), balance))
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.float32])
+def test_no_balance_with_a_black_pixel_is_refused_and_without_one_is_fine(dtype):
+    with pytest.raises(ConfigError, match=r"balance is 0 .* use a balance above 0"):
+        balanced_log(np.array([[0, 3]], dtype), 0.0)
+    assert balanced_log(np.array([[1, 3]], dtype), 0.0)[0, 0] == 0.0
+
+
+def test_luma_of_grey_is_grey():
+    grey = np.full((2, 2, 3), 77.25, np.float32)
+    assert luma_bt601(grey) == pytest.approx(77.25)
+    assert luma_bt601(grey).dtype == np.float32
