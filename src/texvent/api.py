@@ -7,14 +7,20 @@ dataclasses; None means "as the preset has it".
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from fractions import Fraction
 from pathlib import Path
-from typing import Any, Literal, overload
+from typing import Any, Literal, TypeAlias, overload
+
+from numpy.typing import NDArray
 
 from texvent._registry import load_object
 from texvent.events import EventPackets, EventStream
 from texvent.pipeline import Simulation, text_to_events, video_to_events
 from texvent.settings import resolve
 from texvent.video import FrameStream
+
+Rate: TypeAlias = int | float | str | Fraction
+Source: TypeAlias = str | Path | FrameStream | NDArray[Any] | Iterable[Any]
 
 __all__ = ["generate", "load", "simulate"]
 
@@ -23,17 +29,28 @@ __all__ = ["generate", "load", "simulate"]
 def generate(
     prompt: str,
     *,
+    generator: str | None = None,
+    simulator: str | None = None,
+    preset: str | None = None,
     as_packets: Literal[False] = False,
-    config: str | Path | None = None,
     **options: Any,
 ) -> EventStream: ...
 @overload
 def generate(
-    prompt: str, *, as_packets: Literal[True], config: str | Path | None = None, **options: Any
+    prompt: str,
+    *,
+    generator: str | None = None,
+    simulator: str | None = None,
+    preset: str | None = None,
+    as_packets: Literal[True],
+    **options: Any,
 ) -> EventPackets: ...
 def generate(
     prompt: str,
     *,
+    generator: str | None = None,
+    simulator: str | None = None,
+    preset: str | None = None,
     as_packets: bool = False,
     config: str | Path | None = None,
     **options: Any,
@@ -42,11 +59,14 @@ def generate(
 
     Args:
         prompt: what to show, such as "a red car drives left past two trees at dusk".
+        generator: text-to-video generator; default "procedural", the embedded one.
+        simulator: pixel model; default "texvent".
+        preset: named set of simulator options; default the simulator's first, "paper".
         as_packets: give packets one by one, with flat memory, instead of one stream.
         config: a TOML or YAML file with options.
-        **options: options of `texvent generate --help`, such as `seed=3`, `generator=...`,
-            `simulator=...`, `preset=...`, `interpolate=...`, `sensor=...`, `duration=...`,
-            `contrast_threshold=...`, `noise=...`.
+        **options: further options of `texvent generate --help`, such as `seed=3`,
+            `sensor="davis346"`, `duration=2.0`, `interpolate="exact"`, `contrast_threshold=0.2`,
+            `noise="none"`.
 
     Returns:
         The events, with their provenance in `metadata`.
@@ -55,31 +75,40 @@ def generate(
         InputError: the prompt is empty.
         ConfigError: an unknown option, or a value out of range.
     """
-    return _events(text_to_events(prompt, resolve("generate", options, config=config)), as_packets)
+    named = {"generator": generator, "simulator": simulator, "preset": preset}
+    settings = resolve("generate", {**options, **named}, config=config)
+    return _events(text_to_events(prompt, settings), as_packets)
 
 
 @overload
 def simulate(
-    source: Any,
+    source: Source,
     *,
     t_us: Sequence[int] | None = None,
+    fps: Rate | None = None,
+    simulator: str | None = None,
+    preset: str | None = None,
     as_packets: Literal[False] = False,
-    config: str | Path | None = None,
     **options: Any,
 ) -> EventStream: ...
 @overload
 def simulate(
-    source: Any,
+    source: Source,
     *,
     t_us: Sequence[int] | None = None,
+    fps: Rate | None = None,
+    simulator: str | None = None,
+    preset: str | None = None,
     as_packets: Literal[True],
-    config: str | Path | None = None,
     **options: Any,
 ) -> EventPackets: ...
 def simulate(
-    source: str | Path | FrameStream | Iterable[Any],
+    source: Source,
     *,
     t_us: Sequence[int] | None = None,
+    fps: Rate | None = None,
+    simulator: str | None = None,
+    preset: str | None = None,
     as_packets: bool = False,
     config: str | Path | None = None,
     **options: Any,
@@ -89,12 +118,14 @@ def simulate(
     Args:
         source: a video file, an image folder, a camera or network address, an array [N, H, W] or
             [N, H, W, 3] (uint8, uint16, or float on the 0..255 scale), or a FrameStream.
-        t_us: frame times, µs, for arrays; otherwise give `fps=`.
+        t_us: frame times, µs, for arrays; otherwise give `fps`.
+        fps: frame rate, such as 24, 29.97 or "30000/1001"; video files know their own times.
+        simulator: pixel model; default "texvent".
+        preset: named set of simulator options; default the simulator's first, "paper".
         as_packets: give packets one by one, with flat memory, instead of one stream.
         config: a TOML or YAML file with options.
-        **options: options of `texvent simulate --help`, such as `fps=24`, `simulator="texvent"`,
-            `preset="paper"`, `interpolate="flow"`, `sensor="davis346"`,
-            `contrast_threshold=0.2`, `noise="none"`, `seed=0`.
+        **options: further options of `texvent simulate --help`, such as `interpolate="flow"`,
+            `sensor="davis346"`, `contrast_threshold=0.2`, `noise="none"`, `seed=0`.
 
     Returns:
         The events, with their provenance in `metadata`.
@@ -103,7 +134,8 @@ def simulate(
         InputError: the source cannot be read, or holds NaN, negative or infinite intensities.
         ConfigError: an unknown option, or a value out of range.
     """
-    settings = resolve("simulate", options, config=config)
+    named = {"fps": fps, "simulator": simulator, "preset": preset}
+    settings = resolve("simulate", {**options, **named}, config=config)
     open_frames = load_object("texvent.capture.open:open_frames")
     video = open_frames(source, settings.source, size=settings.size, t_us=t_us)
     return _events(video_to_events(video, settings), as_packets)

@@ -52,6 +52,10 @@ class RunConfig:
     seed: int = 0
     """Seed of everything random. The same seed and options give the same events, on any machine
     and with any number of threads."""
+    events: Literal["all", "signal", "noise"] = "all"
+    """Which events to keep: all, only those that a brightness change fired, or only noise."""
+    label_noise: bool = False
+    """Store beside every event whether it is signal (0) or noise (1), as an extra column."""
 
     def __post_init__(self) -> None:
         check_range("seed", self.seed, 0, 2**63 - 1)
@@ -72,11 +76,17 @@ class CaptureConfig:
     """Skip this much of the input, in seconds."""
     stop: float | None = None
     """Stop at this time of the input, in seconds."""
+    white_level: float | None = None
+    """Value that means white: 1 for floats from 0 to 1, 4095 for 12 bits stored in 16. Without it,
+    white is 255 (8-bit and float) or 65535 (16-bit), and floats that never exceed 1 are
+    refused."""
     fit: Literal["cover", "contain", "stretch"] = "cover"
     """How frames are fitted to the sensor's size: cut the excess, add black bars, or distort."""
 
     def __post_init__(self) -> None:
         check_range("start", self.start, 0.0)
+        if self.white_level is not None and not 0 < self.white_level < float("inf"):
+            raise ConfigError(f"white_level is {self.white_level:g}; it must be above 0")
         if self.fps is not None and not 0 < self.fps <= 1_000_000:
             raise ConfigError(f"fps is {self.fps}; it must be above 0 and at most 1000000")
         if self.stop is not None and not self.stop > self.start:

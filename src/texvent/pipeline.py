@@ -15,7 +15,8 @@ from typing import Any
 
 from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS
 from texvent._version import __version__
-from texvent.events import EventPackets, EventStream
+from texvent.config import RunConfig
+from texvent.events import NOISE, SIGNAL, EventPackets, EventStream
 from texvent.interpolate.densify import OnCut, densify
 from texvent.settings import Settings
 from texvent.video import Frame, FrameStream
@@ -66,12 +67,14 @@ class Simulation:
             on_cut=on_cut,
         )
         for frame in dense:
-            yield frame, simulator.step(frame)
+            yield frame, select(simulator.step(frame), settings.run)
 
     @property
     def packets(self) -> EventPackets:
         """The events alone, packet by packet."""
-        return EventPackets((packet for _, packet in self.steps()), self.video.size, self.provenance)
+        return EventPackets(
+            (packet for _, packet in self.steps()), self.video.size, self.provenance
+        )
 
     @property
     def provenance(self) -> dict[str, Any]:
@@ -86,3 +89,10 @@ class Simulation:
             "settings": self.settings.as_tables(),
             "texvent_version": __version__,
         }
+
+
+def select(packet: EventStream, run: RunConfig) -> EventStream:
+    """The events of a packet that the run keeps, with the label only if it is wanted."""
+    if packet.label is not None and run.events != "all":
+        packet = packet[packet.label == (SIGNAL if run.events == "signal" else NOISE)]
+    return packet if run.label_noise else packet.without_label()

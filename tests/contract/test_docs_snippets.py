@@ -1,0 +1,51 @@
+"""Every snippet in README.md and docs/ runs: Python blocks, and `$ texvent` lines of console blocks.
+
+A page's blocks run in order, in one namespace, in an empty folder. A block that cannot run in a
+test (it needs a camera, a download or minutes) is fenced as `text`.
+"""
+
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+
+from texvent.cli.app import main
+
+ROOT = Path(__file__).parents[2]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+FENCE = re.compile(r"^```(\w+)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+
+
+def blocks(page: Path) -> list[tuple[str, str]]:
+    return [
+        (match[1], match[2])
+        for match in FENCE.finditer(page.read_text(encoding="utf-8"))
+        if match[1] in ("python", "console")
+    ]
+
+
+@pytest.mark.parametrize(
+    "page", [page for page in PAGES if blocks(page)], ids=lambda page: page.name
+)
+def test_snippets_run(page, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    namespace: dict[str, object] = {"__name__": "snippet"}
+    for language, text in blocks(page):
+        if language == "python":
+            exec(compile(text, f"{page.name} snippet", "exec"), namespace)
+            continue
+        for line in text.splitlines():
+            if line.startswith("$ texvent "):
+                words = shlex.split(line, comments=True)[2:]
+                try:
+                    code = main(words)
+                except SystemExit as stop:
+                    code = int(stop.code or 0)
+                assert code == 0, f"{line}\n{capsys.readouterr().err}"
+
+
+def test_every_page_is_linked_from_the_readme():
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    missing = [page.name for page in PAGES[1:] if f"docs/{page.name}" not in readme]
+    assert not missing, f"README.md does not link docs/{missing}"
