@@ -1,0 +1,196 @@
+"""Cameras, network streams, named pipes and standard input: frames that come only once."""
+
+from __future__ import annotations
+
+import contextlib
+import re
+import signal
+import sys
+import threading
+import time
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from types import FrameType
+from typing import Any
+
+import av
+from av.container import InputContainer
+from av.error import FFmpegError
+from av.video.frame import VideoFrame
+from av.video.stream import VideoStream
+
+from texvent.capture.decode import decoded_pixels
+from texvent.capture.times import FrameTimes
+from texvent.errors import InputError
+from texvent.sensor import SensorSize, checked_size
+from texvent.video import MICROSECONDS, Frame
+
+STANDARD_INPUT = "-"
+TIMEOUT_S = 15.0
+"""How long a silent network stream is waited for."""
+
+
+class LiveFrames:
+    """Frames as they arrive; memory stays flat because one frame is read only when asked for.
+
+    Times are the stream's own presentation times, or, where it has none (raw MJPEG, some
+    cameras), the moments of arrival; both count from the first frame. Frames whose time does not
+    increase are dropped and counted in `metadata`. Ctrl-C ends the stream after the frame at
+    hand, so that results are finished; a second Ctrl-C interrupts.
+
+    Args:
+        address: a device (`/dev/video0`), an address (`rtsp://...`), a named pipe, or `-`.
+        times: a frame rate or list of times that replaces the stream's.
+
+    Raises:
+        InputError: nothing can be read there; or the stream is iterated a second time.
+    """
+
+    def __init__(self, address: str, times: FrameTimes | None = None) -> None:
+        self._name = without_password(address)
+        self._times = times
+        self._container = _open_live(address, self._name)
+        self._frames = self._decode()
+        self._is_read = False
+        first = next(self._frames, None)
+        if first is None:
+            self._container.close()
+            raise InputError(f"{self._name} ended before its first frame")
+        self._first, self._arrived_us = first, _now_us()
+        pixels = decoded_pixels(first)
+        self._size = checked_size(pixels.shape[1], pixels.shape[0])
+        self._metadata: dict[str, Any] = {
+            "source": self._name,
+            "kind": "live",
+            "pixel_format": first.format.name,
+            "clock": _clock_name(first, times),
+            "frames_dropped": 0,
+        }
+
+    @property
+    def size(self) -> SensorSize:
+        """Width and height after rotation, pixels."""
+        return self._size
+
+    @property
+    def fps(self) -> Fraction | None:
+        """The rate that was given, else None: frames come when they come."""
+        return self._times.fps if self._times else None
+
+    @property
+    def frame_count(self) -> None:
+        """None: nobody knows."""
+        return None
+
+    @property
+    def is_live(self) -> bool:
+        """True."""
+        return True
+
+    @property
+    def metadata(self) -> Mapping[str, Any]:
+        """Address (without password), pixel format, clock, and how many frames were dropped."""
+        return self._metadata
+
+    def __iter__(self) -> Iterator[Frame]:
+        """Frames until the stream ends or Ctrl-C.
+
+        Raises:
+            InputError: the frames were read before.
+        """
+        if self._is_read:
+            raise InputError(f"{self._name} is live and was read already; open it again")
+        self._is_read = True
+        return self._run()
+
+    def _run(self) -> Iterator[Frame]:
+        last_us = -1
+        with self._container, interrupts_noted() as interrupted:
+            for index, (frame, arrived_us) in enumerate(self._arrivals()):
+                t_us = self._time_us(index, frame, arrived_us)
+                if t_us > last_us:
+                    yield Frame(decoded_pixels(frame), t_us)
+                    last_us = t_us
+                else:
+                    self._metadata["frames_dropped"] += 1
+                if interrupted.is_set():
+                    return
+
+    def _arrivals(self) -> Iterator[tuple[VideoFrame, int]]:
+        yield self._first, self._arrived_us
+        for frame in self._frames:
+            yield frame, _now_us()
+
+    def _time_us(self, index: int, frame: VideoFrame, arrived_us: int) -> int:
+        if self._times is not None:
+            return self._times(index)
+        first = self._first
+        if first.pts is None or frame.pts is None or frame.time_base is None:
+            return arrived_us - self._arrived_us
+        return round((frame.pts - first.pts) * frame.time_base * MICROSECONDS)
+
+    def _decode(self) -> Iterator[VideoFrame]:
+        """Decoded frames; a stream that breaks off has ended, which is how live streams end."""
+        stream = self._container.streams.best("video")
+        if not isinstance(stream, VideoStream):
+            raise InputError(f"{self._name} holds no video stream")
+        with contextlib.suppress(FFmpegError, EOFError):
+            yield from self._container.decode(stream)
+
+
+def without_password(address: str) -> str:
+    """An address that can be shown and stored.
+
+    Example:
+        >>> without_password("rtsp://me:secret@camera/stream")
+        'rtsp://camera/stream'
+    """
+    return re.sub(r"(?<=://)[^/@]*@", "", address)
+
+
+@contextlib.contextmanager
+def interrupts_noted() -> Iterator[threading.Event]:
+    """An event that the first Ctrl-C sets; the second interrupts as usual.
+
+    Outside the main thread, where signals cannot be caught, Ctrl-C keeps its usual meaning.
+    """
+    interrupted = threading.Event()
+    if threading.current_thread() is not threading.main_thread():
+        yield interrupted
+        return
+    usual = signal.getsignal(signal.SIGINT)
+
+    def note(number: int, frame: FrameType | None) -> None:
+        interrupted.set()
+        signal.signal(signal.SIGINT, usual)
+
+    signal.signal(signal.SIGINT, note)
+    try:
+        yield interrupted
+    finally:
+        signal.signal(signal.SIGINT, usual)
+
+
+def _open_live(address: str, name: str) -> InputContainer:
+    try:
+        if address == STANDARD_INPUT:
+            return av.open(sys.stdin.buffer, mode="r")
+        if address.startswith("/dev/video"):
+            return av.open(address, mode="r", format="v4l2")
+        return av.open(address, mode="r", timeout=TIMEOUT_S if "://" in address else None)
+    except (FFmpegError, OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise InputError(
+            f"{name} cannot be opened as live video ({reason}); check that it exists, is not in "
+            "use, and sends a format that libav knows"
+        ) from error
+
+
+def _clock_name(first: VideoFrame, times: FrameTimes | None) -> str:
+    if times is not None:
+        return "given"
+    return "arrival" if first.pts is None else "presentation"
+
+
+def _now_us() -> int:
+    return time.monotonic_ns() // 1000

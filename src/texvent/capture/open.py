@@ -1,0 +1,139 @@
+"""Open any source of frames: the one door of this package."""
+
+from __future__ import annotations
+
+import re
+import stat
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from texvent._registry import load_object
+from texvent.capture.arrays import ArrayFrames
+from texvent.capture.prepare import PreparedFrames
+from texvent.capture.times import FrameTimes, listed_times
+from texvent.capture.timestamps import read_timestamps
+from texvent.config import CaptureConfig
+from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.sensor import SensorSize
+from texvent.video import FrameStream
+
+# By name, so that PyAV and OpenCV load only when a source needs them.
+VIDEO_FILE = "texvent.capture.video_file:VideoFile"
+IMAGE_FOLDER = "texvent.capture.image_folder:ImageFolder"
+LIVE = "texvent.capture.live:LiveFrames"
+
+
+def open_frames(
+    source: Any, config: CaptureConfig, *, size: SensorSize | None = None, t_us: Any = None
+) -> FrameStream:
+    """Frames of a video file, an image folder, an array, a camera or a network stream.
+
+    Args:
+        source: a path of a video file, an image folder or a .npy file; a device such as
+            /dev/video0, an address such as rtsp://..., a named pipe, or "-" for standard input;
+            an array [N, H, W] or [N, H, W, 3] (RGB) or an iterable of such pictures; or a
+            FrameStream.
+        config: frame rate, times, start, stop, fit and white level.
+        size: sensor size to fit the frames to, or None to keep theirs.
+        t_us: [N] frame times, integer µs.
+
+    Returns:
+        A checked stream: one size, strictly increasing times, at least two frames, no NaN.
+
+    Raises:
+        InputError: there is no such source, or it cannot be used; some faults show only while
+            iterating.
+        FileFormatError: a file is damaged or holds no video.
+        ConfigError: frame times are given in two ways at once.
+    """
+    given = _given_times(config, t_us)
+    if isinstance(source, (str, Path)):
+        return _open_address(str(source), config, size, given)
+    if isinstance(source, FrameStream):
+        return _adapt_stream(source, config, size, given)
+    if not (isinstance(source, Iterable) or hasattr(source, "__array__")):
+        raise InputError(
+            f"cannot read frames from {type(source).__name__}; give a path, an address, an array "
+            "[N, H, W] or [N, H, W, 3], or a FrameStream"
+        )
+    return _open_array(source, config, size, given)
+
+
+def _given_times(config: CaptureConfig, t_us: Any) -> FrameTimes | None:
+    """Times from t_us or fps; a timestamp file is read where the source is known."""
+    ways = {"t_us": t_us, "fps": config.fps, "timestamps": config.timestamps}
+    named = [name for name, value in ways.items() if value is not None]
+    if len(named) > 1:
+        raise ConfigError(f"frame times are given twice, by {' and '.join(named)}; give one")
+    if t_us is not None:
+        return listed_times(t_us)
+    return FrameTimes(fps=config.fps) if config.fps is not None else None
+
+
+def _file_times(config: CaptureConfig, given: FrameTimes | None) -> FrameTimes | None:
+    if config.timestamps is None:
+        return given
+    return read_timestamps(config.timestamps, config.timestamps_unit).times
+
+
+def _open_address(
+    address: str, config: CaptureConfig, size: SensorSize | None, given: FrameTimes | None
+) -> FrameStream:
+    path = Path(address.removeprefix("file://")).expanduser()
+    if _is_live(address, path):
+        live: FrameStream = load_object(LIVE)(address, _file_times(config, given))
+        return PreparedFrames(live, config, size=size)
+    if path.is_dir():
+        folder: FrameStream = load_object(IMAGE_FOLDER)(
+            path, given, timestamps=config.timestamps, unit=config.timestamps_unit
+        )
+        return PreparedFrames(folder, config, size=size)
+    if path.suffix.lower() == ".npy" and path.is_file():
+        return _open_array(_read_npy(path), config, size, given)
+    video: FrameStream = load_object(VIDEO_FILE)(path, _file_times(config, given))
+    return PreparedFrames(video, config, size=size)
+
+
+def _is_live(address: str, path: Path) -> bool:
+    if address == "-" or (re.match(r"[a-z][a-z0-9+.-]*://", address) and "file://" not in address):
+        return True
+    mode = path.stat().st_mode if path.exists() else 0
+    return stat.S_ISFIFO(mode) or stat.S_ISCHR(mode)
+
+
+def _open_array(
+    frames: Any, config: CaptureConfig, size: SensorSize | None, given: FrameTimes | None
+) -> FrameStream:
+    times = _file_times(config, given)
+    if times is None:
+        raise InputError(
+            "frames in memory have no times; give fps=, or t_us= with one time per frame in µs"
+        )
+    stream = ArrayFrames(frames, times, white_level=config.white_level)
+    # What can be read twice was looked through already, more patiently.
+    return PreparedFrames(stream, config, size=size, check_scale=stream.is_live)
+
+
+def _adapt_stream(
+    stream: FrameStream,
+    config: CaptureConfig,
+    size: SensorSize | None,
+    given: FrameTimes | None,
+) -> FrameStream:
+    if given is not None or config.timestamps is not None:
+        raise InputError("a FrameStream has its own times; leave out fps, t_us and timestamps")
+    is_whole = config.start == 0 and config.stop is None and config.white_level is None
+    if is_whole and size in (None, stream.size):
+        return stream
+    return PreparedFrames(stream, config, size=size, check_scale=False)
+
+
+def _read_npy(path: Path) -> np.ndarray[Any, Any]:
+    """A .npy file, mapped rather than read, so that it may be larger than memory."""
+    try:
+        return np.asarray(np.load(path, mmap_mode="r", allow_pickle=False))
+    except (ValueError, OSError, EOFError) as error:
+        raise FileFormatError(f"{path} is not a NumPy array file ({error})") from error

@@ -1,0 +1,132 @@
+"""What every source goes through: cut to start and stop, scale, fit to the sensor, check."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from typing import Any
+
+from texvent._registry import load_object
+from texvent.capture.levels import refuse_unit_range, scale_to_levels
+from texvent.config import CaptureConfig
+from texvent.errors import InputError
+from texvent.sensor import SensorSize
+from texvent.video import MICROSECONDS, Frame, FrameStream, PixelArray, StreamChecker
+
+FEWEST_FRAMES = 2
+"""Events are changes between frames, so one frame has none."""
+
+
+class PreparedFrames:
+    """A source's frames between start and stop, at the wanted size, checked one by one.
+
+    `start` and `stop` count from the first frame; the frames keep their times, so events share a
+    clock with the source whatever part of it is used.
+
+    Args:
+        source: the frames as they come.
+        config: start, stop, fit and white level.
+        size: wanted size, or None to keep the source's.
+        check_scale: refuse float frames that never exceed 1 (see `levels.refuse_unit_range`).
+
+    Raises:
+        InputError: while iterating: fewer than two frames, a NaN, negative or infinite intensity,
+            sizes that differ, or a time that does not increase.
+    """
+
+    def __init__(
+        self,
+        source: FrameStream,
+        config: CaptureConfig,
+        *,
+        size: SensorSize | None = None,
+        check_scale: bool = True,
+    ) -> None:
+        self._source = source
+        self._config = config
+        self._size = size or source.size
+        self._is_fitted = size is not None
+        self._check_scale = check_scale and config.white_level is None
+
+    @property
+    def size(self) -> SensorSize:
+        """Width and height of every frame, pixels."""
+        return self._size
+
+    @property
+    def fps(self) -> Fraction | None:
+        """Nominal rate of the source."""
+        return self._source.fps
+
+    @property
+    def frame_count(self) -> int | None:
+        """Number of frames between start and stop, estimated where the source only estimates."""
+        count, config = self._source.frame_count, self._config
+        if not config.start and config.stop is None:
+            return count
+        if count is None or self.fps is None:
+            return None
+        stop = count if config.stop is None else min(count, round(config.stop * self.fps))
+        return max(0, stop - round(config.start * self.fps))
+
+    @property
+    def is_live(self) -> bool:
+        """True if the source can be read only once."""
+        return self._source.is_live
+
+    @property
+    def metadata(self) -> Mapping[str, Any]:
+        """The source's, and the size it had if frames were fitted to another."""
+        if self._size == self._source.size:
+            return self._source.metadata
+        return {**self._source.metadata, "size_before_fit": str(self._source.size)}
+
+    def __iter__(self) -> Iterator[Frame]:
+        """Frames in time order; see the class for what can go wrong."""
+        start_us = round(self._config.start * MICROSECONDS)
+        stop = self._config.stop
+        stop_us = None if stop is None else round(stop * MICROSECONDS)
+        checker = StreamChecker()
+        first_us: int | None = None
+        offset_us = count = 0
+        for frame in self._source:
+            first_us = frame.t_us if first_us is None else first_us
+            offset_us = frame.t_us - first_us
+            if stop_us is not None and offset_us >= stop_us:
+                break
+            if offset_us < start_us:
+                continue
+            yield self._prepared(frame, checker)
+            count += 1
+        if count < FEWEST_FRAMES:
+            raise InputError(_too_few(count, self._config, offset_us))
+
+    def _prepared(self, frame: Frame, checker: StreamChecker) -> Frame:
+        pixels = frame.pixels
+        if pixels.dtype.kind == "f" and self._check_scale:
+            self._decide_scale(pixels, frame.t_us)
+        if self._config.white_level is not None:
+            pixels = scale_to_levels(pixels, self._config.white_level)
+        if self._is_fitted:
+            # Loaded here because it brings OpenCV, which frames of the right size do not need.
+            pixels = load_object("texvent.capture.fit:fit_pixels")(
+                pixels, self._size, self._config.fit
+            )
+        return checker.check(Frame(pixels, frame.t_us, frame.is_source))
+
+    def _decide_scale(self, pixels: PixelArray, t_us: int) -> None:
+        """Look at float frames until one is not black; then the scale is known."""
+        highest = float(pixels.max())
+        refuse_unit_range(highest, f"the frame at {t_us} µs")
+        self._check_scale = highest == 0.0
+
+
+def _too_few(count: int, config: CaptureConfig, last_us: int) -> str:
+    found = "no frame" if count == 0 else "only one frame"
+    if not config.start and config.stop is None:
+        return f"there is {found}; events need the change between at least two"
+    stop = "the end" if config.stop is None else f"{config.stop:g} s"
+    return (
+        f"there is {found} between {config.start:g} s and {stop} (frames were read up to "
+        f"{last_us / MICROSECONDS:g} s); events need at least two, so widen --start and --stop"
+    )

@@ -1,0 +1,262 @@
+"""Video files through PyAV: exact variable-frame-rate times, upright, at their own bit depth."""
+
+from __future__ import annotations
+
+import contextlib
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import av
+from av.container import InputContainer
+from av.error import FFmpegError
+from av.video.frame import VideoFrame
+from av.video.stream import VideoStream
+
+from texvent.capture.decode import decoded_pixels
+from texvent.capture.times import FrameTimes
+from texvent.errors import FileFormatError, InputError
+from texvent.sensor import SensorSize, checked_size
+from texvent.video import MICROSECONDS, Frame, frame_time_us
+
+SLACK_US = 100_000
+"""A file may end this much before its header says, or three frames, before it counts as cut."""
+TEXT_ART = "tty"
+"""libav "plays" any .txt file as terminal art; nobody means that."""
+
+
+class VideoFile:
+    """The frames of a video file; every iteration opens the file anew.
+
+    Times are the file's own presentation times, `round(pts · time_base · 10⁶)` in exact
+    arithmetic, counted from the first frame, unless `times` are given. Frames that repeat the time
+    of the frame before (some recorders write them) are dropped and counted in `metadata`.
+
+    Args:
+        path: the file.
+        times: frame times that replace the file's own.
+
+    Raises:
+        InputError: the file does not exist.
+        FileFormatError: it has no video that can be decoded; while iterating: it is damaged, ends
+            before its header says, or its time goes backwards.
+    """
+
+    def __init__(self, path: Path, times: FrameTimes | None = None) -> None:
+        self._path = path
+        self._times = times
+        with _opened(path) as (container, stream):
+            self._rate = stream.average_rate or stream.guessed_rate
+            self._frame_count = stream.frames or _count_by_duration(stream, container)
+            first = next(self._decode(container, stream), None)
+            if first is None:
+                raise FileFormatError(
+                    f"{path} has no frame that can be decoded; it may be cut off or empty"
+                )
+            pixels = decoded_pixels(first)
+            self._size = checked_size(pixels.shape[1], pixels.shape[0])
+            self._metadata: dict[str, Any] = {
+                "source": str(path),
+                "kind": "video file",
+                "codec": stream.codec_context.name,
+                "pixel_format": first.format.name,
+                "rotation": int(first.rotation),
+                "duplicate_times_dropped": 0,
+            }
+
+    @property
+    def size(self) -> SensorSize:
+        """Width and height after rotation, pixels."""
+        return self._size
+
+    @property
+    def fps(self) -> Fraction | None:
+        """The rate that was given, else the average rate that the file states."""
+        return self._times.fps if self._times else self._rate
+
+    @property
+    def frame_count(self) -> int | None:
+        """Number of frames by the file's header, which may be a little off."""
+        return self._frame_count
+
+    @property
+    def is_live(self) -> bool:
+        """False: the file can be read again."""
+        return False
+
+    @property
+    def metadata(self) -> Mapping[str, Any]:
+        """Path, codec, pixel format, rotation, and how many repeated times were dropped."""
+        return self._metadata
+
+    def __iter__(self) -> Iterator[Frame]:
+        """Frames in time order; see the class for what can go wrong."""
+        clock = PresentationClock(self._path, self._times, self._rate)
+        with _opened(self._path) as (container, stream):
+            frames = self._decode(container, stream)
+            while True:
+                try:
+                    decoded = next(frames, None)
+                except FFmpegError as error:
+                    raise _damaged(self._path, clock, f"is damaged ({error.strerror})") from error
+                if decoded is None:
+                    break
+                t_us = clock.read(decoded)
+                if t_us is not None:
+                    yield Frame(decoded_pixels(decoded), t_us)
+            self._check_end(stream, clock)
+        self._metadata["duplicate_times_dropped"] = clock.dropped
+
+    def _decode(self, container: InputContainer, stream: VideoStream) -> Iterator[VideoFrame]:
+        """Whole frames; those before a damaged place come out before the error does."""
+        for packet in container.demux(stream):
+            if packet.is_corrupt:
+                yield from _flushed(stream)
+                raise av.error.InvalidDataError(0, "a packet is incomplete")
+            try:
+                decoded = packet.decode()
+            except FFmpegError:
+                yield from _flushed(stream)
+                raise
+            for frame in decoded:
+                if frame.is_corrupt:
+                    raise av.error.InvalidDataError(0, "a frame is incomplete")
+                yield frame
+
+    def _check_end(self, stream: VideoStream, clock: PresentationClock) -> None:
+        end_us = _promised_end_us(stream, clock.first_pts_us)
+        step_us = round(MICROSECONDS / self._rate) if self._rate else 0
+        if end_us is not None and clock.end_us + max(SLACK_US, 3 * step_us) < end_us:
+            problem = f"is cut off: its header promises {end_us / MICROSECONDS:g} s"
+            raise _damaged(self._path, clock, problem)
+        if self._times is not None:
+            self._times.check_count(clock.count)
+
+
+@dataclass
+class PresentationClock:
+    """Time of each decoded frame, µs; remembers where it is, for messages and checks."""
+
+    path: Path
+    times: FrameTimes | None
+    rate: Fraction | None
+    count: int = 0
+    """Frames read."""
+    dropped: int = 0
+    """Frames left out because they repeat a time."""
+    first_us: int = 0
+    """Time of the first frame, on the clock that the caller sees."""
+    last_us: int | None = None
+    """Time of the last frame, on the clock that the caller sees."""
+    end_us: int = 0
+    """End of the last frame, on the file's own clock."""
+    first_pts_us: int = 0
+    """Presentation time of the first frame, before it is shifted to 0."""
+
+    def read(self, frame: VideoFrame) -> int | None:
+        """Time of the next frame, or None if it repeats the time of the frame before.
+
+        Raises:
+            FileFormatError: the time goes backwards, or there is none.
+            InputError: more frames than times were given.
+        """
+        t_us = self._own_time_us(frame)
+        if self.times is not None:
+            t_us = self.times(self.count)
+        self.count += 1
+        if self.last_us is None:
+            self.first_us = t_us
+        elif t_us == self.last_us:
+            self.dropped += 1
+            return None
+        elif t_us < self.last_us:
+            raise FileFormatError(
+                f"{self.path}: time goes back from {self.last_us} to {t_us} µs at frame "
+                f"{self.count - 1}; give a frame rate that replaces the file's times (--fps)"
+            )
+        self.last_us = t_us
+        return t_us
+
+    def _own_time_us(self, frame: VideoFrame) -> int:
+        if frame.pts is None or frame.time_base is None:
+            return self._nominal_time_us()
+        pts_us = round(frame.pts * frame.time_base * MICROSECONDS)
+        if self.count == 0:
+            self.first_pts_us = pts_us
+        duration_us = round((frame.duration or 0) * frame.time_base * MICROSECONDS)
+        self.end_us = max(self.end_us, pts_us - self.first_pts_us + duration_us)
+        return pts_us - self.first_pts_us
+
+    def _nominal_time_us(self) -> int:
+        if self.times is None and self.rate is None:
+            raise FileFormatError(
+                f"{self.path} states neither frame times nor a frame rate; give one with --fps"
+            )
+        return frame_time_us(self.count, self.rate) if self.rate else 0
+
+
+@contextlib.contextmanager
+def _opened(path: Path) -> Iterator[tuple[InputContainer, VideoStream]]:
+    """The container and its main video stream, decoding on all cores."""
+    if not path.exists():
+        raise InputError(f"{path} does not exist; check the name of the video")
+    try:
+        # With the protocol named, a colon in the path is not taken for one.
+        container = av.open(f"file:{path}")
+    except (FFmpegError, OSError) as error:
+        raise FileFormatError(
+            f"{path} is not a video that can be read ({error.strerror}); "
+            "it may be cut off, still being written, or of another type"
+        ) from error
+    with container:
+        stream = container.streams.best("video")
+        if not isinstance(stream, VideoStream) or container.format.name == TEXT_ART:
+            raise FileFormatError(f"{path} holds no video stream")
+        stream.thread_type = "AUTO"
+        try:
+            yield container, stream
+        except FFmpegError as error:
+            raise FileFormatError(
+                f"{path} has no frame that can be decoded ({error.strerror}); "
+                "it may be cut off or encrypted"
+            ) from error
+
+
+def _flushed(stream: VideoStream) -> list[VideoFrame]:
+    """What the decoder still holds when no more data can come."""
+    frames: list[VideoFrame] = []
+    with contextlib.suppress(FFmpegError, EOFError):
+        frames.extend(frame for frame in stream.decode(None) if not frame.is_corrupt)
+    return frames
+
+
+def _damaged(path: Path, clock: PresentationClock, problem: str) -> FileFormatError:
+    shown_us = (clock.last_us or clock.first_us) - clock.first_us
+    # Rounded down, so that the last whole frame is the one at which reading stops.
+    stop = shown_us // 1000 / 1000
+    advice = f"keep what is whole with --stop {stop:g}, or repair the file" if stop else "repair it"
+    return FileFormatError(
+        f"{path} {problem}; its frames end at {shown_us / MICROSECONDS:g} s "
+        f"after {clock.count} frames; {advice}"
+    )
+
+
+def _promised_end_us(stream: VideoStream, first_pts_us: int) -> int | None:
+    """When the file's header says the video ends, counted from its first frame."""
+    if stream.duration and stream.time_base:
+        return round(stream.duration * stream.time_base * MICROSECONDS)
+    # Matroska and WebM: "00:00:01.200000000", the end on the file's own clock.
+    tag = re.fullmatch(r"(\d+):(\d+):(\d+(?:\.\d+)?)", stream.metadata.get("DURATION", ""))
+    if tag is None:
+        return None
+    seconds = int(tag[1]) * 3600 + int(tag[2]) * 60 + Fraction(tag[3])
+    return round(seconds * MICROSECONDS) - first_pts_us
+
+
+def _count_by_duration(stream: VideoStream, container: InputContainer) -> int | None:
+    rate = stream.average_rate or stream.guessed_rate
+    end_us = _promised_end_us(stream, 0) or container.duration
+    return round(Fraction(end_us, MICROSECONDS) * rate) if end_us and rate else None
