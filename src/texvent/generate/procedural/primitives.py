@@ -144,6 +144,8 @@ class Environment:
     """[m, 7] point lights: position (3, metres), linear RGB (3, at 1 m), reach (metres)."""
     time_s: float
     """For waves, clouds and grass."""
+    room_half_size: float = 9.0
+    """Half the side of the square room around (0, 0) that `Ground.FLOOR` stands in, metres."""
 
 
 class Scene(Protocol):

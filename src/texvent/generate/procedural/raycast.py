@@ -1,0 +1,202 @@
+"""Ray caster: which surface a ray meets first, and whether the sun reaches it (Numba kernels)."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from numba import njit
+
+from texvent.generate.procedural.arrange import NEAR_M, TILE, Bins, Shapes, SunGrid
+from texvent.generate.procedural.camera import Rays
+from texvent.generate.procedural.intersect import hit_shape, local_normal
+from texvent.generate.procedural.surroundings import Materials, Surroundings
+
+GROUND = -1
+SKY = -2
+ROOM = -3
+"""What a ray may meet besides shape number 0, 1, ...."""
+_NO_GROUND = 10
+_FLOOR = 6
+_SHADOW_BIAS_M = 2e-3
+"""A shadow ray starts this far off the surface, so that rounding does not shade it."""
+
+Vector = tuple[float, float, float]
+
+
+class World(NamedTuple):
+    """One instant, as the kernels read it."""
+
+    rays: Rays
+    shapes: Shapes
+    tiles: Bins
+    sun_grid: SunGrid
+    materials: Materials
+    around: Surroundings
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def ray_direction(rays: Rays, x: float, y: float) -> Vector:
+    """Direction through picture point (x, y); its component along the optical axis is 1."""
+    return (
+        rays.corner[0] + x * rays.right[0] + y * rays.down[0],
+        rays.corner[1] + x * rays.right[1] + y * rays.down[1],
+        rays.corner[2] + x * rays.right[2] + y * rays.down[2],
+    )
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _hit_number(shapes: Shapes, number: int, direction: Vector) -> tuple[float, int, Vector]:
+    """Where a camera ray meets one shape: depth, face, and the local direction."""
+    m = shapes.inverse[number]
+    d = (
+        m[0, 0] * direction[0] + m[0, 1] * direction[1] + m[0, 2] * direction[2],
+        m[1, 0] * direction[0] + m[1, 1] * direction[1] + m[1, 2] * direction[2],
+        m[2, 0] * direction[0] + m[2, 1] * direction[1] + m[2, 2] * direction[2],
+    )
+    eye = shapes.eye[number]
+    t, face = hit_shape(shapes.kind[number], (eye[0], eye[1], eye[2]), d, NEAR_M)
+    return t, face, d
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def hit_again(world: World, x: float, y: float, number: int) -> tuple[float, int]:
+    """(depth, face) where the ray through (x, y) meets shape `number`, as if it stood alone."""
+    t, face, _ = _hit_number(world.shapes, number, ray_direction(world.rays, x, y))
+    return t, face
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _widened_hit(shapes: Shapes, number: int, d: Vector) -> float:
+    """Depth at which a ray meets a thin shape made `THIN_PX` wide; inf if even that misses."""
+    s, eye = shapes.shrink[number], shapes.eye[number]
+    wide_eye = (eye[0] * s[0], eye[1] * s[1], eye[2] * s[2])
+    wide_d = (d[0] * s[0], d[1] * s[1], d[2] * s[2])
+    return hit_shape(shapes.kind[number], wide_eye, wide_d, NEAR_M)[0]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def first_hit(world: World, x: float, y: float) -> tuple[float, int, int, bool]:
+    """What the ray through picture point (x, y) meets first.
+
+    Returns:
+        (depth in metres, shape number or GROUND / SKY / ROOM, face, whether a thin shape is near).
+    """
+    shapes, tiles = world.shapes, world.tiles
+    direction = ray_direction(world.rays, x, y)
+    column = min(max(int(x // TILE), 0), tiles.columns - 1)
+    row = min(max(int(y // TILE), 0), tiles.rows - 1)
+    cell = row * tiles.columns + column
+    best, found, best_face, thin = background_hit(world, direction)[0], -9, 0, math.inf
+    for index in range(tiles.start[cell], tiles.start[cell + 1]):
+        number = tiles.items[index]
+        if shapes.depth[number] >= best:
+            break
+        t, face, d = _hit_number(shapes, number, direction)
+        if t < best:
+            best, found, best_face = t, number, face
+        if shapes.is_thin[number]:
+            thin = min(thin, _widened_hit(shapes, number, d))
+    if found == -9:
+        best, found, best_face = background_hit(world, direction)
+    return best, found, best_face, thin <= best
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def background_hit(world: World, direction: Vector) -> tuple[float, int, int]:
+    """(depth, GROUND / SKY / ROOM, face) of what lies behind all shapes."""
+    around, origin = world.around, world.rays.origin
+    if around.ground == _NO_GROUND:
+        return math.inf, SKY, 0
+    depth, what, face = math.inf, SKY, 0
+    if direction[2] < 0.0 and origin[2] > 0.0:
+        depth, what = -origin[2] / direction[2], GROUND
+    if around.ground == _FLOOR:
+        for axis in range(3):
+            side = around.room if axis < 2 else 0.6 * around.room
+            if axis < 2 or direction[2] > 0.0:
+                wall = side if direction[axis] > 0.0 else -side
+                step = direction[axis] if direction[axis] != 0.0 else 1e-300
+                t = (wall - origin[axis]) / step
+                if NEAR_M < t < depth:
+                    depth, what, face = t, ROOM, axis
+    return depth, what, face
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def sun_blocked(world: World, point: Vector) -> tuple[bool, bool]:
+    """Whether a shape stands between a point and the sun, and whether a thin one is close to."""
+    shapes, grid = world.shapes, world.sun_grid
+    a, b = grid.axes[0], grid.axes[1]
+    column = math.floor(a[0] * point[0] + a[1] * point[1] + a[2] * point[2] + a[3])
+    row = math.floor(b[0] * point[0] + b[1] * point[1] + b[2] * point[2] + b[3])
+    if not (0.0 <= column < grid.bins.columns and 0.0 <= row < grid.bins.rows):
+        return False, False
+    cell = int(row) * grid.bins.columns + int(column)
+    thin = False
+    for index in range(grid.bins.start[cell], grid.bins.start[cell + 1]):
+        number = grid.bins.items[index]
+        m, d = shapes.inverse[number], shapes.sun[number]
+        o = (
+            m[0, 0] * point[0] + m[0, 1] * point[1] + m[0, 2] * point[2] + m[0, 3],
+            m[1, 0] * point[0] + m[1, 1] * point[1] + m[1, 2] * point[2] + m[1, 3],
+            m[2, 0] * point[0] + m[2, 1] * point[1] + m[2, 2] * point[2] + m[2, 3],
+        )
+        if hit_shape(shapes.kind[number], o, (d[0], d[1], d[2]), 0.0)[0] < math.inf:
+            return True, thin
+        if shapes.is_thin[number] and not thin:
+            s = shapes.shrink[number]
+            wide_o = (o[0] * s[0], o[1] * s[1], o[2] * s[2])
+            wide_d = (d[0] * s[0], d[1] * s[1], d[2] * s[2])
+            thin = hit_shape(shapes.kind[number], wide_o, wide_d, 0.0)[0] < math.inf
+    return False, thin
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def surface_normal(world: World, number: int, face: int, point: Vector) -> Vector:
+    """Unit normal of what was hit at `point`, metres."""
+    if number == GROUND:
+        return (0.0, 0.0, 1.0)
+    if number == ROOM:
+        inward = -1.0 if point[face] > 0.0 else 1.0
+        return (
+            inward if face == 0 else 0.0,
+            inward if face == 1 else 0.0,
+            -1.0 if face == 2 else 0.0,
+        )
+    m = world.shapes.inverse[number]
+    x, y, z = local_normal(world.shapes.kind[number], face, local_point(world, number, point))
+    nx = m[0, 0] * x + m[1, 0] * y + m[2, 0] * z
+    ny = m[0, 1] * x + m[1, 1] * y + m[2, 1] * z
+    nz = m[0, 2] * x + m[1, 2] * y + m[2, 2] * z
+    scale = 1.0 / math.sqrt(nx * nx + ny * ny + nz * nz + 1e-300)
+    return (nx * scale, ny * scale, nz * scale)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def local_point(world: World, number: int, point: Vector) -> Vector:
+    """A world point in the unit-shape coordinates of shape `number`."""
+    m = world.shapes.inverse[number]
+    return (
+        m[0, 0] * point[0] + m[0, 1] * point[1] + m[0, 2] * point[2] + m[0, 3],
+        m[1, 0] * point[0] + m[1, 1] * point[1] + m[1, 2] * point[2] + m[1, 3],
+        m[2, 0] * point[0] + m[2, 1] * point[1] + m[2, 2] * point[2] + m[2, 3],
+    )
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def sun_reaches(world: World, point: Vector, normal: Vector) -> tuple[bool, bool]:
+    """Whether direct light falls on a surface, and whether a thin shape's shadow is near."""
+    sun = world.around.sun
+    facing = sun[0] * normal[0] + sun[1] * normal[1] + sun[2] * normal[2]
+    if facing <= 0.0:
+        return False, False
+    if not world.around.shadows:
+        return True, False
+    start = (
+        point[0] + _SHADOW_BIAS_M * normal[0],
+        point[1] + _SHADOW_BIAS_M * normal[1],
+        point[2] + _SHADOW_BIAS_M * normal[2],
+    )
+    blocked, thin = sun_blocked(world, start)
+    return not blocked, thin

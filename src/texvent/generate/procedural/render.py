@@ -1,0 +1,111 @@
+"""Draw a scene at one instant: `render(scene, time_s, size)`.
+
+A picture is a pure function of scene, instant and size: the same arguments give the same bits,
+with any number of threads, and a scene that stands still gives identical pictures.
+"""
+
+from __future__ import annotations
+
+import os
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+from texvent.errors import InputError
+from texvent.generate.procedural.arrange import arrange_shapes
+from texvent.generate.procedural.camera import camera_rays
+from texvent.generate.procedural.picture import draw_tile_row
+from texvent.generate.procedural.primitives import Float32Array, Float64Array, Scene
+from texvent.generate.procedural.raycast import World
+from texvent.generate.procedural.surroundings import describe_materials, describe_surroundings
+from texvent.sensor import SensorSize
+
+
+def arrange_world(scene: Scene, time_s: float, size: SensorSize, *, shadows: bool = True) -> World:
+    """The arrays the kernels read for one instant."""
+    primitives = scene.primitives(time_s)
+    environment = scene.environment(time_s)
+    rays = camera_rays(scene.camera(time_s), size)
+    shapes, tiles, sun_grid = arrange_shapes(primitives, environment, rays, size)
+    return World(
+        rays,
+        shapes,
+        tiles,
+        sun_grid,
+        describe_materials(primitives),
+        describe_surroundings(environment, shadows=shadows),
+    )
+
+
+def render(
+    scene: Scene,
+    time_s: float,
+    size: SensorSize,
+    *,
+    samples: int = 2,
+    shadows: bool = True,
+    threads: int | None = None,
+) -> Float32Array:
+    """Draw a scene as a camera would see it at one instant.
+
+    Args:
+        scene: what to draw.
+        time_s: the instant, s.
+        size: picture size, pixels.
+        samples: probes per pixel side that look for edges; a pixel with an edge is the mean of
+            (2 · samples)² rays.
+        shadows: False leaves out all shadows.
+        threads: how many threads share the work; None uses every core this process may use. It
+            does not change the picture.
+
+    Returns:
+        [H, W, 3] RGB, float32, 0..255, gamma-coded with the sRGB curve (IEC 61966-2-1), not
+        rounded to whole levels.
+
+    Raises:
+        InputError: samples is below 1.
+    """
+    if samples < 1:
+        raise InputError(f"samples is {samples}; it must be at least 1")
+    world = arrange_world(scene, time_s, size, shadows=shadows)
+    picture = np.empty((size.height, size.width, 3), dtype=np.float64)
+    pattern = sample_pattern((2 * samples) ** 2)
+
+    def draw(tile_row: int) -> None:
+        draw_tile_row(world, tile_row, samples, pattern, picture)
+
+    workers = min(threads or len(os.sched_getaffinity(0)), world.tiles.rows)
+    if workers == 1:
+        for tile_row in range(world.tiles.rows):
+            draw(tile_row)
+    else:
+        with ThreadPoolExecutor(workers) as pool:
+            list(pool.map(draw, range(world.tiles.rows)))
+    return encode_srgb(picture)
+
+
+def sample_pattern(count: int) -> Float64Array:
+    """Positions of `count` samples in a pixel: one in each row and each column (Hammersley).
+
+    So an upright or level edge that crosses the pixel passes the samples one by one.
+
+    Returns:
+        [count, 2] x and y in (0, 1).
+    """
+    index = np.arange(count)
+    reversed_bits, place, rest = np.zeros(count), 0.5, index.copy()
+    while rest.any():
+        reversed_bits += place * (rest % 2)
+        rest //= 2
+        place *= 0.5
+    rank = np.argsort(np.argsort(reversed_bits, kind="stable"), kind="stable")
+    return (np.stack([index, rank], axis=1) + 0.5) / count
+
+
+def encode_srgb(linear: Float64Array) -> Float32Array:
+    """Gamma-code linear light 0..1 to 0..255 with the sRGB curve (IEC 61966-2-1), unrounded."""
+    light = linear.astype(np.float32)
+    low = light * np.float32(12.92)
+    high = np.float32(1.055) * np.power(light, np.float32(1 / 2.4)) - np.float32(0.055)
+    coded = np.where(light <= np.float32(0.0031308), low, high)
+    return np.asarray(coded * np.float32(255.0), dtype=np.float32)
