@@ -1,0 +1,48 @@
+"""All nouns of the embedded generator.
+
+Origins: a noun with habitat "ground" or "fixed" stands on z = 0 below its middle (a ball too: it
+rolls; whoever throws it lifts it). One with habitat "air" or "water" has its origin at its
+middle, except that what floats (`AFLOAT`) has it on the waterline: put it at the water's surface.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from texvent.generate.procedural.model import Noun
+from texvent.generate.procedural.models import (
+    birds,
+    buildings,
+    cars,
+    construction,
+    people,
+    plants,
+    sea_life,
+    street,
+    toys,
+    waders,
+)
+
+_FAMILIES: tuple[tuple[Noun, ...], ...] = (
+    cars.NOUNS,
+    construction.NOUNS,
+    people.NOUNS,
+    waders.NOUNS,
+    birds.NOUNS,
+    sea_life.NOUNS,
+    plants.NOUNS,
+    buildings.NOUNS,
+    street.NOUNS,
+    toys.NOUNS,
+)
+
+NOUNS: Mapping[str, Noun] = MappingProxyType(
+    {noun.name: noun for family in _FAMILIES for noun in family}
+)
+"""Every noun by its singular name."""
+
+AFLOAT: frozenset[str] = frozenset(
+    name for name, noun in NOUNS.items() if noun.motion in ("sail", "paddle")
+)
+"""Names of the nouns that float on the surface: boats and ducks."""
