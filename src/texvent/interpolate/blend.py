@@ -1,0 +1,39 @@
+"""Linear mix of two frames: cheap and without motion, so a moving edge fades instead of moving."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from texvent.config import InterpolateConfig
+from texvent.interpolate.position import check_between, float_luma, position
+from texvent.video import Frame, FrameStream
+
+
+class BlendInterpolator:
+    """Cross-fades: intensity changes linearly in time at every pixel."""
+
+    def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
+        del config, stream  # every interpolator is built alike; this one needs neither
+
+    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
+        """Frames `I_1 + τ (I_2 − I_1)`, τ = (t − t_1) / (t_2 − t_1).
+
+        Args:
+            first: the earlier source frame.
+            second: the later source frame.
+            times_us: times of the intermediate frames, µs.
+
+        Yields:
+            One frame per time, [H, W] float32 luma, 0..255 scale.
+
+        Raises:
+            InputError: the frames differ in size, or a time is not between theirs.
+        """
+        check_between(first, second, times_us)
+        earlier, later = float_luma(first), float_luma(second)
+        change = later - earlier
+        for t_us in times_us:
+            weight = np.float32(position(first, second, t_us))
+            yield Frame(earlier + weight * change, t_us, is_source=False)

@@ -1,0 +1,118 @@
+"""How many intermediate frames a pair needs (Eq. 4), and when they are."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from texvent.brightness import balanced_log
+from texvent.errors import ConfigError, InputError
+from texvent.video import Frame, PixelArray
+
+DEFAULT_CAP = 64
+"""Most intermediate frames per pair, unless the caller says otherwise."""
+
+
+def count_intermediate(
+    first: Frame | PixelArray,
+    second: Frame | PixelArray,
+    *,
+    balance: float,
+    contrast_threshold: float,
+    percentile: float = 100.0,
+    cap: int = DEFAULT_CAP,
+) -> int:
+    """How many intermediate frames the brightness change between two frames needs.
+
+    With the maximum (percentile 100) it is 0 exactly when no pixel can fire from a fresh
+    reference, and under a steady logarithmic change every sub-step stays below the threshold, so
+    a pixel fires at most once per sub-step.
+
+    Args:
+        first: the earlier frame, or its pixels as in `Frame.pixels`.
+        second: the later frame, same size.
+        balance: α, on the 0..255 scale.
+        contrast_threshold: δ, log units.
+        percentile: statistic of |ΔL| over the pixels, 0..100; 100 is the maximum.
+        cap: upper limit of the count.
+
+    Returns:
+        K, 0..cap.
+
+    Raises:
+        InputError: the frames differ in size.
+        ConfigError: δ is not above 0, the percentile is not in 0..100, the cap is negative, or
+            α + I is 0 somewhere.
+
+    Equation: (4), section 3.2.1.
+    Deviation: the paper takes the remainder by δ, which is below δ and would never interpolate,
+        and leaves α out, so black has no logarithm; here the quotient is rounded down and α is
+        inside the logarithm. The percentile and the cap are ours. There is no tolerance: a change
+        of 0.6 at δ = 0.2 counts 2, because 0.6 / 0.2 is below 3 in binary.
+
+    Example:
+        >>> black, white = np.zeros((2, 2), np.uint8), np.full((2, 2), 255, np.uint8)
+        >>> count_intermediate(black, white, balance=30.0, contrast_threshold=0.2)
+        11
+    """
+    _check_options(contrast_threshold, percentile, cap)
+    earlier, later = _luma(first), _luma(second)
+    if earlier.shape != later.shape:
+        raise InputError(
+            f"the frames are {list(earlier.shape)} and {list(later.shape)} (height, width); "
+            "both must have one size"
+        )
+    change = np.abs(balanced_log(earlier, balance) - balanced_log(later, balance))
+    statistic = change.max() if percentile == 100.0 else np.percentile(change, percentile)
+    return min(math.floor(float(statistic) / contrast_threshold), cap)
+
+
+def intermediate_times_us(first_us: int, second_us: int, count: int) -> list[int]:
+    """Times of `count` equally spaced intermediate frames, strictly between two frames.
+
+    Args:
+        first_us: time of the earlier frame, µs.
+        second_us: time of the later frame, µs.
+        count: how many are wanted. Where the interval has fewer whole microseconds inside, there
+            is one time per microsecond instead.
+
+    Returns:
+        `first + round((second - first)·k / (K + 1))` for k = 1..K, strictly increasing, µs.
+        Halves round up.
+
+    Raises:
+        InputError: `second_us` is not after `first_us`, or the count is negative.
+
+    Equation: (4), "K_i equally spaced intermediate frames", section 3.2.1.
+
+    Example:
+        >>> intermediate_times_us(0, 100, 2)
+        [33, 67]
+        >>> intermediate_times_us(0, 3, 64)
+        [1, 2]
+    """
+    if second_us <= first_us:
+        raise InputError(
+            f"the later frame is at {second_us} µs, the earlier at {first_us} µs; "
+            "frame times must strictly increase"
+        )
+    if count < 0:
+        raise InputError(f"count is {count}; it must be at least 0")
+    interval = second_us - first_us
+    parts = min(count, interval - 1) + 1
+    # Whole numbers only: a float would lose microseconds in long recordings.
+    return [first_us + (2 * interval * k + parts) // (2 * parts) for k in range(1, parts)]
+
+
+def _luma(frame: Frame | PixelArray) -> PixelArray:
+    return frame.luma if isinstance(frame, Frame) else Frame(frame, t_us=0).luma
+
+
+def _check_options(contrast_threshold: float, percentile: float, cap: int) -> None:
+    if not 0 < contrast_threshold < math.inf:
+        raise ConfigError(f"contrast_threshold is {contrast_threshold:g}; it must be above 0")
+    if not 0 <= percentile <= 100:
+        raise ConfigError(f"percentile is {percentile:g}; it must be 0..100")
+    if cap < 0:
+        raise ConfigError(f"cap is {cap}; it must be at least 0")

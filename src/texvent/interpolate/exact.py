@@ -1,0 +1,45 @@
+"""The scene itself, rendered at the instant: for generators that know it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from texvent.config import InterpolateConfig
+from texvent.errors import ConfigError
+from texvent.interpolate.position import check_between, float_luma
+from texvent.video import Frame, FrameStream, RenderableStream
+
+
+class ExactInterpolator:
+    """Asks the stream for each intermediate frame, so nothing is guessed.
+
+    Raises:
+        ConfigError: the stream cannot render an instant; only generated scenes can.
+    """
+
+    def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
+        del config  # every interpolator is built alike; this one has no options
+        if not isinstance(stream, RenderableStream):
+            raise ConfigError(
+                "interpolate is 'exact', but these frames cannot be rendered at any instant; "
+                "use flow, blend or none (exact works with generators such as procedural)"
+            )
+        self._stream = stream
+
+    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
+        """Frames of the scene at `times_us`.
+
+        Args:
+            first: the earlier source frame.
+            second: the later source frame.
+            times_us: times of the intermediate frames, µs.
+
+        Yields:
+            One frame per time, [H, W] float32 luma, 0..255 scale.
+
+        Raises:
+            InputError: the frames differ in size, or a time is not between theirs.
+        """
+        check_between(first, second, times_us)
+        for t_us in times_us:
+            yield Frame(float_luma(self._stream.at(t_us)), t_us, is_source=False)
