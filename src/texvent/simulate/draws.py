@@ -12,6 +12,7 @@ it, two frames would read the same sequence at two offsets.
 from __future__ import annotations
 
 import math
+from enum import IntEnum
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -27,6 +28,20 @@ MULTIPLIER_2 = 0x94D049BB133111EB
 MASK_64 = 0xFFFF_FFFF_FFFF_FFFF
 UNIT = 2.0**-53
 """Spacing of the uniform numbers: the top 53 bits of a word fill a float64 exactly."""
+
+
+class Purpose(IntEnum):
+    """What a pixel draws for. Each purpose has draws 0, 1, 2, ... of its own in every frame."""
+
+    NOISE_COUNT = 0
+    NOISE_POLARITY = 1
+    NOISE_TIME = 2
+    VOLTAGE = 3
+    TIMESTAMP = 4
+
+    def draw(self, order: Any = 0) -> Any:
+        """Number of this purpose's draw `order` (0..2²⁸−1, one or an array), for `draw_words`."""
+        return order + (int(self) << 28)
 
 
 def frame_key(seed: int, frame: int) -> np.uint64:

@@ -1,0 +1,53 @@
+"""Backend by name. Nothing is imported before a kernel is first used."""
+
+from __future__ import annotations
+
+import functools
+import importlib
+from typing import cast
+
+from texvent._registry import suggest
+from texvent._require import require
+from texvent.errors import ConfigError, MissingDependencyError
+from texvent.simulate.kernels.interface import Kernels
+
+AUTO = "auto"
+_MODULES = {
+    "cpu": "texvent.simulate.kernels.cpu",
+    "reference": "texvent.simulate.kernels.reference",
+}
+_PACKAGES = {"cpu": "numba"}
+BACKENDS = (AUTO, *_MODULES)
+"""Names that `load_kernels` takes; "auto" is the first of the others that can be imported."""
+
+
+def check_backend(backend: str) -> str:
+    """Return `backend` if it is one of `BACKENDS`.
+
+    Raises:
+        ConfigError: it is not.
+    """
+    if backend not in BACKENDS:
+        raise ConfigError(f"unknown backend {backend!r}; {suggest(backend, BACKENDS)}")
+    return backend
+
+
+@functools.cache
+def load_kernels(backend: str = AUTO) -> Kernels:
+    """The kernels of a backend. "auto" is "cpu", or "reference" where Numba is missing.
+
+    Raises:
+        ConfigError: no backend has that name.
+        MissingDependencyError: what the backend needs is not installed.
+    """
+    check_backend(backend)
+    if backend != AUTO:
+        if backend in _PACKAGES:
+            require(_PACKAGES[backend])
+        # A module satisfies the protocol by its functions.
+        return cast("Kernels", importlib.import_module(_MODULES[backend]))
+    try:
+        return load_kernels("cpu")
+    except MissingDependencyError:
+        # Not an error: the reference gives the same events, only later.
+        return load_kernels("reference")
