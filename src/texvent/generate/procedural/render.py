@@ -12,28 +12,19 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from texvent.errors import InputError
-from texvent.generate.procedural.arrange import arrange_shapes
 from texvent.generate.procedural.camera import camera_rays
-from texvent.generate.procedural.picture import draw_tile_row
 from texvent.generate.procedural.primitives import Float32Array, Float64Array, Scene
-from texvent.generate.procedural.raycast import World
-from texvent.generate.procedural.surroundings import describe_materials, describe_surroundings
+from texvent.generate.procedural.raycast.arrange import TILE, arrange_world
+from texvent.generate.procedural.raycast.records import World
+from texvent.generate.procedural.raycast.tile import draw_tile_row
 from texvent.sensor import SensorSize
 
 
-def arrange_world(scene: Scene, time_s: float, size: SensorSize, *, shadows: bool = True) -> World:
-    """The arrays the kernels read for one instant."""
-    primitives = scene.primitives(time_s)
-    environment = scene.environment(time_s)
+def look(scene: Scene, time_s: float, size: SensorSize, *, shadows: bool = True) -> World:
+    """What the kernels read about one instant of a scene."""
     rays = camera_rays(scene.camera(time_s), size)
-    shapes, tiles, sun_grid = arrange_shapes(primitives, environment, rays, size)
-    return World(
-        rays,
-        shapes,
-        tiles,
-        sun_grid,
-        describe_materials(primitives),
-        describe_surroundings(environment, shadows=shadows),
+    return arrange_world(
+        scene.primitives(time_s), scene.environment(time_s), rays, size, shadows=shadows
     )
 
 
@@ -67,20 +58,21 @@ def render(
     """
     if samples < 1:
         raise InputError(f"samples is {samples}; it must be at least 1")
-    world = arrange_world(scene, time_s, size, shadows=shadows)
+    world = look(scene, time_s, size, shadows=shadows)
+    rows = -(-size.height // TILE)
     picture = np.empty((size.height, size.width, 3), dtype=np.float64)
     pattern = sample_pattern((2 * samples) ** 2)
 
     def draw(tile_row: int) -> None:
         draw_tile_row(world, tile_row, samples, pattern, picture)
 
-    workers = min(threads or len(os.sched_getaffinity(0)), world.tiles.rows)
+    workers = min(threads or len(os.sched_getaffinity(0)), rows)
     if workers == 1:
-        for tile_row in range(world.tiles.rows):
+        for tile_row in range(rows):
             draw(tile_row)
     else:
         with ThreadPoolExecutor(workers) as pool:
-            list(pool.map(draw, range(world.tiles.rows)))
+            list(pool.map(draw, range(rows)))
     return encode_srgb(picture)
 
 

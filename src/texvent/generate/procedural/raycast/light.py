@@ -10,19 +10,19 @@ import math
 
 from numba import njit
 
-from texvent.generate.procedural.ground import ground_colour, wall_colour
-from texvent.generate.procedural.noise import keep, noise_3d, smooth, square_wave
-from texvent.generate.procedural.raycast import (
+from texvent.generate.procedural.primitives import Float64Array
+from texvent.generate.procedural.raycast.ground import ground_colour, wall_colour
+from texvent.generate.procedural.raycast.noise import keep, noise_3d, smooth, square_wave
+from texvent.generate.procedural.raycast.records import Record, World
+from texvent.generate.procedural.raycast.sky import Colour, mix, sky_colour, sky_gradient, triple
+from texvent.generate.procedural.raycast.trace import (
     GROUND,
     ROOM,
     SKY,
-    World,
     local_point,
     ray_direction,
     surface_normal,
 )
-from texvent.generate.procedural.sky import Colour, mix, sky_colour, sky_gradient
-from texvent.generate.procedural.surroundings import Surroundings
 
 _SEA = 4
 _UNDERWATER = 9
@@ -41,23 +41,19 @@ def surface_colour(world: World, number: int, face: int, point: Colour, pixel: f
         point: metres.
         pixel: metres that one pixel covers there.
     """
-    materials = world.materials
-    first, second = materials.colour[number], materials.second_colour[number]
-    plain = (first[0], first[1], first[2])
-    other = (second[0], second[1], second[2])
-    texture, scale = int(materials.texture[number, 0]), materials.texture[number, 1]
-    if texture == 0:
+    shape = world.shapes[number]
+    plain = triple(shape.colour)
+    if shape.texture == 0:
         return plain
-    m = world.shapes.inverse[number]
+    m, scale = shape.inverse, shape.texture_scale
     p = local_point(world, number, point)
     steps = (
         scale * pixel * math.sqrt(m[0, 0] ** 2 + m[0, 1] ** 2 + m[0, 2] ** 2),
         scale * pixel * math.sqrt(m[1, 0] ** 2 + m[1, 1] ** 2 + m[1, 2] ** 2),
         scale * pixel * math.sqrt(m[2, 0] ** 2 + m[2, 1] ** 2 + m[2, 2] ** 2),
     )
-    return mix(
-        plain, other, _pattern(texture, face, (p[0] * scale, p[1] * scale, p[2] * scale), steps)
-    )
+    scaled = (p[0] * scale, p[1] * scale, p[2] * scale)
+    return mix(plain, triple(shape.second_colour), _pattern(shape.texture, face, scaled, steps))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -84,11 +80,11 @@ def _pattern(texture: int, face: int, p: Colour, steps: Colour) -> float:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _lamp_light(around: Surroundings, point: Colour, normal: Colour) -> Colour:
+def _lamp_light(lamps: Float64Array, point: Colour, normal: Colour) -> Colour:
     """Light of all point lamps on a surface."""
     red, green, blue = 0.0, 0.0, 0.0
-    for index in range(len(around.lamps)):
-        lamp = around.lamps[index]
+    for index in range(len(lamps)):
+        lamp = lamps[index]
         dx, dy, dz = lamp[0] - point[0], lamp[1] - point[1], lamp[2] - point[2]
         square = dx * dx + dy * dy + dz * dz
         reach = lamp[6]
@@ -107,29 +103,29 @@ def _lamp_light(around: Surroundings, point: Colour, normal: Colour) -> Colour:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _fogged(around: Surroundings, colour: Colour, distance: float) -> Colour:
-    if around.fog == 0.0:
+def _fogged(instant: Record, colour: Colour, distance: float) -> Colour:
+    if instant.fog == 0.0:
         return colour
-    return mix(around.fog_colour, colour, math.exp(-distance * around.fog))
+    return mix(triple(instant.fog_colour), colour, math.exp(-distance * instant.fog))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _sky_light(around: Surroundings, direction: Colour, pixel: float) -> Colour:
+def _sky_light(instant: Record, direction: Colour, pixel: float) -> Colour:
     """Sky in a unit direction, behind the fog."""
     path = _FOG_HEIGHT_M / max(abs(direction[2]), 1e-6)
-    return _fogged(around, sky_colour(around, direction, pixel), path)
+    return _fogged(instant, sky_colour(instant, direction, pixel), path)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _sea(world: World, point: Colour, view: Colour, foot: Colour) -> Colour:
     """Moving waves that mirror the sky; waves smaller than a pixel fade out."""
-    around = world.around
+    instant = world.instant[0]
     slope_x, slope_y = 0.0, 0.0
     length, angle, strength = 9.0, 0.4, 0.05
     for _ in range(7):
         wave = 2.0 * math.pi / length
         cosine, sine = math.cos(angle), math.sin(angle)
-        phase = wave * (cosine * point[0] + sine * point[1]) + math.sqrt(9.81 * wave) * around.time
+        phase = wave * (cosine * point[0] + sine * point[1]) + math.sqrt(9.81 * wave) * instant.time
         size = strength * keep((abs(cosine) * foot[0] + abs(sine) * foot[1]) / length)
         slope_x += size * cosine * math.cos(phase)
         slope_y += size * sine * math.cos(phase)
@@ -139,32 +135,36 @@ def _sea(world: World, point: Colour, view: Colour, foot: Colour) -> Colour:
     facing = max(-(view[0] * nx + view[1] * ny + view[2] * nz), 0.0)
     mirror = 0.03 + 0.75 * (1.0 - facing) ** 4
     up = abs(view[2] + 2.0 * facing * nz)
-    deep = mix(around.colour, around.second_colour, smooth(0.5 + 2.2 * (slope_x + slope_y)))
+    deep = mix(
+        triple(instant.colour),
+        triple(instant.second_colour),
+        smooth(0.5 + 2.2 * (slope_x + slope_y)),
+    )
     light = (
-        around.ambient[0] + 0.5 * around.sun_colour[0],
-        around.ambient[1] + 0.5 * around.sun_colour[1],
-        around.ambient[2] + 0.5 * around.sun_colour[2],
+        instant.ambient[0] + 0.5 * instant.sun_colour[0],
+        instant.ambient[1] + 0.5 * instant.sun_colour[1],
+        instant.ambient[2] + 0.5 * instant.sun_colour[2],
     )
     water = (deep[0] * light[0], deep[1] * light[1], deep[2] * light[2])
-    colour = mix(water, sky_gradient(around, up), mirror)
-    sun = around.sun
+    colour = mix(water, sky_gradient(instant, up), mirror)
+    sun = instant.sun
     hx, hy, hz = sun[0] - view[0], sun[1] - view[1], sun[2] - view[2]
     half = (hx * nx + hy * ny + hz * nz) / math.sqrt(hx * hx + hy * hy + hz * hz + 1e-12)
     glint = 0.5 * max(half, 0.0) ** 60
     return (
-        colour[0] + glint * around.sun_colour[0],
-        colour[1] + glint * around.sun_colour[1],
-        colour[2] + glint * around.sun_colour[2],
+        colour[0] + glint * instant.sun_colour[0],
+        colour[1] + glint * instant.sun_colour[1],
+        colour[2] + glint * instant.sun_colour[2],
     )
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _caustics(around: Surroundings, point: Colour, foot: float) -> float:
+def _caustics(instant: Record, point: Colour, foot: float) -> float:
     """Ripples of light that waves throw on what is under water: a factor around 1."""
     share = keep(1.2 * foot)
     if share == 0.0:
         return 1.0
-    x, y, t = 0.9 * point[0], 0.9 * point[1], 0.9 * around.time
+    x, y, t = 0.9 * point[0], 0.9 * point[1], 0.9 * instant.time
     bend_x = x + 0.6 * math.sin(1.7 * y + 1.1 * t) + 0.2 * point[2]
     bend_y = y + 0.6 * math.sin(1.5 * x - 1.3 * t)
     web = math.sin(1.9 * bend_x + 0.7 * t) + math.sin(2.1 * bend_y - 0.8 * t)
@@ -174,7 +174,7 @@ def _caustics(around: Surroundings, point: Colour, foot: float) -> float:
 @njit(cache=True, nogil=True, error_model="numpy")
 def _ground_patch(world: World, direction: Colour, depth: float) -> Colour:
     """Metres of ground under one pixel: its extent in x and in y, and its longest side."""
-    rays = world.rays
+    rays = world.instant[0]
     slope_right = rays.right[2] / direction[2]
     slope_down = rays.down[2] / direction[2]
     right_x = depth * (rays.right[0] - slope_right * direction[0])
@@ -188,19 +188,19 @@ def _ground_patch(world: World, direction: Colour, depth: float) -> Colour:
 @njit(cache=True, nogil=True, error_model="numpy")
 def _reflected(world: World, colour: Colour, point: Colour, normal: Colour, is_lit: bool) -> Colour:
     """Light reflected by a matt surface."""
-    around = world.around
-    lamps = _lamp_light(around, point, normal)
+    instant = world.instant[0]
+    lamps = _lamp_light(world.lamps, point, normal)
     above = 0.68 + 0.32 * normal[2]
     facing = 0.0
     if is_lit:
-        sun = around.sun
+        sun = instant.sun
         facing = max(normal[0] * sun[0] + normal[1] * sun[1] + normal[2] * sun[2], 0.0)
-        if around.ground == _UNDERWATER:
-            facing *= _caustics(around, point, 0.0)
+        if instant.ground == _UNDERWATER:
+            facing *= _caustics(instant, point, 0.0)
     return (
-        colour[0] * (around.ambient[0] * above + around.sun_colour[0] * facing + lamps[0]),
-        colour[1] * (around.ambient[1] * above + around.sun_colour[1] * facing + lamps[1]),
-        colour[2] * (around.ambient[2] * above + around.sun_colour[2] * facing + lamps[2]),
+        colour[0] * (instant.ambient[0] * above + instant.sun_colour[0] * facing + lamps[0]),
+        colour[1] * (instant.ambient[1] * above + instant.sun_colour[1] * facing + lamps[1]),
+        colour[2] * (instant.ambient[2] * above + instant.sun_colour[2] * facing + lamps[2]),
     )
 
 
@@ -209,20 +209,20 @@ def _shape_light(
     world: World, number: int, face: int, point: Colour, view: Colour, pixel: float, is_lit: bool
 ) -> Colour:
     """Light from shape `number`: texture, reflection, a soft highlight, its own glow."""
-    around = world.around
+    instant = world.instant[0]
     colour = surface_colour(world, number, face, point, pixel)
     normal = surface_normal(world, number, face, point)
     red, green, blue = _reflected(world, colour, point, normal, is_lit)
     if is_lit:
-        sun = around.sun
+        sun = instant.sun
         hx, hy, hz = sun[0] - view[0], sun[1] - view[1], sun[2] - view[2]
         half = hx * normal[0] + hy * normal[1] + hz * normal[2]
         half = max(half, 0.0) / math.sqrt(hx * hx + hy * hy + hz * hz + 1e-12)
         shine = 0.16 * half**24
-        red += shine * around.sun_colour[0]
-        green += shine * around.sun_colour[1]
-        blue += shine * around.sun_colour[2]
-    glow = world.materials.texture[number, 2]
+        red += shine * instant.sun_colour[0]
+        green += shine * instant.sun_colour[1]
+        blue += shine * instant.sun_colour[2]
+    glow = world.shapes[number].emission
     return red + glow * colour[0], green + glow * colour[1], blue + glow * colour[2]
 
 
@@ -237,32 +237,32 @@ def light_at(world: World, x: float, y: float, hit: tuple[float, int, int], is_l
         hit: depth, what was hit, and which face, from `first_hit`.
         is_lit: whether direct sunlight falls on it.
     """
-    around, rays = world.around, world.rays
+    instant = world.instant[0]
     depth, number, face = hit
-    direction = ray_direction(rays, x, y)
+    direction = ray_direction(instant, x, y)
     length = math.sqrt(direction[0] ** 2 + direction[1] ** 2 + direction[2] ** 2)
     view = (direction[0] / length, direction[1] / length, direction[2] / length)
-    step = math.sqrt(rays.right[0] ** 2 + rays.right[1] ** 2 + rays.right[2] ** 2)
+    step = instant.step
     if number == SKY:
-        return _sky_light(around, view, step)
+        return _sky_light(instant, view, step)
     distance = depth * length
     point = (
-        rays.origin[0] + depth * direction[0],
-        rays.origin[1] + depth * direction[1],
-        rays.origin[2] + depth * direction[2],
+        instant.origin[0] + depth * direction[0],
+        instant.origin[1] + depth * direction[1],
+        instant.origin[2] + depth * direction[2],
     )
     if number == GROUND:
         foot = _ground_patch(world, direction, depth)
-        if around.ground == _SEA:
+        if instant.ground == _SEA:
             light = _sea(world, point, view, foot)
         else:
-            colour = ground_colour(around, point[0], point[1], foot)
+            colour = ground_colour(instant, point[0], point[1], foot)
             light = _reflected(world, colour, point, (0.0, 0.0, 1.0), is_lit)
-        haze = smooth((distance - 150.0) / 1500.0) if around.ground != _UNDERWATER else 0.0
-        light = mix(light, around.sky_horizon, haze)
+        haze = smooth((distance - 150.0) / 1500.0) if instant.ground != _UNDERWATER else 0.0
+        light = mix(light, triple(instant.sky_horizon), haze)
     elif number == ROOM:
-        colour = wall_colour(around, point, face, depth * step)
+        colour = wall_colour(instant, point, face, depth * step)
         light = _reflected(world, colour, point, surface_normal(world, ROOM, face, point), False)
     else:
         light = _shape_light(world, number, face, point, view, depth * step, is_lit)
-    return _fogged(around, light, distance)
+    return _fogged(instant, light, distance)

@@ -18,6 +18,14 @@ from texvent.generate.procedural.primitives import (
     Primitives,
     Shape,
 )
+from texvent.generate.procedural.raycast.records import (
+    INSTANT_RECORD,
+    SHAPE_RECORD,
+    World,
+    describe_materials,
+    describe_rays,
+    describe_surroundings,
+)
 from texvent.sensor import SensorSize
 
 TILE = 16
@@ -41,35 +49,6 @@ class Bins(NamedTuple):
     """Shape numbers, in the order given to `bin_rectangles`."""
     columns: int
     rows: int
-
-
-class Shapes(NamedTuple):
-    """The shapes, structure of arrays over n."""
-
-    kind: IntArray
-    """[n] `Shape`."""
-    inverse: Float64Array
-    """[n, 3, 4] world → unit-shape coordinates."""
-    eye: Float64Array
-    """[n, 3] the camera's position in unit-shape coordinates."""
-    sun: Float64Array
-    """[n, 3] direction towards the sun in unit-shape coordinates."""
-    depth: Float64Array
-    """[n] no point of the shape is nearer than this along the optical axis, metres."""
-    shrink: Float64Array
-    """[n, 3] factors <= 1 on unit-shape coordinates that make a thin shape wide enough to find."""
-    is_thin: NDArray[np.bool_]
-    """[n] whether any factor is below 1."""
-    casts_shadow: NDArray[np.bool_]
-    """[n] lamps do not."""
-
-
-class SunGrid(NamedTuple):
-    """Shapes listed by where their shadows run: cells of a plane facing the sun."""
-
-    bins: Bins
-    axes: Float64Array
-    """[2, 4] cell column and row of a world point: axes[:, :3] · point + axes[:, 3]."""
 
 
 def bin_rectangles(rectangles: IntArray, numbers: IntArray, columns: int, rows: int) -> Bins:
@@ -155,35 +134,54 @@ def invert_maps(to_world: Float64Array) -> tuple[Float64Array, NDArray[np.bool_]
     return inverse, exists
 
 
-def arrange_shapes(
-    primitives: Primitives, environment: Environment, rays: Rays, size: SensorSize
-) -> tuple[Shapes, Bins, SunGrid]:
-    """Everything a ray needs in order to find the first shape it meets."""
+def arrange_world(
+    primitives: Primitives,
+    environment: Environment,
+    rays: Rays,
+    size: SensorSize,
+    *,
+    shadows: bool,
+) -> World:
+    """Everything the kernels need to draw one instant."""
+    instant = np.zeros(1, dtype=INSTANT_RECORD)
+    shapes = np.zeros(len(primitives.shape), dtype=SHAPE_RECORD)
+    describe_rays(instant[0], rays)
+    describe_surroundings(instant[0], environment, shadows)
+    describe_materials(shapes, primitives)
     inverse, exists = invert_maps(np.asarray(primitives.to_world, dtype=np.float64))
     bounds, depth = picture_bounds(primitives, rays, size)
+    shapes["kind"] = primitives.shape
+    shapes["inverse"] = inverse
+    shapes["eye"] = inverse[:, :, :3] @ rays.origin + inverse[:, :, 3]
+    shapes["sun"] = inverse[:, :, :3] @ instant["sun"][0]
+    shapes["depth"] = depth
+    shapes["shrink"] = _shrink_factors(primitives, rays)
+    shapes["is_thin"] = (shapes["shrink"] < 1.0).any(axis=1)
+    tiles = _tile_lists(bounds, depth, exists, size)
+    casts = np.flatnonzero(exists & (np.asarray(primitives.emission) <= 0.0))
+    sun_cells, instant[0]["sun_axes"] = _sun_lists(primitives, casts, instant["sun"][0])
+    instant["tile_columns"], instant["tile_rows"] = tiles.columns, tiles.rows
+    instant["sun_cells"] = len(tiles.start)
+    lamps = np.ascontiguousarray(np.asarray(environment.lamps, dtype=np.float64).reshape(-1, 7))
+    return World(instant, shapes, _join_lists(tiles, sun_cells), lamps)
+
+
+def _join_lists(first: Bins, second: Bins) -> NDArray[np.int32]:
+    """Both grids' lists in one array, starts first; starts count from the array's beginning."""
+    head = len(first.start) + len(second.start)
+    starts = (first.start + head, second.start + head + len(first.items))
+    return np.concatenate([*starts, first.items, second.items]).astype(np.int32)
+
+
+def _tile_lists(
+    bounds: Float64Array, depth: Float64Array, exists: NDArray[np.bool_], size: SensorSize
+) -> Bins:
+    """The shapes that may be seen in each screen tile, front to back."""
     seen = np.flatnonzero(exists & (bounds[:, 0] <= bounds[:, 1]))
     order = seen[np.argsort(depth[seen], kind="stable")]
-    tiles = bin_rectangles(
-        np.floor((bounds[order] + [-2.0, 2.0, -2.0, 2.0]) / TILE).astype(np.int64),
-        order,
-        -(-size.width // TILE),
-        -(-size.height // TILE),
-    )
-    sun = np.asarray(environment.sun_direction, dtype=np.float64)
-    sun = sun / np.linalg.norm(sun)
-    shrink = _shrink_factors(primitives, rays)
-    casts = exists & (np.asarray(primitives.emission) <= 0.0)
-    shapes = Shapes(
-        kind=primitives.shape.astype(np.int64),
-        inverse=inverse,
-        eye=inverse[:, :, :3] @ rays.origin + inverse[:, :, 3],
-        sun=inverse[:, :, :3] @ sun,
-        depth=depth,
-        shrink=shrink,
-        is_thin=np.any(shrink < 1.0, axis=1),
-        casts_shadow=casts,
-    )
-    return shapes, tiles, _sun_grid(primitives, casts, sun)
+    margin = np.array([-2.0, 2.0, -2.0, 2.0])
+    rectangles = np.floor((bounds[order] + margin) / TILE).astype(np.int64)
+    return bin_rectangles(rectangles, order, -(-size.width // TILE), -(-size.height // TILE))
 
 
 def _shrink_factors(primitives: Primitives, rays: Rays) -> Float64Array:
@@ -194,9 +192,15 @@ def _shrink_factors(primitives: Primitives, rays: Rays) -> Float64Array:
     return np.asarray(np.minimum(half / np.maximum(wanted, 1e-12)[:, None], 1.0))
 
 
-def _sun_grid(primitives: Primitives, casts: NDArray[np.bool_], sun: Float64Array) -> SunGrid:
-    """The shapes that cast shadows, listed on a plane facing the sun."""
-    numbers = np.flatnonzero(casts)
+def _sun_lists(
+    primitives: Primitives, numbers: IntArray, sun: Float64Array
+) -> tuple[Bins, Float64Array]:
+    """The shapes that cast shadows, listed on a plane facing the sun, and the plane's axes.
+
+    Returns:
+        (lists, [2, 4] axes): the cell column and row of a world point are
+        axes[:, :3] · point + axes[:, 3].
+    """
     helper = np.eye(3)[np.argmin(np.abs(sun))]
     first = np.cross(sun, helper)
     first /= np.linalg.norm(first)
@@ -217,4 +221,4 @@ def _sun_grid(primitives: Primitives, casts: NDArray[np.bool_], sun: Float64Arra
     cells[:, 1::2] = np.floor((high - corner) * scale + 1e-6)
     bins = bin_rectangles(cells, numbers, SUN_CELLS, SUN_CELLS)
     axes = np.concatenate([plane * scale[:, None], (-corner * scale)[:, None]], axis=1)
-    return SunGrid(bins, axes)
+    return bins, axes

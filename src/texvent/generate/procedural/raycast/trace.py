@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from numba import njit
 
-from texvent.generate.procedural.arrange import NEAR_M, TILE, Bins, Shapes, SunGrid
-from texvent.generate.procedural.camera import Rays
-from texvent.generate.procedural.intersect import hit_shape, local_normal
-from texvent.generate.procedural.surroundings import Materials, Surroundings
+from texvent.generate.procedural.raycast.arrange import NEAR_M, SUN_CELLS, TILE
+from texvent.generate.procedural.raycast.intersect import hit_shape, local_normal
+from texvent.generate.procedural.raycast.records import Record, World
 
 GROUND = -1
 SKY = -2
@@ -24,19 +22,8 @@ _SHADOW_BIAS_M = 2e-3
 Vector = tuple[float, float, float]
 
 
-class World(NamedTuple):
-    """One instant, as the kernels read it."""
-
-    rays: Rays
-    shapes: Shapes
-    tiles: Bins
-    sun_grid: SunGrid
-    materials: Materials
-    around: Surroundings
-
-
 @njit(cache=True, nogil=True, error_model="numpy")
-def ray_direction(rays: Rays, x: float, y: float) -> Vector:
+def ray_direction(rays: Record, x: float, y: float) -> Vector:
     """Direction through picture point (x, y); its component along the optical axis is 1."""
     return (
         rays.corner[0] + x * rays.right[0] + y * rays.down[0],
@@ -46,33 +33,33 @@ def ray_direction(rays: Rays, x: float, y: float) -> Vector:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _hit_number(shapes: Shapes, number: int, direction: Vector) -> tuple[float, int, Vector]:
+def _hit_one(shape: Record, direction: Vector) -> tuple[float, int, Vector]:
     """Where a camera ray meets one shape: depth, face, and the local direction."""
-    m = shapes.inverse[number]
+    m = shape.inverse
     d = (
         m[0, 0] * direction[0] + m[0, 1] * direction[1] + m[0, 2] * direction[2],
         m[1, 0] * direction[0] + m[1, 1] * direction[1] + m[1, 2] * direction[2],
         m[2, 0] * direction[0] + m[2, 1] * direction[1] + m[2, 2] * direction[2],
     )
-    eye = shapes.eye[number]
-    t, face = hit_shape(shapes.kind[number], (eye[0], eye[1], eye[2]), d, NEAR_M)
+    eye = shape.eye
+    t, face = hit_shape(shape.kind, (eye[0], eye[1], eye[2]), d, NEAR_M)
     return t, face, d
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def hit_again(world: World, x: float, y: float, number: int) -> tuple[float, int]:
     """(depth, face) where the ray through (x, y) meets shape `number`, as if it stood alone."""
-    t, face, _ = _hit_number(world.shapes, number, ray_direction(world.rays, x, y))
+    t, face, _ = _hit_one(world.shapes[number], ray_direction(world.instant[0], x, y))
     return t, face
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _widened_hit(shapes: Shapes, number: int, d: Vector) -> float:
+def _widened_hit(shape: Record, d: Vector) -> float:
     """Depth at which a ray meets a thin shape made `THIN_PX` wide; inf if even that misses."""
-    s, eye = shapes.shrink[number], shapes.eye[number]
+    s, eye = shape.shrink, shape.eye
     wide_eye = (eye[0] * s[0], eye[1] * s[1], eye[2] * s[2])
     wide_d = (d[0] * s[0], d[1] * s[1], d[2] * s[2])
-    return hit_shape(shapes.kind[number], wide_eye, wide_d, NEAR_M)[0]
+    return hit_shape(shape.kind, wide_eye, wide_d, NEAR_M)[0]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -82,38 +69,37 @@ def first_hit(world: World, x: float, y: float) -> tuple[float, int, int, bool]:
     Returns:
         (depth in metres, shape number or GROUND / SKY / ROOM, face, whether a thin shape is near).
     """
-    shapes, tiles = world.shapes, world.tiles
-    direction = ray_direction(world.rays, x, y)
-    column = min(max(int(x // TILE), 0), tiles.columns - 1)
-    row = min(max(int(y // TILE), 0), tiles.rows - 1)
-    cell = row * tiles.columns + column
-    best, found, best_face, thin = background_hit(world, direction)[0], -9, 0, math.inf
-    for index in range(tiles.start[cell], tiles.start[cell + 1]):
-        number = tiles.items[index]
-        if shapes.depth[number] >= best:
+    instant, lists = world.instant[0], world.lists
+    direction = ray_direction(instant, x, y)
+    column = min(max(int(x) // TILE, 0), instant.tile_columns - 1)
+    row = min(max(int(y) // TILE, 0), instant.tile_rows - 1)
+    cell = row * instant.tile_columns + column
+    best, found, best_face = background_hit(instant, direction)
+    thin = math.inf
+    for index in range(lists[cell], lists[cell + 1]):
+        shape = world.shapes[lists[index]]
+        if shape.depth >= best:
             break
-        t, face, d = _hit_number(shapes, number, direction)
+        t, face, d = _hit_one(shape, direction)
         if t < best:
-            best, found, best_face = t, number, face
-        if shapes.is_thin[number]:
-            thin = min(thin, _widened_hit(shapes, number, d))
-    if found == -9:
-        best, found, best_face = background_hit(world, direction)
+            best, found, best_face = t, int(lists[index]), face
+        if shape.is_thin:
+            thin = min(thin, _widened_hit(shape, d))
     return best, found, best_face, thin <= best
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def background_hit(world: World, direction: Vector) -> tuple[float, int, int]:
+def background_hit(instant: Record, direction: Vector) -> tuple[float, int, int]:
     """(depth, GROUND / SKY / ROOM, face) of what lies behind all shapes."""
-    around, origin = world.around, world.rays.origin
-    if around.ground == _NO_GROUND:
+    origin = instant.origin
+    if instant.ground == _NO_GROUND:
         return math.inf, SKY, 0
     depth, what, face = math.inf, SKY, 0
     if direction[2] < 0.0 and origin[2] > 0.0:
         depth, what = -origin[2] / direction[2], GROUND
-    if around.ground == _FLOOR:
+    if instant.ground == _FLOOR:
         for axis in range(3):
-            side = around.room if axis < 2 else 0.6 * around.room
+            side = instant.room if axis < 2 else 0.6 * instant.room
             if axis < 2 or direction[2] > 0.0:
                 wall = side if direction[axis] > 0.0 else -side
                 step = direction[axis] if direction[axis] != 0.0 else 1e-300
@@ -126,29 +112,33 @@ def background_hit(world: World, direction: Vector) -> tuple[float, int, int]:
 @njit(cache=True, nogil=True, error_model="numpy")
 def sun_blocked(world: World, point: Vector) -> tuple[bool, bool]:
     """Whether a shape stands between a point and the sun, and whether a thin one is close to."""
-    shapes, grid = world.shapes, world.sun_grid
-    a, b = grid.axes[0], grid.axes[1]
-    column = math.floor(a[0] * point[0] + a[1] * point[1] + a[2] * point[2] + a[3])
-    row = math.floor(b[0] * point[0] + b[1] * point[1] + b[2] * point[2] + b[3])
-    if not (0.0 <= column < grid.bins.columns and 0.0 <= row < grid.bins.rows):
+    instant, lists = world.instant[0], world.lists
+    axes = instant.sun_axes
+    column = math.floor(
+        axes[0, 0] * point[0] + axes[0, 1] * point[1] + axes[0, 2] * point[2] + axes[0, 3]
+    )
+    row = math.floor(
+        axes[1, 0] * point[0] + axes[1, 1] * point[1] + axes[1, 2] * point[2] + axes[1, 3]
+    )
+    if not (0.0 <= column < SUN_CELLS and 0.0 <= row < SUN_CELLS):
         return False, False
-    cell = int(row) * grid.bins.columns + int(column)
+    cell = instant.sun_cells + int(row) * SUN_CELLS + int(column)
     thin = False
-    for index in range(grid.bins.start[cell], grid.bins.start[cell + 1]):
-        number = grid.bins.items[index]
-        m, d = shapes.inverse[number], shapes.sun[number]
+    for index in range(lists[cell], lists[cell + 1]):
+        shape = world.shapes[lists[index]]
+        m, d = shape.inverse, shape.sun
         o = (
             m[0, 0] * point[0] + m[0, 1] * point[1] + m[0, 2] * point[2] + m[0, 3],
             m[1, 0] * point[0] + m[1, 1] * point[1] + m[1, 2] * point[2] + m[1, 3],
             m[2, 0] * point[0] + m[2, 1] * point[1] + m[2, 2] * point[2] + m[2, 3],
         )
-        if hit_shape(shapes.kind[number], o, (d[0], d[1], d[2]), 0.0)[0] < math.inf:
+        if hit_shape(shape.kind, o, (d[0], d[1], d[2]), 0.0)[0] < math.inf:
             return True, thin
-        if shapes.is_thin[number] and not thin:
-            s = shapes.shrink[number]
+        if shape.is_thin and not thin:
+            s = shape.shrink
             wide_o = (o[0] * s[0], o[1] * s[1], o[2] * s[2])
             wide_d = (d[0] * s[0], d[1] * s[1], d[2] * s[2])
-            thin = hit_shape(shapes.kind[number], wide_o, wide_d, 0.0)[0] < math.inf
+            thin = hit_shape(shape.kind, wide_o, wide_d, 0.0)[0] < math.inf
     return False, thin
 
 
@@ -164,8 +154,8 @@ def surface_normal(world: World, number: int, face: int, point: Vector) -> Vecto
             inward if face == 1 else 0.0,
             -1.0 if face == 2 else 0.0,
         )
-    m = world.shapes.inverse[number]
-    x, y, z = local_normal(world.shapes.kind[number], face, local_point(world, number, point))
+    m = world.shapes[number].inverse
+    x, y, z = local_normal(world.shapes[number].kind, face, local_point(world, number, point))
     nx = m[0, 0] * x + m[1, 0] * y + m[2, 0] * z
     ny = m[0, 1] * x + m[1, 1] * y + m[2, 1] * z
     nz = m[0, 2] * x + m[1, 2] * y + m[2, 2] * z
@@ -176,7 +166,7 @@ def surface_normal(world: World, number: int, face: int, point: Vector) -> Vecto
 @njit(cache=True, nogil=True, error_model="numpy")
 def local_point(world: World, number: int, point: Vector) -> Vector:
     """A world point in the unit-shape coordinates of shape `number`."""
-    m = world.shapes.inverse[number]
+    m = world.shapes[number].inverse
     return (
         m[0, 0] * point[0] + m[0, 1] * point[1] + m[0, 2] * point[2] + m[0, 3],
         m[1, 0] * point[0] + m[1, 1] * point[1] + m[1, 2] * point[2] + m[1, 3],
@@ -187,11 +177,11 @@ def local_point(world: World, number: int, point: Vector) -> Vector:
 @njit(cache=True, nogil=True, error_model="numpy")
 def sun_reaches(world: World, point: Vector, normal: Vector) -> tuple[bool, bool]:
     """Whether direct light falls on a surface, and whether a thin shape's shadow is near."""
-    sun = world.around.sun
+    sun = world.instant[0].sun
     facing = sun[0] * normal[0] + sun[1] * normal[1] + sun[2] * normal[2]
     if facing <= 0.0:
         return False, False
-    if not world.around.shadows:
+    if not world.instant[0].shadows:
         return True, False
     start = (
         point[0] + _SHADOW_BIAS_M * normal[0],

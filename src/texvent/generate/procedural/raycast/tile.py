@@ -14,11 +14,13 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from texvent.generate.procedural.arrange import TILE
 from texvent.generate.procedural.primitives import Float64Array
-from texvent.generate.procedural.raycast import (
+from texvent.generate.procedural.raycast.arrange import TILE
+from texvent.generate.procedural.raycast.light import light_at
+from texvent.generate.procedural.raycast.records import World
+from texvent.generate.procedural.raycast.sky import Colour
+from texvent.generate.procedural.raycast.trace import (
     SKY,
-    World,
     background_hit,
     first_hit,
     hit_again,
@@ -26,8 +28,6 @@ from texvent.generate.procedural.raycast import (
     sun_reaches,
     surface_normal,
 )
-from texvent.generate.procedural.shade import light_at
-from texvent.generate.procedural.sky import Colour
 
 _THIN = -(1 << 40)
 """Probe value that agrees with nothing: something thin is near."""
@@ -41,7 +41,7 @@ def _is_lit(world: World, x: float, y: float, hit: tuple[float, int, int]) -> tu
     depth, number, face = hit
     if number == SKY:
         return False, False
-    direction, origin = ray_direction(world.rays, x, y), world.rays.origin
+    direction, origin = ray_direction(world.instant[0], x, y), world.instant[0].origin
     point = (
         origin[0] + depth * direction[0],
         origin[1] + depth * direction[1],
@@ -71,7 +71,7 @@ def _shoulder(light: float) -> float:
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _exposed(world: World, light: Colour) -> Colour:
-    exposure = world.around.exposure
+    exposure = world.instant[0].exposure
     return (
         _shoulder(light[0] * exposure),
         _shoulder(light[1] * exposure),
@@ -104,7 +104,9 @@ def _one(world: World, column: int, row: int, probe: int) -> Colour:
     if number >= 0:
         depth, _ = hit_again(world, x, y, number)
     else:
-        depth, number, face = background_hit(world, ray_direction(world.rays, x, y))
+        depth, number, face = background_hit(
+            world.instant[0], ray_direction(world.instant[0], x, y)
+        )
     return _exposed(world, light_at(world, x, y, (depth, number, face), lit))
 
 

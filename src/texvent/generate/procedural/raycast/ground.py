@@ -6,9 +6,16 @@ import math
 
 from numba import njit
 
-from texvent.generate.procedural.noise import band, fractal_2d, keep, noise_2d, smooth, square_wave
-from texvent.generate.procedural.sky import Colour, mix
-from texvent.generate.procedural.surroundings import Surroundings
+from texvent.generate.procedural.raycast.noise import (
+    band,
+    fractal_2d,
+    keep,
+    noise_2d,
+    smooth,
+    square_wave,
+)
+from texvent.generate.procedural.raycast.records import Record
+from texvent.generate.procedural.raycast.sky import Colour, mix, triple
 
 _WHITE_PAINT = (0.75, 0.75, 0.72)
 _PAVEMENT = (0.34, 0.33, 0.32)
@@ -22,11 +29,11 @@ def _scaled(colour: Colour, factor: float) -> Colour:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _meadow(around: Surroundings, x: float, y: float, footprint: float) -> Colour:
+def _meadow(instant: Record, x: float, y: float, footprint: float) -> Colour:
     """Grass: patches, tufts and blades."""
     patches = fractal_2d(0.23 * x, 0.23 * y, 3, 0.23 * footprint)
     blades = fractal_2d(3.1 * x, 3.1 * y, 3, 3.1 * footprint)
-    colour = mix(around.colour, around.second_colour, smooth(0.5 + 0.6 * patches))
+    colour = mix(triple(instant.colour), triple(instant.second_colour), smooth(0.5 + 0.6 * patches))
     return _scaled(colour, 1.0 + 0.45 * blades)
 
 
@@ -40,11 +47,13 @@ def _speckled(colour: Colour, x: float, y: float, footprint: float, contrast: fl
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _asphalt(
-    around: Surroundings, along: float, across: float, foot_along: float, foot_across: float
+    instant: Record, along: float, across: float, foot_along: float, foot_across: float
 ) -> Colour:
     """Carriageway with a dashed middle line and edge lines."""
-    half = around.road[2]
-    colour = _speckled(around.second_colour, along, across, max(foot_along, foot_across), 0.18)
+    half = instant.road[2]
+    colour = _speckled(
+        triple(instant.second_colour), along, across, max(foot_along, foot_across), 0.18
+    )
     edge = band(abs(across), half - 3.0 * _LINE_M, half - 2.0 * _LINE_M, foot_across)
     middle = band(across, -0.5 * _LINE_M, 0.5 * _LINE_M, foot_across)
     dashes = square_wave(along / _DASH_M, foot_along / _DASH_M)
@@ -52,23 +61,23 @@ def _asphalt(
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _road(around: Surroundings, x: float, y: float, foot: Colour) -> Colour:
+def _road(instant: Record, x: float, y: float, foot: Colour) -> Colour:
     """ROAD, DIRT_ROAD and CITY: a strip along `road`, and what lies beside it."""
-    cosine, sine, half, x0, y0 = around.road
+    cosine, sine, half, x0, y0 = instant.road
     along = (x - x0) * cosine + (y - y0) * sine
     across = (y - y0) * cosine - (x - x0) * sine
     foot_along = abs(foot[0] * cosine) + abs(foot[1] * sine)
     foot_across = abs(foot[1] * cosine) + abs(foot[0] * sine)
-    if around.ground == 3:
+    if instant.ground == 3:
         wobble = 0.35 * noise_2d(0.35 * along, 0.0, 3) + 0.12 * noise_2d(1.3 * along, 9.0, 4)
-        soil = _speckled(around.second_colour, along, across, foot[2], 0.55)
+        soil = _speckled(triple(instant.second_colour), along, across, foot[2], 0.55)
         track = smooth(1.6 - abs(abs(across + 0.3 * wobble) - 0.85) / 0.35)
         soil = _scaled(soil, 1.0 - 0.28 * track * keep(foot_across / 1.5))
         inside = smooth((half + wobble - abs(across)) / max(0.6, 1.5 * foot_across) + 0.5)
-        return mix(_meadow(around, x, y, foot[2]), soil, inside)
+        return mix(_meadow(instant, x, y, foot[2]), soil, inside)
     inside = band(across, -half, half, foot_across)
-    if around.ground == 2:
-        beside = _meadow(around, x, y, foot[2])
+    if instant.ground == 2:
+        beside = _meadow(instant, x, y, foot[2])
     else:
         slabs = square_wave(along / 2.4, foot_along / 2.4) - 0.5
         rows = square_wave(across / 2.4, foot_across / 2.4) - 0.5
@@ -76,53 +85,53 @@ def _road(around: Surroundings, x: float, y: float, foot: Colour) -> Colour:
         beside = _scaled(beside, 1.0 + 0.5 * slabs * rows)
         kerb = band(abs(across), half, half + 0.3, foot_across)
         beside = mix(beside, (0.5, 0.5, 0.48), kerb)
-    surface = _asphalt(around, along, across, foot_along, foot_across)
+    surface = _asphalt(instant, along, across, foot_along, foot_across)
     return mix(beside, surface, inside)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _floor(around: Surroundings, x: float, y: float, foot: Colour) -> Colour:
+def _floor(instant: Record, x: float, y: float, foot: Colour) -> Colour:
     """Boards along x."""
     row = math.floor(y / 0.22)
     shade = 0.5 + 0.5 * noise_2d(7.3 * row, 0.7 * x + 3.7 * row, 5)
     shade = 0.5 + (shade - 0.5) * keep(foot[1] / 0.22)
     grain = fractal_2d(1.2 * x, 14.0 * y, 2, max(1.2 * foot[0], 14.0 * foot[1]))
-    colour = mix(around.colour, around.second_colour, shade)
+    colour = mix(triple(instant.colour), triple(instant.second_colour), shade)
     gap = band(y - 0.22 * row, 0.0, 0.012, foot[1]) + band(y - 0.22 * row, 0.22, 0.232, foot[1])
     return _scaled(colour, (1.0 + 0.15 * grain) * (1.0 - 0.55 * min(gap, 1.0)))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def ground_colour(around: Surroundings, x: float, y: float, foot: Colour) -> Colour:
+def ground_colour(instant: Record, x: float, y: float, foot: Colour) -> Colour:
     """Reflectance of the ground at (x, y), metres.
 
     Args:
-        around: the surroundings.
+        instant: the surroundings.
         x: metres east.
         y: metres north.
         foot: metres that one pixel covers in x and in y, and the longest side of its patch.
     """
-    kind = around.ground
+    kind = instant.ground
     if kind == 1:
-        return _meadow(around, x, y, foot[2])
+        return _meadow(instant, x, y, foot[2])
     if kind in (2, 3, 5):
-        return _road(around, x, y, foot)
+        return _road(instant, x, y, foot)
     if kind == 6:
-        return _floor(around, x, y, foot)
+        return _floor(instant, x, y, foot)
     if kind == 7 or kind == 9:
         bend = 0.8 * noise_2d(0.5 * x, 0.5 * y, 7)
         ripple = math.sin(2.0 * math.pi * (1.4 * y + 0.4 * x + bend)) * keep(1.5 * foot[2])
-        base = _speckled(around.colour, x, y, foot[2], 0.25)
-        return mix(base, around.second_colour, 0.5 + 0.22 * ripple)
+        base = _speckled(triple(instant.colour), x, y, foot[2], 0.25)
+        return mix(base, triple(instant.second_colour), 0.5 + 0.22 * ripple)
     if kind == 8:
-        return _speckled(around.colour, x, y, foot[2], 0.12)
-    return _speckled(around.colour, x, y, foot[2], 0.2)
+        return _speckled(triple(instant.colour), x, y, foot[2], 0.12)
+    return _speckled(triple(instant.colour), x, y, foot[2], 0.2)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def wall_colour(around: Surroundings, point: Colour, face: int, foot: float) -> Colour:
+def wall_colour(instant: Record, point: Colour, face: int, foot: float) -> Colour:
     """Reflectance of a room's wall or ceiling; walls have a skirting board."""
-    plain = mix(around.second_colour, (0.85, 0.83, 0.78), 0.75)
+    plain = mix(triple(instant.second_colour), (0.85, 0.83, 0.78), 0.75)
     if face == 2:
         return (0.8, 0.8, 0.78)
     skirting = band(point[2], 0.0, 0.14, foot)

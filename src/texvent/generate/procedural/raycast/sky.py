@@ -6,13 +6,20 @@ import math
 
 from numba import njit
 
-from texvent.generate.procedural.noise import fractal_2d, lattice, smooth
-from texvent.generate.procedural.surroundings import Surroundings
+from texvent.generate.procedural.primitives import Float64Array
+from texvent.generate.procedural.raycast.noise import fractal_2d, lattice, smooth
+from texvent.generate.procedural.raycast.records import Record
 
 Colour = tuple[float, float, float]
 _STAR_CELLS = 26
 _CLOUD_SPEED = 0.012
 """Drift of the clouds, in cloud heights per second."""
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def triple(values: Float64Array) -> Colour:
+    """Three numbers of a record as a tuple."""
+    return values[0], values[1], values[2]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -36,9 +43,11 @@ def _add(first: Colour, second: Colour, share: float) -> Colour:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def sky_gradient(around: Surroundings, height: float) -> Colour:
+def sky_gradient(instant: Record, height: float) -> Colour:
     """Clear sky where the ray's unit direction has this z: horizon at 0, zenith at 1."""
-    return mix(around.sky_horizon, around.sky_top, math.sqrt(min(abs(height), 1.0)))
+    return mix(
+        triple(instant.sky_horizon), triple(instant.sky_top), math.sqrt(min(abs(height), 1.0))
+    )
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -63,39 +72,41 @@ def _stars(x: float, y: float, z: float, pixel: float) -> float:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _cloud_cover(around: Surroundings, x: float, y: float, z: float, pixel: float) -> float:
+def _cloud_cover(instant: Record, x: float, y: float, z: float, pixel: float) -> float:
     """Share of the sky that cloud hides in a unit direction with z > 0."""
     height = max(z, 0.02)
-    u = 1.1 * x / height + _CLOUD_SPEED * around.time
-    v = 1.1 * y / height + 0.4 * _CLOUD_SPEED * around.time
+    u = 1.1 * x / height + _CLOUD_SPEED * instant.time
+    v = 1.1 * y / height + 0.4 * _CLOUD_SPEED * instant.time
     thickness = fractal_2d(u, v, 5, 1.1 * pixel / (height * height))
-    cover = smooth((thickness + 1.7 * around.clouds - 0.95) / 0.7)
+    cover = smooth((thickness + 1.7 * instant.clouds - 0.95) / 0.7)
     return cover * smooth((z - 0.01) / 0.12)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def sky_colour(around: Surroundings, direction: Colour, pixel: float) -> Colour:
+def sky_colour(instant: Record, direction: Colour, pixel: float) -> Colour:
     """Light from the sky, before fog and exposure.
 
     Args:
-        around: the surroundings.
+        instant: the surroundings.
         direction: unit vector from the camera.
         pixel: angle that one pixel covers, radians.
     """
     x, y, z = direction
-    colour = sky_gradient(around, z)
-    if around.stars > 0.0:
-        light = around.stars * _stars(x, y, z, pixel)
+    colour = sky_gradient(instant, z)
+    if instant.stars > 0.0:
+        light = instant.stars * _stars(x, y, z, pixel)
         colour = _add(colour, (1.0, 1.0, 1.0), light)
-    sun = around.sun
+    sun = instant.sun
     facing = min(x * sun[0] + y * sun[1] + z * sun[2], 1.0)
     if facing > 0.6:
         angle = math.acos(facing)
-        disc = smooth((around.sun_radius - angle) / max(2.0 * pixel, 0.002) + 0.5)
+        disc = smooth((instant.sun_radius - angle) / max(2.0 * pixel, 0.002) + 0.5)
         glow = 0.25 * math.exp(-angle / 0.09)
-        colour = _add(colour, around.sun_colour, 1.2 * disc + glow * (1.0 - around.stars * 0.8))
-    if around.clouds > 0.0 and z > 0.0:
-        white = mix(around.sky_horizon, around.ambient, 0.5)
-        lit = _add(white, around.sun_colour, 0.28)
-        colour = mix(colour, lit, 0.92 * _cloud_cover(around, x, y, z, pixel))
+        colour = _add(
+            colour, triple(instant.sun_colour), 1.2 * disc + glow * (1.0 - instant.stars * 0.8)
+        )
+    if instant.clouds > 0.0 and z > 0.0:
+        white = mix(triple(instant.sky_horizon), triple(instant.ambient), 0.5)
+        lit = _add(white, triple(instant.sun_colour), 0.28)
+        colour = mix(colour, lit, 0.92 * _cloud_cover(instant, x, y, z, pixel))
     return colour

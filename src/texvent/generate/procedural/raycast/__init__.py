@@ -1,0 +1,1 @@
+"""The ray caster: kernels compiled by Numba, and the arrays they read."""
