@@ -1,0 +1,81 @@
+"""Fills in what a prompt leaves open, and says so."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from texvent.generate.procedural.description import (
+    STANDING,
+    CameraMove,
+    Motion,
+    Paint,
+    SceneDescription,
+    Thing,
+)
+from texvent.generate.procedural.lexicon import COLOURS
+from texvent.generate.procedural.model import Noun
+
+SLOW_PAN = CameraMove("pan", "right", 0.8)
+"""What the camera does where nothing else moves: a still picture has no events."""
+
+
+def complete_description(
+    description: SceneDescription, nouns: Mapping[str, Noun]
+) -> SceneDescription:
+    """The description with every thing's motion decided and something that moves.
+
+    Things that live in the air or water always move unless the prompt says that they rest. When
+    nothing moves, things that can move do what they usually do; when none can, the camera pans.
+    """
+    if description.understood_nothing:
+        description = _show_default(description, nouns)
+    things = tuple(_decide_motion(thing, nouns[thing.noun]) for thing in description.things)
+    description = replace(description, things=things)
+    if description.shot.is_moving or any(_moves(thing) for thing in things):
+        return _settle_rest(description)
+    return _settle_rest(_set_in_motion(description, nouns))
+
+
+def _moves(thing: Thing) -> bool:
+    return thing.motion is not None and thing.motion.is_moving and thing.motion.kind != "sit"
+
+
+def _decide_motion(thing: Thing, noun: Noun) -> Thing:
+    motion = thing.motion
+    if motion is None and noun.habitat in ("air", "water") and noun.motion != "stand":
+        return replace(thing, motion=Motion(noun.motion))
+    if motion is not None and motion.kind == "move":
+        kind = noun.motion if noun.motion != "stand" else "slide"
+        return replace(thing, motion=replace(motion, kind=kind))
+    return thing
+
+
+def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """Let the first thing that can move do so, or else the camera."""
+    for index, thing in enumerate(description.things):
+        usual = nouns[thing.noun].motion
+        if thing.motion is None and usual != "stand":
+            moved = replace(thing, motion=Motion(usual))
+            things = (*description.things[:index], moved, *description.things[index + 1 :])
+            note = f"no motion is said of the {thing.noun}, so it does what it usually does"
+            return replace(description, things=things, notes=(*description.notes, note))
+    shot = replace(description.shot, moves=(SLOW_PAN,))
+    note = "nothing moves in the prompt, so the camera pans slowly"
+    return replace(description, shot=shot, notes=(*description.notes, note))
+
+
+def _settle_rest(description: SceneDescription) -> SceneDescription:
+    things = tuple(
+        thing if thing.motion is not None else replace(thing, motion=STANDING)
+        for thing in description.things
+    )
+    return replace(description, things=things)
+
+
+def _show_default(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """A scene for a prompt of which nothing was understood."""
+    noun = "ball" if "ball" in nouns else next(iter(nouns))
+    ball = Thing(noun, paint=Paint("red", COLOURS["red"]), motion=Motion("bounce"))
+    note = f"nothing in the prompt was understood: a bouncing {noun} stands in"
+    return replace(description, things=(ball,), notes=(*description.notes, note))

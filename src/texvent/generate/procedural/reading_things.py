@@ -1,0 +1,445 @@
+"""Reads what a prompt says about things: how many, what colour, what they do, and where."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from texvent.generate.procedural import lexicon, lexicon_scene
+from texvent.generate.procedural.description import Motion, Paint, Relation, Thing
+from texvent.generate.procedural.lexicon_motion import Verb
+from texvent.generate.procedural.model import Noun
+from texvent.generate.procedural.tagging import Phrase, Role
+
+MAX_THINGS = 16
+"""Most different things; later ones are left out, and said."""
+
+_GREY_LEVELS = {"light": "silver", "pale": "silver", "bright": "white", "dark": "black"}
+_DEFINITE = ("the", "this", "that", "these", "those", "its", "their", "his", "her")
+_RELATED_SUBJECTS = ("surround", "between")
+_CARRIED = ("drive", "fly", "sail")
+_HANDLED = ("spin", "bounce", "fall", "roll", "throw", "swing", "sway", "slide")
+
+
+@dataclass
+class Draft:
+    """A thing while more may still be said about it."""
+
+    noun: str
+    count: int = 1
+    paint: Paint | None = None
+    scale: float = 1.0
+    motion: Motion | None = None
+    pace: float = 1.0
+    side: str | None = None
+
+    def finish(self) -> Thing:
+        """The thing as understood."""
+        motion = self.motion
+        if motion is not None and self.pace != 1.0:
+            motion = Motion(
+                motion.kind, motion.direction, motion.pace * self.pace, motion.speed_m_s
+            )
+        return Thing(self.noun, self.count, self.paint, self.scale, motion, self.side)
+
+
+@dataclass
+class NounGroup:
+    """Adjectives waiting for their noun."""
+
+    is_definite: bool = False
+    count: int | None = None
+    number: float | None = None
+    paint: Paint | None = None
+    shade: str | None = None
+    scale: float | None = None
+    motion: Motion | None = None
+    pace: float = 1.0
+    side: str | None = None
+    phrases: list[Phrase] = field(default_factory=list)
+
+    def mark_used(self) -> None:
+        """All its words had an effect."""
+        for phrase in self.phrases:
+            phrase.is_used = True
+
+
+class ThingReader:
+    """Collects things, their motions and relations, sentence by sentence."""
+
+    def __init__(self, nouns: Mapping[str, Noun]) -> None:
+        self.drafts: list[Draft] = []
+        self.relations: list[Relation] = []
+        self.absent: list[str] = []
+        self.notes: list[str] = []
+        self.group = NounGroup()
+        self.subjects: list[int] = []
+        """Things that the next verb is about."""
+        self.mentioned: list[int] = []
+        """Things named last."""
+        self.negation: Phrase | None = None
+        self._nouns = nouns
+        self._relation: tuple[str, Phrase | None] | None = None
+        self._related: Relation | None = None
+        self._dangling: list[tuple[str, int]] = []
+        self._is_joined = False
+        self._has_acted = False
+        self._is_lost = False
+        self._object_motion: Motion | None = None
+
+    # --- noun groups -------------------------------------------------------------------------
+
+    def open_group(self, phrase: Phrase) -> None:
+        """A determiner starts a new noun group."""
+        self.settle()
+        self.group = NounGroup(
+            is_definite=phrase.text in _DEFINITE, motion=self.group.motion, side=self.group.side,
+            phrases=self.group.phrases if self.group.motion or self.group.side else [],
+        )  # fmt: skip
+        if phrase.text in ("a", "an", "another", "each", "every"):
+            self.group.count = 1
+
+    def read_adjective(self, phrase: Phrase) -> None:
+        """A count, number, colour, shade or size."""
+        group, value = self.group, phrase.meaning.value
+        if phrase.role is Role.COUNT:
+            group.count = value
+        elif phrase.role is Role.NUMBER:
+            group.number = value
+        elif phrase.role is Role.SHADE:
+            group.shade = value
+        elif phrase.role is Role.SIZE:
+            group.scale = value
+        elif phrase.role is Role.COLOUR:
+            rgb, name = lexicon.COLOURS[phrase.text], phrase.text
+            if group.shade is not None:
+                rgb, name = lexicon.shade_colour(rgb, group.shade), f"{group.shade} {name}"
+                group.shade = None
+            group.paint = Paint(name, rgb)
+        group.phrases.append(phrase)
+
+    def take_number(self) -> tuple[float, Phrase] | None:
+        """The number just read, when a unit after it shows that it is no count."""
+        for phrase in reversed(self.group.phrases):
+            if phrase.role is Role.NUMBER:
+                self.group.phrases.remove(phrase)
+                self.group.number = None
+                return float(phrase.meaning.value), phrase
+        return None
+
+    def take_paint(self) -> tuple[Paint | None, list[Phrase]]:
+        """The colour waiting for a noun, when a place or the sky comes instead."""
+        paint, phrases = self.group.paint, self.group.phrases
+        self.group = NounGroup()
+        return paint, [p for p in phrases if p.role in (Role.COLOUR, Role.SHADE)]
+
+    def read_noun(self, phrase: Phrase) -> int | None:
+        """A noun closes its group; its thing's index, or None if it shows nothing new."""
+        name: str = phrase.meaning.value
+        phrase.is_used = True
+        if self.negation is not None:
+            self.negation.is_used = True
+            self.group.mark_used()
+            self.group = NounGroup()
+            if name not in self.absent:
+                self.absent.append(name)
+            return None
+        index = self._recall(name, phrase)
+        if index is None:
+            index = self._add_draft(name, phrase)
+        if index is None:
+            return None
+        self.group.mark_used()
+        self.group = NounGroup()
+        self._connect(index)
+        self.mentioned = [index]
+        return index
+
+    def settle(self) -> None:
+        """Give adjectives that met no noun to the subject: "the car is red"."""
+        group = self.group
+        if not self.subjects or not group.phrases:
+            return
+        for index in self.subjects:
+            draft = self.drafts[index]
+            if group.paint is not None and draft.paint is None:
+                draft.paint = group.paint
+                _mark(group.phrases, Role.COLOUR, Role.SHADE)
+            if group.scale is not None and draft.scale == 1.0:
+                draft.scale = group.scale
+                _mark(group.phrases, Role.SIZE)
+            if group.pace != 1.0:
+                draft.pace *= group.pace
+                _mark(group.phrases, Role.PACE)
+        self.group = NounGroup()
+
+    # --- verbs -------------------------------------------------------------------------------
+
+    def read_attribute(self, phrase: Phrase) -> None:
+        """A participle before its noun: "a running dog"."""
+        verb: Verb = phrase.meaning.value
+        self.group.motion = Motion(verb.kind, verb.direction, verb.pace)
+        self.group.phrases.append(phrase)
+
+    def read_verb(self, phrase: Phrase, has_object: bool) -> None:
+        """A verb about the subjects; with an object, some verbs are about the object."""
+        self.settle()
+        verb: Verb = phrase.meaning.value
+        motion = Motion(verb.kind, verb.direction, verb.pace * self.group.pace)
+        if self.negation is not None:
+            motion = Motion("stand")
+            self.negation.is_used, self.negation = True, None
+        if not self.subjects:
+            if not self._is_lost:
+                self.group.motion = motion
+                self.group.phrases.append(phrase)
+            return
+        self._has_acted = phrase.is_used = True
+        self._relation = (verb.relation, None) if verb.relation else None
+        if has_object and verb.kind in _HANDLED:
+            self._object_motion, motion = motion, Motion("stand")
+        elif has_object and verb.kind in _CARRIED and verb.relation is None:
+            self._relation = ("on", None)
+            self._object_motion = motion
+        for index in self.subjects:
+            self._set_motion(self.drafts[index], motion)
+
+    def read_still(self, phrase: Phrase) -> None:
+        """The words still, motionless: before a noun or about the subject."""
+        if self.subjects:
+            for index in self.subjects:
+                self.drafts[index].motion = Motion("stand")
+            phrase.is_used = True
+        else:
+            self.group.motion = Motion("stand")
+            self.group.phrases.append(phrase)
+
+    def read_direction(self, phrase: Phrase) -> None:
+        """Which way the subjects go; without a verb they move that way."""
+        direction = phrase.meaning.value
+        for index in self.subjects:
+            draft = self.drafts[index]
+            motion = draft.motion or Motion("move")
+            if motion.kind == "stand":
+                continue
+            draft.motion = Motion(motion.kind, direction, motion.pace, motion.speed_m_s)
+            phrase.is_used = True
+
+    def read_pace(self, phrase: Phrase, noun_follows: bool) -> None:
+        """How fast: an adverb about the verb before or after, or an adjective."""
+        has_motion = any(self.drafts[index].motion for index in self.subjects)
+        if has_motion and not noun_follows:
+            for index in self.subjects:
+                self.drafts[index].pace *= phrase.meaning.value
+            phrase.is_used = True
+        else:
+            self.group.pace *= phrase.meaning.value
+            self.group.phrases.append(phrase)
+
+    def read_speed(self, speed_m_s: float, phrases: list[Phrase]) -> None:
+        """A speed in numbers, m/s."""
+        for index in self.subjects:
+            draft = self.drafts[index]
+            motion = draft.motion or Motion("move")
+            if motion.kind != "stand":
+                draft.motion = Motion(motion.kind, motion.direction, 1.0, speed_m_s)
+                draft.pace = 1.0
+                for phrase in phrases:
+                    phrase.is_used = True
+
+    def read_rate(self, rate_hz: float, phrases: list[Phrase]) -> bool:
+        """Turns per second of what spins; False if nothing spins."""
+        spinning = [
+            draft
+            for draft in (self.drafts[index] for index in self.subjects)
+            if draft.motion is not None and draft.motion.kind == "spin"
+        ]
+        for draft in spinning:
+            draft.motion = Motion("spin", pace=rate_hz / SPIN_RATE_HZ)
+        if spinning:
+            for phrase in phrases:
+                phrase.is_used = True
+        return bool(spinning)
+
+    # --- places ------------------------------------------------------------------------------
+
+    def read_relation(self, phrase: Phrase) -> None:
+        """A preposition waits for its noun."""
+        self.settle()
+        self._relation = (phrase.meaning.value, phrase)
+        self.group = NounGroup(motion=self.group.motion, phrases=self.group.phrases)
+
+    @property
+    def relation(self) -> str | None:
+        """The relation that waits for its noun."""
+        return self._relation[0] if self._relation else None
+
+    def drop_relation(self, *, is_used: bool) -> None:
+        """The noun after the preposition was a place or belongs to the camera."""
+        if self._relation is not None and self._relation[1] is not None and is_used:
+            self._relation[1].is_used = True
+        self._relation = None
+
+    def read_side(self, phrase: Phrase) -> None:
+        """Where in the picture the thing before, or else the thing after, is."""
+        if self.mentioned:
+            for index in self.mentioned:
+                self.drafts[index].side = phrase.meaning.value
+            phrase.is_used = True
+        else:
+            self.group.side = phrase.meaning.value
+            self.group.phrases.append(phrase)
+
+    def read_part(self, phrase: Phrase) -> None:
+        """A part that the model shows anyway, if the colour said of it is the one it has."""
+        for index in self.mentioned:
+            natural = lexicon_scene.PARTS.get((self.drafts[index].noun, phrase.text))
+            if natural is None:
+                continue
+            phrase.is_used = True
+            if self.group.paint is None or self.group.paint.name == natural:
+                self.group.mark_used()
+        self.drop_relation(is_used=phrase.is_used)
+        self.group = NounGroup()
+
+    def join(self) -> None:
+        """The word and: the next noun joins the last one."""
+        self._is_joined = True
+
+    def end_clause(self, sign: str) -> None:
+        """A comma or full stop."""
+        self.settle()
+        self._relation = None
+        self._related = None
+        self._is_joined = sign == ","
+        self._is_lost &= sign == ","
+        if sign != ",":
+            self.negation = None
+
+    def refer(self, phrase: Phrase) -> None:
+        """A pronoun: "which" and "who" mean the thing named last, "it" the last subject."""
+        if phrase.text in ("which", "who") and self.mentioned:
+            self.subjects = list(self.mentioned)
+
+    def meet_unknown(self) -> None:
+        """A word that may be an unknown noun: what follows is not about the last subject."""
+        if self._relation is not None:
+            self._relation = None
+        else:
+            self.subjects, self.mentioned = [], []
+            self._is_lost = True
+        self.group = NounGroup()
+
+    # --- inside ------------------------------------------------------------------------------
+
+    def _limit_count(self, number: float) -> int:
+        if number > lexicon.MAX_COUNT:
+            self.notes.append(
+                f"a count of {number:g} is shown as {lexicon.MAX_COUNT}, the most of one thing"
+            )
+        return round(min(number, lexicon.MAX_COUNT))
+
+    def _recall(self, name: str, phrase: Phrase) -> int | None:
+        """The thing that "the dog" refers to, if there is one already."""
+        if not self.group.is_definite or self.group.paint is not None:
+            return None
+        for index, draft in enumerate(self.drafts):
+            if draft.noun == name and (draft.count > 1) == (phrase.meaning.form == "plural"):
+                return index
+        return None
+
+    def _add_draft(self, name: str, phrase: Phrase) -> int | None:
+        group = self.group
+        if len(self.drafts) >= MAX_THINGS:
+            note = f"only the first {MAX_THINGS} things are shown"
+            self.notes.extend([note] if note not in self.notes else [])
+            phrase.is_used = False
+            return None
+        count = group.count if group.number is None else self._limit_count(group.number)
+        if count is None:
+            count = lexicon.PLURAL_COUNT if phrase.meaning.form == "plural" else 1
+        if count == 0:
+            self.absent.append(name)
+            group.mark_used()
+            self.group = NounGroup()
+            return None
+        paint = group.paint
+        if group.shade is not None and paint is None:
+            level = _GREY_LEVELS.get(group.shade)
+            paint = Paint(group.shade, lexicon.COLOURS[level]) if level else None
+        draft = Draft(name, count, paint, group.scale or 1.0, None, group.pace, group.side)
+        motion = group.motion
+        if self._object_motion is not None:
+            motion, self._object_motion = self._object_motion, None
+        if motion is not None:
+            self._set_motion(draft, motion)
+        self.drafts.append(draft)
+        return len(self.drafts) - 1
+
+    def _set_motion(self, draft: Draft, motion: Motion) -> None:
+        noun = self._nouns[draft.noun]
+        kind = motion.kind
+        if kind == "move":
+            kind = noun.motion if noun.motion != "stand" else "slide"
+        old = draft.motion
+        direction = motion.direction
+        if direction is None and old is not None and old.is_moving:
+            direction = old.direction
+        draft.motion = Motion(kind, direction, motion.pace)
+
+    def _connect(self, index: int) -> None:
+        """Make the thing a subject, or the target of the relation that waits for it."""
+        if self._relation is None:
+            if self._is_joined and self._related is not None:
+                self._extend_relation(index)
+            else:
+                self._become_subject(index)
+            self._is_joined = False
+            return
+        kind, phrase = self._relation
+        self._relation = None
+        self._is_joined = False
+        if phrase is not None:
+            phrase.is_used = True
+        if kind == "from":
+            return
+        for subject in self.subjects:
+            if subject != index:
+                self._related = Relation(kind, subject, (index,))
+                self.relations.append(self._related)
+        if not self.subjects and not self._is_lost:
+            self._dangling.append((kind, index))
+        if kind == "with" and self._nouns[self.drafts[index].noun].habitat != "fixed":
+            self.subjects.append(index)
+
+    def _extend_relation(self, index: int) -> None:
+        """One relation with two targets, as in "between a house and a tree"."""
+        if self._related is None:
+            return
+        kind = self._related.kind
+        for position, known in enumerate(self.relations):
+            if known.kind == kind and known.subject in self.subjects:
+                self.relations[position] = Relation(kind, known.subject, (*known.targets, index))
+        self._related = None
+
+    def _become_subject(self, index: int) -> None:
+        if self._is_joined and not self._has_acted and self.subjects:
+            self.subjects = [*self.subjects, index]
+        else:
+            self.subjects = [index]
+        self._has_acted = self.drafts[index].motion is not None
+        self._is_lost = False
+        for kind, target in self._dangling:
+            self.relations.append(Relation(kind, index, (target,)))
+        self._dangling = []
+        self._related = None
+
+
+SPIN_RATE_HZ = 0.5
+"""Usual turns per second of what spins."""
+
+
+def _mark(phrases: list[Phrase], *roles: Role) -> None:
+    for phrase in phrases:
+        if phrase.role in roles:
+            phrase.is_used = True
