@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from texvent.generate.procedural.primitives import Float64Array
 from texvent.generate.procedural.raycast.arrange import TILE
+from texvent.generate.procedural.raycast.borrow import borrow
 from texvent.generate.procedural.raycast.light import light_at
 from texvent.generate.procedural.raycast.records import World
 from texvent.generate.procedural.raycast.sky import Colour
@@ -125,17 +126,20 @@ def _agree(probes: NDArray[np.int64], top: int, left: int, samples: int) -> bool
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def draw_tile_row(
-    world: World, tile_row: int, samples: int, pattern: Float64Array, picture: Float64Array
+    owner: World, tile_row: int, samples: int, pattern: Float64Array, picture: Float64Array
 ) -> None:
     """Fill one row of tiles of a picture.
 
     Args:
-        world: the scene.
+        owner: the scene.
         tile_row: which row of tiles.
         samples: probes per pixel side.
         pattern: [k, 2] sample positions in [0, 1)² for pixels with an edge.
         picture: [H, W, 3] linear light, 0..1; this row of tiles is written.
     """
+    world = World(
+        borrow(owner.instant), borrow(owner.shapes), borrow(owner.lists), borrow(owner.lamps)
+    )
     height, width = picture.shape[0], picture.shape[1]
     top, bottom = tile_row * TILE, min((tile_row + 1) * TILE, height)
     probes = np.empty((TILE * samples + 1, TILE * samples + 1), dtype=np.int64)

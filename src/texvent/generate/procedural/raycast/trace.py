@@ -85,7 +85,7 @@ def first_hit(world: World, x: float, y: float) -> tuple[float, int, int, bool]:
             best, found, best_face = t, int(lists[index]), face
         if shape.is_thin:
             thin = min(thin, _widened_hit(shape, d))
-    return best, found, best_face, thin <= best
+    return best, found, best_face, thin < math.inf and thin <= best
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
