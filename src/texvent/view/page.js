@@ -1,0 +1,358 @@
+"use strict";
+(() => {
+  const data = JSON.parse(document.getElementById("data").textContent);
+  const element = (id) => document.getElementById(id);
+  const canvas = element("cloud-canvas");
+
+  // Base64 → typed array.
+  const decode = (text, type) => {
+    const raw = atob(text);
+    const bytes = new Uint8Array(raw.length);
+    for (let i = 0; i < raw.length; i++) bytes[i] = raw.charCodeAt(i);
+    return new type(bytes.buffer);
+  };
+  const seconds = (part) => (data.start_us + part * data.duration_us) / 1e6;
+  const duration = (us) => (us >= 1e6 ? (us / 1e6).toFixed(3) + " s" : (us / 1e3).toFixed(2) + " ms");
+
+  // State. `start` and `length` are shares of the recording.
+  const state = { yaw: 0, pitch: 0, zoom: 1, start: 0, length: 1, on: true, off: true, playing: false };
+  const views = {
+    space: { yaw: -0.62, pitch: 0.32 },
+    front: { yaw: 0, pitch: 0 },
+    side: { yaw: -Math.PI / 2, pitch: 0 },
+    top: { yaw: 0, pitch: Math.PI / 2 },
+  };
+  Object.assign(state, views.space);
+
+  // The box around all events: x and y keep their proportions, time runs into the depth.
+  const longest = Math.max(data.width, data.height);
+  const half = [data.width / longest, data.height / longest, 1.35];
+  const focal = 3.2;
+
+  // Rotation by yaw about the vertical axis, then pitch about the horizontal one.
+  const rotate = ([x, y, z]) => {
+    const [cy, sy] = [Math.cos(state.yaw), Math.sin(state.yaw)];
+    const [cp, sp] = [Math.cos(state.pitch), Math.sin(state.pitch)];
+    const [x1, z1] = [cy * x - sy * z, sy * x + cy * z];
+    return [x1, cp * y + sp * z1, cp * z1 - sp * y];
+  };
+  const corners = [-1, 1].flatMap((x) => [-1, 1].flatMap((y) => [-1, 1].map((z) => [x * half[0], y * half[1], z * half[2]])));
+
+  // Distance and scale that let the whole box fill the canvas from the current side.
+  let fit = { scale: 1, x: 0, y: 0 };
+  const project = (point) => {
+    const [x, y, z] = rotate(point);
+    const w = (z + focal + 1.2) / focal;
+    return [x / w, y / w, w];
+  };
+  const fitBox = (aspect) => {
+    const shown = corners.map(project);
+    const [xs, ys] = [shown.map((p) => p[0]), shown.map((p) => p[1])];
+    const [left, right] = [Math.min(...xs), Math.max(...xs)];
+    const [low, high] = [Math.min(...ys), Math.max(...ys)];
+    const scale = 0.84 * Math.min((2 * aspect) / (right - left), 2 / (high - low));
+    fit = { scale: scale * state.zoom, x: (left + right) / 2, y: (low + high) / 2 };
+  };
+
+  const gl = data.count > 0 ? canvas.getContext("webgl", { antialias: true, alpha: false }) : null;
+  if (!gl) {
+    canvas.hidden = true;
+    element("controls").hidden = true;
+    element("cloud").style.height = "auto";
+    const fallback = element("cloud-fallback");
+    if (data.count === 0) fallback.textContent = "This recording holds no events.";
+    fallback.hidden = false;
+    return;
+  }
+
+  const compile = (kind, source) => {
+    const shader = gl.createShader(kind);
+    gl.shaderSource(shader, source);
+    gl.compileShader(shader);
+    return shader;
+  };
+  const link = (vertex, fragment) => {
+    const program = gl.createProgram();
+    gl.attachShader(program, compile(gl.VERTEX_SHADER, vertex));
+    gl.attachShader(program, compile(gl.FRAGMENT_SHADER, fragment));
+    gl.linkProgram(program);
+    return program;
+  };
+  const placing = `
+    uniform vec4 turn; uniform vec4 fit; uniform float focal;
+    vec4 place(vec3 p) {
+      vec2 a = vec2(turn.x * p.x - turn.y * p.z, turn.y * p.x + turn.x * p.z);
+      vec3 r = vec3(a.x, turn.z * p.y + turn.w * a.y, turn.z * a.y - turn.w * p.y);
+      float w = (r.z + focal + 1.2) / focal;
+      vec2 s = (r.xy / w - fit.xy) * vec2(fit.z / fit.w, fit.z);
+      return vec4(s * w, (r.z / 8.0) * w, w);
+    }`;
+  const points = link(`
+    attribute vec2 xy; attribute float t; attribute float p;
+    uniform vec2 size; uniform vec3 halfBox; uniform vec2 span; uniform vec2 shown;
+    uniform float dot; varying float polarity; varying float depth;
+    ${placing}
+    void main() {
+      vec2 unit = (xy + 0.5) / size * 2.0 - 1.0;
+      gl_Position = place(vec3(unit.x, -unit.y, t * 2.0 - 1.0) * halfBox);
+      gl_PointSize = max(1.0, dot / gl_Position.w);
+      polarity = p; depth = gl_Position.w;
+      bool hidden = t < span.x || t > span.y || (p > 0.5 ? shown.x : shown.y) < 0.5;
+      if (hidden) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    }`, `
+    precision mediump float;
+    uniform vec3 onColour; uniform vec3 offColour; uniform vec3 paper;
+    varying float polarity; varying float depth;
+    void main() {
+      vec3 colour = polarity > 0.5 ? onColour : offColour;
+      gl_FragColor = vec4(mix(colour, paper, clamp((depth - 0.9) * 0.5, 0.0, 0.5)), 1.0);
+    }`);
+  const lines = link(`
+    attribute vec3 corner; ${placing}
+    void main() { gl_Position = place(corner); }`, `
+    precision mediump float; uniform vec3 ink;
+    void main() { gl_FragColor = vec4(ink, 1.0); }`);
+
+  const upload = (values) => {
+    const buffer = gl.createBuffer();
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, values, gl.STATIC_DRAW);
+    return buffer;
+  };
+  const buffers = {
+    xy: upload(decode(data.xy, Uint16Array)),
+    t: upload(decode(data.t, Float32Array)),
+    p: upload(decode(data.p, Uint8Array)),
+  };
+  const edges = [];
+  for (let axis = 0; axis < 3; axis++) {
+    for (const a of [-1, 1]) for (const b of [-1, 1]) for (const end of [-1, 1]) {
+      const corner = [0, 0, 0];
+      corner[axis] = end * half[axis];
+      corner[(axis + 1) % 3] = a * half[(axis + 1) % 3];
+      corner[(axis + 2) % 3] = b * half[(axis + 2) % 3];
+      edges.push(...corner);
+    }
+  }
+  buffers.edges = upload(new Float32Array(edges));
+  // A rectangle that shows where the time window begins and ends.
+  buffers.frame = gl.createBuffer();
+
+  const attribute = (program, name, buffer, count, type) => {
+    const place = gl.getAttribLocation(program, name);
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    gl.enableVertexAttribArray(place);
+    gl.vertexAttribPointer(place, count, type, false, 0, 0);
+  };
+  const uniform = (program, name, ...values) =>
+    gl["uniform" + values.length + "f"](gl.getUniformLocation(program, name), ...values);
+  const unit = (colour) => colour.map((value) => value / 255);
+  const faded = data.ink.map((value, i) => value + 0.62 * (data.background[i] - value));
+
+  const labels = [
+    { at: [0, -half[1], -half[2]], text: "x 0…" + (data.width - 1), shift: [-0.5, 0.35] },
+    { at: [-half[0], 0, -half[2]], text: "y 0…" + (data.height - 1), shift: [-1.12, -0.5] },
+    { at: [half[0], -half[1], 0], text: "time →", shift: [0.1, 0.35] },
+    { at: [half[0], -half[1], -half[2]], text: seconds(0).toFixed(3) + " s", shift: [-0.1, 1.0] },
+    { at: [half[0], -half[1], half[2]], text: seconds(1).toFixed(3) + " s", shift: [-0.2, 0.6] },
+  ].map((label) => {
+    const span = document.createElement("span");
+    span.textContent = label.text;
+    element("cloud-labels").append(span);
+    return { ...label, span };
+  });
+
+  const placeLabels = (width, height) => {
+    const flat = Math.abs(Math.cos(state.yaw)) > 0.985 && Math.abs(state.pitch) < 0.12;
+    labels.forEach(({ at, span, shift, text }) => {
+      const [x, y] = project(at);
+      const left = (((x - fit.x) * fit.scale) / (width / height) + 1) / 2 * width;
+      const top = (1 - (y - fit.y) * fit.scale) / 2 * height;
+      const [w, h] = [span.offsetWidth, span.offsetHeight];
+      const px = Math.min(Math.max(left + shift[0] * w, 4), width - w - 4);
+      const py = Math.min(Math.max(top + shift[1] * h, 2), height - h - 2);
+      span.style.transform = `translate(${px.toFixed(1)}px, ${py.toFixed(1)}px)`;
+      // Seen from the front, the time axis has no length: its labels would lie over each other.
+      span.hidden = flat && /time| s$/.test(text);
+    });
+  };
+
+  const drawLines = (buffer, first, count, colour) => {
+    attribute(lines, "corner", buffer, 3, gl.FLOAT);
+    uniform(lines, "ink", ...unit(colour));
+    gl.drawArrays(gl.LINES, first, count);
+  };
+  const common = (program, aspect) => {
+    gl.useProgram(program);
+    uniform(program, "turn", Math.cos(state.yaw), Math.sin(state.yaw), Math.cos(state.pitch), Math.sin(state.pitch));
+    uniform(program, "fit", fit.x, fit.y, fit.scale, aspect);
+    uniform(program, "focal", focal);
+  };
+
+  let asked = false;
+  const draw = () => {
+    asked = false;
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    if (!width || !height) return;
+    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+    if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+      canvas.width = Math.round(width * ratio);
+      canvas.height = Math.round(height * ratio);
+    }
+    const aspect = width / height;
+    fitBox(aspect);
+    gl.viewport(0, 0, canvas.width, canvas.height);
+    gl.clearColor(...unit(data.background), 1);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.enable(gl.DEPTH_TEST);
+
+    common(lines, aspect);
+    drawLines(buffers.edges, 0, 24, faded);
+    if (state.length < 1) {
+      const rectangle = [];
+      for (const share of [state.start, Math.min(1, state.start + state.length)]) {
+        const z = (share * 2 - 1) * half[2];
+        const loop = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => [x * half[0], y * half[1], z]);
+        loop.forEach((corner, i) => rectangle.push(...corner, ...loop[(i + 1) % 4]));
+      }
+      gl.bindBuffer(gl.ARRAY_BUFFER, buffers.frame);
+      gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(rectangle), gl.DYNAMIC_DRAW);
+      drawLines(buffers.frame, 0, 16, data.ink);
+    }
+
+    common(points, aspect);
+    attribute(points, "xy", buffers.xy, 2, gl.UNSIGNED_SHORT);
+    attribute(points, "t", buffers.t, 1, gl.FLOAT);
+    attribute(points, "p", buffers.p, 1, gl.UNSIGNED_BYTE);
+    uniform(points, "size", data.width, data.height);
+    uniform(points, "halfBox", ...half);
+    uniform(points, "span", state.start - 1e-6, Math.min(1, state.start + state.length) + 1e-6);
+    uniform(points, "shown", state.on ? 1 : 0, state.off ? 1 : 0);
+    // Few points may be larger; a point is never larger than a pixel of the sensor.
+    const pixel = (canvas.height * fit.scale) / longest;
+    const crowd = Math.sqrt(60000 / Math.max(data.count * Math.max(state.length, 0.05), 1));
+    uniform(points, "dot", Math.min(pixel * 1.1, ratio * Math.min(3, 1.35 * Math.max(1, crowd)) * state.zoom));
+    uniform(points, "onColour", ...unit(data.on));
+    uniform(points, "offColour", ...unit(data.off));
+    uniform(points, "paper", ...unit(data.background));
+    gl.drawArrays(gl.POINTS, 0, data.count);
+    placeLabels(width, height);
+  };
+  const redraw = () => {
+    if (!asked) { asked = true; requestAnimationFrame(draw); }
+  };
+
+  // Controls.
+  const startSlider = element("start"), lengthSlider = element("length"), play = element("play");
+  const showWindow = () => {
+    startSlider.value = Math.round(state.start * 1000);
+    lengthSlider.value = Math.round(state.length * 1000);
+    element("start-text").textContent = seconds(state.start).toFixed(3) + " s";
+    element("length-text").textContent = duration(state.length * data.duration_us);
+    const mark = element("rate-window");
+    if (mark) {
+      mark.setAttribute("x", state.start * 1000);
+      mark.setAttribute("width", state.length < 1 ? Math.max(2, Math.min(state.length, 1 - state.start) * 1000) : 0);
+    }
+    redraw();
+  };
+  let before = 0;
+  const step = (now) => {
+    if (!state.playing) return;
+    // The whole recording plays in eight seconds, again and again.
+    state.start += Math.min(now - before, 100) / 8000;
+    if (state.start >= 1) state.start = 0;
+    before = now;
+    showWindow();
+    requestAnimationFrame(step);
+  };
+  const setPlaying = (playing) => {
+    state.playing = playing;
+    play.setAttribute("aria-pressed", String(playing));
+    play.textContent = playing ? "❚❚ Pause" : "▶ Play";
+    if (!playing) return;
+    if (state.length > 0.5) state.length = 0.06;
+    before = performance.now();
+    requestAnimationFrame(step);
+  };
+  play.addEventListener("click", () => setPlaying(!state.playing));
+  startSlider.addEventListener("input", () => {
+    setPlaying(false);
+    state.start = startSlider.value / 1000;
+    showWindow();
+  });
+  lengthSlider.addEventListener("input", () => {
+    state.length = lengthSlider.value / 1000;
+    showWindow();
+  });
+  for (const name of ["on", "off"]) {
+    const button = element("toggle-" + name);
+    button.addEventListener("click", () => {
+      state[name] = !state[name];
+      button.setAttribute("aria-pressed", String(state[name]));
+      redraw();
+    });
+  }
+  for (const button of document.querySelectorAll("[data-view]")) {
+    button.addEventListener("click", () => {
+      Object.assign(state, views[button.dataset.view], { zoom: 1 });
+      redraw();
+    });
+  }
+
+  const turn = (dx, dy) => {
+    state.yaw -= dx;
+    state.pitch = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, state.pitch + dy));
+    redraw();
+  };
+  const zoom = (factor) => {
+    state.zoom = Math.max(0.5, Math.min(12, state.zoom * factor));
+    redraw();
+  };
+  const fingers = new Map();
+  const spread = () => {
+    const [a, b] = [...fingers.values()];
+    return Math.hypot(a.x - b.x, a.y - b.y);
+  };
+  canvas.addEventListener("pointerdown", (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    const old = fingers.get(event.pointerId);
+    if (!old) return;
+    const apart = fingers.size === 2 ? spread() : 0;
+    fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+    if (fingers.size === 2) {
+      if (apart > 0) zoom(spread() / apart);
+    } else {
+      turn((event.clientX - old.x) / 200, (event.clientY - old.y) / 200);
+    }
+  });
+  for (const name of ["pointerup", "pointercancel"]) {
+    canvas.addEventListener(name, (event) => fingers.delete(event.pointerId));
+  }
+  canvas.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    zoom(Math.exp(-event.deltaY / 500));
+  }, { passive: false });
+  canvas.addEventListener("keydown", (event) => {
+    const actions = {
+      ArrowLeft: () => turn(-0.08, 0), ArrowRight: () => turn(0.08, 0),
+      ArrowUp: () => turn(0, -0.08), ArrowDown: () => turn(0, 0.08),
+      "+": () => zoom(1.15), "=": () => zoom(1.15), "-": () => zoom(1 / 1.15),
+      "0": () => { Object.assign(state, views.space, { zoom: 1 }); redraw(); },
+      " ": () => setPlaying(!state.playing),
+    };
+    if (!actions[event.key]) return;
+    event.preventDefault();
+    actions[event.key]();
+  });
+  new ResizeObserver(redraw).observe(canvas);
+  canvas.addEventListener("webglcontextlost", (event) => {
+    event.preventDefault();
+    element("cloud-fallback").textContent = "The graphics card was reset; reload the page to see the cloud.";
+    element("cloud-fallback").hidden = false;
+  });
+  showWindow();
+})();

@@ -1,0 +1,87 @@
+"""Events → an RGB picture whose colours never fill up or fade away."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.video import UINT16_PER_LEVEL, Frame
+from texvent.view.canvas import Picture
+from texvent.view.palettes import Palette
+
+CEILING_PERCENTILE = 98.0
+"""Pixels with more events than this share of the active ones are shown at full strength."""
+FAINTEST = 0.22
+"""Strength of a single event where others are many."""
+
+
+def count_ceiling(counts: NDArray[Any]) -> float:
+    """Events per pixel that are shown at full strength: a high percentile over active pixels.
+
+    A fixed ceiling makes short slices blank and long ones one solid colour; this one follows
+    the data. It is at least 1.
+
+    Args:
+        counts: OFF and ON events per pixel, [2, H, W].
+    """
+    total = counts.sum(axis=0)
+    active = total[total > 0]
+    return max(1.0, float(np.percentile(active, CEILING_PERCENTILE))) if active.size else 1.0
+
+
+def draw_events(counts: NDArray[Any], palette: Palette, *, ceiling: float | None = None) -> Picture:
+    """Counted events as an RGB picture.
+
+    Hue says which polarity (a pixel with both shows the mixture); strength says how many
+    events, from `FAINTEST` for one up to full colour at `ceiling`.
+
+    Args:
+        counts: OFF and ON events per pixel, [2, H, W] integers (`event_frame(…, "count")`).
+        palette: the colours.
+        ceiling: events per pixel at full strength; default: `count_ceiling(counts)`.
+
+    Returns:
+        [H, W, 3] uint8.
+    """
+    limit = count_ceiling(counts) if ceiling is None else max(1.0, ceiling)
+    height, width = counts.shape[1:]
+    picture = np.empty((height, width, 3), dtype=np.uint8)
+    picture[:] = palette.background
+    # Most pixels have no event, so only the active ones are computed.
+    rows, columns = np.nonzero(counts[0] | counts[1])
+    if rows.size == 0:
+        return picture
+    off = counts[0, rows, columns].astype(np.float32)
+    on = counts[1, rows, columns].astype(np.float32)
+    total = off + on
+    if limit > 1.0:
+        strength = FAINTEST + (1 - FAINTEST) * np.minimum(1.0, (total - 1) / (limit - 1))
+    else:
+        strength = np.ones_like(total)
+    share = (on / total)[:, None]
+    on_colour, off_colour, background = (
+        np.array(colour, dtype=np.float32)
+        for colour in (palette.on, palette.off, palette.background)
+    )
+    colour = share * on_colour + (1 - share) * off_colour
+    mixed = background + strength[:, None] * (colour - background)
+    picture[rows, columns] = np.rint(mixed).astype(np.uint8)
+    return picture
+
+
+def frame_picture(frame: Frame) -> Picture:
+    """A frame as people see it: 8-bit RGB, for display only.
+
+    Returns:
+        [H, W, 3] uint8.
+    """
+    pixels = frame.pixels
+    if pixels.dtype == np.uint16:
+        pixels = pixels / np.float32(UINT16_PER_LEVEL)
+    if pixels.dtype != np.uint8:
+        pixels = np.rint(np.clip(pixels, 0, 255)).astype(np.uint8)
+    if pixels.ndim == 2:
+        pixels = np.repeat(pixels[:, :, None], 3, axis=2)
+    return np.ascontiguousarray(pixels, dtype=np.uint8)

@@ -1,0 +1,155 @@
+"""Everything to look at beside an event file: film, still picture and page, in one pass."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import ExitStack
+from fractions import Fraction
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+from texvent._registry import suggest
+from texvent.errors import ConfigError, InputError
+from texvent.events import EventStream
+from texvent.io.atomic import atomic_file, check_output
+from texvent.sensor import SensorSize
+from texvent.video import Frame
+from texvent.view.film import FilmWriter, title_of
+from texvent.view.interval import Interval, IntervalCollector
+from texvent.view.page import PageWriter
+from texvent.view.palettes import DEFAULT_PALETTE, Palette, get_palette
+from texvent.view.still import StillPicker
+
+PREVIEW_KINDS = ("mp4", "gif", "png", "html")
+
+
+class Preview:
+    """Writes `out.mp4`, `out.png` and `out.html` while a run goes on; memory stays flat.
+
+    The files appear when the `with` block ends; an exception inside it leaves none.
+
+    Raises:
+        InputError: the `with` block ends without a frame.
+        ConfigError: an unknown kind or palette.
+        OutputError: a file exists already or cannot be written.
+    """
+
+    def __init__(
+        self,
+        stem: str | Path,
+        *,
+        size: SensorSize,
+        fps: Fraction | None,
+        kinds: tuple[str, ...] = ("mp4", "png", "html"),
+        palette: str | Palette = DEFAULT_PALETTE,
+        overwrite: bool = False,
+        metadata: Mapping[str, Any] | None = None,
+    ) -> None:
+        """Check every path; the `with` statement opens them.
+
+        Args:
+            stem: path without extension: `runs/car` gives `runs/car.mp4` and so on.
+            size: sensor size, pixels.
+            fps: nominal rate of the source frames, or None where it is not known.
+            kinds: which files, by extension.
+            palette: colours, by name.
+            overwrite: whether existing files may be replaced.
+            metadata: facts of the run; a prompt becomes the title.
+        """
+        unknown = [kind for kind in kinds if kind not in PREVIEW_KINDS]
+        if unknown:
+            raise ConfigError(
+                f"unknown preview {unknown[0]!r}; {suggest(unknown[0], PREVIEW_KINDS)}"
+            )
+        self._paths = {kind: preview_path(stem, kind) for kind in kinds}
+        for path in self._paths.values():
+            check_output(path, overwrite=overwrite)
+        self._overwrite = overwrite
+        facts = dict(metadata or {})
+        colours, title = get_palette(palette), title_of(facts)
+        self._collector = IntervalCollector(size)
+        self._still = StillPicker(size=size, palette=colours, title=title)
+        self._films = [
+            FilmWriter(path, size=size, fps=fps, palette=colours, overwrite=overwrite, title=title)
+            for kind, path in self._paths.items()
+            if kind in ("mp4", "gif")
+        ]
+        self._page: PageWriter | None = None
+        if "html" in self._paths:
+            self._page = PageWriter(
+                self._paths["html"],
+                size=size,
+                metadata=facts,
+                palette=colours,
+                overwrite=overwrite,
+            )
+        self._stack = ExitStack()
+        self._png_part: Path | None = None
+        self._shown = 0
+
+    @property
+    def paths(self) -> tuple[Path, ...]:
+        """The files it writes."""
+        return tuple(self._paths.values())
+
+    def __enter__(self) -> Self:
+        with ExitStack() as stack:
+            for film in self._films:
+                stack.enter_context(film)
+            if self._page is not None:
+                stack.enter_context(self._page)
+            if "png" in self._paths:
+                part = atomic_file(self._paths["png"], overwrite=self._overwrite)
+                self._png_part = stack.enter_context(part)
+            self._stack = stack.pop_all()
+        return self
+
+    def append(self, frame: Frame, packet: EventStream) -> None:
+        """Add a dense frame and the events before it, `[time of the frame before, frame.t_us)`.
+
+        Only source frames are shown; events of the intermediate ones count for the next.
+        """
+        if self._page is not None:
+            self._page.append(packet)
+        interval = self._collector.append(frame, packet)
+        if interval is not None:
+            self._show(interval)
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if error is not None:
+            self._stack.__exit__(kind, error, trace)
+            return
+        with self._stack:
+            lone = self._collector.lone_frame()
+            if self._shown == 0 and lone is not None:
+                self._show(lone)
+            png = self._still.png()
+            if png is None:
+                raise InputError("no frame was given, so there is nothing to show")
+            if self._page is not None:
+                self._page.still = png
+            if self._png_part is not None:
+                self._png_part.write_bytes(png)
+
+    def _show(self, interval: Interval) -> None:
+        self._shown += 1
+        for film in self._films:
+            film.show(interval)
+        self._still.consider(interval)
+
+
+def preview_path(stem: str | Path, kind: str) -> Path:
+    """Path of one preview: dots in the stem stay.
+
+    Example:
+        >>> preview_path("runs/v1.2", "png").as_posix()
+        'runs/v1.2.png'
+    """
+    stem = Path(stem)
+    return stem.with_name(f"{stem.name}.{kind}")

@@ -1,0 +1,110 @@
+"""A fair sample and a rate curve of any number of events, in flat memory."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+
+SAMPLE_EVENTS = 200_000
+RATE_BINS = 512
+FIRST_BIN_US = 16
+
+
+class UniformSample:
+    """At most `limit` events, each equally likely, drawn in one pass.
+
+    Every event has a priority: a hash of the seed and its position in the recording. The events
+    with the lowest priorities are kept, so packet sizes do not change the sample.
+    """
+
+    def __init__(self, size: SensorSize, *, limit: int = SAMPLE_EVENTS, seed: int = 0) -> None:
+        self._limit = limit
+        self._seed = np.uint64(seed % 2**64)
+        self._kept = [EventStream.empty(size)]
+        self._priorities: list[NDArray[np.uint64]] = [np.empty(0, dtype=np.uint64)]
+        self._kept_count = 0
+        self._bound = np.uint64(2**64 - 1)
+        self.seen = 0
+        """Events offered so far."""
+
+    def append(self, packet: EventStream) -> None:
+        """Offer the events of a packet."""
+        count = len(packet)
+        position = np.arange(self.seen, self.seen + count, dtype=np.uint64)
+        self.seen += count
+        priority = _mix(position + _mix(np.atleast_1d(self._seed)))
+        keep = priority <= self._bound
+        if not keep.any():
+            return
+        self._kept.append(packet[keep])
+        self._priorities.append(priority[keep])
+        self._kept_count += int(keep.sum())
+        if self._kept_count > 2 * self._limit:
+            self._shrink()
+
+    def events(self) -> EventStream:
+        """The sample, in time order."""
+        self._shrink()
+        return self._kept[0]
+
+    def _shrink(self) -> None:
+        events = EventStream.concat(self._kept)
+        priorities = np.concatenate(self._priorities)
+        if len(events) > self._limit:
+            bound = np.partition(priorities, self._limit - 1)[self._limit - 1]
+            keep = priorities <= bound
+            events, priorities, self._bound = events[keep], priorities[keep], bound
+        self._kept, self._priorities, self._kept_count = [events], [priorities], len(events)
+
+
+class RateCurve:
+    """ON and OFF events per time bin; bins double in width when the recording outgrows them."""
+
+    def __init__(self) -> None:
+        self._start_us: int | None = None
+        self._bin_us = FIRST_BIN_US
+        self._counts = np.zeros((2, RATE_BINS), dtype=np.int64)
+        self._last_us = 0
+
+    def append(self, packet: EventStream) -> None:
+        """Count the events of a packet."""
+        if len(packet) == 0:
+            return
+        if self._start_us is None:
+            self._start_us = int(packet.t[0])
+        self._last_us = int(packet.t[-1])
+        while self._last_us - self._start_us >= self._bin_us * RATE_BINS:
+            pairs = self._counts.reshape(2, RATE_BINS // 2, 2).sum(axis=2)
+            self._counts = np.concatenate([pairs, np.zeros_like(pairs)], axis=1)
+            self._bin_us *= 2
+        bins = (packet.t - self._start_us) // self._bin_us
+        flat = np.bincount(packet.p.astype(np.int64) * RATE_BINS + bins, minlength=2 * RATE_BINS)
+        self._counts += flat.reshape(2, RATE_BINS)
+
+    @property
+    def bin_us(self) -> int:
+        """Width of a bin, µs."""
+        return self._bin_us
+
+    @property
+    def start_us(self) -> int:
+        """Time of the first event, µs; 0 without events."""
+        return self._start_us or 0
+
+    @property
+    def counts(self) -> NDArray[np.int64]:
+        """OFF and ON events per bin, [2, bins], up to the last event."""
+        if self._start_us is None:
+            return np.zeros((2, 0), dtype=np.int64)
+        return self._counts[:, : (self._last_us - self._start_us) // self._bin_us + 1]
+
+
+def _mix(values: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    """splitmix64's finaliser (Steele et al. 2014), modulo 2^64 by definition."""
+    mixed = values + np.uint64(0x9E3779B97F4A7C15)
+    mixed = (mixed ^ (mixed >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    mixed = (mixed ^ (mixed >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    return np.asarray(mixed ^ (mixed >> np.uint64(31)))

@@ -1,0 +1,56 @@
+"""A picture of the liveliest moment, found without keeping the clip."""
+
+from __future__ import annotations
+
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+from texvent.video import Frame
+from texvent.view.canvas import png_bytes
+from texvent.view.film import interval_facts
+from texvent.view.interval import Interval, IntervalCollector
+from texvent.view.layout import Layout
+from texvent.view.palettes import DEFAULT_PALETTE, Palette, get_palette
+from texvent.view.picture import draw_events
+
+
+class StillPicker:
+    """Feed it the run; it remembers the interval with the most events and draws it.
+
+    Memory holds one interval besides the one being gathered.
+    """
+
+    def __init__(
+        self,
+        *,
+        size: SensorSize,
+        palette: str | Palette = DEFAULT_PALETTE,
+        side_by_side: bool = True,
+        title: str = "",
+    ) -> None:
+        self._layout = Layout(size, get_palette(palette), side_by_side)
+        self._title = title
+        self._collector = IntervalCollector(size)
+        self._best: Interval | None = None
+
+    def append(self, frame: Frame, packet: EventStream) -> None:
+        """Add a dense frame and the events before it."""
+        interval = self._collector.append(frame, packet)
+        if interval is not None:
+            self.consider(interval)
+
+    def consider(self, interval: Interval) -> None:
+        """Remember the interval if it is the liveliest so far; the earlier one wins a tie."""
+        if self._best is None or interval.event_count > self._best.event_count:
+            self._best = interval
+
+    def png(self) -> bytes | None:
+        """The picture as a PNG file in memory, or None if there was no frame at all."""
+        interval = self._best or self._collector.lone_frame()
+        if interval is None:
+            return None
+        events = draw_events(interval.counts, self._layout.palette)
+        return png_bytes(
+            self._layout.compose(
+                interval.picture, events, title=self._title, facts=interval_facts(interval)
+            )
+        )
