@@ -16,7 +16,7 @@ SMALL_SIDE_PX = 100
 half-size pictures, which says little about a small frame."""
 ENLARGE = 3
 LEAST_SIDE_PX = 32
-"""DIS refuses pictures below 12 px and gives NaN on narrow strips: edges are repeated up to here."""
+"""DIS refuses pictures below 12 px and gives NaN on narrow strips: edges are repeated this far."""
 LEAST_RANGE = 16.0
 """The flow sees this many intensity levels or more stretched over 8 bits, so that the noise of a
 flat frame does not look like texture."""

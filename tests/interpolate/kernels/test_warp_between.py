@@ -1,0 +1,76 @@
+"""The warping kernel: hand-computed cases, and the compiled one against its definition."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from texvent.interpolate.kernels import cpu, reference
+
+KERNELS = [reference.warp_between, cpu.warp_between]
+kernels = pytest.mark.parametrize("warp", KERNELS, ids=["reference", "cpu"])
+
+
+def constant_flow(shape, x, y=0.0):
+    return np.broadcast_to(np.float32([x, y]), (*shape, 2)).copy()
+
+
+@kernels
+def test_a_ramp_moves_with_its_flow(warp):
+    # I(x) = 10 x moves right by 2 px: at τ = 1/4 it has moved 0.5 px, so I = 10 (x − 0.5).
+    first = np.tile(np.arange(12, dtype=np.float32) * 10, (3, 1))
+    second = first - 20
+    forward, backward = constant_flow((3, 12), 2.0), constant_flow((3, 12), -2.0)
+    got = warp(first, second, forward, backward, 0.25)
+    np.testing.assert_allclose(got[:, 2:-2], first[:, 2:-2] - 5.0, atol=1e-5)
+
+
+@kernels
+def test_without_motion_it_is_a_blend(warp):
+    first, second = np.full((2, 3), 40, np.float32), np.full((2, 3), 80, np.float32)
+    still = constant_flow((2, 3), 0.0)
+    np.testing.assert_allclose(warp(first, second, still, still, 0.25), 50.0)
+
+
+@kernels
+def test_flows_that_contradict_each_other_give_a_blend_in_place(warp):
+    # Both directions claim 50 px to the right: the errors are 100 px on a path of 0 px.
+    rng = np.random.default_rng(0)
+    first, second = (rng.uniform(0, 255, (6, 200)).astype(np.float32) for _ in range(2))
+    wrong = constant_flow((6, 200), 50.0)
+    got = warp(first, second, wrong, wrong, 0.5)
+    np.testing.assert_allclose(got, (first + second) / 2, atol=0.01)
+
+
+@kernels
+def test_what_enters_the_picture_is_taken_from_the_frame_that_shows_it(warp):
+    # Everything moves right by 8 px. At τ = 1/2, column 0 shows what is at column 4 of the later
+    # frame and was outside the earlier one, which therefore counts 0.2 against 1.2.
+    first, second = np.zeros((1, 20), np.float32), np.full((1, 20), 70.0, np.float32)
+    got = warp(first, second, constant_flow((1, 20), 8.0), constant_flow((1, 20), -8.0), 0.5)
+    assert got[0, 0] == pytest.approx(70 * 1.2 / 1.4)
+    assert got[0, 10] == pytest.approx(35.0)
+    assert got[0, 19] == pytest.approx(70 * 0.2 / 1.4)
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 7), (17, 23), (40, 64)])
+@pytest.mark.parametrize("position", [0.01, 0.5, 0.9])
+def test_compiled_kernel_equals_the_definition(shape, position):
+    rng = np.random.default_rng(5)
+    first, second = (rng.uniform(0, 255, shape).astype(np.float32) for _ in range(2))
+    forward = rng.normal(0, 4, (*shape, 2)).astype(np.float32)
+    backward = (-forward + rng.normal(0, 1, (*shape, 2))).astype(np.float32)
+    arguments = (first, second, forward, backward, position)
+    np.testing.assert_array_equal(cpu.warp_between(*arguments), reference.warp_between(*arguments))
+
+
+def test_sample_is_bilinear_and_repeats_the_edge():
+    picture = np.array([[0.0, 10.0], [20.0, 30.0]])
+    x = np.array([[0.5, 0.25, -3.0, 9.0]])
+    y = np.array([[0.5, 0.0, 0.5, 9.0]])
+    np.testing.assert_allclose(reference.sample(picture, x, y), [[15.0, 2.5, 10.0, 30.0]])
+
+
+def test_trust_is_one_half_at_the_tolerance():
+    got = reference.trust(np.array([0.0, 2.0, 4.0, 20.0]), np.full(4, 2.0))
+    np.testing.assert_allclose(got, [1.0, 0.5, 0.2, 1 / 101])

@@ -1,0 +1,134 @@
+"""Eq. 4: how many intermediate frames, and when."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+
+from texvent.brightness import balanced_log
+from texvent.errors import ConfigError, InputError
+from texvent.interpolate.count import count_intermediate, intermediate_times_us
+from texvent.video import Frame
+
+BLACK = np.zeros((2, 2), np.uint8)
+WHITE = np.full((2, 2), 255, np.uint8)
+
+
+def count(first, second, *, balance=30.0, threshold=0.2, **options):
+    return count_intermediate(
+        first, second, balance=balance, contrast_threshold=threshold, **options
+    )
+
+
+def with_change(change: float, balance: float = 30.0):
+    """A pair of 1-pixel frames whose brightness differs by `change`."""
+    return np.zeros((1, 1)), np.full((1, 1), balance * (np.exp(change) - 1))
+
+
+@pytest.mark.parametrize(("balance", "expected"), [(30, 11), (15, 14), (60, 8), (1, 27)])
+def test_eq4_black_to_white_by_balance(balance, expected):
+    assert count(BLACK, WHITE, balance=balance) == expected
+    assert count(WHITE, BLACK, balance=balance) == expected
+
+
+@pytest.mark.parametrize(("change", "expected"), [(2.1, 10), (0.19, 0), (0.21, 1), (0.0, 0)])
+def test_eq4_change_divided_by_the_threshold_is_rounded_down(change, expected):
+    assert count(*with_change(change)) == expected
+
+
+def test_eq4_quotient_has_no_tolerance_at_exact_multiples():
+    # 0.6 / 0.2 is 2.9999999999999996 in binary; the docstring says so.
+    assert 0.6 / 0.2 < 3
+    first, second = with_change(0.6)
+    change = float(np.log(30 + second[0, 0]) - np.log(30.0))
+    assert count(first, second) == int(change / 0.2)
+
+
+def test_percentile_keeps_one_hot_pixel_from_deciding():
+    first = np.full((40, 50), 100.0)
+    second = first.copy()
+    second[3, 4] = 255.0
+    assert count(first, second) == 3
+    assert count(first, second, percentile=99.9) == 0
+
+
+def test_percentile_50_is_the_median_change():
+    first = np.zeros((1, 3))
+    second = 30.0 * (np.exp(np.array([[0.1, 0.5, 2.0]])) - 1)
+    assert count(first, second, percentile=50.0) == 2
+
+
+def test_cap_limits_the_count():
+    assert count(BLACK, WHITE, threshold=0.01) == 64
+    assert count(BLACK, WHITE, threshold=0.01, cap=7) == 7
+    assert count(BLACK, WHITE, cap=0) == 0
+
+
+def test_every_dtype_and_colour_counts_alike():
+    expected = count(np.full((2, 2), 51, np.uint8), np.full((2, 2), 204, np.uint8))
+    for scale, dtype in ((257, np.uint16), (1, np.float32), (1, np.float64)):
+        first, second = (np.full((2, 2), level * scale, dtype) for level in (51, 204))
+        assert count(first, second) == expected
+        assert count(Frame(first, 0), Frame(second, 9)) == expected
+    grey_rgb = [np.full((2, 2, 3), level, np.uint8) for level in (51, 204)]
+    assert count(*grey_rgb) == expected
+
+
+def test_bad_input_is_refused_with_the_value():
+    with pytest.raises(InputError, match=r"\[2, 2\] and \[3, 2\]"):
+        count(BLACK, np.zeros((3, 2), np.uint8))
+    with pytest.raises(ConfigError, match="contrast_threshold is 0"):
+        count(BLACK, WHITE, threshold=0.0)
+    with pytest.raises(ConfigError, match="percentile is 101"):
+        count(BLACK, WHITE, percentile=101.0)
+    with pytest.raises(ConfigError, match="cap is -1"):
+        count(BLACK, WHITE, cap=-1)
+    with pytest.raises(ConfigError, match="balance is 0"):
+        count(BLACK, WHITE, balance=0.0)
+
+
+luma = hnp.arrays(np.uint8, (3, 4))
+
+
+@given(luma, luma, st.floats(1.0, 100.0), st.floats(0.01, 2.0))
+def test_count_is_zero_exactly_when_nothing_can_fire(first, second, balance, threshold):
+    change = np.abs(balanced_log(first, balance) - balanced_log(second, balance))
+    can_fire = bool((change >= threshold).any())
+    assert (count(first, second, balance=balance, threshold=threshold) > 0) == can_fire
+
+
+@given(st.floats(0.01, 4.0), st.floats(0.05, 1.0).filter(lambda value: value > 0.05))
+def test_steady_change_stays_below_the_threshold_per_step(change, threshold):
+    steps = count(*with_change(change), threshold=threshold, cap=1000) + 1
+    assert change / steps < threshold * (1 + 1e-9)
+
+
+times = st.integers(-(2**40), 2**40)
+
+
+@given(times, st.integers(1, 10**7), st.integers(0, 200))
+def test_times_lie_strictly_inside_and_increase(first_us, interval_us, wanted):
+    second_us = first_us + interval_us
+    got = intermediate_times_us(first_us, second_us, wanted)
+    assert len(got) == min(wanted, interval_us - 1)
+    assert all(a < b for a, b in zip([first_us, *got], [*got, second_us], strict=True))
+
+
+@given(times, st.integers(2, 10**7), st.integers(1, 64))
+def test_times_are_equally_spaced_to_half_a_microsecond(first_us, interval_us, wanted):
+    got = intermediate_times_us(first_us, first_us + interval_us, wanted)
+    for k, t_us in enumerate(got, start=1):
+        exact = Fraction(interval_us * k, len(got) + 1)
+        assert abs(t_us - first_us - exact) <= Fraction(1, 2)
+
+
+def test_times_fail_on_a_pair_that_does_not_advance():
+    with pytest.raises(InputError, match="strictly increase"):
+        intermediate_times_us(5, 5, 1)
+    with pytest.raises(InputError, match="count is -1"):
+        intermediate_times_us(0, 5, -1)

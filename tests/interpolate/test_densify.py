@@ -1,0 +1,193 @@
+"""Source frames stay, intermediate frames come between, jumps are not smeared."""
+
+from __future__ import annotations
+
+import gc
+import weakref
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent._registry import INTERPOLATORS
+from texvent.config import InterpolateConfig
+from texvent.errors import InputError
+from texvent.interpolate.cuts import Jump
+from texvent.interpolate.densify import densify
+from texvent.video import Frame, Video
+
+
+def run(video, options=None, *, balance=30.0, threshold=0.2, on_cut=None):
+    options = options or InterpolateConfig(interpolate="blend")
+    interpolator = INTERPOLATORS.load(options.interpolate)(options, video)
+    dense = densify(
+        video,
+        interpolator,
+        options,
+        balance=balance,
+        contrast_threshold=threshold,
+        on_cut=on_cut,
+    )
+    return list(dense)
+
+
+def field(levels, times_us, shape=(4, 4)):
+    """Uniform frames of these levels."""
+    return Video(np.stack([np.full(shape, level) for level in levels]).astype(np.float64), times_us)
+
+
+@pytest.fixture
+def flashing(moving_texture):
+    """A picture that flashes for one frame, at 20 ms, then is cut at 40 ms."""
+    dim = moving_texture(0) * 0.5
+    frames = [dim, dim * 2, dim, moving_texture(3000, 900)]
+    return Video(np.stack(frames), [0, 20_000, 40_000, 60_000])
+
+
+def test_black_to_white_gets_the_count_of_eq4():
+    frames = run(field([0, 255], [0, 12_000]))
+    assert [frame.is_source for frame in frames] == [True] + [False] * 11 + [True]
+    assert [frame.t_us for frame in frames] == [1000 * k for k in range(13)]
+    levels = [float(frame.pixels[0, 0]) for frame in frames]
+    assert levels == pytest.approx([255 * k / 12 for k in range(13)], abs=1e-3)
+
+
+def test_each_pair_has_its_own_count():
+    frames = run(field([0, 255, 255, 200], [0, 1000, 2000, 3000]))
+    inner = [sum(a < f.t_us < a + 1000 for f in frames) for a in (0, 1000, 2000)]
+    assert inner == [11, 0, 1]
+
+
+def test_source_frames_pass_untouched():
+    pixels = np.random.default_rng(0).integers(0, 256, (3, 5, 6, 3), dtype=np.uint8)
+    video = Video(pixels, [5, 1005, 3005])
+    sources = [frame for frame in run(video) if frame.is_source]
+    assert [frame.t_us for frame in sources] == [5, 1005, 3005]
+    for frame, expected in zip(sources, pixels, strict=True):
+        assert frame.pixels.dtype == np.uint8
+        np.testing.assert_array_equal(frame.pixels, expected)
+
+
+@pytest.mark.parametrize("interpolate", ["blend", "flow"])
+def test_intermediate_frames_are_float_luma(interpolate):
+    pixels = np.random.default_rng(0).integers(0, 256, (2, 12, 14, 3), dtype=np.uint8)
+    frames = run(Video(pixels, [0, 1000]), InterpolateConfig(interpolate=interpolate))
+    inner = [frame for frame in frames if not frame.is_source]
+    assert inner
+    assert all(f.pixels.shape == (12, 14) and f.pixels.dtype == np.float32 for f in inner)
+
+
+def test_none_adds_nothing_and_looks_for_nothing(flashing):
+    seen = []
+    options = InterpolateConfig(interpolate="none", count="fixed", fixed_count=5)
+    frames = run(flashing, options, on_cut=lambda *jump: seen.append(jump))
+    assert [frame.is_source for frame in frames] == [True] * 4
+    assert seen == []
+
+
+def test_fixed_count_does_not_look_at_the_change():
+    options = InterpolateConfig(interpolate="blend", count="fixed", fixed_count=3)
+    frames = run(field([7, 7], [0, 1000]), options)
+    assert [frame.t_us for frame in frames] == [0, 250, 500, 750, 1000]
+
+
+def test_options_override_the_simulators_balance_and_threshold():
+    video = field([0, 255], [0, 10_000])
+    for options, expected in (
+        (InterpolateConfig(interpolate="blend", count_balance=15.0), 14),
+        (InterpolateConfig(interpolate="blend", count_threshold=0.5), 4),
+        (InterpolateConfig(interpolate="blend", max_intermediate=6), 6),
+        (InterpolateConfig(interpolate="blend", count_percentile=0.0), 11),
+    ):
+        assert len(run(video, options)) - 2 == expected
+
+
+@given(
+    st.lists(st.tuples(st.integers(1, 40), st.integers(0, 255)), min_size=1, max_size=6),
+    st.sampled_from(["brightness", "fixed"]),
+)
+def test_times_strictly_increase_whatever_the_intervals(steps, count):
+    times_us = np.cumsum([interval for interval, _ in steps]).tolist()
+    video = field([level for _, level in steps], times_us, shape=(1, 1))
+    options = InterpolateConfig(interpolate="blend", count=count, fixed_count=64)
+    frames = run(video, options, threshold=0.05)
+    assert all(a.t_us < b.t_us for a, b in pairwise(frames))
+    assert [frame.t_us for frame in frames if frame.is_source] == times_us
+
+
+def test_one_frame_stays_one_frame():
+    assert [frame.t_us for frame in run(field([9], [3]))] == [3]
+
+
+def test_a_flash_of_one_frame_and_a_cut_are_three_jumps(flashing):
+    seen = []
+    frames = run(flashing, on_cut=lambda *jump: seen.append(jump))
+    assert seen == [(Jump.FLASH, 20_000), (Jump.FLASH, 40_000), (Jump.CUT, 60_000)]
+    assert [frame.t_us for frame in frames] == [
+        0, 19_000, 20_000, 39_000, 40_000, 59_000, 60_000,
+    ]  # fmt: skip
+    for held, source in zip(frames[1::2], frames[0::2], strict=False):
+        assert not held.is_source
+        np.testing.assert_array_equal(held.pixels, source.pixels.astype(np.float32))
+
+
+def test_the_old_picture_is_held_for_half_of_a_short_interval(flashing):
+    for interval_us, expected in ((1_500, 750), (3, 2), (2, 1)):
+        video = Video(flashing.pixels[:2], [0, interval_us])
+        assert [frame.t_us for frame in run(video)] == [0, expected, interval_us]
+    assert len(run(Video(flashing.pixels[:2], [0, 1]))) == 2
+
+
+def test_jumps_are_smeared_only_if_asked(flashing):
+    seen = []
+    options = InterpolateConfig(interpolate="blend", detect_cuts=False)
+    frames = run(flashing, options, on_cut=lambda *jump: seen.append(jump))
+    assert seen == []
+    assert len(frames) > 7
+
+
+def test_bad_streams_are_refused_at_the_frame_that_is_bad():
+    class Stream(Video):
+        """A stream that does not keep its promises."""
+
+        def __iter__(self):
+            return iter(bad)
+
+    base = field([1, 2], [0, 10])
+    video = Stream(base.pixels, base.times_us)
+    good = np.zeros((4, 4))
+    for second, message in (
+        (Frame(good, 0), "strictly increase"),
+        (Frame(np.zeros((4, 5)), 9), "is 5x4, the frames before it are 4x4"),
+        (Frame(np.full((4, 4), np.nan), 9), "NaN, infinite or negative"),
+    ):
+        bad = [Frame(good, 0), second]
+        with pytest.raises(InputError, match=message):
+            run(video)
+
+
+def test_at_most_two_source_frames_are_held():
+    alive = weakref.WeakSet()
+    most = 0
+
+    class Stream(Video):
+        """Frames made as they are asked for."""
+
+        def __iter__(self):
+            for k in range(12):
+                frame = Frame(np.full((4, 4), 20.0 * k), 1000 * k)
+                alive.add(frame)
+                yield frame
+                del frame
+
+    options = InterpolateConfig(interpolate="blend")
+    base = field([1, 2], [0, 10])
+    video = Stream(base.pixels, base.times_us)
+    blend = INTERPOLATORS.load("blend")(options, video)
+    for frame in densify(video, blend, options, balance=30.0, contrast_threshold=0.2):
+        del frame
+        gc.collect()
+        most = max(most, len(alive))
+    assert most == 2

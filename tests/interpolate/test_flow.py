@@ -1,0 +1,115 @@
+"""Motion-compensated interpolation."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from texvent.errors import InputError
+from texvent.interpolate.blend import BlendInterpolator
+from texvent.interpolate.flow import FlowInterpolator
+from texvent.video import Frame
+
+
+@pytest.fixture
+def flow(config, stream):
+    return FlowInterpolator(config(), stream)
+
+
+@pytest.fixture
+def blend(config, stream):
+    return BlendInterpolator(config(interpolate="blend"), stream)
+
+
+def middle(interpolator, first, second):
+    (frame,) = interpolator.between(Frame(first, 0), Frame(second, 1000), [500])
+    return frame.pixels
+
+
+@pytest.mark.parametrize(("dx", "dy"), [(3.0, 0.0), (-6.0, 2.0)])
+def test_known_translation_beats_blending_by_6_db(moving_texture, psnr, flow, blend, dx, dy):
+    first, second = moving_texture(0), moving_texture(dx, dy)
+    truth = moving_texture(dx / 2, dy / 2)
+    moved, mixed = (psnr(middle(part, first, second), truth) for part in (flow, blend))
+    assert moved >= mixed + 6.0
+    assert moved >= 30.0
+
+
+def test_every_instant_is_where_the_motion_is_then(moving_texture, psnr, flow):
+    first, second = Frame(moving_texture(0), 0), Frame(moving_texture(4), 1000)
+    for frame in flow.between(first, second, [125, 250, 750, 900]):
+        assert psnr(frame.pixels, moving_texture(4 * frame.t_us / 1000)) >= 32.0
+
+
+def test_a_covered_background_is_taken_from_the_frame_that_shows_it(
+    moving_texture, psnr, flow, blend
+):
+    def scene(position):
+        picture = moving_texture(0)
+        y, x = np.mgrid[: picture.shape[0], : picture.shape[1]]
+        disc = (x - 70 - position) ** 2 + (y - 60) ** 2 < 25**2
+        return np.where(disc, moving_texture(position + 50, 40), picture)
+
+    moved, mixed = (psnr(middle(part, scene(0), scene(8)), scene(4)) for part in (flow, blend))
+    assert moved >= mixed + 6.0
+
+
+def test_levels_between_200_and_201_stay_distinct(flow):
+    first, second = (Frame(np.full((64, 64), v, np.uint8), t) for v, t in ((200, 0), (201, 900)))
+    frames = flow.between(first, second, [100 * k for k in range(1, 9)])
+    levels = [float(frame.pixels[30, 30]) for frame in frames]
+    assert levels == pytest.approx([200 + k / 9 for k in range(1, 9)], abs=1e-4)
+
+
+def test_dark_frames_move_as_well_as_bright_ones(moving_texture, psnr, flow):
+    # A linear-light night frame uses 20 of 255 levels; only the flow sees it stretched.
+    first, second, truth = (moving_texture(dx) * (20 / 255) for dx in (0, 4, 2))
+    assert psnr(middle(flow, first, second) * (255 / 20), truth * (255 / 20)) >= 30.0
+
+
+def test_equal_frames_give_the_frame(moving_texture, flow):
+    picture = moving_texture(0)
+    for frame in flow.between(Frame(picture, 0), Frame(picture, 1000), [1, 400, 999]):
+        np.testing.assert_array_equal(frame.pixels, picture)
+
+
+def test_unrelated_frames_are_mostly_blended(moving_texture, psnr, flow, blend):
+    first, second = moving_texture(0), moving_texture(0)[::-1, ::-1]
+    moved, mixed = middle(flow, first, second), middle(blend, first, second)
+    still = np.mean(np.abs(moved - mixed) < 0.25 * np.abs(second - first))
+    assert still > 0.5
+
+
+def test_colour_and_depth_of_the_input_do_not_matter(moving_texture, flow):
+    first, second = (np.rint(moving_texture(dx)).astype(np.uint8) for dx in (0, 3))
+    expected = middle(flow, first, second)
+    for convert in (
+        lambda frame: frame.astype(np.uint16) * np.uint16(257),
+        lambda frame: frame.astype(np.float32),
+        lambda frame: frame.astype(np.float64),
+        lambda frame: np.repeat(frame[..., np.newaxis], 3, axis=2),
+    ):
+        got = middle(flow, convert(first), convert(second))
+        assert got.dtype == np.float32
+        assert np.mean(np.abs(got - expected)) < 0.01
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 9), (6, 8), (13, 12), (3, 400)])
+def test_tiny_frames_give_finite_frames_of_their_size(flow, shape):
+    rng = np.random.default_rng(1)
+    first, second = (rng.integers(0, 256, shape).astype(np.uint8) for _ in range(2))
+    got = middle(flow, first, second)
+    assert got.shape == shape
+    low, high = np.minimum(first, second).min(), np.maximum(first, second).max()
+    assert ((got >= low - 1e-3) & (got <= high + 1e-3)).all()
+
+
+def test_a_small_moving_frame_beats_blending(moving_texture, psnr, flow, blend):
+    first, second, truth = (moving_texture(dx, width=40, height=30) for dx in (0, 3, 1.5))
+    moved, mixed = (psnr(middle(part, first, second), truth) for part in (flow, blend))
+    assert moved >= mixed + 3.0
+
+
+def test_frames_of_two_sizes_are_refused(flow):
+    with pytest.raises(InputError, match="both must have one size"):
+        middle(flow, np.zeros((4, 4), np.uint8), np.zeros((4, 5), np.uint8))

@@ -1,0 +1,60 @@
+"""DIS optical flow."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+
+from texvent.interpolate.optical_flow import DisFlow, stretch_to_bytes
+
+
+def test_flow_is_the_translation_in_both_directions(moving_texture):
+    forward, backward = DisFlow().both_ways(moving_texture(0), moving_texture(3.0, -2.0))
+    inner = np.s_[20:-20, 20:-20]
+    assert np.median(np.abs(forward[inner] - (3.0, -2.0))) < 0.15
+    assert np.median(np.abs(backward[inner] - (-3.0, 2.0))) < 0.15
+
+
+def test_flow_is_the_same_with_one_and_two_threads(moving_texture):
+    first, second = (moving_texture(dx, width=320, height=240) for dx in (0, 5))
+    threads = cv2.getNumThreads()
+    try:
+        cv2.setNumThreads(1)
+        one = DisFlow().both_ways(first, second)
+        cv2.setNumThreads(2)
+        two = DisFlow().both_ways(first, second)
+    finally:
+        cv2.setNumThreads(threads)
+    np.testing.assert_array_equal(one, two)
+
+
+def test_flow_does_not_remember_the_pair_before(moving_texture):
+    first, second, other = (moving_texture(dx) for dx in (0, 3, 11))
+    fresh = DisFlow().both_ways(first, second)
+    used = DisFlow()
+    used.both_ways(other, first)
+    np.testing.assert_array_equal(used.both_ways(first, second), fresh)
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (6, 8), (8, 300), (300, 8), (2, 900)])
+def test_flow_is_finite_on_tiny_frames_and_strips(shape):
+    first = np.random.default_rng(3).uniform(0, 255, shape).astype(np.float32)
+    for flow in DisFlow().both_ways(first, np.roll(first, 1, axis=1)):
+        assert flow.shape == (*shape, 2)
+        assert flow.dtype == np.float32
+        assert np.isfinite(flow).all()
+
+
+def test_stretching_uses_one_scale_for_both_frames():
+    first, second = np.float32([[2, 12]]), np.float32([[22, 7]])
+    earlier, later = stretch_to_bytes(first, second)
+    # 2..22 becomes 0..255: 12.75 per level.
+    assert earlier.tolist() == [[0, 128]]
+    assert later.tolist() == [[255, 64]]
+
+
+def test_stretching_leaves_flat_frames_nearly_flat():
+    earlier, later = stretch_to_bytes(np.float32([[100, 101]]), np.float32([[100, 101]]))
+    # One level is 255/16 at most, not the whole scale.
+    assert earlier.tolist() == later.tolist() == [[0, 16]]
