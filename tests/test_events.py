@@ -123,3 +123,8 @@ def test_concatenating_nothing_or_two_sizes_is_refused():
         EventStream.concat([])
     with pytest.raises(InputError, match="8x6 and 4x4"):
         EventStream.concat([EventStream.empty(SIZE), EventStream.empty(SensorSize(4, 4))])
+
+
+def test_the_representation_fits_one_line():
+    assert repr(stream([1, 5])) == "EventStream(2 events, 8x6, t 1..5 µs)"
+    assert repr(EventStream.empty(SIZE)) == "EventStream(0 events, 8x6)"

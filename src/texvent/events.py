@@ -36,7 +36,7 @@ COLUMN_TYPES: dict[str, type[np.generic]] = {
 }
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class EventStream:
     """Events in time order: a whole recording, or one packet of it.
 
@@ -130,6 +130,10 @@ class EventStream:
 
     def __len__(self) -> int:
         return len(self.t)
+
+    def __repr__(self) -> str:
+        span = f", t {int(self.t[0])}..{int(self.t[-1])} µs" if len(self) else ""
+        return f"EventStream({len(self):,} events, {self.size}{span})"
 
     def __getitem__(self, index: slice | NDArray[np.bool_]) -> EventStream:
         """The events of a slice with a positive step, or where a mask is true."""
