@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from texvent.generate.procedural.language.words import pluralise
 from texvent.generate.procedural.model import Colour
-from texvent.generate.procedural.words import pluralise
 
 
 @dataclass(frozen=True)

@@ -11,22 +11,22 @@ from collections.abc import Mapping
 from functools import lru_cache
 
 from texvent.errors import InputError
-from texvent.generate.procedural import lexicon, lexicon_scene
-from texvent.generate.procedural.defaults import complete_description
 from texvent.generate.procedural.description import SceneDescription
-from texvent.generate.procedural.model import Noun
-from texvent.generate.procedural.models.table import NOUNS
-from texvent.generate.procedural.reading_camera import CameraReader
-from texvent.generate.procedural.reading_scene import SceneReader
-from texvent.generate.procedural.reading_things import ThingReader
-from texvent.generate.procedural.tagging import (
+from texvent.generate.procedural.language import lexicon, lexicon_scene
+from texvent.generate.procedural.language.defaults import complete_description
+from texvent.generate.procedural.language.reading_camera import CameraReader
+from texvent.generate.procedural.language.reading_scene import SceneReader
+from texvent.generate.procedural.language.reading_things import ThingReader
+from texvent.generate.procedural.language.tagging import (
     ADJECTIVES,
     Lexicon,
     Phrase,
     Role,
     tag_phrases,
 )
-from texvent.generate.procedural.words import split_words
+from texvent.generate.procedural.language.words import split_words
+from texvent.generate.procedural.model import Noun
+from texvent.generate.procedural.models.table import NOUNS
 
 _SILENT = frozenset({Role.BREAK, Role.AND, Role.DETERMINER, Role.PRONOUN})
 """Roles that need no effect of their own."""

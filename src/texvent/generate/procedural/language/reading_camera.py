@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from texvent.generate.procedural import lexicon_scene
 from texvent.generate.procedural.description import CameraMove, Shot
-from texvent.generate.procedural.lexicon_motion import Verb
-from texvent.generate.procedural.tagging import Phrase, Role
+from texvent.generate.procedural.language import lexicon_scene
+from texvent.generate.procedural.language.lexicon_motion import Verb
+from texvent.generate.procedural.language.tagging import Phrase, Role
 
 _SIDE_BY_RELATION = {
     "behind": "behind",

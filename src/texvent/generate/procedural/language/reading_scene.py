@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from texvent.generate.procedural import lexicon_scene
 from texvent.generate.procedural.description import Light, Paint, Surroundings
-from texvent.generate.procedural.tagging import Phrase, Role
+from texvent.generate.procedural.language import lexicon_scene
+from texvent.generate.procedural.language.tagging import Phrase, Role
 
 _BACKDROPS = {"mountain": "mountain", "forest": "forest", "city": "city"}
 _OPEN_PLACES = ("road", "dirt road", "grass", "savanna", "sea", "sand", "snow", "mountain")

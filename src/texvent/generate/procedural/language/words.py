@@ -101,7 +101,7 @@ def list_participles(verb: str) -> tuple[str, ...]:
     """
     if verb.endswith("e"):
         return (f"{verb[:-1]}ing", f"{verb}d")
-    forms = (f"{verb}ing", f"{verb[:-1]}ied" if _ends_in_y(verb) else f"{verb}ed")
+    forms: tuple[str, ...] = (f"{verb}ing", f"{verb[:-1]}ied" if _ends_in_y(verb) else f"{verb}ed")
     if _is_short(verb):
         forms += (f"{verb}{verb[-1]}ing", f"{verb}{verb[-1]}ed")
     return forms

@@ -13,7 +13,7 @@ from texvent.generate.procedural.description import (
     SceneDescription,
     Thing,
 )
-from texvent.generate.procedural.lexicon import COLOURS
+from texvent.generate.procedural.language.lexicon import COLOURS
 from texvent.generate.procedural.model import Noun
 
 SLOW_PAN = CameraMove("pan", "right", 0.8)

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from enum import Enum, auto
 from typing import Any
 
-from texvent.generate.procedural import lexicon, lexicon_motion, lexicon_scene
-from texvent.generate.procedural.model import Noun
-from texvent.generate.procedural.words import (
+from texvent.generate.procedural.language import lexicon, lexicon_motion, lexicon_scene
+from texvent.generate.procedural.language.words import (
     Token,
     list_finite_forms,
     list_participles,
     list_plurals,
 )
+from texvent.generate.procedural.model import Noun
 
 
 class Role(Enum):

@@ -1,0 +1,51 @@
+"""Things and noun groups of a prompt while more may still be said about them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from texvent.generate.procedural.description import Motion, Paint, Thing
+from texvent.generate.procedural.language.tagging import Phrase
+
+
+@dataclass
+class Draft:
+    """A thing while more may still be said about it."""
+
+    noun: str
+    count: int = 1
+    paint: Paint | None = None
+    scale: float = 1.0
+    motion: Motion | None = None
+    pace: float = 1.0
+    side: str | None = None
+
+    def finish(self) -> Thing:
+        """The thing as understood."""
+        motion = self.motion
+        if motion is not None and self.pace != 1.0:
+            motion = Motion(
+                motion.kind, motion.direction, motion.pace * self.pace, motion.speed_m_s
+            )
+        return Thing(self.noun, self.count, self.paint, self.scale, motion, self.side)
+
+
+@dataclass
+class NounGroup:
+    """Adjectives waiting for their noun."""
+
+    is_definite: bool = False
+    count: int | None = None
+    number: float | None = None
+    paint: Paint | None = None
+    shade: str | None = None
+    scale: float | None = None
+    motion: Motion | None = None
+    pace: float = 1.0
+    side: str | None = None
+    phrases: list[Phrase] = field(default_factory=list)
+
+    def mark_used(self) -> None:
+        """All its words had an effect."""
+        for phrase in self.phrases:
+            phrase.is_used = True
