@@ -38,6 +38,11 @@ class Purpose(IntEnum):
     NOISE_TIME = 2
     VOLTAGE = 3
     TIMESTAMP = 4
+    THRESHOLD_ON = 5
+    THRESHOLD_OFF = 6
+    LEAK_RATE = 7
+    HOT_PIXEL = 8
+    PASSAGE = 9
 
     def draw(self, order: Any = 0) -> Any:
         """Number of this purpose's draw `order` (0..2²⁸−1, one or an array), for `draw_words`."""

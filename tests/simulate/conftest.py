@@ -1,0 +1,8 @@
+"""Every case of the simulators runs on every backend."""
+
+import pytest
+
+
+@pytest.fixture(params=["reference", "cpu"])
+def backend(request) -> str:
+    return request.param

@@ -1,0 +1,174 @@
+"""Eq. 6 and its ablations: how much noise, where, when, and that it disturbs nothing else."""
+
+import numpy as np
+import pytest
+
+from texvent.events import EventStream
+from texvent.simulate.draws import frame_key
+from texvent.simulate.kernels import reference
+from texvent.simulate.noise import (
+    draw_noise,
+    draw_voltage_noise,
+    low_light_background,
+    poisson_cumulative,
+    voltage_noise_sd,
+)
+from texvent.simulate.texvent import TexventConfig, TexventSimulator
+from texvent.video import Frame, frame_time_us
+
+SECOND = 1_000_000
+
+
+def resting(shape, times_us, level=20.0):
+    """A scene that does not move; its first and last frame are source frames."""
+    picture = np.full(shape, level, np.float32)
+    return [Frame(picture, t, t in (times_us[0], times_us[-1])) for t in times_us]
+
+
+def simulate(frames, *, backend="cpu", seed=0, **options) -> EventStream:
+    simulator = TexventSimulator(TexventConfig(**options), seed=seed, backend=backend)
+    return EventStream.concat([simulator.step(frame) for frame in frames])
+
+
+@pytest.mark.parametrize("inner_frames", [0, 1, 11])
+def test_eq6_expected_noise_does_not_depend_on_the_intermediate_frames(inner_frames, backend):
+    """λ1 = 0.1 /s over 346×260 resting dark pixels and 1 s: mean 8996, sd 95."""
+    times = np.linspace(0, SECOND, inner_frames + 2).round().astype(int).tolist()
+    events = simulate(resting((260, 346), times), seed=inner_frames, backend=backend)
+    assert abs(len(events) - 8996) < 4 * 95
+
+
+def test_eq6_noise_has_the_spread_of_a_poisson_number():
+    frames = resting((100, 100), [0, SECOND])
+    counts = [len(simulate(frames, seed=seed)) for seed in range(200)]
+    assert np.mean(counts) == pytest.approx(1000, abs=4 * np.sqrt(1000 / 200))
+    assert np.var(counts) == pytest.approx(1000, rel=4 * np.sqrt(2 / 199))
+
+
+@pytest.mark.parametrize("kind", ["adaptive", "random", "gaussian"])
+@pytest.mark.parametrize("fps", [24, 240, 1000])
+def test_noise_rate_is_the_stated_one_at_any_frame_rate(kind, fps):
+    """2 Hz · 1.5 over 32×32 pixels and 1 s: mean 3072."""
+    times = [frame_time_us(k, fps) for k in range(fps + 1)]
+    events = simulate(resting((32, 32), times), noise=kind, noise_rate_hz=2.0, noise_scale=1.5)
+    assert abs(len(events) - 3072) < 4 * np.sqrt(3072)
+
+
+@pytest.mark.parametrize("reset", ["current", "step"])
+@pytest.mark.parametrize("cache", ["local", "global"])
+def test_gaussian_noise_leaves_no_trace_in_the_reference(reset, cache):
+    """If it did, a pixel would fire back after each noise event, and the rate would double."""
+    times = [frame_time_us(k, 100) for k in range(101)]
+    events = simulate(
+        resting((32, 32), times), noise="gaussian", noise_rate_hz=3.0, reset=reset, cache=cache
+    )
+    assert abs(len(events) - 3072) < 4 * np.sqrt(3072)
+
+
+def test_adaptive_noise_is_only_in_dark_resting_pixels(backend):
+    first = np.full((30, 30), 20.0)
+    first[:, 20:] = 79.0
+    first[10:20] = 80.0
+    second = first.copy()
+    second[:, :5] += 60.0
+    options = {"noise_rate_hz": 100.0, "backend": backend}
+    frames = [Frame(first, 0), Frame(second, SECOND)]
+    noisy = simulate(frames, **options)
+    clean = simulate(frames, **options | {"noise": "none"})
+    per_pixel = np.zeros((30, 30), int)
+    np.add.at(per_pixel, (noisy.y, noisy.x), 1)
+    assert np.all(per_pixel[10:20, 5:] == 0)
+    assert np.all(per_pixel[:, :5] == 1)
+    assert np.all(per_pixel[:10, 5:] > 40)
+    assert len(clean) == 150
+    assert as_set(clean) <= as_set(noisy)
+
+
+def test_random_noise_ignores_intensity_and_firing(backend):
+    frames = [Frame(np.full((30, 30), 200.0), 0), Frame(np.full((30, 30), 10.0), SECOND)]
+    events = simulate(frames, noise="random", noise_rate_hz=10.0, backend=backend)
+    assert abs(len(events) - 900 - 9000) < 4 * np.sqrt(9000)
+
+
+def as_set(events):
+    return set(zip(events.x, events.y, events.t, events.p, strict=True))
+
+
+@pytest.mark.parametrize("kind", ["adaptive", "random"])
+def test_noise_never_touches_the_reference(kind, backend):
+    """Every event of the clean run is there in the noisy one."""
+    pictures = np.random.default_rng(2).uniform(0, 120, (6, 12, 12))
+    frames = [Frame(picture, 1000 * k, k % 3 == 0) for k, picture in enumerate(pictures)]
+    options = {"cache": "global", "reset": "step", "backend": backend}
+    clean = simulate(frames, noise="none", **options)
+    noisy = simulate(frames, noise=kind, noise_rate_hz=200.0, **options)
+    assert len(clean) < len(noisy)
+    assert as_set(clean) <= as_set(noisy)
+
+
+def test_noise_is_uniform_in_time_and_half_on():
+    events = simulate(resting((100, 100), [0, SECOND]), noise_rate_hz=2.0)
+    counts = np.histogram(events.t, bins=20, range=(0, SECOND))[0]
+    expected = len(events) / 20
+    assert float(((counts - expected) ** 2 / expected).sum()) < 19 + 5 * np.sqrt(2 * 19)
+    assert events.p.mean() == pytest.approx(0.5, abs=4 * 0.5 / np.sqrt(len(events)))
+
+
+@pytest.mark.parametrize("fraction", [0.0, 0.25, 1.0])
+def test_noise_polarity_follows_the_stated_share(fraction):
+    events = simulate(
+        resting((100, 100), [0, SECOND]), noise_rate_hz=1.0, noise_on_fraction=fraction
+    )
+    spread = 4 * np.sqrt(fraction * (1 - fraction) / len(events))
+    assert events.p.mean() == pytest.approx(fraction, abs=spread)
+
+
+@pytest.mark.parametrize("off", [{"noise": "none"}, {"noise_rate_hz": 0.0}, {"noise_scale": 0.0}])
+def test_noise_can_be_switched_off(off, backend):
+    assert len(simulate(resting((50, 50), [0, SECOND]), backend=backend, **off)) == 0
+
+
+def test_gaussian_noise_of_rate_zero_changes_nothing():
+    pictures = np.random.default_rng(3).uniform(0, 255, (4, 8, 8))
+    frames = [Frame(picture, 1000 * k) for k, picture in enumerate(pictures)]
+    silent = simulate(frames, noise="gaussian", noise_rate_hz=0.0)
+    assert silent.equals(simulate(frames, noise="none"))
+    assert len(silent) > 100
+
+
+def test_mask_is_dark_and_at_rest():
+    luma = np.array([[79, 80, 81], [0, 10, 20]], np.uint8)
+    mask = low_light_background(luma, np.array([4]), intensity=80.0)
+    assert mask.tolist() == [[True, False, False], [True, False, True]]
+
+
+@pytest.mark.parametrize("mean", [1e-9, 0.004, 0.5, 3.0, 800.0])
+def test_poisson_table_has_the_mean_and_variance_of_its_distribution(mean):
+    cumulative = poisson_cumulative(mean)
+    mass = np.diff(cumulative, prepend=0.0)
+    k = np.arange(mass.size)
+    assert cumulative[0] == pytest.approx(np.exp(-mean), rel=1e-12)
+    assert cumulative[-1] == pytest.approx(1.0, abs=1e-12)
+    assert (k * mass).sum() == pytest.approx(mean, rel=1e-9)
+    assert ((k - mean) ** 2 * mass).sum() == pytest.approx(mean, rel=1e-6)
+
+
+def test_noise_counts_are_poisson_numbers():
+    mask = np.ones((200, 200), np.bool_)
+    noise = draw_noise(reference, mask, frame_key(0, 0), mean=0.7, on_fraction=0.5)
+    per_pixel = np.bincount(noise.pixel, minlength=mask.size)
+    counts = np.bincount(per_pixel, minlength=8)[:6]
+    mass = np.diff(poisson_cumulative(0.7), prepend=0.0)[:6]
+    expected = mass * mask.size
+    assert float(((counts - expected) ** 2 / expected).sum()) < 6 + 5 * np.sqrt(12)
+    assert noise.fraction.min() >= 0
+    assert noise.fraction.max() < 1
+
+
+@pytest.mark.parametrize("mean", [1e-5, 0.01, 0.3, 0.99])
+def test_voltage_noise_reaches_the_threshold_with_the_stated_probability(mean):
+    shape = (400, 400)
+    noise = draw_voltage_noise(shape, frame_key(1, 2), threshold=0.2, mean=mean)
+    fired = np.count_nonzero(np.abs(noise) >= 0.2)
+    assert abs(fired - mean * noise.size) < 4 * np.sqrt(mean * noise.size) + 1
+    assert noise.std() == pytest.approx(voltage_noise_sd(0.2, mean), rel=0.01)

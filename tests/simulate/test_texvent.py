@@ -1,0 +1,343 @@
+"""The simulator against worked numbers: one pixel, computed by hand, on every backend.
+
+Unless said: δ = 0.2, α = 30, no noise. Ramp A is `α + I = 50 · exp(1.05 t)` over one second, whose
+true crossings are at 0.190, 0.381, 0.571, 0.762 and 0.952 s.
+"""
+
+import copy
+
+import numpy as np
+import pytest
+
+from texvent.errors import ConfigError, InputError
+from texvent.events import EventStream
+from texvent.simulate.texvent import TexventConfig, TexventSimulator
+from texvent.video import Frame
+
+SECOND = 1_000_000
+BALANCE = 30.0
+TRUE_CROSSINGS = (0.190, 0.381, 0.571, 0.762, 0.952)
+
+
+def pixel(intensity: float, t_us: int, *, is_source: bool = True) -> Frame:
+    return Frame(np.full((1, 1), intensity, np.float64), t_us, is_source)
+
+
+def simulate(frames, *, backend: str = "reference", seed: int = 0, **options) -> EventStream:
+    options = {"noise": "none"} | options
+    simulator = TexventSimulator(TexventConfig(**options), seed=seed, backend=backend)
+    return EventStream.concat([simulator.step(frame) for frame in frames])
+
+
+def seconds(events: EventStream) -> list[float]:
+    return [round(t / SECOND, 3) for t in events.t.tolist()]
+
+
+def ramp_a(inner: int = 5, *, reverse: bool = False, blended: bool = False) -> list[Frame]:
+    steps = inner + 1
+    frames = []
+    for k in range(steps + 1):
+        phase = 1 - k / steps if reverse else k / steps
+        exact = 50 * np.exp(1.05 * phase) - BALANCE
+        mixed = 20 + (50 * np.exp(1.05) - BALANCE - 20) * phase
+        t_us = round(k * SECOND / steps)
+        frames.append(pixel(mixed if blended else exact, t_us, is_source=k in (0, steps)))
+    return frames
+
+
+def ramp_b() -> list[Frame]:
+    """0.055 log units per source frame, 20 pairs, no intermediate frame, 1 s per pair."""
+    return [pixel(70 * np.exp(0.055 * k) - BALANCE, k * SECOND) for k in range(21)]
+
+
+@pytest.mark.parametrize(
+    ("reset", "stamp", "times"),
+    [
+        ("current", "end", (0.333, 0.667, 1.0)),
+        ("current", "eq7", (0.250, 0.583, 0.917)),
+        ("current", "linear", (0.190, 0.524, 0.857)),
+        ("current", "hyperbolic", (0.262, 0.595, 0.929)),
+        ("step", "end", (0.333, 0.5, 0.667, 0.833, 1.0)),
+        ("step", "eq7", (0.250, 0.417, 0.583, 0.750, 0.917)),
+        ("step", "hyperbolic", (0.262, 0.436, 0.611, 0.788, 0.967)),
+        ("step", "linear", TRUE_CROSSINGS),
+    ],
+)
+def test_eq5_fires_on_ramp_a_as_worked_out(reset, stamp, times, backend):
+    events = simulate(ramp_a(), reset=reset, stamp=stamp, backend=backend)
+    assert seconds(events) == pytest.approx(times, abs=1e-9)
+    assert set(events.p.tolist()) == {1}
+
+
+@pytest.mark.parametrize(
+    ("reset", "times"),
+    [("current", (0.124, 0.324, 0.528, 0.936)), ("step", (0.124, 0.269, 0.446, 0.660, 0.927))],
+)
+def test_blended_frames_bend_the_times_of_ramp_a(reset, times, backend):
+    events = simulate(ramp_a(blended=True), reset=reset, stamp="linear", backend=backend)
+    assert seconds(events) == pytest.approx(times, abs=1e-9)
+
+
+def test_a_falling_ramp_fires_off_events_at_the_same_times(backend):
+    events = simulate(ramp_a(reverse=True), reset="step", stamp="linear", backend=backend)
+    assert seconds(events) == pytest.approx(TRUE_CROSSINGS, abs=1e-9)
+    assert set(events.polarity.tolist()) == {-1}
+
+
+def test_multi_event_recovers_all_crossings_without_interpolation(backend):
+    events = simulate(
+        ramp_a(inner=0), reset="step", stamp="linear", multi_event=True, backend=backend
+    )
+    assert events.t.tolist() == pytest.approx([190476, 380952, 571429, 761905, 952381], abs=1)
+
+
+def test_a_single_event_per_frame_keeps_the_first_crossing_only(backend):
+    events = simulate(ramp_a(inner=0), reset="step", stamp="linear", backend=backend)
+    assert seconds(events) == [0.190]
+
+
+def test_even_spacing_divides_the_interval(backend):
+    events = simulate(ramp_a(inner=0), stamp="even", multi_event=True, backend=backend)
+    assert seconds(events) == pytest.approx([0.2, 0.4, 0.6, 0.8, 1.0], abs=1e-6)
+
+
+GLOBAL_STEP = (3.636, 7.273, 10.909, 14.545, 18.182)
+
+
+@pytest.mark.parametrize(
+    ("options", "times"),
+    [
+        ({"cache": "global", "reset": "step"}, GLOBAL_STEP),
+        ({"cache": "global", "reset": "current"}, (3.636, 7.636, 11.636, 15.636, 19.636)),
+        ({"cache": "leaky", "cache_leak": 0.1}, (4.541, 8.896, 13.480, 17.856)),
+        ({"cache": "leaky", "cache_leak": 0.05}, (3.926, 7.867, 11.818, 15.778, 19.746)),
+        ({"cache": "leaky", "cache_leak": 0.0}, GLOBAL_STEP),
+        ({"cache": "leaky", "cache_leak": 1.0}, ()),
+        ({"cache": "local"}, ()),
+        ({"cache": "none"}, ()),
+        # Forgotten every 3 pairs, 0.165 log units never reach 0.2; every 5 pairs, 0.275 do.
+        ({"cache": "global", "cache_reset_pairs": 3}, ()),
+        ({"cache": "global", "cache_reset_pairs": 5}, (3.636, 8.636, 13.636, 18.636)),
+        ({"cache": "leaky", "cache_leak": 0.0, "cache_reset_pairs": 1}, ()),
+    ],
+    ids=str,
+)
+def test_cache_decides_how_slow_a_ramp_still_fires(options, times, backend):
+    events = simulate(ramp_b(), stamp="linear", **({"reset": "step"} | options), backend=backend)
+    assert seconds(events) == pytest.approx(times, abs=1e-9)
+
+
+def test_a_change_that_swings_inside_the_threshold_never_fires(backend):
+    frames = [pixel(42 if k % 2 else 38, k * SECOND) for k in range(20)]
+    assert len(simulate(frames, cache="global", reset="step", backend=backend)) == 0
+
+
+def test_eq1_fires_exactly_from_the_threshold_on(backend):
+    """δ is set to the change itself, then to the next larger number."""
+    frames = [Frame(np.full((1, 1), level, np.uint8), level) for level in (70, 90)]
+    change = float(np.log(120.0) - np.log(100.0))
+    assert len(simulate(frames, contrast_threshold=change, backend=backend)) == 1
+    above = float(np.nextafter(change, 1))
+    assert len(simulate(frames, contrast_threshold=above, backend=backend)) == 0
+
+
+def test_eq7_spreads_the_events_of_a_frame_over_its_interval(backend):
+    before = np.full((2, 2), 100.0)
+    changes = np.array([[0.25, 0.10], [-0.30, 0.45]])
+    after = (before + BALANCE) * np.exp(changes) - BALANCE
+    events = simulate([Frame(before, 0), Frame(after, 10_000)], backend=backend)
+    assert list(zip(events.x, events.y, events.polarity, strict=True)) == [
+        (1, 1, 1),
+        (0, 1, -1),
+        (0, 0, 1),
+    ]
+    assert events.t.tolist() == pytest.approx([0, 7500, 9999], abs=1)
+
+
+def test_eq7_scale_shrinks_the_spread(backend):
+    frames = [Frame(np.full((1, 1), 50.0), 0), Frame(np.full((1, 1), 90.0), 1000)]
+    assert simulate(frames, stamp_scale=0.5, backend=backend).t.tolist() == [250]
+
+
+def test_local_cache_adds_up_inside_a_pair_and_forgets_at_its_end(backend):
+    """0.15 + 0.15 fires within a pair, and does not across a source frame."""
+    levels = [70 * np.exp(0.15 * k) - BALANCE for k in range(3)]
+
+    def clip(middle_is_source):
+        return [
+            pixel(level, k * 1000, is_source=k != 1 or middle_is_source)
+            for k, level in enumerate(levels)
+        ]
+
+    assert len(simulate(clip(False), backend=backend)) == 1
+    assert len(simulate(clip(True), backend=backend)) == 0
+    assert len(simulate(clip(False), cache="none", backend=backend)) == 0
+
+
+def test_float_frames_are_not_rounded_to_whole_levels(backend):
+    """Eight frames between 200 and 201 are eight different levels."""
+    frames = [pixel(200 + k / 9, k * 1000, is_source=k in (0, 9)) for k in range(10)]
+    assert len(simulate(frames, contrast_threshold=4e-4, backend=backend)) == 9
+
+
+def test_bit_depths_of_the_same_picture_give_the_same_events(backend):
+    pictures = np.random.default_rng(5).integers(0, 256, (4, 6, 7))
+    results = [
+        simulate(
+            [
+                Frame((pictures[k] * factor).astype(dtype), 1000 * k, k != 1)
+                for k in range(len(pictures))
+            ],
+            noise="adaptive",
+            noise_rate_hz=100.0,
+            backend=backend,
+        )
+        for dtype, factor in ((np.uint8, 1), (np.uint16, 257), (np.float32, 1), (np.float64, 1))
+    ]
+    assert len(results[0]) > 50
+    assert all(result.equals(results[0]) for result in results)
+
+
+def test_colour_is_reduced_to_luma(backend):
+    grey = [np.full((2, 2), level, np.float32) for level in (50, 90)]
+    colour = [np.repeat(picture[..., None], 3, axis=2) for picture in grey]
+    both = [
+        simulate([Frame(one, 1000 * k) for k, one in enumerate(pictures)], backend=backend)
+        for pictures in (grey, colour)
+    ]
+    assert len(both[0]) == 4
+    assert both[0].equals(both[1])
+
+
+def test_the_first_frame_after_reset_gives_an_empty_stream(backend):
+    simulator = TexventSimulator(TexventConfig(noise_rate_hz=1e4), backend=backend)
+    frames = [pixel(10, 0), pixel(200, 100)]
+    first_run = [simulator.step(frame) for frame in frames]
+    simulator.reset()
+    second_run = [simulator.step(frame) for frame in frames]
+    assert [len(packet) for packet in first_run] == [0, len(first_run[1])]
+    assert len(first_run[1]) > 0
+    assert all(one.equals(two) for one, two in zip(first_run, second_run, strict=True))
+
+
+def test_intervals_may_vary_from_one_microsecond_to_hours(backend):
+    times = [-5, -4, 1000, 10**10]
+    frames = [pixel(level, t) for level, t in zip((10, 200, 10, 200), times, strict=True)]
+    events = simulate(frames, backend=backend)
+    assert events.t.tolist() == [-5, 498, (1000 + 10**10) // 2]
+
+
+def test_the_paper_preset_is_the_default(backend):
+    config = TexventSimulator.presets["paper"]
+    assert config == TexventConfig() == TexventSimulator(backend=backend).config
+    assert (config.contrast_threshold, config.balance) == (0.2, 30.0)
+    assert (config.cache, config.reset, config.noise, config.stamp) == (
+        "local",
+        "current",
+        "adaptive",
+        "eq7",
+    )
+    simulator = TexventSimulator(TexventConfig(contrast_threshold=0.3, balance=10.0))
+    assert (simulator.contrast_threshold, simulator.balance) == (0.3, 10.0)
+
+
+def test_all_seeds_are_ordinary():
+    frames = [Frame(np.full((40, 40), 20, np.uint8), t) for t in (0, SECOND)]
+    options = {"noise": "adaptive", "noise_rate_hz": 1.0}
+    runs = [simulate(frames, seed=seed, **options) for seed in (0, 1, 2**63 - 1)]
+    again = simulate(frames, seed=0, **options)
+    assert runs[0].equals(again)
+    assert not runs[0].equals(runs[1])
+    assert all(1400 < len(run) < 1800 for run in runs)
+
+
+@pytest.mark.parametrize(
+    ("pixels", "t_us", "message"),
+    [
+        (np.zeros((2, 3), np.uint8), 2000, "is 3x2, the frames before it are 2x2"),
+        (np.zeros((2, 2), np.uint8), 1000, "does not come after"),
+        (np.zeros((2, 2), np.uint8), 999, "must strictly increase"),
+        (np.full((2, 2), np.nan), 2000, "4 pixel.s. that are NaN"),
+        (np.full((2, 2), -1.0), 2000, "negative"),
+        (np.full((2, 2), np.inf), 2000, "infinite"),
+    ],
+)
+def test_step_fails_on_bad_frames_and_can_go_on(pixels, t_us, message, backend):
+    good = [Frame(np.full((2, 2), level, np.uint8), 1000 * k) for k, level in enumerate((9, 99, 9))]
+    simulator = TexventSimulator(backend=backend)
+    packets = [simulator.step(frame) for frame in good[:2]]
+    with pytest.raises(InputError, match=message):
+        simulator.step(Frame(pixels, t_us))
+    packets.append(simulator.step(good[2]))
+    undisturbed = simulate(good, noise="adaptive", backend=backend)
+    assert EventStream.concat(packets).equals(undisturbed)
+
+
+def test_step_fails_where_the_logarithm_does_not_exist(backend):
+    simulator = TexventSimulator(TexventConfig(balance=0.0), backend=backend)
+    with pytest.raises(ConfigError, match="use a balance above 0"):
+        simulator.step(Frame(np.zeros((1, 1), np.uint8), 0))
+
+
+def test_no_balance_is_allowed_without_black_pixels(backend):
+    frames = [pixel(level, 1000 * k) for k, level in enumerate((10, 13))]
+    assert len(simulate(frames, balance=0.0, backend=backend)) == 1
+
+
+def test_step_fails_if_gaussian_noise_would_fire_every_time(backend):
+    config = TexventConfig(noise="gaussian", noise_rate_hz=30.0)
+    simulator = TexventSimulator(config, backend=backend)
+    simulator.step(pixel(50, 0))
+    with pytest.raises(InputError, match=r"1\.5 events per pixel.*lower noise_rate_hz"):
+        simulator.step(pixel(50, 50_000))
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"contrast_threshold": 0.0}, "contrast_threshold is 0; it must be 0.0001..10"),
+        ({"contrast_threshold": float("nan")}, "contrast_threshold is nan"),
+        ({"balance": -1.0}, "balance is -1"),
+        ({"cache": "lokal"}, "cache is 'lokal'; allowed: local, .*did you mean 'local'"),
+        ({"cache_reset_pairs": -1}, "cache_reset_pairs is -1; it must be at least 0"),
+        ({"cache_reset_pairs": 3}, "cache 'local' forgets at every pair already"),
+        ({"cache": "none", "cache_reset_pairs": 1}, "use cache 'global' or 'leaky'"),
+        ({"cache_leak": 1.5}, "cache_leak is 1.5; it must be 0..1"),
+        ({"reset": "half"}, "reset is 'half'; allowed: current, step"),
+        ({"multi_event": True}, "use stamp 'linear'"),
+        ({"noise": "poisson"}, "noise is 'poisson'; allowed: adaptive, gaussian, random, none"),
+        ({"noise": True}, "noise is True; allowed: adaptive"),
+        ({"noise_rate_hz": -0.1}, "noise_rate_hz is -0.1"),
+        ({"noise_scale": -1.0}, "noise_scale is -1"),
+        ({"noise_intensity": -1.0}, "noise_intensity is -1"),
+        ({"noise_on_fraction": 1.1}, "noise_on_fraction is 1.1; it must be 0..1"),
+        ({"stamp": "hyper"}, "did you mean 'hyperbolic'|allowed: eq7"),
+        ({"stamp_scale": 0.0}, "stamp_scale is 0"),
+        ({"stamp_scale": 1.5}, "stamp_scale is 1.5"),
+    ],
+    ids=str,
+)
+def test_config_fails_with_one_clear_sentence(options, message):
+    with pytest.raises(ConfigError, match=message):
+        TexventConfig(**options)
+
+
+@pytest.mark.parametrize("seed", [-1, 2**63])
+def test_seed_outside_its_range_fails(seed):
+    with pytest.raises(ConfigError, match="seed is"):
+        TexventSimulator(seed=seed)
+
+
+def test_unknown_backend_fails_at_once():
+    with pytest.raises(ConfigError, match=r"unknown backend 'cuda'; allowed: auto, cpu"):
+        TexventSimulator(backend="cuda")
+
+
+def test_a_copy_carries_the_state(backend):
+    frames = ramp_b()
+    whole = simulate(frames, cache="global", backend=backend)
+    simulator = TexventSimulator(TexventConfig(cache="global", noise="none"), backend=backend)
+    packets = [simulator.step(frame) for frame in frames[:10]]
+    twin = copy.deepcopy(simulator)
+    packets += [twin.step(frame) for frame in frames[10:]]
+    assert EventStream.concat(packets).equals(whole)

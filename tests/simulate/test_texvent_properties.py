@@ -1,0 +1,228 @@
+"""What holds for every clip and every combination of switches.
+
+The naive simulator here goes pixel by pixel, in plain Python floats, as equations.md tells it; the
+package's must give the same events. It has no noise: noise is checked by its statistics.
+"""
+
+import copy
+import importlib
+import itertools
+import math
+from unittest import mock
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.brightness import balanced_log
+from texvent.errors import ConfigError
+from texvent.events import EventStream
+from texvent.simulate.texvent import TexventConfig, TexventSimulator
+from texvent.video import Frame
+
+CHECKED = settings(max_examples=60, deadline=None)
+NOISY = {"noise_rate_hz": 50.0, "noise_intensity": 150.0}
+
+
+def is_possible(options) -> bool:
+    try:
+        TexventConfig(**options)
+    except ConfigError:
+        return False
+    return True
+
+
+SWITCHES = [
+    options
+    for values in itertools.product(
+        ("local", "global", "none", "leaky"),
+        (0, 2),
+        ("current", "step"),
+        (False, True),
+        ("eq7", "random", "linear", "hyperbolic", "even", "end"),
+    )
+    if is_possible(
+        options := dict(
+            zip(
+                ("cache", "cache_reset_pairs", "reset", "multi_event", "stamp"),
+                values,
+                strict=True,
+            )
+        )
+    )
+]
+switches = st.sampled_from(SWITCHES)
+noises = st.sampled_from(["adaptive", "gaussian", "random", "none"])
+seeds = st.integers(0, 2**63 - 1)
+
+
+@st.composite
+def clips(draw, min_frames=2):
+    """Small clips: any pixel type, irregular times, source and intermediate frames mixed."""
+    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
+    count = draw(st.integers(min_frames, 8))
+    shape = (count, draw(st.integers(1, 5)), draw(st.integers(1, 6)))
+    steps = np.cumsum(rng.normal(0, draw(st.sampled_from([5, 40])), shape), axis=0)
+    levels = np.clip(rng.uniform(0, 255, shape[1:]) + steps, 0, 255)
+    dtype = draw(st.sampled_from([np.uint8, np.uint16, np.float32, np.float64]))
+    scaled = levels * 257 if dtype == np.uint16 else levels
+    times = rng.integers(-1000, 1000) + np.cumsum(rng.integers(1, 15_000, count))
+    sources = [True, *(rng.random(count - 1) < 0.5)]
+    return [Frame(scaled[k].astype(dtype), int(times[k]), bool(sources[k])) for k in range(count)]
+
+
+def simulate(frames, *, backend="cpu", seed=0, **options) -> EventStream:
+    simulator = TexventSimulator(TexventConfig(**options), seed=seed, backend=backend)
+    return EventStream.concat([simulator.step(frame) for frame in frames])
+
+
+def naive_events(frames, config: TexventConfig) -> list[tuple[int, int, int, int]]:
+    """(t, y, x, p) of all events, one pixel at a time; no noise, no random times."""
+    images = [balanced_log(frame.luma, config.balance).tolist() for frame in frames]
+    reference = [row[:] for row in images[0]]
+    pairs, events = 0, []
+    for earlier, later, before, now in zip(frames, frames[1:], images, images[1:], strict=False):
+        pairs += earlier.is_source
+        fired = []
+        for y, x in np.ndindex(len(now), len(now[0])):
+            reference[y][x] = naive_reference(
+                reference[y][x], before[y][x], earlier.is_source, pairs, config
+            )
+            change = now[y][x] - reference[y][x]
+            if abs(change) >= config.contrast_threshold:
+                fired.append((y, x, change))
+        sizes = [abs(change) for _, _, change in fired]
+        for y, x, change in fired:
+            sign = 1 if change > 0 else -1
+            number = (
+                math.floor(abs(change) / config.contrast_threshold) if config.multi_event else 1
+            )
+            for k in range(1, number + 1):
+                moved = sign * k * config.contrast_threshold
+                u = naive_fraction(
+                    config.stamp,
+                    sizes,
+                    abs(change),
+                    (before[y][x], now[y][x], reference[y][x] + moved, sign),
+                    (k, number, config.contrast_threshold),
+                )
+                t = earlier.t_us + math.floor(u * (later.t_us - earlier.t_us))
+                events.append((min(t, later.t_us - 1), y, x, int(change > 0)))
+            reference[y][x] = now[y][x] if config.reset == "current" else reference[y][x] + moved
+    return sorted(events)
+
+
+def naive_reference(reference, before, is_source, pairs, config):
+    period = config.cache_reset_pairs
+    periodic = is_source and period and pairs > 1 and (pairs - 1) % period == 0
+    if config.cache == "none" or periodic or (config.cache == "local" and is_source):
+        return before
+    if config.cache == "leaky" and is_source:
+        return reference + config.cache_leak * (before - reference)
+    return reference
+
+
+def naive_fraction(stamp, sizes, size, line, rank):
+    before, now, level, sign = line
+    k, number, threshold = rank
+    if stamp == "eq7":
+        spread = max(sizes) - min(sizes)
+        return 1 - (size - min(sizes)) / spread if spread else 0.5
+    if stamp == "linear":
+        if sign * (before - level) >= 0:
+            return 0.0
+        return min(max((level - before) / (now - before), 0.0), 1.0) if now != before else 1.0
+    if stamp == "hyperbolic":
+        return min(k * threshold / size, 1.0)
+    return k / number if stamp == "even" else 1.0
+
+
+def rows(events: EventStream) -> list[tuple[int, int, int, int]]:
+    return list(
+        zip(events.t.tolist(), events.y.tolist(), events.x.tolist(), events.p.tolist(), strict=True)
+    )
+
+
+@settings(max_examples=150, deadline=None)
+@given(clips(), st.sampled_from([one for one in SWITCHES if one["stamp"] != "random"]))
+def test_events_are_those_of_the_naive_simulator(frames, options):
+    config = TexventConfig(noise="none", **options)
+    events = simulate(frames, noise="none", **options)
+    assert rows(events) == naive_events(frames, config)
+
+
+@settings(max_examples=150, deadline=None)
+@given(clips(), switches, noises, seeds)
+def test_cpu_equals_the_reference_exactly(frames, options, noise, seed):
+    both = [
+        simulate(frames, backend=backend, seed=seed, noise=noise, **NOISY, **options)
+        for backend in ("reference", "cpu")
+    ]
+    assert both[0].equals(both[1])
+
+
+@CHECKED
+@given(clips(), switches, noises, seeds)
+def test_convention_packets_are_half_open_sorted_and_inside_the_sensor(
+    frames, options, noise, seed
+):
+    simulator = TexventSimulator(TexventConfig(noise=noise, **NOISY, **options), seed=seed)
+    assert len(simulator.step(frames[0])) == 0
+    for earlier, later in itertools.pairwise(frames):
+        packet = simulator.step(later)
+        assert packet.size == later.size
+        assert rows(packet) == sorted(rows(packet))
+        if len(packet):
+            first, stop = packet.time_range
+            assert earlier.t_us <= first < stop <= later.t_us
+
+
+@CHECKED
+@given(clips(min_frames=3), switches, noises, seeds, st.data())
+def test_splitting_the_stream_changes_nothing_when_state_is_carried(
+    frames, options, noise, seed, data
+):
+    simulator = TexventSimulator(TexventConfig(noise=noise, **NOISY, **options), seed=seed)
+    cut = data.draw(st.integers(1, len(frames) - 1))
+    packets = [simulator.step(frame) for frame in frames[:cut]]
+    carried = copy.deepcopy(simulator)
+    simulator.step(Frame(frames[cut].pixels, frames[cut].t_us, False))  # must not disturb the copy
+    packets += [carried.step(frame) for frame in frames[cut:]]
+    whole = simulate(frames, seed=seed, noise=noise, **NOISY, **options)
+    assert EventStream.concat(packets).equals(whole)
+
+
+@CHECKED
+@given(
+    clips(min_frames=3),
+    st.sampled_from([one for one in SWITCHES if one["cache"] in ("local", "none")]),
+    noises,
+    seeds,
+    st.data(),
+)
+def test_local_cache_needs_no_state_at_a_source_frame(frames, options, noise, seed, data):
+    """So a clip can be cut at source frames and simulated in parallel, noise included."""
+    cut = data.draw(st.integers(1, len(frames) - 1))
+    frames[cut] = Frame(frames[cut].pixels, frames[cut].t_us, is_source=True)
+    options = {"seed": seed, "noise": noise, **NOISY, **options}
+    parts = [simulate(frames[: cut + 1], **options), simulate(frames[cut:], **options)]
+    assert EventStream.concat(parts).equals(simulate(frames, **options))
+
+
+@CHECKED
+@given(clips(), switches)
+def test_no_change_gives_no_events(frames, options):
+    still = [Frame(frames[0].pixels, frame.t_us, frame.is_source) for frame in frames]
+    assert len(simulate(still, noise="none", **options)) == 0
+
+
+@CHECKED
+@given(clips(), switches)
+def test_negated_contrast_swaps_on_and_off(frames, options):
+    """The brightness itself is negated: negated intensities would round differently."""
+    events = simulate(frames, noise="none", **options)
+    module = importlib.import_module("texvent.simulate.texvent")
+    with mock.patch.object(module, "balanced_log", lambda *given: -balanced_log(*given)):
+        negated = simulate(frames, noise="none", **options)
+    swapped = EventStream(negated.x, negated.y, negated.t, 1 - negated.p, negated.size)
+    assert swapped.equals(events)
