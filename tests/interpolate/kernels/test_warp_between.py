@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numba
 import numpy as np
 import pytest
 
@@ -62,6 +63,21 @@ def test_compiled_kernel_equals_the_definition(shape, position):
     backward = (-forward + rng.normal(0, 1, (*shape, 2))).astype(np.float32)
     arguments = (first, second, forward, backward, position)
     np.testing.assert_array_equal(cpu.warp_between(*arguments), reference.warp_between(*arguments))
+
+
+def test_compiled_kernel_is_the_same_with_one_and_two_threads():
+    rng = np.random.default_rng(6)
+    first, second = (rng.uniform(0, 255, (50, 60)).astype(np.float32) for _ in range(2))
+    forward, backward = (rng.normal(0, 3, (50, 60, 2)).astype(np.float32) for _ in range(2))
+    threads = numba.get_num_threads()
+    results = []
+    try:
+        for count in (1, min(2, numba.config.NUMBA_NUM_THREADS)):
+            numba.set_num_threads(count)
+            results.append(cpu.warp_between(first, second, forward, backward, 0.3))
+    finally:
+        numba.set_num_threads(threads)
+    np.testing.assert_array_equal(*results)
 
 
 def test_sample_is_bilinear_and_repeats_the_edge():
