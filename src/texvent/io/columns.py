@@ -47,19 +47,20 @@ def binary_polarity(p: NDArray[Any]) -> NDArray[np.uint8]:
 def stream_from_file(
     path: Path, columns: Mapping[str, NDArray[Any]], size: SensorSize, metadata: Mapping[str, Any]
 ) -> EventStream:
-    """Columns x, y, t, p of a file as a stream; what is wrong with them is the file's fault.
+    """Columns x, y, t, p (and label) of a file as a stream; what is wrong is the file's fault.
 
     Raises:
         FileFormatError: lengths, order, coordinates or polarities are wrong.
     """
     try:
-        return EventStream.from_columns(
+        return EventStream(
             columns["x"],
             columns["y"],
             columns["t"],
             binary_polarity(columns["p"]),
-            size=size,
-            metadata=metadata,
+            size,
+            metadata,
+            columns.get("label"),
         )
     except (InputError, OverflowError) as error:
         raise FileFormatError(f"{path} holds wrong events: {error}") from error

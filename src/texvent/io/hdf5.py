@@ -1,6 +1,7 @@
 """Universal HDF5: DSEC's layout with absolute times, read by most event-camera software.
 
     events/x  u2   events/y  u2   events/t  i8, µs   events/p  u1, 1 = ON
+    events/label u1, 1 = noise, where the run was told to store it
     ms_to_idx u8   ms_to_idx[m] = index of the first event with t >= 1000 m (n if there is none)
     t_offset  i8   added to events/t; 0
     root attributes: width, height, timestamp_scale_ms = 0.001,
@@ -44,6 +45,7 @@ from texvent.sensor import SensorSize
 TIMESTAMP_SCALE_MS = 0.001
 """Milliseconds per unit of events/t: µs."""
 CHUNK_EVENTS = 65_536
+CHUNK_INDEX = 4096
 BATCH_EVENTS = 4 * CHUNK_EVENTS
 """Events held before they are compressed and written."""
 PACKET_EVENTS = 1_048_576
@@ -117,6 +119,7 @@ class Hdf5Writer:
         self._next_ms = 0
         self._last_us = 0
         self._offset_us: int | None = None
+        self._has_label: bool | None = None
 
     def __enter__(self) -> Self:
         with ExitStack() as stack:
@@ -137,6 +140,7 @@ class Hdf5Writer:
         if len(packet) == 0:
             return
         self._check_time(packet)
+        self._check_label(packet)
         self._pending.append(packet)
         self._pending_events += len(packet)
         if self._pending_events >= BATCH_EVENTS:
@@ -172,24 +176,38 @@ class Hdf5Writer:
             )
         self._last_us = last
 
+    def _check_label(self, packet: EventStream) -> None:
+        """The first events decide whether the file has a label column."""
+        has_label = packet.label is not None
+        if self._has_label is None:
+            self._has_label = has_label
+            if has_label:
+                self._create_column("events/label", "|u1", CHUNK_EVENTS)
+        elif has_label != self._has_label:
+            raise InputError(
+                "some packets have a signal/noise label and some do not; give all or none one"
+            )
+
     def _create_layout(self) -> None:
         file = self._file
-        filters = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
         for name, dtype in COLUMNS.items():
-            file.create_dataset(
-                f"events/{name}",
-                shape=(0,),
-                maxshape=(None,),
-                dtype=dtype,
-                chunks=(CHUNK_EVENTS,),
-                **filters,
-            )
-        file.create_dataset(
-            "ms_to_idx", shape=(0,), maxshape=(None,), dtype="<u8", chunks=(4096,), **filters
-        )
+            self._create_column(f"events/{name}", dtype, CHUNK_EVENTS)
+        self._create_column("ms_to_idx", "<u8", CHUNK_INDEX)
         file.attrs["width"], file.attrs["height"] = self._size
         file.attrs["timestamp_scale_ms"] = TIMESTAMP_SCALE_MS
         _write_metadata(file, self._json, self._metadata)
+
+    def _create_column(self, name: str, dtype: str, chunk: int) -> None:
+        self._file.create_dataset(
+            name,
+            shape=(0,),
+            maxshape=(None,),
+            dtype=dtype,
+            chunks=(chunk,),
+            compression="gzip",
+            compression_opts=1,
+            shuffle=True,
+        )
 
     def _write_pending(self, *, final: bool) -> None:
         """Write whole chunks, so that none is compressed twice; at the end, the rest too."""
@@ -198,8 +216,8 @@ class Hdf5Writer:
         stop = self._written + count
         times = whole.t[:count] - (self._offset_us or 0)
         self._index(times)
-        for name in COLUMNS:
-            column = times if name == "t" else getattr(whole, name)[:count]
+        for name, values in whole.columns().items():
+            column = times if name == "t" else values[:count]
             dataset = self._file[f"events/{name}"]
             dataset.resize((stop,))
             dataset[self._written : stop] = column
@@ -261,23 +279,25 @@ class _Packets:
                 yield packet
 
     def _packet(self, columns: Mapping[str, Any], start: int, offset_us: int) -> EventStream:
-        part = {name: columns[name][start : start + PACKET_EVENTS] for name in COLUMNS}
+        stop = start + PACKET_EVENTS
+        part = {name: column[start:stop] for name, column in columns.items()}
         part["t"] = part["t"].astype(np.int64) + offset_us
         return stream_from_file(self._path, part, self._size, self._metadata)
 
 
 def _checked_columns(file: Any, path: Path) -> dict[str, Any]:
-    """The four datasets, if the file has this layout."""
+    """The four or five datasets, if the file has this layout."""
     missing = [name for name in COLUMNS if f"events/{name}" not in file]
     if missing:
         raise FileFormatError(
             f"{path} is HDF5 but has no events/{missing[0]}; texvent reads the DSEC and universal "
             "layout: events/x, events/y, events/t, events/p"
         )
-    columns = {name: file[f"events/{name}"] for name in COLUMNS}
+    names = [*COLUMNS, "label"] if "events/label" in file else [*COLUMNS]
+    columns = {name: file[f"events/{name}"] for name in names}
     shapes = {name: column.shape for name, column in columns.items()}
     if any(len(shape) != 1 for shape in shapes.values()) or len(set(shapes.values())) != 1:
-        raise FileFormatError(f"{path}: events/x, y, t, p differ in length: {shapes}")
+        raise FileFormatError(f"{path}: the columns of events differ in length: {shapes}")
     for name, column in columns.items():
         if column.dtype.kind not in "iub":
             raise FileFormatError(f"{path}: events/{name} holds {column.dtype}, not integers")

@@ -1,5 +1,8 @@
 """NumPy archives: x, y, t, p and width, height, timestamp_scale_ms; read by eventcv and evutils.
 
+Two more arrays hold what those do not look for: `texvent`, all metadata as JSON, and `label`
+(1 = noise) where the run was told to store it.
+
 The format holds each column as one array, so writer and reader need the whole recording in
 memory (13 bytes per event). Use HDF5 for long recordings.
 """
@@ -139,18 +142,15 @@ class NpzWriter:
         whole = EventStream.concat(self._packets)
         if self._part is None:
             return
+        arrays: dict[str, Any] = {
+            **whole.columns(),
+            "width": np.int64(self._size.width),
+            "height": np.int64(self._size.height),
+            "timestamp_scale_ms": np.float64(TIMESTAMP_SCALE_MS),
+            "texvent": np.array(self._json),
+        }
         with self._part.open("wb") as file:
-            np.savez(
-                file,
-                x=whole.x,
-                y=whole.y,
-                t=whole.t,
-                p=whole.p,
-                width=np.int64(self._size.width),
-                height=np.int64(self._size.height),
-                timestamp_scale_ms=np.float64(TIMESTAMP_SCALE_MS),
-                texvent=np.array(self._json),
-            )
+            np.savez(file, **arrays)
 
 
 def _read_arrays(path: Path) -> dict[str, Any]:

@@ -14,10 +14,12 @@ from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS, Frame
 from texvent.view.encode import FilmEncoder
 from texvent.view.interval import Interval, IntervalCollector
-from texvent.view.layout import Layout
+from texvent.view.layout import PLEASANT_WIDTH, Layout
 from texvent.view.palettes import DEFAULT_PALETTE, Palette, get_palette
 from texvent.view.picture import count_ceiling, draw_events
 
+GIF_WIDTH = 640.0
+"""A gif compresses badly, so it is kept small."""
 CEILING_MEMORY = 0.9
 """How slowly the scale recovers after a busy moment, per film frame: no flicker."""
 
@@ -55,7 +57,8 @@ class FilmWriter:
             overwrite: whether an existing file may be replaced.
             title: text of the caption, such as the prompt.
         """
-        self._layout = Layout(size, get_palette(palette), side_by_side)
+        width = GIF_WIDTH if Path(path).suffix.lower() == ".gif" else PLEASANT_WIDTH
+        self._layout = Layout(size, get_palette(palette), side_by_side, width)
         self._encoder = FilmEncoder(
             path,
             width=self._layout.width,

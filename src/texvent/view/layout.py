@@ -18,8 +18,7 @@ from texvent.view.canvas import (
 )
 from texvent.view.palettes import Colour, Palette
 
-PLEASANT_WIDTH = 1280
-"""Small sensors are enlarged by a whole factor until the picture is about this wide."""
+PLEASANT_WIDTH = 1280.0
 MAX_FACTOR = 10
 GAP = 2
 SURROUND: Colour = (24, 26, 31)
@@ -34,18 +33,16 @@ class Layout:
     size: SensorSize
     palette: Palette
     side_by_side: bool = True
-    whole_factor: int | None = None
-    """Whole-number enlargement; default: what gives a pleasant size."""
+    pleasant_width: float = PLEASANT_WIDTH
+    """Small sensors are enlarged by a whole factor until the picture is about this wide, pixels."""
 
     @property
     def factor(self) -> int:
         """Whole-number enlargement of the panels."""
-        if self.whole_factor is not None:
-            return self.whole_factor
         across = self.size.width * (2 if self.side_by_side else 1)
         down = self.size.height
         # A tall sensor is limited by its height, so that the picture fits a screen.
-        wanted = min(PLEASANT_WIDTH / across, 0.75 * PLEASANT_WIDTH / down)
+        wanted = min(self.pleasant_width / across, 0.75 * self.pleasant_width / down)
         return max(1, min(MAX_FACTOR, round(wanted)))
 
     @property
@@ -55,8 +52,9 @@ class Layout:
 
     @property
     def caption_height(self) -> int:
-        """Height of the caption, pixels."""
-        return 3 * self.text_height
+        """Height of the caption, pixels; it makes the whole height even."""
+        height = 3 * self.text_height
+        return height + (height + self.size.height * self.factor) % 2
 
     @property
     def panels_width(self) -> int:
@@ -72,8 +70,7 @@ class Layout:
     @property
     def height(self) -> int:
         """Height of the whole picture, pixels, even."""
-        height = self.size.height * self.factor + self.caption_height
-        return height + height % 2
+        return self.size.height * self.factor + self.caption_height
 
     def compose(self, frame: Picture | None, events: Picture, *, title: str, facts: str) -> Picture:
         """The whole picture.

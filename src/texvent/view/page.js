@@ -153,8 +153,8 @@
     { at: [0, -half[1], -half[2]], text: "x 0…" + (data.width - 1), shift: [-0.5, 0.35] },
     { at: [-half[0], 0, -half[2]], text: "y 0…" + (data.height - 1), shift: [-1.12, -0.5] },
     { at: [half[0], -half[1], 0], text: "time →", shift: [0.1, 0.35] },
-    { at: [half[0], -half[1], -half[2]], text: seconds(0).toFixed(3) + " s", shift: [-0.1, 1.0] },
-    { at: [half[0], -half[1], half[2]], text: seconds(1).toFixed(3) + " s", shift: [-0.2, 0.6] },
+    { at: [half[0], -half[1], -half[2]], text: seconds(0).toFixed(3) + " s", shift: [0.15, 0.1] },
+    { at: [half[0], -half[1], half[2]], text: seconds(1).toFixed(3) + " s", shift: [0.1, 0.1] },
   ].map((label) => {
     const span = document.createElement("span");
     span.textContent = label.text;

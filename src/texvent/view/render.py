@@ -169,9 +169,14 @@ def _contact_sheet(packets: EventPackets, config: RenderConfig) -> bytes:
     window_us = config.window_us or min(still_window_us(extent) * 2, max(1, int(step_us)))
     palette = get_palette(config.palette)
     columns = _columns(config.panels, packets.size)
-    factor = max(1, round(PLEASANT_WIDTH / (columns * packets.size.width)))
+    layout = Layout(
+        packets.size,
+        palette,
+        side_by_side=False,
+        pleasant_width=max(360.0, PLEASANT_WIDTH / columns),
+    )
     panels = [
-        _panel(interval, Layout(packets.size, palette, side_by_side=False, whole_factor=factor))
+        _panel(interval, layout)
         for interval in _first(
             config.panels,
             cut_windows(packets, size=packets.size, step_us=step_us, window_us=window_us),
