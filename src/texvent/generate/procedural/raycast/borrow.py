@@ -13,15 +13,22 @@ from numba.core.imputils import impl_ret_untracked
 from numba.extending import intrinsic
 from numba.np.arrayobj import make_array
 
+_null_of: Any = cgutils.get_null_value
+_array_view: Any = make_array
+_untracked: Any = impl_ret_untracked
 
-@intrinsic
-def borrow(typing_context: Any, array: Any) -> Any:
+
+def _build_view(typing_context: Any, array: Any) -> Any:
     """The same array without an owner; use it only while its owner lives (inside one kernel)."""
 
     def build(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        view = make_array(array)(context, builder, arguments[0])
-        view.meminfo = cgutils.get_null_value(view.meminfo.type)
-        view.parent = cgutils.get_null_value(view.parent.type)
-        return impl_ret_untracked(context, builder, array, view._getvalue())
+        view = _array_view(array)(context, builder, arguments[0])
+        view.meminfo = _null_of(view.meminfo.type)
+        view.parent = _null_of(view.parent.type)
+        return _untracked(context, builder, array, view._getvalue())
 
     return array(array), build
+
+
+borrow: Any = intrinsic(_build_view)
+"""`borrow(array)`, in a kernel: the same array without an owner, valid while its owner lives."""

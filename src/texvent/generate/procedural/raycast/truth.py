@@ -1,0 +1,67 @@
+"""What is seen through given picture points: depth, shape, and each instance on its own (Numba)."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from texvent.generate.procedural.primitives import Float64Array
+from texvent.generate.procedural.raycast.arrange import TILE
+from texvent.generate.procedural.raycast.borrow import borrow
+from texvent.generate.procedural.raycast.records import World
+from texvent.generate.procedural.raycast.trace import first_hit, hit_again
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def look_through(
+    owner: World, points: Float64Array, depth: Float64Array, number: NDArray[np.int32]
+) -> None:
+    """First surface behind each picture point.
+
+    Args:
+        owner: the scene.
+        points: [k, 2] x and y, pixels, inside the picture.
+        depth: [k] metres along the optical axis is written; inf for the sky.
+        number: [k] shape number, or GROUND, SKY or ROOM, is written.
+    """
+    world = World(
+        borrow(owner.instant), borrow(owner.shapes), borrow(owner.lists), borrow(owner.lamps)
+    )
+    for index in range(len(points)):
+        t, found, _, _ = first_hit(world, points[index, 0], points[index, 1])
+        depth[index], number[index] = t, found
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def count_alone(
+    owner: World, instance: NDArray[np.int32], height: int, width: int, counts: NDArray[np.int64]
+) -> None:
+    """How many pixels each instance would cover if nothing stood before it.
+
+    Args:
+        owner: the scene.
+        instance: [n] instance of each shape.
+        height: picture height, pixels.
+        width: picture width, pixels.
+        counts: [1 + highest instance] is added to.
+    """
+    world = World(
+        borrow(owner.instant), borrow(owner.shapes), borrow(owner.lists), borrow(owner.lamps)
+    )
+    lists, columns = world.lists, world.instant[0].tile_columns
+    last = np.full(len(counts), -1, dtype=np.int64)
+    for row in range(height):
+        for column in range(width):
+            cell = (row // TILE) * columns + column // TILE
+            pixel = row * width + column
+            for index in range(lists[cell], lists[cell + 1]):
+                one = instance[lists[index]]
+                if last[one] == pixel:
+                    continue
+                t, _ = hit_again(world, column + 0.5, row + 0.5, lists[index])
+                if t < math.inf:
+                    last[one] = pixel
+                    counts[one] += 1
