@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from texvent.events import EventStream
+from texvent.events import SIGNAL, EventStream
 from texvent.simulate.draws import frame_key
 from texvent.simulate.kernels import reference
 from texvent.simulate.noise import (
@@ -103,7 +103,7 @@ def test_noise_never_touches_the_reference(kind, backend):
     clean = simulate(frames, noise="none", **options)
     noisy = simulate(frames, noise=kind, noise_rate_hz=200.0, **options)
     assert len(clean) < len(noisy)
-    assert as_set(clean) <= as_set(noisy)
+    assert noisy[noisy.label == SIGNAL].equals(clean)
 
 
 def test_noise_is_uniform_in_time_and_half_on():
@@ -140,6 +140,18 @@ def test_mask_is_dark_and_at_rest():
     luma = np.array([[79, 80, 81], [0, 10, 20]], np.uint8)
     mask = low_light_background(luma, np.array([4]), intensity=80.0)
     assert mask.tolist() == [[True, False, False], [True, False, True]]
+
+
+def test_gaussian_noise_is_labelled_where_only_the_noise_fired():
+    first = np.full((40, 40), 50.0)
+    second = first.copy()
+    second[:20] = 90.0
+    options = {"noise": "gaussian", "noise_rate_hz": 100.0}
+    events = simulate([Frame(first, 0), Frame(second, 1000)], **options)
+    noisy = events[events.label != SIGNAL]
+    assert noisy.y.min() >= 20
+    assert abs(len(noisy) - 80) < 4 * np.sqrt(80)
+    assert len(events) - len(noisy) > 700
 
 
 @pytest.mark.parametrize("mean", [1e-9, 0.004, 0.5, 3.0, 800.0])

@@ -17,22 +17,25 @@ def interval(start_us, stop_us, width=3, height=2) -> SubInterval:
     [
         pytest.param(100, 200, id="short"),
         pytest.param(-50, 2**40, id="from before zero"),
-        pytest.param(0, 2**62, id="too long for packed keys"),
+        pytest.param(-(2**61), 2**61, id="too long for packed keys"),
     ],
 )
-def test_convention_ties_are_ordered_by_t_y_x_p(start_us, stop_us):
-    pixel = np.array([5, 4, 2, 2, 0, 3])
-    t = np.array([120, 120, 120, 120, 199, 110])
-    p = np.array([0, 1, 1, 0, 1, 0], np.uint8)
-    packet = sort_packet(pixel, t, p, interval=interval(start_us, stop_us))
-    assert packet.t.tolist() == [110, 120, 120, 120, 120, 199]
-    assert list(zip(packet.y, packet.x, packet.p, strict=True)) == [
-        (1, 0, 0),
-        (0, 2, 0),
-        (0, 2, 1),
-        (1, 1, 1),
-        (1, 2, 0),
-        (0, 0, 1),
+def test_convention_ties_are_ordered_by_t_y_x_p_label(start_us, stop_us):
+    middle, last = (start_us + stop_us) // 2, stop_us - 1
+    pixel = np.array([5, 4, 2, 2, 2, 0, 3])
+    t = np.array([middle] * 5 + [last, start_us])
+    p = np.array([0, 1, 1, 1, 0, 1, 0], np.uint8)
+    label = np.array([0, 0, 1, 0, 1, 1, 0], np.uint8)
+    packet = sort_packet(pixel, t, p, label, interval=interval(start_us, stop_us))
+    assert packet.t.tolist() == [start_us, *[middle] * 5, last]
+    assert list(zip(packet.y, packet.x, packet.p, packet.label, strict=True)) == [
+        (1, 0, 0, 0),
+        (0, 2, 0, 1),
+        (0, 2, 1, 0),
+        (0, 2, 1, 1),
+        (1, 1, 1, 0),
+        (1, 2, 0, 0),
+        (0, 0, 1, 1),
     ]
 
 
@@ -40,14 +43,14 @@ def test_the_last_pixel_of_the_largest_sensor_survives_packing():
     side = 65_535
     broadcast = np.broadcast_to(np.zeros(1), (side, side))
     where = SubInterval(0, 1_000_000, np.uint64(0), broadcast, broadcast, broadcast)
-    packet = sort_packet(
-        np.array([side * side - 1]), np.array([999_999]), np.array([1], np.uint8), interval=where
-    )
+    last, one = np.array([side * side - 1]), np.ones(1, np.uint8)
+    packet = sort_packet(last, np.array([999_999]), one, one, interval=where)
     assert (packet.x[0], packet.y[0], packet.t[0], packet.p[0]) == (65_534, 65_534, 999_999, 1)
 
 
 def test_no_event_is_an_empty_packet():
     nothing = np.empty(0, np.int64)
-    packet = sort_packet(nothing, nothing, nothing.astype(np.uint8), interval=interval(0, 10))
+    none = nothing.astype(np.uint8)
+    packet = sort_packet(nothing, nothing, none, none, interval=interval(0, 10))
     assert len(packet) == 0
     assert packet.size == (3, 2)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from texvent.simulate.draws import frame_key
-from texvent.simulate.event_frame import EventFrame, list_firings
+from texvent.simulate.event_frame import EventFrame, list_activations
 from texvent.simulate.interval import SubInterval
 from texvent.simulate.timestamps import larger_change_earlier, reconstruct_timestamps
 
@@ -16,10 +16,10 @@ def interval(previous, brightness, reference, stop_us=10_000) -> SubInterval:
     return SubInterval(0, stop_us, frame_key(0, 0), *images)
 
 
-def firings(changes, numbers=None):
+def activations(changes, numbers=None):
     changes = np.array(changes, np.float64)
     numbers = np.ones(changes.size, np.int64) if numbers is None else np.array(numbers)
-    return list_firings(EventFrame(np.arange(changes.size), changes, numbers))
+    return list_activations(EventFrame(np.arange(changes.size), changes, numbers))
 
 
 def times(stamp, changes, *, numbers=None, previous=None, reference=None, scale=1.0):
@@ -27,7 +27,7 @@ def times(stamp, changes, *, numbers=None, previous=None, reference=None, scale=
     previous = reference if previous is None else previous
     where = interval(previous, reference + np.array(changes), reference)
     return reconstruct_timestamps(
-        firings(changes, numbers), where, stamp=stamp, threshold=THRESHOLD, scale=scale
+        activations(changes, numbers), where, stamp=stamp, threshold=THRESHOLD, scale=scale
     ).tolist()
 
 
@@ -68,6 +68,7 @@ def test_linear_crossing_left_over_from_before_is_at_the_start():
     assert times("linear", [0.5], previous=[0.3]) == [0]
     assert times("linear", [0.5], previous=[0.5]) == [0]
     assert times("linear", [-0.5], previous=[-0.9]) == [0]
+    assert times("linear", [0.2], previous=[0.2]) == [0]
 
 
 def test_linear_crossing_that_rounding_puts_after_the_end_is_at_the_end():
@@ -94,5 +95,5 @@ def test_random_times_are_uniform_and_differ_between_events_of_a_pixel():
 def test_times_never_reach_the_end_of_the_shortest_interval():
     shortest = interval([0.0], [0.3], [0.0], stop_us=1)
     for stamp in ("eq7", "random", "linear", "hyperbolic", "even", "end"):
-        t = reconstruct_timestamps(firings([0.3]), shortest, stamp=stamp, threshold=THRESHOLD)
+        t = reconstruct_timestamps(activations([0.3]), shortest, stamp=stamp, threshold=THRESHOLD)
         assert t.tolist() == [0]

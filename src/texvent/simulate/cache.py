@@ -78,8 +78,7 @@ class BrightnessCache:
             return False
         if self._policy == "local":
             return True
-        pairs_before = self._pairs_seen - 1
-        return self._reset_pairs > 0 and pairs_before > 0 and pairs_before % self._reset_pairs == 0
+        return self._reset_pairs > 0 and (self._pairs_seen - 1) % self._reset_pairs == 0
 
     def update(self, fired: EventFrame, brightness: Float64Array, *, step: float | None) -> None:
         """Renew the reference at the pixels that fired, and only there.

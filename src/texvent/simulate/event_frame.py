@@ -21,8 +21,8 @@ class EventFrame(NamedTuple):
     """[n] how many events it fires, at least 1."""
 
 
-class Firings(NamedTuple):
-    """The same with a row per event: a pixel's events follow each other."""
+class Activations(NamedTuple):
+    """The same with a row per event; those of a pixel follow each other."""
 
     pixel: NDArray[np.int64]
     change: NDArray[np.float64]
@@ -65,20 +65,20 @@ def generate_event_frame(
     return EventFrame(pixel, change, number)
 
 
-def list_firings(frame: EventFrame) -> Firings:
+def list_activations(frame: EventFrame) -> Activations:
     """An event frame with a row per event.
 
     Example:
         >>> frame = EventFrame(np.array([4, 9]), np.array([0.25, -0.7]), np.array([1, 3]))
-        >>> firings = list_firings(frame)
-        >>> firings.pixel.tolist(), firings.order.tolist(), firings.polarity.tolist()
+        >>> activations = list_activations(frame)
+        >>> activations.pixel.tolist(), activations.order.tolist(), activations.polarity.tolist()
         ([4, 9, 9, 9], [1, 1, 2, 3], [1, 0, 0, 0])
     """
     pixel, change, number = frame
     if int(number.sum()) == pixel.size:
-        return Firings(pixel, change, number, number)
+        return Activations(pixel, change, number, number)
     first = np.cumsum(number) - number
     order = np.arange(int(number.sum())) - np.repeat(first, number) + 1
-    return Firings(
+    return Activations(
         np.repeat(pixel, number), np.repeat(change, number), np.repeat(number, number), order
     )

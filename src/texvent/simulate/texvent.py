@@ -13,10 +13,10 @@ from texvent._registry import suggest
 from texvent.brightness import Float64Array, balanced_log
 from texvent.config import check_range
 from texvent.errors import ConfigError
-from texvent.events import EventStream
+from texvent.events import NOISE, SIGNAL, EventStream
 from texvent.simulate.cache import BrightnessCache
 from texvent.simulate.draws import frame_key
-from texvent.simulate.event_frame import EventFrame, generate_event_frame, list_firings
+from texvent.simulate.event_frame import EventFrame, generate_event_frame, list_activations
 from texvent.simulate.interval import SubInterval
 from texvent.simulate.kernels.interface import Kernels
 from texvent.simulate.kernels.select import check_backend, load_kernels
@@ -188,12 +188,14 @@ class TexventSimulator:
         if self._seen is None:
             self._seen = _Seen(frame.t_us, frame.is_source, brightness, self._new_cache(brightness))
             return EventStream.empty(frame.size)
+        cache = self._seen.cache
         interval = self._compare_with_cache(frame, brightness, self._seen)
         events = self._generate_event_frame(interval.brightness, interval)
         noise = self._add_noise(frame, events, interval)
-        packet = self._reconstruct_timestamps(events, noise, interval)
-        self._update_cache(brightness, events, interval, self._seen.cache)
-        self._seen = _Seen(frame.t_us, frame.is_source, brightness, self._seen.cache)
+        signal = self._without_voltage_noise(events, brightness, interval)
+        packet = self._reconstruct_timestamps(events, signal, noise, interval)
+        cache.update(signal, brightness, step=self.config.reset_step)
+        self._seen = _Seen(frame.t_us, frame.is_source, brightness, cache)
         return packet
 
     @property
@@ -254,33 +256,33 @@ class TexventSimulator:
         seconds = (stop_us - start_us) / MICROSECONDS
         return self.config.noise_rate_hz * (self.config.noise_scale * seconds)
 
+    def _without_voltage_noise(
+        self, events: EventFrame, brightness: Float64Array, interval: SubInterval
+    ) -> EventFrame:
+        """What would have fired without Gaussian noise: only this renews the reference."""
+        if self.config.noise != "gaussian":
+            return events
+        return self._generate_event_frame(brightness, interval)
+
     def _reconstruct_timestamps(
-        self, events: EventFrame, noise: NoiseEvents, interval: SubInterval
+        self, events: EventFrame, signal: EventFrame, noise: NoiseEvents, interval: SubInterval
     ) -> EventStream:
         """Eq. 7 for the events; noise brings its own times."""
-        firings = list_firings(events)
+        activations = list_activations(events)
         t = reconstruct_timestamps(
-            firings,
+            activations,
             interval,
             stamp=self.config.stamp,
             threshold=self.contrast_threshold,
             scale=self.config.stamp_scale,
         )
+        label = np.full(activations.pixel.size, SIGNAL, np.uint8)
+        if signal is not events:
+            label[~np.isin(activations.pixel, signal.pixel)] = NOISE
         return sort_packet(
-            np.concatenate([firings.pixel, noise.pixel]),
+            np.concatenate([activations.pixel, noise.pixel]),
             np.concatenate([t, interval.at(noise.fraction)]),
-            np.concatenate([firings.polarity, noise.polarity]),
+            np.concatenate([activations.polarity, noise.polarity]),
+            np.concatenate([label, np.full(noise.pixel.size, NOISE, np.uint8)]),
             interval=interval,
         )
-
-    def _update_cache(
-        self,
-        brightness: Float64Array,
-        events: EventFrame,
-        interval: SubInterval,
-        cache: BrightnessCache,
-    ) -> None:
-        """Renew the reference where events fired, as if there were no voltage noise."""
-        if self.config.noise == "gaussian":
-            events = self._generate_event_frame(brightness, interval)
-        cache.update(events, brightness, step=self.config.reset_step)

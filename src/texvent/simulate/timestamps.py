@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.simulate.draws import Purpose, draw_uniforms
-from texvent.simulate.event_frame import Firings
+from texvent.simulate.event_frame import Activations
 from texvent.simulate.interval import SubInterval
 
 StampRule = Literal["eq7", "random", "linear", "hyperbolic", "even", "end"]
@@ -20,7 +20,7 @@ Float64Array = NDArray[np.float64]
 
 
 def reconstruct_timestamps(
-    firings: Firings,
+    activations: Activations,
     interval: SubInterval,
     *,
     stamp: StampRule,
@@ -30,7 +30,7 @@ def reconstruct_timestamps(
     """Times of the events of one sub-interval.
 
     Args:
-        firings: the events.
+        activations: the events.
         interval: the sub-interval they belong to.
         stamp: the rule.
         threshold: δ, log units.
@@ -40,8 +40,8 @@ def reconstruct_timestamps(
         [n] µs, in `[start_us, stop_us)`.
     """
     if stamp == "eq7":
-        return interval.at(scale * larger_change_earlier(firings.change))
-    return interval.at(_RULES[stamp](firings, interval, threshold))
+        return interval.at(scale * larger_change_earlier(activations.change))
+    return interval.at(_RULES[stamp](activations, interval, threshold))
 
 
 def larger_change_earlier(change: Float64Array) -> Float64Array:
@@ -70,13 +70,15 @@ def larger_change_earlier(change: Float64Array) -> Float64Array:
     return np.asarray(1.0 - (size - smallest) / (largest - smallest))
 
 
-def random_time(firings: Firings, interval: SubInterval, threshold: float) -> Float64Array:
+def random_time(activations: Activations, interval: SubInterval, threshold: float) -> Float64Array:
     """Uniform in the sub-interval: the paper's ablation E12."""
-    y, x = np.divmod(firings.pixel, interval.brightness.shape[1])
-    return draw_uniforms(interval.key, y, x, Purpose.TIMESTAMP.draw(firings.order))
+    y, x = np.divmod(activations.pixel, interval.brightness.shape[1])
+    return draw_uniforms(interval.key, y, x, Purpose.TIMESTAMP.draw(activations.order))
 
 
-def linear_crossing(firings: Firings, interval: SubInterval, threshold: float) -> Float64Array:
+def linear_crossing(
+    activations: Activations, interval: SubInterval, threshold: float
+) -> Float64Array:
     """When a straight line from the previous brightness to this one crosses the k-th threshold.
 
     (R ± kδ − L^{j−1}) / (L^j − L^{j−1}): exact for linear ramps, with any residual carried over.
@@ -85,11 +87,11 @@ def linear_crossing(firings: Firings, interval: SubInterval, threshold: float) -
     Source: ESIM (Rebecq, Gehrig and Scaramuzza, CoRL 2018).
     """
     start, stop, reference = (
-        image.reshape(-1)[firings.pixel]
+        image.reshape(-1)[activations.pixel]
         for image in (interval.previous, interval.brightness, interval.reference)
     )
-    sign = np.sign(firings.change)
-    level = reference + sign * (firings.order * threshold)
+    sign = np.sign(activations.change)
+    level = reference + sign * (activations.order * threshold)
     is_over = sign * (start - level) >= 0
     fraction = np.ones(level.shape)
     np.divide(level - start, stop - start, out=fraction, where=~is_over & (stop != start))
@@ -97,22 +99,24 @@ def linear_crossing(firings: Firings, interval: SubInterval, threshold: float) -
     return np.clip(fraction, 0.0, 1.0)
 
 
-def hyperbolic_crossing(firings: Firings, interval: SubInterval, threshold: float) -> Float64Array:
+def hyperbolic_crossing(
+    activations: Activations, interval: SubInterval, threshold: float
+) -> Float64Array:
     """When a ramp that starts at the reference crosses the k-th threshold: kδ / Δ."""
-    return np.minimum(firings.order * threshold / np.abs(firings.change), 1.0)
+    return np.minimum(activations.order * threshold / np.abs(activations.change), 1.0)
 
 
-def even_spacing(firings: Firings, interval: SubInterval, threshold: float) -> Float64Array:
+def even_spacing(activations: Activations, interval: SubInterval, threshold: float) -> Float64Array:
     """The k-th of n events of a pixel at k / n."""
-    return np.asarray(firings.order / firings.number)
+    return np.asarray(activations.order / activations.number)
 
 
-def interval_end(firings: Firings, interval: SubInterval, threshold: float) -> Float64Array:
+def interval_end(activations: Activations, interval: SubInterval, threshold: float) -> Float64Array:
     """All events at the end, as an event frame has them."""
-    return np.ones(firings.pixel.shape)
+    return np.ones(activations.pixel.shape)
 
 
-_RULES: Mapping[str, Callable[[Firings, SubInterval, float], Float64Array]] = {
+_RULES: Mapping[str, Callable[[Activations, SubInterval, float], Float64Array]] = {
     "random": random_time,
     "linear": linear_crossing,
     "hyperbolic": hyperbolic_crossing,
