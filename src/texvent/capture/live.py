@@ -26,17 +26,22 @@ from texvent.sensor import SensorSize, checked_size
 from texvent.video import MICROSECONDS, Frame
 
 STANDARD_INPUT = "-"
+ARRIVAL = "arrival"
 TIMEOUT_S = 15.0
 """How long a silent network stream is waited for."""
+NO_TIMESTAMPS = 0x80
+"""libav's AVFMT_NOTIMESTAMPS."""
+OPTIONS = {"fpsprobesize": "0"}
+"""Do not collect frames to guess a rate: they would then all arrive at once."""
 
 
 class LiveFrames:
     """Frames as they arrive; memory stays flat because one frame is read only when asked for.
 
-    Times are the stream's own presentation times, or, where it has none (raw MJPEG, some
-    cameras), the moments of arrival; both count from the first frame. Frames whose time does not
-    increase are dropped and counted in `metadata`. Ctrl-C ends the stream after the frame at
-    hand, so that results are finished; a second Ctrl-C interrupts.
+    Times are the stream's own presentation times, or, where its format has none (MJPEG over a pipe
+    or the network, raw H.264), the moments of arrival; both count from the first frame. Frames
+    whose time does not increase are dropped and counted in `metadata`. Ctrl-C ends the stream
+    after the frame at hand, so that results are finished; a second Ctrl-C interrupts.
 
     Args:
         address: a device (`/dev/video0`), an address (`rtsp://...`), a named pipe, or `-`.
@@ -57,13 +62,14 @@ class LiveFrames:
             self._container.close()
             raise InputError(f"{self._name} ended before its first frame")
         self._first, self._arrived_us = first, _now_us()
+        self._clock = _clock_name(self._container, first, times)
         pixels = decoded_pixels(first)
         self._size = checked_size(pixels.shape[1], pixels.shape[0])
         self._metadata: dict[str, Any] = {
             "source": self._name,
             "kind": "live",
             "pixel_format": first.format.name,
-            "clock": _clock_name(first, times),
+            "clock": self._clock,
             "frames_dropped": 0,
         }
 
@@ -124,10 +130,10 @@ class LiveFrames:
     def _time_us(self, index: int, frame: VideoFrame, arrived_us: int) -> int:
         if self._times is not None:
             return self._times(index)
-        first = self._first
-        if first.pts is None or frame.pts is None or frame.time_base is None:
+        if self._clock == ARRIVAL or frame.time_base is None:
             return arrived_us - self._arrived_us
-        return round((frame.pts - first.pts) * frame.time_base * MICROSECONDS)
+        pts, first_pts = frame.pts or 0, self._first.pts or 0
+        return round((pts - first_pts) * frame.time_base * MICROSECONDS)
 
     def _decode(self) -> Iterator[VideoFrame]:
         """Decoded frames; a stream that breaks off has ended, which is how live streams end."""
@@ -174,10 +180,11 @@ def interrupts_noted() -> Iterator[threading.Event]:
 def _open_live(address: str, name: str) -> InputContainer:
     try:
         if address == STANDARD_INPUT:
-            return av.open(sys.stdin.buffer, mode="r")
+            return av.open(sys.stdin.buffer, mode="r", options=OPTIONS)
         if address.startswith("/dev/video"):
-            return av.open(address, mode="r", format="v4l2")
-        return av.open(address, mode="r", timeout=TIMEOUT_S if "://" in address else None)
+            return av.open(address, mode="r", format="v4l2", options=OPTIONS)
+        timeout = TIMEOUT_S if "://" in address else None
+        return av.open(address, mode="r", timeout=timeout, options=OPTIONS)
     except (FFmpegError, OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise InputError(
@@ -186,10 +193,12 @@ def _open_live(address: str, name: str) -> InputContainer:
         ) from error
 
 
-def _clock_name(first: VideoFrame, times: FrameTimes | None) -> str:
+def _clock_name(container: InputContainer, first: VideoFrame, times: FrameTimes | None) -> str:
     if times is not None:
         return "given"
-    return "arrival" if first.pts is None else "presentation"
+    # For formats without times (MJPEG; jpeg_pipe, png_pipe) libav invents 25 per second.
+    is_timeless = container.format.flags & NO_TIMESTAMPS or "_pipe" in container.format.name
+    return ARRIVAL if is_timeless or first.pts is None else "presentation"
 
 
 def _now_us() -> int:

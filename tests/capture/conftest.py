@@ -1,0 +1,61 @@
+"""Small clips, written with PyAV, for the tests of this folder."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from pathlib import Path
+
+import av
+import numpy as np
+import pytest
+
+WIDTH, HEIGHT = 64, 48
+
+
+class ClipWriter:
+    """Writes arrays into video files of any codec, pixel format and timing."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def write(
+        self,
+        name: str,
+        frames: Sequence[np.ndarray],
+        *,
+        codec: str = "libx264",
+        stored: str = "yuv420p",
+        given: str = "rgb24",
+        times_ms: Sequence[int] | None = None,
+        rotation: int = 0,
+        container: dict[str, str] | None = None,
+        options: dict[str, str] | None = None,
+    ) -> Path:
+        path = self.folder / name
+        with av.open(str(path), "w", options=container or {}) as clip:
+            stream = clip.add_stream(codec, rate=25, options=options or {})
+            stream.height, stream.width = frames[0].shape[:2]
+            stream.pix_fmt = stored
+            stream.codec_context.time_base = Fraction(1, 1000)
+            if rotation:
+                stream.set_display_rotation(rotation)
+            for index, pixels in enumerate(frames):
+                frame = av.VideoFrame.from_ndarray(pixels, format=given)
+                frame.pts = times_ms[index] if times_ms else 40 * index
+                frame.time_base = Fraction(1, 1000)
+                clip.mux(stream.encode(frame))
+            clip.mux(stream.encode(None))
+        return path
+
+
+@pytest.fixture
+def clips(tmp_path: Path) -> ClipWriter:
+    return ClipWriter(tmp_path)
+
+
+@pytest.fixture(scope="session")
+def noisy_frames() -> list[np.ndarray]:
+    """30 frames that compress badly, so that cutting the file cuts frames."""
+    rng = np.random.default_rng(1)
+    return [rng.integers(0, 256, (HEIGHT, WIDTH, 3), dtype=np.uint8) for _ in range(30)]

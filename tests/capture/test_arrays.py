@@ -1,0 +1,140 @@
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from texvent.capture.open import open_frames
+from texvent.config import CaptureConfig
+from texvent.errors import ConfigError, InputError
+
+AT_100 = CaptureConfig(fps=Fraction(100))
+
+
+def ramp(dtype, shape=(3, 4, 6)):
+    return (np.arange(np.prod(shape)).reshape(shape) % 200 + 20).astype(dtype)
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32, np.float64])
+@pytest.mark.parametrize("shape", [(3, 4, 6), (3, 4, 6, 3)])
+def test_pixels_and_types_are_kept(dtype, shape):
+    pixels = ramp(dtype, shape)
+    frames = list(open_frames(pixels, AT_100))
+    assert frames[0].pixels.dtype == dtype
+    assert np.array_equal(np.stack([frame.pixels for frame in frames]), pixels)
+    assert [frame.t_us for frame in frames] == [0, 10_000, 20_000]
+
+
+def test_given_times_are_kept_as_they_are():
+    stream = open_frames(ramp(np.uint8), CaptureConfig(), t_us=[5, 70, 71])
+    assert [frame.t_us for frame in stream] == [5, 70, 71]
+    assert stream.fps is None
+
+
+def test_half_floats_and_booleans_are_widened():
+    half = list(open_frames(ramp(np.float16), AT_100))
+    assert half[0].pixels.dtype == np.float32
+    mask = list(open_frames(np.eye(4, dtype=bool)[None].repeat(2, 0), AT_100))
+    assert mask[0].pixels.dtype == np.uint8
+    assert mask[0].pixels.max() == 255
+
+
+def test_a_list_can_be_read_again_and_a_generator_once():
+    pictures = list(ramp(np.uint8))
+    stream = open_frames(pictures, AT_100)
+    assert (len(list(stream)), len(list(stream)), stream.is_live) == (3, 3, False)
+    stream = open_frames((picture for picture in pictures), AT_100)
+    assert stream.is_live
+    frames = list(stream)
+    assert [np.array_equal(f.pixels, p) for f, p in zip(frames, pictures, strict=True)] == [
+        True
+    ] * 3
+
+
+def test_npy_files_are_read(tmp_path):
+    np.save(tmp_path / "a.npy", ramp(np.uint16))
+    assert len(list(open_frames(tmp_path / "a.npy", AT_100))) == 3
+
+
+def test_floats_up_to_one_are_refused_unless_white_is_known():
+    unit = np.linspace(0, 1, 72).reshape(3, 4, 6)
+    with pytest.raises(InputError, match=r"never exceed 1.*white_level=1"):
+        open_frames(unit, AT_100)
+    config = CaptureConfig(fps=Fraction(100), white_level=1.0)
+    frames = list(open_frames(unit, config))
+    assert frames[-1].pixels.max() == 255.0
+    config = CaptureConfig(fps=Fraction(100), white_level=255.0)
+    assert list(open_frames(unit, config))[-1].pixels.max() == 1.0
+
+
+def test_black_floats_and_a_fade_from_black_are_fine():
+    fade = np.zeros((3, 4, 6), np.float32)
+    assert len(list(open_frames(fade, AT_100))) == 3
+    fade[1], fade[2] = 0.5, 80.0
+    assert len(list(open_frames(fade, AT_100))) == 3
+
+
+def test_twelve_bits_in_sixteen_are_scaled_by_the_white_level():
+    config = CaptureConfig(fps=Fraction(100), white_level=4095.0)
+    frames = list(open_frames(np.full((2, 4, 6), 4095, np.uint16), config))
+    assert frames[0].pixels.dtype == np.float32
+    assert np.allclose(frames[0].luma, 255.0)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -1.0])
+@pytest.mark.parametrize("index", [0, 2])
+def test_intensities_that_are_not_finite_and_positive_are_refused(bad, index):
+    pixels = ramp(np.float32)
+    pixels[index, 1, 2] = bad
+    with pytest.raises(InputError, match=rf"frame {index} .*1 pixel"):
+        list(open_frames(pixels, AT_100))
+
+
+@pytest.mark.parametrize(
+    ("pixels", "message"),
+    [
+        (np.zeros((0, 4, 6), np.uint8), "there is no frame"),
+        (np.zeros((1, 4, 6), np.uint8), "only one frame"),
+        (np.zeros((4, 6), np.uint8), "One picture holds no change"),
+        (np.zeros((2, 4, 6, 4), np.uint8), r"Drop the alpha channel"),
+        (np.zeros((2, 3, 4, 6), np.uint8), r"Channels come last"),
+        (np.zeros((2, 0, 6), np.uint8), r"must be \[H, W\]"),
+        (np.zeros((2, 4, 6), np.int64), r"type int64.*\.astype\(np\.uint8\)"),
+        (np.zeros((2, 4, 6), complex), "type complex128"),
+        ([], "there is no frame"),
+        (3, "cannot read frames from int"),
+    ],
+)
+def test_wrong_arrays_are_refused_with_advice(pixels, message):
+    with pytest.raises(InputError, match=message):
+        list(open_frames(pixels, AT_100))
+
+
+@pytest.mark.parametrize(
+    ("t_us", "message"),
+    [
+        ([0, 10], "2 times for 3 frames"),
+        ([0, 10, 10], "strictly increase"),
+        ([0, 20, 10], "strictly increase"),
+        ([0.0, 0.1, 0.2], r"whole microseconds; got float64.*1e6"),
+        ([[0, 1, 2]], "one-dimensional"),
+    ],
+)
+def test_wrong_times_are_refused(t_us, message):
+    with pytest.raises(InputError, match=message):
+        open_frames(ramp(np.uint8), CaptureConfig(), t_us=t_us)
+
+
+def test_frames_without_times_are_refused():
+    with pytest.raises(InputError, match="give fps=, or t_us="):
+        open_frames(ramp(np.uint8), CaptureConfig())
+
+
+def test_times_given_twice_are_refused():
+    with pytest.raises(ConfigError, match="by t_us and fps"):
+        open_frames(ramp(np.uint8), AT_100, t_us=[0, 1, 2])
+
+
+def test_a_damaged_npy_file_is_refused(tmp_path):
+    (tmp_path / "a.npy").write_bytes(b"nonsense")
+    with pytest.raises(InputError, match="not a NumPy array file"):
+        open_frames(tmp_path / "a.npy", AT_100)

@@ -1,0 +1,64 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.capture.fit import fit_pixels
+from texvent.sensor import SensorSize
+
+sides = st.integers(1, 40)
+
+
+def box_average(pixels, factor):
+    """Reference: the mean of factor × factor pixels, float64."""
+    height, width = pixels.shape[0] // factor, pixels.shape[1] // factor
+    blocks = pixels[: height * factor, : width * factor].astype(np.float64)
+    return blocks.reshape(height, factor, width, factor).mean(axis=(1, 3))
+
+
+def test_shrinking_averages_over_each_new_pixel_without_rounding():
+    pixels = np.random.default_rng(0).integers(0, 256, (30, 45), dtype=np.uint8)
+    small = fit_pixels(pixels, SensorSize(15, 10), "cover")
+    assert small.dtype == np.float32
+    assert np.allclose(small, box_average(pixels, 3), atol=1e-4)
+    assert np.any(small != np.round(small))
+
+
+def test_sixteen_bits_come_out_on_the_0_to_255_scale():
+    pixels = np.full((8, 8), 65_535, np.uint16)
+    pixels[:4] = 257
+    small = fit_pixels(pixels, SensorSize(4, 4), "stretch")
+    assert small[0, 0] == pytest.approx(1.0)
+    assert small[3, 0] == pytest.approx(255.0)
+
+
+def test_the_right_size_is_left_alone():
+    pixels = np.zeros((4, 6), np.uint8)
+    assert fit_pixels(pixels, SensorSize(6, 4), "cover") is pixels
+
+
+def test_cover_cuts_evenly():
+    pixels = np.tile(np.arange(8, dtype=np.uint8), (4, 1))
+    assert fit_pixels(pixels, SensorSize(4, 4), "cover")[0].tolist() == [2, 3, 4, 5]
+
+
+def test_contain_adds_black_bars_evenly():
+    wide = np.full((2, 4, 3), 90, np.uint8)
+    fitted = fit_pixels(wide, SensorSize(4, 4), "contain")
+    assert fitted[:, 0, 0].tolist() == [0, 90, 90, 0]
+
+
+def test_stretch_shrinks_one_side_and_enlarges_the_other():
+    pixels = np.repeat(np.array([[10.0], [20.0]], np.float32), 8, axis=1)
+    fitted = fit_pixels(pixels, SensorSize(2, 4), "stretch")
+    assert fitted[:, 0].tolist() == [10.0, 12.5, 17.5, 20.0]
+
+
+@given(sides, sides, sides, sides, st.sampled_from(["cover", "contain", "stretch"]))
+def test_any_size_fits_any_size_and_stays_within_the_range(height, width, tall, wide, fit):
+    pixels = np.random.default_rng(1).uniform(20, 200, (height, width)).astype(np.float32)
+    fitted = fit_pixels(pixels, SensorSize(wide, tall), fit)
+    assert fitted.shape == (tall, wide)
+    low = 0 if fit == "contain" else 20
+    assert fitted.min() >= low - 1e-3
+    assert fitted.max() <= 200 + 1e-3

@@ -1,0 +1,141 @@
+import itertools
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from fractions import Fraction
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from texvent.capture.live import LiveFrames, without_password
+from texvent.capture.open import open_frames
+from texvent.config import CaptureConfig
+from texvent.errors import InputError
+from texvent.sensor import SensorSize
+
+EXCERPT = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
+
+
+class Pipe:
+    """A named pipe that another thread fills, as a camera's driver would."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        os.mkfifo(path)
+
+    def fill(self, blocks, pause_s=0.0):
+        def write():
+            with self.path.open("wb") as end:
+                for block in blocks:
+                    end.write(block)
+                    end.flush()
+                    time.sleep(pause_s)
+
+        threading.Thread(target=write, daemon=True).start()
+
+
+@pytest.fixture
+def pipe(tmp_path):
+    return Pipe(tmp_path / "camera")
+
+
+@pytest.fixture
+def film(clips):
+    """Matroska can be read from a pipe, an ordinary mp4 cannot."""
+    frames = [np.full((48, 64, 3), 8 * i, np.uint8) for i in range(20)]
+    return clips.write("a.mkv", frames).read_bytes()
+
+
+def jpegs(count):
+    pictures = (np.full((48, 64, 3), 30 * i, np.uint8) for i in range(count))
+    return [cv2.imencode(".jpg", picture)[1].tobytes() for picture in pictures]
+
+
+def test_a_named_pipe_is_live_and_keeps_the_streams_times(pipe, film):
+    pipe.fill([film])
+    stream = open_frames(pipe.path, CaptureConfig())
+    assert (stream.is_live, stream.frame_count, stream.size) == (True, None, (64, 48))
+    assert [frame.t_us for frame in stream] == [40_000 * i for i in range(20)]
+    assert stream.metadata["clock"] == "presentation"
+    with pytest.raises(InputError, match="live and was read already"):
+        list(stream)
+
+
+def test_frames_without_times_get_the_moment_of_arrival(pipe):
+    pipe.fill(jpegs(6), pause_s=0.03)
+    stream = LiveFrames(str(pipe.path))
+    times = [frame.t_us for frame in stream]
+    assert stream.metadata["clock"] == "arrival"
+    assert times[0] == 0
+    assert all(later > earlier for earlier, later in itertools.pairwise(times))
+    # libav would have said 200 ms sharp, at an invented 25 frames per second.
+    assert times[-1] != 200_000
+
+
+def test_a_given_rate_replaces_arrival(pipe):
+    pipe.fill(jpegs(4))
+    stream = open_frames(pipe.path, CaptureConfig(fps=Fraction(10)), size=SensorSize(32, 24))
+    assert [(f.t_us, f.size) for f in stream] == [(100_000 * i, (32, 24)) for i in range(4)]
+
+
+def test_ctrl_c_ends_the_stream_after_the_frame_at_hand(pipe, film):
+    pipe.fill([film])
+    usual = signal.getsignal(signal.SIGINT)
+    times = []
+    for frame in open_frames(pipe.path, CaptureConfig()):
+        times.append(frame.t_us)
+        if len(times) == 3:
+            signal.raise_signal(signal.SIGINT)
+    assert times == [0, 40_000, 80_000]
+    assert signal.getsignal(signal.SIGINT) is usual
+
+
+def test_a_second_ctrl_c_interrupts(pipe, film):
+    pipe.fill([film])
+    stream = iter(open_frames(pipe.path, CaptureConfig()))
+    next(stream)
+    signal.raise_signal(signal.SIGINT)
+    with pytest.raises(KeyboardInterrupt):
+        signal.raise_signal(signal.SIGINT)
+    stream.close()
+
+
+def test_a_stream_that_breaks_off_has_ended(pipe, clips, noisy_frames):
+    film = clips.write("a.mkv", noisy_frames).read_bytes()
+    pipe.fill([film[: len(film) * 3 // 4]])
+    frames = list(open_frames(pipe.path, CaptureConfig()))
+    assert 10 < len(frames) < 30
+
+
+def test_standard_input_is_read(film):
+    script = (
+        "from texvent.capture.open import open_frames; from texvent.config import CaptureConfig;"
+        "print([f.t_us for f in open_frames('-', CaptureConfig(stop=0.1))])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], input=film, capture_output=True, check=True, timeout=60
+    )
+    assert done.stdout.decode().strip() == "[0, 40000, 80000]"
+
+
+@pytest.mark.parametrize("address", ["/dev/video77", "rtsp://me:secret@127.0.0.1:9/camera"])
+def test_a_source_that_does_not_answer_is_named_without_password(address):
+    with pytest.raises(InputError) as caught:
+        open_frames(address, CaptureConfig())
+    assert "secret" not in str(caught.value)
+    assert address.split("@")[-1] in str(caught.value)
+
+
+def test_an_empty_pipe_is_refused(pipe):
+    pipe.fill([b""])
+    with pytest.raises(InputError, match="cannot be opened as live video"):
+        open_frames(pipe.path, CaptureConfig())
+
+
+def test_passwords_are_not_shown():
+    assert without_password("http://u:p@cam/x?a=b@c") == "http://cam/x?a=b@c"

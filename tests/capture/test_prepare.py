@@ -1,0 +1,56 @@
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.capture.open import open_frames
+from texvent.config import CaptureConfig
+from texvent.errors import InputError
+from texvent.sensor import SensorSize
+from texvent.video import Video
+
+
+def hundred(**options):
+    frames = np.zeros((100, 2, 2), np.uint8)
+    return open_frames(frames, CaptureConfig(fps=Fraction(100), **options))
+
+
+@given(st.integers(0, 90), st.integers(2, 120))
+def test_start_is_included_and_stop_is_not(first, length):
+    stream = hundred(start=first / 100, stop=(first + length) / 100)
+    expected = list(range(first, min(100, first + length)))
+    assert [frame.t_us // 10_000 for frame in stream] == expected
+    assert stream.frame_count == len(expected)
+
+
+def test_start_and_stop_count_from_the_first_frame_and_times_are_not_shifted():
+    video = np.zeros((4, 2, 2), np.uint8)
+    t_us = [9_000_000, 9_100_000, 9_200_000, 9_300_000]
+    stream = open_frames(video, CaptureConfig(start=0.1, stop=0.3), t_us=t_us)
+    assert [frame.t_us for frame in stream] == [9_100_000, 9_200_000]
+
+
+def test_nothing_between_start_and_stop_is_an_error_that_says_how_long_the_input_is():
+    with pytest.raises(InputError, match=r"no frame between 5 s and the end .*up to 0\.99 s"):
+        list(hundred(start=5.0))
+
+
+def test_a_stream_that_needs_nothing_is_returned_itself():
+    video = Video(np.zeros((3, 4, 6), np.uint8), [0, 1, 2])
+    assert open_frames(video, CaptureConfig()) is video
+    assert open_frames(video, CaptureConfig(), size=SensorSize(6, 4)) is video
+
+
+def test_a_stream_is_fitted_and_says_what_size_it_had():
+    video = Video(np.full((3, 4, 6), 80, np.uint8), [0, 1, 2])
+    stream = open_frames(video, CaptureConfig(), size=SensorSize(3, 2))
+    assert (stream.size, stream.metadata["size_before_fit"]) == ((3, 2), "6x4")
+    assert [frame.pixels.shape for frame in stream] == [(2, 3)] * 3
+
+
+def test_a_stream_has_its_own_times():
+    video = Video(np.zeros((3, 4, 6), np.uint8), [0, 1, 2])
+    with pytest.raises(InputError, match="has its own times"):
+        open_frames(video, CaptureConfig(fps=Fraction(10)))

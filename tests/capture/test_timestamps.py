@@ -1,0 +1,50 @@
+import pytest
+
+from texvent.capture.timestamps import read_timestamps
+from texvent.errors import FileFormatError, InputError
+
+
+@pytest.mark.parametrize(
+    ("unit", "lines", "expected"),
+    [
+        ("s", "0.0000014\n1e-3\n", (1, 1000)),
+        ("ms", "0.5,a.png\n1.5,b.png\n", (500, 1500)),
+        ("us", "# t\n\n7 a.png\n9 b.png\n", (7, 9)),
+        # A float64 cannot hold these: its step is 256 ns here.
+        ("ns", "1700000000123456789\n1700000000123457789\n", (1700000000123457, 1700000000123458)),
+    ],
+)
+def test_times_are_rounded_from_the_exact_decimal(tmp_path, unit, lines, expected):
+    path = tmp_path / "t.txt"
+    path.write_text(lines)
+    assert tuple(read_timestamps(path, unit).times.listed_us) == expected
+
+
+def test_names_follow_the_times_and_may_hold_spaces(tmp_path):
+    path = tmp_path / "t.txt"
+    path.write_text("0 first shot.png\n1 second.png\n")
+    assert read_timestamps(path, "s").names == ("first shot.png", "second.png")
+
+
+@pytest.mark.parametrize(
+    ("lines", "error", "message"),
+    [
+        ("0\n2\n1\n", InputError, "time 2 .* is not after time 1"),
+        ("0\n0\n", InputError, "strictly increase"),
+        ("1\n2\n", InputError, r"--timestamps-unit"),
+        ("0\nabc\n", FileFormatError, "line 2 begins with 'abc'"),
+        ("0\nnan\n", FileFormatError, "line 2 begins with 'nan'"),
+        ("0 a.png\n1\n", FileFormatError, "1 of 2 lines name a file"),
+        ("# nothing\n", FileFormatError, "has no times"),
+    ],
+)
+def test_wrong_files_are_refused(tmp_path, lines, error, message):
+    path = tmp_path / "t.txt"
+    path.write_text(lines)
+    with pytest.raises(error, match=message):
+        read_timestamps(path, "ns" if lines == "1\n2\n" else "s")
+
+
+def test_a_missing_file_is_named(tmp_path):
+    with pytest.raises(InputError, match=r"none\.txt does not exist"):
+        read_timestamps(tmp_path / "none.txt", "s")

@@ -1,0 +1,217 @@
+from fractions import Fraction
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from texvent.capture.open import open_frames
+from texvent.capture.times import FrameTimes
+from texvent.capture.video_file import PresentationClock, VideoFile
+from texvent.config import CaptureConfig
+from texvent.errors import FileFormatError, InputError
+from texvent.video import FrameStream
+
+EXCERPT = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
+GREY = np.tile(np.arange(64, dtype=np.uint8) * 4, (48, 1))
+
+
+def colours(count=3, level=0):
+    pixels = np.zeros((48, 64, 3), np.uint8)
+    pixels[:24, :32] = (250, 20, 60)
+    return [np.clip(pixels.astype(int) + level * i, 0, 255).astype(np.uint8) for i in range(count)]
+
+
+def test_a_real_film_is_read_whole_at_its_own_rate():
+    stream = open_frames(EXCERPT, CaptureConfig())
+    frames = list(stream)
+    assert isinstance(stream, FrameStream)
+    assert (stream.size, stream.fps, stream.frame_count) == ((320, 180), 25, 25)
+    assert [frame.t_us for frame in frames] == [40_000 * i for i in range(25)]
+    # A sunny meadow: bright, green above blue, and moving.
+    mean = frames[12].pixels.reshape(-1, 3).mean(axis=0)
+    assert mean[1] > mean[2] > 40
+    assert np.abs(frames[24].luma - frames[0].luma).mean() > 5
+
+
+def test_a_video_can_be_read_again_with_the_same_pixels():
+    stream = VideoFile(EXCERPT)
+    first, second = list(stream), list(stream)
+    assert len(first) == len(second) == 25
+    assert np.array_equal(first[-1].pixels, second[-1].pixels)
+
+
+def test_variable_frame_rate_times_are_exact_and_start_at_zero(clips):
+    times_ms = [70, 71, 104, 137, 500, 1234]
+    path = clips.write("vfr.mkv", colours(6, 8), times_ms=times_ms)
+    assert [frame.t_us for frame in VideoFile(path)] == [1000 * (t - 70) for t in times_ms]
+
+
+def test_ntsc_times_do_not_drift(clips):
+    clock = PresentationClock(Path("x"), FrameTimes(fps=Fraction(30_000, 1001)), None)
+    frame = type("F", (), {"pts": None, "time_base": None})()
+    times = [clock.read(frame) for _ in range(30_001)]
+    assert times[-1] == 1_001_000_000
+
+
+def test_a_given_rate_replaces_the_files_times(clips):
+    path = clips.write("slow.mp4", colours(4, 8))
+    stream = open_frames(path, CaptureConfig(fps=Fraction(1000)))
+    assert [frame.t_us for frame in stream] == [0, 1000, 2000, 3000]
+    assert stream.fps == 1000
+
+
+def test_rotation_is_applied_as_opencv_does(clips):
+    for angle in (90, -90, 180):
+        path = clips.write(f"r{angle}.mp4", colours(), rotation=angle, options={"qp": "0"})
+        ours = next(iter(VideoFile(path)))
+        capture = cv2.VideoCapture(str(path))
+        theirs = cv2.cvtColor(capture.read()[1], cv2.COLOR_BGR2RGB)
+        capture.release()
+        assert ours.size == (theirs.shape[1], theirs.shape[0])
+        assert np.abs(ours.pixels.astype(int) - theirs).max() <= 2
+
+
+def test_sixteen_bit_grey_is_kept_bit_for_bit(clips):
+    grey = [GREY.astype(np.uint16) * 257 + i for i in range(3)]
+    path = clips.write("g.mkv", grey, codec="ffv1", stored="gray16le", given="gray16le")
+    frames = list(VideoFile(path))
+    assert frames[0].pixels.dtype == np.uint16
+    assert all(np.array_equal(f.pixels, g) for f, g in zip(frames, grey, strict=True))
+
+
+def test_eight_bit_grey_stays_grey(clips):
+    path = clips.write("g.mkv", [GREY, GREY + 1], codec="ffv1", stored="gray", given="gray")
+    frames = list(VideoFile(path))
+    assert np.array_equal(frames[1].pixels, GREY + 1)
+
+
+def test_ten_bits_are_more_than_eight(clips):
+    # One step of 10 bits is a quarter of a step of 8 bits.
+    steps = [np.full((48, 64, 3), 32_768 + 64 * i, np.uint16) for i in range(8)]
+    path = clips.write("p.mkv", steps, codec="ffv1", stored="yuv444p10le", given="rgb48le")
+    lumas = [float(frame.luma.mean()) for frame in VideoFile(path)]
+    assert VideoFile(path).metadata["pixel_format"] == "yuv444p10le"
+    assert np.all(np.diff(lumas) >= 0)
+    assert len(set(lumas)) > 4
+    assert lumas[0] == pytest.approx(127.5, abs=1.0)
+
+
+def test_a_gif_is_colour_and_its_palette_index_is_not_taken_for_grey(clips):
+    path = clips.write("a.gif", colours(3, 20), codec="gif", stored="rgb8")
+    frame = next(iter(VideoFile(path)))
+    assert frame.pixels.shape == (48, 64, 3)
+    assert frame.pixels[5, 5, 0] > 200 > frame.pixels[5, 5, 1]
+
+
+def test_alpha_is_dropped(clips):
+    path = clips.write("a.mkv", colours(), codec="ffv1", stored="bgra")
+    assert np.array_equal(next(iter(VideoFile(path))).pixels, colours()[0])
+
+
+def test_repeated_times_are_dropped_and_counted():
+    clock = PresentationClock(Path("x.mkv"), None, Fraction(25))
+    frame = type("F", (), {"time_base": Fraction(1, 1000), "duration": 40})()
+    times = []
+    for frame.pts in (100, 140, 140, 180):
+        times.append(clock.read(frame))
+    assert times == [0, 40_000, None, 80_000]
+    assert clock.dropped == 1
+
+
+def test_time_that_goes_back_is_refused():
+    clock = PresentationClock(Path("x.mkv"), None, Fraction(25))
+    frame = type("F", (), {"time_base": Fraction(1, 1000), "duration": 40})()
+    frame.pts = 100
+    clock.read(frame)
+    frame.pts = 60
+    with pytest.raises(FileFormatError, match=r"goes back from 0 to -40000 µs.*--fps"):
+        clock.read(frame)
+
+
+def test_frames_without_times_get_the_nominal_rate_or_an_explanation():
+    frame = type("F", (), {"pts": None, "time_base": None})()
+    clock = PresentationClock(Path("x.h264"), None, Fraction(50))
+    assert [clock.read(frame) for _ in range(3)] == [0, 20_000, 40_000]
+    with pytest.raises(FileFormatError, match="give one with --fps"):
+        PresentationClock(Path("x.h264"), None, None).read(frame)
+
+
+def test_a_missing_file_is_named(tmp_path):
+    with pytest.raises(InputError, match=r"nope\.mp4 does not exist"):
+        open_frames(tmp_path / "nope.mp4", CaptureConfig())
+
+
+def test_an_mp4_cut_before_its_index_is_refused_at_once(clips, noisy_frames):
+    path = clips.write("a.mp4", noisy_frames)
+    path.write_bytes(path.read_bytes()[:-3000])
+    with pytest.raises(FileFormatError, match=r"a\.mp4 is not a video that can be read.*cut off"):
+        open_frames(path, CaptureConfig())
+
+
+@pytest.mark.parametrize("name", ["a.mp4", "a.mkv"])
+def test_a_truncated_video_says_where_it_ends_and_that_stop_helps(clips, noisy_frames, name):
+    path = clips.write(
+        name, noisy_frames, container={"movflags": "faststart"} if name == "a.mp4" else None
+    )
+    data = path.read_bytes()
+    path.write_bytes(data[: len(data) * 2 // 3])
+    with pytest.raises(FileFormatError, match=r"its frames end at .* --stop") as caught:
+        list(open_frames(path, CaptureConfig()))
+    stop = float(str(caught.value).split("--stop ")[1].split(",")[0])
+    kept = list(open_frames(path, CaptureConfig(stop=stop)))
+    assert kept[-1].t_us == round(stop * 1e6) - 40_000
+    assert len(kept) > 10
+
+
+def test_damage_in_the_middle_is_an_error_not_a_glitch(clips, noisy_frames):
+    path = clips.write("a.mp4", noisy_frames)
+    data = bytearray(path.read_bytes())
+    middle = len(data) // 2
+    data[middle : middle + 3000] = bytes(3000)
+    path.write_bytes(data)
+    with pytest.raises(FileFormatError, match="is damaged"):
+        list(open_frames(path, CaptureConfig()))
+
+
+def test_a_video_without_frames_is_refused(clips, noisy_frames):
+    path = clips.write("a.mp4", noisy_frames[:2], container={"movflags": "empty_moov"})
+    data = path.read_bytes()
+    path.write_bytes(data[: data.index(b"moof") - 4])
+    with pytest.raises(FileFormatError, match="no frame that can be decoded"):
+        open_frames(path, CaptureConfig())
+
+
+def test_one_frame_is_refused(clips):
+    path = clips.write("a.mkv", colours(1))
+    with pytest.raises(InputError, match="only one frame; events need"):
+        list(open_frames(path, CaptureConfig()))
+
+
+@pytest.mark.parametrize("name", ["notes.txt", "data.bin"])
+def test_a_file_that_is_no_video_is_refused(tmp_path, name):
+    path = tmp_path / name
+    path.write_text("0.1 3 4 1\n" * 100)
+    with pytest.raises(FileFormatError, match=r"(holds no video|is not a video)"):
+        open_frames(path, CaptureConfig())
+
+
+def test_sound_alone_is_refused(tmp_path):
+    import wave
+
+    with wave.open(str(tmp_path / "a.wav"), "wb") as sound:
+        sound.setnchannels(1)
+        sound.setsampwidth(2)
+        sound.setframerate(8000)
+        sound.writeframes(bytes(1600))
+    with pytest.raises(FileFormatError, match="holds no video stream"):
+        open_frames(tmp_path / "a.wav", CaptureConfig())
+
+
+def test_more_or_fewer_listed_times_than_frames_are_refused(clips, tmp_path):
+    path = clips.write("a.mkv", colours(4, 8))
+    for lines in (3, 5):
+        times = tmp_path / "t.txt"
+        times.write_text("".join(f"{i / 100}\n" for i in range(lines)))
+        with pytest.raises(InputError, match=f"t.txt has {lines} times"):
+            list(open_frames(path, CaptureConfig(timestamps=times)))
