@@ -75,7 +75,10 @@ INTERPOLATORS = Registry(
 )
 SIMULATORS = Registry(
     "simulator",
-    {"texvent": "texvent.simulate.texvent:TexventSimulator"},
+    {
+        "texvent": "texvent.simulate.texvent:TexventSimulator",
+        "esim": "texvent.simulate.esim:EsimSimulator",
+    },
 )
 CODECS = Registry(
     "event format",

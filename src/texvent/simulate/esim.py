@@ -1,0 +1,158 @@
+"""ESIM's pixel model: log intensity runs in straight lines, every threshold crossing is an event.
+
+Source: H. Rebecq, D. Gehrig, D. Scaramuzza, "ESIM: an open event camera simulator", CoRL 2018,
+and D. Gehrig et al., "Video to events: recycling video datasets for event cameras", CVPR 2020,
+which runs it on video frames. docs/simulators.md gives the equations and the deviations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from texvent.config import check_range
+from texvent.errors import ConfigError
+from texvent.simulate.draws import Purpose
+from texvent.simulate.firings import Firings, Interval
+from texvent.simulate.kernels.ramp import Ramp, Rest, load_cross_ramp
+from texvent.simulate.pixel_maps import (
+    LOWEST_THRESHOLD,
+    Float64Array,
+    draw_thresholds,
+    sensor_key,
+)
+from texvent.simulate.streaming import IntensityArray, StreamingSimulator
+
+WHITE = 255.0
+LONG_AGO_US = -(2**62)
+"""Time of the last event of a pixel that never fired."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class EsimConfig:
+    """Options of the ESIM pixel model; the defaults are those of VID2E.
+
+    Raises:
+        ConfigError: an option is out of range.
+    """
+
+    contrast_threshold_on: float = 0.2
+    """Rise of ln(I/255 + log eps) that fires an ON event."""
+    contrast_threshold_off: float = 0.2
+    """Fall of ln(I/255 + log eps) that fires an OFF event."""
+    threshold_sigma: float = 0.0
+    """Standard deviation of both thresholds, log units; drawn thresholds are at least 0.01."""
+    threshold_redraw: Literal["frame", "never"] = "frame"
+    """With a threshold sigma: draw thresholds anew for every pixel and frame, as ESIM describes
+    it (frame), or once per pixel, as mismatch between pixels (never)."""
+    log_eps: float = 1e-3
+    """Added to intensities on the 0..1 scale before the logarithm, above 0."""
+    refractory_period_us: int = 0
+    """Time after an event in which the pixel cannot fire; crossings in it are lost."""
+
+    def __post_init__(self) -> None:
+        check_range("contrast_threshold_on", self.contrast_threshold_on, LOWEST_THRESHOLD, 10.0)
+        check_range("contrast_threshold_off", self.contrast_threshold_off, LOWEST_THRESHOLD, 10.0)
+        check_range("threshold_sigma", self.threshold_sigma, 0.0, 10.0)
+        check_range("log_eps", self.log_eps, 1e-9, 1.0)
+        check_range("refractory_period_us", self.refractory_period_us, 0, 10**9)
+        if self.threshold_redraw not in ("frame", "never"):
+            raise ConfigError(
+                f"threshold_redraw is {self.threshold_redraw!r}; allowed: frame, never"
+            )
+
+
+class EsimSimulator(StreamingSimulator[EsimConfig]):
+    """ESIM on video frames; see `simulate.protocol.Simulator`.
+
+    Example:
+        >>> from texvent.video import Frame
+        >>> simulator = EsimSimulator(EsimConfig(contrast_threshold_on=0.5), backend="reference")
+        >>> dark, bright = np.array([[50]], np.uint8), np.array([[200]], np.uint8)
+        >>> len(simulator.step(Frame(dark, t_us=0)))  # nothing to compare with yet
+        0
+        >>> events = simulator.step(Frame(bright, t_us=1000))  # ln(200.255 / 50.255) = 1.3825
+        >>> events.t.tolist(), events.polarity.tolist()
+        ([361, 723], [1, 1])
+    """
+
+    config_type: ClassVar[type] = EsimConfig
+    presets: ClassVar[Mapping[str, EsimConfig]] = {
+        "default": EsimConfig(),
+        "peer-common": EsimConfig(),
+    }
+
+    @property
+    def contrast_threshold(self) -> float:
+        """The smaller threshold, log units."""
+        return min(self.config.contrast_threshold_on, self.config.contrast_threshold_off)
+
+    @property
+    def balance(self) -> float:
+        """`255 · log_eps`: with it, Eq. 4's logarithm is the model's own."""
+        return WHITE * self.config.log_eps
+
+    def _begin(self, intensity: IntensityArray) -> None:
+        self._brightness = log_intensity(intensity, self.config.log_eps)
+        self._reference = self._brightness.copy()
+        self._fired_us = np.full(self._brightness.shape, LONG_AGO_US)
+        self._thresholds = self._draw_thresholds(sensor_key(self._seed))
+
+    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
+        brightness = log_intensity(intensity, self.config.log_eps)
+        if self.config.threshold_sigma > 0 and self.config.threshold_redraw == "frame":
+            self._thresholds = self._draw_thresholds(interval.key)
+        threshold_on, threshold_off = self._thresholds
+        crossings = load_cross_ramp(self._backend)(
+            Ramp(
+                self._brightness - self._reference,
+                brightness - self._reference,
+                threshold_on,
+                threshold_off,
+            ),
+            self._fired_us,
+            (interval.start_us, interval.stop_us),
+            Rest(self.config.refractory_period_us, is_level_lost=True),
+        )
+        steps = crossings.steps
+        self._reference += steps * np.where(steps > 0, threshold_on, threshold_off)
+        self._brightness = brightness
+        return Firings.signal(crossings.pixel, crossings.t, crossings.p)
+
+    def _draw_thresholds(self, key: np.uint64) -> tuple[Float64Array, Float64Array]:
+        config, shape = self.config, self._brightness.shape
+        return (
+            draw_thresholds(
+                shape,
+                key,
+                Purpose.THRESHOLD_ON,
+                mean=config.contrast_threshold_on,
+                sigma=config.threshold_sigma,
+            ),
+            draw_thresholds(
+                shape,
+                key,
+                Purpose.THRESHOLD_OFF,
+                mean=config.contrast_threshold_off,
+                sigma=config.threshold_sigma,
+            ),
+        )
+
+
+def log_intensity(intensity: IntensityArray, log_eps: float) -> Float64Array:
+    """Log intensity `ln(I / 255 + ε)` that ESIM compares.
+
+    Args:
+        intensity: 0..255 scale, [H, W], uint8 or float.
+        log_eps: ε, above 0.
+
+    Returns:
+        [H, W] float64.
+    """
+    if intensity.dtype == np.uint8:
+        table = np.log(np.arange(256) / WHITE + log_eps)
+        return np.asarray(table[intensity])
+    return np.asarray(np.log(intensity / np.float64(WHITE) + log_eps))

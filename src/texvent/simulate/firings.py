@@ -1,0 +1,83 @@
+"""What a pixel model hands over for one frame interval, and how it becomes a packet."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.events import NOISE, SIGNAL, EventStream
+from texvent.sensor import SensorSize
+
+
+class Interval(NamedTuple):
+    """The time between two neighbouring frames, `[start_us, stop_us)`."""
+
+    start_us: int
+    """Time of the earlier frame, µs (included)."""
+    stop_us: int
+    """Time of the later frame, µs (excluded)."""
+    key: np.uint64
+    """Key of the random draws of this interval; see `draws.frame_key`."""
+
+    @property
+    def duration_us(self) -> int:
+        """Length, µs."""
+        return self.stop_us - self.start_us
+
+    @property
+    def duration_s(self) -> float:
+        """Length, seconds."""
+        return self.duration_us * 1e-6
+
+
+class Firings(NamedTuple):
+    """Events of one interval, a row per event, in any order."""
+
+    pixel: NDArray[np.int64]
+    """[n] flat index y · W + x."""
+    t: NDArray[np.int64]
+    """[n] times, µs, all in the interval."""
+    p: NDArray[np.uint8]
+    """[n] 1 = ON, 0 = OFF."""
+    label: NDArray[np.uint8]
+    """[n] `events.SIGNAL` or `events.NOISE`."""
+
+    @classmethod
+    def signal(
+        cls, pixel: NDArray[np.int64], t: NDArray[np.int64], p: NDArray[np.uint8]
+    ) -> Firings:
+        """Events that a brightness change fired."""
+        return cls(pixel, t, p, np.full(len(pixel), SIGNAL, np.uint8))
+
+    @classmethod
+    def noise(cls, pixel: NDArray[np.int64], t: NDArray[np.int64], p: NDArray[np.uint8]) -> Firings:
+        """Events that noise fired."""
+        return cls(pixel, t, p, np.full(len(pixel), NOISE, np.uint8))
+
+    def joined(self, other: Firings) -> Firings:
+        """These events and `other`, unsorted."""
+        return Firings(
+            np.concatenate([self.pixel, other.pixel]),
+            np.concatenate([self.t, other.t]),
+            np.concatenate([self.p, other.p]),
+            np.concatenate([self.label, other.label]),
+        )
+
+    def packet(self, interval: Interval, size: SensorSize) -> EventStream:
+        """The events in the order every packet has: by (t, y, x, p), labels included."""
+        pixels = size.width * size.height
+        pixel, p, label = self.pixel, self.p, self.label
+        if interval.duration_us * pixels * 4 < 2**63:
+            # One integer per event sorts much faster than four columns, and holds all of them.
+            place = (self.t - interval.start_us) * pixels + pixel
+            key = np.sort((place * 2 + p) * 2 + label)
+            label, p = (key & 1).astype(np.uint8), (key >> 1 & 1).astype(np.uint8)
+            offset, pixel = np.divmod(key >> 2, pixels)
+            t = interval.start_us + offset
+        else:
+            order = np.lexsort((label, p, pixel, self.t))
+            t, pixel, p, label = self.t[order], pixel[order], p[order], label[order]
+        y, x = np.divmod(pixel, size.width)
+        return EventStream(x.astype(np.uint16), y.astype(np.uint16), t, p, size, label=label)

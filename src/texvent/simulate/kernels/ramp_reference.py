@@ -1,0 +1,57 @@
+"""The definition of threshold crossings on a straight line, in NumPy float64."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.simulate.kernels.ramp import Ramp, RampCrossings, Rest
+
+
+def cross_ramp(
+    ramp: Ramp, fired_us: NDArray[np.int64], span_us: tuple[int, int], rest: Rest
+) -> RampCrossings:
+    """Every threshold that each pixel's change crosses, at the time the line crosses it.
+
+    The change is d(u) = start + u · (stop − start), u in 0..1. The k-th ON event happens where
+    d reaches k · θ_on, the k-th OFF event where it reaches −k · θ_off, for every k that
+    `stop` has reached. A level that `start` had reached already fires at once: the pixel was held
+    back (refractory period), or its threshold has just fallen.
+
+    Args:
+        ramp: where the lines run, and the thresholds.
+        fired_us: time of each pixel's last event, µs, [H, W]; brought up to date here.
+        span_us: start (included) and stop (excluded) of the interval, µs.
+        rest: the refractory period.
+
+    Returns:
+        The events, times rounded down, never the stop itself; and the steps of the references.
+
+    Source: Rebecq, Gehrig and Scaramuzza, "ESIM: an open event camera simulator", CoRL 2018,
+        section 3.1: linear interpolation of log intensity between samples.
+    """
+    start_us, stop_us = span_us
+    steps = np.zeros(ramp.start.shape, np.int64)
+    pixels, times, polarities = [], [], []
+    for sign, threshold in ((1, ramp.threshold_on), (-1, ramp.threshold_off)):
+        first, last = sign * ramp.start, sign * ramp.stop
+        k = 1
+        while (reached := last >= k * threshold).any():
+            level = k * threshold
+            fraction = np.zeros_like(level)
+            np.divide(level - first, last - first, out=fraction, where=reached & (first < level))
+            offset = np.floor(fraction * (stop_us - start_us)).astype(np.int64)
+            t = np.minimum(start_us + offset, stop_us - 1)
+            fires = reached & (t - fired_us >= rest.period_us)
+            fired_us[fires] = t[fires]
+            steps += sign * (reached if rest.is_level_lost else fires)
+            pixels.append(np.flatnonzero(fires))
+            times.append(t[fires])
+            polarities.append(np.full(len(times[-1]), sign > 0, np.uint8))
+            k += 1
+    pixel = np.concatenate([np.empty(0, np.int64), *pixels])
+    # Stable, so a pixel's events keep their order k = 1, 2, ...
+    order = np.argsort(pixel, kind="stable")
+    t = np.concatenate([np.empty(0, np.int64), *times])
+    p = np.concatenate([np.empty(0, np.uint8), *polarities])
+    return RampCrossings(pixel[order], t[order], p[order], steps)

@@ -1,0 +1,73 @@
+"""What differs from pixel to pixel of one sensor: drawn once, the same in every frame of a seed."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.simulate.draws import Purpose, draw_normals, draw_uniforms, frame_key
+
+Float64Array = NDArray[np.float64]
+Shape = tuple[int, ...]
+
+LOWEST_THRESHOLD = 0.01
+"""Floor of drawn thresholds, log units: v2e's and ESIM's, so that no pixel fires without end."""
+SENSOR = -1
+"""Stands for the frame in keys of draws that belong to the sensor; frames count from 0."""
+
+
+def draw_thresholds(
+    shape: Shape, key: np.uint64, purpose: Purpose, *, mean: float, sigma: float
+) -> Float64Array:
+    """Contrast thresholds with Gaussian mismatch between pixels.
+
+    Args:
+        shape: (height, width).
+        key: of `sensor_key`, or of a frame for thresholds that change in time.
+        purpose: `THRESHOLD_ON` or `THRESHOLD_OFF`.
+        mean: nominal threshold, log units.
+        sigma: standard deviation, log units; 0 gives every pixel the nominal one.
+
+    Returns:
+        [H, W] float64, at least `LOWEST_THRESHOLD`.
+    """
+    if sigma == 0:
+        return np.full(shape, float(mean))
+    y, x = np.ogrid[: shape[0], : shape[1]]
+    drawn = mean + sigma * draw_normals(key, y, x, purpose.draw())
+    return np.maximum(drawn, LOWEST_THRESHOLD)
+
+
+def draw_rate_factors(
+    shape: Shape, key: np.uint64, purpose: Purpose, *, decades: float
+) -> Float64Array:
+    """Log-normal factors on a rate, median 1.
+
+    Args:
+        shape: (height, width).
+        key: of `sensor_key`.
+        purpose: what the rate is of.
+        decades: standard deviation of log10 of the factor; 0 gives 1 everywhere.
+
+    Returns:
+        [H, W] float64, above 0.
+    """
+    if decades == 0:
+        return np.ones(shape)
+    y, x = np.ogrid[: shape[0], : shape[1]]
+    return np.asarray(np.exp(math.log(10) * decades * draw_normals(key, y, x, purpose.draw())))
+
+
+def draw_chosen(
+    shape: Shape, key: np.uint64, purpose: Purpose, *, fraction: float
+) -> NDArray[np.bool_]:
+    """Pixels chosen at random, each with probability `fraction`; [H, W] bool."""
+    y, x = np.ogrid[: shape[0], : shape[1]]
+    return np.asarray(draw_uniforms(key, y, x, purpose.draw()) < fraction)
+
+
+def sensor_key(seed: int) -> np.uint64:
+    """Key of the draws that are made once for the sensor."""
+    return frame_key(seed, SENSOR)

@@ -1,0 +1,91 @@
+"""The shell that the published pixel models share: check a frame, advance, hand out a packet."""
+
+from __future__ import annotations
+
+import abc
+from collections.abc import Mapping
+from typing import Any, ClassVar, Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.config import check_range
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+from texvent.simulate.draws import frame_key
+from texvent.simulate.firings import Firings, Interval
+from texvent.simulate.kernels.select import AUTO, check_backend
+from texvent.video import Frame, StreamChecker
+
+Config = TypeVar("Config")
+IntensityArray = NDArray[Any]
+"""Luma on the 0..255 scale, [H, W], uint8 or float32."""
+
+
+class StreamingSimulator(abc.ABC, Generic[Config]):
+    """A pixel model that looks at one frame interval at a time; see `simulate.protocol.Simulator`.
+
+    A model says what it remembers of the first frame (`_begin`) and what fires until the next
+    (`_advance`); this class does the rest, so all models treat bad frames, times and order alike.
+    Random draws are keyed by the time since the first frame, so shifting a clip in time shifts
+    its events and nothing else.
+    """
+
+    config_type: ClassVar[type]
+    presets: ClassVar[Mapping[str, Any]]
+
+    def __init__(self, config: Config | None = None, *, seed: int = 0, backend: str = AUTO) -> None:
+        """Prepare a simulator that has seen no frame.
+
+        Args:
+            config: options; default: the first preset.
+            seed: of everything random, 0..2⁶³−1.
+            backend: "auto", "cpu" or "reference": which kernels compute. All give the same
+                events.
+
+        Raises:
+            ConfigError: the seed is out of range or the backend unknown.
+        """
+        check_range("seed", seed, 0, 2**63 - 1)
+        self.config: Config = config if config is not None else next(iter(self.presets.values()))
+        self._seed = int(seed)
+        self._backend = check_backend(backend)
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget all frames: the next one is the first."""
+        self._checker = StreamChecker()
+        self._first_us: int | None = None
+        self._last_us = 0
+
+    def step(self, frame: Frame) -> EventStream:
+        """Events in `[t of the frame before, t of this frame)`, sorted; none for the first frame.
+
+        Raises:
+            InputError: another size than before, a time that does not increase, or an intensity
+                that is NaN, infinite or negative.
+        """
+        self._checker.check(frame)
+        nothing = np.empty(0, np.int64)
+        fired = Firings.signal(nothing, nothing, nothing.astype(np.uint8))
+        if self._first_us is None:
+            self._first_us = self._last_us = frame.t_us
+            self._begin(frame.luma)
+            interval = self._interval(frame.t_us)
+        else:
+            interval = self._interval(frame.t_us)
+            fired = self._advance(frame.luma, interval)
+            self._last_us = frame.t_us
+        return fired.packet(interval, SensorSize(*frame.size))
+
+    def _interval(self, stop_us: int) -> Interval:
+        key = frame_key(self._seed, stop_us - (self._first_us or 0))
+        return Interval(self._last_us, stop_us, key)
+
+    @abc.abstractmethod
+    def _begin(self, intensity: IntensityArray) -> None:
+        """Set up every pixel from the first frame."""
+
+    @abc.abstractmethod
+    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
+        """What fires between the frame before and this one; moves every pixel's state along."""

@@ -1,0 +1,119 @@
+"""Our versions of published models against the event streams their original programs made.
+
+The streams lie beside the checkout, not in it (`../shared/peers`, read there what made them).
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from texvent.events import EventStream
+from texvent.simulate.esim import EsimSimulator
+from texvent.video import Frame
+
+PEERS = Path(__file__).parents[2].parent / "shared" / "peers"
+MISSING = f"no event streams of the original programs in {PEERS.parent.name}/{PEERS.name}"
+needs_peers = pytest.mark.skipif(not PEERS.is_dir(), reason=MISSING)
+LAST_PAIRS = 3
+
+
+@pytest.fixture(scope="module")
+def clip() -> list[Frame]:
+    with np.load(PEERS / "clip_346x260_frames.npz") as stored:
+        pairs = zip(stored["gray"], stored["t_us"], strict=True)
+        return [Frame(pixels, int(t)) for pixels, t in pairs]
+
+
+def load_peer(name: str) -> dict[str, np.ndarray]:
+    with np.load(PEERS / f"{name}.npz") as stored:
+        return {column: stored[column] for column in "xytp"}
+
+
+def packets_of(simulator_class, preset: str, clip: list[Frame], seed: int = 0) -> list[EventStream]:
+    simulator = simulator_class(simulator_class.presets[preset], seed=seed)
+    return [simulator.step(frame) for frame in clip]
+
+
+def count_map(events, shape=(260, 346)) -> np.ndarray:
+    """Events per polarity and pixel, [2, H, W]."""
+    counts = np.zeros((2, *shape), np.int64)
+    np.add.at(counts, (events["p"], events["y"], events["x"]), 1)
+    return counts
+
+
+def mismatch(ours: np.ndarray, theirs: np.ndarray) -> float:
+    """Events too many or too few, per pixel and polarity, as a share of theirs."""
+    return float(np.abs(ours - theirs).sum() / theirs.sum())
+
+
+def pair_of(events: dict[str, np.ndarray], start_us: int, stop_us: int) -> dict[str, np.ndarray]:
+    """Events with `start_us < t <= stop_us`: the originals stamp some at the later frame."""
+    inside = (events["t"] > start_us) & (events["t"] <= stop_us)
+    return {name: column[inside] for name, column in events.items()}
+
+
+def pair_mismatches(packets, theirs, edges_us) -> list[float]:
+    """Mismatch in each of the last three pairs."""
+    return [
+        mismatch(
+            count_map(packets[i + 1].columns()),
+            count_map(pair_of(theirs, edges_us[i], edges_us[i + 1])),
+        )
+        for i in range(len(packets) - 1 - LAST_PAIRS, len(packets) - 1)
+    ]
+
+
+def test_the_mismatch_counts_events_too_many_and_too_few():
+    ours, theirs = np.array([[2, 0], [1, 1]]), np.array([[1, 1], [1, 1]])
+    assert mismatch(ours, theirs) == 0.5
+
+
+@needs_peers
+def test_esim_agrees_in_counts_to_98_percent(clip):
+    # Its last stamps run 20 µs past the last frame, so the last pair ends later.
+    edges = [frame.t_us for frame in clip[:-1]] + [clip[-1].t_us + 100]
+    packets = packets_of(EsimSimulator, "peer-common", clip)
+    assert max(pair_mismatches(packets, load_peer("esim_py_common"), edges)) < 0.005
+
+
+@needs_peers
+def test_esim_agrees_in_crossing_times_after_its_defective_first_pair(clip):
+    ours, theirs = matched_times(clip, load_peer("esim_py_common"))
+    late = ours[1] >= clip[1].t_us
+    assert late.sum() > 700_000
+    assert np.mean(np.abs(ours[1][late] - theirs[1][late]) <= 1) > 0.999
+
+
+@needs_peers
+def test_esim_first_pair_differs_because_of_a_shared_buffer(clip):
+    # In its first pair, "the frame before" is overwritten by the reference at each crossing, so
+    # it measures the way to the k-th crossing from the (k-1)-th: t = C dt / (D - (k - 1) C).
+    ours, theirs = matched_times(clip, load_peer("esim_py_common"))
+    early = ours[1] < clip[1].t_us
+    place, time = ours[0][early], ours[1][early]
+    brightness = [np.log(frame.pixels / 255.0 + 1e-3) for frame in clip[:2]]
+    change = np.abs(brightness[1] - brightness[0]).reshape(-1)[place // 2]
+    rows = np.arange(len(place))
+    is_first = np.append(True, place[1:] != place[:-1])
+    crossed = rows - np.maximum.accumulate(np.where(is_first, rows, 0))
+    defective = 0.2 / (change - crossed * 0.2) * clip[1].t_us
+    defective = defective[np.lexsort((defective, place))]
+    assert np.mean(np.abs(time - theirs[1][early]) <= 1) < 0.3
+    assert np.mean(np.abs(defective - theirs[1][early]) <= 2) > 0.999
+
+
+def matched_times(clip, theirs) -> list[tuple[np.ndarray, np.ndarray]]:
+    """(place, time) of our and their ESIM events, where both have equally many at a place.
+
+    A place is a pixel and polarity; rows of both are ordered by place, then time.
+    """
+    ours = EventStream.concat(packets_of(EsimSimulator, "peer-common", clip)).columns()
+    rows = []
+    for events in (ours, theirs):
+        place = (events["y"].astype(np.int64) * 346 + events["x"]) * 2 + events["p"]
+        order = np.lexsort((events["t"], place))
+        rows.append((place[order], events["t"][order]))
+    counts = [np.bincount(place, minlength=260 * 346 * 2) for place, _ in rows]
+    is_equal = counts[0] == counts[1]
+    return [(place[is_equal[place]], time[is_equal[place]]) for place, time in rows]
