@@ -15,12 +15,12 @@
   const duration = (us) => (us >= 1e6 ? (us / 1e6).toFixed(3) + " s" : (us / 1e3).toFixed(2) + " ms");
 
   // State. `start` and `length` are shares of the recording.
-  const state = { yaw: 0, pitch: 0, zoom: 1, start: 0, length: 1, on: true, off: true, playing: false };
+  const state = { yaw: 0, pitch: 0, perspective: 1, zoom: 1, start: 0, length: 1, on: true, off: true, playing: false };
   const views = {
-    space: { yaw: -0.62, pitch: 0.32 },
-    front: { yaw: 0, pitch: 0 },
-    side: { yaw: -Math.PI / 2, pitch: 0 },
-    top: { yaw: 0, pitch: Math.PI / 2 },
+    space: { yaw: -0.62, pitch: 0.32, perspective: 1 },
+    front: { yaw: 0, pitch: 0, perspective: 0 },
+    side: { yaw: -Math.PI / 2, pitch: 0, perspective: 0 },
+    top: { yaw: 0, pitch: Math.PI / 2, perspective: 0 },
   };
   Object.assign(state, views.space);
 
@@ -42,7 +42,7 @@
   let fit = { scale: 1, x: 0, y: 0 };
   const project = (point) => {
     const [x, y, z] = rotate(point);
-    const w = (z + focal + 1.2) / focal;
+    const w = 1 + state.perspective * (z + 1.2) / focal;
     return [x / w, y / w, w];
   };
   const fitBox = (aspect) => {
@@ -79,11 +79,11 @@
     return program;
   };
   const placing = `
-    uniform vec4 turn; uniform vec4 fit; uniform float focal;
+    uniform vec4 turn; uniform vec4 fit; uniform float bend;
     vec4 place(vec3 p) {
       vec2 a = vec2(turn.x * p.x - turn.y * p.z, turn.y * p.x + turn.x * p.z);
       vec3 r = vec3(a.x, turn.z * p.y + turn.w * a.y, turn.z * a.y - turn.w * p.y);
-      float w = (r.z + focal + 1.2) / focal;
+      float w = 1.0 + bend * (r.z + 1.2);
       vec2 s = (r.xy / w - fit.xy) * vec2(fit.z / fit.w, fit.z);
       return vec4(s * w, (r.z / 8.0) * w, w);
     }`;
@@ -150,11 +150,11 @@
   const faded = data.ink.map((value, i) => value + 0.62 * (data.background[i] - value));
 
   const labels = [
-    { at: [0, -half[1], -half[2]], text: "x 0…" + (data.width - 1), shift: [-0.5, 0.35] },
-    { at: [-half[0], 0, -half[2]], text: "y 0…" + (data.height - 1), shift: [-1.12, -0.5] },
-    { at: [half[0], -half[1], 0], text: "time →", shift: [0.1, 0.35] },
-    { at: [half[0], -half[1], -half[2]], text: seconds(0).toFixed(3) + " s", shift: [0.15, 0.1] },
-    { at: [half[0], -half[1], half[2]], text: seconds(1).toFixed(3) + " s", shift: [0.1, 0.1] },
+    { axis: 0, at: [0, -half[1], -half[2]], text: "x 0…" + (data.width - 1), shift: [-0.5, 0.35] },
+    { axis: 1, at: [-half[0], 0, -half[2]], text: "y 0…" + (data.height - 1), shift: [-1.12, -0.5] },
+    { axis: 2, at: [half[0], -half[1], 0], text: "time →", shift: [0.1, 0.35] },
+    { axis: 2, at: [half[0], -half[1], -half[2]], text: seconds(0).toFixed(3) + " s", shift: [0.15, 0.1] },
+    { axis: 2, at: [half[0], -half[1], half[2]], text: seconds(1).toFixed(3) + " s", shift: [0.1, 0.1] },
   ].map((label) => {
     const span = document.createElement("span");
     span.textContent = label.text;
@@ -163,8 +163,7 @@
   });
 
   const placeLabels = (width, height) => {
-    const flat = Math.abs(Math.cos(state.yaw)) > 0.985 && Math.abs(state.pitch) < 0.12;
-    labels.forEach(({ at, span, shift, text }) => {
+    labels.forEach(({ axis, at, span, shift }) => {
       const [x, y] = project(at);
       const left = (((x - fit.x) * fit.scale) / (width / height) + 1) / 2 * width;
       const top = (1 - (y - fit.y) * fit.scale) / 2 * height;
@@ -172,8 +171,9 @@
       const px = Math.min(Math.max(left + shift[0] * w, 4), width - w - 4);
       const py = Math.min(Math.max(top + shift[1] * h, 2), height - h - 2);
       span.style.transform = `translate(${px.toFixed(1)}px, ${py.toFixed(1)}px)`;
-      // Seen from the front, the time axis has no length: its labels would lie over each other.
-      span.hidden = flat && /time| s$/.test(text);
+      // An axis seen end-on has no length: its labels would lie over each other.
+      const [dx, dy] = rotate([0, 1, 2].map((one) => (one === axis ? 1 : 0)));
+      span.hidden = Math.hypot(dx, dy) < 0.2;
     });
   };
 
@@ -186,7 +186,7 @@
     gl.useProgram(program);
     uniform(program, "turn", Math.cos(state.yaw), Math.sin(state.yaw), Math.cos(state.pitch), Math.sin(state.pitch));
     uniform(program, "fit", fit.x, fit.y, fit.scale, aspect);
-    uniform(program, "focal", focal);
+    uniform(program, "bend", state.perspective / focal);
   };
 
   let asked = false;
@@ -246,7 +246,7 @@
   const startSlider = element("start"), lengthSlider = element("length"), play = element("play");
   const showWindow = () => {
     startSlider.value = Math.round(state.start * 1000);
-    lengthSlider.value = Math.round(state.length * 1000);
+    lengthSlider.value = Math.max(1, Math.round(state.length * 1000));
     element("start-text").textContent = seconds(state.start).toFixed(3) + " s";
     element("length-text").textContent = duration(state.length * data.duration_us);
     const mark = element("rate-window");
@@ -295,12 +295,17 @@
   }
   for (const button of document.querySelectorAll("[data-view]")) {
     button.addEventListener("click", () => {
-      Object.assign(state, views[button.dataset.view], { zoom: 1 });
-      redraw();
+      const view = button.dataset.view;
+      Object.assign(state, views[view], { zoom: 1 });
+      // The whole recording in one picture plane is a smear: show 40 ms from its middle.
+      if (view === "front" && state.length === 1) Object.assign(state, { start: 0.5, length: Math.min(0.5, 40000 / data.duration_us) });
+      if (view === "space") Object.assign(state, { start: 0, length: 1 });
+      showWindow();
     });
   }
 
   const turn = (dx, dy) => {
+    state.perspective = 1;
     state.yaw -= dx;
     state.pitch = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, state.pitch + dy));
     redraw();
@@ -341,7 +346,7 @@
       ArrowLeft: () => turn(-0.08, 0), ArrowRight: () => turn(0.08, 0),
       ArrowUp: () => turn(0, -0.08), ArrowDown: () => turn(0, 0.08),
       "+": () => zoom(1.15), "=": () => zoom(1.15), "-": () => zoom(1 / 1.15),
-      "0": () => { Object.assign(state, views.space, { zoom: 1 }); redraw(); },
+      "0": () => { Object.assign(state, views.space, { zoom: 1, start: 0, length: 1 }); showWindow(); },
       " ": () => setPlaying(!state.playing),
     };
     if (!actions[event.key]) return;
