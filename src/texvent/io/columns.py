@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -20,13 +21,15 @@ def existing_file(path: str | Path) -> Path:
     """The path of a readable file.
 
     Raises:
-        InputError: there is no such file, or it is a folder.
+        InputError: there is no such file, it is a folder, or it must not be read.
     """
     path = Path(path)
     if path.is_dir():
         raise InputError(f"{path} is a folder; give the name of an event file")
     if not path.exists():
         raise InputError(f"no such file: {path}; check the name and the folder")
+    if not os.access(path, os.R_OK):
+        raise InputError(f"{path} must not be read by this user; change its permissions")
     return path
 
 

@@ -156,10 +156,13 @@ class NpzWriter:
 def _read_arrays(path: Path) -> dict[str, Any]:
     """Every array of the archive; pickled objects are refused, since they could run code."""
     try:
-        with np.load(path, allow_pickle=False) as archive:
+        # Opened here, because np.load leaves a damaged file open.
+        with path.open("rb") as file:
+            archive = np.load(file, allow_pickle=False)
             if not isinstance(archive, np.lib.npyio.NpzFile):
                 raise FileFormatError(f"{path} holds a single NumPy array, not an archive")
-            return {name: archive[name] for name in archive.files}
+            with archive:
+                return {name: archive[name] for name in archive.files}
     except InputError:
         raise
     except _DAMAGE as error:

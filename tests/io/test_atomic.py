@@ -1,0 +1,164 @@
+from __future__ import annotations
+
+import errno
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from texvent.errors import OutputError
+from texvent.io.atomic import atomic_file, check_output, is_disk_full
+
+WRITER = """
+import sys, time
+import numpy as np
+from texvent.events import EventStream
+from texvent.io.files import open_writer
+from texvent.sensor import SensorSize
+
+with open_writer(sys.argv[1], size=SensorSize(8, 8)) as writer:
+    for step in range(10_000):
+        count = 200_000
+        zeros = np.zeros(count, dtype=np.uint16)
+        times = np.full(count, step, dtype=np.int64)
+        writer.append(EventStream(zeros, zeros, times, zeros, SensorSize(8, 8)))
+        if step == 3:
+            sys.stdout.write("writing\\n")
+            sys.stdout.flush()
+        if step > 3:
+            time.sleep(0.05)
+"""
+
+
+def test_the_file_appears_only_when_the_block_ends(tmp_path: Path) -> None:
+    target = tmp_path / "out.bin"
+    with atomic_file(target, overwrite=False) as part:
+        part.write_bytes(b"new")
+        assert not target.exists()
+        assert (part.parent, part.suffix) == (tmp_path, ".bin")
+    assert target.read_bytes() == b"new"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+@pytest.mark.parametrize("error", [ValueError, KeyboardInterrupt, SystemExit, GeneratorExit])
+def test_any_exception_leaves_the_old_file_and_nothing_else(
+    tmp_path: Path, error: type[BaseException]
+) -> None:
+    target = tmp_path / "out.bin"
+    target.write_bytes(b"old")
+    with pytest.raises(error):
+        _write_and_raise(target, error)
+    assert target.read_bytes() == b"old"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+def _write_and_raise(target: Path, error: type[BaseException]) -> None:
+    with atomic_file(target, overwrite=True) as part:
+        part.write_bytes(b"half")
+        raise error
+
+
+def _write_while_another_does(target: Path) -> None:
+    with atomic_file(target, overwrite=False) as part:
+        part.write_bytes(b"mine")
+        target.write_bytes(b"theirs")
+
+
+def test_an_existing_file_is_refused_and_the_message_says_what_to_do(tmp_path: Path) -> None:
+    target = tmp_path / "out.bin"
+    target.write_bytes(b"old")
+    with pytest.raises(OutputError, match=r"out\.bin exists already.*--overwrite"):
+        check_output(target, overwrite=False)
+    assert check_output(target, overwrite=True) == target
+
+
+def test_a_file_made_by_somebody_else_meanwhile_is_not_replaced(tmp_path: Path) -> None:
+    target = tmp_path / "out.bin"
+    with pytest.raises(OutputError, match="exists already"):
+        _write_while_another_does(target)
+    assert target.read_bytes() == b"theirs"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+def test_a_missing_folder_is_named_with_the_command_that_makes_it(tmp_path: Path) -> None:
+    with pytest.raises(OutputError, match="does not exist; create it with: mkdir -p"):
+        check_output(tmp_path / "no" / "out.bin", overwrite=False)
+
+
+def test_folders_and_devices_are_never_replaced(tmp_path: Path) -> None:
+    with pytest.raises(OutputError, match="it is a folder"):
+        check_output(tmp_path, overwrite=True)
+    with pytest.raises(OutputError, match="not a regular file"):
+        check_output("/dev/null", overwrite=True)
+
+
+def test_an_unwritable_folder_is_refused_at_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # The user root may write anywhere, so the system's answer is replaced.
+    monkeypatch.setattr(os, "access", lambda *_: False)
+    with pytest.raises(OutputError, match="is not writable"):
+        check_output(tmp_path / "out.bin", overwrite=False)
+
+
+def test_a_symbolic_link_keeps_pointing_at_the_replaced_file(tmp_path: Path) -> None:
+    real, link = tmp_path / "real.bin", tmp_path / "link.bin"
+    real.write_bytes(b"old")
+    link.symlink_to(real)
+    with atomic_file(link, overwrite=True) as part:
+        part.write_bytes(b"new")
+    assert link.is_symlink()
+    assert real.read_bytes() == b"new"
+
+
+def test_a_full_disk_is_one_clear_line(tmp_path: Path, folder_is_clean: Callable[[], bool]) -> None:
+    with (
+        pytest.raises(OutputError, match="the disk is full") as caught,
+        atomic_file(tmp_path / "out.bin", overwrite=False),
+    ):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+    assert "\n" not in str(caught.value)
+    assert folder_is_clean()
+
+
+def test_other_system_errors_are_not_called_a_full_disk() -> None:
+    assert not is_disk_full(OSError(errno.EACCES, "Permission denied"))
+    assert not is_disk_full(ValueError("No space left on device"))
+    assert is_disk_full(OSError("write failed: errno = 28, error message = '...'"))
+
+
+def _start_writer(target: Path) -> subprocess.Popen[str]:
+    process = subprocess.Popen(
+        [sys.executable, "-c", WRITER, str(target)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    if process.stdout is None or process.stdout.readline() != "writing\n":
+        process.kill()
+        pytest.fail(f"the writer did not start: {process.communicate()[1]}")
+    return process
+
+
+def test_a_killed_writer_leaves_no_file_under_the_name(tmp_path: Path) -> None:
+    target = tmp_path / "out.h5"
+    process = _start_writer(target)
+    process.kill()
+    process.communicate()
+    assert not target.exists()
+    left = [path.name for path in tmp_path.iterdir()]
+    assert all(name.startswith(".texvent-") and ".part" in name for name in left)
+
+
+def test_ctrl_c_leaves_nothing_at_all(tmp_path: Path, folder_is_clean: Callable[[], bool]) -> None:
+    process = _start_writer(tmp_path / "out.h5")
+    time.sleep(0.1)
+    process.send_signal(signal.SIGINT)
+    process.communicate(timeout=20)
+    assert process.returncode != 0
+    assert folder_is_clean()

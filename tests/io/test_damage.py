@@ -1,0 +1,71 @@
+"""Damaged files are refused in one line, or their events are still right; nothing else happens."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.errors import FileFormatError
+from texvent.events import EventStream
+from texvent.io.files import load, save
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(16, 16)
+
+
+def _events() -> EventStream:
+    step = np.arange(400)
+    return EventStream(step % 16, step // 25, step * 50, step % 2, SIZE, {"seed": 5})
+
+
+@pytest.fixture(scope="module", params=[".h5", ".npz"])
+def sound(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("damage") / f"sound{request.param}"
+    return save(path, _events())
+
+
+def _load_or_refuse(path: Path) -> EventStream | None:
+    try:
+        return load(path)
+    except FileFormatError as error:
+        message = str(error)
+    assert "\n" not in message
+    return None
+
+
+@settings(max_examples=60, deadline=None)
+@given(share=st.floats(0.0, 1.0, exclude_max=True))
+def test_a_truncated_file_is_refused(sound: Path, share: float) -> None:
+    content = sound.read_bytes()
+    path = sound.with_name(f"short{sound.suffix}")
+    path.write_bytes(content[: int(share * len(content))])
+    assert _load_or_refuse(path) is None
+
+
+@settings(max_examples=120, deadline=None)
+@given(share=st.floats(0.0, 1.0, exclude_max=True), flip=st.integers(1, 255))
+def test_a_flipped_byte_is_refused_or_harmless(sound: Path, share: float, flip: int) -> None:
+    content = bytearray(sound.read_bytes())
+    content[int(share * len(content))] ^= flip
+    path = sound.with_name(f"flipped{sound.suffix}")
+    path.write_bytes(content)
+    back = _load_or_refuse(path)
+    assert back is None or back.equals(_events())
+
+
+@settings(max_examples=60, deadline=None)
+@given(share=st.floats(0.0, 1.0, exclude_max=True), byte=st.integers(0, 255))
+def test_a_wrong_character_in_text_is_refused_or_gives_events(
+    tmp_path_factory: pytest.TempPathFactory, share: float, byte: int
+) -> None:
+    # Plain text has no checksum: another digit is another event. It must still be a valid one.
+    path = save(tmp_path_factory.mktemp("text") / "events.txt", _events())
+    content = bytearray(path.read_bytes())
+    content[int(share * len(content))] = byte
+    path.write_bytes(content)
+    back = _load_or_refuse(path)
+    assert back is None or back.size == SIZE

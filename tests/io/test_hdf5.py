@@ -1,0 +1,243 @@
+from __future__ import annotations
+
+import errno
+import json
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.errors import FileFormatError, InputError, MissingDependencyError, OutputError
+from texvent.events import EventPackets, EventStream
+from texvent.io import hdf5
+from texvent.io.files import load, open_events, save
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(6, 5)
+
+
+def at_times(*times: int) -> EventStream:
+    zeros = [0] * len(times)
+    return EventStream.from_columns(zeros, zeros, list(times), zeros, size=SIZE)
+
+
+def index_by_definition(times: np.ndarray, length: int) -> list[int]:
+    """First index with t >= 1000 m, or the number of events."""
+    return [
+        next((index for index, t in enumerate(times) if t >= 1000 * m), len(times))
+        for m in range(length)
+    ]
+
+
+def test_plain_h5py_finds_the_universal_layout(tmp_path: Path, stream: EventStream) -> None:
+    path = save(tmp_path / "events.h5", stream)
+    with h5py.File(path, "r") as file:
+        for name, dtype in {"x": "<u2", "y": "<u2", "t": "<i8", "p": "|u1"}.items():
+            column = file[f"events/{name}"]
+            assert column.dtype == np.dtype(dtype)
+            assert (column.compression, column.shuffle) == ("gzip", True)
+            np.testing.assert_array_equal(column[()], getattr(stream, name))
+        assert file["t_offset"][()] == 0
+        assert file["t_offset"].dtype == np.int64
+        assert file["ms_to_idx"].dtype == np.uint64
+        assert (file.attrs["width"], file.attrs["height"]) == tuple(stream.size)
+        assert file.attrs["timestamp_scale_ms"] == 0.001
+
+
+@settings(max_examples=30, deadline=None)
+@given(times=st.lists(st.integers(0, 12_000), max_size=25))
+def test_ms_to_idx_follows_its_definition(
+    tmp_path_factory: pytest.TempPathFactory, times: list[int]
+) -> None:
+    events = at_times(*sorted(times))
+    path = save(tmp_path_factory.mktemp("index") / "events.h5", events)
+    with h5py.File(path, "r") as file:
+        index = file["ms_to_idx"][()].tolist()
+    assert index == index_by_definition(events.t, len(index))
+    # Closing entry: also the first ms after the last event can be looked up.
+    assert len(index) == (int(events.t[-1]) // 1000 + 2 if times else 1)
+    assert index[-1] == len(events)
+
+
+def test_ms_to_idx_spans_silence_and_batches(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(hdf5, "CHUNK_EVENTS", 4)
+    monkeypatch.setattr(hdf5, "BATCH_EVENTS", 8)
+    monkeypatch.setattr(hdf5, "INDEX_PIECE", 3)
+    times = [0, 1, 999, 1000, 1000, 1001, 30_000, 30_000, 30_500, 31_000, 90_001]
+    parts = [at_times(time) for time in times]
+    path = save(tmp_path / "events.h5", EventPackets(parts, SIZE))
+    assert load(path).t.tolist() == times
+    with h5py.File(path, "r") as file:
+        index = file["ms_to_idx"][()].tolist()
+    assert index == index_by_definition(np.array(times), 92)
+
+
+def test_a_window_is_found_as_dsec_readers_look_it_up(tmp_path: Path) -> None:
+    rng = np.random.default_rng(0)
+    events = at_times(*np.sort(rng.integers(0, 80_000, 5000)).tolist())
+    with h5py.File(save(tmp_path / "events.h5", events), "r") as file:
+        index, times = file["ms_to_idx"][()], file["events/t"][()]
+    start_us, stop_us = 20_300, 61_700
+    first, last = index[start_us // 1000], index[-(-stop_us // 1000)]
+    part = times[first:last]
+    part = part[(part >= start_us) & (part < stop_us)]
+    np.testing.assert_array_equal(part, events.between(start_us, stop_us).t)
+
+
+def test_provenance_is_whole_as_json_and_readable_by_name(tmp_path: Path) -> None:
+    metadata = {"prompt": "a cat 🐈", "seed": 0, "deep": {"a": [1, 2]}, "width": 999, "none": None}
+    path = save(tmp_path / "events.h5", EventStream.empty(SIZE, metadata))
+    with h5py.File(path, "r") as file:
+        stored = json.loads(file.attrs["texvent"])
+        assert (file.attrs["prompt"], file.attrs["seed"]) == ("a cat 🐈", 0)
+        assert file.attrs["width"] == SIZE.width, "layout attributes are not overwritten"
+        assert "deep" not in file.attrs
+    assert stored == {"prompt": "a cat 🐈", "seed": 0, "deep": {"a": [1, 2]}, "width": 999}
+
+
+def test_metadata_longer_than_an_attribute_may_be_is_kept(tmp_path: Path) -> None:
+    metadata = {"prompt": "long " * 40_000, **{f"name {i}": "v" * 2000 for i in range(80)}}
+    path = save(tmp_path / "events.h5", EventStream.empty(SIZE, metadata))
+    assert load(path).metadata == metadata
+
+
+def test_text_that_hdf5_cannot_hold_is_kept_in_the_json(tmp_path: Path) -> None:
+    metadata = {"prompt": "nul \0 inside", "lone": "\ud800", "big": 2**80}
+    path = save(tmp_path / "events.h5", EventStream.empty(SIZE, metadata))
+    assert load(path).metadata == metadata
+
+
+def test_a_dsec_file_is_read_with_its_offset(tmp_path: Path) -> None:
+    path = tmp_path / "dsec.h5"
+    with h5py.File(path, "w") as file:
+        file["events/x"] = np.array([1, 2], dtype="u2")
+        file["events/y"] = np.array([3, 4], dtype="u2")
+        file["events/t"] = np.array([0, 2**32 - 1], dtype="u4")
+        file["events/p"] = np.array([0, 1], dtype="u1")
+        file["ms_to_idx"] = np.array([0, 1], dtype="u8")
+        file["t_offset"] = np.int64(51_000_000_000)
+    with pytest.raises(InputError, match="does not store the sensor size; give it"):
+        load(path)
+    back = load(path, size=(640, 480))
+    assert back.t.tolist() == [51_000_000_000, 51_000_000_000 + 2**32 - 1]
+    assert back.size == (640, 480)
+
+
+def test_signed_polarity_is_converted_and_other_values_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "signed.h5"
+    for polarity in ([-1, 1], [-1, 0], [0, 2]):
+        with h5py.File(path, "w") as file:
+            for name in "xyt":
+                file[f"events/{name}"] = np.array([1, 2])
+            file["events/p"] = np.array(polarity, dtype="i1")
+        if polarity == [-1, 1]:
+            assert load(path, size=(4, 4)).p.tolist() == [0, 1]
+        else:
+            with pytest.raises(FileFormatError, match="polarity holds"):
+                load(path, size=(4, 4))
+
+
+def test_a_size_that_contradicts_the_file_is_refused(tmp_path: Path) -> None:
+    path = save(tmp_path / "events.h5", at_times(1))
+    with pytest.raises(InputError, match="was recorded at 6x5, not 7x5"):
+        load(path, size=(7, 5))
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda file: file.__delitem__("events/p"), "no events/p"),
+        (lambda file: file["events/x"].resize((1,)), "differ in length"),
+        (lambda file: file.attrs.__setitem__("timestamp_scale_ms", 1.0), "units of 1 ms"),
+        (lambda file: file.attrs.__setitem__("width", 0), "impossible"),
+        (lambda file: file.attrs.__setitem__("width", 2), "x runs from 0 to 3"),
+        (lambda file: file["events/t"].__setitem__(0, 10**9), "time decreases"),
+        (lambda file: file.attrs.__setitem__("texvent", "{"), "damaged metadata"),
+    ],
+)
+def test_a_wrong_layout_is_one_clear_line(
+    tmp_path: Path, change: Callable[[h5py.File], None], message: str
+) -> None:
+    events = EventStream.from_columns([0, 3], [0, 0], [5, 9], [1, 0], size=SIZE)
+    path = save(tmp_path / "events.h5", events)
+    with h5py.File(path, "r+") as file:
+        change(file)
+    with pytest.raises(FileFormatError, match=message) as caught:
+        load(path)
+    assert "\n" not in str(caught.value)
+
+
+def test_order_is_checked_between_packets_too(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = save(tmp_path / "events.h5", at_times(10, 11, 12, 13))
+    with h5py.File(path, "r+") as file:
+        file["events/t"][:] = [10, 11, 5, 6]
+    monkeypatch.setattr(hdf5, "PACKET_EVENTS", 2)
+    with pytest.raises(FileFormatError, match="time decreases at event 2"):
+        load(path)
+
+
+def test_reading_packets_holds_one_packet(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = save(tmp_path / "events.h5", at_times(*range(10)))
+    monkeypatch.setattr(hdf5, "PACKET_EVENTS", 4)
+    assert [len(packet) for packet in open_events(path)] == [4, 4, 2]
+
+
+def test_clock_times_are_stored_relative_to_t_offset(tmp_path: Path) -> None:
+    start_us = 1_790_000_000_123_456
+    events = at_times(start_us, start_us + 5)
+    path = save(tmp_path / "events.h5", events)
+    assert load(path).equals(events)
+    with h5py.File(path, "r") as file:
+        assert file["t_offset"][()] == start_us // 1000 * 1000
+        assert file["ms_to_idx"][()].tolist() == [0, 2]
+
+
+def test_times_that_the_index_cannot_hold_are_refused(
+    tmp_path: Path, folder_is_clean: Callable[[], bool]
+) -> None:
+    with pytest.raises(InputError, match="holds up to 38 h"):
+        save(tmp_path / "events.h5", at_times(0, 2**40))
+    with pytest.raises(InputError, match="start at 0 or later"):
+        save(tmp_path / "events.h5", at_times(-1, 0))
+    assert folder_is_clean()
+
+
+def test_labelled_and_unlabelled_packets_do_not_mix(tmp_path: Path) -> None:
+    labelled = EventStream(*(np.zeros(1, int),) * 4, SIZE, {}, np.ones(1, np.uint8))
+    with pytest.raises(InputError, match="give all or none one"):
+        save(tmp_path / "events.h5", EventPackets([labelled, at_times(3)], SIZE))
+
+
+def test_a_foreign_filter_names_the_package_to_install(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = save(tmp_path / "events.h5", at_times(1, 2))
+    monkeypatch.setattr(h5py.h5z, "filter_avail", lambda code: False)
+    monkeypatch.setattr(hdf5, "require", _no_package)
+    with pytest.raises(MissingDependencyError, match="pip install hdf5plugin"):
+        load(path)
+
+
+def _no_package(module: str) -> None:
+    raise MissingDependencyError(module)
+
+
+def test_a_disk_that_fills_up_while_writing_leaves_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, folder_is_clean: Callable[[], bool]
+) -> None:
+    def refuse(*_: object) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(h5py.Dataset, "__setitem__", refuse)
+    with pytest.raises(OutputError, match="the disk is full"):
+        save(tmp_path / "events.h5", at_times(1, 2))
+    assert folder_is_clean()

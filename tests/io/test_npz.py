@@ -1,0 +1,66 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from texvent.errors import FileFormatError, InputError
+from texvent.events import EventStream
+from texvent.io.files import load, save
+from texvent.sensor import SensorSize
+
+
+def test_plain_numpy_finds_the_columns(tmp_path: Path) -> None:
+    events = EventStream.from_columns([1, 2], [3, 4], [5, 6], [1, 0], size=SensorSize(9, 8))
+    with np.load(save(tmp_path / "events.npz", events), allow_pickle=False) as archive:
+        assert {name: archive[name].tolist() for name in "xytp"} == {
+            "x": [1, 2],
+            "y": [3, 4],
+            "t": [5, 6],
+            "p": [1, 0],
+        }
+        assert (int(archive["width"]), int(archive["height"])) == (9, 8)
+        assert float(archive["timestamp_scale_ms"]) == 0.001
+
+
+def test_pickled_objects_are_refused_because_they_could_run_code(tmp_path: Path) -> None:
+    path = tmp_path / "events.npz"
+    np.savez(path, x=np.array([{}], dtype=object), y=[0], t=[0], p=[0])
+    with pytest.raises(FileFormatError, match="damaged or not a NumPy archive"):
+        load(path, size=(4, 4))
+
+
+@pytest.mark.parametrize(
+    ("arrays", "message"),
+    [
+        ({"x": [0], "y": [0], "t": [0]}, "no array 'p'"),
+        ({"x": [0, 1], "y": [0], "t": [0], "p": [0]}, "equally long"),
+        ({"x": [0.5], "y": [0], "t": [0], "p": [0]}, "must hold integers"),
+        ({"x": [0], "y": [0], "t": [0], "p": [0], "timestamp_scale_ms": 1.0}, "units of 1"),
+        ({"x": [0], "y": [0], "t": [0], "p": [0], "width": "a", "height": 4}, "whole number"),
+    ],
+)
+def test_wrong_arrays_are_one_clear_line(
+    tmp_path: Path, arrays: dict[str, object], message: str
+) -> None:
+    path = tmp_path / "events.npz"
+    np.savez(path, **{name: np.array(value) for name, value in arrays.items()})
+    with pytest.raises(FileFormatError, match=message):
+        load(path, size=(4, 4))
+
+
+def test_a_single_array_is_not_an_archive(tmp_path: Path) -> None:
+    path = tmp_path / "events.npz"
+    with path.open("wb") as file:
+        np.save(file, np.zeros(3))
+    with pytest.raises(FileFormatError, match="single NumPy array"):
+        load(path, size=(4, 4))
+
+
+def test_an_archive_without_a_size_asks_for_it(tmp_path: Path) -> None:
+    path = tmp_path / "events.npz"
+    np.savez(path, x=[1], y=[1], t=[1], p=[1])
+    with pytest.raises(InputError, match="give it"):
+        load(path)
+    assert load(path, size=(4, 4)).size == (4, 4)
