@@ -22,6 +22,7 @@ def decoded_pixels(frame: VideoFrame) -> PixelArray:
         [H, W] for grey formats, else [H, W, 3] RGB; uint8 for up to 8 bits per component, uint16
         (65535 is white) for more. Alpha is dropped. YUV becomes RGB by the matrix and range that
         the file states; files that state none are read as BT.601 limited range, as libav does.
+        libav's 16-bit RGB of deep YUV has its white at 65283, 0.4 % below full scale.
     """
     picture = frame.reformat(format=pixel_format(frame.format), dst_color_range=ColorRange.JPEG)
     pixels = picture.to_ndarray()
