@@ -5,6 +5,7 @@ import pytest
 
 from texvent.events import SIGNAL, EventStream
 from texvent.simulate.draws import frame_key
+from texvent.simulate.firings import Interval
 from texvent.simulate.kernels import reference
 from texvent.simulate.noise import (
     draw_noise,
@@ -167,14 +168,15 @@ def test_poisson_table_has_the_mean_and_variance_of_its_distribution(mean):
 
 def test_noise_counts_are_poisson_numbers():
     mask = np.ones((200, 200), np.bool_)
-    noise = draw_noise(reference, mask, frame_key(0, 0), mean=0.7, on_fraction=0.5)
+    span = Interval(1000, 2000, frame_key(0, 0))
+    noise = draw_noise(reference, mask, span, mean=0.7, on_fraction=0.5)
     per_pixel = np.bincount(noise.pixel, minlength=mask.size)
     counts = np.bincount(per_pixel, minlength=8)[:6]
     mass = np.diff(poisson_cumulative(0.7), prepend=0.0)[:6]
     expected = mass * mask.size
     assert float(((counts - expected) ** 2 / expected).sum()) < 6 + 5 * np.sqrt(12)
-    assert noise.fraction.min() >= 0
-    assert noise.fraction.max() < 1
+    assert noise.t.min() >= 1000
+    assert noise.t.max() < 2000
 
 
 @pytest.mark.parametrize("mean", [1e-5, 0.01, 0.3, 0.99])

@@ -5,6 +5,7 @@ import pytest
 
 from texvent.simulate.draws import frame_key
 from texvent.simulate.event_frame import EventFrame, list_activations
+from texvent.simulate.firings import Interval
 from texvent.simulate.interval import SubInterval
 from texvent.simulate.timestamps import larger_change_earlier, reconstruct_timestamps
 
@@ -13,7 +14,7 @@ THRESHOLD = 0.2
 
 def interval(previous, brightness, reference, stop_us=10_000) -> SubInterval:
     images = (np.array([one], np.float64) for one in (previous, brightness, reference))
-    return SubInterval(0, stop_us, frame_key(0, 0), *images)
+    return SubInterval(Interval(0, stop_us, frame_key(0, 0)), *images)
 
 
 def activations(changes, numbers=None):

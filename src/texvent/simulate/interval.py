@@ -1,4 +1,4 @@
-"""One sub-interval: what every pixel model knows when it decides which events happened in it."""
+"""One sub-interval as the Texvent model sees it: its time and the brightness at both ends."""
 
 from __future__ import annotations
 
@@ -7,21 +7,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.sensor import SensorSize
+from texvent.simulate.firings import Interval
 
 Float64Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
 class SubInterval:
-    """The time between two neighbouring frames, `[start_us, stop_us)`."""
+    """What is compared with what between two neighbouring frames, and when."""
 
-    start_us: int
-    """Time of the earlier frame, µs (included)."""
-    stop_us: int
-    """Time of the later frame, µs (excluded)."""
-    key: np.uint64
-    """Key of the random draws of this sub-interval; see `draws.frame_key`."""
+    span: Interval
+    """Time of both frames, and the key of the random draws between them."""
     previous: Float64Array
     """Brightness at the start, L(α + I^{j−1}), [H, W], log units."""
     brightness: Float64Array
@@ -29,20 +25,20 @@ class SubInterval:
     reference: Float64Array
     """Reference brightness the pixels compare with, L(α + κ ⋄ I^{j−1}), [H, W], log units."""
 
-    @property
-    def size(self) -> SensorSize:
-        """Width and height, pixels."""
-        height, width = self.brightness.shape
-        return SensorSize(width, height)
 
-    def at(self, fraction: Float64Array) -> NDArray[np.int64]:
-        """Times, µs, at fractions 0..1 of the sub-interval, rounded down; never `stop_us` itself.
+def place_in(span: Interval, fraction: Float64Array) -> NDArray[np.int64]:
+    """Times at fractions 0..1 of an interval, rounded down; never its end itself.
 
-        Example:
-            >>> nothing = np.zeros((1, 1))
-            >>> interval = SubInterval(0, 10_000, np.uint64(0), nothing, nothing, nothing)
-            >>> interval.at(np.array([0.0, 0.75, 1.0])).tolist()
-            [0, 7500, 9999]
-        """
-        offset = np.floor(fraction * (self.stop_us - self.start_us)).astype(np.int64)
-        return np.asarray(np.minimum(self.start_us + offset, self.stop_us - 1))
+    Args:
+        span: the interval.
+        fraction: [n].
+
+    Returns:
+        [n] µs, in `[start_us, stop_us)`.
+
+    Example:
+        >>> place_in(Interval(0, 10_000, np.uint64(0)), np.array([0.0, 0.75, 1.0])).tolist()
+        [0, 7500, 9999]
+    """
+    offset = np.floor(fraction * span.duration_us).astype(np.int64)
+    return np.asarray(np.minimum(span.start_us + offset, span.stop_us - 1))

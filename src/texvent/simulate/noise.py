@@ -10,13 +10,15 @@ from __future__ import annotations
 import functools
 import math
 from statistics import NormalDist
-from typing import Any, Literal, NamedTuple
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import InputError
 from texvent.simulate.draws import UNIT, Purpose, draw_normals, draw_uniforms
+from texvent.simulate.firings import Firings, Interval
+from texvent.simulate.interval import place_in
 from texvent.simulate.kernels.interface import Kernels
 
 NoiseKind = Literal["adaptive", "gaussian", "random", "none"]
@@ -25,22 +27,6 @@ Float64Array = NDArray[np.float64]
 
 # What a uniform number cannot resolve need not be in the table.
 _CERTAIN = 1.0 - UNIT
-
-
-class NoiseEvents(NamedTuple):
-    """Noise of one sub-interval, a row per event, ordered by pixel."""
-
-    pixel: NDArray[np.int64]
-    """[n] flat index y · W + x."""
-    polarity: NDArray[np.uint8]
-    """[n] 1 = ON, 0 = OFF."""
-    fraction: Float64Array
-    """[n] time within the sub-interval, in [0, 1)."""
-
-    @classmethod
-    def empty(cls) -> NoiseEvents:
-        """No noise."""
-        return cls(np.empty(0, np.int64), np.empty(0, np.uint8), np.empty(0))
 
 
 def low_light_background(
@@ -65,32 +51,34 @@ def low_light_background(
 
 
 def draw_noise(
-    kernels: Kernels, mask: BoolArray, key: np.uint64, *, mean: float, on_fraction: float
-) -> NoiseEvents:
+    kernels: Kernels, mask: BoolArray, span: Interval, *, mean: float, on_fraction: float
+) -> Firings:
     """Poisson events at the masked pixels, uniform in time.
 
     Args:
         kernels: the backend that scans the pixels.
         mask: where noise is allowed, [H, W].
-        key: of `draws.frame_key`.
+        span: when, and the key of the draws.
         mean: λ1 · λ2, expected events per pixel in this sub-interval.
         on_fraction: probability of ON.
+
+    Returns:
+        The noise events, ordered by pixel.
 
     Equation: (6), section 3.2.2: M · Poisson(λ1 λ2).
     Deviation: the paper gives noise no polarity and no time. Eq. 7 would put all of it at the end,
         because its change is below δ; real background activity is uniform in time.
     """
-    cumulative = poisson_cumulative(mean)
-    width = mask.shape[1]
+    cumulative, key = poisson_cumulative(mean), span.key
     pixel = kernels.find_noisy_pixels(mask, key, Purpose.NOISE_COUNT.draw(), float(cumulative[0]))
-    y, x = np.divmod(pixel, width)
+    y, x = np.divmod(pixel, mask.shape[1])
     chance = draw_uniforms(key, y, x, Purpose.NOISE_COUNT.draw())
     count = np.searchsorted(cumulative, chance, side="right")
     order = np.arange(int(count.sum())) - np.repeat(np.cumsum(count) - count, count)
     y, x = np.repeat(y, count), np.repeat(x, count)
     is_on = draw_uniforms(key, y, x, Purpose.NOISE_POLARITY.draw(order)) < on_fraction
     fraction = draw_uniforms(key, y, x, Purpose.NOISE_TIME.draw(order))
-    return NoiseEvents(np.repeat(pixel, count), is_on.astype(np.uint8), fraction)
+    return Firings.noise(np.repeat(pixel, count), place_in(span, fraction), is_on.astype(np.uint8))
 
 
 @functools.lru_cache(maxsize=64)

@@ -13,22 +13,17 @@ from texvent._registry import suggest
 from texvent.brightness import Float64Array, balanced_log
 from texvent.config import check_range
 from texvent.errors import ConfigError
-from texvent.events import NOISE, SIGNAL, EventStream
+from texvent.events import NOISE, EventStream
 from texvent.simulate.cache import BrightnessCache
 from texvent.simulate.draws import frame_key
 from texvent.simulate.event_frame import EventFrame, generate_event_frame, list_activations
+from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.interval import SubInterval
 from texvent.simulate.kernels.interface import Kernels
 from texvent.simulate.kernels.select import check_backend, load_kernels
-from texvent.simulate.noise import (
-    NoiseEvents,
-    draw_noise,
-    draw_voltage_noise,
-    low_light_background,
-)
-from texvent.simulate.packet import sort_packet
+from texvent.simulate.noise import draw_noise, draw_voltage_noise, low_light_background
 from texvent.simulate.timestamps import reconstruct_timestamps
-from texvent.video import MICROSECONDS, Frame, StreamChecker
+from texvent.video import Frame, StreamChecker
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -187,16 +182,16 @@ class TexventSimulator:
         brightness = balanced_log(frame.luma, self.balance)
         if self._seen is None:
             self._seen = _Seen(frame.t_us, frame.is_source, brightness, self._new_cache(brightness))
-            return EventStream.empty(frame.size)
+            return _nothing().packet(Interval(frame.t_us, frame.t_us, np.uint64(0)), frame.size)
         cache = self._seen.cache
-        interval = self._compare_with_cache(frame, brightness, self._seen)
-        events = self._generate_event_frame(interval.brightness, interval)
-        noise = self._add_noise(frame, events, interval)
+        interval = self._compare_with_cache(frame, brightness, self._seen)  # κ ⋄ I^{j−1}
+        events = self._generate_event_frame(interval.brightness, interval)  # Eq. 5
+        noise = self._add_noise(frame, events, interval)  # Eq. 6
         signal = self._without_voltage_noise(events, brightness, interval)
-        packet = self._reconstruct_timestamps(events, signal, noise, interval)
+        timed = self._reconstruct_timestamps(events, signal, interval)  # Eq. 7
         cache.update(signal, brightness, step=self.config.reset_step)
         self._seen = _Seen(frame.t_us, frame.is_source, brightness, cache)
-        return packet
+        return timed.joined(noise).packet(interval.span, frame.size)
 
     @property
     def _kernels(self) -> Kernels:
@@ -216,14 +211,14 @@ class TexventSimulator:
         self, frame: Frame, brightness: Float64Array, before: _Seen
     ) -> SubInterval:
         """Set the calibrated frame `κ ⋄ I^{j−1}` against this one, with voltage noise if asked."""
-        key = frame_key(self._seed, frame.t_us)
+        span = Interval(before.t_us, frame.t_us, frame_key(self._seed, frame.t_us))
         reference = before.cache.calibrate(before.brightness, is_source=before.is_source)
         if self.config.noise == "gaussian":
-            mean = self._expected_noise(before.t_us, frame.t_us)
+            mean = self._expected_noise(span)
             brightness = brightness + draw_voltage_noise(
-                brightness.shape, key, threshold=self.contrast_threshold, mean=mean
+                brightness.shape, span.key, threshold=self.contrast_threshold, mean=mean
             )
-        return SubInterval(before.t_us, frame.t_us, key, before.brightness, brightness, reference)
+        return SubInterval(span, before.brightness, brightness, reference)
 
     def _generate_event_frame(self, brightness: Float64Array, interval: SubInterval) -> EventFrame:
         """Eq. 5."""
@@ -235,26 +230,23 @@ class TexventSimulator:
             multi_event=self.config.multi_event,
         )
 
-    def _add_noise(self, frame: Frame, events: EventFrame, interval: SubInterval) -> NoiseEvents:
+    def _add_noise(self, frame: Frame, events: EventFrame, interval: SubInterval) -> Firings:
         """Eq. 6, or its ablation E11 ("random"). E10 ("gaussian") has shaken the brightness."""
         config = self.config
-        if config.noise == "adaptive":
-            mask = low_light_background(frame.luma, events.pixel, intensity=config.noise_intensity)
-        elif config.noise == "random":
+        mean = self._expected_noise(interval.span)
+        if config.noise in ("none", "gaussian") or mean == 0:
+            return _nothing()
+        if config.noise == "random":
             mask = np.ones(frame.size.shape, np.bool_)
         else:
-            mask = None
-        mean = self._expected_noise(interval.start_us, interval.stop_us)
-        if mask is None or mean == 0:
-            return NoiseEvents.empty()
+            mask = low_light_background(frame.luma, events.pixel, intensity=config.noise_intensity)
         return draw_noise(
-            self._kernels, mask, interval.key, mean=mean, on_fraction=config.noise_on_fraction
+            self._kernels, mask, interval.span, mean=mean, on_fraction=config.noise_on_fraction
         )
 
-    def _expected_noise(self, start_us: int, stop_us: int) -> float:
-        """λ1 · λ2: noise events per pixel in `[start_us, stop_us)`."""
-        seconds = (stop_us - start_us) / MICROSECONDS
-        return self.config.noise_rate_hz * (self.config.noise_scale * seconds)
+    def _expected_noise(self, span: Interval) -> float:
+        """λ1 · λ2: noise events per pixel in a sub-interval."""
+        return self.config.noise_rate_hz * (self.config.noise_scale * span.duration_s)
 
     def _without_voltage_noise(
         self, events: EventFrame, brightness: Float64Array, interval: SubInterval
@@ -265,9 +257,9 @@ class TexventSimulator:
         return self._generate_event_frame(brightness, interval)
 
     def _reconstruct_timestamps(
-        self, events: EventFrame, signal: EventFrame, noise: NoiseEvents, interval: SubInterval
-    ) -> EventStream:
-        """Eq. 7 for the events; noise brings its own times."""
+        self, events: EventFrame, signal: EventFrame, interval: SubInterval
+    ) -> Firings:
+        """Eq. 7. Events that only voltage noise let fire are labelled as noise."""
         activations = list_activations(events)
         t = reconstruct_timestamps(
             activations,
@@ -276,13 +268,12 @@ class TexventSimulator:
             threshold=self.contrast_threshold,
             scale=self.config.stamp_scale,
         )
-        label = np.full(activations.pixel.size, SIGNAL, np.uint8)
+        fired = Firings.signal(activations.pixel, t, activations.polarity)
         if signal is not events:
-            label[~np.isin(activations.pixel, signal.pixel)] = NOISE
-        return sort_packet(
-            np.concatenate([activations.pixel, noise.pixel]),
-            np.concatenate([t, interval.at(noise.fraction)]),
-            np.concatenate([activations.polarity, noise.polarity]),
-            np.concatenate([label, np.full(noise.pixel.size, NOISE, np.uint8)]),
-            interval=interval,
-        )
+            fired.label[~np.isin(activations.pixel, signal.pixel)] = NOISE
+        return fired
+
+
+def _nothing() -> Firings:
+    empty = np.empty(0, np.int64)
+    return Firings.noise(empty, empty, empty.astype(np.uint8))

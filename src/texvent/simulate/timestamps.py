@@ -1,6 +1,6 @@
 """Time stamp reconstruction (Eq. 7): where inside its sub-interval an event happened.
 
-Every rule gives a fraction 0..1 of the sub-interval per event; `SubInterval.at` makes it µs.
+Every rule gives a fraction 0..1 of the sub-interval per event; `place_in` makes it µs.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from texvent.simulate.draws import Purpose, draw_uniforms
 from texvent.simulate.event_frame import Activations
-from texvent.simulate.interval import SubInterval
+from texvent.simulate.interval import SubInterval, place_in
 
 StampRule = Literal["eq7", "random", "linear", "hyperbolic", "even", "end"]
 Float64Array = NDArray[np.float64]
@@ -40,8 +40,8 @@ def reconstruct_timestamps(
         [n] µs, in `[start_us, stop_us)`.
     """
     if stamp == "eq7":
-        return interval.at(scale * larger_change_earlier(activations.change))
-    return interval.at(_RULES[stamp](activations, interval, threshold))
+        return place_in(interval.span, scale * larger_change_earlier(activations.change))
+    return place_in(interval.span, _RULES[stamp](activations, interval, threshold))
 
 
 def larger_change_earlier(change: Float64Array) -> Float64Array:
@@ -73,7 +73,7 @@ def larger_change_earlier(change: Float64Array) -> Float64Array:
 def random_time(activations: Activations, interval: SubInterval, threshold: float) -> Float64Array:
     """Uniform in the sub-interval: the paper's ablation E12."""
     y, x = np.divmod(activations.pixel, interval.brightness.shape[1])
-    return draw_uniforms(interval.key, y, x, Purpose.TIMESTAMP.draw(activations.order))
+    return draw_uniforms(interval.span.key, y, x, Purpose.TIMESTAMP.draw(activations.order))
 
 
 def linear_crossing(

@@ -3,13 +3,11 @@
 import numpy as np
 import pytest
 
-from texvent.simulate.interval import SubInterval
-from texvent.simulate.packet import sort_packet
+from texvent.sensor import SensorSize
+from texvent.simulate.firings import Firings, Interval
 
-
-def interval(start_us, stop_us, width=3, height=2) -> SubInterval:
-    image = np.zeros((height, width))
-    return SubInterval(start_us, stop_us, np.uint64(0), image, image, image)
+KEY = np.uint64(0)
+SIZE = SensorSize(3, 2)
 
 
 @pytest.mark.parametrize(
@@ -26,7 +24,7 @@ def test_convention_ties_are_ordered_by_t_y_x_p_label(start_us, stop_us):
     t = np.array([middle] * 5 + [last, start_us])
     p = np.array([0, 1, 1, 1, 0, 1, 0], np.uint8)
     label = np.array([0, 0, 1, 0, 1, 1, 0], np.uint8)
-    packet = sort_packet(pixel, t, p, label, interval=interval(start_us, stop_us))
+    packet = Firings(pixel, t, p, label).packet(Interval(start_us, stop_us, KEY), SIZE)
     assert packet.t.tolist() == [start_us, *[middle] * 5, last]
     assert list(zip(packet.y, packet.x, packet.p, packet.label, strict=True)) == [
         (1, 0, 0, 0),
@@ -40,17 +38,17 @@ def test_convention_ties_are_ordered_by_t_y_x_p_label(start_us, stop_us):
 
 
 def test_the_last_pixel_of_the_largest_sensor_survives_packing():
-    side = 65_535
-    broadcast = np.broadcast_to(np.zeros(1), (side, side))
-    where = SubInterval(0, 1_000_000, np.uint64(0), broadcast, broadcast, broadcast)
-    last, one = np.array([side * side - 1]), np.ones(1, np.uint8)
-    packet = sort_packet(last, np.array([999_999]), one, one, interval=where)
-    assert (packet.x[0], packet.y[0], packet.t[0], packet.p[0]) == (65_534, 65_534, 999_999, 1)
+    side, one = 65_535, np.ones(1, np.uint8)
+    fired = Firings(np.array([side * side - 1]), np.array([999_999]), one, one)
+    packet = fired.packet(Interval(0, 1_000_000, KEY), SensorSize(side, side))
+    assert (packet.x[0], packet.y[0], packet.t[0]) == (65_534, 65_534, 999_999)
+    assert (packet.p[0], packet.label[0]) == (1, 1)
 
 
 def test_no_event_is_an_empty_packet():
     nothing = np.empty(0, np.int64)
-    none = nothing.astype(np.uint8)
-    packet = sort_packet(nothing, nothing, none, none, interval=interval(0, 10))
+    packet = Firings.signal(nothing, nothing, nothing.astype(np.uint8)).packet(
+        Interval(0, 10, KEY), SIZE
+    )
     assert len(packet) == 0
-    assert packet.size == (3, 2)
+    assert packet.size == SIZE
