@@ -138,7 +138,7 @@ def build_duck(*, colour: Colour | None, scale: float, seed: int) -> Figure:
     def articulate(pose: Pose) -> list[Part]:
         return moved(parts, turn_x(0.06 * math.sin(4.0 * pose.time_s + start)))
 
-    return Figure([], scale=scale, articulate=articulate, is_centred=True)
+    return Figure([], scale=scale, articulate=articulate)
 
 
 NOUNS = (

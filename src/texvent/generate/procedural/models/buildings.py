@@ -27,6 +27,7 @@ from texvent.generate.procedural.models.shaping import (
     moved,
     peak,
     plank,
+    post,
     rod,
     shift,
     turn_x,
@@ -147,8 +148,9 @@ def build_windmill(*, colour: Colour | None, scale: float, seed: int) -> Figure:
         Paint((0.10, 0.06, 0.04)),
     )
     rigid = [
-        peak(tower, (0.0, 0.0, 9.0), (6.4, 6.4, 18.0)),
-        ball(cap, (0.0, 0.0, 9.4), (4.0, 3.8, 3.6)),
+        peak(tower, (0.0, 0.0, 6.2), (6.0, 6.0, 12.4)),
+        post(tower, (0.0, 0.0, 4.3), (3.3, 3.3, 8.6)),
+        ball(cap, (0.0, 0.0, 9.9), (4.2, 4.0, 5.2)),
         rod(spar, (1.4, 0.0, 9.6), (2.9, 0.0, 9.6), 0.25),
         box(Paint((0.10, 0.05, 0.03)), (2.9, 0.0, 1.1), (0.7, 1.2, 2.2)),
         box(GLASS, (2.1, 0.0, 4.4), (0.5, 0.8, 1.0)),

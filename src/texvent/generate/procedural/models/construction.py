@@ -38,7 +38,7 @@ def build_crane(*, colour: Colour | None, scale: float, seed: int) -> Figure:
     lattice = checked(hue, shade(hue, 0.30), 10.0)
     rigid = [
         box(CONCRETE, (0.0, 0.0, 0.4), (3.2, 3.2, 0.8)),
-        *(rod(paint, (x, y, 0.5), (x, y, 18.0), 0.14) for x in (0.6, -0.6) for y in (0.6, -0.6)),
+        *(rod(paint, (x, y, 0.5), (x, y, 18.0), 0.17) for x in (0.6, -0.6) for y in (0.6, -0.6)),
         *_braces(dark, 18.0),
     ]
     start = 2.0 * math.pi * fraction(seed, "turn")

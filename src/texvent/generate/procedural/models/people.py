@@ -26,7 +26,7 @@ RUN = Gait(stride=2.40, duty=0.34, lift=0.32)
 
 _THIGH, _SHIN, _ANKLE = 0.44, 0.44, 0.08
 _HIP, _HIP_SIDE = 0.93, 0.10
-_UPPER_ARM, _FOREARM = 0.29, 0.27
+UPPER_ARM, FOREARM = 0.29, 0.27
 
 
 @dataclass(frozen=True)
@@ -124,14 +124,15 @@ def draw_torso(look: Look, outfit: Outfit, hips: Point, neck: Point) -> list[Par
     waist = (0.6 * hips[0] + 0.4 * neck[0], hips[1], 0.6 * hips[2] + 0.4 * neck[2])
     collar = (neck[0], neck[1], neck[2] - 0.10)
     low = (hips[0], hips[1], hips[2] + 0.02)
+    pelvis = outfit.shirt if look.dress == "skirt" else outfit.legs
     parts = [
-        limb(outfit.legs, (low[0], low[1], low[2] - 0.06), waist, 0.115, side_radius=0.165),
+        limb(pelvis, (low[0], low[1], low[2] - 0.06), waist, 0.115, side_radius=0.165),
         limb(outfit.shirt, low, collar, 0.125, side_radius=0.17),
         ball(outfit.shirt, (neck[0], neck[1], neck[2] - 0.12), (0.22, 0.43, 0.24)),
     ]
     if look.dress == "skirt":
-        skirt = (hips[0], hips[1], hips[2] - 0.14)
-        parts.append(peak(outfit.shirt, skirt, (0.52, 0.56, 0.86)))
+        skirt = (hips[0] + 0.02, hips[1], hips[2] - 0.11)
+        parts.append(peak(outfit.shirt, skirt, (0.84, 0.62, 0.86)))
     if look.hat == "helmet":
         band = Paint((0.75, 0.75, 0.3), emission=0.2)
         parts.append(ball(band, (waist[0], waist[1], waist[2] + 0.04), (0.265, 0.36, 0.09)))
@@ -205,14 +206,14 @@ def _swung_arm(outfit: Outfit, neck: Point, side: float, angles: tuple[float, fl
     swing, fold = angles
     shoulder = (neck[0], side * 0.20, neck[2] - 0.09)
     elbow = (
-        shoulder[0] + _UPPER_ARM * math.sin(swing),
+        shoulder[0] + UPPER_ARM * math.sin(swing),
         shoulder[1] + side * 0.04,
-        shoulder[2] - _UPPER_ARM * math.cos(swing),
+        shoulder[2] - UPPER_ARM * math.cos(swing),
     )
     hand = (
-        elbow[0] + _FOREARM * math.sin(swing + fold),
+        elbow[0] + FOREARM * math.sin(swing + fold),
         elbow[1] - side * 0.01,
-        elbow[2] - _FOREARM * math.cos(swing + fold),
+        elbow[2] - FOREARM * math.cos(swing + fold),
     )
     return draw_arm(outfit, shoulder, elbow, hand)
 

@@ -129,7 +129,9 @@ def build_flower(*, colour: Colour | None, scale: float, seed: int) -> Figure:
     for side in (1.0, -1.0):
         tip = (0.0, 0.16 * side, 0.24)
         flat = (0.02, 0.0, 0.0)
-        crown.append(blade(stem, (0.0, 0.0, 0.08), tip, chord=(0.0, -0.05, 0.05), thickness=flat))
+        crown.append(
+            blade(stem, (0.0, 0.0, 0.08), tip, chord=(0.0, -0.05 * side, 0.05), thickness=flat)
+        )
     return _swaying([], crown, scale=scale, seed=seed, amount=0.05)
 
 

@@ -12,13 +12,23 @@ from types import MappingProxyType
 
 from texvent.generate.procedural.model import Noun
 from texvent.generate.procedural.models import (
+    aircraft,
     birds,
+    boats,
     buildings,
     cars,
     construction,
+    cycles,
+    furniture,
+    heavy,
+    household,
+    nature,
     people,
     plants,
+    quadrupeds,
     sea_life,
+    small_animals,
+    solids,
     street,
     toys,
     waders,
@@ -26,15 +36,25 @@ from texvent.generate.procedural.models import (
 
 _FAMILIES: tuple[tuple[Noun, ...], ...] = (
     cars.NOUNS,
+    heavy.NOUNS,
+    cycles.NOUNS,
+    aircraft.NOUNS,
+    boats.NOUNS,
     construction.NOUNS,
     people.NOUNS,
+    quadrupeds.NOUNS,
     waders.NOUNS,
     birds.NOUNS,
     sea_life.NOUNS,
+    small_animals.NOUNS,
     plants.NOUNS,
+    nature.NOUNS,
     buildings.NOUNS,
     street.NOUNS,
     toys.NOUNS,
+    solids.NOUNS,
+    furniture.NOUNS,
+    household.NOUNS,
 )
 
 NOUNS: Mapping[str, Noun] = MappingProxyType(
