@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from texvent.errors import ConfigError, InputError
-from texvent.events import EventStream
+from texvent.events import NOISE, SIGNAL, EventStream
 from texvent.simulate.texvent import TexventConfig, TexventSimulator
 from texvent.video import Frame
 
@@ -341,3 +341,10 @@ def test_a_copy_carries_the_state(backend):
     twin = copy.deepcopy(simulator)
     packets += [twin.step(frame) for frame in frames[10:]]
     assert EventStream.concat(packets).equals(whole)
+
+
+def test_every_packet_tells_signal_from_noise(backend):
+    """Even an empty one: writers take their columns from the first packet."""
+    simulator = TexventSimulator(TexventConfig(noise_rate_hz=1e4), backend=backend)
+    packets = [simulator.step(pixel(level, 1000 * k)) for k, level in enumerate((20, 20, 70))]
+    assert [set(packet.label.tolist()) for packet in packets] == [set(), {NOISE}, {SIGNAL}]
