@@ -67,13 +67,12 @@ def fractal_2d(x: float, y: float, octaves: int, footprint: float) -> float:
         share = keep(footprint)
         if share == 0.0:
             break
+        # Each octave is turned by 37°, so that no lattice direction stands out.
+        x, y = 0.8 * x - 0.6 * y + 17.1, 0.6 * x + 0.8 * y + 5.3
         total += strength * share * noise_2d(x, y, octave)
-        x, y, footprint, strength = (
-            2.03 * x + 17.1,
-            2.03 * y + 5.3,
-            2.03 * footprint,
-            0.5 * strength,
-        )
+        x, y = 2.03 * x, 2.03 * y
+        footprint *= 2.03
+        strength *= 0.5
     return 1.6 * total
 
 

@@ -11,6 +11,10 @@ from texvent.generate.procedural.raycast.noise import fractal_2d, lattice, smoot
 from texvent.generate.procedural.raycast.records import Record
 
 Colour = tuple[float, float, float]
+Foot = tuple[float, float, float, float]
+"""What a sample stands for on the ground: metres in x and in y, the longest side of the whole
+pixel, and the sample's own share of the pixel's side. Stripes and lines are averaged over the
+sample; noise fades by the whole pixel, so that one sample and the mean of many agree."""
 _STAR_CELLS = 26
 _CLOUD_SPEED = 0.012
 """Drift of the clouds, in cloud heights per second."""
@@ -67,7 +71,7 @@ def _stars(x: float, y: float, z: float, pixel: float) -> float:
     du = u * _STAR_CELLS - i - (0.3 + 0.4 * lattice(int(i), int(j), face + 6))
     dv = v * _STAR_CELLS - j - (0.3 + 0.4 * lattice(int(i), int(j), face + 12))
     width = max(0.7 * pixel, 0.0012) * _STAR_CELLS
-    brightness = 0.15 + 3.0 * (0.35 - chance) ** 2 / 0.1225
+    brightness = 0.06 + 2.0 * ((0.35 - chance) / 0.35) ** 4
     return brightness * math.exp(-(du * du + dv * dv) / (2.0 * width * width))
 
 

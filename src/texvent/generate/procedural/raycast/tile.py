@@ -84,12 +84,13 @@ def _exposed(world: World, light: Colour) -> Colour:
 def _many(world: World, column: int, row: int, pattern: Float64Array) -> Colour:
     """Mean of the samples of `pattern` over one pixel."""
     red, green, blue = 0.0, 0.0, 0.0
+    width = 1.0 / math.sqrt(len(pattern))
     for index in range(len(pattern)):
         x, y = column + pattern[index, 0], row + pattern[index, 1]
         depth, number, face, _ = first_hit(world, x, y)
         hit = (depth, number, face)
         lit = _is_lit(world, x, y, hit)[0]
-        light = _exposed(world, light_at(world, x, y, hit, lit))
+        light = _exposed(world, light_at(world, x, y, hit, lit, width))
         red += light[0]
         green += light[1]
         blue += light[2]
@@ -108,7 +109,7 @@ def _one(world: World, column: int, row: int, probe: int) -> Colour:
         depth, number, face = background_hit(
             world.instant[0], ray_direction(world.instant[0], x, y)
         )
-    return _exposed(world, light_at(world, x, y, (depth, number, face), lit))
+    return _exposed(world, light_at(world, x, y, (depth, number, face), lit, 1.0))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

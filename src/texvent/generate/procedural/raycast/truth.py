@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
@@ -12,7 +10,12 @@ from texvent.generate.procedural.primitives import Float64Array
 from texvent.generate.procedural.raycast.arrange import TILE
 from texvent.generate.procedural.raycast.borrow import borrow
 from texvent.generate.procedural.raycast.records import World
-from texvent.generate.procedural.raycast.trace import first_hit, hit_again
+from texvent.generate.procedural.raycast.trace import (
+    background_hit,
+    first_hit,
+    hit_again,
+    ray_direction,
+)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -39,7 +42,7 @@ def look_through(
 def count_alone(
     owner: World, instance: NDArray[np.int32], height: int, width: int, counts: NDArray[np.int64]
 ) -> None:
-    """How many pixels each instance would cover if nothing stood before it.
+    """How many pixels each instance would cover if no other thing stood before it.
 
     Args:
         owner: the scene.
@@ -51,17 +54,20 @@ def count_alone(
     world = World(
         borrow(owner.instant), borrow(owner.shapes), borrow(owner.lists), borrow(owner.lamps)
     )
-    lists, columns = world.lists, world.instant[0].tile_columns
+    instant = world.instant[0]
+    lists, columns = world.lists, instant.tile_columns
     last = np.full(len(counts), -1, dtype=np.int64)
     for row in range(height):
         for column in range(width):
             cell = (row // TILE) * columns + column // TILE
             pixel = row * width + column
+            direction = ray_direction(instant, column + 0.5, row + 0.5)
+            behind = background_hit(instant, direction)[0]
             for index in range(lists[cell], lists[cell + 1]):
                 one = instance[lists[index]]
                 if last[one] == pixel:
                     continue
                 t, _ = hit_again(world, column + 0.5, row + 0.5, lists[index])
-                if t < math.inf:
+                if t < behind:
                     last[one] = pixel
                     counts[one] += 1
