@@ -78,6 +78,7 @@ SIMULATORS = Registry(
     {
         "texvent": "texvent.simulate.texvent:TexventSimulator",
         "esim": "texvent.simulate.esim:EsimSimulator",
+        "v2e": "texvent.simulate.v2e:V2eSimulator",
     },
 )
 CODECS = Registry(

@@ -10,6 +10,7 @@ import pytest
 
 from texvent.events import EventStream
 from texvent.simulate.esim import EsimSimulator
+from texvent.simulate.v2e import V2eSimulator
 from texvent.video import Frame
 
 PEERS = Path(__file__).parents[2].parent / "shared" / "peers"
@@ -117,3 +118,53 @@ def matched_times(clip, theirs) -> list[tuple[np.ndarray, np.ndarray]]:
     counts = [np.bincount(place, minlength=260 * 346 * 2) for place, _ in rows]
     is_equal = counts[0] == counts[1]
     return [(place[is_equal[place]], time[is_equal[place]]) for place, time in rows]
+
+
+@needs_peers
+def test_v2e_agrees_in_counts_to_98_percent(clip):
+    edges = [frame.t_us for frame in clip]
+    packets = packets_of(V2eSimulator, "peer-common", clip)
+    assert max(pair_mismatches(packets, load_peer("v2e_common"), edges)) < 0.005
+
+
+@needs_peers
+def test_v2e_times_differ_because_all_its_pixels_share_one_grid_of_times(clip):
+    # In v2e the k-th event of every pixel gets the k-th of N shared times, N being the largest
+    # number of events of any pixel. Our counts on that grid are its histogram of times.
+    theirs = load_peer("v2e_common")
+    packets = packets_of(V2eSimulator, "peer-common", clip)
+    for i in range(1, len(clip)):
+        start_us, stop_us = clip[i - 1].t_us, clip[i].t_us
+        counts = count_map(packets[i].columns()).sum(axis=0)
+        grid = np.arange(1, counts.max() + 1)
+        expected = (counts[None] >= grid[:, None, None]).sum(axis=(1, 2))
+        times = pair_of(theirs, start_us, stop_us)["t"]
+        # Float32 seconds leave its times up to a few µs off the grid.
+        order = np.round((times - start_us) / (stop_us - start_us) * len(grid)).astype(int)
+        observed = np.bincount(order, minlength=len(grid) + 1)[1:]
+        assert np.abs(observed - expected).sum() < 0.005 * expected.sum()
+
+
+@needs_peers
+def test_v2e_crowds_events_at_the_start_of_each_interval_and_ours_does_not(clip):
+    def early_share(times):
+        start = np.array([frame.t_us for frame in clip])[np.searchsorted(edges, times, "left") - 1]
+        return float(np.mean((times - start) / 41_667 <= 1 / 8))
+
+    edges = [frame.t_us for frame in clip]
+    theirs = load_peer("v2e_common")["t"]
+    ours = EventStream.concat(packets_of(V2eSimulator, "peer-common", clip)).t
+    assert early_share(theirs) > 0.5
+    assert 0.06 < early_share(ours[ours > 0]) < 0.125
+
+
+@needs_peers
+@pytest.mark.parametrize(("preset", "name"), [("default", "v2e_default"), ("noisy", "v2e_noisy")])
+def test_v2e_with_noise_agrees_in_rate_and_polarity(clip, preset, name):
+    # Other random thresholds and noise: single pixels cannot agree, distributions must.
+    theirs = load_peer(name)
+    packets = packets_of(V2eSimulator, preset, clip)
+    for i in range(1, len(clip)):
+        original = pair_of(theirs, clip[i - 1].t_us, clip[i].t_us)
+        assert len(packets[i]) == pytest.approx(len(original["t"]), rel=0.02)
+        assert packets[i].p.mean() == pytest.approx(original["p"].mean(), abs=0.01)

@@ -19,6 +19,7 @@ from texvent.simulate.draws import Purpose
 from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.kernels.ramp import Ramp, Rest, load_cross_ramp
 from texvent.simulate.pixel_maps import (
+    LONG_AGO_US,
     LOWEST_THRESHOLD,
     Float64Array,
     draw_thresholds,
@@ -27,8 +28,6 @@ from texvent.simulate.pixel_maps import (
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 
 WHITE = 255.0
-LONG_AGO_US = -(2**62)
-"""Time of the last event of a pixel that never fired."""
 
 
 @dataclass(frozen=True, kw_only=True)

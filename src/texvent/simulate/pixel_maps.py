@@ -14,6 +14,8 @@ Shape = tuple[int, ...]
 
 LOWEST_THRESHOLD = 0.01
 """Floor of drawn thresholds, log units: v2e's and ESIM's, so that no pixel fires without end."""
+LONG_AGO_US = -(2**62)
+"""Time of the last event of a pixel that has not fired yet, µs."""
 SENSOR = -1
 """Stands for the frame in keys of draws that belong to the sensor; frames count from 0."""
 

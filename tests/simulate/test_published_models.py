@@ -1,0 +1,180 @@
+"""What holds for every published pixel model."""
+
+import copy
+import dataclasses
+import itertools
+
+import numpy as np
+import pytest
+
+from texvent._registry import SIMULATORS
+from texvent.config import option_help, option_names
+from texvent.errors import ConfigError, InputError
+from texvent.events import EventStream
+from texvent.simulate.esim import EsimSimulator
+from texvent.simulate.v2e import V2eSimulator
+from texvent.video import Frame
+
+from .published import moving_texture, run, static
+
+MODELS = {"esim": EsimSimulator, "v2e": V2eSimulator}
+EVERY_PRESET = [(name, preset) for name, model in MODELS.items() for preset in model.presets]
+
+
+@pytest.fixture(params=EVERY_PRESET, ids="-".join)
+def model(request):
+    name, preset = request.param
+    return lambda **options: MODELS[name](MODELS[name].presets[preset], **options)
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_the_registry_names_the_model(name):
+    assert SIMULATORS.load(name) is MODELS[name]
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_every_option_has_a_help_text(name):
+    config_type = MODELS[name].config_type
+    assert set(option_help(config_type)) == set(option_names(config_type))
+
+
+def test_backends_give_equal_events(model):
+    frames = moving_texture()
+    reference = run(model(seed=4, backend="reference"), frames)
+    assert len(reference) > 100
+    assert run(model(seed=4, backend="cpu"), frames).equals(reference)
+    assert run(model(seed=4), frames).equals(reference)
+
+
+def test_packets_are_half_open_sorted_and_labelled(model):
+    simulator = model()
+    frames = moving_texture()
+    first = simulator.step(frames[0])
+    assert len(first) == 0
+    assert first.label is not None
+    for before, frame in itertools.pairwise(frames):
+        packet = simulator.step(frame)
+        assert before.t_us <= packet.t.min()
+        assert packet.t.max() < frame.t_us
+        columns = np.stack([packet.t, packet.y, packet.x, packet.p], axis=1).tolist()
+        assert columns == sorted(columns)
+        assert packet.label is not None
+
+
+def test_shifting_the_clip_shifts_the_events(model):
+    events = run(model(), moving_texture())
+    shifted = run(model(), moving_texture(start_us=7_000_001))
+    assert np.array_equal(shifted.t, events.t + 7_000_001)
+    for column in "xyp":
+        assert np.array_equal(getattr(shifted, column), getattr(events, column))
+
+
+def test_a_copied_simulator_goes_on_alike(model):
+    frames = moving_texture(8)
+    whole = model()
+    for frame in frames[:4]:
+        whole.step(frame)
+    twin = copy.deepcopy(whole)
+    assert run(whole, frames[4:]).equals(run(twin, frames[4:]))
+
+
+def test_reset_forgets_everything(model):
+    simulator = model()
+    first = run(simulator, moving_texture())
+    simulator.reset()
+    assert run(simulator, moving_texture()).equals(first)
+    simulator.reset()
+    assert len(simulator.step(Frame(np.zeros((3, 3), np.uint8), 0))) == 0
+
+
+def test_frames_may_come_at_any_time(model):
+    frames = moving_texture()
+    times = [0, 1, 50, 400_000, 400_002, 3_000_000]
+    frames = [Frame(frame.pixels, t) for frame, t in zip(frames, times, strict=True)]
+    events = run(model(backend="cpu"), frames)
+    assert events.equals(run(model(backend="reference"), frames))
+    assert events.t.max() < times[-1]
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (1, 7), (5, 1)])
+def test_frames_may_have_any_size(model, shape):
+    events = run(model(), moving_texture(4, shape))
+    assert events.size == (shape[1], shape[0])
+
+
+def test_colour_and_16_bit_frames_are_read_on_the_same_scale(model):
+    grey = moving_texture(4)
+    wide = [Frame(f.pixels.astype(np.uint16) * np.uint16(257), f.t_us) for f in grey]
+    floats = [Frame(f.pixels.astype(np.float32), f.t_us) for f in grey]
+    expected = run(model(), grey)
+    assert run(model(), wide).equals(expected)
+    assert run(model(), floats).equals(expected)
+
+
+def test_bad_frames_fail_once_and_clearly(model):
+    good = Frame(np.full((2, 2), 9.0, np.float32), 1000)
+    for bad, message in (
+        (Frame(np.array([[np.nan, 1], [1, 1]], np.float32), 2000), "NaN"),
+        (Frame(np.array([[-1.0, 1], [1, 1]], np.float32), 2000), "negative"),
+        (Frame(np.zeros((2, 3), np.float32), 2000), "3x2"),
+        (Frame(np.zeros((2, 2), np.float32), 1000), "strictly increase"),
+    ):
+        simulator = model()
+        simulator.step(good)
+        with pytest.raises(InputError, match=message):
+            simulator.step(bad)
+
+
+def test_impossible_seeds_and_backends_fail(model):
+    with pytest.raises(ConfigError, match="seed"):
+        model(seed=-1)
+    with pytest.raises(ConfigError, match="backend"):
+        model(backend="abacus")
+
+
+SYMMETRIC = {
+    "esim": (EsimSimulator.presets["default"], 0.255),
+    "v2e": (V2eSimulator.presets["peer-common"], 0.0),
+}
+
+
+@pytest.mark.parametrize("name", SYMMETRIC)
+def test_inverted_contrast_swaps_on_and_off(name, backend):
+    config, offset = SYMMETRIC[name]
+    random = np.random.default_rng(0)
+    # ln(offset + I) runs over -1..1 around ln 80; its negative stays above v2e's linear part.
+    logs = random.uniform(-1, 1, (5, 6, 7))
+    events, inverted = (
+        run(
+            MODELS[name](config, backend=backend),
+            [Frame(80 * np.exp(s * log) - offset, i * 10_000) for i, log in enumerate(logs)],
+        )
+        for s in (1, -1)
+    )
+    # A crossing that falls on a whole microsecond may be rounded to either side of it.
+    assert len(events) == len(inverted)
+    for row in (events, inverted):
+        assert len(row) > 100
+    places = [
+        sorted(zip(e.x, e.y, e.t // 100, p, strict=True))
+        for e, p in ((events, events.p), (inverted, 1 - inverted.p))
+    ]
+    differing = len(set(places[0]) ^ set(places[1]))
+    assert differing <= 0.01 * len(events)
+
+
+@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize("seed", [0, 1])
+def test_the_seed_decides_everything_random(name, seed):
+    preset = list(MODELS[name].presets.values())[-1]
+    noisy = {"esim": {"threshold_sigma": 0.03}, "v2e": {"shot_noise_rate_hz": 50.0}}
+    config = dataclasses.replace(preset, **noisy.get(name, {}))
+    frames = moving_texture()
+    events = run(MODELS[name](config, seed=seed), frames)
+    assert run(MODELS[name](config, seed=seed), frames).equals(events)
+    assert not run(MODELS[name](config, seed=seed + 1), frames).equals(events)
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_one_frame_gives_an_empty_stream(name):
+    assert len(EventStream.concat([MODELS[name]().step(static(9.0, fps=1, seconds=0)[0])])) == 0
