@@ -129,7 +129,7 @@ def test_a_full_disk_is_one_clear_line(tmp_path: Path, folder_is_clean: Callable
 def test_other_system_errors_are_not_called_a_full_disk() -> None:
     assert not is_disk_full(OSError(errno.EACCES, "Permission denied"))
     assert not is_disk_full(ValueError("No space left on device"))
-    assert is_disk_full(OSError("write failed: errno = 28, error message = '...'"))
+    assert is_disk_full(OSError(errno.EDQUOT, "Disk quota exceeded"))
 
 
 def _start_writer(target: Path) -> subprocess.Popen[str]:

@@ -18,8 +18,6 @@ from pathlib import Path
 from texvent.errors import OutputError
 
 DISK_FULL = (errno.ENOSPC, errno.EDQUOT)
-_DISK_FULL_TEXTS = ("No space left on device", "Disk quota exceeded", "errno = 28", "errno = 122")
-"""HDF5 reports the system's error inside its text instead of in `errno`."""
 
 
 def check_output(path: str | Path, *, overwrite: bool) -> Path:
@@ -95,11 +93,7 @@ def atomic_file(path: str | Path, *, overwrite: bool) -> Iterator[Path]:
 
 def is_disk_full(error: BaseException) -> bool:
     """True if `error` says that the disk, or the user's share of it, is full."""
-    if isinstance(error, OSError) and error.errno in DISK_FULL:
-        return True
-    return isinstance(error, (OSError, RuntimeError)) and any(
-        text in str(error) for text in _DISK_FULL_TEXTS
-    )
+    return isinstance(error, OSError) and error.errno in DISK_FULL
 
 
 def _create(part: Path, path: str | Path) -> None:

@@ -99,8 +99,8 @@ class EcdWriter:
 
     def __enter__(self) -> Self:
         with ExitStack() as stack:
-            part = stack.enter_context(atomic_file(self._path, overwrite=self._overwrite))
             beside = stack.enter_context(atomic_file(self._sidecar, overwrite=self._overwrite))
+            part = stack.enter_context(atomic_file(self._path, overwrite=self._overwrite))
             beside.write_text(self._sidecar_text + "\n", encoding="utf-8")
             self._file = stack.enter_context(part.open("w", encoding="ascii", newline="\n"))
             self._stack = stack.pop_all()

@@ -40,6 +40,7 @@ from texvent.io.columns import (
     stored_or_given_size,
     stream_from_file,
 )
+from texvent.io.patient_file import PatientFile
 from texvent.sensor import SensorSize
 
 TIMESTAMP_SCALE_MS = 0.001
@@ -113,6 +114,7 @@ class Hdf5Writer:
         self._json = metadata_to_json(metadata)
         self._stack = ExitStack()
         self._file: Any = None
+        self._disk: Any = None
         self._pending: list[EventStream] = []
         self._pending_events = 0
         self._written = 0
@@ -125,8 +127,9 @@ class Hdf5Writer:
         with ExitStack() as stack:
             part = stack.enter_context(atomic_file(self._path, overwrite=self._overwrite))
             # v110: object headers and chunk indexes then carry checksums.
-            self._file = h5py.File(part, "w", libver=("v110", "v110"))
-            stack.callback(_close_quietly, self._file)
+            self._disk = stack.enter_context(PatientFile(part))
+            self._file = h5py.File(self._disk, "w", libver=("v110", "v110"))
+            stack.callback(self._file.close)
             self._create_layout()
             self._stack = stack.pop_all()
         return self
@@ -221,6 +224,7 @@ class Hdf5Writer:
             dataset = self._file[f"events/{name}"]
             dataset.resize((stop,))
             dataset[self._written : stop] = column
+        self._disk.raise_failure()
         self._written = stop
         self._pending = [whole[count:]]
         self._pending_events = len(whole) - count
@@ -250,6 +254,7 @@ class Hdf5Writer:
         offset = self._file.create_dataset("t_offset", shape=(), dtype="<i8", dcpl=properties)
         offset[()] = self._offset_us or 0
         self._file.close()
+        self._disk.raise_failure()
 
 
 class _Packets:
@@ -380,11 +385,3 @@ def _reporting_damage(path: Path) -> Iterator[None]:
     except _DAMAGE as error:
         reason = " ".join(str(error).split())[:200]
         raise FileFormatError(f"{path} is damaged or not an HDF5 event file ({reason})") from error
-
-
-def _close_quietly(file: Any) -> None:
-    """Close a file that is closed already or will be thrown away (a full disk refuses that too)."""
-    try:
-        file.close()
-    except (OSError, RuntimeError):
-        return
