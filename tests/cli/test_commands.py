@@ -1,0 +1,243 @@
+"""The command line as a user meets it: results, summaries, and one line for every mistake."""
+
+import json
+import signal
+import subprocess
+import sys
+import time
+import tomllib
+from pathlib import Path
+
+import av
+import cv2
+import h5py
+import numpy as np
+import pytest
+
+import texvent
+from texvent.cli.app import main
+
+CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
+QUICK = ["--interpolate", "none", "--stop", "0.2"]
+PROMPT = "a red ball bounces on the grass"
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def run(*words: object) -> int:
+    return main([str(word) for word in words])
+
+
+def fails(capsys, *words: object, code: int = 2) -> str:
+    """Run words that must fail; returns the one line it says."""
+    assert run(*words) == code
+    said = capsys.readouterr().err
+    lines = [line for line in said.splitlines() if line]
+    assert len(lines) == 1, said
+    assert lines[0].startswith("error: ")
+    assert "Traceback" not in said
+    return lines[0]
+
+
+def test_the_whole_path_on_a_real_video(folder, capsys):
+    assert run("simulate", CLIP, "-o", "out.h5", "--seed", 3) == 0
+    assert capsys.readouterr().out.split() == ["out.h5", "out.mp4", "out.png", "out.html"]
+    with h5py.File("out.h5") as file:
+        assert (file.attrs["width"], file.attrs["height"]) == (320, 180)
+        stored = json.loads(file.attrs["texvent"])
+    assert stored["seed"] == 3
+    assert stored["settings"]["simulate"]["balance"] == 30.0
+    assert stored["texvent_version"] == texvent.__version__
+    events = texvent.load("out.h5")
+    assert len(events) > 20_000
+    assert np.all(np.diff(events.t) >= 0)
+    # Events at many times inside the frame interval, not clumped at frame times.
+    assert len(np.unique(events.t % 40_000)) > 5_000
+    with av.open("out.mp4") as film:
+        assert film.streams.video[0].codec_context.width >= 2 * 320
+    assert cv2.imread("out.png") is not None
+    page = Path("out.html").read_text(encoding="utf-8")
+    assert "http://" not in page
+    assert "https://" not in page
+
+
+def test_the_api_gives_the_events_that_the_command_writes(folder):
+    assert run("simulate", CLIP, "-o", "out.h5", "--events-only", "-q", "--seed", 3, *QUICK) == 0
+    direct = texvent.simulate(CLIP, interpolate="none", stop=0.2, seed=3)
+    assert texvent.load("out.h5").equals(direct)
+
+
+def test_events_are_the_same_packet_by_packet_and_whole():
+    options = {"interpolate": "blend", "stop": 0.2, "label_noise": True}
+    whole = texvent.simulate(CLIP, **options)
+    packets = texvent.simulate(CLIP, as_packets=True, **options)
+    assert packets.collect().equals(whole)
+    assert set(np.unique(whole.label)) == {0, 1}
+
+
+def test_signal_and_noise_can_be_had_apart():
+    options = {"interpolate": "none", "stop": 0.4, "label_noise": True}
+    both = texvent.simulate(CLIP, **options)
+    signal_only = texvent.simulate(CLIP, events="signal", **options)
+    noise_only = texvent.simulate(CLIP, events="noise", **options)
+    assert 0 < len(noise_only) < len(signal_only)
+    assert both[both.label == 0].equals(signal_only)
+    assert both[both.label == 1].equals(noise_only)
+
+
+def test_printed_options_read_back_give_the_same_options(folder, capsys):
+    words = ["simulate", CLIP, "--balance", "15", "--fps", "30000/1001", "--no-detect-cuts"]
+    assert run(*words, "--print-config") == 0
+    printed = capsys.readouterr().out
+    Path("run.toml").write_text(printed, encoding="utf-8")
+    assert tomllib.loads(printed)["capture"]["fps"] == "30000/1001"
+    assert run("simulate", CLIP, "--config", "run.toml", "--print-config") == 0
+    assert capsys.readouterr().out == printed
+    assert run("simulate", CLIP, "--config", "run.toml", "--balance", 20, "--print-config") == 0
+    assert tomllib.loads(capsys.readouterr().out)["simulate"]["balance"] == 20.0
+
+
+def test_a_yaml_config_sets_options_too(folder, capsys):
+    Path("run.yaml").write_text("seed: 9\nsimulate:\n  noise: none\n", encoding="utf-8")
+    assert run("simulate", CLIP, "--config", "run.yaml", "--print-config") == 0
+    tables = tomllib.loads(capsys.readouterr().out)
+    assert tables["run"]["seed"] == 9
+    assert tables["simulate"]["noise"] == "none"
+
+
+def test_a_dry_run_estimates_and_writes_nothing(folder, capsys):
+    assert run("simulate", CLIP, "--dry-run", *QUICK) == 0
+    said = capsys.readouterr().out
+    assert "events" in said
+    assert "memory" in said
+    assert not list(folder.iterdir())
+
+
+def test_quiet_says_nothing(folder, capsys):
+    assert run("simulate", CLIP, "-q", "--events-only", "-o", "a.npz", *QUICK) == 0
+    captured = capsys.readouterr()
+    assert captured.out == captured.err == ""
+
+
+def test_the_event_file_is_named_after_the_input_unless_told(folder):
+    assert run("simulate", CLIP, "-q", "--events-only", *QUICK) == 0
+    assert [path.name for path in folder.iterdir()] == ["bigbuckbunny-excerpt.h5"]
+
+
+def test_info_describes_events_and_videos(folder, capsys):
+    run("simulate", CLIP, "-q", "--events-only", "-o", "a.h5", *QUICK)
+    assert run("info", "a.h5", "--json") == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert facts["sensor"] == "320x180"
+    assert facts["events"] == len(texvent.load("a.h5"))
+    assert facts["simulator"] == "texvent"
+    assert run("info", CLIP) == 0
+    assert "25" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", ["film.mp4", "film.gif", "picture.png", "page.html"])
+def test_render_makes_films_pictures_and_pages(folder, name, capsys):
+    run("simulate", CLIP, "-q", "--events-only", "-o", "a.h5", *QUICK)
+    assert run("render", "a.h5", "-o", name) == 0
+    assert capsys.readouterr().out.strip() == name
+    assert Path(name).stat().st_size > 500
+
+
+def test_doctor_and_help_succeed(capsys):
+    assert run("doctor") == 0
+    assert "numba" in capsys.readouterr().out
+    assert run("--help") == 0
+    assert "generate" in capsys.readouterr().out
+    assert run("--version") == 0
+    assert texvent.__version__ in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("command", ["generate", "simulate", "render", "info"])
+def test_every_command_explains_its_flags(command, capsys):
+    with pytest.raises(SystemExit) as stop:
+        run(command, "--help")
+    assert stop.value.code == 0
+    said = capsys.readouterr().out
+    assert "(default:" in said
+
+
+def test_unknown_commands_flags_presets_and_parts_are_named(folder, capsys):
+    assert "did you mean 'simulate'" in fails(capsys, "simulat")
+    assert "did you mean --balance" in fails(capsys, "simulate", CLIP, "--balanc", "3")
+    assert "no preset 'papper'; allowed: paper" in fails(
+        capsys, "simulate", CLIP, "--preset", "papper"
+    )
+    assert "unknown simulator 'dvs'" in fails(capsys, "simulate", CLIP, "--simulator", "dvs")
+    assert "unknown interpolator 'flw'" in fails(capsys, "simulate", CLIP, "--interpolate", "flw")
+    assert "unknown sensor 'davis'" in fails(capsys, "simulate", CLIP, "--sensor", "davis")
+    assert "unknown palette" in fails(capsys, "simulate", CLIP, "--palette", "pink")
+    assert "'cold'" in fails(capsys, "simulate", CLIP, "--noise", "cold")
+    assert "'x' is not a rate" in fails(capsys, "simulate", CLIP, "--fps", "x")
+    assert "contrast_threshold is -1" in fails(
+        capsys, "simulate", CLIP, "--contrast-threshold", "-1"
+    )
+    assert not list(folder.iterdir())
+
+
+def test_a_missing_file_and_a_missing_argument_are_named(folder, capsys):
+    assert "nope.mp4" in fails(capsys, "simulate", "nope.mp4")
+    assert "nope.h5" in fails(capsys, "info", "nope.h5")
+    assert "nope.toml" in fails(capsys, "simulate", CLIP, "--config", "nope.toml")
+    fails(capsys, "simulate")
+    assert not list(folder.iterdir())
+
+
+def test_a_truncated_video_is_one_line_and_leaves_nothing(folder, capsys):
+    Path("short.mp4").write_bytes(CLIP.read_bytes()[:9000])
+    assert "short.mp4" in fails(capsys, "simulate", "short.mp4", "-o", "out.h5")
+    assert [path.name for path in folder.iterdir()] == ["short.mp4"]
+
+
+def test_existing_outputs_are_kept_unless_told_otherwise(folder, capsys):
+    Path("out.png").write_text("mine", encoding="utf-8")
+    said = fails(capsys, "simulate", CLIP, "-o", "out.h5", *QUICK, code=3)
+    assert "out.png exists already" in said
+    assert Path("out.png").read_text(encoding="utf-8") == "mine"
+    assert [path.name for path in folder.iterdir()] == ["out.png"]
+    assert run("simulate", CLIP, "-o", "out.h5", "-q", "--overwrite", *QUICK) == 0
+    assert Path("out.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_an_output_folder_that_does_not_exist_is_named_before_any_work(folder, capsys):
+    assert "no/such" in fails(capsys, "simulate", CLIP, "-o", "no/such/out.h5", code=3)
+    assert "out.xyz" in fails(capsys, "simulate", CLIP, "-o", "out.xyz")
+    assert not list(folder.iterdir())
+
+
+def test_nan_intensities_stop_the_api_with_one_clear_error():
+    frames = np.ones((3, 4, 5), np.float32) * 100
+    frames[2, 1, 1] = np.nan
+    with pytest.raises(texvent.InputError, match="NaN, infinite or negative"):
+        texvent.simulate(frames, fps=24)
+
+
+@pytest.mark.parametrize("command", [("simulate", str(CLIP)), ("generate", PROMPT)])
+def test_ctrl_c_midway_leaves_no_file(folder, command):
+    words = [*command, "-o", "out.h5", "--max-intermediate", "2000"]
+    words += ["--contrast-threshold", "0.002"]  # slow enough to be interrupted
+    process = subprocess.Popen(
+        [sys.executable, "-m", "texvent.cli.app", *words],
+        stderr=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        text=True,
+    )
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline and not list(folder.iterdir()):
+        time.sleep(0.05)
+    time.sleep(0.5)
+    assert process.poll() is None, process.stderr.read()
+    process.send_signal(signal.SIGINT)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert said.strip().splitlines()[-1].startswith("interrupted")
+    assert "Traceback" not in said
+    assert not list(folder.iterdir())
