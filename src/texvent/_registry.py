@@ -79,6 +79,7 @@ SIMULATORS = Registry(
         "texvent": "texvent.simulate.texvent:TexventSimulator",
         "esim": "texvent.simulate.esim:EsimSimulator",
         "v2e": "texvent.simulate.v2e:V2eSimulator",
+        "senpi": "texvent.simulate.senpi:SenpiSimulator",
     },
 )
 CODECS = Registry(

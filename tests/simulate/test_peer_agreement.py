@@ -10,6 +10,7 @@ import pytest
 
 from texvent.events import EventStream
 from texvent.simulate.esim import EsimSimulator
+from texvent.simulate.senpi import SenpiSimulator
 from texvent.simulate.v2e import V2eSimulator
 from texvent.video import Frame
 
@@ -168,3 +169,25 @@ def test_v2e_with_noise_agrees_in_rate_and_polarity(clip, preset, name):
         original = pair_of(theirs, clip[i - 1].t_us, clip[i].t_us)
         assert len(packets[i]) == pytest.approx(len(original["t"]), rel=0.02)
         assert packets[i].p.mean() == pytest.approx(original["p"].mean(), abs=0.01)
+
+
+@needs_peers
+def test_senpi_agrees_event_for_event(clip):
+    # Its clock runs in steps of 41,667 µs, and its events carry the time of the later frame.
+    theirs = load_peer("senpi_common")
+    packets = packets_of(SenpiSimulator, "peer-common", clip)
+    for i in range(1, len(clip)):
+        original = pair_of(theirs, i * 41_667 - 1, i * 41_667)
+        assert np.array_equal(count_map(packets[i].columns()), count_map(original))
+        assert (packets[i].t == clip[i].t_us - 1).all()
+
+
+@needs_peers
+def test_senpi_with_its_defaults_agrees_in_rate_and_polarity(clip):
+    theirs = load_peer("senpi_default")
+    packets = packets_of(SenpiSimulator, "default", clip)
+    for i in range(2, len(clip)):
+        # Its first frame fires every pixel, so references differ until they have moved on.
+        original = pair_of(theirs, i * 41_667 - 1, i * 41_667)
+        assert len(packets[i]) == pytest.approx(len(original["t"]), rel=0.06)
+        assert packets[i].p.mean() == pytest.approx(original["p"].mean(), abs=0.012)
