@@ -236,8 +236,13 @@ def _plant_all(
     nouns: Mapping[str, Noun],
     seed: int,
 ) -> tuple[list[Piece], list[tuple[Relation, Piece]]]:
-    """Scenery of the place, and the things that the prompt puts all around."""
+    """Scenery of the place, and the things that the prompt puts all around.
+
+    Nouns that the prompt counts are not used as scenery: "two trees" are two trees.
+    """
+    said = {thing.noun for thing in description.things}
     allowed = {name: noun for name, noun in nouns.items() if name not in description.absent}
+    unsaid = {name: noun for name, noun in allowed.items() if name not in said}
     around: list[tuple[Relation, Piece]] = []
     for relation in description.relations:
         if relation.kind not in SCENIC:
@@ -257,7 +262,7 @@ def _plant_all(
         plantings.extend(BACKDROPS[backdrop])
     taken = [piece for _, piece in around]
     rng = seeded(seed, "scenery", place)
-    return plant(plantings, view, actors, allowed, rng=rng, taken=taken), around
+    return plant(plantings, view, actors, unsaid, rng=rng, taken=taken), around
 
 
 def _list_lamps(

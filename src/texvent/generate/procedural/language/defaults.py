@@ -14,6 +14,7 @@ from texvent.generate.procedural.description import (
     Thing,
 )
 from texvent.generate.procedural.language.lexicon import COLOURS
+from texvent.generate.procedural.language.words import pluralise
 from texvent.generate.procedural.model import Noun
 
 SLOW_PAN = CameraMove("pan", "right", 0.8)
@@ -30,11 +31,48 @@ def complete_description(
     """
     if description.understood_nothing:
         description = _show_default(description, nouns)
+    description = _add_crew(description, nouns)
     things = tuple(_decide_motion(thing, nouns[thing.noun]) for thing in description.things)
-    description = replace(description, things=things)
+    description = _let_chased_move(replace(description, things=things), nouns)
+    things = description.things
     if description.shot.is_moving or any(_moves(thing) for thing in things):
         return _settle_rest(description)
     return _settle_rest(_set_in_motion(description, nouns))
+
+
+_CREWS: dict[str, tuple[Thing, ...]] = {
+    "construction site": (
+        Thing("excavator", motion=Motion("work")),
+        Thing("crane", motion=Motion("work"), side="far"),
+        Thing("worker", 2, motion=Motion("walk")),
+        Thing("traffic cone", 4),
+    ),
+}
+"""Places that are known by what is done there."""
+
+
+def _add_crew(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """Things that make a place what it is, where the prompt names none."""
+    crew = _CREWS.get(description.surroundings.place or "", ())
+    shown = tuple(
+        thing for thing in crew if thing.noun in nouns and thing.noun not in description.absent
+    )
+    if description.things or not shown:
+        return description
+    names = ", ".join(pluralise(t.noun) if t.count > 1 else t.noun for t in shown)
+    note = f"the {description.surroundings.place} is shown with: {names}"
+    return replace(description, things=shown, notes=(*description.notes, note))
+
+
+def _let_chased_move(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """What is followed goes ahead, if it can move and the prompt does not say that it rests."""
+    things = list(description.things)
+    for relation in description.relations:
+        target = relation.targets[0]
+        noun = nouns[things[target].noun]
+        if relation.kind == "follow" and things[target].motion is None and noun.motion != "stand":
+            things[target] = replace(things[target], motion=Motion(noun.motion))
+    return replace(description, things=tuple(things))
 
 
 def _moves(thing: Thing) -> bool:

@@ -209,8 +209,6 @@ DIRECTIONS: dict[str, str] = {
     "side to side": "to and fro",
     "from side to side": "to and fro",
     "up and down": "up and down",
-    "in place": "in place",
-    "on the spot": "in place",
 }
 
 SIDES: dict[str, str] = {

@@ -243,6 +243,8 @@ PARTS: dict[tuple[str, str], str] = {
     ("suv", "roof rack"): "black",
 }
 """(noun, part) that a model shows in any case → the colour it has."""
+VEHICLE_PARTS = ("tire", "tires", "tyre", "tyres", "wheels", "window", "windows", "roof")
+"""Parts that every vehicle shows, in their usual colours."""
 PART_WORDS = ("roof rack", "rack", "tire", "tires", "tyre", "tyres", "wheels", "headlight",
               "headlights", "roof", "window", "windows", "door", "doors", "hair", "hat", "shirt",
               "sail", "sails", "wings", "tail", "legs", "trunk", "leaves")  # fmt: skip

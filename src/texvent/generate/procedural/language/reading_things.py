@@ -37,7 +37,7 @@ class ThingReader:
         self._nouns = nouns
         self._relation: tuple[str, Phrase | None] | None = None
         self._related: Relation | None = None
-        self._dangling: list[tuple[str, int]] = []
+        self._dangling: list[tuple[str, list[int]]] = []
         self._is_joined = False
         self._has_acted = False
         self._is_lost = False
@@ -171,12 +171,18 @@ class ThingReader:
             self.group.phrases.append(phrase)
 
     def read_direction(self, phrase: Phrase) -> None:
-        """Which way the subjects go; without a verb they move that way."""
+        """Which way the subjects go; without a verb they move that way.
+
+        "Across" is the weakest: it keeps a direction that is already said.
+        """
         direction = phrase.meaning.value
         for index in self.subjects:
             draft = self.drafts[index]
             motion = draft.motion or Motion("move")
             if motion.kind == "stand":
+                continue
+            if direction == "across" and motion.direction is not None:
+                phrase.is_used = True
                 continue
             draft.motion = Motion(motion.kind, direction, motion.pace, motion.speed_m_s)
             phrase.is_used = True
@@ -249,8 +255,10 @@ class ThingReader:
     def read_part(self, phrase: Phrase) -> None:
         """A part that the model shows anyway, if the colour said of it is the one it has."""
         for index in self.mentioned:
-            natural = lexicon_scene.PARTS.get((self.drafts[index].noun, phrase.text))
-            if natural is None:
+            noun = self._nouns[self.drafts[index].noun]
+            natural = lexicon_scene.PARTS.get((noun.name, phrase.text))
+            is_shown = noun.motion == "drive" and phrase.text in lexicon_scene.VEHICLE_PARTS
+            if natural is None and not is_shown:
                 continue
             phrase.is_used = True
             if self.group.paint is None or self.group.paint.name == natural:
@@ -276,6 +284,8 @@ class ThingReader:
         """A pronoun: "which" and "who" mean the thing named last, "it" the last subject."""
         if phrase.text in ("which", "who") and self.mentioned:
             self.subjects = list(self.mentioned)
+        else:
+            self.mentioned = list(self.subjects)
 
     def meet_unknown(self) -> None:
         """A word that may be an unknown noun: what follows is not about the last subject."""
@@ -346,7 +356,9 @@ class ThingReader:
     def _connect(self, index: int) -> None:
         """Make the thing a subject, or the target of the relation that waits for it."""
         if self._relation is None:
-            if self._is_joined and self._related is not None:
+            if self._is_joined and self._dangling and self._dangling[-1][0] == "between":
+                self._dangling[-1][1].append(index)
+            elif self._is_joined and self._related is not None:
                 self._extend_relation(index)
             else:
                 self._become_subject(index)
@@ -364,7 +376,7 @@ class ThingReader:
                 self._related = Relation(kind, subject, (index,))
                 self.relations.append(self._related)
         if not self.subjects and not self._is_lost:
-            self._dangling.append((kind, index))
+            self._dangling.append((kind, [index]))
         if kind == "with" and self._nouns[self.drafts[index].noun].habitat != "fixed":
             self.subjects.append(index)
 
@@ -385,8 +397,8 @@ class ThingReader:
             self.subjects = [index]
         self._has_acted = self.drafts[index].motion is not None
         self._is_lost = False
-        for kind, target in self._dangling:
-            self.relations.append(Relation(kind, index, (target,)))
+        for kind, targets in self._dangling:
+            self.relations.append(Relation(kind, index, tuple(targets)))
         self._dangling = []
         self._related = None
 

@@ -66,6 +66,9 @@ _WHEREABOUTS = frozenset(
 )
 """Prepositions after which a mountain is a place to be, not a thing to look at."""
 
+_OWNERS = frozenset({"its", "it", "their", "his", "her"})
+"""Words before a part of the thing that the sentence is about ("its wheels")."""
+
 
 @dataclass(frozen=True)
 class Meaning:
@@ -240,6 +243,9 @@ def _choose(meanings: list[Meaning], before: list[Phrase], after: list[Meaning])
     next_roles = {meaning.role for meaning in after}
     if Role.SHADE in by_role and Role.GLOW in by_role:
         return by_role[Role.SHADE if Role.COLOUR in next_roles else Role.GLOW]
+    if Role.NOUN in by_role and Role.PART in by_role:
+        is_owned = bool(before) and before[-1].text in _OWNERS
+        return by_role[Role.PART if is_owned else Role.NOUN]
     if Role.NOUN in by_role and Role.VERB in by_role:
         return by_role[Role.NOUN if _expects_noun(before) else Role.VERB]
     if Role.NOUN in by_role and Role.PLACE in by_role:

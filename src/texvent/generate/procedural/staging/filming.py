@@ -15,7 +15,9 @@ from texvent.generate.procedural.staging.framing import Framing, fit
 
 FILL = 0.84
 """Share of the picture that what matters may fill."""
-LIMIT = 2.0
+SKY_LIFT = 0.2
+"""How far the camera looks above what matters outdoors, in half picture heights."""
+LIMIT = 0.7
 """Things that stand around a mover count for the framing up to this multiple of its size."""
 TRACKING_LENGTHS = 4.5
 """A thing that covers more of its own lengths in the clip is followed from the side."""
@@ -55,15 +57,19 @@ def aim_camera(
     moves = _plan_moves(description, main, duration_s)
     follows = any(move.kind == "follow" for move in moves)
     times = np.linspace(0.0, duration_s, INSTANTS)
-    points = _gather_points(actors, main, times, follows)
+    points = _gather_points(description, actors, main, times, follows)
     azimuth, elevation = _choose_angles(description, main, moves, place, seed)
     fill = min([FILL, *(_FILL_BY_MOVE.get(move.kind, FILL) for move in moves)])
     if description.shot.framing == "close":
         fill = 0.95
         points = main.corners(0.0) if follows else np.vstack([main.corners(t) for t in times])
-    elif description.shot.framing == "wide":
+    elif follows and main.is_mover:
+        fill = min(fill, 0.5)
+    if description.shot.framing == "wide":
         fill = 0.45
-    framing = fit(points, azimuth=azimuth, elevation=elevation, aspect=aspect, fill=fill)
+    is_open = has_floor and place not in ("underwater", "indoor")
+    lift = SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
+    framing = fit(points, azimuth=azimuth, elevation=elevation, aspect=aspect, fill=fill, lift=lift)
     room = _size_room(framing, points) if place == "indoor" else math.inf
     return CameraPath(framing, moves, duration_s, main.trajectory, has_floor, room)
 
@@ -92,16 +98,24 @@ def _plan_moves(
 
 
 def _gather_points(
-    actors: Sequence[Actor], main: Actor, times: Float64Array, follows: bool
+    description: SceneDescription,
+    actors: Sequence[Actor],
+    main: Actor,
+    times: Float64Array,
+    follows: bool,
 ) -> Float64Array:
     """[n, 3] what must fit, m: movers whole, the rest up to a multiple of their size."""
-    movers = [actor for actor in actors if actor.is_mover] or list(actors)
+    near = [actor for actor in actors if description.things[actor.thing].side != "far"]
+    movers = [actor for actor in near if actor.is_mover] or near or list(actors)
     limit = LIMIT * max(
         max(actor.model.length, actor.model.width, actor.model.height) for actor in movers
     )
     start = np.array(main.trajectory.at(0.0).position)
     points = []
     for actor in actors:
+        is_far = description.things[actor.thing].side == "far"
+        if is_far and actor is not main:
+            continue
         for time in times:
             corners = actor.corners(float(time), limit)
             if follows:
@@ -137,21 +151,31 @@ def _choose_angles(
     view = description.shot.view
     if view in _AZIMUTHS:
         azimuth = _AZIMUTHS[view] if view == "side" else _face(view, state.yaw)
-    small = main.model.height < 0.7 and place not in ("sky", "space", "underwater")
-    elevation = 0.24 if small or place == "indoor" else 0.12
-    if follow is not None and follow.direction in ("behind", "front", "above"):
-        elevation = 0.27 if follow.direction != "above" else 0.7
-    elif place in ("sky", "space"):
-        elevation = -0.12
-    elif place == "underwater":
-        elevation = 0.04
-    elif place == "sea":
-        elevation = 0.15
-    elif not main.is_mover and main.model.height > 5.0:
-        elevation = 0.03
-    elif goes_in_depth:
-        elevation = 0.2
-    return azimuth, _ELEVATIONS.get(view or "", elevation)
+    elevation = _ELEVATIONS.get(view or "")
+    if elevation is None:
+        elevation = _choose_elevation(main, follow, place, goes_in_depth)
+    return azimuth, elevation
+
+
+def _choose_elevation(
+    main: Actor, follow: CameraMove | None, place: str, goes_in_depth: bool
+) -> float:
+    """Height of the camera above what it looks at, radians."""
+    if follow is not None and follow.direction in _FOLLOW_ELEVATIONS:
+        return _FOLLOW_ELEVATIONS[follow.direction]
+    if place in _PLACE_ELEVATIONS:
+        return _PLACE_ELEVATIONS[place]
+    if main.noun.habitat == "air":
+        return -0.03
+    if not main.is_mover and main.model.height > 5.0:
+        return 0.03
+    if main.model.height < 0.7:
+        return 0.24
+    return 0.2 if goes_in_depth else 0.12
+
+
+_FOLLOW_ELEVATIONS = {"behind": 0.22, "front": 0.22, "above": 0.7}
+_PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04, "indoor": 0.24}
 
 
 def _face(view: str, yaw: float) -> float:

@@ -75,7 +75,7 @@ def project(camera: Camera, points: Float64Array, aspect: float) -> Float64Array
 
 def fit(
     points: Float64Array, *, azimuth: float, elevation: float, aspect: float, fill: float,
-    focal: float = 1.1,
+    lift: float = 0.0, focal: float = 1.1,
 ) -> Framing:  # fmt: skip
     """The nearest station from which all points appear.
 
@@ -89,6 +89,8 @@ def fit(
         elevation: how high it stands, radians.
         aspect: picture height over width.
         fill: share of the picture that they may fill, 0..1.
+        lift: how far above their middle the camera looks, in half picture heights, as far as
+            they still fit: puts them into the lower part of the picture, under the sky.
         focal: focal length over picture width.
     """
     back = direction(azimuth, elevation)
@@ -111,4 +113,8 @@ def fit(
     local = points - target
     asked = np.maximum(np.abs(local @ right), np.abs(local @ up) / aspect) * 2.0 * focal / fill
     distance = max(float(np.max(asked + local @ back)), 0.3)
+    half_height = 0.5 * aspect / focal
+    lowest = float(np.min((local @ up) / (distance - local @ back))) / half_height
+    raised = min(lift, max(fill + lowest, 0.0))
+    target = target + raised * half_height * distance * up
     return Framing(target, azimuth, elevation, distance, focal)

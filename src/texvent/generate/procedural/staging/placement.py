@@ -10,6 +10,7 @@ import numpy as np
 
 from texvent.generate.procedural.description import Relation, SceneDescription, Thing
 from texvent.generate.procedural.model import Model, Noun, Part
+from texvent.generate.procedural.models.table import AFLOAT
 from texvent.generate.procedural.primitives import Float64Array, Shape
 from texvent.generate.procedural.staging.actors import Actor, seeded
 from texvent.generate.procedural.staging.motion import Circle, Riding, Swing, Trajectory, Vector
@@ -148,12 +149,26 @@ class Stage:
             if group.index in relation.targets and relation.subject in self.groups:
                 subject = self.groups[relation.subject]
                 return _place_by_subject(group, relation.kind, subject, height)
-        offset = {"left": -1.0, "right": 1.0}.get(group.thing.side or "", 0.0)
-        depth = {"far": 6.0, "near": -1.2}.get(group.thing.side or "", 0.0)
-        wanted = np.array([offset * 2.0 * group.size_m, depth * group.size_m, height])
+        offset = {"left": -2.0, "right": 2.0}.get(group.thing.side or "", 0.0) * group.size_m
+        offset += self._spread_apart(group)
+        depth = {"far": 2.2 * group.size_m + 6.0, "near": -1.2 * group.size_m}
+        wanted = np.array([offset, depth.get(group.thing.side or "", 0.0), height])
         if group.course.is_path or group.noun.habitat in ("air", "water"):
-            return wanted, np.array([0.0, 1.0, 0.0])
+            # Smaller things go nearer to the camera, so that none hides behind a larger one.
+            larger = any(other.size_m > group.size_m for other in self.groups.values())
+            return wanted, np.array([0.0, -1.0 if larger else 1.0, 0.0])
         return wanted, np.array([1.0, 0.35, 0.0])
+
+    def _spread_apart(self, group: Group) -> float:
+        """Metres to the side that leave room for what is to stand between this and another."""
+        for relation in self._description.relations:
+            if relation.kind == "between" and len(relation.targets) > 1:
+                if group.index not in relation.targets:
+                    continue
+                middle = self.build_group(relation.subject)
+                side = -1.0 if relation.targets.index(group.index) == 0 else 1.0
+                return float(side * (group.half[0] + middle.half[0] + 0.4))
+        return 0.0
 
     def _height(self, group: Group) -> float:
         """Height of the group's origin, m."""
@@ -243,7 +258,7 @@ def _unturn(offset: Float64Array, yaw: float) -> Vector:
 def _orbit(group: Group, around: Group, number: int, duration_s: float) -> Trajectory:
     """Circles around another thing, evenly spread."""
     model = group.models[number]
-    radius = float(np.max(around.half[:2])) + 0.9 * group.size_m + 0.5
+    radius = float(np.max(around.half[:2])) + 0.9 * group.size_m + 0.1 * around.size_m
     rate = 2.0 * math.pi / max(duration_s, 2.0) * group.course.motion.pace
     if group.course.motion.direction == "right":
         rate = -rate
@@ -265,14 +280,16 @@ def _arrange(
     length = max(model.length for model in models)
     width = max(model.width for model in models)
     tall = max(model.height for model in models)
-    along = (
-        (1.35 * length + 0.4) if course.is_path or noun.habitat == "fixed" else 1.5 * length + 0.3
-    )
-    across = 1.5 * width + 0.4
+    is_deep = noun.habitat in ("air", "water") and noun.name not in AFLOAT
+    along = (0.8 if is_deep else 1.2) * length + 0.3
+    across = 1.4 * width + 0.4
+    if noun.motion == "drive":
+        along, across = 1.45 * length + 0.5, max(width + 0.9, 2.9)
     if course.motion.direction == "circle":
         along = across = 4.0 * max(length, width)
     columns = count if count <= 3 else math.ceil(math.sqrt(1.6 * count))
-    is_deep = noun.habitat in ("air", "water") and noun.motion not in ("sail", "paddle")
+    if noun.motion == "drive":
+        columns = math.ceil(count / 2)
     cosine, sine = (abs(math.cos(course.yaw)) > 0.5), (abs(math.sin(course.yaw)) > 0.5)
     slots: list[Vector] = []
     for number in range(count):
@@ -282,7 +299,11 @@ def _arrange(
         b = (row - 0.5 * ((count - 1) // columns)) * across + (0.6 * across * (number % 2))
         a += float(rng.uniform(-0.12, 0.12)) * along
         b += float(rng.uniform(-0.08, 0.08)) * across
-        up = float(rng.uniform(-0.9, 0.9)) * tall if is_deep else 0.0
+        if noun.motion == "drive":
+            b = (row - 0.5 * ((count - 1) // columns)) * across
+        up = 0.0
+        if is_deep:
+            up = (0.9 * (-1.0) ** number + float(rng.uniform(-0.35, 0.35))) * tall
         slots.append((a, b, up) if cosine or not sine else (b * 1.6, a, up))
     return slots
 
@@ -336,7 +357,7 @@ def _place_on_targets(
     if kind == "on":
         if target.course.motion.is_moving:
             group.carrier = target
-        seat = _seat_height(target) + lift
+        seat = _seat_height(target, group) + lift
         return target.centre + np.array([0.0, 0.0, seat]), still
     if kind == "above":
         clear = top + 0.7 * group.models[0].height + 0.3
@@ -358,11 +379,21 @@ def _place_on_targets(
     return np.array([*wanted, height]), still
 
 
-def _seat_height(target: Group) -> float:
-    """Height above the target's origin on which things lie or sit, m."""
-    name, height = target.noun.name, target.models[0].height
-    share = {"chair": 0.5, "sofa": 0.5, "bed": 0.55, "horse": 0.72, "boat": 0.3}.get(name, 1.0)
-    return (share - (0.5 if target.noun.habitat == "air" else 0.0)) * height
+def _seat_height(target: Group, group: Group) -> float:
+    """Height above the target's origin at which the thing on it has its own origin, m."""
+    is_sitting = group.course.motion.kind in ("sit", "drive", "sail") or group.carrier is not None
+    shares = _SADDLES if is_sitting and group.noun.name in PEOPLE else _TOPS
+    share = shares.get(target.noun.name, 1.0)
+    return (share - (0.5 if target.noun.habitat == "air" else 0.0)) * target.models[0].height
+
+
+PEOPLE = frozenset({"person", "man", "woman", "child", "runner", "worker"})
+_TOPS = {"chair": 0.5, "sofa": 0.5, "bed": 0.5, "bench": 0.5, "boat": 0.35, "horse": 0.62,
+         "sailboat": 0.15, "bridge": 0.3}  # fmt: skip
+"""Share of a thing's height at which others lie on it; 1 where nothing is said."""
+_SADDLES = {"chair": 0.02, "sofa": 0.02, "bench": 0.02, "bed": 0.05, "horse": 0.40, "boat": 0.2,
+            "elephant": 0.78, "sailboat": 0.1, "zebra": 0.40, "cow": 0.6}  # fmt: skip
+"""The same for people who sit: their origin is under their feet."""
 
 
 def _place_by_subject(
@@ -373,19 +404,26 @@ def _place_by_subject(
     sideways = abs(math.cos(subject.course.yaw)) > 0.5 or not subject.course.is_path
     here = subject.centre * [1.0, 1.0, 0.0] + [0.0, 0.0, height]
     away, along = np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0])
+    if kind == "with" and subject.course.is_path and sideways:
+        ahead = 0.55 * (subject.models[0].length + group.models[0].length) + 0.2
+        return _shift(here, ahead * math.cos(subject.course.yaw), clear[1] + 0.1), away
     if kind in ("past", "beside", "with") and subject.course.is_path and sideways:
-        return here + [0.0, clear[1] + 0.3, 0.0], away
+        return _shift(here, 0.0, clear[1] + 0.3), away
     if kind == "past" or (subject.course.is_path and kind == "beside"):
-        return here + [clear[0] + 0.3, 0.0, 0.0], along
+        return _shift(here, clear[0] + 0.3, 0.0), along
     if kind == "behind":
-        return here + [-0.55 * clear[0], -clear[1], 0.0], -away
+        return _shift(here, -0.55 * clear[0], -clear[1]), -away
     if kind == "front":
-        return here + [0.0, clear[1], 0.0], away
+        return _shift(here, 0.0, clear[1]), away
     if kind == "left of":
-        return here + [clear[0], 0.0, 0.0], along
+        return _shift(here, clear[0], 0.0), along
     if kind == "right of":
-        return here - [clear[0], 0.0, 0.0], -along
+        return _shift(here, -clear[0], 0.0), -along
     if kind == "towards":
-        heading = np.array([math.cos(subject.course.yaw), math.sin(subject.course.yaw), 0.0])
-        return here + heading * clear, away
-    return here + [clear[0], 0.0, 0.0], along
+        yaw = subject.course.yaw
+        return _shift(here, clear[0] * math.cos(yaw), clear[1] * math.sin(yaw)), away
+    return _shift(here, clear[0], 0.0), along
+
+
+def _shift(place: Float64Array, x: float, y: float) -> Float64Array:
+    return np.asarray(place + np.array([x, y, 0.0]))

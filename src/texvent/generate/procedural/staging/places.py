@@ -88,7 +88,7 @@ LIGHTINGS: dict[str, Lighting] = {
     ),
     "night": Lighting(
         (-0.45, -0.50, 0.74), (0.055, 0.07, 0.11), (0.030, 0.038, 0.068), (0.004, 0.006, 0.020),
-        (0.016, 0.020, 0.042), 0.0, 1.7, lamps=1.0,
+        (0.016, 0.020, 0.042), 0.0, 2.1, lamps=1.0,
     ),
     "moonlight": Lighting(
         (-0.45, -0.50, 0.74), (0.15, 0.18, 0.25), (0.040, 0.050, 0.085), (0.005, 0.008, 0.026),
@@ -115,7 +115,7 @@ _SPACE = Lighting(
 )  # fmt: skip
 _WATER_COLOUR: Colour = (0.03, 0.19, 0.30)
 _UNDERWATER_SIGHT_M = 16.0
-_FOG_SIGHT = 1.5
+_FOG_SIGHT = 3.0
 """In fog, sight (to 37 %) in camera distances."""
 
 

@@ -30,6 +30,8 @@ class Planting:
     far: float
     scale: tuple[float, float] = (0.8, 1.2)
     colours: tuple[Colour | None, ...] = (None,)
+    is_metres: bool = False
+    """Whether `near` and `far` are metres from the camera instead."""
 
 
 @dataclass(frozen=True)
@@ -52,8 +54,11 @@ _PINK: Colour = (0.75, 0.25, 0.30)
 _CORAL: tuple[Colour, ...] = (_PINK, (0.80, 0.40, 0.12), (0.55, 0.20, 0.50), (0.75, 0.65, 0.20))
 _DRY: Colour = (0.25, 0.22, 0.06)
 
+_MOUNTAINS = Planting("mountain", 7, 190.0, 330.0, (0.9, 1.5), is_metres=True)
+
 PLANTINGS: dict[str, tuple[Planting, ...]] = {
     "road": (
+        Planting("house", 1, 1.6, 2.6, (1.0, 1.2)),
         Planting("tree", 5, 0.5, 3.5, (0.8, 1.3)),
         Planting("bush", 6, 0.25, 2.0, (0.6, 1.1)),
     ),
@@ -85,7 +90,7 @@ PLANTINGS: dict[str, tuple[Planting, ...]] = {
     "sand": (Planting("palm", 3, 0.7, 2.5), Planting("rock", 4, 0.3, 2.0, (0.4, 1.0))),
     "snow": (Planting("pine", 8, 0.7, 3.5, (0.7, 1.2)),),
     "mountain": (
-        Planting("mountain", 4, 6.0, 9.0, (1.0, 1.6)),
+        _MOUNTAINS,
         Planting("pine", 10, 0.6, 3.5, (0.7, 1.2)),
         Planting("rock", 5, 0.2, 1.5, (0.4, 1.2)),
     ),
@@ -98,7 +103,7 @@ PLANTINGS: dict[str, tuple[Planting, ...]] = {
 """Place → what stands around there."""
 
 BACKDROPS: dict[str, tuple[Planting, ...]] = {
-    "mountain": (Planting("mountain", 5, 7.0, 11.0, (1.0, 1.7)),
+    "mountain": (_MOUNTAINS,
                  Planting("pine", 6, 0.8, 3.0, (0.8, 1.2))),
     "forest": PLANTINGS["forest"],
     "city": PLANTINGS["city"],
@@ -192,7 +197,7 @@ def _find_place(
     for _ in range(ATTEMPTS):
         camera = view.cameras[int(rng.integers(len(view.cameras)))]
         share = float(rng.uniform(-0.62, 0.62))
-        reach = view.distance_m * (1.0 + float(rng.uniform(planting.near, planting.far)))
+        reach = _draw_reach(planting, camera, view, rng)
         forward = camera.rotation[2, :2]
         forward = forward / max(float(np.hypot(*forward)), 1e-9)
         right = np.array([forward[1], -forward[0]])
@@ -203,6 +208,21 @@ def _find_place(
         if _is_free(piece, view, bodies, pieces):
             return piece
     return None
+
+
+def _draw_reach(planting: Planting, camera: Camera, view: View, rng: np.random.Generator) -> float:
+    """Metres over the ground from the camera, no further than the top of the picture shows."""
+    if planting.is_metres:
+        return float(rng.uniform(planting.near, planting.far))
+    pitch = -float(camera.rotation[2, 2])
+    flat = view.distance_m * math.cos(math.asin(min(max(pitch, -1.0), 1.0)))
+    near, far = planting.near, planting.far
+    top = math.asin(min(max(pitch, -1.0), 1.0)) - math.atan(0.33 / camera.focal)
+    if top > 0.02:
+        seen = float(camera.position[2]) / math.tan(top) / max(flat, 1e-6) - 1.0
+        if far > seen:
+            near, far = min(near, 0.1 - 0.8 * seen), seen
+    return flat * (1.0 + float(rng.uniform(near, far)))
 
 
 def _face(planting: Planting, view: View, rng: np.random.Generator) -> float:

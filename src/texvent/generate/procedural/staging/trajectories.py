@@ -28,7 +28,7 @@ from texvent.generate.procedural.staging.motion import (
     Vector,
 )
 
-MAX_LENGTHS_PER_S = 1.1
+MAX_LENGTHS_PER_S = 0.95
 """A usual speed is kept below this many of the thing's own lengths per second, so that it stays
 in view and large; a speed stated in numbers is not."""
 RUN_FACTOR = 2.2
@@ -201,8 +201,9 @@ def _fly_freely(course: Course, model: Model, home: Vector) -> Trajectory:
     if kind == "bounce":
         height = min(max(3.0 * model.height, 0.8), 2.5)
         along = 0.0 if course.motion.direction is None else 0.5 * course.speed_m_s
-        start = x - 0.5 * along * course.duration_s * math.cos(course.yaw)
-        return Bounce((start, y, z + height), z, along_m_s=along, yaw=course.yaw, restitution=0.82)
+        back = 0.5 * along * course.duration_s
+        x, y = x - back * math.cos(course.yaw), y - back * math.sin(course.yaw)
+        return Bounce((x, y, z + height), z, along_m_s=along, yaw=course.yaw, restitution=0.82)
     if kind == "fall":
         height = 0.5 * GRAVITY_M_S2 * (0.45 * course.duration_s) ** 2
         height = min(max(height, 1.5 * model.height), max(8.0 * model.height, 2.0))

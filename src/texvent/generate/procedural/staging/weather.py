@@ -16,7 +16,7 @@ from texvent.generate.procedural.staging.motion import Trajectory
 
 RAIN_DROPS = 130
 SNOW_FLAKES = 170
-DUST_PUFFS = 26
+DUST_PUFFS = 44
 _DEPTH_BELOW_M = 0.6
 """Drops return to the top when they are this far under the ground, where nobody sees it."""
 
@@ -66,11 +66,14 @@ class DustTrail:
         for row, (side, size, birth) in enumerate(self.seeds):
             age = (time_s / self.life_s + birth) % 1.0
             born = self.source.at(time_s - age * self.life_s)
-            place = born.to_world() @ np.array([-self.back_m, self.size_m * (side - 0.5), 0.0, 1.0])
-            radius = max(self.size_m * (0.06 + 0.09 * size) * 4.0 * age * (1.0 - age), 1e-4)
+            place = born.to_world() @ np.array(
+                [-self.back_m, 1.1 * self.size_m * (side - 0.5), 0.0, 1.0]
+            )
+            radius = max(self.size_m * (0.02 + 0.045 * size) * 4.0 * age * (1.0 - age), 1e-4)
             maps[row, :, :3] = radius * np.diag([1.2, 1.2, 0.8])
-            maps[row, :, 3] = place + [0.0, 0.0, self.size_m * (0.05 + 0.28 * age * size)]
-        return paint_alike(maps, Shape.ELLIPSOID, (0.50, 0.38, 0.25))
+            place[2] += self.size_m * (0.05 + 0.28 * age * size)
+            maps[row, :, 3] = place
+        return paint_alike(maps, Shape.ELLIPSOID, (0.46, 0.33, 0.20))
 
 
 def make_rain(base: Float64Array, extent_m: float, rng: np.random.Generator) -> Shower:
