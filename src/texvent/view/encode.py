@@ -56,6 +56,7 @@ class FilmEncoder:
         self._container: Any = None
         self._stream: Any = None
         self._last: tuple[int, Any] | None = None
+        self._durations: dict[int, int] = {}
         self._count = 0
 
     def __enter__(self) -> Self:
@@ -144,12 +145,14 @@ class FilmEncoder:
             return
         pts, frame = self._last
         frame.pts, frame.time_base = pts, self._base
-        frame.duration = max(1, next_pts - pts)
+        self._durations[pts] = max(1, next_pts - pts)
         self._encode(frame)
 
     def _encode(self, frame: Any) -> None:
         with _reporting(self._path):
             for encoded in self._stream.encode(frame):
+                # The encoder states the nominal duration, not the true one.
+                encoded.duration = self._durations.pop(encoded.pts, encoded.duration)
                 self._container.mux(encoded)
 
 

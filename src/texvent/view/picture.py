@@ -14,7 +14,9 @@ from texvent.view.palettes import Palette
 CEILING_PERCENTILE = 98.0
 """Pixels with more events than this share of the active ones are shown at full strength."""
 FAINTEST = 0.22
-"""Strength of a single event where others are many."""
+"""Least strength of an event, where others are many."""
+STRENGTH_EXPONENT = 0.6
+"""Below 1, so that pixels with few events stay easy to see."""
 
 
 def count_ceiling(counts: NDArray[Any]) -> float:
@@ -35,7 +37,8 @@ def draw_events(counts: NDArray[Any], palette: Palette, *, ceiling: float | None
     """Counted events as an RGB picture.
 
     Hue says which polarity (a pixel with both shows the mixture); strength says how many
-    events, from `FAINTEST` for one up to full colour at `ceiling`.
+    events, at least `FAINTEST`, full colour from `ceiling` on. Where a palette's background lies
+    between its colours (v2e), as many ON as OFF look like none.
 
     Args:
         counts: OFF and ON events per pixel, [2, H, W] integers (`event_frame(…, "count")`).
@@ -56,10 +59,7 @@ def draw_events(counts: NDArray[Any], palette: Palette, *, ceiling: float | None
     off = counts[0, rows, columns].astype(np.float32)
     on = counts[1, rows, columns].astype(np.float32)
     total = off + on
-    if limit > 1.0:
-        strength = FAINTEST + (1 - FAINTEST) * np.minimum(1.0, (total - 1) / (limit - 1))
-    else:
-        strength = np.ones_like(total)
+    strength = np.clip((total / limit) ** STRENGTH_EXPONENT, FAINTEST, 1.0)
     share = (on / total)[:, None]
     on_colour, off_colour, background = (
         np.array(colour, dtype=np.float32)

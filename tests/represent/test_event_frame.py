@@ -1,0 +1,57 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.errors import ConfigError
+from texvent.events import EventStream
+from texvent.represent.event_frame import count_events, event_frame
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(3, 2)
+# Pixel (0, 0): two ON. (1, 0): ON and OFF. (2, 1): one OFF.
+EVENTS = EventStream.from_columns(
+    [0, 0, 1, 1, 2], [0, 0, 0, 0, 1], [1, 2, 3, 4, 5], [1, 1, 1, 0, 0], size=SIZE
+)
+
+
+@pytest.mark.parametrize(
+    ("kind", "dtype", "expected"),
+    [
+        ("signed", np.int32, [[2, 0, 0], [0, 0, -1]]),
+        ("binary", np.uint8, [[1, 1, 0], [0, 0, 1]]),
+        ("polarity", np.float32, [[1.0, 0.5, 0.5], [0.5, 0.5, 0.0]]),
+        ("count", np.int32, [[[0, 1, 0], [0, 0, 1]], [[2, 1, 0], [0, 0, 0]]]),
+    ],
+)
+def test_each_kind_matches_its_definition_by_hand(
+    kind: str, dtype: type, expected: list[list[float]]
+) -> None:
+    frame = event_frame(EVENTS, kind)
+    assert frame.dtype == dtype
+    assert frame.tolist() == expected
+
+
+@pytest.mark.parametrize("kind", ["signed", "binary", "polarity", "count"])
+def test_no_events_give_the_background(kind: str) -> None:
+    frame = event_frame(EventStream.empty(SIZE), kind)
+    assert frame.shape == ((2, 2, 3) if kind == "count" else (2, 3))
+    assert set(np.unique(frame)) == {0.5 if kind == "polarity" else 0}
+
+
+def test_an_unknown_kind_lists_the_known_ones() -> None:
+    with pytest.raises(ConfigError, match=r"unknown event frame 'sign'.*did you mean 'signed'"):
+        event_frame(EVENTS, "sign")
+
+
+@given(st.lists(st.tuples(st.integers(0, 2), st.integers(0, 1), st.integers(0, 1)), max_size=40))
+def test_counting_agrees_with_counting_one_by_one(rows: list[tuple[int, int, int]]) -> None:
+    expected = np.zeros((2, 2, 3), dtype=int)
+    for x, y, p in rows:
+        expected[p, y, x] += 1
+    x, y, p = ([row[index] for row in rows] for index in range(3))
+    events = EventStream.from_columns(x, y, list(range(len(rows))), p, size=SIZE)
+    np.testing.assert_array_equal(count_events(events), expected)
+    np.testing.assert_array_equal(event_frame(events), expected[1] - expected[0])

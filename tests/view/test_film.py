@@ -1,0 +1,176 @@
+from __future__ import annotations
+
+import errno
+import os
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+
+import av
+import numpy as np
+import pytest
+
+from texvent.errors import ConfigError, InputError, OutputError
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+from texvent.video import Frame
+from texvent.view.encode import FilmEncoder
+from texvent.view.film import FilmWriter, title_of
+
+SIZE = SensorSize(32, 24)
+Steps = list[tuple[Frame, EventStream]]
+
+
+def write_film(path: Path, steps: Steps, **options: object) -> Path:
+    with FilmWriter(path, size=SIZE, fps=Fraction(30_000, 1001), **options) as film:
+        for frame, packet in steps:
+            film.append(frame, packet)
+    return path
+
+
+def read_film(path: Path) -> tuple[list[int], np.ndarray, av.container.InputContainer]:
+    """Times in µs, pictures, and the container."""
+    container = av.open(str(path))
+    frames = list(container.decode(video=0))
+    times = [round(frame.pts * frame.time_base * 1_000_000) for frame in frames]
+    return times, np.stack([frame.to_ndarray(format="rgb24") for frame in frames]), container
+
+
+def test_mp4_times_are_the_source_frames_times_to_the_microsecond(
+    tmp_path: Path, steps: Steps
+) -> None:
+    times, _, container = read_film(write_film(tmp_path / "out.mp4", steps))
+    source = [frame.t_us for frame, _ in steps if frame.is_source]
+    assert times == [t - source[0] for t in source[:-1]]
+    stream = container.streams.video[0]
+    assert stream.duration * stream.time_base == Fraction(source[-1] - source[0], 1_000_000)
+    assert (stream.codec_context.name, stream.codec_context.pix_fmt) == ("h264", "yuv420p")
+    assert stream.codec_context.colorspace == 1, "tagged BT.709"
+
+
+def test_irregular_frame_times_are_kept(tmp_path: Path) -> None:
+    times = [1_000, 1_007, 40_000, 1_040_000, 1_040_001]
+    pixels = np.zeros(SIZE.shape, dtype=np.uint8)
+    steps = [(Frame(pixels, t), EventStream.empty(SIZE)) for t in times]
+    shown, _, _ = read_film(write_film(tmp_path / "out.mp4", steps))
+    assert shown == [t - 1_000 for t in times[:-1]]
+
+
+def test_the_index_lies_in_front_so_that_browsers_start_at_once(
+    tmp_path: Path, steps: Steps
+) -> None:
+    content = write_film(tmp_path / "out.mp4", steps).read_bytes()
+    assert 0 < content.index(b"moov") < content.index(b"mdat")
+
+
+def test_the_frame_is_left_and_its_events_are_right(tmp_path: Path, steps: Steps) -> None:
+    _, pictures, _ = read_film(write_film(tmp_path / "out.mp4", steps, palette="paper"))
+    width = pictures.shape[2]
+    picture = pictures[1].astype(int)
+    row = picture[int(picture.shape[0] * 0.7)]
+    left, right = row[: width // 2 - 4], row[width // 2 + 4 :]
+    # The bar is orange on dark grey; events are blue and red on white.
+    assert (left[:, 0] > left[:, 2] + 100).any()
+    assert (right[:, 2] > right[:, 0] + 100).any()
+    assert (right[:, 0] > right[:, 2] + 100).any()
+    assert (right.min(axis=1) > 240).mean() > 0.5
+
+
+def test_events_of_intermediate_frames_count_for_the_next_source_frame(
+    tmp_path: Path, steps: Steps
+) -> None:
+    dense = write_film(tmp_path / "dense.mp4", steps)
+    merged: Steps = []
+    waiting: list[EventStream] = [EventStream.empty(SIZE)]
+    for frame, packet in steps:
+        waiting.append(packet)
+        if frame.is_source:
+            merged.append((frame, EventStream.concat(waiting)))
+            waiting = [EventStream.empty(SIZE)]
+    plain = write_film(tmp_path / "plain.mp4", merged)
+    assert np.array_equal(read_film(dense)[1], read_film(plain)[1])
+
+
+def test_gif_times_are_rounded_but_do_not_drift(tmp_path: Path, steps: Steps) -> None:
+    times, pictures, _ = read_film(write_film(tmp_path / "out.gif", steps))
+    source = [frame.t_us for frame, _ in steps if frame.is_source]
+    exact = [t - source[0] for t in source[:-1]]
+    assert len(times) == len(exact)
+    assert all(0 <= want - got < 10_000 for want, got in zip(exact, times, strict=True))
+    right = pictures[1, :, pictures.shape[2] // 2 :].astype(int)
+    assert (right[..., 2] > right[..., 0] + 100).any()
+
+
+@pytest.mark.parametrize("extension", [".mp4", ".gif"])
+def test_one_frame_gives_a_film_of_one_picture(
+    tmp_path: Path, steps: Steps, extension: str
+) -> None:
+    path = write_film(tmp_path / f"out{extension}", steps[:1])
+    assert len(read_film(path)[0]) == 1
+
+
+def test_no_frame_at_all_is_an_input_error(
+    tmp_path: Path, folder_is_clean: Callable[[], bool]
+) -> None:
+    with pytest.raises(InputError, match="at least one frame"):
+        write_film(tmp_path / "out.mp4", [])
+    assert folder_is_clean()
+
+
+def test_an_exception_midway_leaves_no_film(
+    tmp_path: Path, steps: Steps, folder_is_clean: Callable[[], bool]
+) -> None:
+    def interrupt() -> None:
+        with FilmWriter(tmp_path / "out.mp4", size=SIZE, fps=None) as film:
+            film.append(*steps[0])
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        interrupt()
+    assert folder_is_clean()
+
+
+def test_an_existing_film_is_kept_unless_overwriting_is_allowed(
+    tmp_path: Path, steps: Steps
+) -> None:
+    path = tmp_path / "out.mp4"
+    path.write_bytes(b"old")
+    with pytest.raises(OutputError, match="exists already"):
+        write_film(path, steps)
+    assert path.read_bytes() == b"old"
+    write_film(path, steps, overwrite=True)
+    assert len(read_film(path)[0]) == 5
+
+
+def test_other_extensions_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match=r"must end in \.mp4 or \.gif"):
+        FilmWriter(tmp_path / "out.avi", size=SIZE, fps=None)
+
+
+def test_a_writer_outside_its_with_block_says_so(tmp_path: Path) -> None:
+    encoder = FilmEncoder(
+        tmp_path / "out.mp4", width=32, height=32, fps=Fraction(30), overwrite=False
+    )
+    with pytest.raises(OutputError, match="with block"):
+        encoder.write(np.zeros((32, 32, 3), dtype=np.uint8), 0)
+
+
+def test_a_full_disk_while_encoding_is_one_clear_line(
+    tmp_path: Path,
+    steps: Steps,
+    monkeypatch: pytest.MonkeyPatch,
+    folder_is_clean: Callable[[], bool],
+) -> None:
+    def refuse(*_: object) -> None:
+        raise av.error.OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(FilmEncoder, "_encode", refuse)
+    with pytest.raises(OutputError, match="the disk is full"):
+        write_film(tmp_path / "out.mp4", steps)
+    assert folder_is_clean()
+
+
+def test_the_title_is_the_prompt_or_else_the_source() -> None:
+    assert title_of({"prompt": " a\ncar "}) == "a car"
+    assert title_of({"prompt": None, "source": {"path": "x"}, "title": "t"}) == "t"
+    assert title_of({}) == ""

@@ -1,0 +1,34 @@
+from __future__ import annotations
+
+import pytest
+
+from texvent.errors import ConfigError
+from texvent.view.palettes import PALETTES, get_palette
+
+
+def test_the_default_is_the_papers_on_blue_off_red_on_white() -> None:
+    paper = next(iter(PALETTES.values()))
+    assert paper.name == "paper"
+    assert (paper.on, paper.off, paper.background) == ((0, 0, 255), (255, 0, 0), (255, 255, 255))
+
+
+def test_redblue_is_the_paper_swapped() -> None:
+    paper, swapped = get_palette("paper"), get_palette("redblue")
+    assert (paper.on, paper.off) == (swapped.off, swapped.on)
+
+
+@pytest.mark.parametrize("name", PALETTES)
+def test_polarities_background_and_ink_can_be_told_apart(name: str) -> None:
+    palette = get_palette(name)
+    colours = [palette.on, palette.off, palette.background]
+    for index, one in enumerate(colours):
+        for other in colours[index + 1 :]:
+            assert sum(abs(a - b) for a, b in zip(one, other, strict=True)) > 100
+    contrast = abs(sum(palette.ink) - sum(palette.background))
+    assert contrast > 200
+    assert palette.name == name
+
+
+def test_an_unknown_palette_lists_the_known_ones() -> None:
+    with pytest.raises(ConfigError, match=r"unknown palette 'papr'.*did you mean 'paper'"):
+        get_palette("papr")

@@ -1,0 +1,72 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.video import Frame
+from texvent.view.palettes import PALETTES, get_palette
+from texvent.view.picture import count_ceiling, draw_events, frame_picture
+
+PAPER = get_palette("paper")
+
+
+def test_one_event_each_shows_the_palettes_exact_colours() -> None:
+    counts = np.array([[[0, 1, 0]], [[1, 0, 0]]])
+    assert draw_events(counts, PAPER).tolist() == [
+        [list(PAPER.on), list(PAPER.off), list(PAPER.background)]
+    ]
+
+
+def test_as_many_on_as_off_mix() -> None:
+    counts = np.array([[[1]], [[1]]])
+    assert draw_events(counts, PAPER, ceiling=2).tolist() == [[[128, 0, 128]]]
+
+
+def test_more_events_are_stronger_and_the_scale_saturates() -> None:
+    counts = np.array([[[0, 0, 0, 0]], [[1, 5, 10, 500]]])
+    red = draw_events(counts, PAPER, ceiling=10)[0, :, 0].tolist()
+    assert red[0] > red[1] > red[2] == red[3] == 0
+    assert red[0] < 255, "a single event stays visible"
+
+
+def test_the_ceiling_follows_the_data_and_ignores_a_hot_pixel() -> None:
+    counts = np.zeros((2, 10, 10), dtype=int)
+    assert count_ceiling(counts) == 1.0
+    counts[1] = 4
+    counts[1, 0, 0] = 10_000
+    assert count_ceiling(counts) == 4.0
+
+
+@given(seed=st.integers(0, 2**16), rate=st.floats(0.001, 300.0), name=st.sampled_from([*PALETTES]))
+def test_a_picture_is_never_blank_and_never_outside_its_colours(
+    seed: int, rate: float, name: str
+) -> None:
+    palette = get_palette(name)
+    counts = np.random.default_rng(seed).poisson(rate, (2, 12, 16))
+    # In v2e's palette, as in v2e, as many ON as OFF give the background's grey.
+    counts[:, 3, 3] = (0, 1)
+    picture = draw_events(counts, palette)
+    active = counts.any(axis=0)
+    background = np.array(palette.background, dtype=np.uint8)
+    assert (picture[~active] == background).all()
+    distance = np.abs(picture[3, 3].astype(int) - background).max()
+    assert distance > 10
+
+
+@pytest.mark.parametrize(
+    ("pixels", "expected"),
+    [
+        (np.array([[0, 128, 255]], dtype=np.uint8), [0, 128, 255]),
+        (np.array([[0, 128 * 257, 65_535]], dtype=np.uint16), [0, 128, 255]),
+        (np.array([[-0.0, 127.6, 300.0]], dtype=np.float32), [0, 128, 255]),
+        (np.array([[0.4, 127.5, 254.6]], dtype=np.float64), [0, 128, 255]),
+    ],
+)
+def test_frames_of_every_depth_are_shown_as_8_bit_rgb(
+    pixels: np.ndarray, expected: list[int]
+) -> None:
+    picture = frame_picture(Frame(pixels, 0))
+    assert picture.dtype == np.uint8
+    assert picture[0].tolist() == [[value] * 3 for value in expected]

@@ -1,0 +1,94 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+from texvent.view.sample import FIRST_BIN_US, RATE_BINS, RateCurve, UniformSample
+
+SIZE = SensorSize(100, 100)
+
+
+def ramp(count: int, step_us: int = 1) -> EventStream:
+    """Events whose position in the stream can be read off x and y."""
+    index = np.arange(count)
+    return EventStream(index % 100, index // 100 % 100, index * step_us, index % 2, SIZE)
+
+
+def test_few_events_are_all_kept_in_order() -> None:
+    sample = UniformSample(SIZE, limit=1000)
+    sample.append(ramp(1000))
+    assert sample.events().equals(ramp(1000))
+    assert sample.seen == 1000
+
+
+@pytest.mark.parametrize("packet_events", [1, 7, 333, 5000])
+def test_packet_sizes_do_not_change_the_sample(packet_events: int) -> None:
+    events = ramp(5000)
+    whole, cut = UniformSample(SIZE, limit=400), UniformSample(SIZE, limit=400)
+    whole.append(events)
+    for start in range(0, 5000, packet_events):
+        cut.append(events[start : start + packet_events])
+    assert len(cut.events()) == 400
+    assert cut.events().equals(whole.events())
+
+
+def test_the_sample_is_uniform_over_the_recording() -> None:
+    sample = UniformSample(SIZE, limit=4000)
+    for start in range(0, 200_000, 10_000):
+        sample.append(ramp(200_000)[start : start + 10_000])
+    per_tenth = np.bincount(sample.events().t // 20_000, minlength=10)
+    # Binomial with mean 400 and deviation 19: five deviations.
+    assert np.abs(per_tenth - 400).max() < 95
+
+
+def test_memory_stays_flat() -> None:
+    sample = UniformSample(SIZE, limit=100)
+    for start in range(0, 20_000, 50):
+        sample.append(ramp(20_000)[start : start + 50])
+        assert sum(len(part) for part in sample._kept) <= 200
+
+
+def test_the_seed_decides_the_sample() -> None:
+    def drawn(seed: int) -> EventStream:
+        sample = UniformSample(SIZE, limit=50, seed=seed)
+        sample.append(ramp(1000))
+        return sample.events()
+
+    assert drawn(0).equals(drawn(0))
+    assert not drawn(0).equals(drawn(1))
+
+
+@settings(deadline=None)
+@given(
+    gaps=st.lists(st.integers(0, 200_000), min_size=1, max_size=40),
+    start_us=st.integers(0, 10**15),
+    cut=st.integers(0, 40),
+)
+def test_the_rate_curve_counts_every_event_in_its_bin(
+    gaps: list[int], start_us: int, cut: int
+) -> None:
+    times = start_us + np.cumsum(gaps)
+    polarity = np.arange(len(times)) % 2
+    events = EventStream(times * 0, times * 0, times, polarity, SIZE)
+    curve = RateCurve()
+    for part in (events[:cut], events[cut:]):
+        curve.append(part)
+    bins = (times - times[0]) // curve.bin_us
+    assert curve.start_us == times[0]
+    assert curve.counts.shape == (2, bins[-1] + 1)
+    assert curve.counts.shape[1] <= RATE_BINS
+    for p in (0, 1):
+        np.testing.assert_array_equal(
+            curve.counts[p], np.bincount(bins[polarity == p], minlength=bins[-1] + 1)
+        )
+    assert curve.bin_us == FIRST_BIN_US or curve.counts.shape[1] > RATE_BINS // 2
+
+
+def test_no_events_give_an_empty_curve() -> None:
+    curve = RateCurve()
+    curve.append(EventStream.empty(SIZE))
+    assert curve.counts.shape == (2, 0)
