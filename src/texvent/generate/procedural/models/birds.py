@@ -17,6 +17,7 @@ from texvent.generate.procedural.models.shaping import (
     moved,
     spike,
     turn_x,
+    turn_z,
 )
 from texvent.generate.procedural.models.variation import choose, fraction
 
@@ -79,10 +80,7 @@ def build_flier(plumage: Plumage, *, colour: Colour | None, scale: float, seed: 
 
     def articulate(pose: Pose) -> list[Part]:
         if pose.activity in ("stand", "sit"):
-            return [
-                *_wing(plumage, wing, 1.0, (1.15, -1.9)),
-                *_wing(plumage, wing, -1.0, (1.15, -1.9)),
-            ]
+            return [*_folded(plumage, wing, 1.0), *_folded(plumage, wing, -1.0)]
         turn = 2.0 * math.pi * (plumage.flap_hz * pose.time_s + start)
         inner = plumage.flap * math.sin(turn) + 0.12
         outer = 0.8 * plumage.flap * math.sin(turn - 0.9) - 0.10
@@ -95,23 +93,43 @@ def build_flier(plumage: Plumage, *, colour: Colour | None, scale: float, seed: 
 
 
 def _wing(plumage: Plumage, paint: Paint, side: float, lift: tuple[float, float]) -> list[Part]:
-    """An inner and an outer half; angles from horizontal at the shoulder, then at the wrist."""
+    """A spread wing; angles from horizontal at the shoulder, then at the wrist."""
+    shoulder, wrist, arm, hand = _spread(plumage, paint, side)
+    inner, outer = lift
+    bent = moved([hand], turn_x(side * outer, wrist))
+    return moved([arm, *bent], turn_x(side * inner, shoulder))
+
+
+def _folded(plumage: Plumage, paint: Paint, side: float) -> list[Part]:
+    """A wing at rest along the body: the hand lies back over the arm."""
+    shoulder, wrist, arm, hand = _spread(plumage, paint, side)
+    closed = [arm, *moved([hand], turn_z(-2.8 * side, wrist))]
+    along = moved(closed, turn_z(1.35 * side, shoulder))
+    return moved(along, turn_x(-1.1 * side, shoulder))
+
+
+def _spread(plumage: Plumage, paint: Paint, side: float) -> tuple[Point, Point, Part, Part]:
+    """Shoulder, wrist, and the inner and outer half of a flat wing."""
     size, half = plumage.length, 0.5 * plumage.span * plumage.length
     shoulder: Point = (0.08 * size, side * 0.07 * size, 0.06 * size)
-    inner, outer = lift
     wrist: Point = (0.12 * size, side * (0.07 * size + 0.48 * half), 0.06 * size)
     tip: Point = (-0.10 * size, side * half, 0.06 * size)
     chord, thin = plumage.chord * size, 0.035 * size
     arm = blade(
-        paint, _towards(shoulder, wrist, -0.1), _towards(shoulder, wrist, 1.15),
-        chord=(chord, 0.0, 0.0), thickness=(0.0, 0.0, 1.3 * thin),
-    )  # fmt: skip
+        paint,
+        _towards(shoulder, wrist, -0.1),
+        _towards(shoulder, wrist, 1.15),
+        chord=(chord, 0.0, 0.0),
+        thickness=(0.0, 0.0, 1.3 * thin),
+    )
     hand = blade(
-        paint, _towards(wrist, tip, -0.2), tip, chord=(0.8 * chord, 0.0, 0.0),
+        paint,
+        _towards(wrist, tip, -0.2),
+        tip,
+        chord=(0.8 * chord, 0.0, 0.0),
         thickness=(0.0, 0.0, thin),
-    )  # fmt: skip
-    bent = moved([hand], turn_x(side * outer, wrist))
-    return moved([arm, *bent], turn_x(side * inner, shoulder))
+    )
+    return shoulder, wrist, arm, hand
 
 
 def _towards(start: Point, end: Point, share: float) -> Point:

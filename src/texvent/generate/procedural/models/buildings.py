@@ -50,7 +50,7 @@ def build_house(*, colour: Colour | None, scale: float, seed: int) -> Figure:
         *_gable_roof(roof, (6.0, 8.0), 3.2, 2.2),
         box(mottled((0.30, 0.10, 0.06)), (-1.4, 2.3, 5.0), (0.8, 0.8, 2.0)),
         box(door, (3.02, 0.0, 1.1), (0.10, 1.1, 2.2)),
-        box(frame, (3.01, 0.0, 1.15), (0.06, 1.4, 2.4)),
+        box(frame, (3.01, 0.0, 1.20), (0.06, 1.4, 2.4)),
         box(CONCRETE, (3.4, 0.0, 0.1), (0.9, 1.8, 0.2)),
     ]
     for y in (2.5, -2.5):

@@ -97,10 +97,10 @@ def _body(shape: CarShape, body: Paint) -> list[Part]:
         ),
         box(trim, (0.0, 0.0, shape.clearance + 0.10), (shape.length, shape.width - 0.08, 0.20)),
     ]
-    arch = shape.wheel_radius * 1.18
+    arch = shape.wheel_radius * 1.10
     for x in (shape.axle, -shape.axle):
         reach = 0.5 * shape.width + 0.006
-        z = shape.wheel_radius
+        z = shape.wheel_radius * 1.14
         parts.append(rod(DARK, (x, -reach, z), (x, reach, z), arch))
     return parts
 

@@ -13,15 +13,17 @@ from texvent.generate.procedural.models.shaping import Affine, half_extents
 
 Articulation = Callable[[Pose], Sequence[Part]]
 
-# Poses that together show how far limbs, wings and rotors reach. Steps of the golden ratio visit
-# all phases of any cycle evenly.
-_GOLDEN = 0.6180339887498949
+# Poses that together show how far limbs, wings and rotors reach: times and distances spread
+# evenly by the golden ratio and its two-dimensional counterpart, out of step with any cycle.
 _SAMPLE_POSES = tuple(
     Pose(
-        time_s=7.0 * step * _GOLDEN, distance_m=11.0 * step * _GOLDEN, speed_m_s=3.0, activity=what
+        time_s=5.0 * (0.6180339887 * step % 1.0),
+        distance_m=6.0 * (0.7548776662 * step % 1.0),
+        speed_m_s=3.0,
+        activity=what,
     )
     for what in ("stand", "move", "run")
-    for step in range(9)
+    for step in range(12)
 )
 
 
@@ -57,7 +59,7 @@ class Figure:
         self._scale = float(scale)
         self._rigid = [_scaled(each, self._scale) for each in rigid]
         self._articulate = articulate
-        low, high = self._measure()
+        low, high = (self._scale * corner for corner in _measure(rigid, articulate))
         reach = np.maximum(np.abs(low), np.abs(high))
         self.length = float(2.0 * reach[0])
         self.width = float(2.0 * reach[1])
@@ -75,14 +77,17 @@ class Figure:
         )
         return [*self._rigid, *(_scaled(each, self._scale) for each in self._articulate(usual))]
 
-    def _measure(self) -> tuple[Affine, Affine]:
-        lows, highs = [], []
-        for pose in _SAMPLE_POSES if self._articulate is not None else _SAMPLE_POSES[:1]:
-            for each in self.parts(pose):
-                low, high = half_extents(each.shape, each.to_body)
-                lows.append(low)
-                highs.append(high)
-        return np.min(lows, axis=0), np.max(highs, axis=0)
+
+def _measure(rigid: Sequence[Part], articulate: Articulation | None) -> tuple[Affine, Affine]:
+    """Lowest and highest x, y, z that the parts reach, at the usual size, m."""
+    parts = list(rigid)
+    if articulate is not None:
+        for pose in _SAMPLE_POSES:
+            parts += articulate(pose)
+    corners = [half_extents(each.shape, each.to_body) for each in parts]
+    return np.min([low for low, _ in corners], axis=0), np.max(
+        [high for _, high in corners], axis=0
+    )
 
 
 def _scaled(each: Part, scale: float) -> Part:

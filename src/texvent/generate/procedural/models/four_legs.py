@@ -12,8 +12,10 @@ from texvent.generate.procedural.models.paint import BLACK, WHITE, Paint
 from texvent.generate.procedural.models.shaping import (
     Point,
     ball,
+    blade,
     limb,
     moved,
+    rod,
     shift,
     spike,
     turn_z,
@@ -112,15 +114,14 @@ def _offset(index: int, runs: bool) -> float:
 def _torso(build: Build, coat: Coat, sit: float) -> list[Part]:
     length, width, height = build.body
     z = build.shoulder - 0.5 * height
-    chest: Point = (0.26 * length, 0.0, z - 0.02 * height)
-    croup: Point = (-0.28 * length, 0.0, z + 0.02 * height - sit)
+    chest: Point = (0.24 * length, 0.0, z)
+    croup: Point = (-0.24 * length, 0.0, z - sit)
+    tall, wide = 0.5 * height, 0.5 * width
     parts = [
-        limb(coat.trunk, croup, chest, 0.46 * height, side_radius=0.47 * width),
-        limb(coat.trunk, _mid(croup, chest, 0.55), _ahead(chest, 0.08 * length), 0.50 * height,
-             side_radius=0.50 * width),
-        limb(coat.trunk, _ahead(croup, -0.06 * length), _mid(croup, chest, 0.35), 0.47 * height,
-             side_radius=0.48 * width),
-    ]  # fmt: skip
+        rod(coat.trunk, croup, chest, 0.96 * tall, side_radius=0.96 * wide),
+        _rounded(coat.trunk, chest, (0.52 * length, width, 1.04 * height)),
+        _rounded(coat.trunk, croup, (0.52 * length, width, height)),
+    ]
     if build.fleece:
         for x in (-0.3, 0.0, 0.3):
             for y in (0.26, -0.26):
@@ -139,13 +140,17 @@ def _torso(build: Build, coat: Coat, sit: float) -> list[Part]:
     return parts
 
 
+def _rounded(paint: Paint, middle: Point, size: Point) -> Part:
+    """An ellipsoid whose local z runs along the body, so that stripes ring it."""
+    x, y, z = middle
+    start, end = (x - 0.5 * size[0], y, z), (x + 0.5 * size[0], y, z)
+    across, upright = (0.0, size[1], 0.0), (0.0, 0.0, size[2])
+    return blade(paint, start, end, chord=across, thickness=upright)
+
+
 def _mid(a: Point, b: Point, share: float) -> Point:
     x, y, z = (p + share * (q - p) for p, q in zip(a, b, strict=True))
     return (x, y, z)
-
-
-def _ahead(a: Point, x: float) -> Point:
-    return (a[0] + x, a[1], a[2])
 
 
 def _neck_and_head(build: Build, coat: Coat, beat: float, wag: float) -> list[Part]:
@@ -305,14 +310,14 @@ def _leg(
     top: Point = (root_x, y, build.shoulder - 0.52 * height + rise - low)
     ahead = 0.28 * length if sit > 0.0 and not is_fore else 0.0
     ankle: Point = (root_x + x + ahead, y, 0.8 * thick + lift)
-    half = (0.50 + 0.035 / build.thick) * (build.shoulder - 0.48 * height)
+    half = (0.50 + 0.02 / build.thick) * (build.shoulder - 0.52 * height - 0.8 * thick)
     towards = (1.0, 0.0, 0.0) if is_fore else (-1.0, 0.0, 0.0)
     if sit > 0.0 and not is_fore:
         towards = (1.0, 0.0, 1.0)
     knee = bend(top, ankle, half, half, towards)
     toe = (ankle[0] + 1.1 * thick, y, ankle[2])
     return [
-        limb(coat.limbs, top, knee, 1.9 * thick if not is_fore else 1.6 * thick),
+        limb(coat.limbs, top, knee, (1.2 + (0.4 if is_fore else 0.7) / build.thick) * thick),
         limb(coat.limbs, knee, ankle, 0.95 * thick),
         limb(coat.hoof, ankle, toe, 0.8 * thick),
     ]

@@ -100,7 +100,7 @@ def build_train(*, colour: Colour | None, scale: float, seed: int) -> Figure:
             box(roof, (x, 0.0, 3.55), (8.2, 2.5, 0.34)),
             box(GLASS, (x, 0.0, 2.95), (7.9, 2.7, 0.85)),
             box(band, (x, 0.0, 1.90), (8.42, 2.84, 0.22)),
-            *(box(body, (x - 3.9 + 1.95 * i, 0.0, 2.95), (0.55, 2.8, 0.88)) for i in range(5)),
+            *(box(body, (x - 3.9 + 2.6 * i, 0.0, 2.95), (0.55, 2.8, 0.88)) for i in range(4)),
             box(DARK, (x, 0.0, 0.70), (7.4, 1.9, 0.45)),
         ]
         if index < 2:
@@ -113,7 +113,7 @@ def build_train(*, colour: Colour | None, scale: float, seed: int) -> Figure:
         box(STEEL, (0.0, -0.75, 0.06), (29.0, 0.14, 0.12)),
     ]
     axles = (11.4, 6.6, 2.4, -2.4, -6.6, -11.4)
-    wheels = [Wheel((x, y, 0.56), 0.45, 0.16) for x in axles for y in (0.85, -0.85)]
+    wheels = [Wheel((x, 0.0, 0.57), 0.45, 1.86) for x in axles]
     return _rolling(rigid, wheels, scale)
 
 

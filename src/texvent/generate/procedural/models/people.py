@@ -21,11 +21,11 @@ from texvent.generate.procedural.models.paint import (
 from texvent.generate.procedural.models.shaping import Point, ball, limb, peak
 from texvent.generate.procedural.models.variation import choose
 
-WALK = Gait(stride=1.40, duty=0.60, lift=0.14)
+WALK = Gait(stride=1.25, duty=0.60, lift=0.12)
 RUN = Gait(stride=2.40, duty=0.34, lift=0.32)
 
-_THIGH, _SHIN, _ANKLE = 0.44, 0.44, 0.08
-_HIP, _HIP_SIDE = 0.93, 0.10
+_THIGH, _SHIN, _ANKLE = 0.43, 0.43, 0.08
+_HIP, _HIP_SIDE = 0.95, 0.10
 UPPER_ARM, FOREARM = 0.29, 0.27
 
 
@@ -131,8 +131,8 @@ def draw_torso(look: Look, outfit: Outfit, hips: Point, neck: Point) -> list[Par
         ball(outfit.shirt, (neck[0], neck[1], neck[2] - 0.12), (0.22, 0.43, 0.24)),
     ]
     if look.dress == "skirt":
-        skirt = (hips[0] + 0.02, hips[1], hips[2] - 0.11)
-        parts.append(peak(outfit.shirt, skirt, (0.84, 0.62, 0.86)))
+        skirt = (hips[0] + 0.02, hips[1], hips[2] - 0.02)
+        parts.append(peak(outfit.shirt, skirt, (0.74, 0.62, 1.00)))
     if look.hat == "helmet":
         band = Paint((0.75, 0.75, 0.3), emission=0.2)
         parts.append(ball(band, (waist[0], waist[1], waist[2] + 0.04), (0.265, 0.36, 0.09)))
@@ -167,17 +167,18 @@ def _person(
     distance, amount, sits = stepping
     runs = gait is RUN
     turn = 2.0 * math.pi * distance / gait.stride
-    bob = amount * (0.045 if runs else 0.018) * math.cos(2.0 * turn - (1.0 if runs else 0.6))
-    drop = amount * (0.055 if runs else 0.045)
-    hip_z = 0.50 if sits else _HIP - drop + bob
+    # A walker is highest in mid-stance, a runner lowest; legs are nearly straight at both.
+    bob = -0.03 * math.cos(2.0 * turn + 1.0) if runs else 0.03 * math.cos(2.0 * turn - 0.63)
+    drop = 0.05 if runs else 0.02
+    hip_z = 0.50 if sits else _HIP + amount * (bob - drop)
     lean = amount * (0.16 if runs else 0.04)
     hips: Point = (0.0, 0.0, hip_z)
-    neck: Point = (lean * 0.54, 0.0, hip_z + 0.54)
+    neck: Point = (lean * 0.52, 0.0, hip_z + 0.52)
     parts = [*draw_torso(look, outfit, hips, neck), *draw_head(look, outfit, neck)]
     for side, offset in ((1.0, 0.0), (-1.0, 0.5)):
         parts += _leg_at(outfit, gait, (hip_z, side), (distance, offset, amount), sits)
         # Each arm swings with the opposite leg.
-        swing = -amount * (0.75 if runs else 0.42) * math.sin(turn + 2.0 * math.pi * offset + 1.57)
+        swing = amount * (0.75 if runs else 0.42) * math.sin(turn + 2.0 * math.pi * offset)
         fold = 0.12 + amount * (1.45 if runs else 0.18)
         if sits:
             swing, fold = 0.55, 0.9

@@ -140,7 +140,7 @@ def build_cactus(*, colour: Colour | None, scale: float, seed: int) -> Figure:
     skin = mottled(colour if colour is not None else (0.07, 0.20, 0.07), contrast=0.3, scale=6.0)
     arm = between(seed, "arm", 1.2, 1.5)
     rigid = [
-        limb(skin, (0.0, 0.0, -0.1), (0.0, 0.0, 2.9), 0.30),
+        limb(skin, (0.0, 0.0, 0.2), (0.0, 0.0, 2.9), 0.30),
         rod(skin, (0.0, 0.0, 0.0), (0.0, 0.0, 2.2), 0.28),
         limb(skin, (0.0, 0.1, arm), (0.0, 0.8, arm), 0.17),
         limb(skin, (0.0, 0.8, arm - 0.05), (0.0, 0.85, arm + 1.0), 0.18),

@@ -146,7 +146,7 @@ ELEPHANT = Animal(
         (0.95, 0.10),
         tail=(0.90, -1.3),
         ear=(0.95, "fan"),
-        stride=3.0,
+        stride=2.4,
         thick=2.2,
         trunk=1.9,
         horns="tusks",

@@ -62,9 +62,12 @@ def peak(paint: Paint, centre: Point, size: Point) -> Part:
     return part(Shape.CONE, paint, _upright(centre, size))
 
 
-def rod(paint: Paint, start: Point, end: Point, radius: float) -> Part:
-    """A cylinder from one point to another."""
-    return part(Shape.CYLINDER, paint, _between(start, end, radius, radius, 0.0))
+def rod(
+    paint: Paint, start: Point, end: Point, radius: float, *, side_radius: float | None = None
+) -> Part:
+    """A cylinder from one point to another; `side_radius` is its half thickness along y."""
+    side = radius if side_radius is None else side_radius
+    return part(Shape.CYLINDER, paint, _between(start, end, radius, side, 0.0))
 
 
 def limb(

@@ -74,8 +74,8 @@ def build_insect(kind: Insect, *, colour: Colour | None, scale: float, seed: int
     ]
     for side in (1.0, -1.0):
         start: Point = (0.44 * length, side * 0.2 * thick, 0.4 * thick)
-        end: Point = (0.66 * length, side * 1.4 * thick, 1.4 * thick)
-        rigid.append(limb(Paint(BLACK), start, end, 0.06 * thick + 0.001))
+        end: Point = (0.62 * length, side * 0.6 * thick, 0.9 * thick)
+        rigid.append(limb(Paint(BLACK), start, end, 0.02 * thick + 0.0005))
     phase = fraction(seed, "flap")
 
     def articulate(pose: Pose) -> list[Part]:

@@ -135,7 +135,7 @@ def _leg(kind: Strider, side: float, foot: tuple[float, float], bob: float) -> l
     legs = Paint(kind.legs)
     toes: Point = (x + 0.13 * kind.hip, y, thick + lift)
     return [
-        limb(legs, hip, heel, 2.2 * thick),
+        limb(legs, hip, heel, 2.8 * thick),
         limb(legs, heel, ankle, 1.1 * thick),
         limb(legs, ankle, toes, thick),
     ]
