@@ -1,0 +1,126 @@
+from __future__ import annotations
+
+import base64
+import html
+import json
+import re
+import webbrowser
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from texvent.errors import OutputError
+from texvent.events import EventPackets, EventStream
+from texvent.sensor import SensorSize
+from texvent.view.page import PageWriter, show
+
+SIZE = SensorSize(40, 30)
+HOSTILE = '</script><script>alert("x")</script> {{data}} &amp; <img src=https://example.org/x>'
+
+
+def make_events(count: int, metadata: dict[str, object] | None = None) -> EventStream:
+    step = np.arange(count)
+    return EventStream(step % 40, step % 30, 1_000 + step * 100, step % 2, SIZE, metadata or {})
+
+
+def data_of(page: str) -> dict[str, object]:
+    found = re.search(r'<script type="application/json" id="data">(.*?)</script>', page, re.DOTALL)
+    assert found is not None
+    data: dict[str, object] = json.loads(found[1])
+    return data
+
+
+def column(data: dict[str, object], name: str, dtype: str) -> np.ndarray:
+    return np.frombuffer(base64.b64decode(str(data[name])), dtype)
+
+
+def test_the_page_holds_the_events_and_the_facts(tmp_path: Path) -> None:
+    events = make_events(500, {"prompt": "two trees", "seed": 0, "settings": {"alpha": 30}})
+    page = show(events, tmp_path / "out.html").read_text("utf-8")
+    data = data_of(page)
+    assert (data["width"], data["height"], data["count"]) == (40, 30, 500)
+    assert (data["start_us"], data["duration_us"]) == (1_000, 49_900)
+    np.testing.assert_array_equal(
+        column(data, "xy", "<u2").reshape(-1, 2), np.stack([events.x, events.y], axis=1)
+    )
+    np.testing.assert_array_equal(column(data, "p", "u1"), events.p)
+    shares = column(data, "t", "<f4")
+    np.testing.assert_allclose(shares * 49_900 + 1_000, events.t, atol=0.01)
+    for text in ("two trees", "Seed", "Sensor", "alpha"):
+        assert text in page
+    assert "Shows all 500 events." in page
+    assert "500 (50.0% ON)" in page
+
+
+def test_a_sample_is_announced_with_both_numbers(tmp_path: Path) -> None:
+    with PageWriter(tmp_path / "out.html", size=SIZE, sample_limit=100) as writer:
+        for start in range(0, 1000, 130):
+            writer.append(make_events(1000)[start : start + 130])
+    page = (tmp_path / "out.html").read_text("utf-8")
+    assert "Shows 100 of 1,000 events, drawn uniformly at random" in page
+    assert data_of(page)["count"] == 100
+
+
+def test_nothing_is_asked_of_any_server(tmp_path: Path) -> None:
+    page = show(make_events(50, {"prompt": "a car"}), tmp_path / "out.html").read_text("utf-8")
+    assert not re.search(r"https?:|//[a-z]+\.|@import|url\(|fetch\(|XMLHttp|WebSocket", page)
+    assert "default-src 'none'" in page
+    assert not re.search(r"\{\{\w+\}\}", page), "every placeholder is filled"
+
+
+def test_text_from_the_user_stays_text(tmp_path: Path) -> None:
+    metadata = {"prompt": HOSTILE, HOSTILE: HOSTILE, "nested": {HOSTILE: [HOSTILE]}}
+    page = show(make_events(50, metadata), tmp_path / "out.html").read_text("utf-8")
+    plain = show(make_events(50, {"prompt": "x"}), tmp_path / "plain.html").read_text("utf-8")
+    assert page.count("<script") == plain.count("<script") == 2
+    assert "<img src=https" not in page
+    assert html.escape(HOSTILE) in page, "a placeholder inside user text is not filled"
+
+
+def test_no_events_still_give_a_page(tmp_path: Path) -> None:
+    page = show(EventStream.empty(SIZE), tmp_path / "out.html").read_text("utf-8")
+    assert data_of(page)["count"] == 0
+    assert "No events." in page
+
+
+def test_the_rate_curve_is_drawn_without_any_script(tmp_path: Path) -> None:
+    page = show(make_events(500), tmp_path / "out.html").read_text("utf-8")
+    areas = dict(re.findall(r'class="(on|off)-area" d="M0 100V([\d.]+)H', page))
+    # ON goes up (smaller y), OFF goes down.
+    assert float(areas["on"]) < 100 < float(areas["off"])
+
+
+def test_packets_of_a_file_are_shown_without_collecting_them(tmp_path: Path) -> None:
+    parts = (make_events(100)[start : start + 10] for start in range(0, 100, 10))
+    page = show(EventPackets(parts, SIZE, {"prompt": "p"}), tmp_path / "out.html")
+    assert data_of(page.read_text("utf-8"))["count"] == 100
+
+
+def test_an_existing_page_is_kept_and_an_exception_leaves_none(
+    tmp_path: Path, folder_is_clean: Callable[[], bool]
+) -> None:
+    def interrupt() -> None:
+        with PageWriter(tmp_path / "out.html", size=SIZE) as writer:
+            writer.append(make_events(5))
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        interrupt()
+    assert folder_is_clean()
+    path = show(make_events(5), tmp_path / "out.html")
+    with pytest.raises(OutputError, match="exists already"):
+        show(make_events(5), path)
+
+
+def test_without_a_path_the_browser_opens_a_temporary_page(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    opened: list[str] = []
+    monkeypatch.setattr(webbrowser, "open", opened.append)
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    monkeypatch.setattr("tempfile.tempdir", None)
+    page = make_events(5).show()
+    assert opened == [page.as_uri()]
+    assert page.is_relative_to(tmp_path)

@@ -1,0 +1,93 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+
+import av
+import cv2
+import pytest
+
+from texvent.errors import ConfigError, InputError, OutputError
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+from texvent.video import Frame
+from texvent.view.preview import Preview
+
+SIZE = SensorSize(32, 24)
+Steps = list[tuple[Frame, EventStream]]
+
+
+def write_preview(stem: Path, steps: Steps, **options: object) -> Preview:
+    with Preview(stem, size=SIZE, fps=Fraction(30), **options) as preview:
+        for frame, packet in steps:
+            preview.append(frame, packet)
+    return preview
+
+
+def test_film_picture_and_page_appear_beside_the_stem(tmp_path: Path, steps: Steps) -> None:
+    preview = write_preview(
+        tmp_path / "out.v1", steps, metadata={"prompt": "a bar moves right", "seed": 0}
+    )
+    names = sorted(path.name for path in tmp_path.iterdir())
+    assert names == ["out.v1.html", "out.v1.mp4", "out.v1.png"]
+    assert sorted(path.name for path in preview.paths) == names
+    with av.open(str(tmp_path / "out.v1.mp4")) as film:
+        assert len(list(film.decode(video=0))) == 5
+    assert cv2.imread(str(tmp_path / "out.v1.png")) is not None
+    page = (tmp_path / "out.v1.html").read_text("utf-8")
+    assert "data:image/png;base64," in page
+    assert "a bar moves right" in page
+    assert f"{sum(len(packet) for _, packet in steps):,} events" in page
+
+
+def test_only_the_kinds_asked_for_are_written(tmp_path: Path, steps: Steps) -> None:
+    write_preview(tmp_path / "out", steps, kinds=("gif",))
+    assert [path.name for path in tmp_path.iterdir()] == ["out.gif"]
+
+
+def test_one_frame_gives_all_previews(tmp_path: Path, steps: Steps) -> None:
+    preview = write_preview(tmp_path / "out", steps[:1])
+    assert all(path.stat().st_size > 500 for path in preview.paths)
+
+
+def test_no_frame_is_an_input_error_and_leaves_nothing(
+    tmp_path: Path, folder_is_clean: Callable[[], bool]
+) -> None:
+    with pytest.raises(InputError, match="no frame was given"):
+        write_preview(tmp_path / "out", [])
+    assert folder_is_clean()
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt, RuntimeError])
+def test_an_exception_midway_leaves_nothing(
+    tmp_path: Path,
+    steps: Steps,
+    folder_is_clean: Callable[[], bool],
+    error: type[BaseException],
+) -> None:
+    def interrupt() -> None:
+        with Preview(tmp_path / "out", size=SIZE, fps=None) as preview:
+            preview.append(*steps[0])
+            preview.append(*steps[1])
+            raise error
+
+    with pytest.raises(error):
+        interrupt()
+    assert folder_is_clean()
+
+
+def test_every_output_is_checked_before_any_work(tmp_path: Path, steps: Steps) -> None:
+    (tmp_path / "out.png").write_bytes(b"old")
+    with pytest.raises(OutputError, match=r"out\.png exists already"):
+        Preview(tmp_path / "out", size=SIZE, fps=None)
+    assert [path.name for path in tmp_path.iterdir()] == ["out.png"]
+    write_preview(tmp_path / "out", steps, overwrite=True)
+    assert (tmp_path / "out.png").read_bytes() != b"old"
+
+
+def test_unknown_kinds_and_palettes_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match=r"unknown preview 'mp5'.*did you mean 'mp4'"):
+        Preview(tmp_path / "out", size=SIZE, fps=None, kinds=("mp5",))
+    with pytest.raises(ConfigError, match="unknown palette"):
+        Preview(tmp_path / "out", size=SIZE, fps=None, palette="sepia")

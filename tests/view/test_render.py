@@ -1,0 +1,111 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+
+import av
+import cv2
+import numpy as np
+import pytest
+
+from texvent.errors import ConfigError, InputError
+from texvent.events import EventPackets, EventStream
+from texvent.sensor import SensorSize
+from texvent.view.render import RenderConfig, render_events
+
+SIZE = SensorSize(32, 24)
+
+
+def moving_dot(seconds: float = 0.5) -> EventStream:
+    t = np.arange(0, int(seconds * 1e6), 500)
+    return EventStream(t // 20_000 % 32, t // 500 % 24, t + 7, t // 500 % 2, SIZE)
+
+
+def film_times(path: Path) -> list[int]:
+    with av.open(str(path)) as film:
+        return [round(one.pts * one.time_base * 1_000_000) for one in film.decode(video=0)]
+
+
+def test_a_film_shows_all_events_at_the_asked_rate(tmp_path: Path) -> None:
+    path = render_events(
+        moving_dot(), tmp_path / "out.mp4", config=RenderConfig(render_fps=Fraction(24))
+    )
+    assert film_times(path) == [round(index * 1_000_000 / 24) for index in range(12)]
+
+
+def test_slow_motion_gives_proportionally_more_pictures(tmp_path: Path) -> None:
+    path = render_events(moving_dot(), tmp_path / "out.mp4", config=RenderConfig(speed=0.25))
+    assert len(film_times(path)) == 60
+
+
+def test_a_gif_is_written_by_extension(tmp_path: Path) -> None:
+    path = render_events(moving_dot(0.2), tmp_path / "out.gif")
+    assert path.read_bytes()[:6] == b"GIF89a"
+
+
+def test_a_picture_shows_the_liveliest_window(tmp_path: Path) -> None:
+    quiet, busy = moving_dot(0.2), moving_dot(0.01)
+    burst = EventStream(
+        np.repeat(busy.x, 9), np.repeat(busy.y, 9), np.repeat(busy.t, 9), np.ones(180, int), SIZE
+    )
+    later = EventStream(burst.x, burst.y, burst.t + 400_000, burst.p, SIZE)
+    path = render_events(EventPackets([quiet, later], SIZE), tmp_path / "out.png")
+    picture = cv2.imread(str(path))
+    # ON is blue; OpenCV's order is blue, green, red.
+    assert (picture == (255, 0, 0)).all(axis=2).sum() > 100
+    legend_only = (picture == (0, 0, 255)).all(axis=2).sum()
+    assert legend_only < 400, "the burst has no OFF event, so red is in the legend alone"
+
+
+@pytest.mark.parametrize("panels", [2, 5, 9])
+def test_a_contact_sheet_shows_moments_in_reading_order(tmp_path: Path, panels: int) -> None:
+    path = render_events(
+        moving_dot(), tmp_path / "out.png", config=RenderConfig(panels=panels, palette="v2e")
+    )
+    assert cv2.imread(str(path)).shape[1] > 600
+
+
+def test_a_page_is_written_by_extension(tmp_path: Path) -> None:
+    page = render_events(moving_dot(), tmp_path / "out.html").read_text("utf-8")
+    assert "1,000 events" in page
+    assert "data:image/png" in page
+
+
+@pytest.mark.parametrize("extension", [".mp4", ".gif", ".png"])
+def test_no_events_are_an_input_error(
+    tmp_path: Path, extension: str, folder_is_clean: Callable[[], bool]
+) -> None:
+    with pytest.raises(InputError, match="holds no events"):
+        render_events(EventStream.empty(SIZE), tmp_path / f"out{extension}")
+    assert folder_is_clean()
+
+
+@pytest.mark.parametrize("panels", [1, 4])
+def test_one_event_can_be_shown_in_every_way(tmp_path: Path, panels: int) -> None:
+    event = EventStream.from_columns([3], [4], [10**12], [1], size=SIZE)
+    for extension in (".mp4", ".gif", ".png", ".html"):
+        path = render_events(
+            event, tmp_path / f"{panels}{extension}", config=RenderConfig(panels=panels)
+        )
+        assert path.stat().st_size > 300
+
+
+def test_other_extensions_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match=r"must end in \.mp4, \.gif, \.png, \.html"):
+        render_events(moving_dot(), tmp_path / "out.webm")
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"speed": 0.0}, "speed is 0"),
+        ({"window": 0.0}, "window is 0"),
+        ({"panels": 0}, "panels is 0"),
+        ({"render_fps": Fraction(0)}, "render_fps is 0"),
+        ({"palette": "sepia"}, "unknown palette"),
+    ],
+)
+def test_options_out_of_range_are_refused(options: dict[str, object], message: str) -> None:
+    with pytest.raises(ConfigError, match=message):
+        RenderConfig(**options)

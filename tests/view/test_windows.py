@@ -1,0 +1,87 @@
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.errors import ConfigError
+from texvent.events import EventPackets, EventStream
+from texvent.sensor import SensorSize
+from texvent.view.windows import cut_windows, still_window_us, time_range
+
+SIZE = SensorSize(4, 4)
+
+
+def at_times(*times: int) -> EventStream:
+    zeros = [0] * len(times)
+    return EventStream.from_columns(zeros, zeros, list(times), zeros, size=SIZE)
+
+
+def counted(events: list[EventStream], step: Fraction, window: int) -> list[tuple[int, int, int]]:
+    return [
+        (one.start_us, one.stop_us, one.event_count)
+        for one in cut_windows(events, size=SIZE, step_us=step, window_us=window)
+    ]
+
+
+def test_windows_by_hand_from_the_first_event_on() -> None:
+    events = [at_times(100, 105, 110), at_times(110, 119, 131)]
+    assert counted(events, Fraction(10), 10) == [
+        (100, 110, 2),
+        (110, 120, 3),
+        (120, 130, 0),
+        (130, 140, 1),
+    ]
+
+
+def test_windows_may_overlap_or_leave_gaps() -> None:
+    events = [at_times(0, 5, 10, 15, 20)]
+    assert [n for *_, n in counted(events, Fraction(10), 20)] == [4, 3, 1]
+    assert [n for *_, n in counted(events, Fraction(10), 1)] == [1, 1, 1]
+
+
+@settings(deadline=None)
+@given(
+    times=st.lists(st.integers(0, 3000), min_size=1, max_size=40).map(sorted),
+    cut=st.integers(0, 40),
+    step=st.fractions(Fraction(50, 3), 900, max_denominator=7),
+)
+def test_windows_side_by_side_hold_every_event_once(
+    times: list[int], cut: int, step: Fraction
+) -> None:
+    window = round(step)
+    found = counted([at_times(*times[:cut]), at_times(*times[cut:])], step, window)
+    for index, (start, stop, count) in enumerate(found):
+        assert start == times[0] + round(index * step)
+        assert count == sum(start <= t < stop for t in times)
+    if step.denominator == 1:
+        assert sum(count for *_, count in found) == len(times)
+
+
+def test_no_event_gives_no_window() -> None:
+    assert counted([EventStream.empty(SIZE)], Fraction(10), 10) == []
+    assert time_range(EventPackets([EventStream.empty(SIZE)], SIZE)) is None
+
+
+def test_the_range_is_half_open_over_all_packets() -> None:
+    packets = EventPackets([at_times(7, 8), EventStream.empty(SIZE), at_times(9)], SIZE)
+    assert time_range(packets) == (7, 10)
+
+
+def test_a_window_that_is_not_above_zero_is_refused() -> None:
+    with pytest.raises(ConfigError, match="both must be above 0"):
+        counted([at_times(1)], Fraction(10), 0)
+
+
+@pytest.mark.parametrize(("span", "window"), [(10**7, 40_000), (500_000, 10_000), (3, 1)])
+def test_stills_gather_a_fiftieth_but_at_most_40_ms(span: int, window: int) -> None:
+    assert still_window_us((5, 5 + span)) == window
+
+
+def test_memory_holds_one_window_and_one_packet() -> None:
+    packets = (at_times(*np.arange(start, start + 100)) for start in range(0, 10_000, 100))
+    sizes = [n for *_, n in counted(list(packets), Fraction(50), 50)]
+    assert sizes == [50] * 200
