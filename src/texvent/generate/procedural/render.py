@@ -20,11 +20,18 @@ from texvent.generate.procedural.raycast.tile import draw_tile_row
 from texvent.sensor import SensorSize
 
 
-def look(scene: Scene, time_s: float, size: SensorSize, *, shadows: bool = True) -> World:
+def look(
+    scene: Scene, time_s: float, size: SensorSize, *, shadows: bool = True, samples: int = 2
+) -> World:
     """What the kernels read about one instant of a scene."""
     rays = camera_rays(scene.camera(time_s), size)
     return arrange_world(
-        scene.primitives(time_s), scene.environment(time_s), rays, size, shadows=shadows
+        scene.primitives(time_s),
+        scene.environment(time_s),
+        rays,
+        size,
+        shadows=shadows,
+        samples=samples,
     )
 
 
@@ -58,7 +65,7 @@ def render(
     """
     if samples < 1:
         raise InputError(f"samples is {samples}; it must be at least 1")
-    world = look(scene, time_s, size, shadows=shadows)
+    world = look(scene, time_s, size, shadows=shadows, samples=samples)
     rows = -(-size.height // TILE)
     picture = np.empty((size.height, size.width, 3), dtype=np.float64)
     pattern = sample_pattern((2 * samples) ** 2)

@@ -30,12 +30,18 @@ from texvent.sensor import SensorSize
 
 TILE = 16
 """Side of a screen tile, pixels."""
-SUN_CELLS = 64
+SUN_CELLS = 96
 """Cells along each side of the sun grid."""
 NEAR_M = 0.02
 """Nothing nearer to the camera than this is seen, metres."""
-THIN_PX = 1.5
-"""Shapes whose half-thickness is below this many pixels are looked for with a wider net."""
+WINDOW_MARGIN_PX = 2.0
+"""Added around the part of the picture where a shape may be seen: room for widened thin shapes."""
+THIN_PROBES = 0.8
+"""Shapes whose half-thickness is below this many probe distances could slip between the probes;
+they are looked for with a wider net."""
+BIG_SHARE = 1.0
+"""Shadow casters wider than this share of all others' extent are tested everywhere, so that a
+mountain does not make the sun grid's cells too large for a fence."""
 IntArray = NDArray[np.int64]
 _CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=np.float64)
 
@@ -141,8 +147,18 @@ def arrange_world(
     size: SensorSize,
     *,
     shadows: bool,
+    samples: int,
 ) -> World:
-    """Everything the kernels need to draw one instant."""
+    """Everything the kernels need to draw one instant.
+
+    Args:
+        primitives: the shapes.
+        environment: the surroundings.
+        rays: the camera's rays.
+        size: picture size, pixels.
+        shadows: False turns shadows off.
+        samples: probes per pixel side.
+    """
     instant = np.zeros(1, dtype=INSTANT_RECORD)
     shapes = np.zeros(len(primitives.shape), dtype=SHAPE_RECORD)
     describe_rays(instant[0], rays)
@@ -155,11 +171,19 @@ def arrange_world(
     shapes["eye"] = inverse[:, :, :3] @ rays.origin + inverse[:, :, 3]
     shapes["sun"] = inverse[:, :, :3] @ instant["sun"][0]
     shapes["depth"] = depth
-    shapes["shrink"] = _shrink_factors(primitives, rays)
+    shapes["window"] = bounds + WINDOW_MARGIN_PX * np.array([-1.0, 1.0, -1.0, 1.0])
+    wanted = _wanted_widths(primitives, rays, THIN_PROBES / samples)
+    half = np.linalg.norm(primitives.to_world[:, :, :3], axis=1)
+    shapes["shrink"] = np.minimum(half / wanted[:, None], 1.0)
     shapes["is_thin"] = (shapes["shrink"] < 1.0).any(axis=1)
-    tiles = _tile_lists(bounds, depth, exists, size)
+    tiles = _tile_lists(shapes["window"], depth, exists, size)
+    sun = instant["sun"][0]
+    plane = _sun_plane(sun)
+    margin = np.where(shapes["is_thin"], 2.0 * wanted, 0.0)
+    shapes["sun_window"] = _sun_windows(primitives, np.vstack([plane, sun]), margin)
     casts = np.flatnonzero(exists & (np.asarray(primitives.emission) <= 0.0))
-    sun_cells, instant[0]["sun_axes"] = _sun_lists(primitives, casts, instant["sun"][0])
+    sun_cells, grid = _sun_lists(shapes["sun_window"], casts)
+    instant["sun_plane"], instant["sun_grid"] = plane, grid
     instant["tile_columns"], instant["tile_rows"] = tiles.columns, tiles.rows
     instant["sun_cells"] = len(tiles.start)
     lamps = np.ascontiguousarray(np.asarray(environment.lamps, dtype=np.float64).reshape(-1, 7))
@@ -174,51 +198,77 @@ def _join_lists(first: Bins, second: Bins) -> NDArray[np.int32]:
 
 
 def _tile_lists(
-    bounds: Float64Array, depth: Float64Array, exists: NDArray[np.bool_], size: SensorSize
+    windows: Float64Array, depth: Float64Array, exists: NDArray[np.bool_], size: SensorSize
 ) -> Bins:
     """The shapes that may be seen in each screen tile, front to back."""
-    seen = np.flatnonzero(exists & (bounds[:, 0] <= bounds[:, 1]))
+    seen = np.flatnonzero(exists & (windows[:, 0] <= windows[:, 1]))
     order = seen[np.argsort(depth[seen], kind="stable")]
-    margin = np.array([-2.0, 2.0, -2.0, 2.0])
-    rectangles = np.floor((bounds[order] + margin) / TILE).astype(np.int64)
+    rectangles = np.floor(windows[order] / TILE).astype(np.int64)
     return bin_rectangles(rectangles, order, -(-size.width // TILE), -(-size.height // TILE))
 
 
-def _shrink_factors(primitives: Primitives, rays: Rays) -> Float64Array:
-    """[n, 3] by how much each axis must shrink so that the shape spans `THIN_PX` pixels."""
-    half = np.linalg.norm(primitives.to_world[:, :, :3], axis=1)
+def _wanted_widths(primitives: Primitives, rays: Rays, pixels: float) -> Float64Array:
+    """[n] metres that `pixels` are at each shape's far end: half-thicknesses to be found."""
     distance = np.linalg.norm(primitives.to_world[:, :, 3] - rays.origin, axis=1)
-    wanted = THIN_PX * distance * np.linalg.norm(rays.right)
-    return np.asarray(np.minimum(half / np.maximum(wanted, 1e-12)[:, None], 1.0))
+    half = np.linalg.norm(primitives.to_world[:, :, :3], axis=1).max(axis=1)
+    return np.asarray(pixels * np.linalg.norm(rays.right) * (distance + half) + 1e-12)
 
 
-def _sun_lists(
-    primitives: Primitives, numbers: IntArray, sun: Float64Array
-) -> tuple[Bins, Float64Array]:
-    """The shapes that cast shadows, listed on a plane facing the sun, and the plane's axes.
-
-    Returns:
-        (lists, [2, 4] axes): the cell column and row of a world point are
-        axes[:, :3] · point + axes[:, 3].
-    """
+def _sun_plane(sun: Float64Array) -> Float64Array:
+    """[2, 3] two unit vectors at right angles to the sun's direction and to each other."""
     helper = np.eye(3)[np.argmin(np.abs(sun))]
     first = np.cross(sun, helper)
     first /= np.linalg.norm(first)
-    plane = np.stack([first, np.cross(sun, first)])
-    to_world = np.asarray(primitives.to_world, dtype=np.float64)[numbers]
-    middle = to_world[:, :, 3] @ plane.T
-    parts = np.einsum("ai,nij->naj", plane, to_world[:, :, :3])
-    round_shape = primitives.shape[numbers] == Shape.ELLIPSOID
-    reach = np.where(round_shape[:, None], np.linalg.norm(parts, axis=2), np.abs(parts).sum(axis=2))
-    low, high = middle - reach, middle + reach
-    if len(numbers):
-        corner, span = low.min(axis=0), np.maximum(high.max(axis=0) - low.min(axis=0), 1e-6)
-    else:
-        corner, span = np.zeros(2), np.ones(2)
-    scale = SUN_CELLS / (span * (1.0 + 1e-9))
-    cells = np.empty((len(numbers), 4), dtype=np.int64)
-    cells[:, ::2] = np.floor((low - corner) * scale - 1e-6)
-    cells[:, 1::2] = np.floor((high - corner) * scale + 1e-6)
-    bins = bin_rectangles(cells, numbers, SUN_CELLS, SUN_CELLS)
-    axes = np.concatenate([plane * scale[:, None], (-corner * scale)[:, None]], axis=1)
-    return bins, axes
+    return np.stack([first, np.cross(sun, first)])
+
+
+def _sun_windows(primitives: Primitives, axes: Float64Array, margin: Float64Array) -> Float64Array:
+    """[n, 5] bounds of the shapes along the sun plane's axes, and their top towards the sun.
+
+    Args:
+        primitives: the shapes.
+        axes: [3, 3] the sun plane's axes, and the direction towards the sun.
+        margin: [n] metres by which a thin shape may be widened.
+    """
+    to_world = np.asarray(primitives.to_world, dtype=np.float64)
+    middle = to_world[:, :, 3] @ axes.T
+    parts = np.einsum("ai,nij->naj", axes, to_world[:, :, :3])
+    is_round = (primitives.shape == Shape.ELLIPSOID)[:, None]
+    reach = np.where(is_round, np.linalg.norm(parts, axis=2), np.abs(parts).sum(axis=2))
+    low, high = middle - reach - margin[:, None], middle + reach + margin[:, None]
+    return np.stack([low[:, 0], high[:, 0], low[:, 1], high[:, 1], high[:, 2]], axis=1)
+
+
+def _sun_lists(windows: Float64Array, numbers: IntArray) -> tuple[Bins, Float64Array]:
+    """The shapes that cast shadows, listed by cells of the plane facing the sun.
+
+    Args:
+        windows: [n, 5] from `_sun_windows`.
+        numbers: the shapes that cast shadows.
+
+    Returns:
+        (lists, [4] corner of the grid in metres, then cells per metre). One more cell, the last,
+        lists the big shapes.
+    """
+    if not len(numbers):
+        empty = np.zeros(SUN_CELLS * SUN_CELLS + 2, dtype=np.int64)
+        return Bins(empty, numbers, SUN_CELLS, SUN_CELLS), np.array([0.0, 0.0, 1.0, 1.0])
+    low, high = windows[numbers, 0:4:2], windows[numbers, 1:4:2]
+    small = _small_casters(low, high)
+    corner = low[small].min(axis=0)
+    scale = SUN_CELLS / (np.maximum(high[small].max(axis=0) - corner, 1e-6) * (1.0 + 1e-9))
+    cells = np.empty((int(small.sum()), 4), dtype=np.int64)
+    cells[:, ::2] = np.floor((low[small] - corner) * scale - 1e-6)
+    cells[:, 1::2] = np.floor((high[small] - corner) * scale + 1e-6)
+    bins = bin_rectangles(cells, numbers[small], SUN_CELLS, SUN_CELLS)
+    items = np.concatenate([bins.items, numbers[~small]])
+    start = np.append(bins.start, len(items))
+    return Bins(start, items, SUN_CELLS, SUN_CELLS), np.concatenate([corner, scale])
+
+
+def _small_casters(low: Float64Array, high: Float64Array) -> NDArray[np.bool_]:
+    """Which shapes are small beside the extent of the others: [k] from [k, 2] bounds."""
+    width = (high - low).max(axis=1)
+    extent = np.quantile(high, 0.9, axis=0) - np.quantile(low, 0.1, axis=0)
+    small = width <= max(BIG_SHARE * float(extent.max()), float(np.median(width)))
+    return np.asarray(small, dtype=np.bool_)

@@ -15,7 +15,7 @@ from texvent.generate.procedural.raycast.noise import (
     square_wave,
 )
 from texvent.generate.procedural.raycast.records import Record
-from texvent.generate.procedural.raycast.sky import Colour, Foot, mix, triple
+from texvent.generate.procedural.raycast.sky import Colour, mix, triple
 
 _WHITE_PAINT = (0.75, 0.75, 0.72)
 _PAVEMENT = (0.34, 0.33, 0.32)
@@ -49,7 +49,7 @@ def _speckled(colour: Colour, x: float, y: float, footprint: float, contrast: fl
 def _asphalt(instant: Record, along: float, across: float, feet: Colour) -> Colour:
     """Carriageway with a dashed middle line and edge lines.
 
-    `feet` are metres that the sample covers along and across, and the pixel's longest side.
+    `feet` are metres that a pixel covers along and across, and the pixel's longest side.
     """
     half = instant.road[2]
     foot_along, foot_across, pixel = feet
@@ -61,7 +61,7 @@ def _asphalt(instant: Record, along: float, across: float, feet: Colour) -> Colo
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _road(instant: Record, x: float, y: float, foot: Foot) -> Colour:
+def _road(instant: Record, x: float, y: float, foot: Colour) -> Colour:
     """ROAD, DIRT_ROAD and CITY: a strip along `road`, and what lies beside it."""
     cosine, sine, half, x0, y0 = instant.road
     along = (x - x0) * cosine + (y - y0) * sine
@@ -72,8 +72,8 @@ def _road(instant: Record, x: float, y: float, foot: Foot) -> Colour:
         wobble = 0.35 * noise_2d(0.35 * along, 0.0, 3) + 0.12 * noise_2d(1.3 * along, 9.0, 4)
         soil = _speckled(triple(instant.second_colour), along, across, foot[2], 0.55)
         track = smooth(1.6 - abs(abs(across + 0.3 * wobble) - 0.85) / 0.35)
-        soil = _scaled(soil, 1.0 - 0.28 * track * keep(foot_across / (1.5 * foot[3])))
-        inside = smooth((half + wobble - abs(across)) / max(0.6, 1.5 * foot_across / foot[3]) + 0.5)
+        soil = _scaled(soil, 1.0 - 0.28 * track * keep(foot_across / 1.5))
+        inside = smooth((half + wobble - abs(across)) / max(0.6, 1.5 * foot_across) + 0.5)
         return mix(_meadow(instant, x, y, foot[2]), soil, inside)
     inside = band(across, -half, half, foot_across)
     if instant.ground == 2:
@@ -90,26 +90,26 @@ def _road(instant: Record, x: float, y: float, foot: Foot) -> Colour:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _floor(instant: Record, x: float, y: float, foot: Foot) -> Colour:
+def _floor(instant: Record, x: float, y: float, foot: Colour) -> Colour:
     """Boards along x."""
     row = math.floor(y / 0.22)
     shade = 0.5 + 0.5 * noise_2d(7.3 * row, 0.7 * x + 3.7 * row, 5)
-    shade = 0.5 + (shade - 0.5) * keep(foot[1] / (0.22 * foot[3]))
-    grain = fractal_2d(1.2 * x, 14.0 * y, 2, max(1.2 * foot[0], 14.0 * foot[1]) / foot[3])
+    shade = 0.5 + (shade - 0.5) * keep(foot[1] / 0.22)
+    grain = fractal_2d(1.2 * x, 14.0 * y, 2, max(1.2 * foot[0], 14.0 * foot[1]))
     colour = mix(triple(instant.colour), triple(instant.second_colour), shade)
     gap = band(y - 0.22 * row, 0.0, 0.012, foot[1]) + band(y - 0.22 * row, 0.22, 0.232, foot[1])
     return _scaled(colour, (1.0 + 0.15 * grain) * (1.0 - 0.55 * min(gap, 1.0)))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def ground_colour(instant: Record, x: float, y: float, foot: Foot) -> Colour:
+def ground_colour(instant: Record, x: float, y: float, foot: Colour) -> Colour:
     """Reflectance of the ground at (x, y), metres.
 
     Args:
         instant: the surroundings.
         x: metres east.
         y: metres north.
-        foot: what the sample stands for.
+        foot: metres that one pixel covers in x and in y, and the longest side of its patch.
     """
     kind = instant.ground
     if kind == 1:

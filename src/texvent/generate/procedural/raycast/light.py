@@ -93,7 +93,6 @@ def _reflected(
 def _shape_light(
     world: World,
     hit: tuple[float, int, int],
-    width: float,
     point: Colour,
     direction: Colour,
     is_lit: bool,
@@ -102,12 +101,10 @@ def _shape_light(
     instant = world.instant[0]
     depth, number, face = hit
     normal = surface_normal(world, number, face, point)
-    patch = surface_patch(instant, direction, depth, normal, width)
-    colour = surface_colour(world, number, face, point, patch, width)
+    patch = surface_patch(instant, direction, depth, normal)
+    colour = surface_colour(world, number, face, point, patch)
     view = _unit(direction)
-    red, green, blue = _reflected(
-        world, colour, point, normal, patch_extent(patch, width)[2], is_lit
-    )
+    red, green, blue = _reflected(world, colour, point, normal, patch_extent(patch)[2], is_lit)
     if is_lit:
         sun = instant.sun
         hx, hy, hz = sun[0] - view[0], sun[1] - view[1], sun[2] - view[2]
@@ -129,12 +126,12 @@ def _unit(v: Colour) -> Colour:
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _ground_light(
-    world: World, depth: float, width: float, point: Colour, direction: Colour, is_lit: bool
+    world: World, depth: float, point: Colour, direction: Colour, is_lit: bool
 ) -> Colour:
     """Light from the ground or the sea, which fade into the horizon."""
     instant = world.instant[0]
     up = (0.0, 0.0, 1.0)
-    foot = patch_extent(surface_patch(instant, direction, depth, up, width), width)
+    foot = patch_extent(surface_patch(instant, direction, depth, up))
     if instant.ground == _SEA:
         light = sea_light(instant, point, _unit(direction), foot)
     else:
@@ -146,9 +143,7 @@ def _ground_light(
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def light_at(
-    world: World, x: float, y: float, hit: tuple[float, int, int], is_lit: bool, width: float
-) -> Colour:
+def light_at(world: World, x: float, y: float, hit: tuple[float, int, int], is_lit: bool) -> Colour:
     """Linear light that reaches picture point (x, y).
 
     Args:
@@ -157,13 +152,12 @@ def light_at(
         y: pixels from the top.
         hit: depth, what was hit, and which face, from `first_hit`.
         is_lit: whether direct sunlight falls on it.
-        width: side of the square, in pixels, that this sample stands for.
     """
     instant = world.instant[0]
     depth, number, face = hit
     direction = ray_direction(instant, x, y)
     if number == SKY:
-        return _sky_light(instant, _unit(direction), width * instant.step)
+        return _sky_light(instant, _unit(direction), instant.step)
     point = (
         instant.origin[0] + depth * direction[0],
         instant.origin[1] + depth * direction[1],
@@ -171,12 +165,12 @@ def light_at(
     )
     distance = depth * math.sqrt(direction[0] ** 2 + direction[1] ** 2 + direction[2] ** 2)
     if number == GROUND:
-        light = _ground_light(world, depth, width, point, direction, is_lit)
+        light = _ground_light(world, depth, point, direction, is_lit)
     elif number == ROOM:
-        foot = width * depth * instant.step
+        foot = depth * instant.step
         colour = wall_colour(instant, point, face, foot)
         normal = surface_normal(world, ROOM, face, point)
         light = _reflected(world, colour, point, normal, foot, False)
     else:
-        light = _shape_light(world, hit, width, point, direction, is_lit)
+        light = _shape_light(world, hit, point, direction, is_lit)
     return _fogged(instant, light, distance)

@@ -29,11 +29,14 @@ INSTANT_RECORD = np.dtype(
         ("down", "f8", 3),
         ("step", "f8"),
         # Lists of shapes: screen tile c owns lists[lists[c] : lists[c + 1]], front to back; the sun
-        # grid's cells follow from `sun_cells` on. `sun_axes`: cell column and row of a point.
+        # grid's cells follow from `sun_cells` on; its last cell lists the big shapes.
+        # `sun_plane`: two axes facing the sun; `sun_grid`: corner of the grid along them (metres),
+        # then cells per metre.
         ("tile_columns", "i8"),
         ("tile_rows", "i8"),
         ("sun_cells", "i8"),
-        ("sun_axes", "f8", (2, 4)),
+        ("sun_plane", "f8", (2, 3)),
+        ("sun_grid", "f8", 4),
         # Surroundings: see primitives.Environment.
         ("ground", "i8"),
         ("colour", "f8", 3),
@@ -67,7 +70,11 @@ SHAPE_RECORD = np.dtype(
         ("eye", "f8", 3),  # the camera's position in unit-shape coordinates
         ("sun", "f8", 3),  # direction towards the sun in unit-shape coordinates
         ("shrink", "f8", 3),  # factors <= 1 that make a thin shape wide enough to find
+        ("window", "f8", 4),  # where it may be seen: lowest, highest x, lowest, highest y, pixels
         ("depth", "f8"),  # no point of the shape is nearer than this, metres
+        # What its shadow may fall on: lowest and highest place along each axis of the plane facing
+        # the sun, and highest place towards the sun, metres.
+        ("sun_window", "f8", 5),
         ("kind", "i8"),
         ("is_thin", "i8"),
         ("texture", "i8"),

@@ -11,10 +11,6 @@ from texvent.generate.procedural.raycast.noise import fractal_2d, lattice, smoot
 from texvent.generate.procedural.raycast.records import Record
 
 Colour = tuple[float, float, float]
-Foot = tuple[float, float, float, float]
-"""What a sample stands for on the ground: metres in x and in y, the longest side of the whole
-pixel, and the sample's own share of the pixel's side. Stripes and lines are averaged over the
-sample; noise fades by the whole pixel, so that one sample and the mean of many agree."""
 _STAR_CELLS = 26
 _CLOUD_SPEED = 0.012
 """Drift of the clouds, in cloud heights per second."""

@@ -9,7 +9,7 @@ from numba import njit
 from texvent.generate.procedural.primitives import Float64Array
 from texvent.generate.procedural.raycast.noise import keep, noise_3d, smooth, square_wave
 from texvent.generate.procedural.raycast.records import Record, World
-from texvent.generate.procedural.raycast.sky import Colour, Foot, mix, triple
+from texvent.generate.procedural.raycast.sky import Colour, mix, triple
 from texvent.generate.procedural.raycast.trace import Vector, local_point
 
 _STEEPEST = 0.04
@@ -18,43 +18,41 @@ _STEEPEST = 0.04
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def surface_patch(
-    instant: Record, direction: Vector, depth: float, normal: Vector, width: float
+    instant: Record, direction: Vector, depth: float, normal: Vector
 ) -> tuple[Vector, Vector]:
-    """Metres of surface that a sample stands for, to the right and down, as world vectors.
+    """Metres of surface from one pixel to the next, to the right and down, as world vectors.
 
     Args:
         instant: the camera.
         direction: of the ray, as `ray_direction`.
         depth: of the surface, metres.
         normal: unit normal of the surface.
-        width: side of the square, in pixels, that the sample stands for.
     """
     right, down = instant.right, instant.down
     facing = direction[0] * normal[0] + direction[1] * normal[1] + direction[2] * normal[2]
     facing = min(facing, -_STEEPEST)
     along = (right[0] * normal[0] + right[1] * normal[1] + right[2] * normal[2]) / facing
     below = (down[0] * normal[0] + down[1] * normal[1] + down[2] * normal[2]) / facing
-    size = width * depth
     return (
         (
-            size * (right[0] - along * direction[0]),
-            size * (right[1] - along * direction[1]),
-            size * (right[2] - along * direction[2]),
+            depth * (right[0] - along * direction[0]),
+            depth * (right[1] - along * direction[1]),
+            depth * (right[2] - along * direction[2]),
         ),
         (
-            size * (down[0] - below * direction[0]),
-            size * (down[1] - below * direction[1]),
-            size * (down[2] - below * direction[2]),
+            depth * (down[0] - below * direction[0]),
+            depth * (down[1] - below * direction[1]),
+            depth * (down[2] - below * direction[2]),
         ),
     )
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def patch_extent(patch: tuple[Vector, Vector], width: float) -> Foot:
-    """What a patch spans, as `Foot` says."""
+def patch_extent(patch: tuple[Vector, Vector]) -> Colour:
+    """Metres that a patch spans in x and in y, and its longest side."""
     (rx, ry, rz), (dx, dy, dz) = patch
     longest = max(rx * rx + ry * ry + rz * rz, dx * dx + dy * dy + dz * dz)
-    return abs(rx) + abs(dx), abs(ry) + abs(dy), math.sqrt(longest) / width, width
+    return abs(rx) + abs(dx), abs(ry) + abs(dy), math.sqrt(longest)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -64,7 +62,7 @@ def _row(m: Float64Array, row: int, v: Vector) -> float:
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def surface_colour(
-    world: World, number: int, face: int, point: Vector, patch: tuple[Vector, Vector], width: float
+    world: World, number: int, face: int, point: Vector, patch: tuple[Vector, Vector]
 ) -> Colour:
     """Reflectance of shape `number` at a world point, with its texture.
 
@@ -73,8 +71,7 @@ def surface_colour(
         number: shape number.
         face: face that was hit.
         point: metres.
-        patch: what the sample stands for there, from `surface_patch`.
-        width: side of the square, in pixels, that the sample stands for.
+        patch: what one pixel covers there, from `surface_patch`.
     """
     shape = world.shapes[number]
     plain = triple(shape.colour)
@@ -89,15 +86,15 @@ def surface_colour(
         scale * (abs(_row(m, 2, right)) + abs(_row(m, 2, down))),
     )
     scaled = (p[0] * scale, p[1] * scale, p[2] * scale)
-    share = _pattern(shape.texture, face, scaled, steps, width)
+    share = _pattern(shape.texture, face, scaled, steps)
     return mix(plain, triple(shape.second_colour), share)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _pattern(texture: int, face: int, p: Colour, steps: Colour, width: float) -> float:
+def _pattern(texture: int, face: int, p: Colour, steps: Colour) -> float:
     """Share of the second colour at texture coordinates `p`, averaged over `steps`."""
     if texture == 1:
-        foot = max(steps[0], steps[1], steps[2]) / width
+        foot = max(steps[0], steps[1], steps[2])
         total = 0.62 * keep(2.0 * foot) * noise_3d(2.0 * p[0], 2.0 * p[1], 2.0 * p[2])
         fine = keep(4.6 * foot)
         if fine > 0.0:

@@ -3,7 +3,7 @@
 Edges matter most: a pixel that jumps as an edge passes fires false events. So every pixel is first
 probed on a fine lattice for *what* is there. Where all probes agree, one shaded sample is exact
 enough, because textures are already averaged over the pixel; where they differ, or something thin
-is near, the pixel is the mean of many samples, no two of them in the same row or column.
+is near, many samples, no two of them in the same row or column, say what share each surface has.
 """
 
 from __future__ import annotations
@@ -52,13 +52,14 @@ def _is_lit(world: World, x: float, y: float, hit: tuple[float, int, int]) -> tu
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _probe(world: World, x: float, y: float) -> int:
-    """What is at picture point (x, y), as one number: surface, face, and lit or not."""
+def _probe(world: World, x: float, y: float) -> tuple[int, bool]:
+    """What is at picture point (x, y), and whether something thin is near.
+
+    What is there is one number: surface, face, and lit or not.
+    """
     depth, number, face, thin = first_hit(world, x, y)
     lit, thin_shadow = _is_lit(world, x, y, (depth, number, face))
-    if thin or thin_shadow:
-        return _THIN
-    return (number * 8 + face) * 2 + int(lit)
+    return (number * 8 + face) * 2 + int(lit), thin or thin_shadow
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -81,35 +82,52 @@ def _exposed(world: World, light: Colour) -> Colour:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _many(world: World, column: int, row: int, pattern: Float64Array) -> Colour:
-    """Mean of the samples of `pattern` over one pixel."""
-    red, green, blue = 0.0, 0.0, 0.0
-    width = 1.0 / math.sqrt(len(pattern))
-    for index in range(len(pattern)):
-        x, y = column + pattern[index, 0], row + pattern[index, 1]
-        depth, number, face, _ = first_hit(world, x, y)
-        hit = (depth, number, face)
-        lit = _is_lit(world, x, y, hit)[0]
-        light = _exposed(world, light_at(world, x, y, hit, lit, width))
-        red += light[0]
-        green += light[1]
-        blue += light[2]
-    share = 1.0 / len(pattern)
-    return red * share, green * share, blue * share
+def _shade(world: World, x: float, y: float, probe: int) -> Colour:
+    """Exposed light at picture point (x, y), where the surface `probe` is."""
+    number, lit = probe >> 4, bool(probe & 1)
+    depth, face = math.inf, 0
+    if number >= 0:
+        depth, face = hit_again(world, x, y, number)
+    if depth == math.inf:
+        instant = world.instant[0]
+        depth, number, face = background_hit(instant, ray_direction(instant, x, y))
+    return _exposed(world, light_at(world, x, y, (depth, number, face), lit))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _one(world: World, column: int, row: int, probe: int) -> Colour:
-    """The pixel's centre, where all around it is the surface `probe`."""
-    x, y = column + 0.5, row + 0.5
-    number, face, lit = (probe >> 1) >> 3, (probe >> 1) & 7, bool(probe & 1)
-    if number >= 0:
-        depth, _ = hit_again(world, x, y, number)
-    else:
-        depth, number, face = background_hit(
-            world.instant[0], ray_direction(world.instant[0], x, y)
-        )
-    return _exposed(world, light_at(world, x, y, (depth, number, face), lit, 1.0))
+def _mean(
+    world: World, column: int, row: int, pattern: Float64Array, groups: Float64Array
+) -> Colour:
+    """Mean light over one pixel.
+
+    The samples of `pattern` find which surfaces share the pixel, and how much of it each has.
+    Each surface is then shaded once, in the middle of its samples: textures are averaged over the
+    pixel anyway. `groups` is scratch space, [at least len(pattern), 4].
+    """
+    count = 0
+    for index in range(len(pattern)):
+        x, y = column + pattern[index, 0], row + pattern[index, 1]
+        probe = float(_probe(world, x, y)[0])
+        place = 0
+        while place < count and groups[place, 0] != probe:
+            place += 1
+        if place == count:
+            groups[place, 0] = probe
+            groups[place, 1] = groups[place, 2] = groups[place, 3] = 0.0
+            count += 1
+        groups[place, 1] += 1.0
+        groups[place, 2] += x
+        groups[place, 3] += y
+    red, green, blue = 0.0, 0.0, 0.0
+    for place in range(count):
+        size = groups[place, 1]
+        x, y = groups[place, 2] / size, groups[place, 3] / size
+        light = _shade(world, x, y, int(groups[place, 0]))
+        share = size / len(pattern)
+        red += share * light[0]
+        green += share * light[1]
+        blue += share * light[2]
+    return red, green, blue
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -144,18 +162,20 @@ def draw_tile_row(
     height, width = picture.shape[0], picture.shape[1]
     top, bottom = tile_row * TILE, min((tile_row + 1) * TILE, height)
     probes = np.empty((TILE * samples + 1, TILE * samples + 1), dtype=np.int64)
+    groups = np.empty((len(pattern), 4), dtype=np.float64)
     for left in range(0, width, TILE):
         right = min(left + TILE, width)
         for j in range((bottom - top) * samples + 1):
             for i in range((right - left) * samples + 1):
-                probes[j, i] = _probe(world, left + i / samples, top + j / samples)
+                probe, thin = _probe(world, left + i / samples, top + j / samples)
+                probes[j, i] = _THIN if thin else probe
         for row in range(top, bottom):
             for column in range(left, right):
                 j, i = (row - top) * samples, (column - left) * samples
                 if _agree(probes, j, i, samples):
-                    light = _one(world, column, row, probes[j, i])
+                    light = _shade(world, column + 0.5, row + 0.5, probes[j, i])
                 else:
-                    light = _many(world, column, row, pattern)
+                    light = _mean(world, column, row, pattern, groups)
                 picture[row, column, 0] = light[0]
                 picture[row, column, 1] = light[1]
                 picture[row, column, 2] = light[2]

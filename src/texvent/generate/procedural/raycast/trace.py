@@ -55,7 +55,7 @@ def hit_again(world: World, x: float, y: float, number: int) -> tuple[float, int
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _widened_hit(shape: Record, d: Vector) -> float:
-    """Depth at which a ray meets a thin shape made `THIN_PX` wide; inf if even that misses."""
+    """Depth at which a ray meets a thin shape, widened; inf if even that misses."""
     s, eye = shape.shrink, shape.eye
     wide_eye = (eye[0] * s[0], eye[1] * s[1], eye[2] * s[2])
     wide_d = (d[0] * s[0], d[1] * s[1], d[2] * s[2])
@@ -80,6 +80,9 @@ def first_hit(world: World, x: float, y: float) -> tuple[float, int, int, bool]:
         shape = world.shapes[lists[index]]
         if shape.depth >= best:
             break
+        window = shape.window
+        if x < window[0] or x > window[1] or y < window[2] or y > window[3]:
+            continue
         t, face, d = _hit_one(shape, direction)
         if t < best:
             best, found, best_face = t, int(lists[index]), face
@@ -110,22 +113,20 @@ def background_hit(instant: Record, direction: Vector) -> tuple[float, int, int]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def sun_blocked(world: World, point: Vector) -> tuple[bool, bool]:
-    """Whether a shape stands between a point and the sun, and whether a thin one is close to."""
-    instant, lists = world.instant[0], world.lists
-    axes = instant.sun_axes
-    column = math.floor(
-        axes[0, 0] * point[0] + axes[0, 1] * point[1] + axes[0, 2] * point[2] + axes[0, 3]
-    )
-    row = math.floor(
-        axes[1, 0] * point[0] + axes[1, 1] * point[1] + axes[1, 2] * point[2] + axes[1, 3]
-    )
-    if not (0.0 <= column < SUN_CELLS and 0.0 <= row < SUN_CELLS):
-        return False, False
-    cell = instant.sun_cells + int(row) * SUN_CELLS + int(column)
+def _cell_blocks(world: World, cell: int, point: Vector, place: Vector) -> tuple[bool, bool]:
+    """As `sun_blocked`, by the shapes that one cell of the sun grid lists.
+
+    `place` is the point along the sun plane's axes and towards the sun.
+    """
+    lists = world.lists
     thin = False
     for index in range(lists[cell], lists[cell + 1]):
         shape = world.shapes[lists[index]]
+        window = shape.sun_window
+        if place[0] < window[0] or place[0] > window[1] or place[2] > window[4]:
+            continue
+        if place[1] < window[2] or place[1] > window[3]:
+            continue
         m, d = shape.inverse, shape.sun
         o = (
             m[0, 0] * point[0] + m[0, 1] * point[1] + m[0, 2] * point[2] + m[0, 3],
@@ -140,6 +141,29 @@ def sun_blocked(world: World, point: Vector) -> tuple[bool, bool]:
             wide_d = (d[0] * s[0], d[1] * s[1], d[2] * s[2])
             thin = hit_shape(shape.kind, wide_o, wide_d, 0.0)[0] < math.inf
     return False, thin
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def sun_blocked(world: World, point: Vector) -> tuple[bool, bool]:
+    """Whether a shape stands between a point and the sun, and whether a thin one is close to."""
+    instant = world.instant[0]
+    plane, sun, grid = instant.sun_plane, instant.sun, instant.sun_grid
+    place = (
+        plane[0, 0] * point[0] + plane[0, 1] * point[1] + plane[0, 2] * point[2],
+        plane[1, 0] * point[0] + plane[1, 1] * point[1] + plane[1, 2] * point[2],
+        sun[0] * point[0] + sun[1] * point[1] + sun[2] * point[2],
+    )
+    column = math.floor((place[0] - grid[0]) * grid[2])
+    row = math.floor((place[1] - grid[1]) * grid[3])
+    thin = False
+    if 0.0 <= column < SUN_CELLS and 0.0 <= row < SUN_CELLS:
+        cell = instant.sun_cells + int(row) * SUN_CELLS + int(column)
+        blocked, thin = _cell_blocks(world, cell, point, place)
+        if blocked:
+            return True, thin
+    last = instant.sun_cells + SUN_CELLS * SUN_CELLS
+    blocked, big_thin = _cell_blocks(world, last, point, place)
+    return blocked, thin or big_thin
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

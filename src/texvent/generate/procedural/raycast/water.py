@@ -8,11 +8,11 @@ from numba import njit
 
 from texvent.generate.procedural.raycast.noise import keep, smooth
 from texvent.generate.procedural.raycast.records import Record
-from texvent.generate.procedural.raycast.sky import Colour, Foot, mix, sky_gradient, triple
+from texvent.generate.procedural.raycast.sky import Colour, mix, sky_gradient, triple
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def sea_light(instant: Record, point: Colour, view: Colour, foot: Foot) -> Colour:
+def sea_light(instant: Record, point: Colour, view: Colour, foot: Colour) -> Colour:
     """Moving waves that mirror the sky; waves smaller than a pixel fade out."""
     slope_x, slope_y = 0.0, 0.0
     length, angle, strength = 9.0, 0.4, 0.05
@@ -20,7 +20,7 @@ def sea_light(instant: Record, point: Colour, view: Colour, foot: Foot) -> Colou
         wave = 2.0 * math.pi / length
         cosine, sine = math.cos(angle), math.sin(angle)
         phase = wave * (cosine * point[0] + sine * point[1]) + math.sqrt(9.81 * wave) * instant.time
-        size = strength * keep((abs(cosine) * foot[0] + abs(sine) * foot[1]) / (length * foot[3]))
+        size = strength * keep((abs(cosine) * foot[0] + abs(sine) * foot[1]) / length)
         slope_x += size * cosine * math.cos(phase)
         slope_y += size * sine * math.cos(phase)
         length, angle, strength = 0.62 * length, angle + 2.4, 1.05 * strength
