@@ -80,6 +80,7 @@ SIMULATORS = Registry(
         "esim": "texvent.simulate.esim:EsimSimulator",
         "v2e": "texvent.simulate.v2e:V2eSimulator",
         "senpi": "texvent.simulate.senpi:SenpiSimulator",
+        "voltmeter": "texvent.simulate.voltmeter:VoltmeterSimulator",
     },
 )
 CODECS = Registry(
@@ -90,6 +91,22 @@ CODECS = Registry(
         "ecd": "texvent.io.ecd:EcdCodec",
     },
 )
+METRICS = Registry(
+    "metric",
+    {
+        "stpp": "texvent.metrics.stpp:Stpp",
+        "van_rossum": "texvent.metrics.van_rossum:VanRossum",
+        "nearest": "texvent.metrics.nearest:NearestTime",
+        "isi": "texvent.metrics.intervals:IntervalDistance",
+        "voxel": "texvent.metrics.voxel:VoxelDifference",
+        "ef_mse": "texvent.metrics.event_frames:EventFrameMse",
+        "ef_psnr": "texvent.metrics.event_frames:EventFramePsnr",
+        "ef_ssim": "texvent.metrics.event_frames:EventFrameSsim",
+        "count_ratio": "texvent.metrics.marginals:CountRatio",
+        "on_difference": "texvent.metrics.marginals:OnDifference",
+        "active_iou": "texvent.metrics.marginals:ActiveIou",
+    },
+)
 REGISTRIES = {
-    registry.kind: registry for registry in (GENERATORS, INTERPOLATORS, SIMULATORS, CODECS)
+    registry.kind: registry for registry in (GENERATORS, INTERPOLATORS, SIMULATORS, CODECS, METRICS)
 }

@@ -12,6 +12,7 @@ from texvent.events import EventStream
 from texvent.simulate.esim import EsimSimulator
 from texvent.simulate.senpi import SenpiSimulator
 from texvent.simulate.v2e import V2eSimulator
+from texvent.simulate.voltmeter import VoltmeterSimulator
 from texvent.video import Frame
 
 PEERS = Path(__file__).parents[2].parent / "shared" / "peers"
@@ -191,3 +192,38 @@ def test_senpi_with_its_defaults_agrees_in_rate_and_polarity(clip):
         original = pair_of(theirs, i * 41_667 - 1, i * 41_667)
         assert len(packets[i]) == pytest.approx(len(original["t"]), rel=0.06)
         assert packets[i].p.mean() == pytest.approx(original["p"].mean(), abs=0.012)
+
+
+@needs_peers
+@pytest.mark.parametrize(
+    ("preset", "name"), [("peer-common", "dvsv_default"), ("davis240", "dvsv_dvs240")]
+)
+def test_voltmeter_agrees_in_its_distributions(clip, preset, name):
+    theirs = load_peer(name)
+    ours = EventStream.concat(packets_of(VoltmeterSimulator, preset, clip, seed=1)).columns()
+    assert len(ours["t"]) == pytest.approx(len(theirs["t"]), rel=0.002)
+    level = np.mean([frame.pixels for frame in clip], axis=0).astype(int) // 32
+    for events, other in zip(
+        rates_by_level(ours, level), rates_by_level(theirs, level), strict=True
+    ):
+        assert events == pytest.approx(other, rel=0.005)
+    shares = [intervals_us(events) for events in (ours, theirs)]
+    percentiles = np.percentile(shares[1], [5, 10, 25, 50, 75, 90, 95])
+    assert np.percentile(shares[0], [5, 10, 25, 50, 75, 90, 95]) == pytest.approx(
+        percentiles, rel=0.01
+    )
+
+
+def rates_by_level(events, level) -> tuple[np.ndarray, np.ndarray]:
+    """Events per pixel, and the share of ON among them, by the pixels' mean intensity."""
+    of_event = level[events["y"], events["x"]]
+    counts = np.bincount(of_event, minlength=8)
+    on = np.bincount(of_event, weights=events["p"], minlength=8)
+    return counts / np.bincount(level.reshape(-1), minlength=8), on / counts
+
+
+def intervals_us(events) -> np.ndarray:
+    """Times between events of the same pixel and polarity, µs."""
+    place = (events["y"].astype(np.int64) * 346 + events["x"]) * 2 + events["p"]
+    order = np.lexsort((events["t"], place))
+    return np.diff(events["t"][order])[np.diff(place[order]) == 0]

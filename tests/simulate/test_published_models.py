@@ -14,11 +14,17 @@ from texvent.events import EventStream
 from texvent.simulate.esim import EsimSimulator
 from texvent.simulate.senpi import SenpiSimulator
 from texvent.simulate.v2e import V2eSimulator
+from texvent.simulate.voltmeter import VoltmeterConfig, VoltmeterSimulator
 from texvent.video import Frame
 
 from .published import moving_texture, run, static
 
-MODELS = {"esim": EsimSimulator, "v2e": V2eSimulator, "senpi": SenpiSimulator}
+MODELS = {
+    "esim": EsimSimulator,
+    "v2e": V2eSimulator,
+    "senpi": SenpiSimulator,
+    "voltmeter": VoltmeterSimulator,
+}
 EVERY_PRESET = [(name, preset) for name, model in MODELS.items() for preset in model.presets]
 
 
@@ -137,6 +143,8 @@ SYMMETRIC = {
     "esim": (EsimSimulator.presets["default"], 0.255),
     "v2e": (V2eSimulator.presets["peer-common"], 0.0),
     "senpi": (SenpiSimulator.presets["peer-common"], 0.0),
+    # Without noise: ΔL / (mean L + k2) changes its sign exactly where L + k2 is inverted.
+    "voltmeter": (VoltmeterConfig(k1=5.0, k3=0.0, k4=0.0, k5=0.0, k6=0.0), 20.0),
 }
 
 
@@ -173,6 +181,7 @@ def test_the_seed_decides_everything_random(name, seed):
         "esim": {"threshold_sigma": 0.03},
         "v2e": {"shot_noise_rate_hz": 50.0},
         "senpi": {"noise_rate_hz": 50.0},
+        "voltmeter": {"k6": 1e-3},
     }
     config = dataclasses.replace(preset, **noisy.get(name, {}))
     frames = moving_texture()

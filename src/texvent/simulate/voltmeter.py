@@ -1,0 +1,122 @@
+"""DVS-Voltmeter's pixel model: the voltage is a Brownian motion with drift.
+
+Source: S. Lin, Y. Ma, Z. Guo, B. Wen, "DVS-Voltmeter: stochastic process-based event simulator
+for dynamic vision sensors", ECCV 2022. docs/simulators.md gives the equations and the deviations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from texvent.config import check_range
+from texvent.events import NOISE, SIGNAL
+from texvent.simulate.firings import Firings, Interval
+from texvent.simulate.kernels.passage import Motion, Voltage, load_find_passages
+from texvent.simulate.pixel_maps import Float64Array
+from texvent.simulate.streaming import IntensityArray, StreamingSimulator
+
+
+@dataclass(frozen=True, kw_only=True)
+class VoltmeterConfig:
+    """Constants of the DVS-Voltmeter pixel model, for intensities 0..255 and times in µs.
+
+    The defaults are the DAVIS346's. Voltage is measured in thresholds.
+
+    Raises:
+        ConfigError: a constant is out of range.
+    """
+
+    k1: float = 5.265
+    """Gain: events per unit of relative change of light, ΔL / (L + k2)."""
+    k2: float = 20.0
+    """Dark offset of the light, in levels of 0..255."""
+    k3: float = 1e-4
+    """Photon noise: its share of the diffusion is k3 √L / (L + k2), per √µs."""
+    k4: float = 1e-7
+    """Leakage: constant drift, thresholds per µs."""
+    k5: float = 5e-9
+    """Parasitic photocurrent: drift per level of light, thresholds per µs."""
+    k6: float = 1e-5
+    """Leakage noise: constant diffusion, per √µs."""
+
+    def __post_init__(self) -> None:
+        check_range("k1", self.k1, 1e-3, 1e3)
+        check_range("k2", self.k2, 0.1, 1e6)
+        check_range("k3", self.k3, 0.0, 0.1)
+        check_range("k4", self.k4, -0.01, 0.01)
+        check_range("k5", self.k5, -1e-4, 1e-4)
+        check_range("k6", self.k6, 0.0, 0.1)
+
+
+class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
+    """DVS-Voltmeter on video frames; see `simulate.protocol.Simulator`.
+
+    Example:
+        >>> from texvent.video import Frame
+        >>> quiet = VoltmeterConfig(k3=0, k4=0, k5=0, k6=0)
+        >>> simulator = VoltmeterSimulator(quiet, backend="reference")
+        >>> len(simulator.step(Frame(np.array([[90]], np.uint8), t_us=0)))
+        0
+        >>> events = simulator.step(Frame(np.array([[130]], np.uint8), t_us=1000))
+        >>> events.t.tolist(), events.polarity.tolist()  # 5.265 * 40 / 130 = 1.62
+        ([617], [1])
+    """
+
+    config_type: ClassVar[type] = VoltmeterConfig
+    presets: ClassVar[Mapping[str, VoltmeterConfig]] = {
+        "davis346": VoltmeterConfig(),
+        "davis240": VoltmeterConfig(k1=4.424, k2=23.0, k3=2e-4, k5=5e-8),
+        "peer-common": VoltmeterConfig(),
+    }
+
+    @property
+    def contrast_threshold(self) -> float:
+        """`1 / k1`: the relative change of one event."""
+        return 1.0 / self.config.k1
+
+    @property
+    def balance(self) -> float:
+        """`k2`, on the 0..255 scale."""
+        return self.config.k2
+
+    def _begin(self, intensity: IntensityArray) -> None:
+        self._light = intensity.astype(np.float64)
+        self._voltage = Voltage(np.zeros(intensity.shape), np.zeros(intensity.shape))
+
+    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
+        light = intensity.astype(np.float64)
+        motion = voltage_motion(self._light, light, interval.duration_us, self.config)
+        passages = load_find_passages(self._backend)(
+            motion, self._voltage, interval.key, interval.duration_us
+        )
+        self._light = light
+        offset = np.floor(passages.after_us).astype(np.int64)
+        label = np.where(passages.is_noise, NOISE, SIGNAL).astype(np.uint8)
+        return Firings(passages.pixel, interval.start_us + offset, passages.p, label)
+
+
+def voltage_motion(
+    before: Float64Array, after: Float64Array, duration_us: int, config: VoltmeterConfig
+) -> Motion:
+    """Drift and diffusion of every pixel's voltage between two frames.
+
+    Args:
+        before: light at the start, 0..255 scale, [H, W].
+        after: light at the end, [H, W].
+        duration_us: time between them, µs.
+        config: the constants.
+
+    Returns:
+        μ = k1 ΔL / Δt / (L + k2) + k4 + k5 L and σ = k3 √L / (L + k2) + k6, L the mean of both.
+
+    Equation: (10) and (11) of the publication.
+    """
+    mean = (before + after) / 2
+    gain = 1 / (mean + config.k2)
+    signal = config.k1 * (after - before) / duration_us * gain
+    drift = signal + config.k4 + config.k5 * mean
+    return Motion(signal, drift, config.k3 * np.sqrt(mean) * gain + config.k6)
