@@ -115,7 +115,7 @@ def compose_scene(
     """
     if not (math.isfinite(duration_s) and duration_s > 0.0):
         raise InputError(f"duration is {duration_s} s; it must be a positive number of seconds")
-    place = choose_place(description, nouns)
+    place = description.surroundings.place or "grass"
     levels = choose_levels(place, description, nouns)
     stage = Stage(description, nouns, seed=seed, duration_s=duration_s, level_m=levels)
     actors = stage.place_all()
@@ -139,45 +139,6 @@ def compose_scene(
     )  # fmt: skip
     effects = _make_effects(description, actors, camera_path, seed)
     return ComposedScene(tuple(actors), assemble(placed), effects, camera_path, setting, names)
-
-
-def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> str:
-    """Where the scene is: as said, or what suits its things."""
-    said = description.surroundings.place
-    members = [nouns[thing.noun] for thing in description.things]
-    habitats = {noun.habitat for noun in members}
-    submerged = [n for n in members if n.habitat == "water" and n.name not in AFLOAT]
-    if said == "sea" and submerged and len(submerged) == len(members):
-        return "underwater"
-    if said is not None:
-        return said
-    if description.surroundings.backdrops:
-        return "grass" if "city" not in description.surroundings.backdrops else "city"
-    if habitats == {"water"}:
-        return "underwater" if submerged else "sea"
-    return _PLACE_BY_NOUN.get(members[0].name if members else "", _usual_place(members))
-
-
-_PLACE_BY_NOUN = {
-    "car": "road", "suv": "road", "taxi": "city", "police car": "city", "bus": "city",
-    "truck": "road", "van": "road", "pickup": "road", "motorcycle": "road", "bicycle": "road",
-    "traffic light": "city", "street lamp": "city", "building": "city", "ostrich": "savanna",
-    "elephant": "savanna", "zebra": "savanna", "lion": "savanna", "giraffe": "savanna",
-    "penguin": "snow", "palm": "sand", "cactus": "sand", "crane": "construction site",
-    "excavator": "construction site", "worker": "construction site", "airplane": "sky",
-    "eagle": "sky", "gull": "sky", "table": "indoor", "chair": "indoor", "sofa": "indoor",
-    "bed": "indoor", "cup": "indoor", "bottle": "indoor", "clock": "indoor", "candle": "indoor",
-    "lamp": "indoor", "fan": "indoor", "basketball": "indoor", "pendulum": "indoor",
-    "sphere": "plain", "cube": "plain", "cylinder": "plain", "pyramid": "plain", "box": "plain",
-    "rocket": "plain", "flamingo": "sand",
-}  # fmt: skip
-"""Where a noun is usually found, if not on grass."""
-
-
-def _usual_place(members: Sequence[Noun]) -> str:
-    if members and all(noun.habitat == "air" and noun.speed_m_s >= 4.0 for noun in members):
-        return "sky"
-    return "grass"
 
 
 def choose_levels(

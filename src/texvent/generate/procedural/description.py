@@ -123,7 +123,8 @@ class Surroundings:
     """Where the scene is."""
 
     place: str | None = None
-    """Key of `lexicon_scene.PLACES`; None = what suits the things."""
+    """Key of `lexicon_scene.PLACES`; never None after
+    `parse_prompt`."""
     paint: Paint | None = None
     """Colour of the ground, where the place has a ground to paint."""
     sky: Paint | None = None

@@ -42,6 +42,8 @@ _SCENE_ROLES = frozenset(
         Role.GLOW,
     }
 )
+_EFFECTS = frozenset({Role.WEATHER, Role.SNOW, Role.DUST, Role.CLOUDS})
+"""Subjects whose verbs say nothing new: "rain falls", "dust flies up"."""
 _CLAUSE_SIGNS = frozenset(',.;:!?()[]"')
 
 
@@ -184,6 +186,8 @@ class _Reading:
                 phrase.is_used = True
             else:
                 self._things.read_direction(phrase)
+        elif position and self._phrases[position - 1].role in _EFFECTS:
+            phrase.is_used = self._phrases[position - 1].is_used
         elif noun_follows and phrase.meaning.form == "participle":
             self._things.read_attribute(phrase)
         else:

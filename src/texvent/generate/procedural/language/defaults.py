@@ -14,6 +14,7 @@ from texvent.generate.procedural.description import (
     Thing,
 )
 from texvent.generate.procedural.language.lexicon import COLOURS
+from texvent.generate.procedural.language.whereabouts import choose_place
 from texvent.generate.procedural.language.words import pluralise
 from texvent.generate.procedural.model import Noun
 
@@ -35,6 +36,8 @@ def complete_description(
     things = tuple(_decide_motion(thing, nouns[thing.noun]) for thing in description.things)
     description = _let_chased_move(replace(description, things=things), nouns)
     things = description.things
+    said = replace(description.surroundings, place=choose_place(description, nouns))
+    description = replace(description, surroundings=said)
     if description.shot.is_moving or any(_moves(thing) for thing in things):
         return _settle_rest(description)
     return _settle_rest(_set_in_motion(description, nouns))
@@ -49,6 +52,12 @@ _CREWS: dict[str, tuple[Thing, ...]] = {
     ),
 }
 """Places that are known by what is done there."""
+
+
+WORKING = frozenset(
+    {"windmill", "wind turbine", "flag", "traffic light", "clock", "fan", "pendulum", "crane"}
+)
+"""Nouns that stay in place and move by themselves."""
 
 
 def _add_crew(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
@@ -81,6 +90,8 @@ def _moves(thing: Thing) -> bool:
 
 def _decide_motion(thing: Thing, noun: Noun) -> Thing:
     motion = thing.motion
+    if thing.noun in WORKING and (motion is None or motion.kind in ("stand", "swing", "spin")):
+        return replace(thing, motion=Motion("work"))
     if motion is None and noun.habitat in ("air", "water") and noun.motion != "stand":
         return replace(thing, motion=Motion(noun.motion))
     if motion is not None and motion.kind == "move":

@@ -24,7 +24,7 @@ PLACES: dict[str, tuple[str, ...]] = {
         "open water", "open sea", "oceanic",
     ),
     "underwater": (
-        "underwater", "under water", "seabed", "reef", "coral reef", "aquarium",
+        "underwater", "under water", "seabed", "reef", "coral reef", "aquarium", "coral",
         "under the sea", "under the water", "deep sea", "beneath the waves", "fish tank",
     ),
     "sand": ("beach", "sand", "desert", "dune", "shore", "coast"),
@@ -73,7 +73,7 @@ WEATHERS: dict[str, tuple[str, ...]] = {
     "rain": ("rain", "rainy", "raining", "rainstorm", "storm", "stormy", "downpour", "in the rain",
              "rains", "rain falls", "rain falling", "falling rain", "heavy rain"),
     "snow": ("snowing", "snowfall", "snowflake", "falling snow", "blizzard", "snowstorm",
-             "snows"),
+             "snows", "snow falls", "snow falling"),
 }  # fmt: skip
 
 CLOUDS: dict[str, float] = {

@@ -36,6 +36,7 @@ class CameraReader:
         """Take a phrase that is about the camera; say whether it was one."""
         if phrase.role is Role.CAMERA:
             self.has_focus, self._named = True, phrase
+            phrase.is_used = bool(self._moves)
         elif phrase.role is Role.CAMERA_MOVE:
             kind, direction = phrase.meaning.value
             self._start(CameraMove(kind, direction), phrase)

@@ -265,6 +265,6 @@ def _preposition(before: list[Phrase]) -> str | None:
     for phrase in reversed(before):
         if phrase.role is Role.RELATION or phrase.text in _WHEREABOUTS:
             return phrase.text
-        if phrase.role not in ADJECTIVES | {Role.DETERMINER, Role.STEEP}:
+        if phrase.role not in ADJECTIVES | {Role.DETERMINER, Role.STEEP, Role.SNOW}:
             return None
     return None

@@ -18,7 +18,9 @@ FILL = 0.84
 SKY_LIFT = 0.2
 """How far the camera looks above what matters outdoors, in half picture heights."""
 LIMIT = 0.7
-"""Things that stand around a mover count for the framing up to this multiple of its size."""
+"""What a mover passes counts for the framing up to this multiple of the mover's size."""
+WHOLE = 3.5
+"""Other things must fit as a whole if they are at most this many times as large as the mover."""
 TRACKING_LENGTHS = 4.5
 """A thing that covers more of its own lengths in the clip is followed from the side."""
 INSTANTS = 13
@@ -67,6 +69,9 @@ def aim_camera(
         fill = min(fill, 0.5)
     if description.shot.framing == "wide":
         fill = 0.45
+    if main.thing == description.shot.target and any(m.kind in ("zoom", "dolly") for m in moves):
+        fill = 0.55
+        points = np.vstack([main.corners(float(time)) for time in times])
     is_open = has_floor and place not in ("underwater", "indoor")
     lift = SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
     framing = fit(points, azimuth=azimuth, elevation=elevation, aspect=aspect, fill=fill, lift=lift)
@@ -107,9 +112,15 @@ def _gather_points(
     """[n, 3] what must fit, m: movers whole, the rest up to a multiple of their size."""
     near = [actor for actor in actors if description.things[actor.thing].side != "far"]
     movers = [actor for actor in near if actor.is_mover] or near or list(actors)
-    limit = LIMIT * max(
+    largest = max(
         max(actor.model.length, actor.model.width, actor.model.height) for actor in movers
     )
+    passed = {
+        target
+        for relation in description.relations
+        if relation.kind in ("past", "among")
+        for target in relation.targets
+    }
     start = np.array(main.trajectory.at(0.0).position)
     points = []
     for actor in actors:
@@ -117,6 +128,7 @@ def _gather_points(
         if is_far and actor is not main:
             continue
         for time in times:
+            limit = math.inf if actor in movers else _limit_extent(actor, passed, largest)
             corners = actor.corners(float(time), limit)
             if follows:
                 shift = np.array(main.trajectory.at(float(time)).position) - start
@@ -125,6 +137,13 @@ def _gather_points(
                 corners = corners - shift
             points.append(corners)
     return np.vstack(points)
+
+
+def _limit_extent(actor: Actor, passed: set[int], largest_m: float) -> float:
+    """How much of a thing at rest must fit, m."""
+    size = max(actor.model.length, actor.model.width, actor.model.height)
+    is_whole = actor.thing not in passed and size <= WHOLE * largest_m
+    return math.inf if is_whole else LIMIT * largest_m
 
 
 def _choose_angles(

@@ -100,9 +100,12 @@ class Straight:
     weave_rad: float = 0.0
     """Amplitude of swaying about its heading, as fish do."""
     phase: float = 0.0
+    facing_rad: float | None = None
+    """Where its front points if not along its heading (a kite's face)."""
 
     def at(self, time_s: float) -> State:
         """State at that instant."""
+        facing = self.yaw if self.facing_rad is None else self.facing_rad
         along = self.speed_m_s * (time_s - self.mid_s)
         x, y, z = self.home
         wave = 2.0 * math.pi * 0.4 * time_s + self.phase
@@ -112,7 +115,7 @@ class Straight:
                 y + along * math.sin(self.yaw),
                 z + along * self.climb + self.bob_m * math.sin(wave),
             ),
-            self.yaw + self.weave_rad * math.sin(1.7 * wave),
+            facing + self.weave_rad * math.sin(1.7 * wave),
             -math.atan(self.climb),
             distance_m=self.speed_m_s * time_s,
             speed_m_s=self.speed_m_s,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from texvent.generate.procedural.primitives import Float64Array, Shape
 from texvent.generate.procedural.staging.actors import Actor, seeded
 from texvent.generate.procedural.staging.motion import Circle, Riding, Swing, Trajectory, Vector
 from texvent.generate.procedural.staging.trajectories import (
+    PEOPLE,
     Course,
     choose_trajectory,
     decide_course,
@@ -150,7 +151,7 @@ class Stage:
                 subject = self.groups[relation.subject]
                 return _place_by_subject(group, relation.kind, subject, height)
         offset = {"left": -2.0, "right": 2.0}.get(group.thing.side or "", 0.0) * group.size_m
-        offset += self._spread_apart(group)
+        offset += self._spread_apart(group) + self._stagger(group)
         depth = {"far": 2.2 * group.size_m + 6.0, "near": -1.2 * group.size_m}
         wanted = np.array([offset, depth.get(group.thing.side or "", 0.0), height])
         if group.course.is_path or group.noun.habitat in ("air", "water"):
@@ -169,6 +170,14 @@ class Stage:
                 side = -1.0 if relation.targets.index(group.index) == 0 else 1.0
                 return float(side * (group.half[0] + middle.half[0] + 0.4))
         return 0.0
+
+    def _stagger(self, group: Group) -> float:
+        """Metres along the path between things that go side by side, so that both are seen."""
+        others = [other for other in self.groups.values() if other.course.is_path]
+        if not others or not group.course.is_path or abs(math.cos(group.course.yaw)) < 0.5:
+            return 0.0
+        side = -1.0 if len(others) % 2 else 1.0
+        return side * 0.35 * (others[0].models[0].length + group.models[0].length)
 
     def _height(self, group: Group) -> float:
         """Height of the group's origin, m."""
@@ -283,6 +292,8 @@ def _arrange(
     is_deep = noun.habitat in ("air", "water") and noun.name not in AFLOAT
     along = (0.8 if is_deep else 1.2) * length + 0.3
     across = 1.4 * width + 0.4
+    if not course.is_path and not is_deep:
+        along = 1.2 * max(length, width) + 0.3
     if noun.motion == "drive":
         along, across = 1.45 * length + 0.5, max(width + 0.9, 2.9)
     if course.motion.direction == "circle":
@@ -358,6 +369,7 @@ def _place_on_targets(
         if target.course.motion.is_moving:
             group.carrier = target
         seat = _seat_height(target, group) + lift
+        _sit_in_row(group, target)
         return target.centre + np.array([0.0, 0.0, seat]), still
     if kind == "above":
         clear = top + 0.7 * group.models[0].height + 0.3
@@ -379,6 +391,22 @@ def _place_on_targets(
     return np.array([*wanted, height]), still
 
 
+def _sit_in_row(group: Group, target: Group) -> None:
+    """Spread what is on a thing along its longer side, facing as it faces."""
+    body, count = target.models[0], len(group.slots)
+    is_wide = body.width > body.length
+    room = 0.8 * max(body.width, body.length) / count
+    spacing = min(room, 1.3 * max(group.models[0].width, group.models[0].length))
+    yaw = target.course.yaw + (0.5 * math.pi if is_wide else 0.0)
+    group.slots = [
+        (a * math.cos(yaw), a * math.sin(yaw), 0.0)
+        for a in (spacing * (number - 0.5 * (count - 1)) for number in range(count))
+    ]
+    if group.course.motion.kind in ("sit", "stand") and group.noun.name in PEOPLE:
+        group.course = replace(group.course, yaw=target.course.yaw)
+    group.half = _room(group.models, group.slots, group.course)
+
+
 def _seat_height(target: Group, group: Group) -> float:
     """Height above the target's origin at which the thing on it has its own origin, m."""
     is_sitting = group.course.motion.kind in ("sit", "drive", "sail") or group.carrier is not None
@@ -387,9 +415,8 @@ def _seat_height(target: Group, group: Group) -> float:
     return (share - (0.5 if target.noun.habitat == "air" else 0.0)) * target.models[0].height
 
 
-PEOPLE = frozenset({"person", "man", "woman", "child", "runner", "worker"})
 _TOPS = {"chair": 0.5, "sofa": 0.5, "bed": 0.5, "bench": 0.5, "boat": 0.35, "horse": 0.62,
-         "sailboat": 0.15, "bridge": 0.3}  # fmt: skip
+         "sailboat": 0.15, "bridge": 0.338}  # fmt: skip
 """Share of a thing's height at which others lie on it; 1 where nothing is said."""
 _SADDLES = {"chair": 0.02, "sofa": 0.02, "bench": 0.02, "bed": 0.05, "horse": 0.40, "boat": 0.2,
             "elephant": 0.78, "sailboat": 0.1, "zebra": 0.40, "cow": 0.6}  # fmt: skip

@@ -200,6 +200,8 @@ def build_setting(
     """
     ground = PLACES[place]
     lighting = choose_lighting(place, description.light)
+    if place == "snow":
+        lighting = replace(lighting, lamps=0.3 * lighting.lamps)
     said = description.surroundings
     colour, second = ground.colour, ground.second_colour
     if said.paint is not None and ground.is_paintable:
@@ -246,7 +248,7 @@ def _choose_fog(
         grey = sum(horizon) / 3.0
         return _FOG_SIGHT * distance_m, _mix(horizon, (grey, grey, grey), 0.7)
     if weather in ("rain", "snow"):
-        return 8.0 * distance_m, horizon
+        return 14.0 * distance_m, horizon
     return math.inf, horizon
 
 

@@ -30,6 +30,8 @@ class Planting:
     far: float
     scale: tuple[float, float] = (0.8, 1.2)
     colours: tuple[Colour | None, ...] = (None,)
+    fits_view: bool = False
+    """Whether its size follows the camera distance, so that it neither towers nor vanishes."""
     is_metres: bool = False
     """Whether `near` and `far` are metres from the camera instead."""
 
@@ -84,8 +86,8 @@ PLANTINGS: dict[str, tuple[Planting, ...]] = {
         Planting("bush", 5, 0.2, 1.0, (0.5, 1.0)),
     ),
     "underwater": (
-        Planting("rock", 6, 0.2, 1.4, (0.5, 1.5)),
-        Planting("bush", 8, 0.15, 1.2, (0.3, 0.8), _CORAL),
+        Planting("rock", 6, 0.2, 1.4, (0.5, 1.5), fits_view=True),
+        Planting("bush", 8, 0.15, 1.2, (0.3, 0.8), _CORAL, fits_view=True),
     ),
     "sand": (Planting("palm", 3, 0.7, 2.5), Planting("rock", 4, 0.3, 2.0, (0.4, 1.0))),
     "snow": (Planting("pine", 8, 0.7, 3.5, (0.7, 1.2)),),
@@ -109,6 +111,7 @@ BACKDROPS: dict[str, tuple[Planting, ...]] = {
     "city": PLANTINGS["city"],
 }  # fmt: skip
 
+_USUAL_DISTANCE_M = 16.0
 ATTEMPTS = 40
 """Places tried for each piece before it is left out."""
 
@@ -166,13 +169,19 @@ def plant(
             colour = planting.colours[number % len(planting.colours)]
             model = noun.build(
                 colour=colour,
-                scale=float(rng.uniform(*planting.scale)),
+                scale=float(rng.uniform(*planting.scale)) * _fit_scale(planting, view),
                 seed=int(rng.integers(2**31)),
             )
             piece = _find_place(planting, model, view, bodies, pieces, rng)
             if piece is not None:
                 pieces.append(piece)
     return pieces[len(taken) :]
+
+
+def _fit_scale(planting: Planting, view: View) -> float:
+    if not planting.fits_view:
+        return 1.0
+    return min(max(view.distance_m / _USUAL_DISTANCE_M, 0.15), 1.5)
 
 
 def _list_bodies(actors: Sequence[Actor]) -> Float64Array:

@@ -47,6 +47,11 @@ YAWS = {
 _PATH_KINDS = frozenset(
     {"drive", "walk", "run", "fly", "swim", "sail", "paddle", "slide", "roll", "move"}
 )
+FLAT = 0.62
+"""Things whose length is below this share of their width show their front to the camera."""
+PEOPLE = frozenset({"person", "man", "woman", "child", "runner", "worker"})
+_SIDEWAYS = frozenset({"flag", "crane", "bridge"})
+"""Things that are known by their side."""
 _WEAVING = frozenset({"swim"})
 
 
@@ -99,7 +104,9 @@ def decide_course(
     toss = rng.random()
     default = "left" if toss < 0.5 else "right"
     direction = motion.direction or default
-    if motion.kind in ("fly", "swim") and direction in ("up", "down"):
+    if motion.direction is None and motion.kind not in _PATH_KINDS:
+        yaw = _face_camera(noun, model, motion, toss)
+    elif motion.kind in ("fly", "swim") and direction in ("up", "down"):
         yaw = YAWS[default]
     else:
         yaw = YAWS.get(direction, YAWS[default])
@@ -110,6 +117,21 @@ def decide_course(
         speed *= RUN_FACTOR
     span = max(model.length, model.height)
     return Course(motion, yaw, min(speed, MAX_LENGTHS_PER_S * span) * motion.pace, duration_s)
+
+
+def _face_camera(noun: Noun, model: Model, motion: Motion, toss: float) -> float:
+    """Heading of what stays in place: animals from the side, the rest so that one sees its face.
+
+    Fronts are at +x. Flat things turn it to the camera; others stand at an angle to it.
+    """
+    tilt = 0.5 * (2.0 * toss - 1.0)
+    if noun.name in _SIDEWAYS:
+        return 0.3 * tilt
+    if model.length < FLAT * model.width or noun.name in PEOPLE:
+        return -0.5 * math.pi + 0.5 * tilt
+    if noun.habitat == "fixed":
+        return -0.5 * math.pi + math.copysign(0.45, tilt) + 0.3 * tilt
+    return (math.pi if toss < 0.5 else 0.0) + tilt
 
 
 def choose_trajectory(
@@ -147,6 +169,7 @@ def _activity(kind: str) -> str:
 def _follow_path(course: Course, model: Model, home: Vector, phase: float) -> Trajectory:
     kind = course.motion.kind
     is_air = kind == "fly"
+    is_flat = is_air and model.length < 0.3 * min(model.width, model.height)
     path = Straight(
         home,
         course.yaw,
@@ -157,6 +180,7 @@ def _follow_path(course: Course, model: Model, home: Vector, phase: float) -> Tr
         bob_m=0.04 * model.height if is_air or kind in ("sail", "paddle") else 0.0,
         weave_rad=0.08 if kind in _WEAVING else 0.0,
         phase=phase,
+        facing_rad=-0.5 * math.pi + 0.35 if is_flat else None,
     )
     if kind == "roll":
         return Rolling(path, 0.5 * model.height, 0.5 * model.height)

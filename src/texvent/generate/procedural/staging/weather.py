@@ -69,7 +69,7 @@ class DustTrail:
             place = born.to_world() @ np.array(
                 [-self.back_m, 1.1 * self.size_m * (side - 0.5), 0.0, 1.0]
             )
-            radius = max(self.size_m * (0.02 + 0.045 * size) * 4.0 * age * (1.0 - age), 1e-4)
+            radius = max(self.size_m * (0.012 + 0.026 * size) * 4.0 * age * (1.0 - age), 1e-4)
             maps[row, :, :3] = radius * np.diag([1.2, 1.2, 0.8])
             place[2] += self.size_m * (0.05 + 0.28 * age * size)
             maps[row, :, 3] = place
@@ -91,7 +91,7 @@ def make_snow(base: Float64Array, extent_m: float, rng: np.random.Generator) -> 
     """Snow over a square of that side around `base`, m."""
     height = 0.8 * extent_m + _DEPTH_BELOW_M
     places = _scatter(SNOW_FLAKES, extent_m, height, rng)
-    radius = 0.0042 * extent_m
+    radius = 0.0028 * extent_m
     return Shower(
         places, base - [0.0, 0.0, _DEPTH_BELOW_M], height, 0.09 * extent_m, 0.015 * extent_m,
         np.full(3, radius), (0.95, 0.96, 1.0), Shape.ELLIPSOID,
