@@ -77,6 +77,7 @@ SIMULATORS = Registry(
     "simulator",
     {
         "texvent": "texvent.simulate.texvent:TexventSimulator",
+        "physical": "texvent.simulate.physical:PhysicalSimulator",
         "esim": "texvent.simulate.esim:EsimSimulator",
         "v2e": "texvent.simulate.v2e:V2eSimulator",
         "senpi": "texvent.simulate.senpi:SenpiSimulator",

@@ -43,6 +43,10 @@ class Purpose(IntEnum):
     LEAK_RATE = 7
     HOT_PIXEL = 8
     PASSAGE = 9
+    PHASE = 10
+    NOISE_RATE = 11
+    READOUT = 12
+    RATE_LIMIT = 13
 
     def draw(self, order: Any = 0) -> Any:
         """Number of this purpose's draw `order` (0..2²⁸−1, one or an array), for `draw_words`."""

@@ -1,0 +1,182 @@
+"""The `physical` pixel model: what a DVS pixel does, from linear light to the readout.
+
+Per frame interval, for every pixel:
+
+1. intensity I = 255 · (luma / 255)^gamma, brightness L = ln(α + I), a straight line between
+   frames;
+2. the photoreceptor follows L as a first-order low-pass whose corner grows with I;
+3. the change since the last reset, leak included, fires where it crosses a threshold of the
+   pixel's own, at that very time, as often as it does; the event resets the pixel;
+4. noise events come at a rate that depends on intensity, and reset the pixel too;
+5. the readout delays events, limits their rate and rounds their times, if asked to.
+
+Rates are per second and the low-pass is integrated exactly, so neither the frame rate nor the
+number of intermediate frames changes what is simulated. docs/simulators.md gives the equations.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import ClassVar
+
+import numpy as np
+
+from texvent.brightness import balanced_log
+from texvent.simulate.draws import Purpose, draw_uniforms
+from texvent.simulate.firings import Firings, Interval
+from texvent.simulate.kernels.circuit import (
+    Arrivals,
+    Drive,
+    Pixels,
+    PixelState,
+    ResetRules,
+    load_advance_pixels,
+)
+from texvent.simulate.noise_curve import parse_noise_curve
+from texvent.simulate.photoreceptor import (
+    WHITE,
+    corner_frequency,
+    drive_photoreceptors,
+    linearize,
+)
+from texvent.simulate.physical_config import PRESETS, PhysicalConfig
+from texvent.simulate.pixel_maps import (
+    Float64Array,
+    draw_chosen,
+    draw_rate_factors,
+    draw_thresholds,
+    sensor_key,
+)
+from texvent.simulate.rate_noise import draw_rate_noise
+from texvent.simulate.readout import Readout
+from texvent.simulate.streaming import IntensityArray, StreamingSimulator
+from texvent.video import MICROSECONDS
+
+
+class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
+    """A DVS pixel on video frames; see `simulate.protocol.Simulator`.
+
+    Example:
+        >>> from texvent.video import Frame
+        >>> simulator = PhysicalSimulator(PhysicalSimulator.presets["clean"], backend="reference")
+        >>> dark, bright = np.array([[100]], np.uint8), np.array([[160]], np.uint8)
+        >>> len(simulator.step(Frame(dark, t_us=0)))  # nothing to compare with yet
+        0
+        >>> events = simulator.step(Frame(bright, t_us=1000))  # I: 32.5 → 91.5, L rises by 0.870
+        >>> events.t.tolist(), events.polarity.tolist()
+        ([229, 459, 689, 919], [1, 1, 1, 1])
+    """
+
+    config_type: ClassVar[type] = PhysicalConfig
+    presets: ClassVar[Mapping[str, PhysicalConfig]] = PRESETS
+
+    @property
+    def contrast_threshold(self) -> float:
+        """The smaller threshold divided by gamma: what Eq. 4 should count with, log units.
+
+        Eq. 4 looks at gamma-coded frames, where the logarithm is smaller by that factor.
+        """
+        config = self.config
+        return min(config.contrast_threshold_on, config.contrast_threshold_off) / config.gamma
+
+    @property
+    def balance(self) -> float:
+        """The gamma-coded level of the balance: with it, Eq. 4 sees about the model's changes."""
+        return WHITE * math.pow(self.config.balance / WHITE, 1.0 / self.config.gamma)
+
+    def _begin(self, intensity: IntensityArray) -> None:
+        config, shape = self.config, intensity.shape
+        self._noise_curve = parse_noise_curve(config.noise_curve)
+        self._draw_sensor(shape)
+        self._readout = Readout(config.readout, first_us=self._last_us, width=shape[1])
+        self._look_at(intensity)
+        change = np.zeros(shape)
+        if config.initial_phase == "random":
+            y, x = np.ogrid[: shape[0], : shape[1]]
+            phase = draw_uniforms(sensor_key(self._seed), y, x, Purpose.PHASE.draw())
+            on, off = (one.reshape(shape) for one in self._pixels[:2])
+            change = phase * (on + off) - off
+        self._state = PixelState(
+            lag=np.zeros(change.size),
+            change=change.reshape(-1),
+            leaked=np.zeros(change.size),
+            release_us=np.full(change.size, self._last_us),
+        )
+
+    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
+        before = self._intensity, self._brightness, self._noise_hz
+        self._look_at(intensity)
+        drive = self._drive(*before[:2], interval)
+        noise = self._draw_noise((before[2] + self._noise_hz) / 2, interval)
+        rules = ResetRules(self.config.refractory_period_us, self.config.noise_resets)
+        fired = load_advance_pixels(self._backend)(
+            drive, self._pixels, self._state, noise, rules, (interval.start_us, interval.stop_us)
+        )
+        self._forget(interval)
+        return self._readout.read(fired, interval)
+
+    def _draw_sensor(self, shape: tuple[int, ...]) -> None:
+        """What is fixed to a pixel: thresholds, leak, noise factor, additional noise if hot."""
+        config = self.config
+        key = sensor_key(self._seed if config.sensor_seed is None else config.sensor_seed)
+        means = {
+            Purpose.THRESHOLD_ON: config.contrast_threshold_on,
+            Purpose.THRESHOLD_OFF: config.contrast_threshold_off,
+        }
+        on, off = (
+            draw_thresholds(shape, key, purpose, mean=mean, sigma=config.threshold_sigma)
+            for purpose, mean in means.items()
+        )
+        leak = config.leak_rate_hz * _factors_of_mean_1(
+            shape, key, Purpose.LEAK_RATE, config.leak_rate_decades
+        )
+        leak_per_us = leak * on / MICROSECONDS
+        self._pixels = Pixels(on.reshape(-1), off.reshape(-1), leak_per_us.reshape(-1))
+        self._noise_factor = config.noise_scale * _factors_of_mean_1(
+            shape, key, Purpose.NOISE_RATE, config.noise_decades
+        )
+        hot = draw_chosen(shape, key, Purpose.HOT_PIXEL, fraction=config.hot_pixel_fraction)
+        self._hot_hz = config.hot_pixel_rate_hz * hot
+
+    def _look_at(self, luma: IntensityArray) -> None:
+        """Keep what the next interval needs of a frame."""
+        self._intensity = linearize(luma, self.config.gamma)
+        self._brightness = balanced_log(self._intensity, self.config.balance)
+        self._noise_hz = self._hot_hz
+        if self.config.noise_scale > 0:
+            curve = self._noise_curve.rate_at(self._intensity)
+            self._noise_hz = self._hot_hz + self._noise_factor * curve
+
+    def _drive(
+        self, intensity: Float64Array, brightness: Float64Array, interval: Interval
+    ) -> Drive:
+        """Brightness from the frame before to this one, and how photoreceptors follow it."""
+        middle = (intensity + self._intensity) / 2
+        return drive_photoreceptors(
+            self._brightness - brightness,
+            corner_frequency(middle, self.config.cutoff_hz),
+            interval.duration_s,
+        )
+
+    def _draw_noise(self, rate_hz: Float64Array, interval: Interval) -> Arrivals:
+        if not rate_hz.any():
+            return Arrivals(np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0, np.uint8))
+        noise = draw_rate_noise(rate_hz, interval, on_fraction=self.config.noise_on_fraction)
+        order = np.lexsort((noise.p, noise.t, noise.pixel))
+        return Arrivals(noise.pixel[order], noise.t[order], noise.p[order])
+
+    def _forget(self, interval: Interval) -> None:
+        """Let change that has not fired decay."""
+        if self.config.residual_decay_hz > 0:
+            kept = math.exp(-self.config.residual_decay_hz * interval.duration_s)
+            self._state.change[:] *= kept
+            self._state.leaked[:] *= kept
+
+
+def _factors_of_mean_1(
+    shape: tuple[int, ...], key: np.uint64, purpose: Purpose, decades: float
+) -> Float64Array:
+    """Log-normal factors between pixels that keep the mean rate what the option says."""
+    factors = draw_rate_factors(shape, key, purpose, decades=decades)
+    return factors / math.exp((math.log(10) * decades) ** 2 / 2)
