@@ -110,7 +110,7 @@ def _advance_all(
     return found
 
 
-@numba.njit(cache=True, nogil=True)
+@numba.njit(cache=True, nogil=True, inline="always")
 def _advance_one(
     i: int,
     circuit: tuple[Drive, Pixels, PixelState],
