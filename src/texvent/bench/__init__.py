@@ -1,0 +1,1 @@
+"""Benchmarks of simulators: exact scenes, the self-test of the metrics."""

@@ -1,0 +1,64 @@
+"""Compare two event streams by several metrics at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from texvent._registry import METRICS
+from texvent.errors import ConfigError
+from texvent.events import EventStream
+from texvent.metrics.protocol import Metric, check_pair
+
+
+def compare(
+    predicted: EventStream,
+    reference: EventStream,
+    metrics: Iterable[str | Metric] | None = None,
+    *,
+    span_us: tuple[int, int] | None = None,
+) -> dict[str, float]:
+    """Scores of `predicted` against `reference`.
+
+    Args:
+        predicted: the stream to judge.
+        reference: the true stream, or another recording of the same scene.
+        metrics: names from the registry, or metrics with parameters of their own; default: every
+            registered metric with its defaults.
+        span_us: compare only events with `start <= t < stop`, µs; default: all.
+
+    Returns:
+        Name → value, NaN where a metric is undefined for these streams.
+
+    Raises:
+        InputError: the sensors differ in size.
+        ConfigError: an unknown metric, or a span that is not longer than 0.
+
+    Example:
+        >>> from texvent.sensor import SensorSize
+        >>> a = EventStream([1, 2], [0, 0], [100, 900], [1, 0], SensorSize(4, 3))
+        >>> compare(a, a, ["stpp", "nearest", "count_ratio"])
+        {'stpp': 1.0, 'nearest': 0.0, 'count_ratio': 1.0}
+    """
+    check_pair(predicted, reference)
+    if span_us is not None:
+        if not span_us[0] < span_us[1]:
+            raise ConfigError(f"span is {span_us} µs; its stop must come after its start")
+        predicted, reference = predicted.between(*span_us), reference.between(*span_us)
+    chosen = METRICS.names() if metrics is None else metrics
+    built = [load_metric(metric) if isinstance(metric, str) else metric for metric in chosen]
+    return {metric.name: metric(predicted, reference) for metric in built}
+
+
+def load_metric(name: str) -> Metric:
+    """The metric called `name`, with its defaults.
+
+    Raises:
+        ConfigError: no metric has that name.
+    """
+    metric: Metric = METRICS.load(name)()
+    return metric
+
+
+def describe_metrics() -> Mapping[str, Metric]:
+    """Name → metric with its defaults, for every registered metric."""
+    return {name: load_metric(name) for name in METRICS.names()}

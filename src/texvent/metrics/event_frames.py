@@ -1,0 +1,106 @@
+"""EF-MSE, EF-PSNR, EF-SSIM: event frames at the frame rate, compared as pictures."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import ClassVar, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.events import EventStream
+from texvent.metrics.protocol import UNDEFINED, Better, check_pair
+from texvent.metrics.structural_similarity import structural_similarity
+from texvent.metrics.windows import count_windows, occupied_windows
+from texvent.represent.event_frame import event_frame
+
+Float64Array = NDArray[np.float64]
+Similarity: TypeAlias = Callable[[Float64Array, Float64Array], float]
+
+INSIDE = "times inside a frame; how many events a pixel fired"
+
+
+@dataclass(frozen=True, kw_only=True)
+class EventFrameMse:
+    """Mean squared difference of the frames `(sign(Σ±1) + 1)/2`, which hold 0, 0.5 or 1.
+
+    Frames begin at multiples of 1/fps and run from the first event of both streams to the last.
+    NaN if both streams are empty.
+    """
+
+    name: ClassVar[str] = "ef_mse"
+    unit: ClassVar[str] = ""
+    better: ClassVar[Better] = "lower"
+    range: ClassVar[tuple[float, float]] = (0.0, 1.0)
+    blind_to: ClassVar[str] = INSIDE
+
+    fps: Fraction = Fraction(24)
+    """Event frames per second."""
+
+    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
+        """Mean over frames; see `metrics.protocol.Metric`."""
+        return _mean_over_frames(predicted, reference, self.fps, _squared_difference, empty=0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class EventFramePsnr:
+    """Peak signal-to-noise ratio `−10 log10(EF-MSE)`; infinite for equal frames."""
+
+    name: ClassVar[str] = "ef_psnr"
+    unit: ClassVar[str] = "dB"
+    better: ClassVar[Better] = "higher"
+    range: ClassVar[tuple[float, float]] = (0.0, float("inf"))
+    blind_to: ClassVar[str] = INSIDE
+
+    fps: Fraction = Fraction(24)
+    """Event frames per second."""
+
+    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
+        """Of the mean over frames, in dB; see `metrics.protocol.Metric`."""
+        mse = EventFrameMse(fps=self.fps)(predicted, reference)
+        return float("inf") if mse == 0 else -10.0 * math.log10(mse)
+
+
+@dataclass(frozen=True, kw_only=True)
+class EventFrameSsim:
+    """Structural similarity of the frames; NaN for sensors with a side below 11 px."""
+
+    name: ClassVar[str] = "ef_ssim"
+    unit: ClassVar[str] = ""
+    better: ClassVar[Better] = "higher"
+    range: ClassVar[tuple[float, float]] = (-1.0, 1.0)
+    blind_to: ClassVar[str] = INSIDE + "; a full inversion looks better than 20 % flips"
+
+    fps: Fraction = Fraction(24)
+    """Event frames per second."""
+
+    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
+        """Mean over frames; see `metrics.protocol.Metric`."""
+        return _mean_over_frames(predicted, reference, self.fps, structural_similarity, empty=1.0)
+
+
+def _mean_over_frames(
+    predicted: EventStream,
+    reference: EventStream,
+    fps: Fraction,
+    similarity: Similarity,
+    *,
+    empty: float,
+) -> float:
+    """Mean of `similarity` over frames; a frame empty in both streams scores `empty`."""
+    check_pair(predicted, reference)
+    frames = count_windows(predicted, reference, fps)
+    if not frames:
+        return UNDEFINED
+    values = [
+        similarity(*(event_frame(events, "polarity").astype(np.float64) for events in window))
+        for window in occupied_windows(predicted, reference, fps)
+    ]
+    return (sum(values) + empty * (frames - len(values))) / frames
+
+
+def _squared_difference(a: Float64Array, b: Float64Array) -> float:
+    return float(((a - b) ** 2).mean())

@@ -1,0 +1,59 @@
+"""What every paired metric offers, and the check that all of them start with."""
+
+from __future__ import annotations
+
+from typing import ClassVar, Literal, Protocol, TypeAlias
+
+from texvent.errors import InputError
+from texvent.events import EventStream
+
+Better: TypeAlias = Literal["lower", "higher", "one"]
+"""Which values are good: low ones, high ones, or those close to 1."""
+
+UNDEFINED = float("nan")
+"""Value of a metric that the two streams do not define."""
+
+
+class Metric(Protocol):
+    """Compares two event streams of one sensor; built without arguments it has its defaults.
+
+    Metrics are frozen dataclasses: their parameters are fields, their facts class attributes.
+    """
+
+    name: ClassVar[str]
+    """Short name, as in the registry."""
+    unit: ClassVar[str]
+    """Unit of the value; empty for a pure number."""
+    better: ClassVar[Better]
+    range: ClassVar[tuple[float, float]]
+    """Smallest and largest value possible."""
+    blind_to: ClassVar[str]
+    """Differences that this metric does not see, for the reader of a table."""
+
+    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
+        """Score of `predicted`.
+
+        Args:
+            predicted: the stream to judge.
+            reference: the true stream, or another recording of the same scene.
+
+        Returns:
+            The value, or NaN where the two streams do not define one.
+
+        Raises:
+            InputError: the sensors differ in size.
+        """
+        ...
+
+
+def check_pair(predicted: EventStream, reference: EventStream) -> None:
+    """Refuse streams that no paired metric can compare.
+
+    Raises:
+        InputError: the sensors differ in size.
+    """
+    if predicted.size != reference.size:
+        raise InputError(
+            f"cannot compare a {predicted.size} sensor with a {reference.size} one; "
+            "simulate at the size of the reference, or crop both to a common size"
+        )

@@ -1,0 +1,54 @@
+"""Mean and standard error of a metric over several pairs, with the undefined values counted."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Summary(NamedTuple):
+    """What a table says about one metric."""
+
+    mean: float
+    """Mean of the defined values; NaN if there is none."""
+    standard_error: float
+    """Standard error of that mean; NaN below two values."""
+    defined: int
+    """Values that entered the mean (n)."""
+    undefined: int
+    """Values that were NaN and did not enter the mean."""
+
+
+def summarise(values: Iterable[float]) -> Summary:
+    """Mean ± standard error over scenes or seeds; an undefined value is counted, not replaced.
+
+    Example:
+        >>> summarise([1.0, 3.0, float("nan")])
+        Summary(mean=2.0, standard_error=1.0, defined=2, undefined=1)
+    """
+    every = np.asarray(list(values), dtype=np.float64)
+    defined = every[~np.isnan(every)]
+    count = int(defined.size)
+    mean = float(defined.mean()) if count else math.nan
+    spread = float(defined.std(ddof=1)) / math.sqrt(count) if count > 1 else math.nan
+    return Summary(mean, spread, count, int(every.size) - count)
+
+
+def normalise(value: float, *, floor: float, null: float) -> float:
+    """`S* = (d_null − d) / (d_null − d_floor)`, clipped to 0..1: 0 is the null, 1 the floor.
+
+    Args:
+        value: the metric; either direction works, since floor and null fix it.
+        floor: its value for a second recording of the same scene.
+        null: its value for the reference with its times shuffled.
+
+    Returns:
+        NaN if any value is NaN or floor and null agree.
+    """
+    span = null - floor
+    if not math.isfinite(span) or span == 0 or math.isnan(value):
+        return math.nan
+    return min(max((null - value) / span, 0.0), 1.0)
