@@ -103,9 +103,9 @@ def _wing(plumage: Plumage, paint: Paint, side: float, lift: tuple[float, float]
 def _folded(plumage: Plumage, paint: Paint, side: float) -> list[Part]:
     """A wing at rest along the body: the hand lies back over the arm."""
     shoulder, wrist, arm, hand = _spread(plumage, paint, side)
-    closed = [arm, *moved([hand], turn_z(-2.8 * side, wrist))]
-    along = moved(closed, turn_z(1.35 * side, shoulder))
-    return moved(along, turn_x(-1.1 * side, shoulder))
+    closed = [arm, *moved([hand], turn_z(-3.05 * side, wrist))]
+    along = moved(closed, turn_z(1.45 * side, shoulder))
+    return moved(along, turn_x(-0.7 * side, shoulder))
 
 
 def _spread(plumage: Plumage, paint: Paint, side: float) -> tuple[Point, Point, Part, Part]:

@@ -134,8 +134,7 @@ def _rocking(parts: list[Part], scale: float, seed: int, amount: float) -> Figur
 
 
 NOUNS = (
-    Noun("boat", build_boat, "water", 4.0, "sail", ("motorboat", "speedboat", "ferry", "canoe"),
-         ("ferries",)),
+    Noun("boat", build_boat, "water", 4.0, "sail", ("motorboat", "speedboat", "fishing boat")),
     Noun("sailboat", build_sailboat, "water", 2.5, "sail",
          ("sailing boat", "yacht", "sailing ship")),
     Noun("ship", build_ship, "water", 6.0, "sail",

@@ -217,14 +217,14 @@ def _mill(rigid: list[Part], rotor: _Rotor, *, scale: float, seed: int) -> Figur
 NOUNS = (
     Noun(
         "house", build_house, "fixed", 0.0, "stand",
-        ("home", "cottage", "cabin", "hut", "villa"),
+        ("home", "cottage", "farmhouse", "cabin", "hut", "villa"),
     ),
     Noun(
         "building", build_high_rise, "fixed", 0.0, "stand",
         ("skyscraper", "high-rise", "tower", "tower block", "office", "apartment", "hotel"),
         ("skyscrapers", "high-rises"),
     ),
-    Noun("barn", build_barn, "fixed", 0.0, "stand", ("farmhouse", "shed", "warehouse")),
+    Noun("barn", build_barn, "fixed", 0.0, "stand", ("shed",)),
     Noun("windmill", build_windmill, "fixed", 0.0, "stand", ("mill",)),
     Noun("wind turbine", build_wind_turbine, "fixed", 0.0, "stand", ("turbine",)),
 )  # fmt: skip

@@ -148,6 +148,6 @@ NOUNS = (
     ),
     Noun(
         "excavator", build_excavator, "ground", 1.0, "drive",
-        ("digger", "backhoe", "bulldozer", "construction machine"),
+        ("digger", "backhoe", "construction vehicle"),
     ),
 )  # fmt: skip

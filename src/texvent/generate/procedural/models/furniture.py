@@ -103,12 +103,12 @@ def build_bench(*, colour: Colour | None, scale: float, seed: int) -> Figure:
 
 NOUNS = (
     Noun("table", build_table, "fixed", 0.0, "stand", ("desk", "dining table", "coffee table")),
-    Noun("chair", build_chair, "fixed", 0.0, "stand", ("stool", "armchair", "seat")),
+    Noun("chair", build_chair, "fixed", 0.0, "stand", ("wooden chair", "kitchen chair")),
     Noun("sofa", build_sofa, "fixed", 0.0, "stand", ("couch", "settee"), ("couches",)),
-    Noun("bed", build_bed, "fixed", 0.0, "stand", ("mattress",), ("mattresses",)),
+    Noun("bed", build_bed, "fixed", 0.0, "stand", ("double bed",)),
     Noun(
         "bookshelf", build_shelf, "fixed", 0.0, "stand",
-        ("bookcase", "shelf", "cupboard"), ("bookshelves", "shelves"),
+        ("bookcase", "shelf"), ("bookshelves", "shelves"),
     ),
     Noun("bench", build_bench, "fixed", 0.0, "stand", ("park bench",), ("benches",)),
 )  # fmt: skip

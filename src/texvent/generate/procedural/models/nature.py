@@ -60,7 +60,6 @@ def build_cloud(*, colour: Colour | None, scale: float, seed: int) -> Figure:
 
 NOUNS = (
     Noun("rock", build_rock, "fixed", 0.0, "stand", ("stone", "boulder")),
-    Noun("mountain", build_mountain, "fixed", 0.0, "stand", ("hill", "volcano", "peak"),
-         ("volcanoes",)),
+    Noun("mountain", build_mountain, "fixed", 0.0, "stand", ("mountain peak", "summit"),),
     Noun("cloud", build_cloud, "air", 1.5, "float"),
 )  # fmt: skip

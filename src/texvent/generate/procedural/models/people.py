@@ -222,20 +222,20 @@ def _swung_arm(outfit: Outfit, neck: Point, side: float, angles: tuple[float, fl
 NOUNS = (
     Noun(
         "person", partial(build_person, ADULT), "ground", 1.4, "walk",
-        ("pedestrian", "human", "walker", "somebody", "figure", "tourist", "hiker"),
+        ("pedestrian", "human", "walker", "somebody", "tourist", "hiker"),
         ("people", "persons"),
     ),
     Noun(
         "man", partial(build_person, ADULT), "ground", 1.4, "walk",
-        ("guy", "gentleman", "boyfriend", "businessman"), ("men", "gentlemen", "businessmen"),
+        ("guy", "gentleman", "businessman"), ("men", "gentlemen", "businessmen"),
     ),
     Noun(
         "woman", partial(build_person, WOMAN), "ground", 1.3, "walk",
-        ("lady", "girl", "dancer", "businesswoman"), ("women", "ladies", "businesswomen"),
+        ("lady", "businesswoman"), ("women", "ladies", "businesswomen"),
     ),
     Noun(
         "child", partial(build_person, CHILD), "ground", 1.1, "walk",
-        ("kid", "boy", "toddler"), ("children",),
+        ("kid", "boy", "girl", "toddler"), ("children",),
     ),
     Noun(
         "runner", partial(build_person, RUNNER), "ground", 3.5, "run",
@@ -243,6 +243,6 @@ NOUNS = (
     ),
     Noun(
         "worker", partial(build_person, WORKER), "ground", 1.2, "walk",
-        ("construction worker", "builder", "workman", "engineer"), ("workmen",),
+        ("construction worker", "builder", "workman"), ("workmen",),
     ),
 )  # fmt: skip

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from texvent.generate.procedural.model import Colour, Noun
@@ -31,6 +31,8 @@ class Animal:
     """ "plain", "stripes", "checks"."""
     second_colour: Colour = BLACK
     """Of stripes or checks."""
+    checks: float = 2.6
+    """Repeats of the checks per half body part."""
     dark: Colour | None = None
     """Muzzle, mane and tail; None = a darker shade of the coat."""
     hoof: Colour = (0.03, 0.025, 0.02)
@@ -45,7 +47,7 @@ def build_animal(animal: Animal, *, colour: Colour | None, scale: float, seed: i
         trunk = striped(hue, animal.second_colour, 4.5)
         limbs = striped(hue, animal.second_colour, 3.0)
     elif animal.pattern == "checks":
-        trunk = checked(hue, animal.second_colour, 2.6)
+        trunk = checked(hue, animal.second_colour, animal.checks)
     dark = animal.dark if animal.dark is not None else shade(hue, 0.45)
     coat = Coat(trunk=trunk, limbs=limbs, dark=Paint(dark), hoof=Paint(animal.hoof))
     return draw_animal(animal.build, coat, scale=scale, seed=seed)
@@ -202,6 +204,35 @@ TIGER = Animal(
     second_colour=(0.03, 0.02, 0.015),
     dark=WHITE,
 )
+CHEETAH = Animal(
+    Build(
+        0.82,
+        (1.25, 0.28, 0.34),
+        0.24,
+        0.5,
+        (0.24, 0.11),
+        tail=(0.75, -0.5),
+        ear=(0.07, "round"),
+        stride=1.9,
+    ),
+    ((0.60, 0.38, 0.13),),
+    pattern="checks",
+    second_colour=(0.10, 0.05, 0.02),
+    checks=6.0,
+)
+GOAT = Animal(
+    Build(
+        0.72,
+        (0.88, 0.30, 0.36),
+        0.24,
+        0.8,
+        (0.18, 0.15),
+        tail=(0.12, 0.8),
+        ear=(0.12, "side"),
+        horns="short",
+    ),
+    ((0.60, 0.55, 0.48), (0.20, 0.13, 0.08)),
+)
 GIRAFFE = Animal(
     Build(
         2.70,
@@ -262,6 +293,7 @@ BEAR = Animal(
     ((0.11, 0.055, 0.025),),
     dark=(0.20, 0.12, 0.07),
 )
+POLAR_BEAR = replace(BEAR, colours=((0.76, 0.73, 0.64),), dark=(0.05, 0.045, 0.04))
 RABBIT = Animal(
     Build(
         0.20,
@@ -302,10 +334,13 @@ NOUNS = (
     _noun("elephant", ELEPHANT, 1.8, ("mammoth",)),
     _noun("deer", DEER, 1.6, ("stag", "antelope", "gazelle", "reindeer"), ("deer", "reindeer")),
     _noun("lion", LION, 1.5),
-    _noun("tiger", TIGER, 1.5, ("leopard", "cheetah")),
+    _noun("tiger", TIGER, 1.5),
+    _noun("cheetah", CHEETAH, 2.0, ("leopard", "jaguar")),
+    _noun("goat", GOAT, 1.0),
     _noun("giraffe", GIRAFFE, 1.8),
-    _noun("sheep", SHEEP, 0.9, ("lamb", "goat"), ("sheep",)),
+    _noun("sheep", SHEEP, 0.9, ("lamb", "ewe"), ("sheep",)),
     _noun("pig", PIG, 0.9, ("boar", "piglet")),
-    _noun("bear", BEAR, 1.3, ("grizzly", "polar bear", "panda"), ("grizzlies",)),
+    _noun("bear", BEAR, 1.3, ("grizzly", "brown bear"), ("grizzlies",)),
+    _noun("polar bear", POLAR_BEAR, 1.3),
     _noun("rabbit", RABBIT, 1.2, ("bunny", "hare"), ("bunnies",)),
 )

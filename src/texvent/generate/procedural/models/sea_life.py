@@ -247,6 +247,6 @@ NOUNS = (
     Noun("shark", partial(build_swimmer, SHARK), "water", 1.6, "swim", ("hammerhead",)),
     Noun("dolphin", partial(build_swimmer, DOLPHIN), "water", 2.2, "swim", ("porpoise",)),
     Noun("whale", partial(build_swimmer, WHALE), "water", 2.5, "swim", ("orca", "humpback")),
-    Noun("turtle", build_turtle, "water", 0.6, "swim", ("sea turtle", "tortoise")),
+    Noun("turtle", build_turtle, "water", 0.6, "swim", ("sea turtle",)),
     Noun("jellyfish", build_jellyfish, "water", 0.15, "swim", (), ("jellyfish", "jellyfishes")),
 )  # fmt: skip

@@ -174,8 +174,8 @@ NOUNS = (
     Noun("bee", partial(build_insect, BEE), "air", 1.2, "fly", ("bumblebee", "wasp", "honeybee")),
     Noun(
         "dragonfly", partial(build_insect, DRAGONFLY), "air", 1.5, "fly",
-        ("mosquito",), ("dragonflies", "mosquitoes"),
+        ("damselfly",), ("dragonflies", "damselflies"),
     ),
     Noun("snake", build_snake, "ground", 0.5, "walk", ("python", "serpent")),
-    Noun("snail", build_snail, "ground", 0.02, "walk", ("slug",)),
+    Noun("snail", build_snail, "ground", 0.02, "walk", ()),
 )  # fmt: skip

@@ -12,6 +12,7 @@ from texvent.generate.procedural.models.paint import (
     YELLOW,
     Paint,
     checked,
+    mottled,
     shade,
 )
 from texvent.generate.procedural.models.shaping import (
@@ -56,6 +57,17 @@ def build_cone(*, colour: Colour | None, scale: float, seed: int) -> Figure:
     return Figure([peak(_checks(colour, seed), (0.0, 0.0, 0.5), (0.9, 0.9, 1.0))], scale=scale)
 
 
+def build_pyramid(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+    """Make a stepped pyramid, 14 m high, of sandstone; `colour` is its stone."""
+    stone = mottled(colour if colour is not None else (0.55, 0.43, 0.25), contrast=0.25, scale=8.0)
+    steps, tall = 10, 1.4
+    parts = []
+    for index in range(steps):
+        wide = 22.0 * (steps - index) / steps
+        parts.append(box(stone, (0.0, 0.0, (index + 0.5) * tall), (wide, wide, tall)))
+    return Figure(parts, scale=scale)
+
+
 def build_crate(*, colour: Colour | None, scale: float, seed: int) -> Figure:
     """Make a cardboard box closed with tape, 0.5 m; `colour` is its card."""
     card = Paint(colour if colour is not None else (0.38, 0.23, 0.11))
@@ -90,7 +102,8 @@ NOUNS = (
     Noun("sphere", build_sphere, "ground", 1.5, "roll", ("globe", "orb", "marble")),
     Noun("cube", build_cube, "fixed", 0.0, "stand", ("block", "dice"), ("dice",)),
     Noun("cylinder", build_cylinder, "fixed", 0.0, "stand", ("barrel", "pillar", "column")),
-    Noun("cone", build_cone, "fixed", 0.0, "stand", ("pyramid",)),
+    Noun("cone", build_cone, "fixed", 0.0, "stand"),
+    Noun("pyramid", build_pyramid, "fixed", 0.0, "stand"),
     Noun("box", build_crate, "fixed", 0.0, "stand", ("crate", "package", "parcel"), ("boxes",)),
     Noun("wheel", build_wheel, "ground", 2.5, "roll", ("tyre", "tire")),
 )

@@ -186,7 +186,7 @@ NOUNS = (
         ("streetlight", "street light", "lamp post", "lamppost", "streetlamp"),
     ),
     Noun("barrier", build_barrier, "fixed", 0.0, "stand", ("road block", "roadblock", "barricade")),
-    Noun("fence", build_fence, "fixed", 0.0, "stand", ("picket fence", "gate")),
+    Noun("fence", build_fence, "fixed", 0.0, "stand", ("picket fence",)),
     Noun(
         "sign", build_sign, "fixed", 0.0, "stand",
         ("stop sign", "traffic sign", "road sign", "street sign"),

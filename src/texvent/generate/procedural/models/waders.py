@@ -177,7 +177,7 @@ NOUNS = (
     ),
     Noun(
         "flamingo", partial(build_strider, FLAMINGO), "ground", 0.6, "walk",
-        ("heron", "stork"), ("flamingos", "flamingoes"),
+        (), ("flamingos", "flamingoes"),
     ),
     Noun("chicken", partial(build_strider, CHICKEN), "ground", 0.4, "walk", ("hen", "rooster")),
     Noun("penguin", build_penguin, "ground", 0.4, "walk"),
