@@ -11,11 +11,11 @@ from texvent.video import UINT16_PER_LEVEL, Frame
 from texvent.view.canvas import Picture
 from texvent.view.palettes import Palette
 
-CEILING_PERCENTILE = 98.0
+CEILING_PERCENTILE = 95.0
 """Pixels with more events than this share of the active ones are shown at full strength."""
-FAINTEST = 0.22
+FAINTEST = 0.3
 """Least strength of an event, where others are many."""
-STRENGTH_EXPONENT = 0.6
+STRENGTH_EXPONENT = 0.5
 """Below 1, so that pixels with few events stay easy to see."""
 
 

@@ -9,7 +9,7 @@ from texvent.events import EventStream
 from texvent.sensor import SensorSize
 
 SAMPLE_EVENTS = 200_000
-RATE_BINS = 512
+RATE_BINS = 160
 FIRST_BIN_US = 16
 
 
