@@ -141,6 +141,10 @@ def compose_scene(
     return ComposedScene(tuple(actors), assemble(placed), effects, camera_path, setting, names)
 
 
+_HIGH_PLACES = ("mountain", "forest", "city")
+"""Where what flies does so above the trees and streets."""
+
+
 def choose_levels(
     place: str, description: SceneDescription, nouns: Mapping[str, Noun]
 ) -> dict[str, float]:
@@ -148,7 +152,7 @@ def choose_levels(
     if place in ("sky", "space"):
         everything = {nouns[thing.noun].name: 0.0 for thing in description.things}
         return {"air": 2.0, "water": 0.0, **everything}
-    levels = {"air": 1.5, "water": 0.0}
+    levels = {"air": 9.0 if place in _HIGH_PLACES else 1.5, "water": 0.0}
     if place == "underwater":
         levels["water"] = 0.9
     elif place == "sea":

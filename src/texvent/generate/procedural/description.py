@@ -136,6 +136,8 @@ class Surroundings:
     backdrops: tuple[str, ...] = ()
     """"mountain", "forest" or "city": what stands around a road, a field or a lake. A slope is
     shown as mountains around; the ground itself stays flat."""
+    has_snow: bool = False
+    """Whether snow lies on the ground."""
     has_dust: bool = False
     """Whether dust flies up behind what moves on the ground."""
 
@@ -262,6 +264,8 @@ def _say_surroundings(surroundings: Surroundings) -> str:
     if surroundings.clouds is not None:
         words.append("clouds" if surroundings.clouds > 0 else "no clouds")
     words.extend(_BACKDROPS[backdrop] for backdrop in surroundings.backdrops)
+    if surroundings.has_snow and surroundings.place != "snow":
+        words.append("snow on the ground")
     if surroundings.has_dust:
         words.append("dust")
     return ", ".join(words)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from texvent.generate.procedural.description import Motion, Paint, Thing
-from texvent.generate.procedural.language.tagging import Phrase
+from texvent.generate.procedural.language.tagging import Phrase, Role
 
 
 @dataclass
@@ -49,3 +49,12 @@ class NounGroup:
         """All its words had an effect."""
         for phrase in self.phrases:
             phrase.is_used = True
+
+    def take_number(self) -> tuple[float, Phrase] | None:
+        """Remove the number, which is no count, and return it with its phrase."""
+        for phrase in reversed(self.phrases):
+            if phrase.role is Role.NUMBER:
+                self.phrases.remove(phrase)
+                self.number = None
+                return float(phrase.meaning.value), phrase
+        return None

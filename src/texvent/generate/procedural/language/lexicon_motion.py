@@ -134,6 +134,7 @@ VERBS: tuple[Verb, ...] = (
     Verb("blow", "work", irregular=("blew", "blown")),
     Verb("stand", "stand", irregular=("stood",)),
     Verb("sit", "sit", irregular=("sat", "seated")),
+    Verb("sleep", "sit", irregular=("slept", "asleep")),
     Verb("park", "stand"),
     Verb("wait", "stand"),
     Verb("rest", "stand"),

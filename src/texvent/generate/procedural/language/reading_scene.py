@@ -21,6 +21,7 @@ class SceneReader:
         self._clouds: float | None = None
         self._backdrops: list[str] = []
         self._has_dust = False
+        self._has_snow = False
         self._light: str | None = None
         self._flicker_hz: float | None = None
         self._shadows: bool | None = None
@@ -98,6 +99,7 @@ class SceneReader:
             clouds=self._clouds,
             backdrops=tuple(self._backdrops),
             has_dust=self._has_dust,
+            has_snow=self._has_snow or self._weather == "snow",
         )
         return surroundings, Light(self._light, self._flicker_hz, self._shadows)
 
@@ -112,12 +114,7 @@ class SceneReader:
         return self._weather == weather
 
     def _read_snow(self, is_negated: bool) -> bool:
-        if is_negated:
-            return True
-        if self._place is None:
-            self._place = "snow"
-        elif self._place != "snow":
-            return self._read_weather("snow", is_negated)
+        self._has_snow = not is_negated
         return True
 
     def _add_backdrop(self, backdrop: str) -> None:

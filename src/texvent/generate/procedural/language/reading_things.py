@@ -43,8 +43,6 @@ class ThingReader:
         self._is_lost = False
         self._object_motion: Motion | None = None
 
-    # --- noun groups -------------------------------------------------------------------------
-
     def open_group(self, phrase: Phrase) -> None:
         """A determiner starts a new noun group."""
         self.settle()
@@ -76,12 +74,7 @@ class ThingReader:
 
     def take_number(self) -> tuple[float, Phrase] | None:
         """The number just read, when a unit after it shows that it is no count."""
-        for phrase in reversed(self.group.phrases):
-            if phrase.role is Role.NUMBER:
-                self.group.phrases.remove(phrase)
-                self.group.number = None
-                return float(phrase.meaning.value), phrase
-        return None
+        return self.group.take_number()
 
     def take_paint(self) -> tuple[Paint | None, list[Phrase]]:
         """The colour waiting for a noun, when a place or the sky comes instead."""
@@ -128,8 +121,6 @@ class ThingReader:
                 draft.pace *= group.pace
                 _mark(group.phrases, Role.PACE)
         self.group = NounGroup()
-
-    # --- verbs -------------------------------------------------------------------------------
 
     def read_attribute(self, phrase: Phrase) -> None:
         """A participle before its noun: "a running dog"."""
@@ -223,8 +214,6 @@ class ThingReader:
                 phrase.is_used = True
         return bool(spinning)
 
-    # --- places ------------------------------------------------------------------------------
-
     def read_relation(self, phrase: Phrase) -> None:
         """A preposition waits for its noun."""
         self.settle()
@@ -295,8 +284,6 @@ class ThingReader:
             self.subjects, self.mentioned = [], []
             self._is_lost = True
         self.group = NounGroup()
-
-    # --- inside ------------------------------------------------------------------------------
 
     def _limit_count(self, number: float) -> int:
         if number > lexicon.MAX_COUNT:

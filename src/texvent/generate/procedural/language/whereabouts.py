@@ -49,7 +49,7 @@ def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> st
         return "underwater"
     if "city" in said.backdrops:
         return "city"
-    if said.weather == "snow":
+    if said.has_snow:
         return "snow"
     return _choose_usual(members)
 
@@ -61,7 +61,8 @@ def _choose_usual(members: Sequence[Noun]) -> str:
         return "sea"
     if all(noun.habitat == "air" and noun.speed_m_s >= _FAST_FLYER_M_S for noun in members):
         return "sky"
-    for place, names in _USUAL_PLACES.items():
-        if members[0].name in names:
-            return place
+    for noun in members:
+        for place, names in _USUAL_PLACES.items():
+            if noun.name in names:
+                return place
     return "grass"

@@ -96,7 +96,7 @@ def _plan_moves(
         return moves
     span = max(main.model.length, main.model.height)
     start, end = main.middle(0.0), main.middle(duration_s)
-    travel = float(np.linalg.norm(end - start))
+    travel = float(np.hypot(*(end - start)[:2]))
     if main.is_mover and travel > TRACKING_LENGTHS * span:
         return (CameraMove("follow", "side"),)
     return ()

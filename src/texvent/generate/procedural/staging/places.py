@@ -27,6 +27,9 @@ class Place:
     """Whether a colour in the prompt ("a red floor") is the ground's."""
 
 
+_SNOW: Colour = (0.78, 0.82, 0.88)
+_SNOWED_OVER = (Ground.GRASS, Ground.ROAD, Ground.DIRT_ROAD)
+"""Grounds whose grass is white when snow lies on it."""
 _MEADOW: tuple[Colour, Colour] = ((0.055, 0.14, 0.022), (0.13, 0.21, 0.045))
 _ASPHALT: Colour = (0.085, 0.085, 0.09)
 
@@ -204,6 +207,9 @@ def build_setting(
         lighting = replace(lighting, lamps=0.3 * lighting.lamps)
     said = description.surroundings
     colour, second = ground.colour, ground.second_colour
+    if said.has_snow and ground.ground in _SNOWED_OVER:
+        colour = _SNOW
+        second = _SNOW if ground.ground is Ground.GRASS else second
     if said.paint is not None and ground.is_paintable:
         colour = second = said.paint.rgb
     sky_top, horizon = lighting.sky_top, lighting.sky_horizon
@@ -213,7 +219,7 @@ def build_setting(
     clouds = lighting.clouds if said.clouds is None else said.clouds
     if said.weather in ("rain", "snow"):
         clouds = max(clouds, 0.8)
-        lighting = replace(lighting, sun=_mix(lighting.sun, (0.0, 0.0, 0.0), 0.6))
+        lighting = replace(lighting, sun=_mix(lighting.sun, (0.0, 0.0, 0.0), 0.4))
     sun = np.array(lighting.sun_direction)
     base = Environment(
         ground=ground.ground,

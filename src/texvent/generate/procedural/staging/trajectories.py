@@ -10,20 +10,22 @@ import numpy as np
 from texvent.generate.procedural.description import Motion
 from texvent.generate.procedural.language.reading_things import SPIN_RATE_HZ
 from texvent.generate.procedural.model import Model, Noun
-from texvent.generate.procedural.staging.motion import (
+from texvent.generate.procedural.staging.acts import (
     GRAVITY_M_S2,
     Bounce,
-    Circle,
     Climb,
     Hover,
     Jump,
+    Spin,
+    Sway,
+    Swing,
+)
+from texvent.generate.procedural.staging.motion import (
+    Circle,
     Rest,
     Rolling,
     Shuttle,
-    Spin,
     Straight,
-    Sway,
-    Swing,
     Trajectory,
     Vector,
 )
