@@ -185,13 +185,14 @@ class EventStream:
         )
         return saved
 
-    def show(self, path: str | Path | None = None) -> Path:
+    def show(self, path: str | Path | None = None, *, overwrite: bool = False) -> Path:
         """Make a self-contained page (x-y-t cloud, rate curve) and open it in the browser.
 
         Args:
             path: where to save the page; then nothing is opened. Default: a temporary file.
+            overwrite: whether an existing file may be replaced.
         """
-        shown: Path = load_object("texvent.view.page:show")(self, path)
+        shown: Path = load_object("texvent.view.page:show")(self, path, overwrite=overwrite)
         return shown
 
 
