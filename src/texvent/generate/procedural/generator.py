@@ -37,8 +37,8 @@ class ProceduralConfig:
     duration: float = 2.0
     """Length of the video, in seconds."""
     samples: int = 2
-    """Fineness of edges: 1 = fast draft, 2 = 16 rays in every pixel with an edge, 3 = 36,
-    4 = 64."""
+    """Fineness of edges: rays per pixel side that look for them; 1 = fast draft, 2 = smooth
+    enough for events."""
     shadows: bool = True
     """Whether the sun and the moon cast shadows."""
 

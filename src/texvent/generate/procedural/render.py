@@ -50,8 +50,8 @@ def render(
         scene: what to draw.
         time_s: the instant, s.
         size: picture size, pixels.
-        samples: probes per pixel side that look for edges; a pixel with an edge is the mean of
-            (2 · samples)² rays.
+        samples: probes per pixel side that look for edges, which bisection then places; a pixel
+            with something thinner than the probes is the mean of (4 · samples)² rays.
         shadows: False leaves out all shadows.
         threads: how many threads share the work; None uses every core this process may use. It
             does not change the picture.
@@ -68,7 +68,7 @@ def render(
     world = look(scene, time_s, size, shadows=shadows, samples=samples)
     rows = -(-size.height // TILE)
     picture = np.empty((size.height, size.width, 3), dtype=np.float64)
-    pattern = sample_pattern((2 * samples) ** 2)
+    pattern = sample_pattern((4 * samples) ** 2)
 
     def draw(tile_row: int) -> None:
         draw_tile_row(world, tile_row, samples, pattern, picture)

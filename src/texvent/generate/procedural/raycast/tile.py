@@ -2,8 +2,9 @@
 
 Edges matter most: a pixel that jumps as an edge passes fires false events. So every pixel is first
 probed on a fine lattice for *what* is there. Where all probes agree, one shaded sample is exact
-enough, because textures are already averaged over the pixel; where they differ, or something thin
-is near, many samples, no two of them in the same row or column, say what share each surface has.
+enough, because textures are already averaged over the pixel. Where they differ, the edge is placed
+by bisection, so that each surface's share of the pixel changes continuously; where something thin
+is near, many samples, no two of them in the same row or column, find the shares.
 """
 
 from __future__ import annotations
@@ -33,6 +34,10 @@ from texvent.generate.procedural.raycast.trace import (
 
 _THIN = -(1 << 40)
 """Probe value that agrees with nothing: something thin is near."""
+_BISECTIONS = 6
+"""Steps that place an edge between two probes: to 1/128 pixel with two probes per pixel side."""
+_MOST_SURFACES = 64
+"""Surfaces that may share a pixel."""
 _SHOULDER = 0.75
 """Light above this share of white is compressed instead of cut off."""
 
@@ -93,39 +98,130 @@ def _shade(world: World, x: float, y: float, probe: int) -> Colour:
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _mean(
-    world: World, column: int, row: int, pattern: Float64Array, groups: Float64Array
-) -> Colour:
-    """Mean light over one pixel.
+def _add_share(
+    groups: Float64Array, count: int, probe: int, share: float, place: tuple[float, float]
+) -> int:
+    """Add a piece of a pixel, at `place`, to the surface it shows; the new number of surfaces.
 
-    The samples of `pattern` find which surfaces share the pixel, and how much of it each has.
-    Each surface is then shaded once, in the middle of its samples: textures are averaged over the
-    pixel anyway. `groups` is scratch space, [at least len(pattern), 4].
+    `groups` is [k, 4]: probe, share, and share · x and share · y summed.
     """
-    count = 0
-    for index in range(len(pattern)):
-        x, y = column + pattern[index, 0], row + pattern[index, 1]
-        probe = float(_probe(world, x, y))
-        place = 0
-        while place < count and groups[place, 0] != probe:
-            place += 1
-        if place == count:
-            groups[place, 0] = probe
-            groups[place, 1] = groups[place, 2] = groups[place, 3] = 0.0
-            count += 1
-        groups[place, 1] += 1.0
-        groups[place, 2] += x
-        groups[place, 3] += y
-    red, green, blue = 0.0, 0.0, 0.0
-    for place in range(count):
-        size = groups[place, 1]
-        x, y = groups[place, 2] / size, groups[place, 3] / size
-        light = _shade(world, x, y, int(groups[place, 0]))
-        share = size / len(pattern)
+    group = 0
+    while group < count and groups[group, 0] != probe:
+        group += 1
+    if group == len(groups):
+        group -= 1  # more surfaces in a pixel than there is room for: the last ones count as one
+    elif group == count:
+        groups[group, 0] = probe
+        groups[group, 1] = groups[group, 2] = groups[group, 3] = 0.0
+        count += 1
+    groups[group, 1] += share
+    groups[group, 2] += share * place[0]
+    groups[group, 3] += share * place[1]
+    return count
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _sum_groups(world: World, groups: Float64Array, count: int) -> Colour:
+    """Mean light of a pixel that several surfaces share.
+
+    Each is shaded once, in the middle of its pieces: textures are averaged over the pixel anyway.
+    """
+    red, green, blue, total = 0.0, 0.0, 0.0, 0.0
+    for group in range(count):
+        share = groups[group, 1]
+        x, y = groups[group, 2] / share, groups[group, 3] / share
+        light = _shade(world, x, y, int(groups[group, 0]))
         red += share * light[0]
         green += share * light[1]
         blue += share * light[2]
-    return red, green, blue
+        total += share
+    return red / total, green / total, blue / total
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _sample_pixel(
+    world: World, column: int, row: int, pattern: Float64Array, groups: Float64Array
+) -> Colour:
+    """Mean light over a pixel with something thin in it, from the samples of `pattern`."""
+    count = 0
+    for index in range(len(pattern)):
+        x, y = column + pattern[index, 0], row + pattern[index, 1]
+        count = _add_share(groups, count, _probe(world, x, y), 1.0, (x, y))
+    return _sum_groups(world, groups, count)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _border(
+    world: World, start: tuple[float, float], stop: tuple[float, float], probe: int
+) -> float:
+    """How far from `start` to `stop` (0..1) the surface `probe`, seen at `start`, reaches."""
+    low, high = 0.0, 1.0
+    for _ in range(_BISECTIONS):
+        middle = 0.5 * (low + high)
+        x = start[0] + middle * (stop[0] - start[0])
+        y = start[1] + middle * (stop[1] - start[1])
+        if _probe(world, x, y) == probe:
+            low = middle
+        else:
+            high = middle
+    return 0.5 * (low + high)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _split_pixel(
+    world: World, column: int, row: int, probes: NDArray[np.int64], groups: Float64Array
+) -> Colour:
+    """Mean light over a pixel with an edge in it.
+
+    Args:
+        world: the scene.
+        column: pixel column.
+        row: pixel row.
+        probes: [k, k] what is at the lattice points in and around the pixel.
+        groups: scratch space, [any, 4].
+
+    The pixel is cut into lines between lattice points, in the direction that crosses more edges;
+    on each line the edge is found by bisection. So coverage grows continuously as an edge moves,
+    where counted samples would jump.
+    """
+    last = len(probes) - 1
+    across, down = 0, 0
+    for j in range(last + 1):
+        for i in range(last):
+            across += probes[j, i] != probes[j, i + 1]
+            down += probes[i, j] != probes[i + 1, j]
+    upright = across >= down
+    count = 0
+    for line in range(last + 1):
+        share = (0.5 if line in (0, last) else 1.0) / (last * last)
+        for piece in range(last):
+            if upright:
+                first, second = probes[line, piece], probes[line, piece + 1]
+                start = (column + piece / last, row + line / last)
+                stop = (column + (piece + 1) / last, start[1])
+            else:
+                first, second = probes[piece, line], probes[piece + 1, line]
+                start = (column + line / last, row + piece / last)
+                stop = (start[0], row + (piece + 1) / last)
+            cut = 1.0
+            if first != second:
+                cut = _border(world, start, stop, first)
+                count = _add_share(
+                    groups,
+                    count,
+                    second,
+                    share * (1.0 - cut),
+                    _between(start, stop, 0.5 + 0.5 * cut),
+                )
+            count = _add_share(groups, count, first, share * cut, _between(start, stop, 0.5 * cut))
+    return _sum_groups(world, groups, count)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _between(
+    start: tuple[float, float], stop: tuple[float, float], share: float
+) -> tuple[float, float]:
+    return start[0] + share * (stop[0] - start[0]), start[1] + share * (stop[1] - start[1])
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -151,16 +247,39 @@ def _probe_tile(
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def _refresh(
+    world: World, column: int, row: int, lattice: tuple[int, int], probes: NDArray[np.int64]
+) -> None:
+    """Look for shadow at the lattice points of a pixel that took it over from a neighbour.
+
+    `lattice` is the place in the tile's lattice of the pixel's first point.
+    """
+    last = len(probes) - 1
+    for j in range(last + 1):
+        for i in range(last + 1):
+            if (lattice[0] + lattice[1] + i + j) % 2 == 1:
+                probes[j, i] = _probe(world, column + i / last, row + j / last)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def _agree(probes: NDArray[np.int64], top: int, left: int, samples: int) -> bool:
     """Whether all probes in and around one pixel saw the same surface."""
     first = probes[top, left]
-    if first == _THIN:
-        return False
     for row in range(top, top + samples + 1):
         for column in range(left, left + samples + 1):
             if probes[row, column] != first:
                 return False
     return True
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _any_thin(probes: NDArray[np.int64], top: int, left: int, samples: int) -> bool:
+    """Whether something thin is near one pixel."""
+    for row in range(top, top + samples + 1):
+        for column in range(left, left + samples + 1):
+            if probes[row, column] == _THIN:
+                return True
+    return False
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -173,7 +292,7 @@ def draw_tile_row(
         owner: the scene.
         tile_row: which row of tiles.
         samples: probes per pixel side.
-        pattern: [k, 2] sample positions in [0, 1)² for pixels with an edge.
+        pattern: [k, 2] sample positions in [0, 1)² for pixels with something thin.
         picture: [H, W, 3] linear light, 0..1; this row of tiles is written.
     """
     world = World(
@@ -182,17 +301,22 @@ def draw_tile_row(
     height, width = picture.shape[0], picture.shape[1]
     top, bottom = tile_row * TILE, min((tile_row + 1) * TILE, height)
     probes = np.empty((TILE * samples + 1, TILE * samples + 1), dtype=np.int64)
-    groups = np.empty((len(pattern), 4), dtype=np.float64)
+    groups = np.empty((_MOST_SURFACES, 4), dtype=np.float64)
+    around = np.empty((samples + 1, samples + 1), dtype=np.int64)
     for left in range(0, width, TILE):
         right = min(left + TILE, width)
         _probe_tile(world, (left, right, top, bottom), samples, probes)
         for row in range(top, bottom):
             for column in range(left, right):
                 j, i = (row - top) * samples, (column - left) * samples
-                if _agree(probes, j, i, samples):
+                if _any_thin(probes, j, i, samples):
+                    light = _sample_pixel(world, column, row, pattern, groups)
+                elif _agree(probes, j, i, samples):
                     light = _shade(world, column + 0.5, row + 0.5, int(probes[j, i]))
                 else:
-                    light = _mean(world, column, row, pattern, groups)
+                    around[:] = probes[j : j + samples + 1, i : i + samples + 1]
+                    _refresh(world, column, row, (j, i), around)
+                    light = _split_pixel(world, column, row, around, groups)
                 picture[row, column, 0] = light[0]
                 picture[row, column, 1] = light[1]
                 picture[row, column, 2] = light[2]
