@@ -36,6 +36,8 @@ _THIN = -(1 << 40)
 """Probe value that agrees with nothing: something thin is near."""
 _BISECTIONS = 6
 """Steps that place an edge between two probes: to 1/128 pixel with two probes per pixel side."""
+_MOST_BORDERS = 4
+"""Edges that are placed between two neighbouring probes."""
 _MOST_SURFACES = 64
 """Surfaces that may share a pixel."""
 _SHOULDER = 0.75
@@ -151,20 +153,54 @@ def _sample_pixel(
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _border(
-    world: World, start: tuple[float, float], stop: tuple[float, float], probe: int
-) -> float:
-    """How far from `start` to `stop` (0..1) the surface `probe`, seen at `start`, reaches."""
-    low, high = 0.0, 1.0
-    for _ in range(_BISECTIONS):
-        middle = 0.5 * (low + high)
-        x = start[0] + middle * (stop[0] - start[0])
-        y = start[1] + middle * (stop[1] - start[1])
-        if _probe(world, x, y) == probe:
-            low = middle
-        else:
-            high = middle
-    return 0.5 * (low + high)
+def _between(
+    start: tuple[float, float], stop: tuple[float, float], share: float
+) -> tuple[float, float]:
+    return start[0] + share * (stop[0] - start[0]), start[1] + share * (stop[1] - start[1])
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _add_line(
+    world: World,
+    groups: Float64Array,
+    count: int,
+    ends: tuple[tuple[float, float], tuple[float, float]],
+    probes: tuple[int, int],
+    share: float,
+) -> int:
+    """Add the pieces of a line between two lattice points to the surfaces they show.
+
+    Args:
+        world: the scene.
+        groups: as in `_add_share`.
+        count: surfaces so far.
+        ends: where the line starts and stops.
+        probes: what is there.
+        share: what the whole line stands for.
+
+    Returns:
+        The new number of surfaces.
+    """
+    start, stop = ends
+    low, probe = 0.0, probes[0]
+    for _ in range(_MOST_BORDERS):
+        if probe == probes[1]:
+            break
+        first, inside, outside, beyond = low, low, 1.0, probes[1]
+        for _ in range(_BISECTIONS):
+            middle = 0.5 * (inside + outside)
+            x, y = _between(start, stop, middle)
+            found = _probe(world, x, y)
+            if found == probe:
+                inside = middle
+            else:
+                outside, beyond = middle, found
+        low = 0.5 * (inside + outside)
+        place = _between(start, stop, 0.5 * (first + low))
+        count = _add_share(groups, count, probe, share * (low - first), place)
+        probe = beyond
+    place = _between(start, stop, 0.5 * (low + 1.0))
+    return _add_share(groups, count, probes[1], share * (1.0 - low), place)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -203,25 +239,8 @@ def _split_pixel(
                 first, second = probes[piece, line], probes[piece + 1, line]
                 start = (column + line / last, row + piece / last)
                 stop = (start[0], row + (piece + 1) / last)
-            cut = 1.0
-            if first != second:
-                cut = _border(world, start, stop, first)
-                count = _add_share(
-                    groups,
-                    count,
-                    second,
-                    share * (1.0 - cut),
-                    _between(start, stop, 0.5 + 0.5 * cut),
-                )
-            count = _add_share(groups, count, first, share * cut, _between(start, stop, 0.5 * cut))
+            count = _add_line(world, groups, count, (start, stop), (first, second), share)
     return _sum_groups(world, groups, count)
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _between(
-    start: tuple[float, float], stop: tuple[float, float], share: float
-) -> tuple[float, float]:
-    return start[0] + share * (stop[0] - start[0]), start[1] + share * (stop[1] - start[1])
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
