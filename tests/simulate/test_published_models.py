@@ -12,6 +12,7 @@ from texvent.config import option_help, option_names
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.simulate.esim import EsimSimulator
+from texvent.simulate.physical import PhysicalSimulator
 from texvent.simulate.senpi import SenpiSimulator
 from texvent.simulate.v2e import V2eSimulator
 from texvent.simulate.voltmeter import VoltmeterConfig, VoltmeterSimulator
@@ -20,6 +21,7 @@ from texvent.video import Frame
 from .published import moving_texture, run, static
 
 MODELS = {
+    "physical": PhysicalSimulator,
     "esim": EsimSimulator,
     "v2e": V2eSimulator,
     "senpi": SenpiSimulator,
@@ -178,6 +180,7 @@ def test_inverted_contrast_swaps_on_and_off(name, backend):
 def test_the_seed_decides_everything_random(name, seed):
     preset = list(MODELS[name].presets.values())[-1]
     noisy = {
+        "physical": {"noise_scale": 10.0},
         "esim": {"threshold_sigma": 0.03},
         "v2e": {"shot_noise_rate_hz": 50.0},
         "senpi": {"noise_rate_hz": 50.0},

@@ -8,12 +8,15 @@ line is known exactly, so the frame rate decides only how well straight lines fi
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.brightness import balanced_log
 from texvent.simulate.kernels.circuit import Drive
 from texvent.simulate.streaming import IntensityArray
+from texvent.video import MICROSECONDS
 
 Float64Array = NDArray[np.float64]
 
@@ -46,36 +49,63 @@ def linearize(luma: IntensityArray, gamma: float) -> Float64Array:
     return np.asarray(WHITE * np.power(luma / np.float64(WHITE), gamma))
 
 
-def corner_frequency(intensity: Float64Array, cutoff_hz: float) -> Float64Array:
-    """Bandwidth `cutoff · (I + 20) / 275`, Hz, [H, W].
+class Light(NamedTuple):
+    """What a frame shows, as pixels see it."""
+
+    intensity: Float64Array
+    """I, linear levels 0..255, [H, W]."""
+    brightness: Float64Array
+    """L = ln(α + I), [H, W]."""
+    balance: float
+    """α, linear levels."""
+
+
+def see(luma: IntensityArray, *, gamma: float, balance: float) -> Light:
+    """The light that falls on the pixels.
 
     Args:
-        intensity: linear, 0..255 scale, [H, W].
-        cutoff_hz: bandwidth at white.
+        luma: 0..255 scale, [H, W], uint8 or float.
+        gamma: exponent that makes it linear; 1 if it is already.
+        balance: α, linear levels, above 0.
+    """
+    intensity = linearize(luma, gamma)
+    return Light(intensity, balanced_log(intensity, balance), balance)
+
+
+def drive_photoreceptors(before: Light, now: Light, cutoff_hz: float, duration_us: int) -> Drive:
+    """How every photoreceptor follows brightness from one frame to the next.
+
+    Its corner frequency is `cutoff · (I + 20) / 275`.
+
+    Args:
+        before: light at the start.
+        now: light at the end.
+        cutoff_hz: bandwidth at white; 0 is unlimited.
+        duration_us: length of the interval, µs.
+
+    Returns:
+        Flat arrays; see `Drive`.
 
     Source: v2e (Hu, Liu and Delbruck, CVPRW 2021), section 4.2, which follows the proportionality
         of photocurrent and bandwidth (Lichtsteiner et al., JSSC 2008).
     """
-    return cutoff_hz * ((intensity + DARK_OFFSET) / (WHITE + DARK_OFFSET))
-
-
-def drive_photoreceptors(rise: Float64Array, corner_hz: Float64Array, duration_s: float) -> Drive:
-    """How every photoreceptor follows a straight line of brightness over one interval.
-
-    Args:
-        rise: change of brightness over the interval, any shape.
-        corner_hz: bandwidth of each pixel, of the same shape; 0 is unlimited.
-        duration_s: length of the interval, s.
-
-    Returns:
-        Flat arrays; see `Drive`.
-    """
-    angle = 2.0 * math.pi * duration_s * corner_hz.reshape(-1)
+    corner_per_level = 2.0 * math.pi * cutoff_hz / (WHITE + DARK_OFFSET) / MICROSECONDS
+    levels = [light.intensity.reshape(-1) + DARK_OFFSET for light in (before, now)]
+    turn = corner_per_level * duration_us
     # Many pieces cost time only where a pixel may fire.
-    pieces = np.maximum(np.ceil(angle / PIECE_ANGLE), 1.0)
-    piece_decay, piece_gain = _answer_to_line(angle / pieces)
-    decay, gain = _answer_to_line(angle)
-    return Drive(rise.reshape(-1), pieces.astype(np.int64), piece_decay, piece_gain, decay, gain)
+    pieces = np.maximum(np.ceil(turn * np.maximum(*levels) / PIECE_ANGLE), 1.0)
+    rise = (now.brightness - before.brightness).reshape(-1)
+    decay, gain = _answer_to_line(turn * (levels[0] + levels[1]) / 2)
+    return Drive(
+        rise=rise,
+        pieces=pieces.astype(np.int64),
+        glow=(before.balance + before.intensity).reshape(-1) * np.exp(rise / pieces / 2),
+        growth=np.exp(rise / pieces),
+        decay=decay,
+        gain=gain,
+        corner_per_level=corner_per_level,
+        corner_level=DARK_OFFSET - before.balance,
+    )
 
 
 def _answer_to_line(angle: Float64Array) -> tuple[Float64Array, Float64Array]:

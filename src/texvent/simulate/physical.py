@@ -22,24 +22,17 @@ from typing import ClassVar
 
 import numpy as np
 
-from texvent.brightness import balanced_log
 from texvent.simulate.draws import Purpose, draw_uniforms
 from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.kernels.circuit import (
     Arrivals,
-    Drive,
     Pixels,
     PixelState,
     ResetRules,
     load_advance_pixels,
 )
 from texvent.simulate.noise_curve import parse_noise_curve
-from texvent.simulate.photoreceptor import (
-    WHITE,
-    corner_frequency,
-    drive_photoreceptors,
-    linearize,
-)
+from texvent.simulate.photoreceptor import WHITE, drive_photoreceptors, see
 from texvent.simulate.physical_config import PRESETS, PhysicalConfig
 from texvent.simulate.pixel_maps import (
     Float64Array,
@@ -105,10 +98,12 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
         )
 
     def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
-        before = self._intensity, self._brightness, self._noise_hz
+        light, noise_hz = self._light, self._noise_hz
         self._look_at(intensity)
-        drive = self._drive(*before[:2], interval)
-        noise = self._draw_noise((before[2] + self._noise_hz) / 2, interval)
+        drive = drive_photoreceptors(
+            light, self._light, self.config.cutoff_hz, interval.duration_us
+        )
+        noise = self._draw_noise((noise_hz + self._noise_hz) / 2, interval)
         rules = ResetRules(self.config.refractory_period_us, self.config.noise_resets)
         fired = load_advance_pixels(self._backend)(
             drive, self._pixels, self._state, noise, rules, (interval.start_us, interval.stop_us)
@@ -141,23 +136,12 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
 
     def _look_at(self, luma: IntensityArray) -> None:
         """Keep what the next interval needs of a frame."""
-        self._intensity = linearize(luma, self.config.gamma)
-        self._brightness = balanced_log(self._intensity, self.config.balance)
+        config = self.config
+        self._light = see(luma, gamma=config.gamma, balance=config.balance)
         self._noise_hz = self._hot_hz
-        if self.config.noise_scale > 0:
-            curve = self._noise_curve.rate_at(self._intensity)
+        if config.noise_scale > 0:
+            curve = self._noise_curve.rate_at(self._light.intensity)
             self._noise_hz = self._hot_hz + self._noise_factor * curve
-
-    def _drive(
-        self, intensity: Float64Array, brightness: Float64Array, interval: Interval
-    ) -> Drive:
-        """Brightness from the frame before to this one, and how photoreceptors follow it."""
-        middle = (intensity + self._intensity) / 2
-        return drive_photoreceptors(
-            self._brightness - brightness,
-            corner_frequency(middle, self.config.cutoff_hz),
-            interval.duration_s,
-        )
 
     def _draw_noise(self, rate_hz: Float64Array, interval: Interval) -> Arrivals:
         if not rate_hz.any():

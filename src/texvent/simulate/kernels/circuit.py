@@ -24,22 +24,27 @@ class Drive(NamedTuple):
     """Brightness between two frames, a straight line, and how photoreceptors follow it.
 
     Over a time h the lag of a first-order low-pass with corner ω behind a line that rises by ΔL
-    becomes `lag · e^(−ωh) + ΔL · (1 − e^(−ωh)) / (ωh)`, exactly: `decay` and `gain`. The output
-    in between is curved, so crossings are looked for on `pieces` straight pieces.
+    becomes `lag · e^(−a) + ΔL · (1 − e^(−a)) / a` with a = ωh: `decay` and `gain`. The corner
+    changes with intensity, and the output is curved, so a pixel that may fire goes through the
+    interval in `pieces`: brightness is a straight line, so α + I grows by one factor per piece.
     """
 
     rise: Float64Array
     """[n] change of brightness ln(α + I) over the interval."""
     pieces: Int64Array
     """[n] number of equal pieces, at least 1."""
-    piece_decay: Float64Array
-    """[n] of one piece."""
-    piece_gain: Float64Array
-    """[n] of one piece, for the part of the rise that falls into it."""
+    glow: Float64Array
+    """[n] α + I in the middle of the first piece, linear levels."""
+    growth: Float64Array
+    """[n] factor on it from one piece to the next."""
     decay: Float64Array
     """[n] of the whole interval."""
     gain: Float64Array
     """[n] of the whole interval."""
+    corner_per_level: float
+    """ω per linear level, 1/µs; 0 stands for an unlimited bandwidth."""
+    corner_level: float
+    """What to add to α + I to have the levels that ω is proportional to."""
 
 
 class Pixels(NamedTuple):

@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 from texvent.events import NOISE, SIGNAL
 from texvent.simulate.firings import Firings
 from texvent.simulate.kernels.circuit import Arrivals, Drive, Pixels, PixelState, ResetRules
-from texvent.simulate.kernels.circuit_reference import LEAK_SHARE, NEVER
+from texvent.simulate.kernels.circuit_reference import LEAK_SHARE, NEVER, answer_to_line
+
+_answer_to_line = numba.njit(cache=True, nogil=True, inline="always")(answer_to_line)
 
 Events = tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.uint8], NDArray[np.uint8]]
 
@@ -130,9 +132,11 @@ def _advance_one(
     release = float(state.release_us[i] - start_us)
     pieces = drive.pieces[i]
     length = duration / pieces
-    rise = drive.rise[i] / pieces
+    rise, glow, growth = drive.rise[i] / pieces, drive.glow[i], drive.growth[i]
     for piece in range(pieces):
-        new_lag = drive.piece_decay[i] * lag + drive.piece_gain[i] * rise
+        decay, gain = _answer_to_line(drive.corner_per_level * (glow + drive.corner_level) * length)
+        glow *= growth
+        new_lag = decay * lag + gain * rise
         slope = (rise - (new_lag - lag)) / length + leak
         now = piece * length
         end = float(duration) if piece == pieces - 1 else (piece + 1) * length

@@ -85,13 +85,29 @@ def _run(circuit: _Circuit, drive: Drive, i: int, lag: float, duration: int) -> 
     pieces = int(drive.pieces[i])
     length = duration / pieces
     rise = float(drive.rise[i]) / pieces
+    glow, growth = float(drive.glow[i]), float(drive.growth[i])
     for piece in range(pieces):
-        new_lag = float(drive.piece_decay[i]) * lag + float(drive.piece_gain[i]) * rise
+        angle = drive.corner_per_level * (glow + drive.corner_level) * length
+        glow *= growth
+        decay, gain = answer_to_line(angle)
+        new_lag = decay * lag + gain * rise
         slope = (rise - (new_lag - lag)) / length + circuit.leak
         end = duration if piece == pieces - 1 else (piece + 1) * length
         circuit.run_piece(piece * length, end, slope)
         lag = new_lag
     return lag
+
+
+def answer_to_line(angle: float) -> tuple[float, float]:
+    """`e^(−a)` and `(1 − e^(−a)) / a` for a short piece; (0, 0), no lag, if nothing limits it.
+
+    By the Padé approximant [2/2] of e^(−a), whose error is below a⁵ / 720, so 1.4e-6 for a = 1/4:
+    it needs no exponential, whose last bit differs between libraries.
+    """
+    if angle == 0:
+        return 0.0, 0.0
+    even, odd = 1.0 + angle * angle / 12.0, angle / 2.0
+    return (even - odd) / (even + odd), 1.0 / (even + odd)
 
 
 @dataclass

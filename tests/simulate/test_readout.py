@@ -1,0 +1,107 @@
+"""The readout on made-up events, and on the whole model."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+from texvent.simulate.draws import frame_key
+from texvent.simulate.firings import Firings, Interval
+from texvent.simulate.readout import Readout, ReadoutRules
+
+WIDTH = 20
+
+
+def events_at(times, pixel=None) -> Firings:
+    t = np.sort(np.asarray(times, np.int64))
+    pixel = np.arange(len(t)) % (WIDTH * WIDTH) if pixel is None else np.asarray(pixel, np.int64)
+    return Firings.signal(pixel, t, (np.arange(len(t)) % 2).astype(np.uint8))
+
+
+def read_all(rules: ReadoutRules, times, *, step_us: int, first_us: int = 0, stop_us: int) -> list:
+    """Packets of a readout that gets its events interval by interval."""
+    readout = Readout(rules, first_us=first_us, width=WIDTH)
+    times = np.asarray(times)
+    packets = []
+    for start, stop in itertools.pairwise(range(first_us, stop_us + 1, step_us)):
+        interval = Interval(start, stop, frame_key(0, stop - first_us))
+        inside = times[(times >= start) & (times < stop)]
+        packet = readout.read(events_at(inside), interval)
+        assert ((packet.t >= start) & (packet.t < stop)).all()
+        packets.append(packet)
+    return packets
+
+
+def times_of(packets) -> list[int]:
+    return np.concatenate([packet.t for packet in packets]).tolist()
+
+
+def test_an_ideal_readout_changes_nothing():
+    fired = events_at([3, 5, 900])
+    assert (
+        Readout(ReadoutRules(), first_us=0, width=WIDTH).read(fired, Interval(0, 1000, 0)) is fired
+    )
+
+
+def test_latency_moves_events_later_across_frames():
+    packets = read_all(ReadoutRules(latency_us=150), [10, 90, 210], step_us=100, stop_us=400)
+    assert [packet.t.tolist() for packet in packets] == [[], [160], [240], [360]]
+
+
+def test_events_that_would_leave_after_the_last_frame_stay_inside():
+    assert times_of(read_all(ReadoutRules(latency_us=150), [300], step_us=100, stop_us=400)) == []
+
+
+def test_the_clock_rounds_up_to_its_ticks_from_the_first_frame_on():
+    rules = ReadoutRules(clock_us=25)
+    packets = read_all(rules, [1010, 1026, 1050, 1051], first_us=1001, step_us=100, stop_us=1201)
+    assert times_of(packets) == [1026, 1026, 1051, 1051]
+
+
+def test_jitter_is_uniform_up_to_its_limit():
+    times = np.arange(0, 100_000, 10)
+    packets = read_all(ReadoutRules(jitter_us=30), times, step_us=5000, stop_us=105_000)
+    # Pixels tell the events of an interval apart: 500 per interval on 400 pixels.
+    delay = np.sort(times_of(packets)) - times
+    assert delay.min() >= 0
+    assert delay.max() <= 30
+    assert delay.mean() == pytest.approx(15, abs=5 * 9 / math.sqrt(len(times)))
+
+
+@pytest.mark.parametrize("step_us", [500, 1000, 4000, 100_000])
+def test_a_steady_rate_above_the_limit_is_cut_to_it(step_us):
+    # 50,000 events in 0.1 s are 500,000 per second.
+    times = np.arange(0, 100_000, 2)
+    rules = ReadoutRules(rate_limit_hz=200_000.0)
+    kept = len(times_of(read_all(rules, times, step_us=step_us, stop_us=100_000)))
+    # The first window of 1 ms passes whole: nothing was counted before it.
+    mean = 500 + 99 * 200
+    assert kept == pytest.approx(mean, abs=5 * math.sqrt(50_000 * 0.4 * 0.6))
+
+
+def test_a_rate_below_the_limit_passes_whole():
+    times = np.arange(0, 100_000, 10)
+    rules = ReadoutRules(rate_limit_hz=150_000.0)
+    assert len(times_of(read_all(rules, times, step_us=3000, stop_us=100_000))) == len(
+        times[times < 99_000]
+    )
+
+
+def test_a_silent_window_lifts_the_limit():
+    burst = np.arange(0, 1000, 2)
+    rules = ReadoutRules(rate_limit_hz=100_000.0)
+    apart = read_all(rules, np.concatenate([burst, burst + 5000]), step_us=700, stop_us=7000)
+    joined = read_all(rules, np.concatenate([burst, burst + 1000]), step_us=700, stop_us=7000)
+    assert len(times_of(apart)) == 1000
+    assert len(times_of(joined)) == pytest.approx(600, abs=5 * math.sqrt(500 * 0.2 * 0.8))
+
+
+def test_the_window_of_the_limit_does_not_care_where_frames_are():
+    times = np.arange(0, 20_000, 3)
+    rules = ReadoutRules(rate_limit_hz=100_000.0)
+    rates = [
+        len(times_of(read_all(rules, times, step_us=step, stop_us=20_000)))
+        for step in (250, 1000, 20_000)
+    ]
+    assert max(rates) - min(rates) <= 10 * math.sqrt(20_000 / 3 * 0.3 * 0.7)
