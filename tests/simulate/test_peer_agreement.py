@@ -3,6 +3,7 @@
 The streams lie beside the checkout, not in it (`../shared/peers`, read there what made them).
 """
 
+import dataclasses
 from pathlib import Path
 
 import numpy as np
@@ -200,7 +201,9 @@ def test_senpi_with_its_defaults_agrees_in_rate_and_polarity(clip):
 )
 def test_voltmeter_agrees_in_its_distributions(clip, preset, name):
     theirs = load_peer(name)
-    ours = EventStream.concat(packets_of(VoltmeterSimulator, preset, clip, seed=1)).columns()
+    config = dataclasses.replace(VoltmeterSimulator.presets[preset], start_voltage="zero")
+    simulator = VoltmeterSimulator(config, seed=1)
+    ours = EventStream.concat([simulator.step(frame) for frame in clip]).columns()
     assert len(ours["t"]) == pytest.approx(len(theirs["t"]), rel=0.002)
     level = np.mean([frame.pixels for frame in clip], axis=0).astype(int) // 32
     for events, other in zip(

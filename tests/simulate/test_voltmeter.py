@@ -12,7 +12,7 @@ from texvent.video import Frame
 
 from .published import curve, frames_of, run, static
 
-QUIET = VoltmeterConfig(k3=0.0, k4=0.0, k5=0.0, k6=0.0)
+QUIET = VoltmeterConfig(k3=0.0, k4=0.0, k5=0.0, k6=0.0, start_voltage="zero")
 ABOVE_99_9_PERCENT = 1.95
 """Kolmogorov-Smirnov distance times √n that a true sample exceeds once in a thousand."""
 
@@ -100,16 +100,21 @@ def test_leakage_fires_on_events_at_its_rate_at_any_frame_rate(backend, fps):
 @pytest.mark.parametrize("preset", ["davis346", "davis240"])
 def test_a_static_scene_has_the_rate_of_its_drift_at_any_frame_rate(preset, fps):
     config = VoltmeterSimulator.presets[preset]
-    shape, seconds = (40, 50), 1.0
-    simulator = VoltmeterSimulator(config)
-    # Pixels start at rest, all at once; spread over their first event, they fire evenly.
-    simulator.step(static(250.0, fps=1, seconds=0, shape=shape)[0])
-    simulator._voltage.residual[...] = np.random.default_rng(0).uniform(0, 1, shape)
-    frames = static(250.0, fps=fps, seconds=seconds, shape=shape)[1:]
-    events = [simulator.step(frame) for frame in frames]
-    expected = (config.k4 + config.k5 * 250) * 1e6 * seconds * shape[0] * shape[1]
-    assert abs(sum(len(packet) for packet in events) - expected) < 4 * math.sqrt(expected)
-    assert all((packet.label == NOISE).all() for packet in events)
+    frames = static(250.0, fps=fps, seconds=1.0, shape=(40, 50))
+    events = run(VoltmeterSimulator(config), frames)
+    expected = (config.k4 + config.k5 * 250) * 1e6 * 40 * 50
+    assert abs(len(events) - expected) < 4 * math.sqrt(expected)
+    assert (events.label == NOISE).all()
+    # Never in unison: pixels start anywhere on the way to their first event.
+    assert events.t.mean() == pytest.approx(500_000, abs=4e6 / math.sqrt(12 * expected))
+
+
+def test_pixels_that_start_at_zero_leak_in_unison(backend):
+    config = dataclasses.replace(VoltmeterConfig(k3=0.0, k6=0.0), start_voltage="zero")
+    frames = static(250.0, fps=24, seconds=1.0, shape=(3, 4))
+    events = run(VoltmeterSimulator(config, backend=backend), frames)
+    assert len(events) == 12
+    assert np.ptp(events.t) == 0
 
 
 def test_intervals_with_drift_are_inverse_gaussian(backend):
@@ -199,7 +204,15 @@ def test_eq4_counts_with_the_gain_and_the_dark_offset():
 
 @pytest.mark.parametrize(
     ("option", "value"),
-    [("k1", 0.0), ("k2", 0.0), ("k3", -1e-4), ("k4", 1.0), ("k5", float("nan")), ("k6", 1.0)],
+    [
+        ("k1", 0.0),
+        ("k2", 0.0),
+        ("k3", -1e-4),
+        ("k4", 1.0),
+        ("k5", float("nan")),
+        ("k6", 1.0),
+        ("start_voltage", "high"),
+    ],
 )
 def test_impossible_constants_fail_by_name(option, value):
     with pytest.raises(ConfigError, match=option):

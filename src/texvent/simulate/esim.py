@@ -74,8 +74,8 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         >>> len(simulator.step(Frame(dark, t_us=0)))  # nothing to compare with yet
         0
         >>> events = simulator.step(Frame(bright, t_us=1000))  # ln(200.255 / 50.255) = 1.3825
-        >>> events.t.tolist(), events.polarity.tolist()
-        ([361, 723], [1, 1])
+        >>> list(zip(events.t.tolist(), events.polarity.tolist()))
+        [(361, 1), (723, 1)]
     """
 
     config_type: ClassVar[type] = EsimConfig

@@ -91,8 +91,8 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         >>> len(simulator.step(Frame(np.array([[40]], np.uint8), t_us=0)))
         0
         >>> events = simulator.step(Frame(np.array([[90]], np.uint8), t_us=1000))
-        >>> events.t.tolist(), events.polarity.tolist()  # once, however large the change
-        ([999], [1])
+        >>> list(zip(events.t.tolist(), events.polarity.tolist()))  # once, however large
+        [(999, 1)]
     """
 
     config_type: ClassVar[type] = SenpiConfig

@@ -105,8 +105,8 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
         >>> len(simulator.step(Frame(np.array([[40]], np.uint8), t_us=0)))
         0
         >>> events = simulator.step(Frame(np.array([[60]], np.uint8), t_us=1000))
-        >>> events.t.tolist(), events.polarity.tolist()  # ln(60 / 40) = 0.4055
-        ([493, 986], [1, 1])
+        >>> list(zip(events.t.tolist(), events.polarity.tolist()))  # ln(60 / 40) = 0.4055
+        [(493, 1), (986, 1)]
     """
 
     config_type: ClassVar[type] = V2eConfig

@@ -8,15 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
 
 from texvent.config import check_range
+from texvent.errors import ConfigError
 from texvent.events import NOISE, SIGNAL
+from texvent.simulate.draws import Purpose, draw_uniforms
 from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.kernels.passage import Motion, Voltage, load_find_passages
-from texvent.simulate.pixel_maps import Float64Array
+from texvent.simulate.pixel_maps import Float64Array, sensor_key
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 
 
@@ -42,6 +44,9 @@ class VoltmeterConfig:
     """Parasitic photocurrent: drift per level of light, thresholds per µs."""
     k6: float = 1e-5
     """Leakage noise: constant diffusion, per √µs."""
+    start_voltage: Literal["random", "zero"] = "random"
+    """Where pixels stand at the first frame: somewhere on the way to their next leak event
+    (random), or all at rest (zero), which makes equal pixels leak in unison."""
 
     def __post_init__(self) -> None:
         check_range("k1", self.k1, 1e-3, 1e3)
@@ -50,6 +55,8 @@ class VoltmeterConfig:
         check_range("k4", self.k4, -0.01, 0.01)
         check_range("k5", self.k5, -1e-4, 1e-4)
         check_range("k6", self.k6, 0.0, 0.1)
+        if self.start_voltage not in ("random", "zero"):
+            raise ConfigError(f"start_voltage is {self.start_voltage!r}; allowed: random, zero")
 
 
 class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
@@ -62,15 +69,15 @@ class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
         >>> len(simulator.step(Frame(np.array([[90]], np.uint8), t_us=0)))
         0
         >>> events = simulator.step(Frame(np.array([[130]], np.uint8), t_us=1000))
-        >>> events.t.tolist(), events.polarity.tolist()  # 5.265 * 40 / 130 = 1.62
-        ([617], [1])
+        >>> list(zip(events.t.tolist(), events.polarity.tolist()))  # 5.265 * 40 / 130 = 1.62
+        [(617, 1)]
     """
 
     config_type: ClassVar[type] = VoltmeterConfig
     presets: ClassVar[Mapping[str, VoltmeterConfig]] = {
         "davis346": VoltmeterConfig(),
         "davis240": VoltmeterConfig(k1=4.424, k2=23.0, k3=2e-4, k5=5e-8),
-        "peer-common": VoltmeterConfig(),
+        "peer-common": VoltmeterConfig(start_voltage="zero"),
     }
 
     @property
@@ -85,7 +92,13 @@ class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
 
     def _begin(self, intensity: IntensityArray) -> None:
         self._light = intensity.astype(np.float64)
-        self._voltage = Voltage(np.zeros(intensity.shape), np.zeros(intensity.shape))
+        residual = np.zeros(intensity.shape)
+        if self.config.start_voltage == "random":
+            leak = self.config.k4 + self.config.k5 * self._light
+            y, x = np.ogrid[: intensity.shape[0], : intensity.shape[1]]
+            chance = draw_uniforms(sensor_key(self._seed), y, x, Purpose.PHASE.draw())
+            residual = np.sign(leak) * chance
+        self._voltage = Voltage(residual, np.zeros(intensity.shape))
 
     def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
         light = intensity.astype(np.float64)
