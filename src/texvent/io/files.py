@@ -1,4 +1,4 @@
-"""Open, load and save event files; the format follows from the extension unless given."""
+"""Open, load and save event files; the format follows from extension and content unless given."""
 
 from __future__ import annotations
 
@@ -9,26 +9,50 @@ from typing import Any
 from texvent._registry import CODECS
 from texvent.errors import ConfigError
 from texvent.events import EventPackets, EventStream
-from texvent.io.protocol import EventCodec, EventWriter
+from texvent.io.protocol import EventCodec, EventWriter, RecognisingCodec
 from texvent.sensor import SensorSize, checked_size
 
 
 def codec_for(path: str | Path, format: str | None = None) -> EventCodec:
-    """The codec called `format`, or the one that the path's extension belongs to.
+    """The codec that writes `path`: the one called `format`, or the first of its extension.
 
     Raises:
         ConfigError: unknown format, or unknown extension; the message lists the known ones.
     """
-    if format is not None:
-        codec: EventCodec = CODECS.load(format)()
-        return codec
-    extension = Path(path).suffix.lower()
-    known: list[str] = []
-    for name in CODECS.names():
-        codec = CODECS.load(name)()
-        if extension in codec.extensions:
+    return _codecs_for(path, format)[0]
+
+
+def codec_that_reads(path: str | Path, format: str | None = None) -> EventCodec:
+    """The codec that reads `path`: called `format`, or of its extension.
+
+    Where formats share an extension, the content decides: the first codec that recognises the
+    file, else the first of those that take any file of that extension.
+
+    Raises:
+        ConfigError: unknown format, or unknown extension; the message lists the known ones.
+    """
+    codecs = _codecs_for(path, format)
+    if len(codecs) == 1:
+        return codecs[0]
+    others = []
+    for codec in codecs:
+        if not isinstance(codec, RecognisingCodec):
+            others.append(codec)
+        elif codec.recognises(Path(path)):
             return codec
-        known += [f"{one} ({name})" for one in codec.extensions]
+    return (others or codecs)[0]
+
+
+def _codecs_for(path: str | Path, format: str | None) -> list[EventCodec]:
+    """The codec called `format` alone, or all that share the path's extension, at least one."""
+    if format is not None:
+        return [CODECS.load(format)()]
+    extension = Path(path).suffix.lower()
+    codecs: list[EventCodec] = [CODECS.load(name)() for name in CODECS.names()]
+    found = [codec for codec in codecs if extension in codec.extensions]
+    if found:
+        return found
+    known = [f"{one} ({codec.name})" for codec in codecs for one in codec.extensions]
     what = f"extension {extension!r}" if extension else "no extension"
     raise ConfigError(
         f"{path} has {what}; event files end in {', '.join(known)}, or state the format"
@@ -51,7 +75,7 @@ def open_events(
         ConfigError: unknown format or extension.
     """
     given = None if size is None else checked_size(*size)
-    return codec_for(path, format).read(Path(path), size=given)
+    return codec_that_reads(path, format).read(Path(path), size=given)
 
 
 def load(

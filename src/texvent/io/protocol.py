@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
-from typing import Any, ClassVar, Protocol, Self
+from typing import Any, ClassVar, Protocol, Self, runtime_checkable
 
 from texvent.events import EventPackets, EventStream
 from texvent.sensor import SensorSize
@@ -57,4 +57,13 @@ class EventCodec(Protocol):
             OutputError: it exists already, or its folder cannot be written.
             InputError: the format cannot hold this sensor size.
         """
+        ...
+
+
+@runtime_checkable
+class RecognisingCodec(Protocol):
+    """A codec that can tell its own files from others that end in the same extension."""
+
+    def recognises(self, path: Path) -> bool:
+        """True if the beginning of the file is of this format; False too if it cannot be read."""
         ...
