@@ -10,6 +10,7 @@ from texvent.generate.procedural.description import (
     CameraMove,
     Motion,
     Paint,
+    Relation,
     SceneDescription,
     Thing,
 )
@@ -33,6 +34,7 @@ def complete_description(
     if description.understood_nothing:
         description = _show_default(description, nouns)
     description = _add_crew(description, nouns)
+    description = _seat_riders(description)
     things = tuple(_decide_motion(thing, nouns[thing.noun]) for thing in description.things)
     description = _let_chased_move(replace(description, things=things), nouns)
     things = description.things
@@ -71,6 +73,32 @@ def _add_crew(description: SceneDescription, nouns: Mapping[str, Noun]) -> Scene
     names = ", ".join(pluralise(t.noun) if t.count > 1 else t.noun for t in shown)
     note = f"the {description.surroundings.place} is shown with: {names}"
     return replace(description, things=shown, notes=(*description.notes, note))
+
+
+HAS_RIDER = frozenset({"bicycle", "motorcycle"})
+"""Nouns whose models come with the person who rides them."""
+
+
+def _seat_riders(description: SceneDescription) -> SceneDescription:
+    """Leave out the person on a bicycle, which has its rider already."""
+    riders = {
+        relation.subject
+        for relation in description.relations
+        if relation.kind == "on" and description.things[relation.targets[0]].noun in HAS_RIDER
+    }
+    if not riders:
+        return description
+    kept = [index for index in range(len(description.things)) if index not in riders]
+    new = {old: position for position, old in enumerate(kept)}
+    relations = tuple(
+        Relation(r.kind, new[r.subject], tuple(new[t] for t in r.targets))
+        for r in description.relations
+        if riders.isdisjoint({r.subject, *r.targets})
+    )
+    target = description.shot.target
+    shot = replace(description.shot, target=new.get(target) if target is not None else None)
+    things = tuple(description.things[index] for index in kept)
+    return replace(description, things=things, relations=relations, shot=shot)
 
 
 def _let_chased_move(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:

@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from texvent.generate.procedural.description import Motion, Paint, Thing
+from texvent.generate.procedural.language import lexicon
 from texvent.generate.procedural.language.tagging import Phrase, Role
+
+_GREY_LEVELS = {"light": "silver", "pale": "silver", "dark": "black"}
 
 
 @dataclass
@@ -23,6 +26,8 @@ class Draft:
     def finish(self) -> Thing:
         """The thing as understood."""
         motion = self.motion
+        if motion is None and self.pace != 1.0:
+            motion = Motion("move")
         if motion is not None and self.pace != 1.0:
             motion = Motion(
                 motion.kind, motion.direction, motion.pace * self.pace, motion.speed_m_s
@@ -58,3 +63,24 @@ class NounGroup:
                 self.number = None
                 return float(phrase.meaning.value), phrase
         return None
+
+    def decide_count(self, *, is_plural: bool) -> int:
+        """How many: as said, at most `MAX_COUNT`, or what a bare singular or plural means."""
+        if self.number is not None:
+            return round(min(self.number, lexicon.MAX_COUNT))
+        if self.count is not None:
+            return self.count
+        return lexicon.PLURAL_COUNT if is_plural else 1
+
+    def decide_paint(self) -> Paint | None:
+        """The colour, or the grey that "dark" and "light" alone mean.
+
+        A shade that means nothing alone ("vivid") leaves the group's words, to be reported.
+        """
+        if self.paint is not None or self.shade is None:
+            return self.paint
+        level = _GREY_LEVELS.get(self.shade)
+        if level is None:
+            self.phrases = [phrase for phrase in self.phrases if phrase.role is not Role.SHADE]
+            return None
+        return Paint(self.shade, lexicon.COLOURS[level])

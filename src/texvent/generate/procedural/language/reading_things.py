@@ -14,7 +14,6 @@ from texvent.generate.procedural.model import Noun
 MAX_THINGS = 16
 """Most different things; later ones are left out, and said."""
 
-_GREY_LEVELS = {"light": "silver", "pale": "silver", "bright": "white", "dark": "black"}
 _DEFINITE = ("the", "this", "that", "these", "those", "its", "their", "his", "her")
 _CARRIED = ("drive", "fly", "sail")
 _HANDLED = ("spin", "bounce", "fall", "roll", "throw", "swing", "sway", "slide")
@@ -46,6 +45,8 @@ class ThingReader:
     def open_group(self, phrase: Phrase) -> None:
         """A determiner starts a new noun group."""
         self.settle()
+        if self.negation is not None and self.negation.is_used:
+            self.negation = None
         self.group = NounGroup(
             is_definite=phrase.text in _DEFINITE, motion=self.group.motion, side=self.group.side,
             phrases=self.group.phrases if self.group.motion or self.group.side else [],
@@ -61,7 +62,7 @@ class ThingReader:
         elif phrase.role is Role.NUMBER:
             group.number = value
         elif phrase.role is Role.SHADE:
-            group.shade = value
+            group.shade = phrase.text
         elif phrase.role is Role.SIZE:
             group.scale = value
         elif phrase.role is Role.COLOUR:
@@ -147,7 +148,8 @@ class ThingReader:
             self._object_motion, motion = motion, Motion("stand")
         elif has_object and verb.kind in _CARRIED and verb.relation is None:
             self._relation = ("on", None)
-            self._object_motion = motion
+            self._object_motion = Motion("move", motion.direction, motion.pace)
+            motion = Motion("sit")
         for index in self.subjects:
             self._set_motion(self.drafts[index], motion)
 
@@ -167,7 +169,7 @@ class ThingReader:
         "Across" is the weakest: it keeps a direction that is already said.
         """
         direction = phrase.meaning.value
-        for index in self.subjects:
+        for index in self._movers():
             draft = self.drafts[index]
             motion = draft.motion or Motion("move")
             if motion.kind == "stand":
@@ -180,9 +182,9 @@ class ThingReader:
 
     def read_pace(self, phrase: Phrase, noun_follows: bool) -> None:
         """How fast: an adverb about the verb before or after, or an adjective."""
-        has_motion = any(self.drafts[index].motion for index in self.subjects)
+        has_motion = any(self.drafts[index].motion for index in self._movers())
         if has_motion and not noun_follows:
-            for index in self.subjects:
+            for index in self._movers():
                 self.drafts[index].pace *= phrase.meaning.value
             phrase.is_used = True
         else:
@@ -191,7 +193,7 @@ class ThingReader:
 
     def read_speed(self, speed_m_s: float, phrases: list[Phrase]) -> None:
         """A speed in numbers, m/s."""
-        for index in self.subjects:
+        for index in self._movers():
             draft = self.drafts[index]
             motion = draft.motion or Motion("move")
             if motion.kind != "stand":
@@ -285,12 +287,14 @@ class ThingReader:
             self._is_lost = True
         self.group = NounGroup()
 
-    def _limit_count(self, number: float) -> int:
-        if number > lexicon.MAX_COUNT:
-            self.notes.append(
-                f"a count of {number:g} is shown as {lexicon.MAX_COUNT}, the most of one thing"
-            )
-        return round(min(number, lexicon.MAX_COUNT))
+    def _movers(self) -> list[int]:
+        """The subjects, or what they ride: "a man rides a horse to the left"."""
+        ridden = {
+            relation.subject: relation.targets[0]
+            for relation in self.relations
+            if relation.kind == "on" and self.drafts[relation.targets[0]].motion is not None
+        }
+        return [ridden.get(index, index) for index in self.subjects]
 
     def _recall(self, name: str, phrase: Phrase) -> int | None:
         """The thing that "the dog" refers to, if there is one already."""
@@ -308,19 +312,18 @@ class ThingReader:
             self.notes.extend([note] if note not in self.notes else [])
             phrase.is_used = False
             return None
-        count = group.count if group.number is None else self._limit_count(group.number)
-        if count is None:
-            count = lexicon.PLURAL_COUNT if phrase.meaning.form == "plural" else 1
+        if group.number is not None and group.number > lexicon.MAX_COUNT:
+            most = f"{lexicon.MAX_COUNT}, the most of one thing"
+            self.notes.append(f"a count of {group.number:g} is shown as {most}")
+        count = group.decide_count(is_plural=phrase.meaning.form == "plural")
         if count == 0:
             self.absent.append(name)
             group.mark_used()
             self.group = NounGroup()
             return None
-        paint = group.paint
-        if group.shade is not None and paint is None:
-            level = _GREY_LEVELS.get(group.shade)
-            paint = Paint(group.shade, lexicon.COLOURS[level]) if level else None
-        draft = Draft(name, count, paint, group.scale or 1.0, None, group.pace, group.side)
+        draft = Draft(
+            name, count, group.decide_paint(), group.scale or 1.0, None, group.pace, group.side
+        )
         motion = group.motion
         if self._object_motion is not None:
             motion, self._object_motion = self._object_motion, None
@@ -355,7 +358,7 @@ class ThingReader:
         self._relation = None
         self._is_joined = False
         if phrase is not None:
-            phrase.is_used = True
+            phrase.is_used = bool(self.subjects) or not self._is_lost
         if kind == "from":
             return
         for subject in self.subjects:

@@ -127,7 +127,7 @@ class Lexicon:
         return max(self._longest.values(), default=0)
 
     def _add(self, text: str, meaning: Meaning) -> None:
-        words = tuple(text.split())
+        words = tuple(text.replace("-", " ").split())
         meanings = self._meanings.setdefault(words, [])
         if all(known.role is not meaning.role for known in meanings):
             meanings.append(meaning)

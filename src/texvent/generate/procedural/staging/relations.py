@@ -74,7 +74,8 @@ def _seat_height(target: Group, group: Group) -> float:
     """Height above the target's origin at which the thing on it has its own origin, m."""
     is_sitting = group.course.motion.kind in ("sit", "drive", "sail") or group.carrier is not None
     shares = _SADDLES if is_sitting and group.noun.name in PEOPLE else _TOPS
-    share = shares.get(target.noun.name, 1.0)
+    inside = 0.02 if shares is _SADDLES and target.noun.motion == "drive" else 1.0
+    share = shares.get(target.noun.name, inside)
     return (share - (0.5 if target.noun.habitat == "air" else 0.0)) * target.models[0].height
 
 

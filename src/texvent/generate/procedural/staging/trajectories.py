@@ -232,7 +232,7 @@ def _fly_freely(course: Course, model: Model, home: Vector) -> Trajectory:
         return Bounce((x, y, z + height), z, along_m_s=along, yaw=course.yaw, restitution=0.82)
     if kind == "fall":
         height = 0.5 * GRAVITY_M_S2 * (0.45 * course.duration_s) ** 2
-        height = min(max(height, 1.5 * model.height), max(8.0 * model.height, 2.0))
+        height = min(max(height, 1.5 * model.height), max(3.0 * model.height, 1.4))
         wait = 0.1 * course.duration_s
         return Bounce(
             (x, y, z + height), z, yaw=course.yaw, restitution=0.3, start_s=wait, pivot_m=pivot
