@@ -103,8 +103,24 @@ def test_an_edge_crosses_a_pixel_in_small_steps() -> None:
     scene = HandScene((box,), lambda t: look_at((0.0, -10.0, 0.0), (0.0, 0.0, 0.0)), dark())
     row = [linear(render(scene, step / 64.0, SMALL))[36, :, 0] for step in range(65)]
     steps = np.abs(np.diff(row, axis=0)).max(axis=1)
-    assert steps.max() <= (0.5 - BACKDROP) / 16.0 + 1e-5  # one of 16 samples at a time
+    assert steps.max() <= 2.0 * (0.5 - BACKDROP) / 64.0 + 1e-5  # it moves 1/64 pixel at a time
     assert np.ptp(np.array(row)[:, 48:].sum(axis=1)) > 0.4  # and the edge did move
+
+
+def test_a_slanted_edge_sweeps_a_pixel_evenly() -> None:
+    def turned(time: float) -> HandScene:
+        bar = glowing(
+            shape=Shape.CONE,
+            scale=(2.0, 2.0, 3.0),
+            place=moving((0.0, 0.0, -1.0), (0.4, 0.0, 0.0)),
+        )
+        return HandScene((bar,), lambda t: look_at((0.0, -10.0, 0.0), (0.0, 0.0, 0.0)), dark())
+
+    light = np.array([linear(render(turned(0.0), step / 100.0, SMALL)) for step in range(40)])
+    steps = np.abs(np.diff(light[..., 0], axis=0))
+    # 0.04 pixel a step: the slanted sides may change a pixel by little more than that.
+    assert steps.max() <= 2.5 * 0.04 * (0.5 - BACKDROP)
+    assert np.ptp(light[..., 0].sum(axis=(1, 2))) < 0.02 * light[0, ..., 0].sum()
 
 
 def test_a_shape_thinner_than_a_pixel_neither_flickers_nor_vanishes() -> None:

@@ -15,7 +15,7 @@ from texvent.generate.procedural.raycast.sky import Colour, mix, sky_gradient, t
 def sea_light(instant: Record, point: Colour, view: Colour, foot: Colour) -> Colour:
     """Moving waves that mirror the sky; waves smaller than a pixel fade out."""
     slope_x, slope_y = 0.0, 0.0
-    length, angle, strength = 9.0, 0.4, 0.05
+    length, angle, strength = 9.0, 0.4, 0.042
     for _ in range(7):
         wave = 2.0 * math.pi / length
         cosine, sine = math.cos(angle), math.sin(angle)
