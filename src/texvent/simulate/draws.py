@@ -47,6 +47,7 @@ class Purpose(IntEnum):
     NOISE_RATE = 11
     READOUT = 12
     RATE_LIMIT = 13
+    VOXEL = 14
 
     def draw(self, order: Any = 0) -> Any:
         """Number of this purpose's draw `order` (0..2²⁸−1, one or an array), for `draw_words`."""

@@ -45,6 +45,12 @@ class Firings(NamedTuple):
     """[n] `events.SIGNAL` or `events.NOISE`."""
 
     @classmethod
+    def none(cls) -> Firings:
+        """No event."""
+        nothing = np.empty(0, np.int64)
+        return cls.signal(nothing, nothing, nothing.astype(np.uint8))
+
+    @classmethod
     def signal(
         cls, pixel: NDArray[np.int64], t: NDArray[np.int64], p: NDArray[np.uint8]
     ) -> Firings:

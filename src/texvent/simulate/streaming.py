@@ -6,12 +6,10 @@ import abc
 from collections.abc import Mapping
 from typing import Any, ClassVar, Generic, TypeVar
 
-import numpy as np
 from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.events import EventStream
-from texvent.sensor import SensorSize
 from texvent.simulate.draws import frame_key
 from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.kernels.select import AUTO, check_backend
@@ -65,18 +63,22 @@ class StreamingSimulator(abc.ABC, Generic[Config]):
             InputError: another size than before, a time that does not increase, or an intensity
                 that is NaN, infinite or negative.
         """
+        interval = self._enter(frame)
+        if interval.duration_us:
+            fired = self._advance(frame.luma, interval)
+        else:
+            self._begin(frame.luma)
+            fired = Firings.none()
+        return fired.packet(interval, frame.size)
+
+    def _enter(self, frame: Frame) -> Interval:
+        """The interval that a frame ends, an empty one for the first; bad frames are refused."""
         self._checker.check(frame)
-        nothing = np.empty(0, np.int64)
-        fired = Firings.signal(nothing, nothing, nothing.astype(np.uint8))
         if self._first_us is None:
             self._first_us = self._last_us = frame.t_us
-            self._begin(frame.luma)
-            interval = self._interval(frame.t_us)
-        else:
-            interval = self._interval(frame.t_us)
-            fired = self._advance(frame.luma, interval)
-            self._last_us = frame.t_us
-        return fired.packet(interval, SensorSize(*frame.size))
+        interval = self._interval(frame.t_us)
+        self._last_us = frame.t_us
+        return interval
 
     def _interval(self, stop_us: int) -> Interval:
         key = frame_key(self._seed, stop_us - (self._first_us or 0))
