@@ -1,0 +1,115 @@
+"""Find the contrast threshold that gives a wanted event rate."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+from texvent.config import check_range
+from texvent.errors import InputError
+from texvent.pipeline import Simulation
+from texvent.simulate.thresholds import contrast_threshold_of, with_contrast_threshold
+from texvent.video import MICROSECONDS
+
+LOWEST, HIGHEST = 0.01, 1.2
+"""Thresholds that are tried, log units."""
+MAX_STEPS = 9
+"""Trials after which the threshold is known to 1 %."""
+CLOSE = 0.02
+"""Relative difference at which the search ends."""
+UNREACHED = 0.1
+"""Relative difference from which the rate counts as out of reach."""
+
+
+class RateMatch(NamedTuple):
+    """What the search found."""
+
+    contrast_threshold: float
+    """δ, log units."""
+    rate_hz: float
+    """Events per second with it, over the part that was simulated."""
+    steps: int
+    """Number of trials."""
+
+
+def match_rate(
+    simulation: Simulation, target_hz: float, *, seconds: float = 1.0
+) -> tuple[Simulation, RateMatch]:
+    """A simulation whose contrast threshold makes its start fire at a wanted rate.
+
+    Args:
+        simulation: the run; its frames are read several times.
+        target_hz: events per second of the whole sensor, above 0.
+        seconds: how much of the clip, from its start, is simulated to measure the rate.
+
+    Returns:
+        The same run with another threshold (ON and OFF keep their ratio), and what was found.
+
+    Raises:
+        ConfigError: the target or the duration is not above 0, or the simulator has no threshold.
+        InputError: the source can be read only once, or no threshold gives that rate.
+    """
+    check_range("target_rate", target_hz, 1e-9)
+    check_range("seconds", seconds, 1e-6)
+    if simulation.video.is_live:
+        raise InputError(
+            "target_rate needs frames that can be read again, and this is a live source; "
+            "record it first, or set contrast_threshold"
+        )
+    contrast_threshold_of(simulation.settings.simulate)
+
+    def with_threshold(threshold: float) -> Simulation:
+        config = with_contrast_threshold(simulation.settings.simulate, threshold)
+        settings = dataclasses.replace(simulation.settings, simulate=config)
+        return dataclasses.replace(simulation, settings=settings)
+
+    match = search_threshold(lambda δ: measure_rate(with_threshold(δ), seconds), target_hz)
+    return with_threshold(match.contrast_threshold), match
+
+
+def search_threshold(rate_of: Callable[[float], float], target_hz: float) -> RateMatch:
+    """The threshold at which a falling function takes a value, by bisection of its logarithm.
+
+    Args:
+        rate_of: threshold → events per second.
+        target_hz: rate wanted, events per second.
+
+    Raises:
+        InputError: the nearest rate found differs by more than a tenth.
+    """
+    low, high = LOWEST, HIGHEST
+    tried: list[RateMatch] = []
+    while len(tried) < MAX_STEPS:
+        middle = math.sqrt(low * high)
+        tried.append(RateMatch(middle, rate_of(middle), len(tried) + 1))
+        if abs(tried[-1].rate_hz / target_hz - 1) <= CLOSE:
+            break
+        low, high = (middle, high) if tried[-1].rate_hz > target_hz else (low, middle)
+    best = min(tried, key=lambda one: abs(one.rate_hz - target_hz))
+    if abs(best.rate_hz / target_hz - 1) > UNREACHED:
+        raise InputError(
+            f"no contrast threshold of {LOWEST:g}..{HIGHEST:g} gives {target_hz:,.0f} events per "
+            f"second; the nearest is {best.rate_hz:,.0f} at {best.contrast_threshold:.3g}. Choose "
+            "a rate nearer to that, or change the noise, which no threshold removes"
+        )
+    return best._replace(steps=len(tried))
+
+
+def measure_rate(simulation: Simulation, seconds: float) -> float:
+    """Events per second over the first `seconds` of a run.
+
+    Raises:
+        InputError: there is one frame only, so no time passes.
+    """
+    events, first_us, last_us = 0, None, 0
+    for frame, packet in simulation.steps():
+        first_us = frame.t_us if first_us is None else first_us
+        events += len(packet)
+        last_us = frame.t_us
+        if last_us - first_us >= seconds * MICROSECONDS:
+            break
+    if first_us is None or last_us == first_us:
+        raise InputError("target_rate needs at least two frames; this source has fewer")
+    return events * MICROSECONDS / (last_us - first_us)

@@ -1,0 +1,94 @@
+"""Options drawn at random per clip, so that a network trained on the events meets many sensors."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar
+
+from texvent._registry import suggest
+from texvent.config import option_names
+from texvent.errors import ConfigError
+from texvent.simulate.draws import draw_normals, draw_uniforms, frame_key
+from texvent.simulate.thresholds import with_contrast_threshold
+
+Config = TypeVar("Config")
+Recipe: TypeAlias = Literal["stoffregen", "v2v"]
+
+CLIP = -2
+"""Stands for the frame in keys of draws that belong to the whole clip; the sensor has −1."""
+
+
+class Range(NamedTuple):
+    """Where an option is drawn from."""
+
+    low: float
+    high: float
+    is_log: bool = False
+    """Uniform in the logarithm instead of in the value."""
+
+    def at(self, chance: float) -> float:
+        """The value at a chance 0..1."""
+        if self.is_log:
+            return self.low * math.pow(self.high / self.low, chance)
+        return self.low + chance * (self.high - self.low)
+
+
+THRESHOLDS: Mapping[str, Range] = {
+    "stoffregen": Range(0.1, 1.5),
+    "v2v": Range(0.05, 2.0),
+}
+"""Contrast threshold by recipe, log units."""
+RATIO_SIGMA = 0.1
+"""Stoffregen et al.: one threshold is the other times a normal number of mean 1 and this sd."""
+RATIO_LIMIT = 1.5
+"""V2V: one threshold is at most this many times the other."""
+NOISE: Mapping[str, Range] = {
+    "noise_scale": Range(0.1, 10.0, is_log=True),
+    "shot_noise_rate_hz": Range(0.01, 10.0, is_log=True),
+    "threshold_sigma": Range(0.0, 0.05),
+    "leak_rate_hz": Range(0.001, 0.1, is_log=True),
+    "hot_pixel_fraction": Range(1e-5, 1e-3, is_log=True),
+}
+"""Noise options and where they are drawn from, for the models that have them: our choice, one
+decade to either side of a DAVIS346. Both papers add their noise to tensors instead of events."""
+
+
+def draw_training_config(config: Config, recipe: Recipe, *, seed: int) -> Config:
+    """A copy of a simulator's options with thresholds and noise drawn for one clip.
+
+    The drawn values depend on the recipe and the seed only, and stand in the returned options, so
+    they are stored with every other option. Each option has a draw of its own: a model that lacks
+    one draws the same for the others.
+
+    Args:
+        config: options of any simulator with a contrast threshold.
+        recipe: "stoffregen" or "v2v": which thresholds.
+        seed: of the clip, 0..2⁶³−1.
+
+    Raises:
+        ConfigError: an unknown recipe, or a simulator without a contrast threshold.
+
+    Source: T. Stoffregen et al., "Reducing the sim-to-real gap for event cameras", ECCV 2020;
+        V2V's training ranges: threshold uniform over 0.05..2, ratio of the two up to 1.5.
+    """
+    if recipe not in THRESHOLDS:
+        raise ConfigError(f"unknown recipe {recipe!r}; {suggest(recipe, tuple(THRESHOLDS))}")
+    key = frame_key(seed, CLIP)
+    chances = draw_uniforms(key, 0, 0, range(2 + len(NOISE))).tolist()
+    if recipe == "v2v":
+        ratio = math.pow(RATIO_LIMIT, 2 * chances[1] - 1)
+    else:
+        factor = 1.0 + RATIO_SIGMA * float(draw_normals(key, 0, 1, 0))
+        ratio = factor if chances[1] < 0.5 else 1.0 / factor
+    drawn = with_contrast_threshold(config, THRESHOLDS[recipe].at(chances[0]), on_off_ratio=ratio)
+    options: Any = drawn
+    known = option_names(type(options))
+    noise = {
+        name: where.at(chance)
+        for (name, where), chance in zip(NOISE.items(), chances[2:], strict=True)
+        if name in known
+    }
+    varied: Config = dataclasses.replace(options, **noise)
+    return varied

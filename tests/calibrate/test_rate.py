@@ -1,0 +1,89 @@
+import itertools
+
+import numpy as np
+import pytest
+
+from texvent.calibrate.rate import match_rate, measure_rate, search_threshold
+from texvent.errors import ConfigError, InputError
+from texvent.pipeline import video_to_events
+from texvent.settings import resolve
+from texvent.video import Video
+
+
+def moving_waves(count: int = 13) -> Video:
+    y, x = np.mgrid[:24, :32]
+    frames = [
+        np.round(120 + 70 * np.sin((x + 2 * i) / 3) * np.cos((y - i) / 4)).astype(np.uint8)
+        for i in range(count)
+    ]
+    return Video(np.stack(frames), [round(i * 1e6 / 24) for i in range(count)])
+
+
+def simulation(video=None, **options):
+    settings = resolve("simulate", {"interpolate": "none", "noise_scale": 0.0, **options})
+    return video_to_events(video or moving_waves(), settings)
+
+
+def test_the_search_ends_within_two_percent():
+    found = search_threshold(lambda threshold: 1000 / threshold, 4000.0)
+    assert found.rate_hz == pytest.approx(4000, rel=0.02)
+    assert found.contrast_threshold == pytest.approx(0.25, rel=0.02)
+    assert found.steps <= 9
+
+
+def test_the_search_takes_the_nearest_where_rates_jump():
+    found = search_threshold(lambda threshold: 1050.0 if threshold < 0.3 else 500.0, 1000.0)
+    assert found.rate_hz == 1050
+    assert found.steps == 9
+
+
+@pytest.mark.parametrize("target", [1.0, 1e9])
+def test_a_rate_out_of_reach_fails_and_says_what_is_near(target):
+    with pytest.raises(InputError, match=r"no contrast threshold.*the nearest is"):
+        search_threshold(lambda threshold: 1000 / threshold, target)
+
+
+@pytest.mark.parametrize("simulator", ["physical", "esim"])
+@pytest.mark.parametrize("target", [10_000, 30_000])
+def test_a_simulation_is_matched_to_a_rate(simulator, target):
+    run = simulation(simulator=simulator, **({"noise_scale": None} if simulator == "esim" else {}))
+    matched, found = match_rate(run, target, seconds=0.5)
+    assert found.rate_hz == pytest.approx(target, rel=0.05)
+    events = matched.packets.collect()
+    assert len(events) / 0.5 == pytest.approx(found.rate_hz)
+    assert matched.provenance["settings"]["simulate"] != run.provenance["settings"]["simulate"]
+
+
+def test_only_the_start_of_the_clip_is_simulated():
+    read = []
+
+    class Counted(Video):
+        def __iter__(self):
+            return (read.append(frame.t_us) or frame for frame in super().__iter__())
+
+    video = moving_waves(30)
+    counted = Counted(video.pixels, video.times_us)
+    measure_rate(simulation(counted, simulator="physical"), 0.2)
+    assert max(read) == pytest.approx(208_333, abs=1)
+
+
+def test_what_cannot_be_matched_fails_clearly():
+    class Live(Video):
+        is_live = True
+
+    video = moving_waves(3)
+    with pytest.raises(InputError, match="live source"):
+        match_rate(simulation(Live(video.pixels, video.times_us), simulator="physical"), 1e4)
+    with pytest.raises(InputError, match="two frames"):
+        match_rate(simulation(moving_waves(1), simulator="physical"), 1e4)
+    for target in (0.0, -5.0, float("nan")):
+        with pytest.raises(ConfigError, match="target_rate"):
+            match_rate(simulation(simulator="physical"), target)
+
+
+def test_a_higher_threshold_never_gives_a_higher_rate():
+    rates = [
+        measure_rate(simulation(simulator="physical", contrast_threshold=threshold), 0.5)
+        for threshold in (0.05, 0.1, 0.2, 0.4, 0.8)
+    ]
+    assert all(high >= low for high, low in itertools.pairwise(rates))

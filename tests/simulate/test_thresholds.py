@@ -1,0 +1,54 @@
+from dataclasses import dataclass
+
+import pytest
+
+from texvent.errors import ConfigError
+from texvent.simulate.esim import EsimConfig
+from texvent.simulate.physical_config import PhysicalConfig
+from texvent.simulate.texvent import TexventConfig
+from texvent.simulate.thresholds import contrast_threshold_of, with_contrast_threshold
+from texvent.simulate.v2e import V2eConfig
+from texvent.simulate.voltmeter import VoltmeterConfig
+
+
+@pytest.mark.parametrize(
+    "config",
+    [
+        TexventConfig(contrast_threshold=0.3),
+        PhysicalConfig(contrast_threshold=0.3, on_off_ratio=1.3),
+        EsimConfig(contrast_threshold_on=0.2, contrast_threshold_off=0.45),
+        V2eConfig(contrast_threshold_on=0.9, contrast_threshold_off=0.1),
+        VoltmeterConfig(k1=1 / 0.3),
+    ],
+)
+def test_one_number_reads_and_writes_the_threshold_of_every_model(config):
+    assert contrast_threshold_of(config) == pytest.approx(0.3)
+    changed = with_contrast_threshold(config, 0.15)
+    assert type(changed) is type(config)
+    assert contrast_threshold_of(changed) == pytest.approx(0.15)
+
+
+def test_on_and_off_keep_their_ratio_unless_it_is_given():
+    config = EsimConfig(contrast_threshold_on=0.2, contrast_threshold_off=0.4)
+    kept = with_contrast_threshold(config, 0.6)
+    assert kept.contrast_threshold_off / kept.contrast_threshold_on == pytest.approx(2)
+    even = with_contrast_threshold(config, 0.6, on_off_ratio=1.0)
+    assert even.contrast_threshold_off == pytest.approx(even.contrast_threshold_on)
+    physical = with_contrast_threshold(PhysicalConfig(), 0.6, on_off_ratio=1.2)
+    assert physical.contrast_threshold_on / physical.contrast_threshold_off == pytest.approx(1.2)
+
+
+def test_a_model_without_a_threshold_fails_by_name():
+    @dataclass
+    class ThinkingConfig:
+        depth: int = 3
+
+    with pytest.raises(ConfigError, match="'thinking' has no contrast threshold"):
+        contrast_threshold_of(ThinkingConfig())
+    with pytest.raises(ConfigError, match="'thinking' has no contrast threshold"):
+        with_contrast_threshold(ThinkingConfig(), 0.2)
+
+
+def test_an_impossible_threshold_fails():
+    with pytest.raises(ConfigError, match="contrast_threshold"):
+        with_contrast_threshold(PhysicalConfig(), 100.0)
