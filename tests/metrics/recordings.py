@@ -15,7 +15,7 @@ def one_event(x=0, y=0, t=1000, p=1, *, count=1):
     return EventStream([x] * count, [y] * count, [t] * count, [p] * count, TOY)
 
 
-def random_events(seed, count=400, size=SMALL, duration_us=100_000):
+def random_events(seed, count=400, size=SMALL, duration_us=200_000):
     rng = np.random.default_rng(seed)
     return EventStream(
         rng.integers(0, size.width, count),
@@ -24,6 +24,12 @@ def random_events(seed, count=400, size=SMALL, duration_us=100_000):
         rng.integers(0, 2, count),
         size,
     )
+
+
+def one_beat(events, period_us=41_667):
+    """The same events, all at the ends of frames at 24 fps."""
+    t = -(-events.t // period_us) * period_us
+    return EventStream(events.x, events.y, t, events.p, events.size)
 
 
 @st.composite

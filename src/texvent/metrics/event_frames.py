@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED, Better, check_pair
+from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
 from texvent.metrics.structural_similarity import structural_similarity
 from texvent.metrics.windows import count_windows, occupied_windows
 from texvent.represent.event_frame import event_frame
@@ -34,6 +34,7 @@ class EventFrameMse:
     name: ClassVar[str] = "ef_mse"
     unit: ClassVar[str] = ""
     better: ClassVar[Better] = "lower"
+    needs: ClassVar[Needs] = "same scene"
     range: ClassVar[tuple[float, float]] = (0.0, 1.0)
     blind_to: ClassVar[str] = INSIDE
 
@@ -52,6 +53,7 @@ class EventFramePsnr:
     name: ClassVar[str] = "ef_psnr"
     unit: ClassVar[str] = "dB"
     better: ClassVar[Better] = "higher"
+    needs: ClassVar[Needs] = "same scene"
     range: ClassVar[tuple[float, float]] = (0.0, float("inf"))
     blind_to: ClassVar[str] = INSIDE
 
@@ -71,6 +73,7 @@ class EventFrameSsim:
     name: ClassVar[str] = "ef_ssim"
     unit: ClassVar[str] = ""
     better: ClassVar[Better] = "higher"
+    needs: ClassVar[Needs] = "same scene"
     range: ClassVar[tuple[float, float]] = (-1.0, 1.0)
     blind_to: ClassVar[str] = INSIDE + "; a full inversion looks better than 20 % flips"
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED, Better, check_pair
+from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
 from texvent.metrics.trains import Trains
 
 
@@ -23,6 +23,7 @@ class IntervalDistance:
     name: ClassVar[str] = "isi"
     unit: ClassVar[str] = "decades"
     better: ClassVar[Better] = "lower"
+    needs: ClassVar[Needs] = "same scene"
     range: ClassVar[tuple[float, float]] = (0.0, float("inf"))
     blind_to: ClassVar[str] = "where and when: intervals of all pixels are pooled"
 

@@ -12,7 +12,7 @@ from typing import ClassVar
 import numpy as np
 
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED, Better, check_pair
+from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
 from texvent.represent.event_frame import event_frame
 
 
@@ -23,6 +23,7 @@ class CountRatio:
     name: ClassVar[str] = "count_ratio"
     unit: ClassVar[str] = ""
     better: ClassVar[Better] = "one"
+    needs: ClassVar[Needs] = "same scene"
     range: ClassVar[tuple[float, float]] = (0.0, float("inf"))
     blind_to: ClassVar[str] = "everything but the number of events"
 
@@ -39,6 +40,7 @@ class OnDifference:
     name: ClassVar[str] = "on_difference"
     unit: ClassVar[str] = ""
     better: ClassVar[Better] = "lower"
+    needs: ClassVar[Needs] = "same scene"
     range: ClassVar[tuple[float, float]] = (0.0, 1.0)
     blind_to: ClassVar[str] = "everything but the balance of polarities"
 
@@ -57,6 +59,7 @@ class ActiveIou:
     name: ClassVar[str] = "active_iou"
     unit: ClassVar[str] = ""
     better: ClassVar[Better] = "higher"
+    needs: ClassVar[Needs] = "same scene"
     range: ClassVar[tuple[float, float]] = (0.0, 1.0)
     blind_to: ClassVar[str] = "time, polarity, counts; saturates in long recordings"
 

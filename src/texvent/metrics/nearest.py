@@ -9,7 +9,7 @@ import numpy as np
 
 from texvent.config import check_range
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED, Better, check_pair
+from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
 from texvent.metrics.trains import Trains
 
 MS_PER_US = 1e-3
@@ -28,6 +28,7 @@ class NearestTime:
     name: ClassVar[str] = "nearest"
     unit: ClassVar[str] = "ms"
     better: ClassVar[Better] = "lower"
+    needs: ClassVar[Needs] = "same scene"
     range: ClassVar[tuple[float, float]] = (0.0, 10.0)
     blind_to: ClassVar[str] = "how many events share a partner; errors beyond the cap"
 

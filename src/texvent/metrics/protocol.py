@@ -10,6 +10,9 @@ from texvent.events import EventStream
 Better: TypeAlias = Literal["lower", "higher", "one"]
 """Which values are good: low ones, high ones, or those close to 1."""
 
+Needs: TypeAlias = Literal["same scene", "any scene"]
+"""What the reference must be: a recording of the same scene, or any recording at all."""
+
 UNDEFINED = float("nan")
 """Value of a metric that the two streams do not define."""
 
@@ -25,6 +28,7 @@ class Metric(Protocol):
     unit: ClassVar[str]
     """Unit of the value; empty for a pure number."""
     better: ClassVar[Better]
+    needs: ClassVar[Needs]
     range: ClassVar[tuple[float, float]]
     """Smallest and largest value possible."""
     blind_to: ClassVar[str]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
-from texvent.metrics.protocol import Better, check_pair
+from texvent.metrics.protocol import Better, Needs, check_pair
 from texvent.metrics.windows import flat_index, occupied_windows, rate_of_window
 
 TIME_CELLS = (1, 2, 4, 8, 16)
@@ -31,6 +31,7 @@ class Stpp:
     name: ClassVar[str] = "stpp"
     unit: ClassVar[str] = ""
     better: ClassVar[Better] = "higher"
+    needs: ClassVar[Needs] = "same scene"
     range: ClassVar[tuple[float, float]] = (0.0, 1.0)
     blind_to: ClassVar[str] = "shifts inside the finest cell: 1/32 of the sensor's side, 3.1 ms"
 

@@ -35,3 +35,8 @@ class Trains:
         """Times between neighbouring events of the same train, µs."""
         together = self.train[1:] == self.train[:-1]
         return np.asarray(np.diff(self.t)[together])
+
+    def times_of(self, train: int) -> NDArray[np.int64]:
+        """Times of one train, µs; empty if it has no event."""
+        first, last = np.searchsorted(self.train, (train, train + 1))
+        return np.asarray(self.t[int(first) : int(last)])

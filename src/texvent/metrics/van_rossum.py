@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED, Better, check_pair
+from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
 from texvent.metrics.trains import Trains
 
 Float64Array = NDArray[np.float64]
@@ -29,6 +29,7 @@ class VanRossum:
     name: ClassVar[str] = "van_rossum"
     unit: ClassVar[str] = ""
     better: ClassVar[Better] = "lower"
+    needs: ClassVar[Needs] = "same scene"
     range: ClassVar[tuple[float, float]] = (0.0, 1.0)
     blind_to: ClassVar[str] = "how far a misplaced event is, beyond about 3 τ or one pixel"
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED, Better, check_pair
+from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
 from texvent.metrics.windows import bin_index, flat_index
 
 
@@ -24,6 +24,7 @@ class VoxelDifference:
     name: ClassVar[str] = "voxel"
     unit: ClassVar[str] = ""
     better: ClassVar[Better] = "lower"
+    needs: ClassVar[Needs] = "same scene"
     range: ClassVar[tuple[float, float]] = (0.0, 1.0)
     blind_to: ClassVar[str] = "ON and OFF that cancel in a bin; times inside a bin"
 

@@ -1,0 +1,98 @@
+"""Batching, cadence, flow-warp sharpness, event structural ratio."""
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from texvent.events import EventStream
+from texvent.metrics.batching import BatchingDifference, same_timestamp_share
+from texvent.metrics.cadence import CadenceDifference, cadence_energy
+from texvent.metrics.flow_warp import flow_warp_sharpness
+from texvent.metrics.structural_ratio import structural_ratio
+from texvent.sensor import SensorSize
+
+from .recordings import SMALL, one_event, random_events
+
+
+def test_only_groups_of_twenty_count_as_batches():
+    times = [5] * 20 + [9] * 19 + [12]
+    a = EventStream([0] * 40, [0] * 40, times, [1] * 40, SMALL)
+    assert same_timestamp_share(a) == 0.5
+    assert math.isnan(same_timestamp_share(a[:0]))
+    assert BatchingDifference()(a, a[20:]) == 0.5
+
+
+def beating(rate_hz, seconds=0.5, count=4000, depth=1.0):
+    """Events whose rate beats as 1 + depth · cos, by inverse sampling on a fine grid."""
+    grid = np.linspace(0, seconds, 200_001)
+    rate = 1 + depth * np.cos(2 * np.pi * rate_hz * grid)
+    share = np.cumsum(rate) / rate.sum()
+    t = np.interp((np.arange(count) + 0.5) / count, share, grid) * 1e6
+    zero = np.zeros(count, int)
+    return EventStream(zero, zero, t.astype(np.int64), zero, SMALL)
+
+
+def test_cadence_energy_finds_a_beat_at_the_frame_rate_and_its_multiples_only():
+    span = (0, 500_000)
+    assert cadence_energy(beating(24), span_us=span) > 0.9
+    assert cadence_energy(beating(72), span_us=span) > 0.9
+    assert cadence_energy(beating(36), span_us=span) < 0.1
+    assert cadence_energy(beating(36), Fraction(36), span_us=span) > 0.9
+    assert CadenceDifference()(beating(24), beating(36)) > 0.8
+
+
+def test_cadence_energy_of_short_or_endless_spans_is_undefined():
+    assert math.isnan(cadence_energy(one_event()))
+    assert math.isnan(cadence_energy(one_event()[:0]))
+    assert math.isnan(cadence_energy(one_event(), span_us=(0, 10**12)))
+
+
+def moving_dots(speed_px_s, seconds=0.12):
+    """Ten dots that fire 2000 times a second while they move right."""
+    t = np.arange(0, seconds * 1e6, 500).astype(np.int64)
+    columns = []
+    for dot in range(10):
+        x = 2 + 3 * dot + np.rint(speed_px_s * t / 1e6).astype(int)
+        columns.append(np.stack([x, np.full(t.size, 3 * dot), t, np.ones(t.size, int)]))
+    x, y, t, p = np.concatenate(columns, axis=1)
+    order = np.argsort(t, kind="stable")
+    return EventStream(x[order], y[order], t[order], p[order], SensorSize(64, 32))
+
+
+def test_warping_along_the_true_flow_sharpens_and_along_another_blurs():
+    events = moving_dots(200.0)
+    true = flow_warp_sharpness(events, (200.0, 0.0))
+    assert true > 5
+    assert flow_warp_sharpness(events, (-200.0, 0.0)) < true / 3
+    assert flow_warp_sharpness(events, (0.0, 0.0)) == pytest.approx(1.0)
+
+
+def test_sharpness_of_dots_moving_whole_pixels_is_as_computed_by_hand():
+    # One window: a dot fires once on each of 5 px, so warped it fires 5 times on one pixel.
+    t = np.arange(5) * 10_000
+    events = EventStream(np.arange(5), [0] * 5, t, [1] * 5, SensorSize(8, 4))
+    value = flow_warp_sharpness(events, (100.0, 0.0), least_events=5)
+    cells = (8 + 2 * 7) * (4 + 2 * 1)
+    mean = 5 / cells
+    assert value == pytest.approx((25 / cells - mean**2) / (5 / cells - mean**2))
+
+
+def test_sharpness_without_a_busy_window_is_undefined():
+    assert math.isnan(flow_warp_sharpness(random_events(1, 400), (1.0, 1.0)))
+
+
+def test_structural_ratio_is_as_computed_by_hand():
+    # N = 4, M = 2: counts 3 and 1 on 156 pixels.
+    events = EventStream([0, 0, 0, 1], [0] * 4, [1, 2, 3, 4], [1] * 4, SMALL)
+    value = structural_ratio(events, packet_events=4, reference_events=2)
+    pairs = 3 * 2 / (4 * 3)
+    active = 156 - (154 + 0.5**3 + 0.5)
+    assert value == pytest.approx(math.sqrt(pairs * active))
+
+
+def test_structural_ratio_needs_a_complete_packet():
+    assert math.isnan(structural_ratio(random_events(1, 29_999)))
+    repeated = structural_ratio(random_events(1, 400), packet_events=100, reference_events=60)
+    assert repeated > 0
