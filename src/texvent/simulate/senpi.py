@@ -178,7 +178,7 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
             total = rate_hz + on + off
             on_fraction = (rate_hz / 2 + on) / np.maximum(total, np.finfo(np.float64).tiny)
             rate_hz = total
-        return draw_rate_noise(rate_hz, interval, on_fraction=on_fraction)
+        return draw_rate_noise(rate_hz, interval, on_fraction=on_fraction, backend=self._backend)
 
 
 def photons(intensity: IntensityArray, well_capacity: float) -> Float64Array:

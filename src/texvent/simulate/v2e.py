@@ -218,13 +218,14 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
         """Independent noise events; each makes its pixel memorise the present brightness."""
         config = self.config
         if config.shot_noise_rate_hz == 0 or config.photoreceptor_noise:
-            nothing = np.empty(0, np.int64)
-            return Firings.noise(nothing, nothing, nothing.astype(np.uint8))
+            return Firings.none()
         dimming = 1.0 - (1.0 - BRIGHT_SHOT_SHARE) * relative_intensity(intensity)
         on = config.contrast_threshold_on / self._threshold_on
         off = config.contrast_threshold_off / self._threshold_off
         rate_hz = config.shot_noise_rate_hz / 2 * dimming * (on + off)
-        noise = draw_rate_noise(rate_hz, interval, on_fraction=on / (on + off))
+        noise = draw_rate_noise(
+            rate_hz, interval, on_fraction=on / (on + off), backend=self._backend
+        )
         self._reference.reshape(-1)[noise.pixel] = self._brightness.reshape(-1)[noise.pixel]
         self._noise_since_event.reshape(-1)[noise.pixel] = 0.0
         return noise

@@ -1,0 +1,63 @@
+import math
+
+import numpy as np
+import pytest
+
+from texvent.events import NOISE
+from texvent.simulate.draws import frame_key
+from texvent.simulate.firings import Interval
+from texvent.simulate.rate_noise import draw_rate_noise
+
+
+def interval(seconds: float, frame: int = 1) -> Interval:
+    return Interval(1000, 1000 + round(seconds * 1e6), frame_key(0, frame))
+
+
+def counts(rate_hz, seconds, **options):
+    events = draw_rate_noise(rate_hz, interval(seconds), **options)
+    found = np.zeros(rate_hz.size, int)
+    np.add.at(found, events.pixel, 1)
+    return found.reshape(rate_hz.shape)
+
+
+def test_without_a_rate_there_is_no_noise(backend):
+    assert counts(np.zeros((3, 4)), 1.0, backend=backend).sum() == 0
+
+
+@pytest.mark.parametrize("mean", [0.05, 1.0, 30.0])
+def test_counts_are_poisson(backend, mean):
+    found = counts(np.full((50, 60), mean), 1.0, backend=backend)
+    assert found.mean() == pytest.approx(mean, abs=4 * math.sqrt(mean / 3000))
+    # The variance of a sample variance of 3000 Poisson numbers.
+    spread = math.sqrt((mean + 2 * mean * mean) / 3000)
+    assert found.var() == pytest.approx(mean, abs=4 * spread)
+
+
+def test_each_pixel_has_its_own_rate(backend):
+    rate_hz = np.repeat([[0.0, 2.0, 20.0]], 2000, axis=0)
+    found = counts(rate_hz, 0.5, backend=backend).mean(axis=0)
+    assert found[0] == 0
+    assert found[1:] == pytest.approx([1.0, 10.0], abs=0.3)
+
+
+def test_times_are_uniform_and_polarity_has_its_share(backend):
+    on_fraction = np.repeat([[0.1, 0.9]], 3000, axis=0)
+    events = draw_rate_noise(
+        np.full((3000, 2), 3.0), interval(1.0), on_fraction=on_fraction, backend=backend
+    )
+    assert events.t.min() >= 1000
+    assert events.t.max() < 1_001_000
+    histogram = np.histogram(events.t, bins=10, range=(1000, 1_001_000))[0]
+    assert np.abs(histogram - 1800).max() < 4 * math.sqrt(1800)
+    for column, share in ((0, 0.1), (1, 0.9)):
+        chosen = events.p[events.pixel % 2 == column]
+        assert chosen.mean() == pytest.approx(share, abs=4 * 0.3 / math.sqrt(len(chosen)))
+    assert (events.label == NOISE).all()
+
+
+def test_backends_find_the_same_events():
+    rate_hz = np.random.default_rng(0).uniform(0, 5, (30, 40))
+    first, second = (
+        draw_rate_noise(rate_hz, interval(1.0), backend=backend) for backend in ("reference", "cpu")
+    )
+    assert all(np.array_equal(a, b) for a, b in zip(first, second, strict=True))
