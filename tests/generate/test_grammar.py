@@ -256,7 +256,7 @@ def test_something_always_moves() -> None:
 def test_the_summary_reads_as_what_will_be_shown() -> None:
     assert parse_prompt("a red car drives left past two trees at dusk").summary() == [
         "1 car, red, drives left, past 2 trees",
-        "2 trees, stands still",
+        "2 trees, stand still",
         "place: road",
         "light: dusk",
         "camera: static",

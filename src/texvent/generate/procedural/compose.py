@@ -148,11 +148,14 @@ _HIGH_PLACES = ("mountain", "forest", "city")
 def choose_levels(
     place: str, description: SceneDescription, nouns: Mapping[str, Noun]
 ) -> dict[str, float]:
-    """Height of origins above the ground: habitat or noun → multiple of a thing's size."""
+    """Height of origins above the ground: habitat or noun → multiple of a thing's size.
+
+    "clear" is in metres, on top of that, for what flies.
+    """
     if place in ("sky", "space"):
         everything = {nouns[thing.noun].name: 0.0 for thing in description.things}
         return {"air": 2.0, "water": 0.0, **everything}
-    levels = {"air": 9.0 if place in _HIGH_PLACES else 1.5, "water": 0.0}
+    levels = {"air": 1.5, "water": 0.0, "clear": 8.0 if place in _HIGH_PLACES else 0.0}
     if place == "underwater":
         levels["water"] = 0.9
     elif place == "sea":

@@ -188,7 +188,7 @@ class SceneDescription:
         if thing.scale != 1.0:
             words.append(f"{thing.scale:g} times its usual size")
         if thing.motion is not None:
-            words.append(_say_motion(thing.motion))
+            words.append(_say_motion(thing.motion, is_plural=thing.count > 1))
         if thing.side is not None:
             words.append(_SIDES[thing.side])
         for relation in self.relations:
@@ -229,10 +229,9 @@ def _say_count(thing: Thing) -> str:
     return f"{thing.count} {thing.noun if thing.count == 1 else pluralise(thing.noun)}"
 
 
-def _say_motion(motion: Motion) -> str:
-    if motion.kind == "stand":
-        return "stands still"
-    words = [_third_person(motion.kind)]
+def _say_motion(motion: Motion, *, is_plural: bool) -> str:
+    verb, *rest = _PHRASES.get(motion.kind, motion.kind).split()
+    words = [verb if is_plural else _third_person(verb), *rest]
     if motion.direction is not None:
         words.append(_DIRECTIONS.get(motion.direction, motion.direction))
     if motion.speed_m_s is not None:
@@ -242,12 +241,10 @@ def _say_motion(motion: Motion) -> str:
     return " ".join(words)
 
 
-_SAID = {"throw": "is thrown", "work": "works", "dance": "dances"}
+_PHRASES = {"throw": "fly through the air", "work": "move in place", "stand": "stand still"}
 
 
 def _third_person(verb: str) -> str:
-    if verb in _SAID:
-        return _SAID[verb]
     if verb.endswith("y") and verb[-2:-1] not in "aeiou":
         return f"{verb[:-1]}ies"
     return f"{verb}s"

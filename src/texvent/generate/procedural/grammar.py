@@ -91,7 +91,9 @@ class _Reading:
     def read(self, prompt: str) -> SceneDescription:
         """The description, before defaults are filled in."""
         for position, phrase in enumerate(self._phrases):
-            if not self._camera.read(phrase):
+            if self._camera.read(phrase):
+                self._things.group.count = None
+            else:
                 self._read_phrase(position, phrase)
         self._things.settle()
         surroundings, light = self._scene.finish()
@@ -218,6 +220,7 @@ class _Reading:
             negation.is_used = True
             self._things.negation = None
         self._things.drop_relation(is_used=phrase.is_used)
+        self._things.close_subjects()
 
     def _read_surroundings(self, phrase: Phrase) -> None:
         paint, painted = self._things.take_paint()
@@ -235,6 +238,7 @@ class _Reading:
         for said in painted:
             said.is_used = said.is_used or is_painted
         self._things.drop_relation(is_used=phrase.is_used)
+        self._things.close_subjects()
 
     def _read_unit(self, phrase: Phrase) -> None:
         """A number with a unit: a speed or a frequency."""

@@ -137,6 +137,9 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
             things = (*description.things[:index], moved, *description.things[index + 1 :])
             note = f"no motion is said of the {thing.noun}, so it does what it usually does"
             return replace(description, things=things, notes=(*description.notes, note))
+    light, weather = description.light, description.surroundings.weather
+    if light.flicker_hz is not None or weather in ("rain", "snow"):
+        return description
     shot = replace(description.shot, moves=(SLOW_PAN,))
     note = "nothing moves in the prompt, so the camera pans slowly"
     return replace(description, shot=shot, notes=(*description.notes, note))

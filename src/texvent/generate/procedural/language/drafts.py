@@ -50,6 +50,12 @@ class NounGroup:
     side: str | None = None
     phrases: list[Phrase] = field(default_factory=list)
 
+    def mark_roles(self, *roles: Role) -> None:
+        """Its words of these roles had an effect."""
+        for phrase in self.phrases:
+            if phrase.role in roles:
+                phrase.is_used = True
+
     def mark_used(self) -> None:
         """All its words had an effect."""
         for phrase in self.phrases:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from texvent.generate.procedural.description import Motion, Paint, Relation
 from texvent.generate.procedural.language import lexicon, lexicon_scene
 from texvent.generate.procedural.language.drafts import Draft, NounGroup
-from texvent.generate.procedural.language.lexicon_motion import Verb
+from texvent.generate.procedural.language.lexicon_motion import SPIN_RATE_HZ, Verb
 from texvent.generate.procedural.language.tagging import Phrase, Role
 from texvent.generate.procedural.model import Noun
 
@@ -114,13 +114,13 @@ class ThingReader:
             draft = self.drafts[index]
             if group.paint is not None and draft.paint is None:
                 draft.paint = group.paint
-                _mark(group.phrases, Role.COLOUR, Role.SHADE)
+                group.mark_roles(Role.COLOUR, Role.SHADE)
             if group.scale is not None and draft.scale == 1.0:
                 draft.scale = group.scale
-                _mark(group.phrases, Role.SIZE)
+                group.mark_roles(Role.SIZE)
             if group.pace != 1.0:
                 draft.pace *= group.pace
-                _mark(group.phrases, Role.PACE)
+                group.mark_roles(Role.PACE)
         self.group = NounGroup()
 
     def read_attribute(self, phrase: Phrase) -> None:
@@ -257,6 +257,10 @@ class ThingReader:
         self.drop_relation(is_used=phrase.is_used)
         self.group = NounGroup()
 
+    def close_subjects(self) -> None:
+        """Place or light was said: the next noun starts a list of subjects of its own."""
+        self._has_acted = True
+
     def join(self) -> None:
         """The word and: the next noun joins the last one."""
         self._is_joined = True
@@ -391,13 +395,3 @@ class ThingReader:
             self.relations.append(Relation(kind, index, tuple(targets)))
         self._dangling = []
         self._related = None
-
-
-SPIN_RATE_HZ = 0.5
-"""Usual turns per second of what spins."""
-
-
-def _mark(phrases: list[Phrase], *roles: Role) -> None:
-    for phrase in phrases:
-        if phrase.role in roles:
-            phrase.is_used = True

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from texvent.generate.procedural.model import Model, Noun, Part, Pose
+from texvent.generate.procedural.models.table import AFLOAT
 from texvent.generate.procedural.primitives import Float64Array
 from texvent.generate.procedural.staging.assemble import Placed
 from texvent.generate.procedural.staging.motion import Trajectory
@@ -17,6 +18,11 @@ def seeded(seed: int, *role: object) -> np.random.Generator:
     """A generator of its own for every role, so that no draw depends on the order of others."""
     words = "/".join(str(part) for part in role)
     return np.random.default_rng([seed, zlib.crc32(words.encode())])
+
+
+def is_centred(noun: Noun) -> bool:
+    """Whether its models have their origin at their middle: what flies or dives, not boats."""
+    return noun.habitat in ("air", "water") and noun.name not in AFLOAT
 
 
 @dataclass(frozen=True)
@@ -39,7 +45,7 @@ class Actor:
     @property
     def is_centred(self) -> bool:
         """Whether its origin is at its middle, not on the ground below."""
-        return self.noun.habitat in ("air", "water")
+        return is_centred(self.noun)
 
     def place(self, time_s: float) -> Placed:
         """Its parts in the world at that instant."""

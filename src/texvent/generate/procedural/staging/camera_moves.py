@@ -36,6 +36,8 @@ class CameraPath:
     duration_s: float
     followed: Trajectory | None = None
     """What a "follow" keeps in place in the picture."""
+    follows_height: bool = True
+    """Whether it also rises and falls with what it follows."""
     has_floor: bool = True
     """Whether there is ground to stay above."""
     room_m: float = math.inf
@@ -68,7 +70,8 @@ class CameraPath:
         """Metres by which camera and target move together."""
         if move.kind == "follow" and self.followed is not None:
             now, start = self.followed.at(time_s).position, self.followed.at(0.0).position
-            return np.subtract(now, start)
+            rises = 1.0 if self.follows_height else 0.0
+            return np.subtract(now, start) * np.array([1.0, 1.0, rises])
         width = self.framing.distance_m / self.framing.focal
         if move.kind == "truck":
             right = np.array([math.cos(self.framing.azimuth), math.sin(self.framing.azimuth), 0])

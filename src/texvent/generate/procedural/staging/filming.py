@@ -76,7 +76,8 @@ def aim_camera(
     lift = SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
     framing = fit(points, azimuth=azimuth, elevation=elevation, aspect=aspect, fill=fill, lift=lift)
     room = _size_room(framing, points) if place == "indoor" else math.inf
-    return CameraPath(framing, moves, duration_s, main.trajectory, has_floor, room)
+    follows_height = main.noun.habitat != "ground"
+    return CameraPath(framing, moves, duration_s, main.trajectory, follows_height, has_floor, room)
 
 
 def _choose_main(description: SceneDescription, actors: Sequence[Actor]) -> Actor:
@@ -132,6 +133,7 @@ def _gather_points(
             corners = actor.corners(float(time), limit)
             if follows:
                 shift = np.array(main.trajectory.at(float(time)).position) - start
+                shift[2] = shift[2] if main.noun.habitat != "ground" else 0.0
                 if actor is not main and not actor.is_mover:
                     continue
                 corners = corners - shift

@@ -9,8 +9,8 @@ import numpy as np
 
 from texvent.generate.procedural.description import Thing
 from texvent.generate.procedural.model import Model, Noun
-from texvent.generate.procedural.models.table import AFLOAT
 from texvent.generate.procedural.primitives import Float64Array
+from texvent.generate.procedural.staging.actors import is_centred
 from texvent.generate.procedural.staging.motion import Vector
 from texvent.generate.procedural.staging.trajectories import Course
 
@@ -32,6 +32,8 @@ class Group:
     half: Float64Array
     """[3] half extents of the room taken over the whole clip, m."""
     centre: Float64Array = field(default_factory=lambda: np.zeros(3))
+    clear_m: float = 0.0
+    """Height of what it jumps over, m."""
     carrier: Group | None = None
     orbits: Group | None = None
 
@@ -52,7 +54,7 @@ def arrange_copies(
     length = max(model.length for model in models)
     width = max(model.width for model in models)
     tall = max(model.height for model in models)
-    is_deep = noun.habitat in ("air", "water") and noun.name not in AFLOAT
+    is_deep = is_centred(noun)
     along = (0.8 if is_deep else 1.2) * length + 0.3
     across = 1.4 * width + 0.4
     if not course.is_path and not is_deep:
@@ -114,5 +116,5 @@ def overlap(centre: Float64Array, group: Group, other: Group) -> bool:
 def _vertical(centre: Float64Array, group: Group) -> tuple[float, float]:
     """Lowest and highest point of a group, m."""
     height = 2.0 * float(group.half[2])
-    low = float(centre[2]) - (0.5 * height if group.noun.habitat in ("air", "water") else 0.0)
+    low = float(centre[2]) - (0.5 * height if is_centred(group.noun) else 0.0)
     return low, low + height

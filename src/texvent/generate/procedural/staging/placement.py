@@ -175,7 +175,9 @@ class Stage:
             return max(0.5 * group.size_m, 0.6)
         if level == 0.0 and kind == "orbit":
             return 0.0
-        return level * max(group.size_m, 1.0)
+        flies = group.noun.habitat == "air" or kind == "fly"
+        clear = self._level_m.get("clear", 0.0) if flies else 0.0
+        return level * max(group.size_m, 1.0) + clear
 
     def _findmeasure_room(
         self, group: Group, wanted: Float64Array, slide: Float64Array
@@ -221,7 +223,7 @@ class Stage:
             offset = np.array(home) - group.carrier.centre
             turned = _unturn(offset, group.carrier.course.yaw)
             return Riding(carrier, turned, activity="sit")
-        return choose_trajectory(group.course, model, home, rng)
+        return choose_trajectory(group.course, model, home, rng, clear_m=group.clear_m)
 
 
 def _hang(trajectory: Trajectory, model: Model) -> tuple[Part, ...]:

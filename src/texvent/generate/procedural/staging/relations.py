@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from texvent.generate.procedural.primitives import Float64Array
+from texvent.generate.procedural.staging.actors import is_centred
 from texvent.generate.procedural.staging.formation import GAP_M, Group, measure_room
 from texvent.generate.procedural.staging.trajectories import PEOPLE
 
@@ -17,8 +18,8 @@ def place_on_targets(
 ) -> tuple[Float64Array, Float64Array]:
     """A subject's place with respect to things that stand already."""
     target = targets[0]
-    top = target.models[0].height * (0.5 if target.noun.habitat in ("air", "water") else 1.0)
-    lift = 0.5 * group.models[0].height if group.noun.habitat in ("air", "water") else 0.0
+    top = target.models[0].height * (0.5 if is_centred(target.noun) else 1.0)
+    lift = 0.5 * group.models[0].height if is_centred(group.noun) else 0.0
     still = np.zeros(3)
     if kind == "around":
         group.orbits = target
@@ -30,6 +31,9 @@ def place_on_targets(
         seat = _seat_height(target, group) + lift
         _sit_in_row(group, target, neighbours)
         return target.centre + np.array([0.0, 0.0, seat]), still
+    if kind == "above" and group.course.motion.kind == "jump":
+        group.clear_m = min(top, 2.0 * group.models[0].height)
+        return target.centre * [1.0, 1.0, 0.0], still
     if kind == "above":
         clear = top + 0.7 * group.models[0].height + 0.3
         return target.centre + np.array([0.0, 0.0, max(clear + lift, height)]), still
@@ -59,7 +63,8 @@ def _sit_in_row(group: Group, target: Group, neighbours: list[int]) -> None:
     count, first = own * len(neighbours), own * neighbours.index(group.index)
     is_wide = body.width > body.length
     room = 0.8 * max(body.width, body.length) / count
-    spacing = min(room, 1.3 * max(group.models[0].width, group.models[0].length))
+    size = max(group.models[0].width, group.models[0].length)
+    spacing = max(min(room, 1.3 * size), 1.05 * size if group.noun.name not in PEOPLE else 0.5)
     yaw = target.course.yaw + (0.5 * math.pi if is_wide else 0.0)
     group.slots = [
         (a * math.cos(yaw), a * math.sin(yaw), 0.0)
@@ -76,7 +81,7 @@ def _seat_height(target: Group, group: Group) -> float:
     shares = _SADDLES if is_sitting and group.noun.name in PEOPLE else _TOPS
     inside = 0.02 if shares is _SADDLES and target.noun.motion == "drive" else 1.0
     share = shares.get(target.noun.name, inside)
-    return (share - (0.5 if target.noun.habitat == "air" else 0.0)) * target.models[0].height
+    return (share - (0.5 if is_centred(target.noun) else 0.0)) * target.models[0].height
 
 
 _TOPS = {"chair": 0.5, "sofa": 0.5, "bed": 0.5, "bench": 0.5, "boat": 0.35, "horse": 0.62,

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from texvent.generate.procedural.description import Motion
-from texvent.generate.procedural.language.reading_things import SPIN_RATE_HZ
+from texvent.generate.procedural.language.lexicon_motion import SPIN_RATE_HZ
 from texvent.generate.procedural.model import Model, Noun
 from texvent.generate.procedural.staging.acts import (
     GRAVITY_M_S2,
@@ -117,8 +117,10 @@ def decide_course(
     speed = noun.speed_m_s if noun.speed_m_s > 0.0 else 1.0
     if motion.kind == "run" and noun.motion == "walk":
         speed *= RUN_FACTOR
-    span = max(model.length, model.height)
-    return Course(motion, yaw, min(speed, MAX_LENGTHS_PER_S * span) * motion.pace, duration_s)
+    # What flies has no road to be compared with: slower, it can be shown larger.
+    most = MAX_LENGTHS_PER_S * (0.8 if noun.habitat == "air" else 1.0)
+    speed = min(speed, most * max(model.length, model.height))
+    return Course(motion, yaw, speed * motion.pace, duration_s)
 
 
 def _face_camera(noun: Noun, model: Model, motion: Motion, toss: float) -> float:
@@ -137,7 +139,12 @@ def _face_camera(noun: Noun, model: Model, motion: Motion, toss: float) -> float
 
 
 def choose_trajectory(
-    course: Course, model: Model, home: Vector, rng: np.random.Generator
+    course: Course,
+    model: Model,
+    home: Vector,
+    rng: np.random.Generator,
+    *,
+    clear_m: float = 0.0,
 ) -> Trajectory:
     """The trajectory of one body.
 
@@ -146,7 +153,10 @@ def choose_trajectory(
         model: its model.
         home: where it is at mid clip, or where it stays, m.
         rng: decides phases.
+        clear_m: height of what it jumps over at its home, m.
     """
+    if clear_m > 0.0:
+        return _jump_over(course, model, home, clear_m)
     kind, direction = course.motion.kind, course.motion.direction
     phase = float(rng.uniform(0.0, 2.0 * math.pi))
     if kind in _PATH_KINDS and direction == "circle":
@@ -162,6 +172,16 @@ def choose_trajectory(
     if kind in _PATH_KINDS:
         return _follow_path(course, model, home, phase)
     return _act_in_place(course, model, home, phase)
+
+
+def _jump_over(course: Course, model: Model, home: Vector, clear_m: float) -> Trajectory:
+    """Hops along its heading so that the highest point is over its home at mid clip."""
+    height = max(0.35 * model.height, 1.25 * clear_m + 0.1)
+    flight = 2.0 * math.sqrt(2.0 * height / GRAVITY_M_S2)
+    period = flight + 0.15
+    middle = 0.5 * course.duration_s
+    phase = (0.5 * flight - middle) % period
+    return Jump(home, height, 0.15, 2.2 * model.length, course.yaw, middle, phase_s=phase)
 
 
 def _activity(kind: str) -> str:
