@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from texvent.generate.procedural.primitives import Float64Array
 from texvent.generate.procedural.raycast.ground import ground_colour, wall_colour
+from texvent.generate.procedural.raycast.kernel import kernel
 from texvent.generate.procedural.raycast.noise import smooth
 from texvent.generate.procedural.raycast.records import Record, World
 from texvent.generate.procedural.raycast.sky import Colour, mix, sky_colour, triple
@@ -31,7 +30,7 @@ _FOG_HEIGHT_M = 40.0
 """Fog and water above this height do not count for rays that go up."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _lamp_light(lamps: Float64Array, point: Colour, normal: Colour) -> Colour:
     """Light of all point lamps on a surface."""
     red, green, blue = 0.0, 0.0, 0.0
@@ -54,21 +53,21 @@ def _lamp_light(lamps: Float64Array, point: Colour, normal: Colour) -> Colour:
     return red, green, blue
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _fogged(instant: Record, colour: Colour, distance: float) -> Colour:
     if instant.fog == 0.0:
         return colour
     return mix(triple(instant.fog_colour), colour, math.exp(-distance * instant.fog))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _sky_light(instant: Record, direction: Colour, pixel: float) -> Colour:
     """Sky in a unit direction, behind the fog."""
     path = _FOG_HEIGHT_M / max(abs(direction[2]), 1e-6)
     return _fogged(instant, sky_colour(instant, direction, pixel), path)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _reflected(
     world: World, colour: Colour, point: Colour, normal: Colour, foot: float, is_lit: bool
 ) -> Colour:
@@ -89,7 +88,7 @@ def _reflected(
     )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _shape_light(
     world: World,
     hit: tuple[float, int, int],
@@ -118,13 +117,13 @@ def _shape_light(
     return red + glow * colour[0], green + glow * colour[1], blue + glow * colour[2]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _unit(v: Colour) -> Colour:
     scale = 1.0 / math.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
     return v[0] * scale, v[1] * scale, v[2] * scale
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _ground_light(
     world: World, depth: float, point: Colour, direction: Colour, is_lit: bool
 ) -> Colour:
@@ -142,7 +141,7 @@ def _ground_light(
     return mix(light, triple(instant.sky_horizon), smooth((depth - 150.0) / 1500.0))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def light_at(world: World, x: float, y: float, hit: tuple[float, int, int], is_lit: bool) -> Colour:
     """Linear light that reaches picture point (x, y).
 

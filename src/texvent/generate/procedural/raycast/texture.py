@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from texvent.generate.procedural.primitives import Float64Array
+from texvent.generate.procedural.raycast.kernel import kernel
 from texvent.generate.procedural.raycast.noise import keep, noise_3d, smooth, square_wave
 from texvent.generate.procedural.raycast.records import Record, World
 from texvent.generate.procedural.raycast.sky import Colour, mix, triple
@@ -16,7 +15,7 @@ _STEEPEST = 0.04
 """A surface seen at less than this slope is taken to be at it, so that its patch stays finite."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def surface_patch(
     instant: Record, direction: Vector, depth: float, normal: Vector
 ) -> tuple[Vector, Vector]:
@@ -47,7 +46,7 @@ def surface_patch(
     )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def patch_extent(patch: tuple[Vector, Vector]) -> Colour:
     """Metres that a patch spans in x and in y, and its longest side."""
     (rx, ry, rz), (dx, dy, dz) = patch
@@ -55,12 +54,12 @@ def patch_extent(patch: tuple[Vector, Vector]) -> Colour:
     return abs(rx) + abs(dx), abs(ry) + abs(dy), math.sqrt(longest)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _row(m: Float64Array, row: int, v: Vector) -> float:
     return float(m[row, 0] * v[0] + m[row, 1] * v[1] + m[row, 2] * v[2])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def surface_colour(
     world: World, number: int, face: int, point: Vector, patch: tuple[Vector, Vector]
 ) -> Colour:
@@ -90,7 +89,7 @@ def surface_colour(
     return mix(plain, triple(shape.second_colour), share)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _pattern(texture: int, face: int, p: Colour, steps: Colour) -> float:
     """Share of the second colour at texture coordinates `p`, averaged over `steps`."""
     if texture == 1:

@@ -12,12 +12,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from texvent.generate.procedural.primitives import Float64Array
 from texvent.generate.procedural.raycast.arrange import TILE
 from texvent.generate.procedural.raycast.borrow import borrow
+from texvent.generate.procedural.raycast.kernel import kernel
 from texvent.generate.procedural.raycast.light import light_at
 from texvent.generate.procedural.raycast.records import World
 from texvent.generate.procedural.raycast.sky import Colour
@@ -44,7 +44,7 @@ _SHOULDER = 0.75
 """Light above this share of white is compressed instead of cut off."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _is_lit(world: World, x: float, y: float, hit: tuple[float, int, int]) -> tuple[bool, bool]:
     """Whether the sun reaches what was hit, and whether a thin shadow is near."""
     depth, number, face = hit
@@ -59,7 +59,7 @@ def _is_lit(world: World, x: float, y: float, hit: tuple[float, int, int]) -> tu
     return sun_reaches(world, point, surface_normal(world, number, face, point))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _probe(world: World, x: float, y: float) -> int:
     """What is at picture point (x, y), as one number: surface, face, and lit or not."""
     depth, number, face, _ = first_hit(world, x, y)
@@ -67,7 +67,7 @@ def _probe(world: World, x: float, y: float) -> int:
     return (number * 8 + face) * 2 + int(lit)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _shoulder(light: float) -> float:
     """Linear light as a share of white: unchanged up to `_SHOULDER`, then bent smoothly to 1."""
     if light <= _SHOULDER:
@@ -76,7 +76,7 @@ def _shoulder(light: float) -> float:
     return _SHOULDER + room * (1.0 - math.exp((_SHOULDER - light) / room))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _exposed(world: World, light: Colour) -> Colour:
     exposure = world.instant[0].exposure
     return (
@@ -86,7 +86,7 @@ def _exposed(world: World, light: Colour) -> Colour:
     )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _shade(world: World, x: float, y: float, probe: int) -> Colour:
     """Exposed light at picture point (x, y), where the surface `probe` is."""
     number, lit = probe >> 4, bool(probe & 1)
@@ -99,7 +99,7 @@ def _shade(world: World, x: float, y: float, probe: int) -> Colour:
     return _exposed(world, light_at(world, x, y, (depth, number, face), lit))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _add_share(
     groups: Float64Array, count: int, probe: int, share: float, place: tuple[float, float]
 ) -> int:
@@ -122,7 +122,7 @@ def _add_share(
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _sum_groups(world: World, groups: Float64Array, count: int) -> Colour:
     """Mean light of a pixel that several surfaces share.
 
@@ -140,7 +140,7 @@ def _sum_groups(world: World, groups: Float64Array, count: int) -> Colour:
     return red / total, green / total, blue / total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _sample_pixel(
     world: World, column: int, row: int, pattern: Float64Array, groups: Float64Array
 ) -> Colour:
@@ -152,14 +152,14 @@ def _sample_pixel(
     return _sum_groups(world, groups, count)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _between(
     start: tuple[float, float], stop: tuple[float, float], share: float
 ) -> tuple[float, float]:
     return start[0] + share * (stop[0] - start[0]), start[1] + share * (stop[1] - start[1])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _add_line(
     world: World,
     groups: Float64Array,
@@ -203,7 +203,7 @@ def _add_line(
     return _add_share(groups, count, probes[1], share * (1.0 - low), place)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _split_pixel(
     world: World, column: int, row: int, probes: NDArray[np.int64], groups: Float64Array
 ) -> Colour:
@@ -243,7 +243,7 @@ def _split_pixel(
     return _sum_groups(world, groups, count)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _probe_tile(
     world: World, edges: tuple[int, int, int, int], samples: int, probes: NDArray[np.int64]
 ) -> None:
@@ -265,7 +265,7 @@ def _probe_tile(
             probes[j, i] = _THIN if thin or thin_shadow else probe + int(lit)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _refresh(
     world: World, column: int, row: int, lattice: tuple[int, int], probes: NDArray[np.int64]
 ) -> None:
@@ -280,7 +280,7 @@ def _refresh(
                 probes[j, i] = _probe(world, column + i / last, row + j / last)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _agree(probes: NDArray[np.int64], top: int, left: int, samples: int) -> bool:
     """Whether all probes in and around one pixel saw the same surface."""
     first = probes[top, left]
@@ -291,7 +291,7 @@ def _agree(probes: NDArray[np.int64], top: int, left: int, samples: int) -> bool
     return True
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _any_thin(probes: NDArray[np.int64], top: int, left: int, samples: int) -> bool:
     """Whether something thin is near one pixel."""
     for row in range(top, top + samples + 1):
@@ -301,7 +301,7 @@ def _any_thin(probes: NDArray[np.int64], top: int, left: int, samples: int) -> b
     return False
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def draw_tile_row(
     owner: World, tile_row: int, samples: int, pattern: Float64Array, picture: Float64Array
 ) -> None:

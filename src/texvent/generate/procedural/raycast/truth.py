@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from texvent.generate.procedural.primitives import Float64Array
 from texvent.generate.procedural.raycast.arrange import TILE
 from texvent.generate.procedural.raycast.borrow import borrow
+from texvent.generate.procedural.raycast.kernel import kernel
 from texvent.generate.procedural.raycast.records import World
 from texvent.generate.procedural.raycast.trace import (
     background_hit,
@@ -18,7 +18,7 @@ from texvent.generate.procedural.raycast.trace import (
 )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def look_through(
     owner: World, points: Float64Array, depth: Float64Array, number: NDArray[np.int32]
 ) -> None:
@@ -38,7 +38,7 @@ def look_through(
         depth[index], number[index] = t, found
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def count_alone(
     owner: World, instance: NDArray[np.int32], height: int, width: int, counts: NDArray[np.int64]
 ) -> None:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
+from texvent.generate.procedural.raycast.kernel import kernel
 from texvent.generate.procedural.raycast.noise import keep, smooth
 from texvent.generate.procedural.raycast.records import Record
 from texvent.generate.procedural.raycast.sky import Colour, mix, sky_gradient, triple
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def sea_light(instant: Record, point: Colour, view: Colour, foot: Colour) -> Colour:
     """Moving waves that mirror the sky; waves smaller than a pixel fade out."""
     slope_x, slope_y = 0.0, 0.0
@@ -52,7 +51,7 @@ def sea_light(instant: Record, point: Colour, view: Colour, foot: Colour) -> Col
     )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def caustics(instant: Record, point: Colour, foot: float) -> float:
     """Ripples of light that waves throw on what is under water: a factor around 1."""
     share = keep(1.2 * foot)
