@@ -71,7 +71,7 @@ class CameraPath:
         if move.kind == "follow" and self.followed is not None:
             now, start = self.followed.at(time_s).position, self.followed.at(0.0).position
             rises = 1.0 if self.follows_height else 0.0
-            return np.subtract(now, start) * np.array([1.0, 1.0, rises])
+            return np.asarray(np.subtract(now, start) * np.array([1.0, 1.0, rises]))
         width = self.framing.distance_m / self.framing.focal
         if move.kind == "truck":
             right = np.array([math.cos(self.framing.azimuth), math.sin(self.framing.azimuth), 0])
