@@ -73,7 +73,7 @@ def render(
     def draw(tile_row: int) -> None:
         draw_tile_row(world, tile_row, samples, pattern, picture)
 
-    workers = min(threads or len(os.sched_getaffinity(0)), rows)
+    workers = min(threads or _usable_cores(), rows)
     if workers == 1:
         for tile_row in range(rows):
             draw(tile_row)
@@ -81,6 +81,12 @@ def render(
         with ThreadPoolExecutor(workers) as pool:
             list(pool.map(draw, range(rows)))
     return encode_srgb(picture)
+
+
+def _usable_cores() -> int:
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 def sample_pattern(count: int) -> Float64Array:
