@@ -4,6 +4,7 @@ The streams lie beside the checkout, not in it (`../shared/peers`, read there wh
 """
 
 import dataclasses
+import math
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,8 @@ from texvent.simulate.senpi import SenpiSimulator
 from texvent.simulate.v2e import V2eSimulator
 from texvent.simulate.voltmeter import VoltmeterSimulator
 from texvent.video import Frame
+
+from .published import moving_texture
 
 PEERS = Path(__file__).parents[2].parent / "shared" / "peers"
 MISSING = f"no event streams of the original programs in {PEERS.parent.name}/{PEERS.name}"
@@ -71,6 +74,47 @@ def pair_mismatches(packets, theirs, edges_us) -> list[float]:
 def test_the_mismatch_counts_events_too_many_and_too_few():
     ours, theirs = np.array([[2, 0], [1, 1]]), np.array([[1, 1], [1, 1]])
     assert mismatch(ours, theirs) == 0.5
+
+
+def brightness_of(name: str, intensity: int) -> float:
+    """What each original compares, for one 8-bit pixel."""
+    if name == "esim":
+        return math.log(intensity / 255 + 1e-3)
+    if name == "v2e":
+        return intensity * math.log(20) / 20 if intensity <= 20 else math.log(intensity)
+    return math.log(max(intensity, 1) / 255 * 15_000)
+
+
+def events_by_hand(name: str, levels: list[int]) -> list[tuple[int, int]]:
+    """(number of the frame, polarity) of one pixel's events, by the published rule."""
+    reference, events = brightness_of(name, levels[0]), []
+    for number, level in enumerate(levels[1:], 1):
+        change = brightness_of(name, level) - reference
+        count = int(abs(change) / 0.2)
+        is_on = change > 0
+        if name == "senpi":
+            count = min(count, 1)
+            reference = brightness_of(name, level) if count else reference
+        else:
+            reference += count * 0.2 * (1 if is_on else -1)
+        events += [(number, int(is_on))] * count
+    return events
+
+
+@pytest.mark.parametrize("name", ["esim", "v2e", "senpi"])
+def test_the_published_rules_by_hand_on_our_own_frames(name):
+    model = {"esim": EsimSimulator, "v2e": V2eSimulator, "senpi": SenpiSimulator}[name]
+    frames = moving_texture(8, (10, 12))
+    packets = packets_of(model, "peer-common", frames)
+    ours = [count_map(packet.columns(), (10, 12)) for packet in packets]
+    total = 0
+    for y, x in np.ndindex(10, 12):
+        expected = np.zeros((8, 2), int)
+        for number, p in events_by_hand(name, [int(frame.pixels[y, x]) for frame in frames]):
+            expected[number, p] += 1
+        assert [counts[:, y, x].tolist() for counts in ours] == expected.tolist()
+        total += int(expected.sum())
+    assert total > 300
 
 
 @needs_peers

@@ -24,8 +24,9 @@ Columns = tuple[NDArray[np.int64], Float64Array, NDArray[np.uint8], NDArray[np.b
 
 def find_passages(motion: Motion, voltage: Voltage, key: np.uint64, duration_us: float) -> Passages:
     """Alternate between polarity and time; see `passage_reference.find_passages`."""
-    # With NUMBA_DISABLE_JIT=1 the hash runs in NumPy, which would warn of its wrap-around.
-    with np.errstate(over="ignore", divide="ignore"):
+    # With NUMBA_DISABLE_JIT=1 this runs in NumPy, which would warn where the hash wraps around and
+    # where extremes overflow.
+    with np.errstate(all="ignore"):
         return Passages(*_find_passages(motion, voltage, key, float(duration_us)))
 
 

@@ -90,7 +90,8 @@ def chance_along(
         along: distance a to the threshold ahead, [n], above 0.
         against: distance b to the threshold behind, [n], above 0.
     """
-    with np.errstate(divide="ignore", invalid="ignore"):
+    # Extremes overflow to infinity or vanish, and the formula still has its limit.
+    with np.errstate(all="ignore"):
         steer = 2.0 * speed / (sigma * sigma)
         # Without diffusion the drift decides; `inf` below would be 0 · ∞ where there is neither.
         steer = np.where(speed == 0, 0.0, steer)
@@ -123,7 +124,7 @@ def passage_time(
         here written so that nothing cancels.
     """
     spread, pull = sigma * sigma * normal * normal, 2.0 * speed * distance
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+    with np.errstate(all="ignore"):
         mean = distance / speed
         w, q = spread / pull, pull / spread
         with_drift = mean / (1.0 + w + np.sqrt(w * (w + 2.0)))
