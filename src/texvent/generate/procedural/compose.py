@@ -47,8 +47,6 @@ from texvent.generate.procedural.staging.weather import (
 )
 from texvent.sensor import SensorSize
 
-SURROUND_COUNT = 14
-"""Least number of things that surround something."""
 VIEW_INSTANTS = 7
 """Instants of the clip at which scenery must not hide anything."""
 _LAMP_NOUNS = {"street lamp": (1.1, 4.7), "lamp": (0.0, 0.9), "candle": (0.0, 0.9)}
@@ -219,8 +217,7 @@ def _plant_all(
             thing = description.things[target]
             colour = thing.paint.rgb if thing.paint is not None else None
             sizes = (0.8 * thing.scale, 1.2 * thing.scale)
-            count = max(thing.count, SURROUND_COUNT)
-            planting = Planting(thing.noun, count, -0.2, 3.5, sizes, (colour,))
+            planting = Planting(thing.noun, thing.count, -0.2, 3.5, sizes, (colour,))
             rng = seeded(seed, "surround", target)
             taken = [piece for _, piece in around]
             found = plant([planting], view, actors, allowed, rng=rng, taken=taken)

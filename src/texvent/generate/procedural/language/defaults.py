@@ -14,7 +14,7 @@ from texvent.generate.procedural.description import (
     SceneDescription,
     Thing,
 )
-from texvent.generate.procedural.language.lexicon import COLOURS
+from texvent.generate.procedural.language.lexicon import COLOURS, MAX_BODIES
 from texvent.generate.procedural.language.whereabouts import choose_place
 from texvent.generate.procedural.language.words import pluralise
 from texvent.generate.procedural.model import Noun
@@ -34,7 +34,7 @@ def complete_description(
     if description.understood_nothing:
         description = _show_default(description, nouns)
     description = _add_crew(description, nouns)
-    description = _seat_riders(description)
+    description = _limit_bodies(_seat_riders(description))
     things = tuple(_decide_motion(thing, nouns[thing.noun]) for thing in description.things)
     description = _let_chased_move(replace(description, things=things), nouns)
     things = description.things
@@ -99,6 +99,20 @@ def _seat_riders(description: SceneDescription) -> SceneDescription:
     shot = replace(description.shot, target=new.get(target) if target is not None else None)
     things = tuple(description.things[index] for index in kept)
     return replace(description, things=things, relations=relations, shot=shot)
+
+
+def _limit_bodies(description: SceneDescription) -> SceneDescription:
+    """At most `MAX_BODIES` bodies in all; at least one of each thing."""
+    room = MAX_BODIES - len(description.things)
+    things = []
+    for thing in description.things:
+        shown = 1 + min(thing.count - 1, room)
+        room -= shown - 1
+        things.append(replace(thing, count=shown))
+    if tuple(things) == description.things:
+        return description
+    note = f"no more than {MAX_BODIES} bodies are shown"
+    return replace(description, things=tuple(things), notes=(*description.notes, note))
 
 
 def _let_chased_move(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:

@@ -70,13 +70,15 @@ class NounGroup:
                 return float(phrase.meaning.value), phrase
         return None
 
-    def decide_count(self, *, is_plural: bool) -> int:
+    def decide_count(self, *, is_plural: bool, is_all_around: bool) -> int:
         """How many: as said, at most `MAX_COUNT`, or what a bare singular or plural means."""
         if self.number is not None:
             return round(min(self.number, lexicon.MAX_COUNT))
         if self.count is not None:
             return self.count
-        return lexicon.PLURAL_COUNT if is_plural else 1
+        if not is_plural:
+            return 1
+        return lexicon.SURROUND_COUNT if is_all_around else lexicon.PLURAL_COUNT
 
     def decide_paint(self) -> Paint | None:
         """The colour, or the grey that "dark" and "light" alone mean.

@@ -69,6 +69,11 @@ COUNTS: dict[str, int] = {
 PLURAL_COUNT = 3
 """What a bare plural means: "birds fly"."""
 
+SURROUND_COUNT = 14
+"""What a bare plural means all around something: "surrounded by trees"."""
+MAX_BODIES = 60
+"""Most bodies in a scene; copies beyond it are left out, and said."""
+
 SIZES: dict[str, float] = {
     "tiny": 0.4,
     "miniature": 0.4,

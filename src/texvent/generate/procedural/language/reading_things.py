@@ -319,7 +319,10 @@ class ThingReader:
         if group.number is not None and group.number > lexicon.MAX_COUNT:
             most = f"{lexicon.MAX_COUNT}, the most of one thing"
             self.notes.append(f"a count of {group.number:g} is shown as {most}")
-        count = group.decide_count(is_plural=phrase.meaning.form == "plural")
+        count = group.decide_count(
+            is_plural=phrase.meaning.form == "plural",
+            is_all_around=self.relation in ("surround", "among"),
+        )
         if count == 0:
             self.absent.append(name)
             group.mark_used()

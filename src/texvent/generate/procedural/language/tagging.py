@@ -122,6 +122,11 @@ class Lexicon:
         return 0, []
 
     @property
+    def words(self) -> frozenset[str]:
+        """Every word that is part of a known phrase."""
+        return frozenset(word for phrase in self._meanings for word in phrase)
+
+    @property
     def longest(self) -> int:
         """Number of words of the longest phrase."""
         return max(self._longest.values(), default=0)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from texvent.generate.procedural.description import Relation, SceneDescription
+from texvent.generate.procedural.description import STANDING, Relation, SceneDescription
 from texvent.generate.procedural.model import Model, Noun, Part
 from texvent.generate.procedural.primitives import Float64Array, Shape
 from texvent.generate.procedural.staging.actors import Actor, seeded
@@ -26,8 +26,6 @@ from texvent.generate.procedural.staging.trajectories import (
     decide_course,
 )
 
-MAX_ACTORS = 60
-"""Most bodies on the stage; later copies are left out."""
 ON_TARGET = frozenset({"on", "above", "around", "under", "between", "follow"})
 """Relations in which the subject's place follows from the target's; in the others the target's
 follows from the subject's."""
@@ -69,7 +67,7 @@ class Stage:
         actors: list[Actor] = []
         for index in order:
             actors.extend(self._populate(self.groups[index], len(actors)))
-        return actors[:MAX_ACTORS]
+        return actors
 
     def build_group(self, index: int) -> Group:
         """A thing's copies in formation about (0, 0)."""
@@ -81,10 +79,7 @@ class Stage:
             noun.build(colour=colour, scale=thing.scale, seed=int(rng.integers(2**31)))
             for _ in range(thing.count)
         ]
-        motion = thing.motion
-        if motion is None:
-            raise ValueError(f"the motion of {thing.noun} is not decided")
-        course = decide_course(motion, noun, models[0], self._duration_s, rng)
+        course = decide_course(thing.motion or STANDING, noun, models[0], self._duration_s, rng)
         slots = arrange_copies(models, course, noun, rng)
         return Group(index, thing, noun, models, course, slots, measure_room(models, slots, course))
 
