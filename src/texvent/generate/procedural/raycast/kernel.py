@@ -24,7 +24,7 @@ def kernel(function: Function) -> Function:
     """Compile a function with Numba on first use; the machine code is kept on disk.
 
     It releases the interpreter lock, divides by zero as NumPy does, and keeps IEEE arithmetic (no
-    fastmath), so that every machine and number of threads gives the same picture.
+    fastmath), so that neither threads nor the order of work change a picture.
     """
     compiled = njit(cache=True, nogil=True, error_model="numpy")(function)
     # Numba discards kept code when the function's own file changes. A kernel has the functions it

@@ -160,6 +160,41 @@ def _between(
 
 
 @kernel
+def _find_border(
+    world: World,
+    ends: tuple[tuple[float, float], tuple[float, float]],
+    low: float,
+    probes: tuple[int, int],
+) -> tuple[float, int]:
+    """Where a line leaves the surface `probes[0]`, and what comes next.
+
+    Args:
+        world: the scene.
+        ends: where the line starts and stops.
+        low: where on it (0..1) that surface is known to be.
+        probes: that surface, and the one at the line's end.
+    """
+    high = 1.0
+    by_surface = probes[0] >> 1 != probes[1] >> 1
+    for _ in range(_BISECTIONS):
+        middle = 0.5 * (low + high)
+        x, y = _between(ends[0], ends[1], middle)
+        if by_surface:  # no need to know about shadow
+            _, number, face, _ = first_hit(world, x, y)
+            is_same = number * 8 + face == probes[0] >> 1
+        else:
+            is_same = _probe(world, x, y) == probes[0]
+        if is_same:
+            low = middle
+        else:
+            high = middle
+    if high == 1.0:
+        return 0.5 * (low + high), probes[1]
+    x, y = _between(ends[0], ends[1], high)
+    return 0.5 * (low + high), _probe(world, x, y)
+
+
+@kernel
 def _add_line(
     world: World,
     groups: Float64Array,
@@ -186,16 +221,8 @@ def _add_line(
     for _ in range(_MOST_BORDERS):
         if probe == probes[1]:
             break
-        first, inside, outside, beyond = low, low, 1.0, probes[1]
-        for _ in range(_BISECTIONS):
-            middle = 0.5 * (inside + outside)
-            x, y = _between(start, stop, middle)
-            found = _probe(world, x, y)
-            if found == probe:
-                inside = middle
-            else:
-                outside, beyond = middle, found
-        low = 0.5 * (inside + outside)
+        first = low
+        low, beyond = _find_border(world, ends, low, (probe, probes[1]))
         place = _between(start, stop, 0.5 * (first + low))
         count = _add_share(groups, count, probe, share * (low - first), place)
         probe = beyond
