@@ -15,14 +15,13 @@ import numpy as np
 
 from texvent.config import check_range
 from texvent.errors import ConfigError
-from texvent.simulate.draws import Purpose
 from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.kernels.ramp import Ramp, Rest, load_cross_ramp
 from texvent.simulate.pixel_maps import (
     LONG_AGO_US,
     LOWEST_THRESHOLD,
     Float64Array,
-    draw_thresholds,
+    draw_threshold_pair,
     sensor_key,
 )
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
@@ -98,12 +97,12 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         self._brightness = log_intensity(intensity, self.config.log_eps)
         self._reference = self._brightness.copy()
         self._fired_us = np.full(self._brightness.shape, LONG_AGO_US)
-        self._thresholds = self._draw_thresholds(sensor_key(self._seed))
+        self._thresholds = draw_threshold_pair(intensity.shape, sensor_key(self._seed), self.config)
 
     def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
         brightness = log_intensity(intensity, self.config.log_eps)
         if self.config.threshold_sigma > 0 and self.config.threshold_redraw == "frame":
-            self._thresholds = self._draw_thresholds(interval.key)
+            self._thresholds = draw_threshold_pair(intensity.shape, interval.key, self.config)
         threshold_on, threshold_off = self._thresholds
         crossings = load_cross_ramp(self._backend)(
             Ramp(
@@ -120,25 +119,6 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         self._reference += steps * np.where(steps > 0, threshold_on, threshold_off)
         self._brightness = brightness
         return Firings.signal(crossings.pixel, crossings.t, crossings.p)
-
-    def _draw_thresholds(self, key: np.uint64) -> tuple[Float64Array, Float64Array]:
-        config, shape = self.config, self._brightness.shape
-        return (
-            draw_thresholds(
-                shape,
-                key,
-                Purpose.THRESHOLD_ON,
-                mean=config.contrast_threshold_on,
-                sigma=config.threshold_sigma,
-            ),
-            draw_thresholds(
-                shape,
-                key,
-                Purpose.THRESHOLD_OFF,
-                mean=config.contrast_threshold_off,
-                sigma=config.threshold_sigma,
-            ),
-        )
 
 
 def log_intensity(intensity: IntensityArray, log_eps: float) -> Float64Array:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,6 +41,37 @@ def draw_thresholds(
     y, x = np.ogrid[: shape[0], : shape[1]]
     drawn = mean + sigma * draw_normals(key, y, x, purpose.draw())
     return np.maximum(drawn, LOWEST_THRESHOLD)
+
+
+class NominalThresholds(Protocol):
+    """The options that say what a sensor's thresholds are."""
+
+    @property
+    def contrast_threshold_on(self) -> float:
+        """Mean of the ON thresholds, log units."""
+        ...
+
+    @property
+    def contrast_threshold_off(self) -> float:
+        """Mean of the OFF thresholds, log units."""
+        ...
+
+    @property
+    def threshold_sigma(self) -> float:
+        """Standard deviation of both, log units."""
+        ...
+
+
+def draw_threshold_pair(
+    shape: Shape, key: np.uint64, nominal: NominalThresholds
+) -> tuple[Float64Array, Float64Array]:
+    """ON and OFF thresholds of every pixel, two of [H, W]; see `draw_thresholds`."""
+    on, off = nominal.contrast_threshold_on, nominal.contrast_threshold_off
+    sigma = nominal.threshold_sigma
+    return (
+        draw_thresholds(shape, key, Purpose.THRESHOLD_ON, mean=on, sigma=sigma),
+        draw_thresholds(shape, key, Purpose.THRESHOLD_OFF, mean=off, sigma=sigma),
+    )
 
 
 def draw_rate_factors(

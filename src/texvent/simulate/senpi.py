@@ -25,7 +25,7 @@ from texvent.simulate.pixel_maps import (
     LOWEST_THRESHOLD,
     Float64Array,
     draw_chosen,
-    draw_thresholds,
+    draw_threshold_pair,
     sensor_key,
 )
 from texvent.simulate.rate_noise import draw_rate_noise
@@ -119,20 +119,7 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
     def _begin(self, intensity: IntensityArray) -> None:
         config = self.config
         key, shape = sensor_key(self._seed), intensity.shape
-        self._threshold_on = draw_thresholds(
-            shape,
-            key,
-            Purpose.THRESHOLD_ON,
-            mean=config.contrast_threshold_on,
-            sigma=config.threshold_sigma,
-        )
-        self._threshold_off = draw_thresholds(
-            shape,
-            key,
-            Purpose.THRESHOLD_OFF,
-            mean=config.contrast_threshold_off,
-            sigma=config.threshold_sigma,
-        )
+        self._threshold_on, self._threshold_off = draw_threshold_pair(shape, key, config)
         is_hot = draw_chosen(shape, key, Purpose.HOT_PIXEL, fraction=config.hot_fraction)
         self._rate_hz = np.where(is_hot, config.hot_rate_hz, config.noise_rate_hz)
         lowest = min(self._threshold_on.min(), self._threshold_off.min())

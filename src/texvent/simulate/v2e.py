@@ -25,7 +25,7 @@ from texvent.simulate.pixel_maps import (
     LOWEST_THRESHOLD,
     Float64Array,
     draw_rate_factors,
-    draw_thresholds,
+    draw_threshold_pair,
     sensor_key,
 )
 from texvent.simulate.rate_noise import draw_rate_noise
@@ -141,20 +141,7 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
     def _begin(self, intensity: IntensityArray) -> None:
         config = self.config
         key, shape = sensor_key(self._seed), intensity.shape
-        self._threshold_on = draw_thresholds(
-            shape,
-            key,
-            Purpose.THRESHOLD_ON,
-            mean=config.contrast_threshold_on,
-            sigma=config.threshold_sigma,
-        )
-        self._threshold_off = draw_thresholds(
-            shape,
-            key,
-            Purpose.THRESHOLD_OFF,
-            mean=config.contrast_threshold_off,
-            sigma=config.threshold_sigma,
-        )
+        self._threshold_on, self._threshold_off = draw_threshold_pair(shape, key, config)
         self._leak_hz = config.leak_rate_hz * draw_rate_factors(
             shape, key, Purpose.LEAK_RATE, decades=config.leak_rate_decades
         )

@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.simulate.firings import Firings
-from texvent.simulate.kernels.ramp import load_kernel
-from texvent.simulate.kernels.select import AUTO
+from texvent.simulate.kernels.select import AUTO, load_kernel
 
 Float64Array: TypeAlias = NDArray[np.float64]
 Int64Array: TypeAlias = NDArray[np.int64]

@@ -12,9 +12,7 @@ from typing import NamedTuple, TypeAlias, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent._require import require
-from texvent.errors import MissingDependencyError
-from texvent.simulate.kernels.select import AUTO, check_backend
+from texvent.simulate.kernels.select import AUTO, load_kernel
 
 Float64Array: TypeAlias = NDArray[np.float64]
 
@@ -67,21 +65,3 @@ def load_cross_ramp(backend: str = AUTO) -> CrossRamp:
         MissingDependencyError: what the backend needs is not installed.
     """
     return cast("CrossRamp", load_kernel("ramp", "cross_ramp", backend))
-
-
-def load_kernel(model: str, function: str, backend: str) -> object:
-    """`function` of the module `<model>_<backend>` beside this file.
-
-    "auto" is "cpu", or "reference" where Numba is missing.
-
-    Raises:
-        ConfigError: no backend has that name.
-        MissingDependencyError: what the backend needs is not installed.
-    """
-    if check_backend(backend) == AUTO:
-        try:
-            return load_kernel(model, function, "cpu")
-        except MissingDependencyError:
-            # Not an error: the reference gives the same events, only later.
-            return load_kernel(model, function, "reference")
-    return getattr(require(f"texvent.simulate.kernels.{model}_{backend}"), function)

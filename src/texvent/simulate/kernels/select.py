@@ -51,3 +51,21 @@ def load_kernels(backend: str = AUTO) -> Kernels:
     except MissingDependencyError:
         # Not an error: the reference gives the same events, only later.
         return load_kernels("reference")
+
+
+def load_kernel(model: str, function: str, backend: str) -> object:
+    """`function` of a model's own kernels, the module `<model>_<backend>` beside this file.
+
+    Raises:
+        ConfigError: no backend has that name.
+        MissingDependencyError: what the backend needs is not installed.
+    """
+    if check_backend(backend) == AUTO:
+        try:
+            return load_kernel(model, function, "cpu")
+        except MissingDependencyError:
+            # Not an error: the reference gives the same events, only later.
+            return load_kernel(model, function, "reference")
+    if backend in _PACKAGES:
+        require(_PACKAGES[backend])
+    return getattr(importlib.import_module(f"texvent.simulate.kernels.{model}_{backend}"), function)
