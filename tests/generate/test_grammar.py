@@ -51,6 +51,11 @@ THINGS: list[tuple[str, list[str]]] = [
     ("a man rides a horse", ["1 man sit", "1 horse walk"]),
     ("a man rides a bicycle to the left", ["1 bicycle drive left"]),
     ("a woman drives a blue car", ["1 woman sit", "1 car blue drive"]),
+    (
+        "a car drives left past a tree and a dog runs right",
+        ["1 car drive left", "1 tree stand", "1 dog run right"],
+    ),
+    ("a boat with dolphins jumping", ["1 boat sail", "3 dolphin jump"]),
     ("a wild-eyed horse gallops in circles", ["1 horse run circle @1.3"]),
     ("a drone hovers", ["1 drone hover"]),
     ("an airplane takes off", ["1 airplane rise"]),
@@ -111,6 +116,7 @@ def test_things_counts_colours_sizes_and_motions(prompt: str, things: list[str])
         ("a man with a dog walks", [("with", "man", ["dog"])]),
         ("a road sign to the left of a house", [("left of", "sign", ["house"])]),
         ("a house surrounded by trees", [("surround", "house", ["tree"])]),
+        ("a car passes a tree and a house", [("past", "car", ["tree", "house"])]),
         ("a man rides a horse", [("on", "man", ["horse"])]),
     ],
 )

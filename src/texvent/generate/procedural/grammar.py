@@ -91,7 +91,9 @@ class _Reading:
     def read(self, prompt: str) -> SceneDescription:
         """The description, before defaults are filled in."""
         for position, phrase in enumerate(self._phrases):
-            if self._camera.read(phrase):
+            if self._is_about_light(position, phrase):
+                phrase.is_used = True
+            elif self._camera.read(phrase):
                 self._things.group.count = None
             else:
                 self._read_phrase(position, phrase)
@@ -111,6 +113,11 @@ class _Reading:
             notes=tuple(self._things.notes),
         )
 
+    def _is_about_light(self, position: int, phrase: Phrase) -> bool:
+        """Light comes "from above" anyway; the camera does not."""
+        before = self._phrases[position - 1].role if position else None
+        return phrase.role is Role.VIEW and before in (Role.LIGHT, Role.GLOW)
+
     def _read_phrase(self, position: int, phrase: Phrase) -> None:
         role = phrase.role
         if role is Role.UNKNOWN:
@@ -122,7 +129,7 @@ class _Reading:
         elif role in (Role.SPEED_UNIT, Role.HERTZ):
             self._read_unit(phrase)
         elif role is Role.NOUN:
-            self._read_noun(phrase)
+            self._read_noun(position, phrase)
         elif role in (Role.VERB, Role.DIRECTION, Role.PACE, Role.SHADE):
             self._read_by_neighbours(position, phrase)
         else:
@@ -159,7 +166,13 @@ class _Reading:
         else:
             self._things.read_part(phrase)
 
-    def _read_noun(self, phrase: Phrase) -> None:
+    def _read_noun(self, position: int, phrase: Phrase) -> None:
+        follower = self._next_phrase(position, frozenset({Role.PACE}))
+        self._things.verb_follows = (
+            follower is not None
+            and follower.role is Role.VERB
+            and follower.meaning.form == "finite"
+        )
         relation = self._things.relation
         is_camera = self._camera.has_focus
         if is_camera:
@@ -202,9 +215,13 @@ class _Reading:
 
     def _following(self, position: int, skipped: frozenset[Role]) -> Role | None:
         """Role of the next phrase that is not one of `skipped`."""
-        for phrase in self._phrases[position + 1 :]:
-            if phrase.role not in skipped:
-                return phrase.role
+        phrase = self._next_phrase(position, skipped)
+        return None if phrase is None else phrase.role
+
+    def _next_phrase(self, position: int, skipped: frozenset[Role]) -> Phrase | None:
+        for later in range(position + 1, len(self._phrases)):
+            if self._phrases[later].role not in skipped:
+                return self._phrases[later]
         return None
 
     def _read_unknown(self, position: int) -> None:

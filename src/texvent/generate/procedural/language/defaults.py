@@ -34,7 +34,7 @@ def complete_description(
     if description.understood_nothing:
         description = _show_default(description, nouns)
     description = _add_crew(description, nouns)
-    description = _limit_bodies(_seat_riders(description))
+    description = _limit_bodies(_stand_back(_seat_riders(description), nouns))
     things = tuple(_decide_motion(thing, nouns[thing.noun]) for thing in description.things)
     description = _let_chased_move(replace(description, things=things), nouns)
     things = description.things
@@ -99,6 +99,37 @@ def _seat_riders(description: SceneDescription) -> SceneDescription:
     shot = replace(description.shot, target=new.get(target) if target is not None else None)
     things = tuple(description.things[index] for index in kept)
     return replace(description, things=things, relations=relations, shot=shot)
+
+
+TOWERING = frozenset(
+    {"crane", "building", "mountain", "windmill", "wind turbine", "ship", "bridge", "pyramid"}
+)
+"""Nouns that stand far behind smaller things, unless the prompt relates them."""
+_MOST_COMPANIONS = 6
+
+
+def _stand_back(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """Move towering things to the background, and let living surroundings keep company.
+
+    Animals that surround something move along with it, because scenery stands still.
+    """
+    things = list(description.things)
+    relations = []
+    for relation in description.relations:
+        target = relation.targets[0]
+        if relation.kind in ("surround", "among") and nouns[things[target].noun].habitat != "fixed":
+            things[target] = replace(
+                things[target], count=min(things[target].count, _MOST_COMPANIONS)
+            )
+            relation = replace(relation, kind="with")
+        relations.append(relation)
+    related = {i for relation in relations for i in (relation.subject, *relation.targets)}
+    is_mixed = any(thing.noun not in TOWERING for thing in things)
+    for index, thing in enumerate(things):
+        is_free = index not in related and index != description.shot.target
+        if is_mixed and is_free and thing.noun in TOWERING and thing.side is None:
+            things[index] = replace(thing, side="far")
+    return replace(description, things=tuple(things), relations=tuple(relations))
 
 
 def _limit_bodies(description: SceneDescription) -> SceneDescription:

@@ -49,6 +49,19 @@ PLACES: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 """Place → words for it, in the singular (regular plurals are understood too)."""
 
+PAINTABLE = frozenset({"grass", "savanna", "sand", "indoor", "plain"})
+"""Places whose ground takes the colour that the prompt says."""
+NATURAL_COLOURS: dict[str, tuple[str, ...]] = {
+    "sea": ("blue", "green", "turquoise"),
+    "underwater": ("blue", "turquoise"),
+    "forest": ("green",),
+    "road": ("grey", "gray", "black"),
+    "dirt road": ("brown",),
+    "snow": ("white",),
+    "mountain": ("grey", "gray", "green"),
+}
+"""Colours that a place has anyway, so that naming them is understood."""
+
 LIGHTS: dict[str, tuple[str, ...]] = {
     "day": ("day", "daytime", "daylight", "noon", "midday", "by day", "morning", "afternoon",
             "well lit"),

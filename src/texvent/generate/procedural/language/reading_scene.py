@@ -39,10 +39,13 @@ class SceneReader:
             self._place = place
         elif place not in (self._place, "sky"):
             return False, False
-        is_painted = paint is not None and place == self._place
-        if is_painted:
+        if paint is None or place != self._place:
+            return True, False
+        if place in lexicon_scene.PAINTABLE:
             self._paint = paint
-        return True, is_painted
+            return True, True
+        natural = lexicon_scene.NATURAL_COLOURS.get(place, ())
+        return True, paint.name.split()[-1] in natural
 
     def read_sky(self, paint: Paint) -> None:
         """Take the colour of the sky."""

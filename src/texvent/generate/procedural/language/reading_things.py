@@ -8,6 +8,7 @@ from texvent.generate.procedural.description import Motion, Paint, Relation
 from texvent.generate.procedural.language import lexicon, lexicon_scene
 from texvent.generate.procedural.language.drafts import Draft, NounGroup
 from texvent.generate.procedural.language.lexicon_motion import SPIN_RATE_HZ, Verb
+from texvent.generate.procedural.language.linking import Links
 from texvent.generate.procedural.language.tagging import Phrase, Role
 from texvent.generate.procedural.model import Noun
 
@@ -24,7 +25,6 @@ class ThingReader:
 
     def __init__(self, nouns: Mapping[str, Noun]) -> None:
         self.drafts: list[Draft] = []
-        self.relations: list[Relation] = []
         self.absent: list[str] = []
         self.notes: list[str] = []
         self.group = NounGroup()
@@ -32,15 +32,21 @@ class ThingReader:
         """Things that the next verb is about."""
         self.mentioned: list[int] = []
         """Things named last."""
+        self.verb_follows = False
+        """Whether the noun being read has a verb of its own right after it."""
         self.negation: Phrase | None = None
         self._nouns = nouns
         self._relation: tuple[str, Phrase | None] | None = None
-        self._related: Relation | None = None
-        self._dangling: list[tuple[str, list[int]]] = []
+        self._links = Links()
         self._is_joined = False
         self._has_acted = False
         self._is_lost = False
         self._object_motion: Motion | None = None
+
+    @property
+    def relations(self) -> list[Relation]:
+        """All relations so far."""
+        return self._links.relations
 
     def open_group(self, phrase: Phrase) -> None:
         """A determiner starts a new noun group."""
@@ -142,7 +148,10 @@ class ThingReader:
                 self.group.motion = motion
                 self.group.phrases.append(phrase)
             return
-        self._has_acted = phrase.is_used = True
+        phrase.is_used = True
+        if phrase.meaning.form == "participle" and self._act_on_mentioned(motion):
+            return
+        self._has_acted = True
         self._relation = (verb.relation, None) if verb.relation else None
         if has_object and verb.kind in _HANDLED:
             self._object_motion, motion = motion, Motion("stand")
@@ -152,6 +161,17 @@ class ThingReader:
             motion = Motion("sit")
         for index in self.subjects:
             self._set_motion(self.drafts[index], motion)
+
+    def _act_on_mentioned(self, motion: Motion) -> bool:
+        """A participle after a related thing is about that: "a boat with dolphins jumping"."""
+        if not self._links.is_last_target(self.mentioned):
+            return False
+        drafts = [self.drafts[index] for index in self.mentioned]
+        if any(d.motion is not None or self._nouns[d.noun].habitat == "fixed" for d in drafts):
+            return False
+        for draft in drafts:
+            self._set_motion(draft, motion)
+        return True
 
     def read_still(self, phrase: Phrase) -> None:
         """The words still, motionless: before a noun or about the subject."""
@@ -269,7 +289,7 @@ class ThingReader:
         """A comma or full stop."""
         self.settle()
         self._relation = None
-        self._related = None
+        self._links.close()
         self._is_joined = sign == ","
         self._is_lost &= sign == ","
         if sign != ",":
@@ -295,7 +315,7 @@ class ThingReader:
         """The subjects, or what they ride: "a man rides a horse to the left"."""
         ridden = {
             relation.subject: relation.targets[0]
-            for relation in self.relations
+            for relation in self._links.relations
             if relation.kind == "on" and self.drafts[relation.targets[0]].motion is not None
         }
         return [ridden.get(index, index) for index in self.subjects]
@@ -352,49 +372,30 @@ class ThingReader:
 
     def _connect(self, index: int) -> None:
         """Make the thing a subject, or the target of the relation that waits for it."""
+        is_joined, self._is_joined = self._is_joined, False
         if self._relation is None:
-            if self._is_joined and self._dangling and self._dangling[-1][0] == "between":
-                self._dangling[-1][1].append(index)
-            elif self._is_joined and self._related is not None:
-                self._extend_relation(index)
-            else:
-                self._become_subject(index)
-            self._is_joined = False
+            is_target = is_joined and (self._links.needs_another or not self.verb_follows)
+            if not (is_target and self._links.extend(index, self.subjects)):
+                self._become_subject(index, is_joined)
             return
         kind, phrase = self._relation
         self._relation = None
-        self._is_joined = False
         if phrase is not None:
             phrase.is_used = bool(self.subjects) or not self._is_lost
         if kind == "from":
             return
-        for subject in self.subjects:
-            if subject != index:
-                self._related = Relation(kind, subject, (index,))
-                self.relations.append(self._related)
-        if not self.subjects and not self._is_lost:
-            self._dangling.append((kind, [index]))
+        if self.subjects:
+            self._links.relate(kind, [s for s in self.subjects if s != index], index)
+        elif not self._is_lost:
+            self._links.suspend(kind, index)
         if kind == "with" and self._nouns[self.drafts[index].noun].habitat != "fixed":
             self.subjects.append(index)
 
-    def _extend_relation(self, index: int) -> None:
-        """One relation with two targets, as in "between a house and a tree"."""
-        if self._related is None:
-            return
-        kind = self._related.kind
-        for position, known in enumerate(self.relations):
-            if known.kind == kind and known.subject in self.subjects:
-                self.relations[position] = Relation(kind, known.subject, (*known.targets, index))
-        self._related = None
-
-    def _become_subject(self, index: int) -> None:
-        if self._is_joined and not self._has_acted and self.subjects:
+    def _become_subject(self, index: int, is_joined: bool) -> None:
+        if is_joined and not self._has_acted and self.subjects:
             self.subjects = [*self.subjects, index]
         else:
             self.subjects = [index]
         self._has_acted = self.drafts[index].motion is not None
         self._is_lost = False
-        for kind, targets in self._dangling:
-            self.relations.append(Relation(kind, index, tuple(targets)))
-        self._dangling = []
-        self._related = None
+        self._links.attach(index)

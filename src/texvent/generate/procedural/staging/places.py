@@ -23,8 +23,6 @@ class Place:
     colour: Colour
     second_colour: Colour
     road_half_width: float = 3.4
-    is_paintable: bool = False
-    """Whether a colour in the prompt ("a red floor") is the ground's."""
 
 
 _SNOW: Colour = (0.78, 0.82, 0.88)
@@ -37,19 +35,19 @@ PLACES: dict[str, Place] = {
     "road": Place(Ground.ROAD, _MEADOW[0], _ASPHALT),
     "dirt road": Place(Ground.DIRT_ROAD, (0.07, 0.12, 0.03), (0.34, 0.22, 0.12), 2.4),
     "city": Place(Ground.CITY, (0.3, 0.3, 0.3), _ASPHALT, 4.5),
-    "grass": Place(Ground.GRASS, *_MEADOW, is_paintable=True),
-    "savanna": Place(Ground.GRASS, (0.30, 0.22, 0.075), (0.42, 0.33, 0.13), is_paintable=True),
+    "grass": Place(Ground.GRASS, *_MEADOW),
+    "savanna": Place(Ground.GRASS, (0.30, 0.22, 0.075), (0.42, 0.33, 0.13)),
     "forest": Place(Ground.GRASS, (0.05, 0.075, 0.02), (0.12, 0.09, 0.04)),
     "sea": Place(Ground.SEA, (0.012, 0.07, 0.11), (0.03, 0.13, 0.16)),
     "underwater": Place(Ground.UNDERWATER, (0.34, 0.31, 0.22), (0.5, 0.47, 0.36)),
-    "sand": Place(Ground.SAND, (0.56, 0.43, 0.25), (0.68, 0.55, 0.35), is_paintable=True),
+    "sand": Place(Ground.SAND, (0.56, 0.43, 0.25), (0.68, 0.55, 0.35)),
     "snow": Place(Ground.SNOW, (0.80, 0.83, 0.88), (0.85, 0.88, 0.92)),
     "mountain": Place(Ground.GRASS, (0.10, 0.13, 0.05), (0.20, 0.19, 0.10)),
-    "indoor": Place(Ground.FLOOR, (0.36, 0.20, 0.10), (0.46, 0.28, 0.15), is_paintable=True),
+    "indoor": Place(Ground.FLOOR, (0.36, 0.20, 0.10), (0.46, 0.28, 0.15)),
     "sky": Place(Ground.NONE, (0.3, 0.3, 0.3), (0.3, 0.3, 0.3)),
     "space": Place(Ground.NONE, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)),
     "construction site": Place(Ground.SAND, (0.36, 0.27, 0.18), (0.44, 0.34, 0.23)),
-    "plain": Place(Ground.PLAIN, (0.42, 0.42, 0.42), (0.48, 0.48, 0.48), is_paintable=True),
+    "plain": Place(Ground.PLAIN, (0.42, 0.42, 0.42), (0.48, 0.48, 0.48)),
 }
 """Ground of every place the grammar knows."""
 
@@ -210,8 +208,11 @@ def build_setting(
     if said.has_snow and ground.ground in _SNOWED_OVER:
         colour = _SNOW
         second = _SNOW if ground.ground is Ground.GRASS else second
-    if said.paint is not None and ground.is_paintable:
-        colour = second = said.paint.rgb
+    if said.paint is not None:
+        # Grass is darker than paint: blades shade one another.
+        depth = 0.45 if ground.ground is Ground.GRASS else 0.8
+        colour = _mix((0.0, 0.0, 0.0), said.paint.rgb, depth)
+        second = _mix((0.0, 0.0, 0.0), said.paint.rgb, min(1.5 * depth, 1.0))
     sky_top, horizon = lighting.sky_top, lighting.sky_horizon
     if said.sky is not None:
         sky_top, horizon = said.sky.rgb, _mix(said.sky.rgb, horizon, 0.5)
