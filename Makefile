@@ -1,18 +1,21 @@
 # Two commands: `make demo` (events from a sentence) and `make test`. Each makes .venv if needed.
 
 VENV := .venv
+TORCH_VENV := .venv-torch
 PROMPT ?= a red car drives left past two trees at dusk
 DEMO_OUT ?= demo-output/demo.h5
 # The first interpreter that is new enough; PYTHON=... overrides the search.
 PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; do \
 	if $$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then echo $$p; break; fi; done)
-PIP := $(VENV)/bin/python -m pip install --quiet --disable-pip-version-check -c constraints.txt
+PIP_OPTIONS := --quiet --disable-pip-version-check -c constraints.txt
+PIP := $(VENV)/bin/python -m pip install $(PIP_OPTIONS)
 
-.PHONY: help demo test lint format clean
+.PHONY: help demo test test-torch lint format clean
 
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
 	@echo "make test    the default test suite"
+	@echo "make test-torch   the tests that need torch, in $(TORCH_VENV)"
 	@echo "make lint    ruff, mypy, import rules"
 	@echo "make format  let ruff rewrite the layout"
 	@echo "make clean   remove .venv, caches and demo output"
@@ -25,6 +28,9 @@ demo: $(VENV)/.base
 test: $(VENV)/.dev
 	$(VENV)/bin/python -m pytest -q -n 2 --durations=5
 
+test-torch: $(TORCH_VENV)/.torch
+	$(TORCH_VENV)/bin/python -m pytest -q -m torch tests
+
 lint: $(VENV)/.dev
 	$(VENV)/bin/ruff check .
 	$(VENV)/bin/ruff format --check .
@@ -36,11 +42,12 @@ format: $(VENV)/.dev
 	$(VENV)/bin/ruff format .
 
 clean:
-	rm -rf $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
+	rm -rf $(VENV) $(TORCH_VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
 
-$(VENV)/bin/python:
+# One rule makes both environments.
+$(VENV)/bin/python $(TORCH_VENV)/bin/python:
 	@test -n "$(PYTHON)" || { echo "error: texvent needs Python 3.11 or newer; none was found. Install one, or name it: make PYTHON=/path/to/python3"; exit 2; }
-	$(PYTHON) -m venv $(VENV)
+	$(PYTHON) -m venv $(patsubst %/bin/python,%,$@)
 
 $(VENV)/.base: $(VENV)/bin/python pyproject.toml constraints.txt
 	@echo "installing texvent into $(VENV) (about a minute, once)"
@@ -51,3 +58,10 @@ $(VENV)/.dev: $(VENV)/bin/python pyproject.toml constraints.txt
 	@echo "installing texvent and its test tools into $(VENV) (about a minute, once)"
 	$(PIP) -e '.[dev]'
 	@touch $@ $(VENV)/.base
+
+$(TORCH_VENV)/.torch: $(TORCH_VENV)/bin/python pyproject.toml constraints.txt
+	@echo "installing texvent and torch into $(TORCH_VENV) (once; see CONTRIBUTING.md for its size)"
+	@$(TORCH_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,v2ce]' || { \
+		echo "error: torch could not be installed, so the tests that need it did not run. Name a place that has a CPU build of the version in constraints.txt, with PIP_FIND_LINKS or PIP_EXTRA_INDEX_URL, and run make test-torch again"; \
+		exit 2; }
+	@touch $@

@@ -19,6 +19,7 @@ from texvent.config import RunConfig
 from texvent.events import NOISE, SIGNAL, EventPackets, EventStream
 from texvent.interpolate.densify import OnCut, densify
 from texvent.settings import Settings
+from texvent.simulate.look_ahead import step_through
 from texvent.video import Frame, FrameStream
 
 
@@ -66,8 +67,8 @@ class Simulation:
             contrast_threshold=simulator.contrast_threshold,
             on_cut=on_cut,
         )
-        for frame in dense:
-            yield frame, select(simulator.step(frame), settings.run)
+        for frame, packet in step_through(simulator, dense):
+            yield frame, select(packet, settings.run)
 
     @property
     def packets(self) -> EventPackets:

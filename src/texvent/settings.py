@@ -92,7 +92,7 @@ def default_settings(
         return Settings(
             run=run,
             source=CaptureConfig(),
-            interpolate=InterpolateConfig(),
+            interpolate=_interpolation(simulator_class),
             simulate=presets[preset_name],
         )
     generator_name = generator or next(iter(GENERATORS.builtin))
@@ -100,10 +100,19 @@ def default_settings(
     return Settings(
         run=dataclasses.replace(run, sensor=DEFAULT_SENSOR),
         source=generator_class.config_type(),
-        interpolate=InterpolateConfig(interpolate=generator_class.default_interpolate),
+        interpolate=_interpolation(simulator_class, generator_class),
         simulate=presets[preset_name],
         generator=generator_name,
     )
+
+
+def _interpolation(*parts: Any) -> InterpolateConfig:
+    """Interpolation as the first of the parts that has a wish wants it."""
+    for part in parts:
+        wish = getattr(part, "default_interpolate", None)
+        if wish is not None:
+            return InterpolateConfig(interpolate=wish)
+    return InterpolateConfig()
 
 
 def resolve(

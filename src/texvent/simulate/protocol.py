@@ -14,6 +14,9 @@ class Simulator(Protocol):
 
     Built as `Simulator(config, seed=seed)`; the first frame decides the size. Random draws are
     keyed by (seed, frame, y, x), so neither threads nor chunk sizes nor backend change an event.
+
+    A model may also declare `default_interpolate`, the interpolation it was made for, and one that
+    must see later frames offers `steps`; see `look_ahead`.
     """
 
     config_type: ClassVar[type]
