@@ -1,4 +1,4 @@
-"""Every snippet in README.md and docs/ runs: Python blocks, and `$ texvent` lines of console blocks.
+"""Every snippet in README.md and docs/ runs: Python blocks, and `$ texvent` lines of consoles.
 
 A page's blocks run in order, in one namespace, in an empty folder. A block that cannot run in a
 test (it needs a camera, a download or minutes) is fenced as `text`.
