@@ -22,7 +22,7 @@ _USUAL_PLACES: dict[str, tuple[str, ...]] = {
         "table", "chair", "sofa", "bed", "cup", "bottle", "clock", "candle", "lamp", "fan",
         "basketball", "pendulum", "bookshelf", "tennis ball",
     ),
-    "plain": ("sphere", "cube", "cylinder", "cone", "box", "wheel"),
+    "plain": ("sphere", "cube", "cylinder", "cone", "box", "wheel", "rocket"),
     "forest": ("bear", "wolf", "fox", "deer"),
 }  # fmt: skip
 """Place → nouns that are usually found there; what is not listed is shown on grass."""
@@ -59,10 +59,10 @@ def _choose_usual(members: Sequence[Noun]) -> str:
         return "grass"
     if {noun.habitat for noun in members} == {"water"}:
         return "sea"
-    if all(noun.habitat == "air" and noun.speed_m_s >= _FAST_FLYER_M_S for noun in members):
-        return "sky"
     for noun in members:
         for place, names in _USUAL_PLACES.items():
             if noun.name in names:
                 return place
+    if all(noun.habitat == "air" and noun.speed_m_s >= _FAST_FLYER_M_S for noun in members):
+        return "sky"
     return "grass"

@@ -171,6 +171,8 @@ def choose_lighting(place: str, light: Light) -> Lighting:
         chosen = _SPACE
     elif place == "indoor" and kind in ("day", "sunny", "overcast", "dawn", "dusk"):
         chosen = _INDOOR_DAY
+    elif place == "sky" and kind == "night":
+        chosen = LIGHTINGS["moonlight"]  # no lamps up there: without a moon one sees nothing
     else:
         chosen = LIGHTINGS[kind]
     if light.shadows is not None:
