@@ -91,6 +91,10 @@ CODECS = Registry(
         "hdf5": "texvent.io.hdf5:Hdf5Codec",
         "npz": "texvent.io.npz:NpzCodec",
         "ecd": "texvent.io.ecd:EcdCodec",
+        "evt3": "texvent.io.evt3:Evt3Codec",
+        "evt2": "texvent.io.evt2:Evt2Codec",
+        "evt21": "texvent.io.evt21:Evt21Codec",
+        "dat": "texvent.io.dat:DatCodec",
     },
 )
 METRICS = Registry(

@@ -1,0 +1,121 @@
+"""Text before the binary events of Prophesee files: lines `% key value`, in RAW up to `% end`.
+
+texvent writes how the events were made as one line `% texvent {JSON}`, which other software
+skips like any key it does not know. Headers of other software become `metadata["header"]`.
+
+Source: Prophesee, RAW and DAT file format pages of the Metavision documentation.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from texvent.errors import FileFormatError, InputError
+from texvent.io.columns import metadata_from_json, metadata_to_json
+
+MAX_HEADER_BYTES = 8 * 2**20
+"""More text than this before the first event is not a header."""
+END = "end"
+METADATA = "texvent"
+_CONTROL = re.compile(rb"[\x00-\x08\x0b\x0c\x0e-\x1f]")
+
+
+@dataclass(frozen=True)
+class TextHeader:
+    """The lines before the events."""
+
+    fields: Mapping[str, str]
+    """Value of each key; of repeated keys the last."""
+    length: int
+    """Bytes up to the first one that belongs to the data."""
+    has_end: bool
+    """True if the line `% end` closes it."""
+
+    def options(self) -> tuple[str, dict[str, str]]:
+        """The `format` line, taken apart: `EVT3;height=720;width=1280` → EVT3 and a dictionary."""
+        name, *pairs = self.fields.get("format", "").split(";")
+        parts = (pair.partition("=") for pair in pairs)
+        return name.strip(), {key.strip(): value.strip() for key, _, value in parts}
+
+    def stored_size(self, path: Path) -> tuple[int, int] | None:
+        """Width and height, pixels: from `format`, else `geometry`, else `Width` and `Height`.
+
+        Raises:
+            FileFormatError: they are no numbers.
+        """
+        options = self.options()[1]
+        for source in (options, self.fields):
+            for width, height in (("width", "height"), ("Width", "Height")):
+                if width in source and height in source:
+                    return _whole(path, source[width]), _whole(path, source[height])
+        if "geometry" in self.fields:
+            width, _, height = self.fields["geometry"].partition("x")
+            return _whole(path, width), _whole(path, height)
+        return None
+
+    def metadata(self, path: Path) -> dict[str, Any]:
+        """How the events were made, or what another program wrote about them.
+
+        Raises:
+            FileFormatError: the line of texvent is damaged.
+        """
+        if METADATA in self.fields:
+            return metadata_from_json(path, self.fields[METADATA])
+        return {"header": dict(self.fields)} if self.fields else {}
+
+
+def read_text_header(file: BinaryIO, path: Path) -> TextHeader:
+    """The header at the start of a file; the file is left at its first byte of data.
+
+    Raises:
+        FileFormatError: the file ends inside the header, or the header does not end.
+    """
+    fields: dict[str, str] = {}
+    start = 0
+    while True:
+        line = file.readline(MAX_HEADER_BYTES - start + 1)
+        # Without `% end` the data may begin with the same two bytes by chance.
+        if not line.startswith(b"% ") or _CONTROL.search(line[:64]):
+            file.seek(start)
+            return TextHeader(fields, start, False)
+        if start + len(line) > MAX_HEADER_BYTES:
+            raise FileFormatError(f"{path} has a header of more than {MAX_HEADER_BYTES} bytes")
+        if not line.endswith(b"\n"):
+            raise FileFormatError(f"{path} ends inside its header; the file was cut off")
+        start += len(line)
+        key, _, value = line[2:].decode("utf-8", errors="replace").strip().partition(" ")
+        if key == END:
+            return TextHeader(fields, start, True)
+        fields[key] = value.strip()
+
+
+def make_text_header(fields: Mapping[str, str], metadata: Mapping[str, Any], *, end: bool) -> bytes:
+    """Header lines in order of their keys, the way the maker's software writes them.
+
+    Args:
+        fields: key → value.
+        metadata: how the events were made.
+        end: whether `% end` follows.
+
+    Raises:
+        InputError: the metadata is not JSON-serialisable or too long.
+    """
+    text = metadata_to_json(metadata)
+    if len(text) > MAX_HEADER_BYTES // 2:
+        raise InputError(
+            f"metadata of {len(text)} bytes cannot be stored in a text header; "
+            f"at most {MAX_HEADER_BYTES // 2} bytes, or write hdf5 (.h5)"
+        )
+    lines = [f"% {key} {value}" for key, value in sorted({**fields, METADATA: text}.items())]
+    lines += [f"% {END}"] if end else []
+    return "".join(f"{line}\n" for line in lines).encode("ascii")
+
+
+def _whole(path: Path, text: str) -> int:
+    if not re.fullmatch(r"\s*[0-9]{1,9}\s*", text):
+        raise FileFormatError(f"{path}: its header states a size of {text[:40]!r}, not a number")
+    return int(text)
