@@ -34,6 +34,16 @@ class RateMatch(NamedTuple):
     """Number of trials."""
 
 
+def reach_target_rate(simulation: Simulation) -> tuple[Simulation, RateMatch | None]:
+    """The run as its option `target_rate` wants it, and what the search found, if it was set.
+
+    Raises:
+        ConfigError, InputError: as `match_rate`.
+    """
+    target_hz = simulation.settings.run.target_rate
+    return (simulation, None) if target_hz is None else match_rate(simulation, target_hz)
+
+
 def match_rate(
     simulation: Simulation, target_hz: float, *, seconds: float = 1.0
 ) -> tuple[Simulation, RateMatch]:

@@ -16,6 +16,9 @@ COMMANDS = {
     "simulate": "Events from a video, an image folder or a camera.",
     "render": "A film, GIF or picture of an event file.",
     "info": "What an event file or video holds, and how it was made.",
+    "compare": "How close an event file is to the true one, by many metrics.",
+    "bench": "Benchmarks: which metrics can be trusted, which simulator is closest.",
+    "calibrate": "Fit the physical model to a recording of frames and events.",
     "data": "Recordings and clips to try things on: list them, fetch them.",
     "doctor": "What is installed, what is missing, how to get it.",
 }

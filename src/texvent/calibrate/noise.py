@@ -1,0 +1,105 @@
+"""Measure the noise of a sensor: how often pixels fire where nothing changes."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.calibrate.recording import Recording, Span
+from texvent.represent.event_frame import count_events
+from texvent.simulate.noise_curve import NoiseCurve
+from texvent.simulate.photoreceptor import linearize
+from texvent.video import MICROSECONDS, Frame
+
+EDGES = (0, 2, 5, 10, 20, 30, 45, 70, 100, 140, 190, 256)
+"""Ranges of linear intensity, levels 0..255, whose pixels are counted together."""
+LEAK_FROM = 30
+"""Intensity from which noise is rare enough to see the leak beside it, levels."""
+STILL_LEVELS, STILL_SHARE = 1.5, 0.02
+"""A pixel is still if all of its neighbourhood, in the frame before, this one and the next, lies
+within 1.5 levels plus 2 % of its intensity."""
+RADIUS = 2
+"""Of the neighbourhood, pixels: what moves in from farther away within a frame is seen too late."""
+LEAST_EXPOSURE_S = 20.0
+"""Pixel-seconds that a range needs to count."""
+LEAST_RANGES = 2
+"""Ranges that make a curve."""
+
+BoolArray = NDArray[np.bool_]
+Float64Array = NDArray[np.float64]
+
+
+class MeasuredNoise(NamedTuple):
+    """What still pixels do."""
+
+    curve: NoiseCurve
+    """Noise, ON and OFF together, by intensity."""
+    leak_rate_hz: float
+    """ON events per pixel and second that have no OFF events beside them."""
+
+
+def measure_noise(recording: Recording, span: Span, *, gamma: float) -> MeasuredNoise | None:
+    """Noise and leak of still pixels.
+
+    A leak makes ON events only, so noise is taken as twice the OFF events, and the leak as what
+    is left of the ON events of bright pixels.
+
+    Args:
+        recording: frames and events.
+        span: which part.
+        gamma: exponent that makes the frames linear.
+
+    Returns:
+        The noise, or None if fewer than two ranges of intensity had still pixels for long enough.
+    """
+    edges = np.array(EDGES)
+    exposure = np.zeros(len(edges) - 1)
+    counts = np.zeros((2, len(edges) - 1))
+    for frames in _triples(recording, span):
+        before, now, after = (linearize(frame.luma, gamma) for frame in frames)
+        still = find_still_pixels(now, [before, now, after])
+        group = np.digitize(now[still], edges) - 1
+        start_us, stop_us = frames[1].t_us, frames[2].t_us
+        size = len(exposure)
+        exposure += (stop_us - start_us) / MICROSECONDS * np.bincount(group, minlength=size)
+        events = count_events(recording.events.between(start_us, stop_us))
+        for p in (0, 1):
+            counts[p] += np.bincount(group, weights=events[p][still], minlength=size)
+    known = exposure >= LEAST_EXPOSURE_S
+    if known.sum() < LEAST_RANGES:
+        return None
+    # Half an event stands for none: a rate above zero that the exposure does not contradict.
+    rate_hz = 2 * np.maximum(counts[0], 0.5)[known] / exposure[known]
+    middle = (edges[:-1] + edges[1:])[known] / 2
+    bright = known & (edges[:-1] >= LEAK_FROM)
+    leak = (counts[1] - counts[0])[bright].sum() / max(exposure[bright].sum(), LEAST_EXPOSURE_S)
+    return MeasuredNoise(NoiseCurve(np.minimum(middle, 255.0), rate_hz), max(float(leak), 0.0))
+
+
+def _triples(recording: Recording, span: Span) -> Iterator[tuple[Frame, Frame, Frame]]:
+    """Every three neighbouring frames of a span."""
+    inside = (frame for frame in recording.frames if span.start_us <= frame.t_us < span.stop_us)
+    for (first, second), (_, third) in itertools.pairwise(itertools.pairwise(inside)):
+        yield first, second, third
+
+
+def find_still_pixels(now: Float64Array, frames: list[Float64Array]) -> BoolArray:
+    """Pixels around which neither space nor time changes anything, [H, W].
+
+    Args:
+        now: linear intensity that the others are compared with, levels 0..255, [H, W].
+        frames: this frame and its neighbours in time.
+    """
+    tolerance = STILL_LEVELS + STILL_SHARE * now
+    height, width = now.shape
+    still = np.ones(now.shape, np.bool_)
+    for frame in frames:
+        padded = np.pad(frame, RADIUS, mode="edge")
+        for dy, dx in itertools.product(range(2 * RADIUS + 1), repeat=2):
+            neighbour = padded[dy : dy + height, dx : dx + width]
+            still &= np.abs(neighbour - now) <= tolerance
+    return still

@@ -1,0 +1,169 @@
+"""A recording of a sensor that delivers frames and events: what a model of it is fitted to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+from texvent._registry import INTERPOLATORS
+from texvent.config import InterpolateConfig
+from texvent.errors import InputError
+from texvent.events import EventStream
+from texvent.interpolate.densify import densify
+from texvent.sensor import SensorSize
+from texvent.simulate.physical import PhysicalSimulator
+from texvent.simulate.physical_config import PhysicalConfig
+from texvent.video import MICROSECONDS, Frame, FrameStream
+
+WARM_UP_US = 100_000
+"""Simulated before a span, so that pixels have left their initial phase, µs."""
+LEAST_EVENTS = 1000
+"""Fewer recorded events than this of either polarity fit nothing."""
+
+
+class Span(NamedTuple):
+    """A part of a recording, `[start_us, stop_us)`."""
+
+    start_us: int
+    stop_us: int
+
+    @property
+    def seconds(self) -> float:
+        """Length, s."""
+        return (self.stop_us - self.start_us) / MICROSECONDS
+
+    def first(self, seconds: float) -> Span:
+        """The start of the span, at most this long."""
+        return Span(self.start_us, min(self.stop_us, self.start_us + round(seconds * MICROSECONDS)))
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """Frames and events of one sensor on one clock.
+
+    Raises:
+        InputError: their sizes differ.
+    """
+
+    frames: FrameStream
+    events: EventStream
+    interpolate: InterpolateConfig
+    """How intermediate frames are made."""
+
+    def __post_init__(self) -> None:
+        if self.frames.size != self.events.size:
+            raise InputError(
+                f"frames are {self.frames.size}, events {self.events.size}; calibration compares "
+                "pixels, so both must come from one sensor"
+            )
+        if self.frames.is_live:
+            raise InputError("calibration needs frames that can be read again; record them first")
+
+    def halves(self) -> tuple[Span, Span]:
+        """The two halves of what frames and events share.
+
+        Raises:
+            InputError: they share less than a second.
+        """
+        times = [frame.t_us for frame in self.frames]
+        if not times or not len(self.events):
+            raise InputError("calibration needs frames and events; this recording lacks one")
+        start = max(times[0] + WARM_UP_US, int(self.events.t[0]))
+        stop = min(times[-1], int(self.events.t[-1]))
+        middle = (start + stop) // 2
+        if stop - start < MICROSECONDS:
+            raise InputError(
+                f"frames and events share {max(stop - start, 0) / MICROSECONDS:.3f} s; "
+                "calibration needs at least 1 s. Do they run on the same clock?"
+            )
+        return Span(start, middle), Span(middle, stop)
+
+    def recorded(self, span: Span) -> EventStream:
+        """The events of a span.
+
+        Raises:
+            InputError: there are too few of a polarity.
+        """
+        events = self.events.between(*span)
+        on = int(events.p.sum())
+        if min(on, len(events) - on) < LEAST_EVENTS:
+            raise InputError(
+                f"{on} ON and {len(events) - on} OFF events from {span.start_us} to "
+                f"{span.stop_us} µs; calibration needs {LEAST_EVENTS} of each"
+            )
+        return events
+
+    def dense_frames(self, span: Span, config: PhysicalConfig) -> list[Frame]:
+        """Frames of a span and of the time before it that a simulation needs, in memory."""
+        model = PhysicalSimulator(config)
+        interpolator = INTERPOLATORS.load(self.interpolate.interpolate)(
+            self.interpolate, self.frames
+        )
+        dense = densify(
+            _Part(self.frames, span),
+            interpolator,
+            self.interpolate,
+            balance=model.balance,
+            contrast_threshold=model.contrast_threshold,
+        )
+        return list(dense)
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """The frames around a span, as a stream."""
+
+    whole: FrameStream
+    span: Span
+
+    def __iter__(self) -> Iterator[Frame]:
+        margin = 2 * WARM_UP_US
+        for frame in self.whole:
+            if frame.t_us >= self.span.stop_us + margin:
+                return
+            if frame.t_us >= self.span.start_us - margin:
+                yield frame
+
+    @property
+    def size(self) -> SensorSize:
+        return self.whole.size
+
+    @property
+    def fps(self) -> Fraction | None:
+        return self.whole.fps
+
+    @property
+    def frame_count(self) -> None:
+        return None
+
+    @property
+    def is_live(self) -> bool:
+        return False
+
+    @property
+    def metadata(self) -> Mapping[str, Any]:
+        return self.whole.metadata
+
+
+def simulate_span(
+    frames: list[Frame], span: Span, config: PhysicalConfig, *, offset_us: int = 0
+) -> EventStream:
+    """Simulated events of a span.
+
+    Args:
+        frames: of `Recording.dense_frames`.
+        span: which events are wanted.
+        config: the model.
+        offset_us: what is added to the times of the frames.
+    """
+    simulator = PhysicalSimulator(config)
+    packets = []
+    for frame in frames:
+        t_us = frame.t_us + offset_us
+        if t_us >= span.start_us - WARM_UP_US:
+            packets.append(simulator.step(Frame(frame.pixels, t_us, frame.is_source)))
+        if t_us >= span.stop_us:
+            break
+    return EventStream.concat(packets).between(*span)

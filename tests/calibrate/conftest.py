@@ -1,0 +1,42 @@
+"""A small recording of a sensor whose options are known."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from texvent.calibrate.recording import Recording
+from texvent.config import InterpolateConfig
+from texvent.events import EventStream
+from texvent.simulate.physical import PhysicalSimulator
+from texvent.simulate.physical_config import PRESETS
+from texvent.video import Video
+
+TRUTH = dataclasses.replace(
+    PRESETS["default"],
+    gamma=1.0,
+    contrast_threshold=0.31,
+    on_off_ratio=1.3,
+    balance=20.0,
+    cutoff_hz=100.0,
+    noise_scale=0.0,
+    leak_rate_hz=0.0,
+)
+
+
+def moving_blobs(count: int = 90, shape=(24, 32), fps: int = 60) -> Video:
+    """Linear frames, 1 to about 200 levels, with a wave of every size moving through."""
+    y, x = np.mgrid[: shape[0], : shape[1]]
+    frames = []
+    for i in range(count):
+        wave = np.sin(0.55 * (x - 0.9 * i)) + np.sin(0.4 * (y + 0.5 * i)) + np.cos(0.25 * (x + i))
+        frames.append(np.exp(2.8 + 0.8 * wave).astype(np.float32))
+    return Video(np.stack(frames), [round(i * 1e6 / fps) for i in range(count)])
+
+
+@pytest.fixture(scope="session")
+def recording() -> Recording:
+    frames = moving_blobs()
+    sensor = PhysicalSimulator(TRUTH, seed=77)
+    events = EventStream.concat([sensor.step(frame) for frame in frames])
+    return Recording(frames, events, InterpolateConfig(interpolate="none"))

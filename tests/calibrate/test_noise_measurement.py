@@ -1,0 +1,58 @@
+import dataclasses
+
+import numpy as np
+import pytest
+
+from texvent.calibrate.noise import find_still_pixels, measure_noise
+from texvent.calibrate.recording import Recording, Span
+from texvent.config import InterpolateConfig
+from texvent.events import EventStream
+from texvent.simulate.physical import PhysicalSimulator
+from texvent.video import Video
+
+from .conftest import TRUTH
+
+SPAN = Span(0, 2_000_000)
+
+
+def still_recording(**options) -> Recording:
+    """Dark, middle and bright stripes that stay as they are, for two seconds."""
+    picture = np.repeat([1.0, 25.0, 120.0], 20)[None, :].repeat(40, axis=0).astype(np.float32)
+    frames = Video(np.stack([picture] * 41), [i * 50_000 for i in range(41)])
+    sensor = PhysicalSimulator(dataclasses.replace(TRUTH, **options), seed=5)
+    events = EventStream.concat([sensor.step(frame) for frame in frames])
+    return Recording(frames, events, InterpolateConfig(interpolate="none"))
+
+
+def test_the_noise_of_a_still_recording_is_found_again():
+    recording = still_recording(
+        noise_scale=1.0, noise_curve="1:6 25:2 120:0.5", noise_on_fraction=0.5, leak_rate_hz=0.0
+    )
+    noise = measure_noise(recording, SPAN, gamma=1.0)
+    assert noise.curve.levels.tolist() == [1.0, 25.0, 120.0]
+    # 1,000 pixel-seconds a stripe; pixels differ by 0.63 of the mean, and OFF is half of all.
+    assert noise.curve.rates_hz == pytest.approx([6, 2, 0.5], rel=0.25)
+    assert noise.leak_rate_hz == pytest.approx(0, abs=0.1)
+
+
+def test_on_events_without_off_events_are_leak():
+    recording = still_recording(leak_rate_hz=3.0)
+    noise = measure_noise(recording, SPAN, gamma=1.0)
+    assert noise.leak_rate_hz == pytest.approx(3.0, rel=0.1)
+    assert (noise.curve.rates_hz < 0.01).all()
+
+
+def test_a_recording_without_still_pixels_says_so(recording):
+    assert measure_noise(recording, Span(0, 700_000), gamma=1.0) is None
+
+
+def test_a_pixel_is_still_if_its_neighbourhood_is():
+    now = np.full((7, 7), 50.0)
+    # 1.5 levels plus 2 % of 50 are allowed.
+    assert find_still_pixels(now, [now, now + 2.5]).all()
+    assert not find_still_pixels(now, [now, now + 2.6]).any()
+    edge = now.copy()
+    edge[:, 6] = 60.0
+    assert find_still_pixels(edge, [edge])[3].tolist() == [True] * 4 + [False] * 3
+    late = find_still_pixels(now, [now, edge])
+    assert late[3].tolist() == [True] * 4 + [False] * 3

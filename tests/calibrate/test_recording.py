@@ -1,0 +1,62 @@
+import numpy as np
+import pytest
+
+from texvent.calibrate.recording import Recording, Span, simulate_span
+from texvent.config import InterpolateConfig
+from texvent.errors import InputError
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+from texvent.video import Video
+
+from .conftest import TRUTH, moving_blobs
+
+
+def test_halves_are_what_frames_and_events_share(recording):
+    first, second = recording.halves()
+    assert first.start_us >= 100_000
+    assert first.stop_us == second.start_us
+    assert second.stop_us == min(recording.frames.times_us[-1], recording.events.t[-1])
+    assert first.first(0.25) == Span(first.start_us, first.start_us + 250_000)
+    assert first.first(99.0) == first
+    assert first.first(0.25).seconds == 0.25
+
+
+def test_a_simulated_span_holds_its_events_only(recording):
+    span = Span(400_000, 600_000)
+    frames = recording.dense_frames(span, TRUTH)
+    assert frames[0].t_us >= 200_000
+    events = simulate_span(frames, span, TRUTH)
+    assert len(events) > 1000
+    assert span.start_us <= events.t[0]
+    assert events.t[-1] < span.stop_us
+    late = simulate_span(frames, span, TRUTH, offset_us=10_000)
+    assert not np.array_equal(late.t, events.t)
+
+
+def test_unlike_sizes_are_refused(recording):
+    other = EventStream.empty(SensorSize(5, 5))
+    with pytest.raises(InputError, match=r"32x24.*5x5"):
+        Recording(recording.frames, other, recording.interpolate)
+
+
+def test_a_live_source_is_refused(recording):
+    class Live(Video):
+        is_live = True
+
+    frames = Live(recording.frames.pixels, recording.frames.times_us)
+    with pytest.raises(InputError, match="read again"):
+        Recording(frames, recording.events, recording.interpolate)
+
+
+def test_clocks_that_do_not_meet_are_refused(recording):
+    frames = moving_blobs()
+    late = Video(frames.pixels, [t + 10**9 for t in frames.times_us])
+    with pytest.raises(InputError, match="same clock"):
+        Recording(late, recording.events, InterpolateConfig()).halves()
+    with pytest.raises(InputError, match="lacks one"):
+        Recording(frames, EventStream.empty(frames.size), InterpolateConfig()).halves()
+
+
+def test_too_few_events_are_refused(recording):
+    with pytest.raises(InputError, match="needs 1000 of each"):
+        recording.recorded(Span(100_000, 101_000))
