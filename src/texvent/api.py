@@ -14,6 +14,7 @@ from typing import Any, Literal, TypeAlias, overload
 from numpy.typing import NDArray
 
 from texvent._registry import load_object
+from texvent.calibrate.rate import reach_target_rate
 from texvent.events import EventPackets, EventStream
 from texvent.pipeline import Simulation, text_to_events, video_to_events
 from texvent.settings import resolve
@@ -158,5 +159,5 @@ def load(path: str | Path, *, format: str | None = None, size: Any = None) -> Ev
 
 
 def _events(simulation: Simulation, as_packets: bool) -> EventStream | EventPackets:
-    packets = simulation.packets
+    packets = reach_target_rate(simulation)[0].packets
     return packets if as_packets else packets.collect()

@@ -56,9 +56,16 @@ class RunConfig:
     """Which events to keep: all, only those that a brightness change fired, or only noise."""
     label_noise: bool = False
     """Store beside every event whether it is signal (0) or noise (1), as an extra column."""
+    target_rate: float | None = None
+    """Events per second to aim for: the contrast threshold is adjusted on the first second."""
+    randomize: Literal["none", "stoffregen", "v2v"] = "none"
+    """Draw contrast thresholds and noise from the seed, for training sets: in the ranges of
+    Stoffregen 2020 or of V2V. The drawn values replace those given and are stored."""
 
     def __post_init__(self) -> None:
         check_range("seed", self.seed, 0, 2**63 - 1)
+        if self.target_rate is not None:
+            check_range("target_rate", self.target_rate, 1e-3, 1e12)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,7 +10,7 @@ Everything is pulled through one frame at a time, so memory does not grow with t
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS
@@ -20,6 +20,7 @@ from texvent.events import NOISE, SIGNAL, EventPackets, EventStream
 from texvent.interpolate.densify import OnCut, densify
 from texvent.settings import Settings
 from texvent.simulate.look_ahead import step_through
+from texvent.simulate.training import draw_training_config
 from texvent.video import Frame, FrameStream
 
 
@@ -38,6 +39,10 @@ def video_to_events(
     video: FrameStream, settings: Settings, *, prompt: str | None = None
 ) -> Simulation:
     """Events for a video; nothing is computed before the result is iterated."""
+    recipe = settings.run.randomize
+    if recipe != "none":
+        drawn = draw_training_config(settings.simulate, recipe, seed=settings.run.seed)
+        settings = replace(settings, simulate=drawn)
     return Simulation(video=video, settings=settings, prompt=prompt)
 
 

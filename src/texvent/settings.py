@@ -24,6 +24,7 @@ from texvent.config import (
 )
 from texvent.errors import ConfigError, InputError
 from texvent.sensor import SensorSize, parse_sensor
+from texvent.simulate.thresholds import with_contrast_threshold
 
 Command = Literal["generate", "simulate"]
 DEFAULT_SENSOR = "davis346"
@@ -155,6 +156,12 @@ def apply_options(settings: Settings, options: Mapping[str, Any], *, where: str)
     }
     owners = {name: key for key, group in groups.items() for name in option_names(type(group))}
     changed: dict[str, dict[str, Any]] = {}
+    if "contrast_threshold" in options and "contrast_threshold" not in owners:
+        # One number for models that have one threshold for ON and one for OFF.
+        options = dict(options)
+        threshold = _as_number(options.pop("contrast_threshold"), where)
+        groups["simulate"] = with_contrast_threshold(settings.simulate, threshold)
+        changed["simulate"] = {}
     for name, value in options.items():
         if name not in owners:
             raise ConfigError(f"{where}: unknown option {name!r}; {suggest(name, tuple(owners))}")
@@ -167,6 +174,12 @@ def apply_options(settings: Settings, options: Mapping[str, Any], *, where: str)
         INTERPOLATORS.load(result.interpolate.interpolate)
     result.size  # noqa: B018  (parses the sensor, so a wrong name fails before any work)
     return result
+
+
+def _as_number(value: Any, where: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise ConfigError(f"{where}: contrast_threshold is {value!r}; it must be a number")
+    return float(value)
 
 
 def read_config(path: str | Path) -> dict[str, Any]:

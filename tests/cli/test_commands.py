@@ -241,3 +241,31 @@ def test_ctrl_c_midway_leaves_no_file(folder, command):
     assert said.strip().splitlines()[-1].startswith("interrupted")
     assert "Traceback" not in said
     assert not list(folder.iterdir())
+
+
+def test_a_target_rate_is_reached_by_adjusting_the_threshold(folder, capsys):
+    words = ["--events-only", "-o", "a.h5", "--interpolate", "none", "--noise", "none"]
+    assert run("simulate", CLIP, "--target-rate", 100_000, *words) == 0
+    assert "contrast threshold" in capsys.readouterr().err
+    events = texvent.load("a.h5")
+    assert len(events) / 0.96 == pytest.approx(100_000, rel=0.05)
+    assert events.metadata["settings"]["simulate"]["contrast_threshold"] != 0.2
+
+
+def test_randomized_thresholds_are_stored_and_depend_on_the_seed_only():
+    options = {"interpolate": "none", "stop": 0.1, "randomize": "v2v", "simulator": "physical"}
+    first, again, other = (texvent.simulate(CLIP, seed=seed, **options) for seed in (1, 1, 2))
+    drawn = [one.metadata["settings"]["simulate"] for one in (first, again, other)]
+    assert drawn[0] == drawn[1] != drawn[2]
+    assert first.equals(again)
+
+
+@pytest.mark.parametrize("simulator", ["esim", "v2e", "senpi", "voltmeter", "physical", "texvent"])
+def test_one_contrast_threshold_works_for_every_simulator(folder, capsys, simulator):
+    options = {"simulator": simulator, "interpolate": "none", "stop": 0.1}
+    low = texvent.simulate(CLIP, contrast_threshold=0.15, **options)
+    high = texvent.simulate(CLIP, contrast_threshold=0.4, **options)
+    assert len(low) > len(high)
+    words = ["--simulator", simulator, *QUICK, "--stop", "0.1", "--contrast-threshold", "0.4"]
+    assert run("simulate", CLIP, "-q", "--events-only", "-o", "a.h5", *words) == 0
+    assert texvent.load("a.h5").equals(high)

@@ -4,14 +4,24 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from texvent.cli.options import parse_options, peek_options
 from texvent.cli.outputs import OutputOptions
+from texvent.config import option_names
 from texvent.settings import Command, Settings, apply_options, default_settings, read_config
 
 DECIDING = ("generator", "simulator", "preset", "config")
 """Options that decide which other options there are, and their defaults."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class OneThreshold:
+    """For a simulator that names its thresholds otherwise."""
+
+    contrast_threshold: float | None = None
+    """Sets the thresholds of ON and OFF together; their ratio stays as it is."""
 
 
 def resolve_command(
@@ -45,10 +55,18 @@ def resolve_command(
         default_settings(command, **parts), file_options, where=f"config file {peeked['config']}"
     )
     groups = {"input": subject, "output": OutputOptions(), **defaults.groups()}
+    if "contrast_threshold" not in option_names(type(defaults.simulate)):
+        groups["threshold"] = OneThreshold()
     values = parse_options(arguments, groups, prog=f"texvent {command}", description=description)
     own, output = _take(subject, values), _take(OutputOptions(), values)
-    named = {"simulator": defaults.run.simulator, "preset": defaults.run.preset}
-    return apply_options(defaults, {**values, **named}, where="options"), own, output
+    shown = {
+        name: getattr(group, name)
+        for title, group in groups.items()
+        if title not in ("input", "output")
+        for name in option_names(type(group))
+    }
+    given = {name: value for name, value in values.items() if value != shown[name]}
+    return apply_options(defaults, given, where="options"), own, output
 
 
 def _take(config: Any, values: dict[str, Any]) -> Any:

@@ -23,6 +23,7 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
+from texvent.calibrate.rate import reach_target_rate
 from texvent.cli.estimate import describe_estimate, estimate_run
 from texvent.cli.outputs import OutputOptions
 from texvent.events import EventStream
@@ -93,10 +94,17 @@ def execute(simulation: Simulation, options: OutputOptions, subject: str) -> int
         InputError: the frames cannot be used.
     """
     path = options.event_file(subject)
+    console = Console(stderr=True, quiet=options.quiet, highlight=False)
+    simulation, match = reach_target_rate(simulation)
+    if match is not None:
+        console.print(
+            f"rate     {match.rate_hz:,.0f} events per second in the first second, with contrast "
+            f"threshold {match.contrast_threshold:.4g} ({match.steps} trials)",
+            markup=False,
+        )
     if options.dry_run:
         sys.stdout.write(describe_estimate(estimate_run(simulation)) + "\n")
         return 0
-    console = Console(stderr=True, quiet=options.quiet, highlight=False)
     _report_understanding(console, simulation)
     tally, started = Tally(), time.perf_counter()
     with ExitStack() as outputs:
