@@ -96,6 +96,21 @@ def test_lone_events_come_back_exactly(rounding, bidirectional, data):
     assert np.abs(again - voxel).max() < 1e-5
 
 
+@BOTH_WAYS
+@BOTH_ROUNDINGS
+@given(st.data())
+@CHECKED
+def test_every_pixel_keeps_the_number_of_its_events(rounding, bidirectional, data):
+    count = data.draw(st.integers(1, 60))
+    t = data.draw(arrays(np.int64, count, elements=st.integers(0, WHOLE_US - 1)))
+    x, p = (data.draw(arrays(np.int64, count, elements=st.integers(0, 1))) for _ in range(2))
+    voxel = voxelise(t, x, 0 * x, p, (1, 2))
+    events = voxel_to_events(voxel, 0, WHOLE_US, rounding=rounding, bidirectional=bidirectional)
+    assert np.bincount(events.x * 2 + events.p, minlength=4).tolist() == (
+        np.bincount(x * 2 + p, minlength=4).tolist()
+    )
+
+
 voxels = arrays(
     np.float64,
     st.tuples(st.just(2), st.integers(2, 11), st.integers(1, 3), st.integers(1, 3)),

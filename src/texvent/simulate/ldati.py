@@ -155,8 +155,8 @@ def infer_counts(
             "stochastic": rounded to either side, so that the mean number is the sum.
         bidirectional: go from both ends to the middle.
 
-    Deviation: bidirectional, the original leaves the sub-interval before the middle empty; here
-        every sub-interval is reached.
+    Deviation: bidirectional, the original skips the sub-interval before the middle and moves its
+        events to the start of the next; here none is skipped.
     """
     nodes = np.asarray(voxel, np.float64)
     last = nodes.shape[1] - 2

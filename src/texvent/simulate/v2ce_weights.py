@@ -92,7 +92,7 @@ def _read_state(path: Path, device: str) -> Mapping[str, Any]:
     try:
         content = torch.load(path, map_location=device, weights_only=True)
     except DAMAGE as error:
-        reason = (str(error).strip() or type(error).__name__).splitlines()[0][:120]
+        reason = f"{type(error).__name__}: {error}".splitlines()[0][:120]
         raise FileFormatError(
             f"{path} cannot be read as network weights, it is damaged or of another kind "
             f"({reason}); {WHERE_FROM}"
