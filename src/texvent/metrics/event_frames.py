@@ -75,7 +75,7 @@ class EventFrameSsim:
     better: ClassVar[Better] = "higher"
     needs: ClassVar[Needs] = "same scene"
     range: ClassVar[tuple[float, float]] = (-1.0, 1.0)
-    blind_to: ClassVar[str] = INSIDE + "; a full inversion looks better than 20 % flips"
+    blind_to: ClassVar[str] = INSIDE
 
     fps: Fraction = Fraction(24)
     """Event frames per second."""

@@ -34,7 +34,7 @@ class LatentSimilarity:
     features in both streams is left out; without features in one of them it counts 0.
 
     This is the arithmetic of the paper's EQS. It is called EQS only with RVT's weights in the
-    backbone; the default, the histogram itself, rewards added noise (docs/metrics.md).
+    backbone; the default, the histogram itself, misses a little noise (docs/metrics.md).
     """
 
     name: ClassVar[str] = "lfs"
@@ -42,7 +42,7 @@ class LatentSimilarity:
     better: ClassVar[Better] = "higher"
     needs: ClassVar[Needs] = "same scene"
     range: ClassVar[tuple[float, float]] = (-1.0, 1.0)
-    blind_to: ClassVar[str] = "jitter up to 2 ms, 1 px; added noise may improve it"
+    blind_to: ClassVar[str] = "a little added noise; with a real backbone also small jitter"
 
     backbone: Backbone = keep_input
     """What turns a stacked histogram into feature maps."""

@@ -1,0 +1,159 @@
+"""The perturbation self-test: which spoiled recordings each metric tells from a clean one."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import time
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from texvent._registry import METRICS
+from texvent.bench.oracle import oracle_scene, record
+from texvent.bench.oracle_pixel import NOISY
+from texvent.bench.perturbations import PERTURBATIONS, SERIES, perturb
+from texvent.events import EventStream
+from texvent.metrics.compare import load_metric
+from texvent.metrics.protocol import Metric
+
+SCENE, TEXTURE_SEED = "mixed", 7
+RECORDING_SEEDS = (1, 2, 3, 4)
+FLOOR_PAIRS = ((0, 1), (1, 0), (2, 3), (3, 2), (0, 2), (2, 0), (1, 3), (3, 1))
+"""Which recordings are compared to learn how much two recordings of one scene differ."""
+DETECTED = 3.0
+"""Standard deviations above the floor from which a perturbation counts as found."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SelftestRow:
+    """What one metric saw."""
+
+    metric: str
+    better: str
+    floor: float
+    """Mean over pairs of recordings of the same scene."""
+    floor_sd: float
+    values: Mapping[str, float]
+    """Perturbation → value of the perturbed second recording against the first."""
+    z: Mapping[str, float]
+    """Perturbation → standard deviations worse than the floor."""
+    monotone: Mapping[str, bool]
+    """Series → whether the metric worsens at each step, from the floor on."""
+    seconds: float
+    """Time of one comparison."""
+
+    @property
+    def found(self) -> tuple[str, ...]:
+        """Perturbations that were told from the floor."""
+        return tuple(name for name, z in self.z.items() if z > DETECTED)
+
+    @property
+    def missed(self) -> tuple[str, ...]:
+        """Perturbations that were not."""
+        return tuple(name for name in self.z if name not in self.found)
+
+
+def run_selftest(
+    metrics: Iterable[str] | None = None, *, announce: Callable[[str], None] = lambda line: None
+) -> list[SelftestRow]:
+    """Run the self-test on the oracle's `mixed` scene with noisy pixels.
+
+    Args:
+        metrics: names; default: all registered metrics.
+        announce: told of every step.
+
+    Raises:
+        ConfigError: no metric has one of the names.
+    """
+    chosen = [load_metric(name) for name in (METRICS.names() if metrics is None else metrics)]
+    announce(f"recording {SCENE} with {len(RECORDING_SEEDS)} seeds")
+    models = {str(seed): (NOISY, seed) for seed in RECORDING_SEEDS}
+    recordings = list(record(oracle_scene(SCENE, TEXTURE_SEED), models).values())
+    spoiled = {name: perturb(recordings[1], name) for name in PERTURBATIONS}
+    rows = []
+    for metric in chosen:
+        announce(metric.name)
+        rows.append(judge_metric(metric, recordings, spoiled))
+    return rows
+
+
+def judge_metric(
+    metric: Metric, recordings: Sequence[EventStream], spoiled: Mapping[str, EventStream]
+) -> SelftestRow:
+    """One row: floor, values of every perturbation, what was found, what is monotone.
+
+    Args:
+        metric: what to judge.
+        recordings: four recordings of one scene.
+        spoiled: perturbation → the second recording after it.
+    """
+    start = time.perf_counter()
+    floors = [metric(recordings[second], recordings[first]) for first, second in FLOOR_PAIRS]
+    seconds = (time.perf_counter() - start) / len(floors)
+    values = {name: metric(events, recordings[0]) for name, events in spoiled.items()}
+    badness = [_badness(metric, value) for value in floors]
+    mean, sd = float(np.mean(badness)), float(np.std(badness, ddof=1))
+    scale = max(sd, 1e-3 * abs(mean) + 1e-6)
+    z = {name: (_badness(metric, value) - mean) / scale for name, value in values.items()}
+    return SelftestRow(
+        metric=metric.name,
+        better=metric.better,
+        floor=float(np.mean(floors)),
+        floor_sd=float(np.std(floors, ddof=1)),
+        values=values,
+        z=z,
+        monotone={name: _is_monotone([0.0, *(z[one] for one in SERIES[name])]) for name in SERIES},
+        seconds=seconds,
+    )
+
+
+def selftest_table(rows: Sequence[SelftestRow]) -> str:
+    """The result as a Markdown table, best metrics first."""
+    lines = [
+        f"| metric | floor | found /{len(PERTURBATIONS)} | monotone /{len(SERIES)} | missed |",
+        "|---|---|---|---|---|",
+    ]
+    ranked = sorted(rows, key=lambda row: (-len(row.found), -sum(row.monotone.values())))
+    for row in ranked:
+        missed = row.missed if len(row.missed) <= 8 else (*row.missed[:7], "...")
+        lines.append(
+            f"| {row.metric} | {row.floor:.4g} ± {row.floor_sd:.1g} | {len(row.found)} "
+            f"| {sum(row.monotone.values())} | {', '.join(missed) or '–'} |"
+        )
+    return "\n".join(lines) + "\n"
+
+
+def selftest_document(rows: Sequence[SelftestRow]) -> list[dict[str, Any]]:
+    """The result as plain values, ready for JSON; NaN becomes None."""
+    return [
+        {
+            "metric": row.metric,
+            "better": row.better,
+            "floor": _finite(row.floor),
+            "floor_sd": _finite(row.floor_sd),
+            "values": {name: _finite(value) for name, value in row.values.items()},
+            "z": {name: _finite(value) for name, value in row.z.items()},
+            "found": len(row.found),
+            "monotone": dict(row.monotone),
+            "seconds": round(row.seconds, 4),
+        }
+        for row in rows
+    ]
+
+
+def _badness(metric: Metric, value: float) -> float:
+    """The value turned so that more is worse."""
+    if metric.better == "one":
+        return abs(math.log(value)) if value > 0 else math.inf
+    return value if metric.better == "lower" else -value
+
+
+def _is_monotone(z: Sequence[float]) -> bool:
+    return all(later > earlier for earlier, later in itertools.pairwise(z))
+
+
+def _finite(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None

@@ -1,0 +1,85 @@
+"""`texvent bench`: the self-test of the metrics, and the benchmark of simulators."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar
+
+from rich.console import Console
+
+from texvent._registry import suggest
+from texvent.bench.selftest import run_selftest, selftest_document, selftest_table
+from texvent.cli.options import parse_options
+from texvent.errors import ConfigError
+from texvent.io.atomic import atomic_file, check_output
+
+USAGE = """usage: texvent bench selftest [OPTIONS]
+
+  selftest  20 perturbations of a recording: which of them does each metric see?
+
+Help: texvent bench NAME --help
+"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SelftestOptions:
+    """What to test, and where to keep the result."""
+
+    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+
+    metrics: str | None = None
+    """Names of metrics, separated by commas; default: all of them."""
+    out: Path | None = None
+    """JSON file with every value and z-score."""
+    overwrite: bool = False
+    """Replace a file that exists already."""
+    quiet: bool = False
+    """No progress; only the table."""
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the command; returns its exit code."""
+    if not arguments or arguments[0] in ("-h", "--help"):
+        sys.stdout.write(USAGE)
+        return 0 if arguments else 2
+    if arguments[0] not in BENCHMARKS:
+        raise ConfigError(
+            f"unknown benchmark {arguments[0]!r}; {suggest(arguments[0], tuple(BENCHMARKS))}"
+        )
+    BENCHMARKS[arguments[0]](arguments[1:])
+    return 0
+
+
+def _selftest(arguments: Sequence[str]) -> None:
+    values = parse_options(
+        arguments,
+        {"options": SelftestOptions()},
+        prog="texvent bench selftest",
+        description="Which of 20 perturbations of a recording does each metric see? "
+        "docs/metrics.md explains the table.",
+    )
+    options = SelftestOptions(**values)
+    console = Console(stderr=True, quiet=options.quiet, highlight=False)
+    if options.out is not None:
+        check_output(options.out, overwrite=options.overwrite)
+    rows = run_selftest(
+        options.metrics.split(",") if options.metrics else None,
+        announce=lambda line: console.print(line, style="dim"),
+    )
+    if options.out is not None:
+        _write_json(options.out, selftest_document(rows), overwrite=options.overwrite)
+    sys.stdout.write(selftest_table(rows))
+
+
+def _write_json(path: Path, document: Any, *, overwrite: bool) -> None:
+    with atomic_file(path, overwrite=overwrite) as part:
+        text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
+        part.write_text(text + "\n", encoding="utf-8")
+
+
+BENCHMARKS = {"selftest": _selftest}
+"""Name → what runs it."""

@@ -1,0 +1,114 @@
+"""The perturbations, and the row that every metric must keep."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+from texvent.bench.perturbations import PERTURBATIONS, SERIES, perturb
+from texvent.bench.selftest import judge_metric, run_selftest, selftest_document, selftest_table
+from texvent.events import EventStream
+from texvent.metrics.compare import load_metric
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(20, 15)
+
+
+@pytest.fixture(scope="module")
+def events():
+    rng = np.random.default_rng(0)
+    t = np.sort(rng.choice(500_000, 5000, replace=False))
+    return EventStream(
+        rng.integers(0, 20, 5000), rng.integers(0, 15, 5000), t, rng.integers(0, 2, 5000), SIZE
+    )
+
+
+def test_there_are_twenty_perturbations_and_seven_series():
+    assert len(PERTURBATIONS) == 20
+    assert len(SERIES) == 7
+    assert {name for series in SERIES.values() for name in series} <= set(PERTURBATIONS)
+
+
+@pytest.mark.parametrize("name", PERTURBATIONS)
+def test_every_perturbation_changes_the_stream_and_is_repeatable(events, name):
+    spoiled = perturb(events, name)
+    assert not spoiled.equals(events)
+    assert spoiled.equals(perturb(events, name))
+    assert (np.diff(spoiled.t) >= 0).all()
+
+
+@pytest.mark.parametrize(
+    ("name", "share"),
+    [("drop 10 %", 0.9), ("drop 50 %", 0.5), ("noise 10 %", 1.1), ("noise 100 %", 2.0)],
+)
+def test_drops_and_noise_change_the_count_by_their_share(events, name, share):
+    assert len(perturb(events, name)) == pytest.approx(share * 5000, rel=0.05)
+
+
+def test_flips_change_polarity_alone(events):
+    assert (perturb(events, "flip 100 %").p != events.p).all()
+    some = perturb(events, "flip 20 %")
+    assert np.mean(some.p != events.p) == pytest.approx(0.2, abs=0.02)
+    np.testing.assert_array_equal(some.t, events.t)
+
+
+def test_batches_lie_on_the_ends_of_their_frames(events):
+    batched = perturb(events, "batch 24 Hz")
+    assert len(np.unique(batched.t)) <= 13
+    late = batched.t.mean() - events.t.mean()
+    assert late == pytest.approx(0.5e6 / 24, rel=0.05)
+
+
+def test_shuffles_keep_what_they_promise(events):
+    frame = events.t * 24 // 1_000_000
+    inside = perturb(events, "shuffle in frames")
+    np.testing.assert_array_equal(inside.t, events.t)
+    # Each frame holds the same pixels as before, in another order.
+    for number in range(12):
+        before, after = (
+            np.sort(one.x[frame == number] * 100 + one.y[frame == number])
+            for one in (events, inside)
+        )
+        np.testing.assert_array_equal(before, after)
+    np.testing.assert_array_equal(np.sort(perturb(events, "shuffle all times").t), events.t)
+    moved = perturb(events, "shuffle all pixels")
+    np.testing.assert_array_equal(np.bincount(moved.x), np.bincount(events.x))
+
+
+def test_a_pixel_shift_stays_on_the_sensor(events):
+    moved = perturb(events, "right 1 px")
+    assert moved.x.max() == 19
+    assert moved.x.mean() == pytest.approx(events.x.mean() + 0.95, abs=0.02)
+
+
+def test_judging_a_metric_measures_in_standard_deviations_of_the_floor(events):
+    recordings = [
+        EventStream(events.x, events.y, events.t + shift, events.p, SIZE)
+        for shift in (0, 10, 30, 60)
+    ]
+    row = judge_metric(
+        load_metric("nearest"),
+        recordings,
+        {name: perturb(recordings[1], name) for name in PERTURBATIONS},
+    )
+    floors = np.array([10, 10, 30, 30, 30, 30, 50, 50]) / 1000
+    assert row.floor == pytest.approx(floors.mean(), rel=0.05)
+    expected = (row.values["jitter 2 ms"] - row.floor) / row.floor_sd
+    assert row.z["jitter 2 ms"] == pytest.approx(expected)
+    assert set(row.found) | set(row.missed) == set(PERTURBATIONS)
+
+
+def test_the_metrics_that_others_are_built_on_keep_their_row():
+    rows = run_selftest(["stpp", "van_rossum", "nearest", "voxel", "active_iou"])
+    for row in rows[:4]:
+        assert row.missed == (), row.metric
+        assert all(row.monotone.values()), row.metric
+    # A marginal finds little, and the test says so rather than passing everything.
+    assert len(rows[4].found) < 10
+    assert rows[0].floor == pytest.approx(0.868, abs=0.005)
+    table = selftest_table(rows)
+    assert "| stpp | 0.868" in table
+    document = json.loads(json.dumps(selftest_document(rows), allow_nan=False))
+    assert document[0]["found"] == 20
+    assert not any(math.isnan(value) for value in document[0]["z"].values())

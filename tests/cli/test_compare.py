@@ -1,0 +1,68 @@
+"""`texvent compare` and `texvent bench` as a user meets them."""
+
+import json
+
+import pytest
+
+from texvent.cli.app import main
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+
+
+@pytest.fixture
+def pair(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    size = SensorSize(16, 12)
+    truth = EventStream([1, 2, 3, 4], [0, 0, 5, 6], [100, 200, 40_000, 900_000], [1, 0, 1, 1], size)
+    truth.save("truth.npz")
+    truth[:2].save("guess.npz")
+    return truth
+
+
+def test_compare_prints_a_table_with_what_each_metric_does_not_see(pair, capsys):
+    assert main(["compare", "guess.npz", "truth.npz", "--metrics", "stpp,count_ratio,isi"]) == 0
+    shown = capsys.readouterr().out
+    assert "count_ratio" in shown
+    assert "0.5000" in shown
+    assert "undefined" in shown
+    assert "everything but the number of events" in " ".join(shown.split())
+
+
+def test_compare_judges_the_first_file_by_the_second(pair, capsys):
+    assert main(["compare", "guess.npz", "truth.npz", "--json", "--levels"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["predicted"] == {"path": "guess.npz", "events": 2}
+    assert document["scores"]["count_ratio"] == 0.5
+    assert document["scores"]["isi"] is None
+    assert len(document["stpp_levels"]) == 5
+
+
+def test_compare_cuts_to_the_span(pair, capsys):
+    words = ["compare", "guess.npz", "truth.npz", "--json", "--stop", "0.01"]
+    assert main([*words, "--metrics", "stpp"]) == 0
+    assert json.loads(capsys.readouterr().out)["scores"] == {"stpp": 1.0}
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["compare", "guess.npz"], "Event file with the truth"),
+        (["compare", "nothing.npz", "truth.npz"], "no such file: nothing.npz"),
+        (["compare", "guess.npz", "truth.npz", "--metrics", "spp"], "did you mean 'stpp'"),
+        (["compare", "guess.npz", "truth.npz", "--start", "2", "--stop", "1"], "after start"),
+        (["bench", "selftst"], "did you mean 'selftest'"),
+        (["bench", "selftest", "--metrics", "spp"], "did you mean 'stpp'"),
+        (["bench", "selftest", "-o", "truth.npz"], "exists already"),
+    ],
+)
+def test_mistakes_are_one_clear_line(pair, capsys, words, message):
+    assert main(words) in (2, 3)
+    said = capsys.readouterr().err.strip()
+    assert message in said
+    assert "\n" not in said
+
+
+def test_bench_lists_its_benchmarks(capsys):
+    assert main(["bench", "--help"]) == 0
+    assert "selftest" in capsys.readouterr().out
+    assert main(["bench"]) == 2
