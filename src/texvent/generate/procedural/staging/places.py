@@ -29,7 +29,7 @@ _SNOW: Colour = (0.78, 0.82, 0.88)
 _SNOWED_OVER = (Ground.GRASS, Ground.ROAD, Ground.DIRT_ROAD)
 """Grounds whose grass is white when snow lies on it."""
 _MEADOW: tuple[Colour, Colour] = ((0.055, 0.14, 0.022), (0.13, 0.21, 0.045))
-_ASPHALT: Colour = (0.085, 0.085, 0.09)
+_ASPHALT: Colour = (0.04, 0.04, 0.043)
 
 PLACES: dict[str, Place] = {
     "road": Place(Ground.ROAD, _MEADOW[0], _ASPHALT),
@@ -80,8 +80,8 @@ LIGHTINGS: dict[str, Lighting] = {
         (0.60, 0.63, 0.66), 0.85, shadows=False,
     ),
     "dusk": Lighting(
-        (0.80, -0.42, 0.26), (1.10, 0.53, 0.22), (0.27, 0.23, 0.30), (0.07, 0.09, 0.30),
-        (0.95, 0.42, 0.16), 0.34, 1.1, lamps=0.5,
+        (0.80, -0.42, 0.26), (1.10, 0.53, 0.22), (0.27, 0.23, 0.30), (0.045, 0.06, 0.20),
+        (0.62, 0.27, 0.105), 0.34, 1.75, lamps=0.5,
     ),
     "dawn": Lighting(
         (-0.80, -0.42, 0.28), (1.0, 0.62, 0.42), (0.26, 0.25, 0.33), (0.20, 0.30, 0.62),
