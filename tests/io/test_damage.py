@@ -1,4 +1,7 @@
-"""Damaged files are refused in one line, or their events are still right; nothing else happens."""
+"""Damaged files are refused in one line, or their events are still right; nothing else happens.
+
+Examples are the same in every run: what a file format's library does with damage is its own.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent.errors import FileFormatError
+from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.files import load, save
 from texvent.sensor import SensorSize
@@ -31,13 +34,14 @@ def sound(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFacto
 def _load_or_refuse(path: Path) -> EventStream | None:
     try:
         return load(path)
-    except FileFormatError as error:
+    except InputError as error:
+        # Nearly always FileFormatError; an archive whose directory lost the size asks for it.
         message = str(error)
     assert "\n" not in message
     return None
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60, deadline=None, derandomize=True)
 @given(share=st.floats(0.0, 1.0, exclude_max=True))
 def test_a_truncated_file_is_refused(sound: Path, share: float) -> None:
     content = sound.read_bytes()
@@ -46,7 +50,7 @@ def test_a_truncated_file_is_refused(sound: Path, share: float) -> None:
     assert _load_or_refuse(path) is None
 
 
-@settings(max_examples=120, deadline=None)
+@settings(max_examples=120, deadline=None, derandomize=True)
 @given(share=st.floats(0.0, 1.0, exclude_max=True), flip=st.integers(1, 255))
 def test_a_flipped_byte_is_refused_or_harmless(sound: Path, share: float, flip: int) -> None:
     content = bytearray(sound.read_bytes())
@@ -57,7 +61,7 @@ def test_a_flipped_byte_is_refused_or_harmless(sound: Path, share: float, flip: 
     assert back is None or back.equals(_events())
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60, deadline=None, derandomize=True)
 @given(share=st.floats(0.0, 1.0, exclude_max=True), byte=st.integers(0, 255))
 def test_a_wrong_character_in_text_is_refused_or_gives_events(
     tmp_path_factory: pytest.TempPathFactory, share: float, byte: int

@@ -40,6 +40,7 @@ from texvent.io.columns import (
     stored_or_given_size,
     stream_from_file,
 )
+from texvent.io.interrupts import delay_interrupts
 from texvent.io.patient_file import PatientFile
 from texvent.sensor import SensorSize
 
@@ -124,7 +125,7 @@ class Hdf5Writer:
         self._has_label: bool | None = None
 
     def __enter__(self) -> Self:
-        with ExitStack() as stack:
+        with delay_interrupts(), ExitStack() as stack:
             part = stack.enter_context(atomic_file(self._path, overwrite=self._overwrite))
             # v110: object headers and chunk indexes then carry checksums.
             self._disk = stack.enter_context(PatientFile(part))
@@ -147,7 +148,8 @@ class Hdf5Writer:
         self._pending.append(packet)
         self._pending_events += len(packet)
         if self._pending_events >= BATCH_EVENTS:
-            self._write_pending(final=False)
+            with delay_interrupts():
+                self._write_pending(final=False)
 
     def __exit__(
         self,
@@ -155,11 +157,12 @@ class Hdf5Writer:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        if error is not None:
-            self._stack.__exit__(kind, error, trace)
-            return
-        with self._stack:
-            self._finish()
+        with delay_interrupts():
+            if error is not None:
+                self._stack.__exit__(kind, error, trace)
+                return
+            with self._stack:
+                self._finish()
 
     def _check_time(self, packet: EventStream) -> None:
         first, last = int(packet.t[0]), int(packet.t[-1])
@@ -344,11 +347,17 @@ def _stored_size(file: Any) -> tuple[int, int] | None:
 
 
 def _write_metadata(file: Any, text: str, metadata: Mapping[str, Any]) -> None:
-    """All metadata as JSON, and its top-level scalars by name for people who look inside."""
+    """All metadata as JSON, and its top-level scalars by name for people who look inside.
+
+    The JSON has a fixed length, so it lies in the checksummed header. HDF5 keeps text of variable
+    length in a heap without checksums, where one flipped bit can hang it; texvent never reads
+    the named scalars back.
+    """
+    fixed = np.bytes_(text.encode("ascii"))
     if len(text) <= MAX_ATTRIBUTE_BYTES:
-        file.attrs["texvent"] = text
+        file.attrs["texvent"] = fixed
     else:
-        file.create_dataset("texvent", data=text)
+        file.create_dataset("texvent", data=fixed)
     scalars = [
         (name, value)
         for name, value in metadata.items()
