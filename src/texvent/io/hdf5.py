@@ -20,7 +20,7 @@ not fit otherwise.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
 from typing import Any, ClassVar, Self
@@ -40,6 +40,7 @@ from texvent.io.columns import (
     stored_or_given_size,
     stream_from_file,
 )
+from texvent.io.hdf5_damage import reporting_damage
 from texvent.io.interrupts import delay_interrupts
 from texvent.io.patient_file import PatientFile
 from texvent.sensor import SensorSize
@@ -63,9 +64,6 @@ MAX_PLAIN_BYTES = 2048
 COLUMNS: Mapping[str, str] = {"x": "<u2", "y": "<u2", "t": "<i8", "p": "|u1"}
 RESERVED = ("width", "height", "timestamp_scale_ms", "texvent")
 
-_DAMAGE = (OSError, RuntimeError, KeyError, ValueError, TypeError, AttributeError, MemoryError)
-"""h5py raises any of these on a damaged file."""
-
 
 class Hdf5Codec:
     """Universal HDF5 and DSEC files."""
@@ -82,7 +80,7 @@ class Hdf5Codec:
             MissingDependencyError: it is compressed with a filter that needs hdf5plugin.
         """
         path = existing_file(path)
-        with _reporting_damage(path), h5py.File(path, "r") as file:
+        with reporting_damage(path), h5py.File(path, "r") as file:
             _checked_columns(file, path)
             stored = _stored_size(file)
             metadata = _read_metadata(file, path)
@@ -269,21 +267,21 @@ class _Packets:
         self._metadata = metadata
 
     def __iter__(self) -> Iterator[EventStream]:
-        with _reporting_damage(self._path):
+        with reporting_damage(self._path):
             file = h5py.File(self._path, "r")
         with file:
-            with _reporting_damage(self._path):
+            with reporting_damage(self._path):
                 columns = _checked_columns(file, self._path)
                 count = columns["t"].shape[0]
                 offset_us = _time_offset(file, self._path)
             last_us: int | None = None
             for start in range(0, count, PACKET_EVENTS):
-                with _reporting_damage(self._path):
+                with reporting_damage(self._path):
                     packet = self._packet(columns, start, offset_us)
                 if last_us is not None and int(packet.t[0]) < last_us:
                     raise FileFormatError(f"{self._path}: time decreases at event {start}")
                 last_us = int(packet.t[-1])
-                # Outside `_reporting_damage`: the caller's own errors are not the file's.
+                # Outside `reporting_damage`: the caller's own errors are not the file's.
                 yield packet
 
     def _packet(self, columns: Mapping[str, Any], start: int, offset_us: int) -> EventStream:
@@ -383,14 +381,3 @@ def _read_metadata(file: Any, path: Path) -> dict[str, Any]:
     if text is None and isinstance(file.get("texvent"), h5py.Dataset):
         text = file["texvent"][()]
     return {} if text is None else metadata_from_json(path, text)
-
-
-@contextmanager
-def _reporting_damage(path: Path) -> Iterator[None]:
-    try:
-        yield
-    except (InputError, MissingDependencyError):
-        raise
-    except _DAMAGE as error:
-        reason = " ".join(str(error).split())[:200]
-        raise FileFormatError(f"{path} is damaged or not an HDF5 event file ({reason})") from error
