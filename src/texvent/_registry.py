@@ -95,6 +95,7 @@ CODECS = Registry(
         "evt2": "texvent.io.evt2:Evt2Codec",
         "evt21": "texvent.io.evt21:Evt21Codec",
         "dat": "texvent.io.dat:DatCodec",
+        "prophesee-hdf5": "texvent.io.prophesee_hdf5:PropheseeHdf5Codec",
     },
 )
 METRICS = Registry(

@@ -60,8 +60,10 @@ class WordKernels(Protocol):
     """Words before the first event."""
     WORD: str
     """NumPy type of the numbers the functions take; a word of the file may be two of them."""
-    STATE: tuple[int, ...]
-    """State before the first word."""
+    DECODER_STATE: tuple[int, ...]
+    """State before the first word is read."""
+    ENCODER_STATE: tuple[int, ...]
+    """State after the words `START` were written."""
 
     def count_events(self, words: NDArray[Any]) -> int:
         """At least as many as the words hold."""
@@ -95,7 +97,7 @@ class KernelDecoder:
     def __init__(self, kernels: str, word: str) -> None:
         self._kernels: WordKernels = _load_kernels(kernels)
         self.word = np.dtype(word)
-        self._state = np.array(self._kernels.STATE, dtype=np.int64)
+        self._state = np.array(self._kernels.DECODER_STATE, dtype=np.int64)
 
     def decode(self, words: NDArray[Any]) -> Columns:
         """Columns x, y, t, p of the events in these words."""
@@ -111,7 +113,7 @@ class KernelEncoder:
 
     def __init__(self, kernels: str) -> None:
         self._kernels: WordKernels = _load_kernels(kernels)
-        self._state = np.array(self._kernels.STATE, dtype=np.int64)
+        self._state = np.array(self._kernels.ENCODER_STATE, dtype=np.int64)
 
     def start(self) -> bytes:
         """What precedes the first event."""

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 WORD = "<u4"
 START = (0x8000_0000,)
 """TIME_HIGH 0: see `texvent.io.evt2`."""
-STATE = (0, -1)
+DECODER_STATE = (0, -1)
 """How often TIME_HIGH wrapped, and its value (−1: none yet)."""
+ENCODER_STATE = (0, 0)
 TIME_HIGH = 8
 HALF_TURN = 1 << 27
 """A fall of TIME_HIGH by more than this is a wrap of its 28 bits."""

@@ -11,9 +11,11 @@ from numpy.typing import NDArray
 WORD = "<u2"
 START = (0x8000,)
 """TIME_HIGH 0: see `texvent.io.evt3`."""
-STATE = (0, -1, 0, -1, 0, 0, -1)
+DECODER_STATE = (0, -1, 0, -1, 0, 0)
 """Turns, high (−1: none yet) and low of the time; row (−1: none); first column and polarity of
-the next vector word; and, when writing, the time of the last event, µs (−1: none)."""
+the next vector word."""
+ENCODER_STATE = (0, 0, -1, -1)
+"""Turns and high of the time; row (−1: to be written); time of the last event, µs (−1: none)."""
 ADDR_Y, OTHER_Y, ADDR_X, VECT_BASE_X, VECT_12, VECT_8, TIME_LOW, TIME_HIGH = 0, 1, 2, 3, 4, 5, 6, 8
 HALF_TURN = 1 << 11
 """A fall of TIME_HIGH by this much or more is a wrap of its 12 bits."""
@@ -89,7 +91,7 @@ def encode_events(
 ) -> int:
     """Fill words from columns x, y, t, p; returns their number."""
     x, y, t, p = columns
-    turns, high, row, last = state[0], state[1], state[3], state[6]
+    turns, high, row, last = state[0], state[1], state[2], state[3]
     count = 0
     for i in range(t.size):
         time = np.int64(t[i])
@@ -115,7 +117,7 @@ def encode_events(
             count += 1
         words[count] = (ADDR_X << 12) | (np.int64(p[i]) << 11) | np.int64(x[i])
         count += 1
-    state[0], state[1], state[3], state[6] = turns, high, row, last
+    state[0], state[1], state[2], state[3] = turns, high, row, last
     return count
 
 

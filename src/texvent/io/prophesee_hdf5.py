@@ -1,0 +1,397 @@
+"""HDF5 files of Prophesee's Metavision: events in chunks that their own filter, ECF, compresses.
+
+    /CD/events            x u2, y u2, p i2, t i8 in 16 bytes; chunks of 16384, filter 0x8ECF
+    /CD/indexes           id u8, ts i8, every 2 ms (`texvent.io.prophesee_index`);
+                          attribute offset = −(time of the first event), as text
+    /EXT_TRIGGER/events   p i2, t i8, id i2; empty
+    /EXT_TRIGGER/indexes  empty
+    root attributes       version, format, geometry (1280x720), …: all text
+
+OpenEB reads every root attribute as ASCII text of variable length and fails on any other kind;
+how the events were made is therefore an attribute of /CD: `texvent` as JSON, `width`, `height`.
+Those are stored in checksummed headers, as in `texvent.io.hdf5`. Chunks are coded by texvent
+(`texvent.io.ecf`) and passed by HDF5 as they are, so no HDF5 filter needs to be installed.
+
+Coordinates below 2048; at most 9.5 hours from the first event to the last, because the index
+grows with the duration: 8 kB per second.
+
+Read are also files whose chunks are not coded, or by a filter that HDF5 knows.
+
+Source: Prophesee, "HDF5 Event Files", and OpenEB.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack
+from pathlib import Path
+from types import TracebackType
+from typing import Any, ClassVar, Self
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.errors import FileFormatError, InputError, OutputError
+from texvent.events import EventPackets, EventStream
+from texvent.io import ecf
+from texvent.io.atomic import atomic_file, check_output
+from texvent.io.columns import (
+    existing_file,
+    metadata_from_json,
+    metadata_to_json,
+    stored_or_given_size,
+    stream_from_file,
+)
+from texvent.io.hdf5_damage import reporting_damage
+from texvent.io.interrupts import delay_interrupts
+from texvent.io.limits import FormatLimits
+from texvent.io.patient_file import PatientFile
+from texvent.io.prophesee_index import ENTRY, TimeIndex
+from texvent.sensor import SensorSize
+
+ECF_FILTER = 0x8ECF
+CHUNK_EVENTS = 16_384
+BATCH_EVENTS = 16 * CHUNK_EVENTS
+"""Events held before they are coded and written."""
+PACKET_CHUNKS = 16
+MAX_CHUNK_EVENTS = 1 << 22
+"""Larger chunks would take more than 64 MB each."""
+MAX_SPAN_US = 1 << 35
+MAX_METADATA_BYTES = 32_768
+"""Longer metadata goes to a dataset: HDF5 allows 64 kB per attribute."""
+EVENT = np.dtype(
+    {
+        "names": ["x", "y", "p", "t"],
+        "formats": ["<u2", "<u2", "<i2", "<i8"],
+        "offsets": [0, 2, 4, 8],
+        "itemsize": 16,
+    }
+)
+TRIGGER = np.dtype(
+    {
+        "names": ["p", "t", "id"],
+        "formats": ["<i2", "<i8", "<i2"],
+        "offsets": [0, 8, 16],
+        "itemsize": 24,
+    }
+)
+
+
+class PropheseeHdf5Codec:
+    """HDF5 files of Metavision."""
+
+    name: ClassVar[str] = "prophesee-hdf5"
+    extensions: ClassVar[tuple[str, ...]] = (".hdf5", ".h5")
+    limits: ClassVar[FormatLimits] = FormatLimits(
+        "Prophesee HDF5", ecf.MAX_SIDE, ecf.MAX_START_US, MAX_SPAN_US
+    )
+
+    def recognises(self, path: Path) -> bool:
+        """True if it is HDF5 with events where Metavision puts them."""
+        try:
+            with reporting_damage(path), h5py.File(path, "r") as file:
+                return "CD/events" in file
+        except FileFormatError:
+            return False
+
+    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
+        """Events of a file, 262,144 at a time; the file is opened anew for each pass.
+
+        Raises:
+            InputError: no such file, or it stores no sensor size and none is given.
+            FileFormatError: the file is damaged or has another layout.
+        """
+        path = existing_file(path)
+        with reporting_damage(path), h5py.File(path, "r") as file:
+            _checked_events(file, path)
+            stored = _stored_size(file)
+            metadata = _read_metadata(file, path)
+        final_size = stored_or_given_size(path, stored, size)
+        return EventPackets(_Packets(path, final_size, metadata), final_size, metadata)
+
+    def open_writer(
+        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
+    ) -> PropheseeHdf5Writer:
+        """Start a file; see `EventCodec.open_writer`."""
+        return PropheseeHdf5Writer(path, size=size, metadata=metadata, overwrite=overwrite)
+
+
+class PropheseeHdf5Writer:
+    """Appends packets to a Metavision file; memory does not grow with the recording.
+
+    Raises:
+        OutputError: the file exists already, its folder refuses it, or the disk is full.
+        InputError: the format cannot hold the sensor or an event; a packet of another size, or
+            before the one before it.
+    """
+
+    def __init__(
+        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
+    ) -> None:
+        check_output(path, overwrite=overwrite)
+        PropheseeHdf5Codec.limits.check_size(path, size)
+        self._path = path
+        self._size = size
+        self._overwrite = overwrite
+        self._json = metadata_to_json(metadata)
+        self._stack = ExitStack()
+        self._file: Any = None
+        self._disk: Any = None
+        self._index = TimeIndex()
+        self._pending: list[EventStream] = []
+        self._pending_events = 0
+        self._written = 0
+        self._start_us: int | None = None
+        self._last_us = 0
+
+    def __enter__(self) -> Self:
+        with delay_interrupts(), ExitStack() as stack:
+            part = stack.enter_context(atomic_file(self._path, overwrite=self._overwrite))
+            self._disk = stack.enter_context(PatientFile(part))
+            # v110: object headers and chunk indexes then carry checksums.
+            self._file = h5py.File(self._disk, "w", libver=("v110", "v110"))
+            stack.callback(self._file.close)
+            self._create_layout()
+            self._stack = stack.pop_all()
+        return self
+
+    def append(self, packet: EventStream) -> None:
+        """Add the events of a packet, which starts no earlier than the one before it ended."""
+        if self._file is None:
+            raise OutputError(f"{self._path} is not open; append inside the writer's with block")
+        if packet.size != self._size:
+            raise InputError(f"the packet is {packet.size}, the file is {self._size}")
+        if len(packet) == 0:
+            return
+        PropheseeHdf5Codec.limits.check_packet(self._path, packet, self._start_us)
+        first = int(packet.t[0])
+        if first < self._last_us:
+            raise InputError(
+                f"a packet starts at {first} µs, before the one before it ends "
+                f"({self._last_us} µs); append packets in time order"
+            )
+        self._start_us = first if self._start_us is None else self._start_us
+        self._last_us = int(packet.t[-1])
+        self._pending.append(packet)
+        self._pending_events += len(packet)
+        if self._pending_events >= BATCH_EVENTS:
+            with delay_interrupts():
+                self._write_pending(final=False)
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        with delay_interrupts():
+            if error is not None:
+                self._stack.__exit__(kind, error, trace)
+                return
+            with self._stack:
+                self._finish()
+
+    def _create_layout(self) -> None:
+        file = self._file
+        properties = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+        # Optional, as in Metavision: HDF5 then does not ask for the filter itself.
+        properties.set_filter(ECF_FILTER, h5py.h5z.FLAG_OPTIONAL)
+        self._create("CD/events", EVENT, properties)
+        self._create("CD/indexes", ENTRY)
+        self._create("EXT_TRIGGER/events", TRIGGER)
+        self._create("EXT_TRIGGER/indexes", ENTRY)
+        for name, text in {
+            "version": "1.0",
+            "format": "ECF",
+            "geometry": str(self._size),
+            "generation": "0.0",
+            "camera_integrator_name": "Prophesee",
+            "plugin_integrator_name": "Prophesee",
+        }.items():
+            _set_text(file, name, text)
+        group = file["CD"]
+        group.attrs["width"], group.attrs["height"] = self._size
+        # Of fixed length: HDF5 keeps other text in a heap without checksums.
+        fixed = np.bytes_(self._json.encode("ascii"))
+        if len(fixed) <= MAX_METADATA_BYTES:
+            group.attrs["texvent"] = fixed
+        else:
+            file.create_dataset("CD/texvent", data=fixed)
+
+    def _create(self, name: str, dtype: np.dtype[Any], properties: Any = None) -> None:
+        self._file.create_dataset(
+            name,
+            shape=(0,),
+            maxshape=(None,),
+            chunks=(CHUNK_EVENTS,),
+            dtype=dtype,
+            dcpl=properties,
+        )
+
+    def _write_pending(self, *, final: bool) -> None:
+        """Write whole chunks; at the end, a short one too."""
+        whole = EventStream.concat(self._pending)
+        count = len(whole) if final else len(whole) // CHUNK_EVENTS * CHUNK_EVENTS
+        dataset = self._file["CD/events"]
+        dataset.resize((self._written + count,))
+        columns = whole.columns()
+        for start in range(0, count, CHUNK_EVENTS):
+            piece = slice(start, min(start + CHUNK_EVENTS, count))
+            chunk = ecf.encode_chunk({name: columns[name][piece] for name in "xytp"})
+            dataset.id.write_direct_chunk((self._written + start,), chunk)
+        for entries in self._index.add(whole.t[:count]):
+            self._append_index(entries)
+        self._disk.raise_failure()
+        self._written += count
+        self._pending = [whole[count:]]
+        self._pending_events = len(whole) - count
+
+    def _append_index(self, entries: NDArray[Any]) -> None:
+        dataset = self._file["CD/indexes"]
+        known = dataset.shape[0]
+        dataset.resize((known + len(entries),))
+        dataset[known:] = entries
+
+    def _finish(self) -> None:
+        if self._pending_events:
+            self._write_pending(final=True)
+        if self._start_us is not None:
+            self._append_index(self._index.close())
+            _set_text(self._file["CD/indexes"], "offset", str(-self._start_us))
+        self._file.close()
+        self._disk.raise_failure()
+
+
+class _Packets:
+    """Re-iterable packets of a checked file."""
+
+    def __init__(self, path: Path, size: SensorSize, metadata: Mapping[str, Any]) -> None:
+        self._path = path
+        self._size = size
+        self._metadata = metadata
+
+    def __iter__(self) -> Iterator[EventStream]:
+        with reporting_damage(self._path):
+            file = h5py.File(self._path, "r")
+        with file:
+            with reporting_damage(self._path):
+                events = _checked_events(file, self._path)
+                count = events.shape[0]
+                step = PACKET_CHUNKS * CHUNK_EVENTS
+                if _is_ecf(events):
+                    step = events.chunks[0] * max(1, step // events.chunks[0])
+            last_us: int | None = None
+            for start in range(0, count, step):
+                with reporting_damage(self._path):
+                    columns = _read_columns(events, start, min(start + step, count))
+                    packet = stream_from_file(self._path, columns, self._size, self._metadata)
+                if last_us is not None and int(packet.t[0]) < last_us:
+                    raise FileFormatError(f"{self._path}: time decreases at event {start}")
+                last_us = int(packet.t[-1])
+                # Outside `reporting_damage`: the caller's own errors are not the file's.
+                yield packet
+
+
+def _checked_events(file: Any, path: Path) -> Any:
+    """The dataset of events, if it has the fields, and the chunks it claims."""
+    events = file.get("CD/events")
+    if not isinstance(events, h5py.Dataset):
+        raise FileFormatError(
+            f"{path} is HDF5 but has no dataset CD/events, where Metavision stores events"
+        )
+    names = events.dtype.names or ()
+    wrong = [name for name in "xypt" if name not in names or events.dtype[name].kind not in "iu"]
+    if wrong or len(events.shape) != 1:
+        raise FileFormatError(
+            f"{path}: CD/events must be a list of x, y, p, t; it holds {events.dtype}"
+        )
+    _check_storage(events, path)
+    return events
+
+
+def _check_storage(events: Any, path: Path) -> None:
+    """Refuse lengths that nothing stored stands behind: they would take for ever to read."""
+    count = events.shape[0]
+    if events.chunks is None:
+        stored = events.id.get_storage_size() // events.dtype.itemsize
+    else:
+        largest = ecf.MAX_EVENTS if _is_ecf(events) else MAX_CHUNK_EVENTS
+        if events.chunks[0] > largest:
+            raise FileFormatError(
+                f"{path}: CD/events has chunks of {events.chunks[0]} events; at most {largest}"
+            )
+        stored = events.id.get_num_chunks() * events.chunks[0]
+    if stored < count:
+        raise FileFormatError(f"{path} claims {count} events and stores at most {stored}")
+
+
+def _is_ecf(events: Any) -> bool:
+    properties = events.id.get_create_plist()
+    filters = [properties.get_filter(index)[0] for index in range(properties.get_nfilters())]
+    return filters == [ECF_FILTER]
+
+
+def _read_columns(events: Any, start: int, stop: int) -> ecf.Columns:
+    """Columns of some events; with ECF, `start` is the first of a chunk."""
+    if not _is_ecf(events):
+        return _columns_of(events[start:stop])
+    length = events.chunks[0]
+    parts = [
+        _read_chunk(events, first, min(length, stop - first))
+        for first in range(start, stop, length)
+    ]
+    return {name: np.concatenate([part[name] for part in parts]) for name in "xytp"}
+
+
+def _read_chunk(events: Any, start: int, count: int) -> ecf.Columns:
+    """Columns of a chunk of at least `count` events, of which those are taken."""
+    limit = 64 * events.chunks[0] + 4096
+    stored = events.id.get_chunk_info_by_coord((start,)).size
+    if stored > limit:
+        raise FileFormatError(f"the chunk at event {start} has {stored} bytes; at most {limit}")
+    skipped, chunk = events.id.read_direct_chunk((start,))
+    # HDF5 sets the bit of a filter it could not apply to this chunk.
+    if skipped:
+        columns = _columns_of(np.frombuffer(chunk, dtype=events.dtype))
+    else:
+        columns = ecf.decode_chunk(bytes(chunk))
+    if len(columns["t"]) < count:
+        raise FileFormatError(
+            f"the chunk at event {start} holds {len(columns['t'])} events instead of {count}"
+        )
+    return {name: column[:count] for name, column in columns.items()}
+
+
+def _columns_of(records: NDArray[Any]) -> ecf.Columns:
+    return {name: np.ascontiguousarray(records[name]) for name in "xytp"}
+
+
+def _stored_size(file: Any) -> tuple[int, int] | None:
+    attributes = file["CD"].attrs
+    if "width" in attributes and "height" in attributes:
+        return int(attributes["width"]), int(attributes["height"])
+    if "geometry" not in file.attrs:
+        return None
+    width, _, height = _text(file.attrs["geometry"]).partition("x")
+    return int(width), int(height)
+
+
+def _read_metadata(file: Any, path: Path) -> dict[str, Any]:
+    group = file["CD"]
+    text = group.attrs.get("texvent")
+    if text is None and isinstance(group.get("texvent"), h5py.Dataset):
+        text = group["texvent"][()]
+    if text is not None:
+        return metadata_from_json(path, text)
+    # What Metavision wrote about the recording.
+    return {"header": {name: _text(value) for name, value in file.attrs.items()}}
+
+
+def _text(value: Any) -> str:
+    return value.decode("utf-8", errors="replace") if isinstance(value, bytes) else str(value)
+
+
+def _set_text(node: Any, name: str, text: str) -> None:
+    """ASCII of variable length, the only kind OpenEB reads; h5py's own text is UTF-8."""
+    node.attrs.create(name, text, dtype=h5py.string_dtype("ascii"))

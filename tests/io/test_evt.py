@@ -1,0 +1,117 @@
+"""RAW files: the header tells the formats apart."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from texvent.errors import FileFormatError, InputError
+from texvent.io import text_header
+from texvent.io.files import codec_for, codec_that_reads, load, save
+
+from .prophesee_files import HEADERS, at_times, write_words
+
+EVT = ("evt2", "evt21", "evt3")
+
+
+@pytest.mark.parametrize("format", EVT)
+def test_one_extension_is_read_by_its_header_and_written_as_evt3(
+    tmp_path: Path, format: str
+) -> None:
+    path = save(tmp_path / "e.RAW", at_times(1, 2), format=format)
+    assert codec_that_reads(path).name == format
+    assert codec_for(path).name == "evt3"
+    with pytest.raises(FileFormatError, match=r"is not EVT.*its header names 'EVT"):
+        load(path, format=next(one for one in EVT if one != format))
+
+
+@pytest.mark.parametrize(
+    ("header", "size"),
+    [
+        ("% evt 3.0\n% geometry 1280x720\n% end\n", None),
+        ("% evt 3.0\n% format EVT3\n% geometry 1280x720\n", None),
+        ("% evt 3.0\n% format EVT3;width=1280;height=720\n% end\n", None),
+        ("% evt 3.0\n", (1280, 720)),
+    ],
+)
+def test_headers_of_other_generations_are_understood(
+    tmp_path: Path, header: str, size: tuple[int, int] | None
+) -> None:
+    path = write_words(tmp_path, "evt3", [0x8001, 0x6002, 0x0003, 0x2804], header=header)
+    events = load(path, size=size)
+    assert (events.t.tolist(), tuple(events.size)) == ([4098], (1280, 720))
+    assert events.metadata["header"]["evt"] == "3.0"
+
+
+def test_a_size_that_is_not_stored_is_asked_for(tmp_path: Path) -> None:
+    path = write_words(tmp_path, "evt3", [0x8001], header="% evt 3.0\n")
+    with pytest.raises(InputError, match="does not store the sensor size; give it"):
+        load(path)
+
+
+def test_data_that_begins_like_a_header_line_is_data_once_the_header_has_ended(
+    tmp_path: Path,
+) -> None:
+    path = write_words(tmp_path, "evt3", [0x2025, 0x8001, 0x6002, 0x0003, 0x2804])
+    assert load(path).t.tolist() == [4098]
+
+
+def test_control_bytes_end_a_header_without_an_end_line(tmp_path: Path) -> None:
+    header = "% evt 2.0\n% geometry 1280x720\n"
+    path = write_words(tmp_path, "evt2", [0x0000_2025, 0x8000_0001, 0x0], header=header)
+    assert load(path).t.tolist() == [64]
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b"", "names no format"),
+        (b"\x00\x80\x01\x60", "names no format"),
+        (b"% date 2026-11-20\n% end\n\x00\x80", "names no format"),
+        (b"% evt 4.0\n% end\n", "its header names '4.0'"),
+        (b"% format HISTO3D;height=320;width=320\n% end\n", "its header names 'HISTO3D'"),
+        (b"% evt 3.0\n% geometry 12", "ends inside its header"),
+        (b"% evt 3.0\n% geometry 1280x720\n", "ends inside its header"),
+        (b"% evt 3.0\n% geometry 1280\n% end\n", "states a size of ''"),
+        (b"% evt 3.0\n% geometry 0x720\n% end\n", "impossible sensor size 0x720"),
+        (b"% evt 3.0\n% geometry 99999999999x720\n% end\n", "states a size of '9999"),
+        (b"% evt 3.0\n% geometry 4x4\n% texvent {\n% end\n", "damaged metadata"),
+        (b"% evt 3.0\n% geometry 4x4\n% end\n\x00", "ends inside a word of 2 bytes"),
+        (b"% evt 3.0\n% geometry 4x4\n% end\n\x01\x80\x00\x00\x04\x20", "x runs from 4 to 4"),
+    ],
+)
+def test_a_damaged_file_is_one_clear_line(tmp_path: Path, content: bytes, message: str) -> None:
+    path = tmp_path / "e.raw"
+    path.write_bytes(content)
+    with pytest.raises(FileFormatError, match=message) as caught:
+        load(path)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_header_without_end_is_not_read_into_memory(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(text_header, "MAX_HEADER_BYTES", 100)
+    for content in (b"% key value\n" * 20, b"% key " + b"v" * 200):
+        path = tmp_path / "e.raw"
+        path.write_bytes(content)
+        with pytest.raises(FileFormatError):
+            load(path)
+
+
+def test_metadata_too_long_for_a_header_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(text_header, "MAX_HEADER_BYTES", 100)
+    with pytest.raises(InputError, match=r"metadata of \d+ bytes cannot be stored in a text"):
+        save(tmp_path / "e.raw", at_times(1).with_metadata({"prompt": "a" * 60}))
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("format", EVT)
+def test_the_header_of_a_file_made_by_hand_is_the_one_texvent_reads(
+    tmp_path: Path, format: str
+) -> None:
+    path = write_words(tmp_path, format, [], header=HEADERS[format])
+    assert len(load(path)) == 0

@@ -1,0 +1,93 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.errors import FileFormatError
+from texvent.io.files import load, save
+from texvent.io.word_stream import KernelDecoder
+
+from .prophesee_files import HEADERS, SIZE, at_times, events_of, write_words
+from .slow_words import decode_evt2
+
+
+def test_words_built_by_hand_from_the_published_table(tmp_path: Path) -> None:
+    words = [
+        0b0001_000001_00000000011_00000000100,  # before any TIME_HIGH: no time, left out
+        0x8000_0002,  # TIME_HIGH: 2 · 64 µs
+        0b0001_000101_10011111111_01011001111,  # ON, 5 µs, x 1279, y 719
+        0b1010_000110_00000000000_00000000001,  # a trigger
+        0b0000_111111_00000000011_00000000100,  # OFF, 63 µs, x 3, y 4
+        0x8000_0003,
+        0b0000_000000_00000000000_00000000000,
+    ]
+    events = load(write_words(tmp_path, "evt2", words))
+    assert events.size == SIZE
+    assert events_of(events) == [(1279, 719, 133, 1), (3, 4, 191, 0), (0, 0, 192, 0)]
+
+
+def test_a_file_begins_with_time_high_zero_and_repeats_it_only_on_change(tmp_path: Path) -> None:
+    path = save(tmp_path / "e.raw", at_times(64, 65, 300), format="evt2")
+    words = np.frombuffer(path.read_bytes().split(b"% end\n")[1], dtype="<u4")
+    highs = [hex(word) for word in words if word >> 28 == 8]
+    assert highs == ["0x80000000", "0x80000001", "0x80000004"]
+    assert words[0] >> 28 == 8
+    assert len(words) == 6
+
+
+def test_the_header_says_what_openeb_asks_for(tmp_path: Path) -> None:
+    path = save(tmp_path / "e.raw", at_times(1), format="evt2")
+    assert path.read_bytes().split(b"% end\n")[0].decode().splitlines() == [
+        "% camera_integrator_name Prophesee",
+        "% evt 2.0",
+        "% format EVT2;height=720;width=1280",
+        "% geometry 1280x720",
+        "% integrator_name Prophesee",
+        "% plugin_integrator_name Prophesee",
+        '% texvent {"seed": 0}',
+    ]
+
+
+def test_a_wrapped_counter_of_another_writer_is_unrolled(tmp_path: Path) -> None:
+    words = [0x8FFF_FFFF, 0x0FC0_0000, 0x8000_0000, 0x0000_0000, 0x8FFF_FFFF, 0x8000_0001, 0x0]
+    times = load(write_words(tmp_path, "evt2", words)).t.tolist()
+    assert times == [2**34 - 1, 2**34, 2 * 2**34 + 64]
+
+
+def test_a_small_fall_of_time_is_damage_not_a_wrap(tmp_path: Path) -> None:
+    words = [0x8000_0005, 0x0, 0x8000_0004, 0x0]
+    path = write_words(tmp_path, "evt2", words)
+    with pytest.raises(FileFormatError, match="time decreases"):
+        load(path)
+
+
+@settings(max_examples=100, deadline=None)
+@given(
+    st.lists(
+        st.one_of(
+            st.integers(0, 2**32 - 1),
+            st.integers(0, 100).map(lambda high: 0x8000_0000 | high),
+            st.integers(0, 2**29 - 1),
+        ),
+        max_size=60,
+    )
+)
+def test_any_words_mean_what_the_slow_decoder_says(words: list[int]) -> None:
+    array = np.array(words, dtype="<u4")
+    if (np.diff(array[array >> 28 == 8].astype(np.int64)) < -(2**27)).any():
+        # The slow decoder does not know wraps.
+        return
+    columns = KernelDecoder("texvent.io.kernels.evt2", "<u4").decode(array)
+    rows = zip(*(columns[name].tolist() for name in "xytp"), strict=True)
+    assert list(rows) == decode_evt2(array.tobytes())
+
+
+def test_the_words_written_mean_the_events_to_the_slow_decoder(tmp_path: Path) -> None:
+    events = at_times(0, 1, 63, 64, 64, 1000, 2**33)
+    path = save(tmp_path / "e.raw", events, format="evt2")
+    assert decode_evt2(path.read_bytes().split(b"% end\n")[1]) == events_of(events)
+    assert HEADERS["evt2"].splitlines()[1] in path.read_text(errors="replace")
