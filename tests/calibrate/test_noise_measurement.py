@@ -3,7 +3,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from texvent.calibrate.noise import find_still_pixels, measure_noise
+from texvent.calibrate.noise import average_neighbours, find_still_pixels, measure_noise
 from texvent.calibrate.recording import Recording, Span
 from texvent.config import InterpolateConfig
 from texvent.events import EventStream
@@ -44,6 +44,23 @@ def test_on_events_without_off_events_are_leak():
 
 def test_a_recording_without_still_pixels_says_so(recording):
     assert measure_noise(recording, Span(0, 700_000), gamma=1.0) is None
+
+
+def test_noise_of_the_frames_themselves_does_not_count_as_motion():
+    still = still_recording(leak_rate_hz=3.0)
+    grain = np.random.default_rng(0).normal(0, 1.0, still.frames.pixels.shape)
+    grainy = np.maximum(still.frames.pixels + grain, 0).astype(np.float32)
+    recording = dataclasses.replace(still, frames=Video(grainy, still.frames.times_us))
+    noise = measure_noise(recording, SPAN, gamma=1.0)
+    assert noise.leak_rate_hz == pytest.approx(3.0, rel=0.1)
+
+
+def test_a_mean_of_neighbours_repeats_the_edge():
+    picture = np.zeros((4, 4))
+    picture[0, 0], picture[2, 2] = 9.0, 18.0
+    assert average_neighbours(picture)[0, 0] == pytest.approx(4)
+    assert average_neighbours(picture)[1, 1] == pytest.approx(3)
+    assert average_neighbours(picture)[3, 3] == pytest.approx(2)
 
 
 def test_a_pixel_is_still_if_its_neighbourhood_is():

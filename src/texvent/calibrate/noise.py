@@ -21,7 +21,7 @@ LEAK_FROM = 30
 """Intensity from which noise is rare enough to see the leak beside it, levels."""
 STILL_LEVELS, STILL_SHARE = 1.5, 0.02
 """A pixel is still if all of its neighbourhood, in the frame before, this one and the next, lies
-within 1.5 levels plus 2 % of its intensity."""
+within 1.5 levels plus 2 % of its intensity, once 3×3 means have calmed the frames' own noise."""
 RADIUS = 2
 """Of the neighbourhood, pixels: what moves in from farther away within a frame is seen too late."""
 LEAST_EXPOSURE_S = 20.0
@@ -60,7 +60,7 @@ def measure_noise(recording: Recording, span: Span, *, gamma: float) -> Measured
     exposure = np.zeros(len(edges) - 1)
     counts = np.zeros((2, len(edges) - 1))
     for frames in _triples(recording, span):
-        before, now, after = (linearize(frame.luma, gamma) for frame in frames)
+        before, now, after = (average_neighbours(linearize(frame.luma, gamma)) for frame in frames)
         still = find_still_pixels(now, [before, now, after])
         group = np.digitize(now[still], edges) - 1
         start_us, stop_us = frames[1].t_us, frames[2].t_us
@@ -75,9 +75,11 @@ def measure_noise(recording: Recording, span: Span, *, gamma: float) -> Measured
     # Half an event stands for none: a rate above zero that the exposure does not contradict.
     rate_hz = 2 * np.maximum(counts[0], 0.5)[known] / exposure[known]
     middle = (edges[:-1] + edges[1:])[known] / 2
-    bright = known & (edges[:-1] >= LEAK_FROM)
-    leak = (counts[1] - counts[0])[bright].sum() / max(exposure[bright].sum(), LEAST_EXPOSURE_S)
-    return MeasuredNoise(NoiseCurve(np.minimum(middle, 255.0), rate_hz), max(float(leak), 0.0))
+    surplus_hz = (counts[1] - counts[0])[known] / exposure[known]
+    bright = surplus_hz[edges[:-1][known] >= LEAK_FROM]
+    # The median: one range in which something flickered or moved does not decide.
+    leak_hz = max(float(np.median(bright)), 0.0) if bright.size else 0.0
+    return MeasuredNoise(NoiseCurve(np.minimum(middle, 255.0), rate_hz), leak_hz)
 
 
 def _triples(recording: Recording, span: Span) -> Iterator[tuple[Frame, Frame, Frame]]:
@@ -103,3 +105,13 @@ def find_still_pixels(now: Float64Array, frames: list[Float64Array]) -> BoolArra
             neighbour = padded[dy : dy + height, dx : dx + width]
             still &= np.abs(neighbour - now) <= tolerance
     return still
+
+
+def average_neighbours(intensity: Float64Array) -> Float64Array:
+    """Mean of every pixel and its eight neighbours, edges repeated, [H, W]."""
+    height, width = intensity.shape
+    padded = np.pad(intensity, 1, mode="edge")
+    shifts = itertools.product(range(3), repeat=2)
+    return np.asarray(
+        sum(padded[dy : dy + height, dx : dx + width] for dy, dx in shifts) / 9.0, np.float64
+    )

@@ -38,7 +38,7 @@ from texvent.simulate.pixel_maps import (
     Float64Array,
     draw_chosen,
     draw_rate_factors,
-    draw_thresholds,
+    draw_threshold_pair,
     sensor_key,
 )
 from texvent.simulate.rate_noise import draw_rate_noise
@@ -115,14 +115,7 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
         """What is fixed to a pixel: thresholds, leak, noise factor, additional noise if hot."""
         config = self.config
         key = sensor_key(self._seed if config.sensor_seed is None else config.sensor_seed)
-        means = {
-            Purpose.THRESHOLD_ON: config.contrast_threshold_on,
-            Purpose.THRESHOLD_OFF: config.contrast_threshold_off,
-        }
-        on, off = (
-            draw_thresholds(shape, key, purpose, mean=mean, sigma=config.threshold_sigma)
-            for purpose, mean in means.items()
-        )
+        on, off = draw_threshold_pair(shape, key, config)
         leak = config.leak_rate_hz * _factors_of_mean_1(
             shape, key, Purpose.LEAK_RATE, config.leak_rate_decades
         )
