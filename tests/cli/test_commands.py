@@ -1,6 +1,7 @@
 """The command line as a user meets it: results, summaries, and one line for every mistake."""
 
 import json
+import resource
 import signal
 import subprocess
 import sys
@@ -211,6 +212,29 @@ def test_an_output_folder_that_does_not_exist_is_named_before_any_work(folder, c
     assert "no/such" in fails(capsys, "simulate", CLIP, "-o", "no/such/out.h5", code=3)
     assert "out.xyz" in fails(capsys, "simulate", CLIP, "-o", "out.xyz")
     assert not list(folder.iterdir())
+
+
+def test_a_file_that_the_system_refuses_to_grow_is_one_line(folder):
+    words = [sys.executable, "-m", "texvent.cli.app", "simulate", str(CLIP), "-o", "out.h5"]
+    limit = 64 * 1024  # bytes; stands for a quota or a file system's own limit
+    done = subprocess.run(
+        [*words, "--events-only", "-q"],
+        capture_output=True,
+        text=True,
+        check=False,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
+    )
+    assert done.returncode == 3
+    assert done.stderr.startswith("error: ")
+    assert len(done.stderr.splitlines()) == 1
+    assert not list(folder.iterdir())
+
+
+def test_words_not_understood_are_reported(folder, capsys):
+    words = ["--duration", "0.1", "--sensor", "32x24", "--events-only", "--interpolate", "none"]
+    assert run("generate", "a red ball zorbles", "-o", "a.h5", *words) == 0
+    assert "not understood: zorbles" in capsys.readouterr().err
+    assert "zorbles" in str(texvent.load("a.h5").metadata["source"]["not_understood"])
 
 
 def test_nan_intensities_stop_the_api_with_one_clear_error():

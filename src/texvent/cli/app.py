@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from texvent._registry import suggest
 from texvent._version import __version__
-from texvent.errors import ConfigError, TexventError
+from texvent.errors import ConfigError, OutputError, TexventError
 
 COMMANDS = {
     "generate": "Events, film, picture and page from a text prompt.",
@@ -50,6 +50,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # The reader of our output (head, less) left; leave as quietly as other tools do.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
+    except OSError as error:
+        where = f" ({error.filename})" if error.filename else ""
+        _say(f"error: the system refused{where}: {error.strerror or error}")
+        return OutputError.exit_code
 
 
 def _dispatch(words: list[str]) -> int:

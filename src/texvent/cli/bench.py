@@ -5,20 +5,25 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, ClassVar
 
 from rich.console import Console
 
-from texvent._registry import suggest
+from texvent._registry import SIMULATORS, suggest
+from texvent.bench.entries import INTERPOLATIONS, Entry
+from texvent.bench.fidelity import FULL, FidelityPlan, run_fidelity
+from texvent.bench.fidelity_table import fidelity_tables
 from texvent.bench.selftest import run_selftest, selftest_document, selftest_table
 from texvent.cli.options import parse_options
 from texvent.errors import ConfigError
 from texvent.io.atomic import atomic_file, check_output
 
-USAGE = """usage: texvent bench selftest [OPTIONS]
+USAGE = """usage: texvent bench fidelity [OPTIONS]
+       texvent bench selftest [OPTIONS]
 
+  fidelity  which simulator comes closest to the true events of exact scenes?
   selftest  20 perturbations of a recording: which of them does each metric see?
 
 Help: texvent bench NAME --help
@@ -39,6 +44,31 @@ class SelftestOptions:
     """Replace a file that exists already."""
     quiet: bool = False
     """No progress; only the table."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FidelityOptions:
+    """What to run, and where to keep the result."""
+
+    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+
+    full: bool = False
+    """Every scene, ideal and noisy pixels, five seeds: hours instead of minutes."""
+    scenes: str | None = None
+    """Names of scenes, separated by commas: mixed, slow, fast, translate, static, flicker, hdr."""
+    simulators: str | None = None
+    """Names of simulators, separated by commas; default: all that are registered."""
+    interpolations: str | None = None
+    """Names of interpolators, separated by commas: none, blend, flow, exact (true frames);
+    default: all of them."""
+    jobs: int = 2
+    """Processes to use."""
+    out: Path | None = None
+    """JSON file with every value; docs/benchmark.md describes it."""
+    overwrite: bool = False
+    """Replace a file that exists already."""
+    quiet: bool = False
+    """No progress; only the tables."""
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -75,11 +105,54 @@ def _selftest(arguments: Sequence[str]) -> None:
     sys.stdout.write(selftest_table(rows))
 
 
+def _fidelity(arguments: Sequence[str]) -> None:
+    values = parse_options(
+        arguments,
+        {"options": FidelityOptions()},
+        prog="texvent bench fidelity",
+        description="Simulators get a film at 24 frames per second in 8 bits, and are judged by "
+        "the events that truly happened. docs/benchmark.md explains the tables.",
+    )
+    options = FidelityOptions(**values)
+    if options.out is not None:
+        check_output(options.out, overwrite=options.overwrite)
+    plan = FULL if options.full else FidelityPlan()
+    if options.scenes:
+        plan = replace(plan, scenes=tuple(options.scenes.split(",")))
+    plan = replace(plan, entries=_choose_entries(options))
+    console = Console(stderr=True, quiet=options.quiet, highlight=False)
+    report = run_fidelity(
+        plan, jobs=options.jobs, announce=lambda line: console.print(line, style="dim")
+    )
+    if options.out is not None:
+        _write_json(options.out, report.document(), overwrite=options.overwrite)
+    sys.stdout.write(fidelity_tables(report))
+
+
+def _choose_entries(options: FidelityOptions) -> list[Entry]:
+    chosen = [
+        Entry(simulator=simulator, interpolate=interpolate)
+        for simulator in _split(options.simulators, SIMULATORS.names())
+        for interpolate in _split(options.interpolations, tuple(INTERPOLATIONS))
+    ]
+    for entry in chosen:
+        if entry.interpolate not in INTERPOLATIONS:
+            raise ConfigError(
+                f"unknown interpolation {entry.interpolate!r}; "
+                f"{suggest(entry.interpolate, tuple(INTERPOLATIONS))}"
+            )
+    return chosen
+
+
+def _split(text: str | None, default: Sequence[str]) -> Sequence[str]:
+    return text.split(",") if text else default
+
+
 def _write_json(path: Path, document: Any, *, overwrite: bool) -> None:
     with atomic_file(path, overwrite=overwrite) as part:
         text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
         part.write_text(text + "\n", encoding="utf-8")
 
 
-BENCHMARKS = {"selftest": _selftest}
+BENCHMARKS = {"fidelity": _fidelity, "selftest": _selftest}
 """Name → what runs it."""

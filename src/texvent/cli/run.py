@@ -180,12 +180,9 @@ def _progress(simulation: Simulation, console: Console) -> Iterator[Any]:
 
 
 def _report_understanding(console: Console, simulation: Simulation) -> None:
-    metadata = simulation.video.metadata
-    for line in metadata.get("understood", ()):
+    """What the generator made of the prompt, the words it did not understand included."""
+    for line in simulation.video.metadata.get("understood", ()):
         console.print(f"scene    {line}", markup=False)
-    unknown = metadata.get("not_understood", ())
-    if unknown:
-        console.print(f"ignored  words not understood: {', '.join(unknown)}", markup=False)
 
 
 def _report(console: Console, tally: Tally, seconds: float) -> None:
