@@ -15,14 +15,21 @@ def test_summary_of_nothing_is_undefined():
     assert math.isnan(summarise([4.0]).standard_error)
 
 
-def test_normalised_score_is_one_at_the_floor_and_zero_at_the_null_in_both_directions():
-    assert normalise(0.15, floor=0.15, null=0.85) == 1.0
-    assert normalise(0.85, floor=0.15, null=0.85) == 0.0
-    assert math.isclose(normalise(0.5, floor=0.15, null=0.85), 0.5)
-    assert math.isclose(normalise(0.5, floor=0.85, null=0.15), 0.5)
-    assert normalise(9.0, floor=0.15, null=0.85) == 0.0
+def test_normalised_score_is_one_at_the_floor_and_zero_at_the_null():
+    lower = {"floor": 0.15, "null": 0.85, "better": "lower"}
+    assert normalise(0.15, **lower) == 1.0
+    assert normalise(0.85, **lower) == 0.0
+    assert math.isclose(normalise(0.5, **lower), 0.5)
+    assert normalise(9.0, **lower) == 0.0
+    higher = {"floor": 0.85, "null": 0.15, "better": "higher"}
+    assert math.isclose(normalise(0.5, **higher), 0.5)
+    # Half and double are equally far from 1.
+    ratio = {"floor": 1.0, "null": 0.25, "better": "one"}
+    assert math.isclose(normalise(2.0, **ratio), 0.5)
 
 
-def test_normalised_score_is_undefined_where_floor_and_null_agree():
-    assert math.isnan(normalise(0.5, floor=0.2, null=0.2))
-    assert math.isnan(normalise(math.nan, floor=0.1, null=0.2))
+def test_normalised_score_is_undefined_where_the_null_is_no_worse_than_the_floor():
+    assert math.isnan(normalise(0.5, floor=0.2, null=0.2, better="lower"))
+    assert math.isnan(normalise(0.5, floor=0.53, null=0.54, better="higher"))
+    assert math.isnan(normalise(math.nan, floor=0.1, null=0.2, better="lower"))
+    assert math.isnan(normalise(0.1, floor=math.nan, null=0.2, better="lower"))

@@ -18,6 +18,7 @@ from texvent.bench.perturbations import PERTURBATIONS, SERIES, perturb
 from texvent.events import EventStream
 from texvent.metrics.compare import load_metric
 from texvent.metrics.protocol import Metric
+from texvent.metrics.summary import badness
 
 SCENE, TEXTURE_SEED = "mixed", 7
 RECORDING_SEEDS = (1, 2, 3, 4)
@@ -94,10 +95,10 @@ def judge_metric(
     floors = [metric(recordings[second], recordings[first]) for first, second in FLOOR_PAIRS]
     seconds = (time.perf_counter() - start) / len(floors)
     values = {name: metric(events, recordings[0]) for name, events in spoiled.items()}
-    badness = [_badness(metric, value) for value in floors]
+    badness = [badness(value, metric.better) for value in floors]
     mean, sd = float(np.mean(badness)), float(np.std(badness, ddof=1))
     scale = max(sd, 1e-3 * abs(mean) + 1e-6)
-    z = {name: (_badness(metric, value) - mean) / scale for name, value in values.items()}
+    z = {name: (badness(value, metric.better) - mean) / scale for name, value in values.items()}
     return SelftestRow(
         metric=metric.name,
         better=metric.better,
@@ -142,13 +143,6 @@ def selftest_document(rows: Sequence[SelftestRow]) -> list[dict[str, Any]]:
         }
         for row in rows
     ]
-
-
-def _badness(metric: Metric, value: float) -> float:
-    """The value turned so that more is worse."""
-    if metric.better == "one":
-        return abs(math.log(value)) if value > 0 else math.inf
-    return value if metric.better == "lower" else -value
 
 
 def _is_monotone(z: Sequence[float]) -> bool:

@@ -8,6 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from texvent.metrics.protocol import Better
+
 
 class Summary(NamedTuple):
     """What a table says about one metric."""
@@ -37,18 +39,27 @@ def summarise(values: Iterable[float]) -> Summary:
     return Summary(mean, spread, count, int(every.size) - count)
 
 
-def normalise(value: float, *, floor: float, null: float) -> float:
+def normalise(value: float, *, floor: float, null: float, better: Better) -> float:
     """`S* = (d_null − d) / (d_null − d_floor)`, clipped to 0..1: 0 is the null, 1 the floor.
 
     Args:
-        value: the metric; either direction works, since floor and null fix it.
+        value: the metric.
         floor: its value for a second recording of the same scene.
         null: its value for the reference with its times shuffled.
+        better: which values of the metric are good.
 
     Returns:
-        NaN if any value is NaN or floor and null agree.
+        NaN if a value is NaN, or if the null is no worse than the floor: then the metric cannot
+        tell a recording of this scene from noise, and a ratio of the two would mean nothing.
     """
-    span = null - floor
-    if not math.isfinite(span) or span == 0 or math.isnan(value):
+    value, floor, null = (badness(one, better) for one in (value, floor, null))
+    if math.isnan(value) or not null > floor:
         return math.nan
-    return min(max((null - value) / span, 0.0), 1.0)
+    return min(max((null - value) / (null - floor), 0.0), 1.0)
+
+
+def badness(value: float, better: Better) -> float:
+    """The value turned so that more is worse."""
+    if better == "one":
+        return abs(math.log(value)) if value > 0 else math.inf
+    return value if better == "lower" else -value

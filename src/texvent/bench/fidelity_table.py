@@ -1,0 +1,127 @@
+"""The benchmark's result as Markdown tables: one over all scenes, one per scene."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from texvent.bench.results import FidelityReport, Reference, Score
+from texvent.metrics.summary import summarise
+
+BASELINE = "texvent, blend"
+"""The paper's own method: what the others are compared with, pair by pair."""
+COLUMNS = {
+    "ef_mse": "EF MSE",
+    "isi": "ISI",
+    "nearest": "NN ms",
+    "van_rossum": "vR",
+    "stpp": "STPP ↑",
+}
+"""Metric → title; those that were not measured are left out."""
+
+
+def fidelity_tables(report: FidelityReport) -> str:
+    """All tables of a run, with the entries that could not run."""
+    parts = [_overview(report)]
+    for reference in report.references:
+        parts += [_scene_heading(reference), _scene_table(report, reference)]
+    reasons: dict[str, list[str]] = {}
+    for name, why in report.skipped.items():
+        reasons.setdefault(why, []).append(name)
+    if reasons:
+        parts.append("Not run:\n")
+        parts += [f"- {'; '.join(names)}: {why}\n" for why, names in reasons.items()]
+    return "\n".join(parts)
+
+
+def _overview(report: FidelityReport) -> str:
+    """S* of STPP per scene, and its mean: 0 is the null, 1 a second recording."""
+    lines = [
+        _row(["entry", *(f"{one.scene}, {one.target}" for one in report.references), "mean S*"]),
+        _row(["---"] * (len(report.references) + 2)),
+    ]
+    ranked: list[tuple[float, str, list[float]]] = []
+    for entry in dict.fromkeys(score.entry for score in report.scores):
+        normalised = [
+            score.normalised("stpp", reference)
+            for reference in report.references
+            for score in _scores_of(report, reference)
+            if score.entry == entry
+        ]
+        ranked.append((summarise(normalised).mean, entry, normalised))
+    ranked.sort(key=lambda one: math.inf if math.isnan(one[0]) else -one[0])
+    for mean, entry, normalised in ranked:
+        lines.append(_row([entry, *(_number(one, 2) for one in normalised), _number(mean, 2)]))
+    return "\n".join(lines) + "\n"
+
+
+def _scene_heading(reference: Reference) -> str:
+    mean = sum(reference.events) / len(reference.events)
+    return f"### {reference.scene}, {reference.target} pixels ({mean:,.0f} true events)\n"
+
+
+def _scene_table(report: FidelityReport, reference: Reference) -> str:
+    metrics = [metric for metric in COLUMNS if metric in reference.floor]
+    titles = [COLUMNS[metric] for metric in metrics]
+    lines = [
+        _row(["entry", "δ", "n at default δ", *titles, "S*", f"STPP − {BASELINE}"]),
+        _row(["---"] * (len(metrics) + 5)),
+        _bound_row("floor: second recording", reference, metrics, is_floor=True),
+    ]
+    scores = sorted(_scores_of(report, reference), key=_stpp, reverse=True)
+    baseline = next((score for score in scores if score.entry == BASELINE), None)
+    for score in scores:
+        mark = "" if score.is_matched or score.threshold is None else " (count not reached)"
+        cells = [score.entry, _number(score.threshold, 3) + mark, _number(score.default_ratio, 3)]
+        cells += [_mean_and_error(score.values[metric]) for metric in metrics]
+        cells.append(_number(score.normalised("stpp", reference), 2))
+        cells.append(_paired(score, baseline))
+        lines.append(_row(cells))
+    lines.append(_bound_row("null: times shuffled", reference, metrics, is_floor=False))
+    return "\n".join(lines) + "\n"
+
+
+def _scores_of(report: FidelityReport, reference: Reference) -> list[Score]:
+    return [
+        score
+        for score in report.scores
+        if (score.scene, score.target) == (reference.scene, reference.target)
+    ]
+
+
+def _stpp(score: Score) -> float:
+    mean = score.summary("stpp").mean
+    return -math.inf if math.isnan(mean) else mean
+
+
+def _bound_row(name: str, reference: Reference, metrics: Sequence[str], *, is_floor: bool) -> str:
+    values = reference.floor if is_floor else reference.null
+    cells = [_mean_and_error(values[metric]) for metric in metrics]
+    return _row([name, "", "", *cells, "1.00" if is_floor else "0.00", ""])
+
+
+def _paired(score: Score, baseline: Score | None) -> str:
+    if baseline is None or score is baseline:
+        return "–"
+    difference = score.difference("stpp", baseline)
+    error = _number(difference.standard_error, 3)
+    return f"{difference.mean:+.3f} ± {error}" if difference.defined else "undefined"
+
+
+def _mean_and_error(values: Sequence[float]) -> str:
+    summary = summarise(values)
+    if not summary.defined:
+        return "undefined"
+    if math.isnan(summary.standard_error):
+        return f"{summary.mean:.3f}"
+    return f"{summary.mean:.3f} ± {summary.standard_error:.3f}"
+
+
+def _number(value: float | None, digits: int) -> str:
+    if value is None:
+        return "–"
+    return "undefined" if math.isnan(value) else f"{value:.{digits}f}"
+
+
+def _row(cells: Sequence[str]) -> str:
+    return "| " + " | ".join(cells) + " |"

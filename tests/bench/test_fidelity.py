@@ -1,0 +1,208 @@
+"""The oracle benchmark: fitting, scoring, its document and its tables."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+from texvent._registry import SIMULATORS
+from texvent.bench.entries import INTERPOLATIONS, Entry, default_entries
+from texvent.bench.fidelity import FULL, FidelityPlan, record_truth, run_fidelity, score_entry
+from texvent.bench.fidelity_table import fidelity_tables
+from texvent.bench.oracle import EXPOSURE, TrueFrames, oracle_scene, record
+from texvent.bench.oracle_pixel import IDEAL
+from texvent.bench.results import FidelityReport, Reference, Score
+from texvent.errors import ConfigError, InputError
+from texvent.metrics.compare import compare
+from texvent.pipeline import video_to_events
+from texvent.settings import resolve
+
+CLEAN = Entry(simulator="physical", preset="clean", interpolate="exact")
+QUICK = FidelityPlan(
+    scenes=("translate",),
+    targets=("ideal",),
+    fit_seeds=(7,),
+    score_seeds=(7,),
+    metrics=("stpp", "count_ratio", "nearest"),
+    entries=(CLEAN, Entry(simulator="esim", interpolate="none")),
+)
+
+
+@pytest.fixture(scope="module")
+def report():
+    return run_fidelity(QUICK)
+
+
+def test_an_ideal_model_with_true_frames_recovers_the_ideal_oracle():
+    """The two were written apart: each checks the other."""
+    scene = oracle_scene("translate", 7)
+    truth = record(scene, {"ideal": (IDEAL, 1)})["ideal"]
+    options = {"simulator": "physical", "preset": "clean", "interpolate": "exact"}
+    # The oracle's dark level on the camera's linear scale; 200 frames between two.
+    same_pixel = {"balance": 255 * EXPOSURE * IDEAL.dark_level, "count": "fixed"}
+    settings = resolve("simulate", {**options, **same_pixel, "fixed_count": 199})
+    events = video_to_events(TrueFrames(scene), settings).packets.collect()
+    scores = compare(events, truth, ["count_ratio", "stpp", "nearest", "van_rossum"])
+    assert scores["count_ratio"] == pytest.approx(1.0, abs=0.01)
+    assert scores["stpp"] > 0.97
+    assert scores["nearest"] < 0.2
+    assert scores["van_rossum"] < 0.02
+
+
+def test_a_model_without_intermediate_frames_is_further_from_the_truth(report):
+    clean, frames_only = report.scores
+    assert frames_only.track == "frames"
+    assert frames_only.summary("stpp").mean < clean.summary("stpp").mean - 0.1
+    assert frames_only.normalised("stpp", report.references[0]) < 0.8
+
+
+def test_the_rate_is_matched_on_the_fitting_seeds(report):
+    for score in report.scores:
+        assert score.is_matched
+        assert score.values["count_ratio"][0] == pytest.approx(1, abs=0.021)
+
+
+def test_floor_and_null_bound_the_scores(report):
+    reference = report.reference("translate", "ideal")
+    # Ideal pixels have no noise: a second recording is the same recording.
+    assert reference.floor["stpp"] == [1.0]
+    assert reference.null["stpp"][0] < 0.7
+    with pytest.raises(StopIteration):
+        report.reference("translate", "noisy")
+
+
+def test_the_document_is_json_with_everything_needed_to_repeat_it(report):
+    document = json.loads(json.dumps(report.document(), allow_nan=False))
+    assert document["schema"] == "texvent-fidelity-1"
+    assert document["fit_seeds"] == document["score_seeds"] == [7]
+    assert {score["entry"] for score in document["scores"]} == {
+        "physical clean, exact",
+        "esim, none",
+    }
+    assert 0.5 < document["scores"][0]["normalised"]["stpp"] < 1
+
+
+def test_a_simulator_that_cannot_run_is_named_with_the_reason(report):
+    truth, _ = record_truth(
+        FidelityPlan(scenes=("static",), targets=("ideal",), score_seeds=(7,)), "static", "ideal"
+    )
+    skipped = score_entry(QUICK, truth, Entry(simulator="v2ce", interpolate="none"))
+    assert skipped[0] == "v2ce, none"
+    assert "weights" in skipped[1]
+
+
+def test_a_scene_without_true_events_has_undefined_ratios_not_numbers():
+    plan = FidelityPlan(
+        scenes=("static",), targets=("ideal",), score_seeds=(7,), metrics=("nearest", "stpp")
+    )
+    truth, reference = record_truth(plan, "static", "ideal")
+    score = score_entry(plan, truth, Entry(simulator="esim", interpolate="none"))
+    assert math.isnan(score.default_ratio)
+    assert math.isnan(score.values["nearest"][0])
+    assert not score.is_matched
+    assert reference.events == [0]
+
+
+def test_default_entries_are_every_simulator_by_every_interpolation():
+    entries = default_entries()
+    assert len(entries) == len(SIMULATORS.names()) * len(INTERPOLATIONS)
+    assert {entry.track for entry in entries} == {"frames", "true frames"}
+
+
+def test_the_full_plan_covers_seven_scenes_two_kinds_of_pixels_and_five_seeds():
+    assert len(FULL.scenes) == 7
+    assert set(FULL.targets) == {"noisy", "ideal"}
+    assert len({*FULL.fit_seeds, *FULL.score_seeds}) == 5
+    assert not set(FULL.fit_seeds) & set(FULL.score_seeds)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"scenes": ("mixd",)}, "did you mean 'mixed'"),
+        ({"metrics": ("spp",)}, "did you mean 'stpp'"),
+        ({"targets": ("loud",)}, "targets are noisy, ideal"),
+        ({"score_seeds": ()}, "seeds at least one"),
+    ],
+)
+def test_a_plan_that_names_something_unknown_is_refused(changes, message):
+    with pytest.raises(ConfigError, match=message):
+        FidelityPlan(**changes)
+
+
+def test_an_unknown_simulator_and_no_process_are_refused_before_any_work():
+    entry = Entry(simulator="esmi", interpolate="none")
+    with pytest.raises(InputError, match="did you mean 'esim'"):
+        run_fidelity(FidelityPlan(entries=(entry,)))
+    with pytest.raises(ConfigError, match="jobs is 0"):
+        run_fidelity(QUICK, jobs=0)
+
+
+def made_up_report():
+    metrics = {"stpp": [0.9, 0.8], "nearest": [1.0, 3.0]}
+    reference = Reference(
+        scene="mixed",
+        target="noisy",
+        events=[100, 200],
+        floor=metrics,
+        null={"stpp": [0.1, 0.3], "nearest": [9.0, 9.0]},
+    )
+
+    def score(entry, stpp, **changes):
+        return Score(
+            **{
+                "scene": "mixed",
+                "target": "noisy",
+                "entry": entry,
+                "track": "frames",
+                "threshold": 0.1,
+                "is_matched": True,
+                "default_ratio": 0.5,
+                "seconds": 1.0,
+                "values": {"stpp": stpp, "nearest": [5.0, 7.0]},
+                **changes,
+            }
+        )
+
+    scores = [
+        score("texvent, blend", [0.5, 0.4]),
+        score("better", [0.7, 0.8], is_matched=False),
+        score("lost", [math.nan, math.nan]),
+    ]
+    return FidelityReport(
+        fit_seeds=[7],
+        score_seeds=[21, 33],
+        references=[reference],
+        scores=scores,
+        skipped={"v2ce, none": "needs weights"},
+    )
+
+
+def test_tables_rank_by_stpp_and_show_floor_null_errors_and_paired_differences():
+    table = fidelity_tables(made_up_report())
+    lines = table.splitlines()
+    assert "| better | 0.85 | 0.85 |" in lines
+    rows = [line for line in lines if line.count("|") == 8]
+    order = [row.split(" | ")[0].strip("| ") for row in rows[2:]]
+    assert order == [
+        "floor: second recording",
+        "better",
+        "texvent, blend",
+        "lost",
+        "null: times shuffled",
+    ]
+    # Differences of 0.2 and 0.4 on the same two seeds: 0.3 ± 0.1.
+    assert "+0.300 ± 0.100" in rows[3]
+    assert "0.100 (count not reached)" in rows[3]
+    assert "6.000 ± 1.000" in rows[3]
+    assert "undefined" in rows[5]
+    assert "- v2ce, none: needs weights" in table
+
+
+def test_undefined_values_become_null_in_the_document():
+    document = made_up_report().document()
+    assert document["scores"][2]["values"]["stpp"] == [None, None]
+    assert document["scores"][0]["normalised"]["stpp"] == pytest.approx(
+        np.clip((0.2 - 0.45) / (0.2 - 0.85), 0, 1)
+    )
