@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from texvent._registry import CODECS
+from texvent._registry import CODECS, load_object
 from texvent.errors import ConfigError
 from texvent.events import EventPackets, EventStream
 from texvent.io.protocol import EventCodec, EventWriter, RecognisingCodec
@@ -48,7 +48,8 @@ def _codecs_for(path: str | Path, format: str | None) -> list[EventCodec]:
     if format is not None:
         return [CODECS.load(format)()]
     extension = Path(path).suffix.lower()
-    codecs: list[EventCodec] = [CODECS.load(name)() for name in CODECS.names()]
+    # Not by name one after the other: each look-up asks all installed packages for plug-ins.
+    codecs: list[EventCodec] = [load_object(target)() for target in CODECS.entries().values()]
     found = [codec for codec in codecs if extension in codec.extensions]
     if found:
         return found

@@ -43,6 +43,7 @@ from texvent.io.columns import (
     stored_or_given_size,
     stream_from_file,
 )
+from texvent.io.ecf_dataset import ECF_FILTER, check_storage, read_columns, whole_chunks
 from texvent.io.hdf5_damage import reporting_damage
 from texvent.io.interrupts import delay_interrupts
 from texvent.io.limits import FormatLimits
@@ -50,13 +51,10 @@ from texvent.io.patient_file import PatientFile
 from texvent.io.prophesee_index import ENTRY, TimeIndex
 from texvent.sensor import SensorSize
 
-ECF_FILTER = 0x8ECF
 CHUNK_EVENTS = 16_384
 BATCH_EVENTS = 16 * CHUNK_EVENTS
 """Events held before they are coded and written."""
 PACKET_CHUNKS = 16
-MAX_CHUNK_EVENTS = 1 << 22
-"""Larger chunks would take more than 64 MB each."""
 MAX_SPAN_US = 1 << 35
 MAX_METADATA_BYTES = 32_768
 """Longer metadata goes to a dataset: HDF5 allows 64 kB per attribute."""
@@ -278,13 +276,11 @@ class _Packets:
             with reporting_damage(self._path):
                 events = _checked_events(file, self._path)
                 count = events.shape[0]
-                step = PACKET_CHUNKS * CHUNK_EVENTS
-                if _is_ecf(events):
-                    step = events.chunks[0] * max(1, step // events.chunks[0])
+                step = whole_chunks(events, PACKET_CHUNKS * CHUNK_EVENTS)
             last_us: int | None = None
             for start in range(0, count, step):
                 with reporting_damage(self._path):
-                    columns = _read_columns(events, start, min(start + step, count))
+                    columns = read_columns(events, start, min(start + step, count))
                     packet = stream_from_file(self._path, columns, self._size, self._metadata)
                 if last_us is not None and int(packet.t[0]) < last_us:
                     raise FileFormatError(f"{self._path}: time decreases at event {start}")
@@ -306,65 +302,8 @@ def _checked_events(file: Any, path: Path) -> Any:
         raise FileFormatError(
             f"{path}: CD/events must be a list of x, y, p, t; it holds {events.dtype}"
         )
-    _check_storage(events, path)
+    check_storage(events, path)
     return events
-
-
-def _check_storage(events: Any, path: Path) -> None:
-    """Refuse lengths that nothing stored stands behind: they would take for ever to read."""
-    count = events.shape[0]
-    if events.chunks is None:
-        stored = events.id.get_storage_size() // events.dtype.itemsize
-    else:
-        largest = ecf.MAX_EVENTS if _is_ecf(events) else MAX_CHUNK_EVENTS
-        if events.chunks[0] > largest:
-            raise FileFormatError(
-                f"{path}: CD/events has chunks of {events.chunks[0]} events; at most {largest}"
-            )
-        stored = events.id.get_num_chunks() * events.chunks[0]
-    if stored < count:
-        raise FileFormatError(f"{path} claims {count} events and stores at most {stored}")
-
-
-def _is_ecf(events: Any) -> bool:
-    properties = events.id.get_create_plist()
-    filters = [properties.get_filter(index)[0] for index in range(properties.get_nfilters())]
-    return filters == [ECF_FILTER]
-
-
-def _read_columns(events: Any, start: int, stop: int) -> ecf.Columns:
-    """Columns of some events; with ECF, `start` is the first of a chunk."""
-    if not _is_ecf(events):
-        return _columns_of(events[start:stop])
-    length = events.chunks[0]
-    parts = [
-        _read_chunk(events, first, min(length, stop - first))
-        for first in range(start, stop, length)
-    ]
-    return {name: np.concatenate([part[name] for part in parts]) for name in "xytp"}
-
-
-def _read_chunk(events: Any, start: int, count: int) -> ecf.Columns:
-    """Columns of a chunk of at least `count` events, of which those are taken."""
-    limit = 64 * events.chunks[0] + 4096
-    stored = events.id.get_chunk_info_by_coord((start,)).size
-    if stored > limit:
-        raise FileFormatError(f"the chunk at event {start} has {stored} bytes; at most {limit}")
-    skipped, chunk = events.id.read_direct_chunk((start,))
-    # HDF5 sets the bit of a filter it could not apply to this chunk.
-    if skipped:
-        columns = _columns_of(np.frombuffer(chunk, dtype=events.dtype))
-    else:
-        columns = ecf.decode_chunk(bytes(chunk))
-    if len(columns["t"]) < count:
-        raise FileFormatError(
-            f"the chunk at event {start} holds {len(columns['t'])} events instead of {count}"
-        )
-    return {name: column[:count] for name, column in columns.items()}
-
-
-def _columns_of(records: NDArray[Any]) -> ecf.Columns:
-    return {name: np.ascontiguousarray(records[name]) for name in "xytp"}
 
 
 def _stored_size(file: Any) -> tuple[int, int] | None:

@@ -78,6 +78,8 @@ def read_text_header(file: BinaryIO, path: Path) -> TextHeader:
     start = 0
     while True:
         line = file.readline(MAX_HEADER_BYTES - start + 1)
+        if line == b"%":
+            raise FileFormatError(f"{path} ends inside its header; the file was cut off")
         # Without `% end` the data may begin with the same two bytes by chance.
         if not line.startswith(b"% ") or _CONTROL.search(line[:64]):
             file.seek(start)

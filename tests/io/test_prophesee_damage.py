@@ -1,0 +1,121 @@
+"""Damaged Prophesee files are refused in one line or give valid events; nothing else happens."""
+
+from __future__ import annotations
+
+import tracemalloc
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.errors import FileFormatError, InputError
+from texvent.events import EventStream
+from texvent.io import word_stream
+from texvent.io.files import load, open_events, save
+
+from .prophesee_files import EXTENSIONS, FORMATS, SIZE, WORD_FORMATS, row_bursts
+
+SMALL = row_bursts(3)
+
+
+@pytest.fixture(scope="module", params=FORMATS)
+def sound(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("damage") / f"sound{EXTENSIONS[request.param]}"
+    return save(path, SMALL, format=request.param)
+
+
+def load_or_refuse(path: Path) -> EventStream | None:
+    try:
+        return load(path)
+    except InputError as error:
+        # Nearly always FileFormatError; a header that lost its size asks for it.
+        message = str(error)
+    assert "\n" not in message
+    return None
+
+
+@pytest.mark.parametrize("format", WORD_FORMATS)
+def test_a_file_cut_at_any_byte_is_refused_or_holds_the_first_events(
+    tmp_path: Path, format: str
+) -> None:
+    path = save(tmp_path / f"e{EXTENSIONS[format]}", SMALL, format=format)
+    content = path.read_bytes()
+    refused = 0
+    for length in range(len(content)):
+        path.write_bytes(content[:length])
+        try:
+            back = load(path)
+        except FileFormatError:
+            refused += 1
+        else:
+            assert back.equals(SMALL[: len(back)])
+    assert refused > len(content) // 3
+
+
+@settings(max_examples=40, deadline=None)
+@given(share=st.floats(0.0, 1.0, exclude_max=True))
+def test_a_truncated_hdf5_file_is_refused(
+    tmp_path_factory: pytest.TempPathFactory, share: float
+) -> None:
+    folder = tmp_path_factory.mktemp("cut")
+    content = save(folder / "e.hdf5", SMALL, format="prophesee-hdf5").read_bytes()
+    path = folder / "short.hdf5"
+    path.write_bytes(content[: int(share * len(content))])
+    with pytest.raises(FileFormatError) as caught:
+        load(path)
+    assert "\n" not in str(caught.value)
+
+
+@settings(max_examples=80, deadline=None)
+@given(
+    flips=st.lists(
+        st.tuples(st.floats(0.0, 1.0, exclude_max=True), st.integers(1, 255)),
+        min_size=1,
+        max_size=4,
+    )
+)
+def test_flipped_bytes_are_refused_or_give_valid_events(
+    sound: Path, flips: list[tuple[float, int]]
+) -> None:
+    # Words have no checksum: another bit is another event. It must still be a valid one.
+    content = bytearray(sound.read_bytes())
+    for share, flip in flips:
+        # Metavision's index is long, and most of it empty.
+        content[int(share * min(len(content), 20_000))] ^= flip
+    path = sound.with_name(f"flipped{sound.suffix}")
+    path.write_bytes(content)
+    load_or_refuse(path)
+
+
+@pytest.mark.parametrize("format", WORD_FORMATS)
+@settings(max_examples=60, deadline=None)
+@given(noise=st.binary(max_size=200))
+def test_random_bytes_after_a_sound_header_are_refused_or_give_valid_events(
+    tmp_path_factory: pytest.TempPathFactory, format: str, noise: bytes
+) -> None:
+    path = tmp_path_factory.mktemp("noise") / f"e{EXTENSIONS[format]}"
+    save(path, EventStream.empty(SIZE), format=format)
+    path.write_bytes(path.read_bytes() + noise)
+    back = load_or_refuse(path)
+    assert back is None or back.size == SIZE
+
+
+@pytest.mark.parametrize("format", WORD_FORMATS)
+def test_memory_does_not_grow_with_the_file(
+    tmp_path: Path, format: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    events = row_bursts(20_000)
+    whole = sum(column.nbytes for column in events.columns().values())
+    monkeypatch.setattr(word_stream, "BLOCK_BYTES", 2**14)
+    monkeypatch.setattr(word_stream, "PIECE_EVENTS", 2**12)
+    path = save(tmp_path / f"warm{EXTENSIONS[format]}", row_bursts(10), format=format)
+    assert len(load(path))
+    tracemalloc.start()
+    path = save(tmp_path / f"e{EXTENSIONS[format]}", events, format=format)
+    written = tracemalloc.get_traced_memory()[1]
+    tracemalloc.reset_peak()
+    assert sum(len(packet) for packet in open_events(path)) == len(events)
+    read = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert max(written, read) < whole / 3
