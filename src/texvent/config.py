@@ -47,8 +47,9 @@ class RunConfig:
     preset: str = "paper"
     """Named set of simulator options; single options override it."""
     sensor: str | None = None
-    """Sensor to imitate: a name such as davis346, or WIDTHxHEIGHT; frames are fitted to its size.
-    Without it, a video keeps its own size and a generated scene is davis346."""
+    """Sensor to imitate: a name such as davis346, WIDTHxHEIGHT, or a file that texvent calibrate
+    wrote. Frames are fitted to its size, and a simulator that knows its measured constants uses
+    them. Without it, a video keeps its own size and a generated scene is davis346."""
     seed: int = 0
     """Seed of everything random. The same seed and options give the same events, on any machine
     and with any number of threads."""

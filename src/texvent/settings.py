@@ -1,7 +1,7 @@
 """From names and single options to the resolved settings of a run.
 
-Precedence, weakest first: the parts' defaults, the preset, the config file, single options. The
-command line and the Python API both come through `resolve`, so they cannot disagree.
+Precedence, weakest first: the parts' defaults, the preset, a sensor file, the config file, single
+options. The command line and the Python API both come through here, so they cannot disagree.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from texvent.config import (
     with_options,
 )
 from texvent.errors import ConfigError, InputError
-from texvent.sensor import SensorSize, parse_sensor
+from texvent.sensor import SENSORS, SensorSize, parse_sensor
 from texvent.simulate.thresholds import with_contrast_threshold
 
 Command = Literal["generate", "simulate"]
@@ -116,6 +116,67 @@ def _interpolation(*parts: Any) -> InterpolateConfig:
     return InterpolateConfig()
 
 
+DECIDING = ("generator", "simulator", "preset", "sensor")
+"""Options that decide which other options there are, or their defaults."""
+
+
+def base_settings(
+    command: Command, *, config: str | Path | None = None, **deciding: str | None
+) -> Settings:
+    """Settings before single options: defaults, preset, sensor file, config file.
+
+    Args:
+        command: "generate" (from a prompt) or "simulate" (from frames).
+        config: a TOML or YAML file with options.
+        **deciding: those of `DECIDING` that were given. A sensor may be a preset file, such as
+            `texvent calibrate` writes; a sensor whose constants the simulator knows chooses the
+            preset of that name, unless a preset is given.
+
+    Raises:
+        ConfigError: an unknown name, a wrong type, a value out of range.
+        InputError: a file cannot be read.
+    """
+    file_options = read_config(config) if config is not None else {}
+    given = {name: value for name, value in deciding.items() if value is not None}
+    chosen = {**file_options, **given}
+    if str(chosen.get("sensor", "")).lower().endswith((".toml", ".yaml", ".yml")):
+        chosen = {**read_config(chosen.pop("sensor")), **chosen}
+    parts = {name: chosen.pop(name, None) for name in ("generator", "simulator", "preset")}
+    if command == "simulate" and parts["generator"] is not None:
+        raise ConfigError("generator is set, but frames are simulated, not generated; leave it out")
+    if parts["preset"] is None:
+        parts["preset"] = sensor_preset(parts["simulator"], chosen.get("sensor"))
+    where = f"config file {config}" if config is not None else "options"
+    return apply_options(default_settings(command, **parts), chosen, where=where)
+
+
+def sensor_preset(simulator: str | None, sensor: str | None) -> str | None:
+    """The simulator's preset with the measured constants of a sensor, or None if it has none.
+
+    Example:
+        >>> sensor_preset("physical", "davis346"), sensor_preset("texvent", "davis346")
+        ('davis346', None)
+    """
+    if not isinstance(sensor, str):
+        return None
+    presets = SIMULATORS.load(simulator or RunConfig.simulator).presets
+    # A model may have constants for a family: voltmeter's "davis240" is for "davis240c".
+    return next((name for name in presets if sensor.lower().startswith(name)), None)
+
+
+def unmeasured_sensor(run: RunConfig) -> str | None:
+    """Say so if the simulator has measured constants of some sensors but not of the chosen one."""
+    presets = SIMULATORS.load(run.simulator).presets
+    knows_some = any(sensor_preset(run.simulator, name) for name in SENSORS)
+    if run.sensor not in SENSORS or not knows_some or sensor_preset(run.simulator, run.sensor):
+        return None
+    measured = [name for name in presets if any(one.startswith(name) for one in SENSORS)]
+    return (
+        f"{run.sensor} sets the size only: {run.simulator} has measured constants of "
+        f"{', '.join(measured)}; those of preset {run.preset!r} stand in"
+    )
+
+
 def resolve(
     command: Command, options: Mapping[str, Any], *, config: str | Path | None = None
 ) -> Settings:
@@ -131,15 +192,9 @@ def resolve(
     Raises:
         ConfigError: an unknown name, a wrong type, a value out of range, an unreadable file.
     """
-    file_options = read_config(config) if config is not None else {}
-    given = {name: value for name, value in options.items() if value is not None}
-    chosen = {**file_options, **given}
-    parts = {name: chosen.pop(name, None) for name in ("generator", "simulator", "preset")}
-    if command == "simulate" and parts["generator"] is not None:
-        raise ConfigError("generator is set, but frames are simulated, not generated; leave it out")
-    settings = default_settings(command, **parts)
-    where = f"config file {config}" if config is not None and not given else "options"
-    return apply_options(settings, chosen, where=where)
+    single = {name: value for name, value in options.items() if value is not None}
+    deciding = {name: single.pop(name) for name in DECIDING if name in single}
+    return apply_options(base_settings(command, config=config, **deciding), single, where="options")
 
 
 def apply_options(settings: Settings, options: Mapping[str, Any], *, where: str) -> Settings:

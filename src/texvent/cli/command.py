@@ -10,10 +10,7 @@ from typing import Any
 from texvent.cli.options import parse_options, peek_options
 from texvent.cli.outputs import OutputOptions
 from texvent.config import option_names
-from texvent.settings import Command, Settings, apply_options, default_settings, read_config
-
-DECIDING = ("generator", "simulator", "preset", "config")
-"""Options that decide which other options there are, and their defaults."""
+from texvent.settings import DECIDING, Command, Settings, apply_options, base_settings
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,18 +39,10 @@ def resolve_command(
         ConfigError: an unknown flag or name, or a value that does not fit.
         SystemExit: `--help` was asked for and shown.
     """
-    peeked = peek_options(arguments, DECIDING)
-    file_options = read_config(peeked["config"]) if peeked["config"] else {}
-    parts = {
-        name: peeked[name] or file_options.pop(name, None)
-        for name in ("generator", "simulator", "preset")
-        if name != "generator" or command == "generate"
-    }
-    for name in parts:
-        file_options.pop(name, None)
-    defaults = apply_options(
-        default_settings(command, **parts), file_options, where=f"config file {peeked['config']}"
-    )
+    deciding = peek_options(arguments, (*DECIDING, "config"))
+    if command == "simulate":
+        deciding.pop("generator")
+    defaults = base_settings(command, **deciding)
     groups = {"input": subject, "output": OutputOptions(), **defaults.groups()}
     if "contrast_threshold" not in option_names(type(defaults.simulate)):
         groups["threshold"] = OneThreshold()
@@ -66,6 +55,8 @@ def resolve_command(
         for name in option_names(type(group))
     }
     given = {name: value for name, value in values.items() if value != shown[name]}
+    for name in DECIDING:  # they have had their effect; a sensor file is a size by now
+        given.pop(name, None)
     return apply_options(defaults, given, where="options"), own, output
 
 

@@ -30,7 +30,7 @@ from texvent.events import EventStream
 from texvent.interpolate.cuts import Jump
 from texvent.io.files import open_writer
 from texvent.pipeline import Simulation
-from texvent.settings import Settings
+from texvent.settings import Settings, unmeasured_sensor
 from texvent.video import MICROSECONDS, Frame
 from texvent.view.preview import Preview
 
@@ -106,6 +106,9 @@ def execute(simulation: Simulation, options: OutputOptions, subject: str) -> int
         sys.stdout.write(describe_estimate(estimate_run(simulation)) + "\n")
         return 0
     _report_understanding(console, simulation)
+    unmeasured = unmeasured_sensor(simulation.settings.run)
+    if unmeasured is not None:
+        console.print(f"note     {unmeasured}", markup=False)
     tally, started = Tally(), time.perf_counter()
     with ExitStack() as outputs:
         sinks = _open_outputs(outputs, simulation, options, path)

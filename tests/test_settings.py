@@ -1,0 +1,99 @@
+"""From names and single options to the settings of a run."""
+
+import pytest
+
+from texvent.errors import ConfigError, InputError
+from texvent.settings import base_settings, read_config, resolve, unmeasured_sensor
+
+SENSOR_FILE = """
+[run]
+simulator = "physical"
+sensor = "64x48"
+
+[simulate]
+contrast_threshold = 0.31
+balance = 12.5
+"""
+
+
+def test_a_video_keeps_its_size_and_a_scene_is_davis346():
+    assert resolve("simulate", {}).size is None
+    assert resolve("generate", {}).size == (346, 260)
+    assert resolve("generate", {}).interpolate.interpolate == "exact"
+
+
+def test_precedence_is_preset_then_file_then_option(tmp_path):
+    config = tmp_path / "run.toml"
+    config.write_text("simulator = 'v2e'\npreset = 'noisy'\nleak_rate_hz = 0.7\n", encoding="utf-8")
+    settings = resolve("simulate", {"seed": 5}, config=config)
+    assert settings.run.simulator == "v2e"
+    assert settings.simulate.shot_noise_rate_hz == 5.0  # from the preset
+    assert settings.simulate.leak_rate_hz == 0.7  # from the file
+    assert settings.run.seed == 5
+    assert resolve("simulate", {"leak_rate_hz": 0.2}, config=config).simulate.leak_rate_hz == 0.2
+
+
+def test_a_sensor_with_measured_constants_chooses_its_preset():
+    settings = resolve("simulate", {"simulator": "physical", "sensor": "davis346"})
+    assert settings.run.preset == "davis346"
+    assert settings.simulate.balance == 20.0
+    family = resolve("simulate", {"simulator": "voltmeter", "sensor": "davis240c"})
+    assert family.run.preset == "davis240"
+    named = resolve(
+        "simulate", {"simulator": "physical", "sensor": "davis346", "preset": "default"}
+    )
+    assert named.run.preset == "default"
+
+
+def test_a_sensor_without_measured_constants_is_said_to_have_none():
+    with_constants = resolve("simulate", {"simulator": "physical", "sensor": "davis346"})
+    assert unmeasured_sensor(with_constants.run) is None
+    without = resolve("simulate", {"simulator": "physical", "sensor": "evk4"})
+    assert "evk4 sets the size only" in unmeasured_sensor(without.run)
+    assert unmeasured_sensor(resolve("simulate", {"sensor": "evk4"}).run) is None
+
+
+def test_a_fitted_sensor_file_sets_simulator_size_and_constants(tmp_path):
+    path = tmp_path / "my.toml"
+    path.write_text(SENSOR_FILE, encoding="utf-8")
+    settings = resolve("simulate", {"sensor": str(path), "balance": 15.0})
+    assert settings.run.simulator == "physical"
+    assert settings.size == (64, 48)
+    assert settings.simulate.contrast_threshold == 0.31
+    assert settings.simulate.balance == 15.0
+
+
+def test_settings_written_and_read_back_are_the_same(tmp_path):
+    import tomli_w
+
+    settings = resolve("generate", {"fps": "30000/1001", "simulator": "esim", "seed": 4})
+    path = tmp_path / "run.toml"
+    path.write_text(tomli_w.dumps(settings.as_tables()), encoding="utf-8")
+    assert resolve("generate", {}, config=path) == settings
+
+
+def test_a_generator_is_refused_where_frames_are_given():
+    with pytest.raises(ConfigError, match="generator is set"):
+        base_settings("simulate", generator="procedural")
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "message"),
+    [
+        ("a.toml", "seed = = 3", "not valid"),
+        ("a.yaml", "seed: [", "not valid"),
+        ("a.json", "{}", "must end in .toml"),
+        ("a.yaml", "- 3", "options by name"),
+        ("a.toml", "seed = 1\n[run]\nseed = 2", "sets 'seed' twice"),
+    ],
+)
+def test_a_broken_config_file_is_one_clear_error(tmp_path, name, text, message):
+    path = tmp_path / name
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(ConfigError, match=message):
+        read_config(path)
+
+
+def test_a_missing_config_file_is_named(tmp_path):
+    with pytest.raises(InputError, match=r"nope\.toml"):
+        read_config(tmp_path / "nope.toml")
