@@ -95,8 +95,8 @@ def judge_metric(
     floors = [metric(recordings[second], recordings[first]) for first, second in FLOOR_PAIRS]
     seconds = (time.perf_counter() - start) / len(floors)
     values = {name: metric(events, recordings[0]) for name, events in spoiled.items()}
-    badness = [badness(value, metric.better) for value in floors]
-    mean, sd = float(np.mean(badness)), float(np.std(badness, ddof=1))
+    floor_badness = [badness(value, metric.better) for value in floors]
+    mean, sd = float(np.mean(floor_badness)), float(np.std(floor_badness, ddof=1))
     scale = max(sd, 1e-3 * abs(mean) + 1e-6)
     z = {name: (badness(value, metric.better) - mean) / scale for name, value in values.items()}
     return SelftestRow(
