@@ -144,6 +144,17 @@ PRESETS: Mapping[str, PhysicalConfig] = {
     "davis346": PhysicalConfig(contrast_threshold=0.19, balance=20.0, leak_rate_hz=0.0),
     # Unmeasured besides: the noise, which is the DAVIS346's.
     "davis240c": PhysicalConfig(contrast_threshold=0.226, balance=23.0, leak_rate_hz=0.0),
+    # What `texvent calibrate` found on slider_depth of the Event-Camera Dataset: one specimen at
+    # its biases, frames interpolated by flow. Unmeasured: mismatch and refractory period.
+    "davis240c-ecd": PhysicalConfig(
+        contrast_threshold=0.49,
+        on_off_ratio=1.45,
+        balance=8.0,
+        cutoff_hz=500.0,
+        leak_rate_hz=0.06,
+        noise_curve="1:2.6 3.5:0.020 7.5:0.019 15:0.0075 25:0.0089 37.5:0.0077 57.5:0.0006",
+        noise_on_fraction=0.5,
+    ),
     "clean": PhysicalConfig(
         threshold_sigma=0.0,
         initial_phase="zero",
