@@ -121,6 +121,22 @@ METRICS = Registry(
         "active_iou": "texvent.metrics.marginals:ActiveIou",
     },
 )
+REPRESENTATIONS = Registry(
+    "representation",
+    {
+        "event-frame": "texvent.represent.event_frame:event_frame",
+        "voxel-zhu": "texvent.represent.voxel_grid:voxel_zhu",
+        "voxel-e2vid": "texvent.represent.voxel_grid:voxel_e2vid",
+        "voxel-dsec": "texvent.represent.voxel_grid:voxel_dsec",
+        "voxel-tonic": "texvent.represent.voxel_grid:voxel_tonic",
+        "time-surface": "texvent.represent.time_surface:time_surface",
+        "stacked-histogram": "texvent.represent.stacked_histogram:stacked_histogram",
+        "binary-event-image": "texvent.represent.binary_event_image:binary_event_image",
+        "histogram-2d": "texvent.represent.histogram:histogram_2d",
+        "histogram-3d": "texvent.represent.histogram:histogram_3d",
+    },
+)
 REGISTRIES = {
-    registry.kind: registry for registry in (GENERATORS, INTERPOLATORS, SIMULATORS, CODECS, METRICS)
+    registry.kind: registry
+    for registry in (GENERATORS, INTERPOLATORS, SIMULATORS, CODECS, METRICS, REPRESENTATIONS)
 }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal, get_args
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,11 +10,12 @@ from numpy.typing import NDArray
 from texvent._registry import suggest
 from texvent.errors import ConfigError
 from texvent.events import EventStream
+from texvent.represent.arrays import Array, Events, columns_of
 
 EventFrameKind = Literal["signed", "binary", "count", "polarity"]
 
 
-def event_frame(events: EventStream, kind: EventFrameKind = "signed") -> NDArray[Any]:
+def event_frame(events: Events, kind: EventFrameKind = "signed") -> Array:
     """Events as a dense array over the sensor; their times inside the slice do not matter.
 
     Args:
@@ -22,7 +23,7 @@ def event_frame(events: EventStream, kind: EventFrameKind = "signed") -> NDArray
         kind: what each pixel holds.
 
             * `"signed"`: sum of polarities Σ±1, [H, W] int32, 0 without events.
-            * `"binary"`: 1 where at least one event fell, [H, W] uint8 (N-ImageNet).
+            * `"binary"`: 1 where at least one event fell, [H, W] uint8.
             * `"count"`: number of OFF events and of ON events, [2, H, W] int32 (index = p).
             * `"polarity"`: (sign(Σ±1) + 1) / 2, [H, W] float32: 0 OFF, 0.5 background or as
               many ON as OFF, 1 ON. The frame that EF-SSIM and EF-MSE compare.
@@ -45,20 +46,18 @@ def event_frame(events: EventStream, kind: EventFrameKind = "signed") -> NDArray
         raise ConfigError(
             f"unknown event frame {kind!r}; {suggest(kind, get_args(EventFrameKind))}"
         )
-    counts = count_events(events)
+    columns = columns_of(events)
+    counts, ops = columns.count((columns.p, 2), *columns.pixel_axes), columns.ops
     if kind == "count":
-        return counts
+        return ops.cast(counts, "int32")
     if kind == "binary":
-        return np.asarray(counts.any(axis=0), dtype=np.uint8)
-    signed = np.asarray(counts[1] - counts[0])
+        return ops.cast(counts.sum(0) > 0, "uint8")
+    signed = counts[1] - counts[0]
     if kind == "signed":
-        return signed
-    return np.asarray((np.sign(signed) + 1) / 2, dtype=np.float32)
+        return ops.cast(signed, "int32")
+    return ops.cast((ops.xp.sign(signed) + 1) / 2, "float32")
 
 
 def count_events(events: EventStream) -> NDArray[np.int32]:
     """Number of events per polarity and pixel, [2, H, W] int32; index 0 is OFF, 1 is ON."""
-    width, height = events.size
-    flat = (events.p.astype(np.int64) * height + events.y) * width + events.x
-    counts = np.bincount(flat, minlength=2 * height * width)
-    return counts.reshape(2, height, width).astype(np.int32)
+    return np.asarray(event_frame(events, "count"), dtype=np.int32)

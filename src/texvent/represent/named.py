@@ -1,0 +1,44 @@
+"""Any representation by its name."""
+
+from __future__ import annotations
+
+import inspect
+from typing import Any
+
+from texvent._registry import REPRESENTATIONS, suggest
+from texvent.errors import ConfigError
+from texvent.events import EventStream
+from texvent.represent.arrays import Array, Events
+from texvent.represent.tensors import EventTensors
+
+
+def represent(name: str, events: Events, *, device: str | None = None, **options: Any) -> Array:
+    """Events as a dense array.
+
+    Args:
+        name: such as "voxel-e2vid"; `REPRESENTATIONS` lists all.
+        events: the slice.
+        device: give a torch tensor on this device, such as "cpu" or "cuda"; default: a NumPy
+            array for an EventStream, a tensor where they are for EventTensors.
+        **options: options of that representation, such as `bins=5`.
+
+    Returns:
+        See the representation's own function for shape, type and unit.
+
+    Raises:
+        ConfigError: unknown name, option or device, or a value out of range.
+        MissingDependencyError: `device` is given and torch is not installed.
+
+    Example:
+        >>> from texvent.sensor import SensorSize
+        >>> represent("voxel-e2vid", EventStream.empty(SensorSize(4, 3)), bins=5).shape
+        (5, 3, 4)
+    """
+    function = REPRESENTATIONS.load(name)
+    allowed = tuple(inspect.signature(function).parameters)[1:]
+    for option in options:
+        if option not in allowed:
+            raise ConfigError(f"{name} has no option {option!r}; {suggest(option, allowed)}")
+    if device is not None and isinstance(events, EventStream):
+        events = EventTensors.of(events, device)
+    return function(events, **options)
