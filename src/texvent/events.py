@@ -177,7 +177,48 @@ class EventStream:
         """The same events without the signal/noise column."""
         return EventStream(self.x, self.y, self.t, self.p, self.size, self.metadata)
 
-    # These two name their implementation by text because `io` and `view` lie above this module.
+    # These name their implementation by text because it lies above this module.
+    def represent(self, name: str, *, device: str | None = None, **options: Any) -> Any:
+        """A dense array of the events: `name` such as "voxel-e2vid", options such as `bins=5`.
+
+        See `texvent.represent.named.represent`; with `device`, a torch tensor.
+        """
+        return load_object("texvent.represent.named:represent")(
+            name, self, device=device, **options
+        )
+
+    def to_structured(self) -> NDArray[Any]:
+        """One record per event, [n]: x and y uint16, t int64 µs, p uint8, label uint8 if known."""
+        records: NDArray[Any] = load_object("texvent.represent.export:to_structured")(self)
+        return records
+
+    def to_tonic(self) -> NDArray[Any]:
+        """One record per event, [n], as tonic's transforms take it: x, y int16, t int64, p int8.
+
+        Raises:
+            InputError: a side of the sensor is above 32768 pixels, so coordinates do not fit.
+        """
+        records: NDArray[Any] = load_object("texvent.represent.export:to_tonic")(self)
+        return records
+
+    def to_dataframe(self) -> Any:
+        """A pandas DataFrame with one row per event and the columns and types of `columns()`.
+
+        Raises:
+            MissingDependencyError: pandas is not installed.
+        """
+        return load_object("texvent.represent.export:to_dataframe")(self)
+
+    def to_torch(self, device: str = "cpu") -> dict[str, Any]:
+        """Tensors x, y (int32), t (int64, µs), p and, if known, label (int8), each [n].
+
+        Raises:
+            ConfigError: torch knows or finds no such device.
+            MissingDependencyError: torch is not installed.
+        """
+        tensors: dict[str, Any] = load_object("texvent.represent.tensors:to_torch")(self, device)
+        return tensors
+
     def save(self, path: str | Path, *, format: str | None = None, overwrite: bool = False) -> Path:
         """Write to a file, its format taken from the extension unless given; see `texvent.io`."""
         saved: Path = load_object("texvent.io.files:save")(
