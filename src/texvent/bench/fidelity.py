@@ -37,7 +37,7 @@ class FidelityPlan:
         ConfigError: an unknown scene, target or metric, or no seed to fit or to score.
     """
 
-    scenes: Sequence[str] = ("mixed", "slow", "fast")
+    scenes: Sequence[str] = ("mixed", "translate", "fast", "slow")
     targets: Sequence[str] = ("noisy",)
     fit_seeds: Sequence[int] = (7,)
     """Textures on which δ is fitted."""

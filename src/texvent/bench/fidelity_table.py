@@ -20,11 +20,16 @@ COLUMNS = {
 """Metric → title; those that were not measured are left out."""
 
 
-def fidelity_tables(report: FidelityReport) -> str:
-    """All tables of a run, with the entries that could not run."""
+def fidelity_tables(report: FidelityReport, *, baseline: str = BASELINE) -> str:
+    """All tables of a run, with the entries that could not run.
+
+    Args:
+        report: what was found.
+        baseline: entry that the others are compared with, pair by pair.
+    """
     parts = [_overview(report)]
     for reference in report.references:
-        parts += [_scene_heading(reference), _scene_table(report, reference)]
+        parts += [_scene_heading(reference), _scene_table(report, reference, baseline)]
     reasons: dict[str, list[str]] = {}
     for name, why in report.skipped.items():
         reasons.setdefault(why, []).append(name)
@@ -60,22 +65,22 @@ def _scene_heading(reference: Reference) -> str:
     return f"### {reference.scene}, {reference.target} pixels ({mean:,.0f} true events)\n"
 
 
-def _scene_table(report: FidelityReport, reference: Reference) -> str:
+def _scene_table(report: FidelityReport, reference: Reference, baseline: str) -> str:
     metrics = [metric for metric in COLUMNS if metric in reference.floor]
     titles = [COLUMNS[metric] for metric in metrics]
     lines = [
-        _row(["entry", "δ", "n at default δ", *titles, "S*", f"STPP − {BASELINE}"]),
+        _row(["entry", "δ", "n at default δ", *titles, "S*", f"STPP − {baseline}"]),
         _row(["---"] * (len(metrics) + 5)),
         _bound_row("floor: second recording", reference, metrics, is_floor=True),
     ]
     scores = sorted(_scores_of(report, reference), key=_stpp, reverse=True)
-    baseline = next((score for score in scores if score.entry == BASELINE), None)
+    compared = next((score for score in scores if score.entry == baseline), None)
     for score in scores:
         mark = "" if score.is_matched or score.threshold is None else " (count not reached)"
         cells = [score.entry, _number(score.threshold, 3) + mark, _number(score.default_ratio, 3)]
         cells += [_mean_and_error(score.values[metric]) for metric in metrics]
         cells.append(_number(score.normalised("stpp", reference), 2))
-        cells.append(_paired(score, baseline))
+        cells.append(_paired(score, compared))
         lines.append(_row(cells))
     lines.append(_bound_row("null: times shuffled", reference, metrics, is_floor=False))
     return "\n".join(lines) + "\n"

@@ -12,18 +12,22 @@ from typing import Any, ClassVar
 from rich.console import Console
 
 from texvent._registry import SIMULATORS, suggest
+from texvent.bench.ablation import read_ablations
 from texvent.bench.entries import INTERPOLATIONS, Entry
 from texvent.bench.fidelity import FULL, FidelityPlan, run_fidelity
 from texvent.bench.fidelity_table import fidelity_tables
+from texvent.bench.picture_grid import picture_grid
 from texvent.bench.selftest import run_selftest, selftest_document, selftest_table
 from texvent.cli.options import parse_options
 from texvent.errors import ConfigError
 from texvent.io.atomic import atomic_file, check_output
 
 USAGE = """usage: texvent bench fidelity [OPTIONS]
+       texvent bench paper [OPTIONS]
        texvent bench selftest [OPTIONS]
 
   fidelity  which simulator comes closest to the true events of exact scenes?
+  paper     the paper's ablations E1-E12, or any folder of config files, on the same scenes
   selftest  20 perturbations of a recording: which of them does each metric see?
 
 Help: texvent bench NAME --help
@@ -61,6 +65,32 @@ class FidelityOptions:
     interpolations: str | None = None
     """Names of interpolators, separated by commas: none, blend, flow, exact (true frames);
     default: all of them."""
+    jobs: int = 2
+    """Processes to use."""
+    out: Path | None = None
+    """JSON file with every value; docs/benchmark.md describes it."""
+    picture: Path | None = None
+    """PNG file with the true events of the first scene beside those of every entry."""
+    overwrite: bool = False
+    """Replace a file that exists already."""
+    quiet: bool = False
+    """No progress; only the tables."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PaperOptions:
+    """What to run, and where to keep the result."""
+
+    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+
+    configs: Path = Path("configs/paper")
+    """Folder with one TOML file per row."""
+    baseline: str = "Texvent"
+    """Row that the others are compared with, pair by pair."""
+    match_rate: bool = False
+    """Fit each row's contrast threshold to the number of true events, instead of keeping it."""
+    scenes: str | None = None
+    """Names of scenes, separated by commas; default: those of bench fidelity."""
     jobs: int = 2
     """Processes to use."""
     out: Path | None = None
@@ -114,8 +144,9 @@ def _fidelity(arguments: Sequence[str]) -> None:
         "the events that truly happened. docs/benchmark.md explains the tables.",
     )
     options = FidelityOptions(**values)
-    if options.out is not None:
-        check_output(options.out, overwrite=options.overwrite)
+    for path in (options.out, options.picture):
+        if path is not None:
+            check_output(path, overwrite=options.overwrite)
     plan = FULL if options.full else FidelityPlan()
     if options.scenes:
         plan = replace(plan, scenes=tuple(options.scenes.split(",")))
@@ -126,7 +157,34 @@ def _fidelity(arguments: Sequence[str]) -> None:
     )
     if options.out is not None:
         _write_json(options.out, report.document(), overwrite=options.overwrite)
+    if options.picture is not None:
+        png = picture_grid(report, plan.scenes[0], list(plan.entries))
+        with atomic_file(options.picture, overwrite=options.overwrite) as part:
+            part.write_bytes(png)
     sys.stdout.write(fidelity_tables(report))
+
+
+def _paper(arguments: Sequence[str]) -> None:
+    values = parse_options(
+        arguments,
+        {"options": PaperOptions()},
+        prog="texvent bench paper",
+        description="The paper's ablations (Tables 4 and 5), judged by the events that truly "
+        "happened. docs/ablations.md explains the tables.",
+    )
+    options = PaperOptions(**values)
+    if options.out is not None:
+        check_output(options.out, overwrite=options.overwrite)
+    plan = FidelityPlan(entries=read_ablations(options.configs, is_rate_matched=options.match_rate))
+    if options.scenes:
+        plan = replace(plan, scenes=tuple(options.scenes.split(",")))
+    console = Console(stderr=True, quiet=options.quiet, highlight=False)
+    report = run_fidelity(
+        plan, jobs=options.jobs, announce=lambda line: console.print(line, style="dim")
+    )
+    if options.out is not None:
+        _write_json(options.out, report.document(), overwrite=options.overwrite)
+    sys.stdout.write(fidelity_tables(report, baseline=options.baseline))
 
 
 def _choose_entries(options: FidelityOptions) -> list[Entry]:
@@ -154,5 +212,5 @@ def _write_json(path: Path, document: Any, *, overwrite: bool) -> None:
         part.write_text(text + "\n", encoding="utf-8")
 
 
-BENCHMARKS = {"fidelity": _fidelity, "selftest": _selftest}
+BENCHMARKS = {"fidelity": _fidelity, "paper": _paper, "selftest": _selftest}
 """Name → what runs it."""

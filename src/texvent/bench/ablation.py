@@ -1,0 +1,78 @@
+"""The paper's ablations (Tables 4 and 5): one config file each, run on scenes with known events."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from texvent.bench.entries import INTERPOLATIONS, Entry
+from texvent.errors import ConfigError, InputError
+from texvent.settings import Settings, resolve
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConfigEntry(Entry):
+    """A row whose options stand in a config file."""
+
+    path: Path
+    """TOML or YAML file."""
+    is_rate_matched: bool = False
+    """Whether the contrast threshold is fitted to the number of true events, as the benchmark
+    does, or stays as the file has it, as in the paper."""
+
+    @property
+    def name(self) -> str:
+        """The file's name without its extension."""
+        return self.path.stem
+
+    @property
+    def default_threshold(self) -> float | None:
+        """Where the fit of the threshold starts; None leaves the threshold as it is."""
+        return super().default_threshold if self.is_rate_matched else None
+
+    def settings(self, seed: int) -> Settings:
+        """Resolved options of a run.
+
+        Raises:
+            ConfigError: the file holds an unknown option, or a value out of range.
+        """
+        return resolve("simulate", {"seed": seed}, config=self.path)
+
+
+def read_ablations(folder: Path, *, is_rate_matched: bool = False) -> list[ConfigEntry]:
+    """One row per config file of a folder, E2 before E10.
+
+    Raises:
+        InputError: there is no such folder, or no config file in it.
+        ConfigError: a file is wrong, or asks for an interpolator that the benchmark lacks.
+    """
+    paths = sorted(folder.glob("*.toml"), key=_by_number)
+    if not paths:
+        raise InputError(
+            f"no config file in {folder}; give the folder configs/paper of the source "
+            "distribution, or one with TOML files of your own"
+        )
+    entries = []
+    for path in paths:
+        settings = resolve("simulate", {}, config=path)
+        interpolate = settings.interpolate.interpolate
+        if interpolate not in INTERPOLATIONS:
+            raise ConfigError(
+                f"{path} wants interpolator {interpolate!r}; the benchmark has "
+                f"{', '.join(INTERPOLATIONS)}"
+            )
+        entries.append(
+            ConfigEntry(
+                simulator=settings.run.simulator,
+                interpolate=interpolate,
+                path=path,
+                is_rate_matched=is_rate_matched,
+            )
+        )
+    return entries
+
+
+def _by_number(path: Path) -> tuple[str, int, str]:
+    match = re.fullmatch(r"(\D*)(\d+)(.*)", path.stem)
+    return (match[1], int(match[2]), match[3]) if match else (path.stem, -1, "")

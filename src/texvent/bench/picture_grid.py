@@ -1,0 +1,78 @@
+"""The true events beside those of every simulator: one scene, the same 10 ms."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from texvent.bench.entries import Entry
+from texvent.bench.oracle import film_level, oracle_scene, record
+from texvent.bench.oracle_pixel import NOISY
+from texvent.bench.results import FidelityReport, Score
+from texvent.events import EventStream
+from texvent.represent.event_frame import event_frame
+from texvent.video import MICROSECONDS
+from texvent.view.canvas import Picture, blank, draw_text, enlarge, png_bytes
+from texvent.view.palettes import get_palette
+from texvent.view.picture import count_ceiling, draw_events
+
+START_US, STOP_US = 250_000, 260_000
+"""The 10 ms that are shown."""
+ENLARGE = 3
+COLUMNS = 4
+TEXT_PX, MARGIN_PX = 10, 6
+
+
+def picture_grid(report: FidelityReport, scene: str, entries: list[Entry]) -> bytes:
+    """A PNG file: the film, the truth, a second recording, and each entry at its fitted δ.
+
+    Args:
+        report: a run that scored the scene with noisy pixels.
+        scene: which scene to show, on the first scoring seed.
+        entries: which entries to show, if the run scored them; the best first.
+    """
+    seed = report.score_seeds[0]
+    shown = oracle_scene(scene, seed)
+    truth = record(shown, {"truth": (NOISY, 1), "second": (NOISY, 2)})
+    streams = {"truth": truth["truth"], "second recording": truth["second"]}
+    by_name = {entry.name: entry for entry in entries}
+    scores = [one for one in report.scores if one.scene == scene and one.entry in by_name]
+    for score in sorted(scores, key=_stpp, reverse=True):
+        title = f"{score.entry}  {_stpp(score):.2f}"
+        streams[title] = by_name[score.entry].simulate(shown, seed, score.threshold)
+    level = film_level(shown(START_US / MICROSECONDS))
+    grey = np.repeat(np.rint(level).astype(np.uint8)[..., None], 3, axis=2)
+    ceiling = count_ceiling(event_frame(_cut(streams["truth"]), "count"))
+    panels = [_panel("scene", grey)]
+    for title, events in streams.items():
+        counts = event_frame(_cut(events), "count")
+        panels.append(_panel(title, draw_events(counts, get_palette("paper"), ceiling=ceiling)))
+    return png_bytes(_arrange(panels))
+
+
+def _stpp(score: Score) -> float:
+    return float(np.nan_to_num(score.summary("stpp").mean, nan=-1.0))
+
+
+def _cut(events: EventStream) -> EventStream:
+    return events.between(START_US, STOP_US)
+
+
+def _panel(title: str, picture: Picture) -> Picture:
+    large = enlarge(picture, ENLARGE, how="blocks")
+    height, width = large.shape[:2]
+    panel = blank(width + 2 * MARGIN_PX, height + TEXT_PX + 3 * MARGIN_PX, (236, 238, 242))
+    baseline = MARGIN_PX + TEXT_PX
+    draw_text(panel, title, MARGIN_PX, baseline, height=TEXT_PX, colour=(38, 42, 50))
+    top = TEXT_PX + 2 * MARGIN_PX
+    panel[top : top + height, MARGIN_PX : MARGIN_PX + width] = large
+    return panel
+
+
+def _arrange(panels: list[Picture]) -> Picture:
+    height, width = panels[0].shape[:2]
+    rows = -(-len(panels) // COLUMNS)
+    whole = blank(COLUMNS * width, rows * height, (236, 238, 242))
+    for number, panel in enumerate(panels):
+        row, column = divmod(number, COLUMNS)
+        whole[row * height : (row + 1) * height, column * width : (column + 1) * width] = panel
+    return whole
