@@ -96,6 +96,16 @@ CODECS = Registry(
         "evt21": "texvent.io.evt21:Evt21Codec",
         "dat": "texvent.io.dat:DatCodec",
         "prophesee-hdf5": "texvent.io.prophesee_hdf5:PropheseeHdf5Codec",
+        "aedat2": "texvent.io.aedat2:Aedat2Codec",
+        "aedat2-davis346": "texvent.io.aedat2:Davis346Codec",
+        "aedat2-dvs128": "texvent.io.aedat2:Dvs128Codec",
+        "cifar10-dvs": "texvent.io.aedat2:Cifar10DvsCodec",
+        "aedat3": "texvent.io.aedat3:Aedat3Codec",
+        "es": "texvent.io.event_stream:EventStreamCodec",
+        "atis": "texvent.io.atis:AtisCodec",
+        "aedat4": "texvent.io.aedat4:Aedat4Codec",
+        "aedat4-none": "texvent.io.aedat4:Aedat4NoneCodec",
+        "aedat4-zstd": "texvent.io.aedat4:Aedat4ZstdCodec",
     },
 )
 METRICS = Registry(

@@ -7,7 +7,7 @@ import pytest
 
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
-from texvent.io import ecd
+from texvent.io import text_rows
 from texvent.io.files import load, open_events, save
 from texvent.sensor import SensorSize
 
@@ -56,7 +56,7 @@ def test_blocks_that_cut_lines_change_nothing(
 ) -> None:
     path = write(tmp_path, RECORDED * 1)
     whole = load(path, size=(240, 180))
-    monkeypatch.setattr(ecd, "BLOCK_BYTES", 30)
+    monkeypatch.setattr(text_rows, "BLOCK_BYTES", 30)
     packets = list(open_events(path, size=(240, 180)))
     assert len(packets) > 1
     assert EventStream.concat(packets).equals(whole)
@@ -95,7 +95,7 @@ def test_a_wrong_row_is_one_clear_line(tmp_path: Path, text: str, message: str) 
 def test_order_is_checked_between_blocks_too(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(ecd, "BLOCK_BYTES", 10)
+    monkeypatch.setattr(text_rows, "BLOCK_BYTES", 10)
     with pytest.raises(FileFormatError, match="time decreases"):
         load(write(tmp_path, "0.2 1 1 1\n0.1 1 1 1\n"), size=(4, 4))
 

@@ -13,34 +13,19 @@ Source: Mueggler et al., The Event-Camera Dataset and Simulator, IJRR 2017.
 
 from __future__ import annotations
 
-import io
-import json
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
-from typing import Any, BinaryIO, ClassVar, Self
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import Any, ClassVar, Self
 
 from texvent.errors import FileFormatError, InputError, OutputError
 from texvent.events import EventPackets, EventStream
 from texvent.io.atomic import atomic_file, check_output
-from texvent.io.columns import (
-    existing_file,
-    metadata_from_json,
-    metadata_to_json,
-    stored_or_given_size,
-    stream_from_file,
-)
+from texvent.io.columns import existing_file, stored_or_given_size, stream_from_file
+from texvent.io.sidecar import read_sidecar, sidecar_path, sidecar_text
+from texvent.io.text_rows import make_rows, parse_rows, read_text_blocks
 from texvent.sensor import SensorSize
-
-BLOCK_BYTES = 16 * 2**20
-"""Text parsed at once: about 800,000 events."""
-MICROSECONDS = 1_000_000
-MAX_EXACT_S = 2**33
-"""Up to here (272 years) float64 seconds keep every µs."""
 
 
 class EcdCodec:
@@ -57,7 +42,7 @@ class EcdCodec:
             FileFormatError: a row is not `t x y p`.
         """
         path = existing_file(path)
-        stored, metadata = _read_sidecar(path)
+        stored, metadata = read_sidecar(path)
         final_size = stored_or_given_size(path, stored, size)
         return EventPackets(_Packets(path, final_size, metadata), final_size, metadata)
 
@@ -85,14 +70,7 @@ class EcdWriter:
             check_output(one, overwrite=overwrite)
         self._size = size
         self._overwrite = overwrite
-        self._sidecar_text = json.dumps(
-            {
-                "width": size.width,
-                "height": size.height,
-                "texvent": json.loads(metadata_to_json(metadata)),
-            },
-            indent=1,
-        )
+        self._sidecar_text = sidecar_text(size, metadata)
         self._stack = ExitStack()
         self._file: Any = None
         self._last_us = 0
@@ -101,7 +79,7 @@ class EcdWriter:
         with ExitStack() as stack:
             beside = stack.enter_context(atomic_file(self._sidecar, overwrite=self._overwrite))
             part = stack.enter_context(atomic_file(self._path, overwrite=self._overwrite))
-            beside.write_text(self._sidecar_text + "\n", encoding="utf-8")
+            beside.write_text(self._sidecar_text, encoding="utf-8")
             self._file = stack.enter_context(part.open("w", encoding="ascii", newline="\n"))
             self._stack = stack.pop_all()
         return self
@@ -121,7 +99,7 @@ class EcdWriter:
                 "append packets in time order, from 0 on"
             )
         self._last_us = int(packet.t[-1])
-        self._file.write(_rows(packet))
+        self._file.write(make_rows(packet.columns()))
 
     def __exit__(
         self,
@@ -143,8 +121,8 @@ class _Packets:
     def __iter__(self) -> Iterator[EventStream]:
         last_us: int | None = None
         with self._path.open("rb") as file:
-            for block in _blocks(file):
-                columns = _parse(block, self._path)
+            for block in read_text_blocks(file):
+                columns = parse_rows(block, self._path)
                 packet = stream_from_file(self._path, columns, self._size, self._metadata)
                 if len(packet) == 0:
                     continue
@@ -152,72 +130,3 @@ class _Packets:
                     raise FileFormatError(f"{self._path}: time decreases at {packet.t[0]} µs")
                 last_us = int(packet.t[-1])
                 yield packet
-
-
-def sidecar_path(path: str | Path) -> Path:
-    """Where size and metadata of a text file lie: `events.txt` → `events.txt.json`."""
-    path = Path(path)
-    return path.with_name(path.name + ".json")
-
-
-def _rows(packet: EventStream) -> str:
-    columns = (packet.t.tolist(), packet.x.tolist(), packet.y.tolist(), packet.p.tolist())
-    return "".join(
-        f"{t // MICROSECONDS}.{t % MICROSECONDS:06d} {x} {y} {p}\n"
-        for t, x, y, p in zip(*columns, strict=True)
-    )
-
-
-def _blocks(file: BinaryIO) -> Iterator[bytes]:
-    """The file in pieces that end with a line."""
-    rest = b""
-    while piece := file.read(BLOCK_BYTES):
-        cut = piece.rfind(b"\n") + 1
-        if cut == 0 and len(rest) > BLOCK_BYTES:
-            raise FileFormatError("a line longer than 16 MiB: this is not a text event file")
-        if cut:
-            yield rest + piece[:cut]
-            rest = piece[cut:]
-        else:
-            rest += piece
-    if rest:
-        yield rest
-
-
-def _parse(block: bytes, path: Path) -> dict[str, NDArray[Any]]:
-    if not block.strip():
-        return dict.fromkeys("xytp", np.empty(0, dtype=np.int64))
-    try:
-        table = np.loadtxt(io.StringIO(block.decode("ascii")), dtype=np.float64, ndmin=2)
-    except (ValueError, OverflowError, MemoryError) as error:
-        reason = " ".join(str(error).split())[:160]
-        raise FileFormatError(f"{path} is not text rows of `t x y p` ({reason})") from error
-    if table.shape[1] != 4:
-        raise FileFormatError(
-            f"{path} has rows of {table.shape[1]} values; event rows are `t x y p`"
-        )
-    seconds, pixels = table[:, 0], table[:, 1:]
-    if not (np.abs(seconds) < MAX_EXACT_S).all():
-        raise FileFormatError(f"{path} holds times that are not seconds (first column)")
-    if not (np.abs(pixels) < 2**31).all() or (pixels != np.rint(pixels)).any():
-        raise FileFormatError(f"{path} holds x, y or p that are not whole numbers")
-    whole = pixels.astype(np.int64)
-    times = np.rint(seconds * MICROSECONDS).astype(np.int64)
-    return {"t": times, "x": whole[:, 0], "y": whole[:, 1], "p": whole[:, 2]}
-
-
-def _read_sidecar(path: Path) -> tuple[tuple[int, int] | None, dict[str, Any]]:
-    beside = sidecar_path(path)
-    if not beside.is_file():
-        return None, {}
-    try:
-        text = beside.read_bytes()
-    except OSError as error:
-        raise InputError(f"cannot read {beside}: {error.strerror}") from error
-    facts = metadata_from_json(beside, text)
-    try:
-        stored = int(facts["width"]), int(facts["height"])
-    except (KeyError, TypeError, ValueError) as error:
-        raise FileFormatError(f"{beside} states no width and height") from error
-    metadata = facts.get("texvent")
-    return stored, metadata if isinstance(metadata, dict) else {}

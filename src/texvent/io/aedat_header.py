@@ -1,0 +1,101 @@
+"""The text at the beginning of AEDAT2 and AEDAT3.1 files: lines that start with `#`.
+
+Nothing but the first byte of a line says whether it still is text, so records that begin with
+the byte of `#` would be taken for text. AEDAT3.1 closes its header by a line of its own, and
+texvent writes one into AEDAT2 too (`#End Of ASCII Header`, as jAER does).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from texvent.errors import FileFormatError, InputError
+from texvent.io.columns import metadata_from_json, metadata_to_json
+
+MAX_HEADER_BYTES = 8 * 2**20
+"""More text than this before the first event is not a header."""
+AEDAT2_MAGIC = "#!AER-DAT2.0"
+AEDAT3_MAGIC = "#!AER-DAT3.1"
+AEDAT2_END = "#End Of ASCII Header"
+AEDAT3_END = "#!END-HEADER"
+METADATA = "# texvent "
+
+
+@dataclass(frozen=True)
+class AedatHeader:
+    """The lines before the records."""
+
+    lines: tuple[str, ...]
+    """Without their line ends."""
+    length: int
+    """Bytes up to the first record."""
+
+    def metadata(self, path: Path) -> dict[str, Any]:
+        """How the events were made, or the header another program wrote.
+
+        Raises:
+            FileFormatError: the line of texvent is damaged.
+        """
+        for line in self.lines:
+            if line.startswith(METADATA):
+                return metadata_from_json(path, line.removeprefix(METADATA))
+        return {"header": list(self.lines[1:])} if len(self.lines) > 1 else {}
+
+    def value(self, key: str) -> str | None:
+        """What follows `#key: ` or `# key: `, if a line begins so."""
+        for line in self.lines:
+            name, colon, value = line.removeprefix("#").partition(":")
+            if colon and name.strip() == key:
+                return value.strip()
+        return None
+
+
+def read_aedat_header(path: Path, magic: str, end: str) -> AedatHeader:
+    """The header of a file.
+
+    Args:
+        path: the file.
+        magic: its first line.
+        end: its last line, where the format has one.
+
+    Raises:
+        FileFormatError: the first line is another, or the header does not end.
+    """
+    lines: list[str] = []
+    length = 0
+    with path.open("rb") as file:
+        while True:
+            line = file.readline(MAX_HEADER_BYTES - length + 1)
+            if not line.startswith(b"#"):
+                break
+            if length + len(line) > MAX_HEADER_BYTES:
+                raise FileFormatError(f"{path}: its header is longer than 8 MiB; it is damaged")
+            if not line.endswith(b"\n"):
+                raise FileFormatError(f"{path} ends inside its header; the file was cut off")
+            length += len(line)
+            lines.append(line.decode("latin-1").rstrip("\r\n"))
+            if lines[0] != magic:
+                raise FileFormatError(f"{path} begins with {lines[0][:40]!r}, not with {magic}")
+            if lines[-1] == end:
+                break
+    if not lines:
+        raise FileFormatError(f"{path} does not begin with {magic}")
+    return AedatHeader(tuple(lines), length)
+
+
+def make_aedat_header(lines: Sequence[str], metadata: Mapping[str, Any], end: str) -> bytes:
+    """A header of these lines, the metadata and the closing line, ended by CR LF each.
+
+    Raises:
+        InputError: the metadata is not JSON-serialisable or too long.
+    """
+    text = metadata_to_json(metadata)
+    if len(text) > MAX_HEADER_BYTES // 2:
+        raise InputError(
+            f"metadata of {len(text)} bytes cannot be stored in a text header; "
+            f"at most {MAX_HEADER_BYTES // 2} bytes, or write hdf5 (.h5)"
+        )
+    return "".join(f"{line}\r\n" for line in (*lines, METADATA + text, end)).encode("ascii")

@@ -1,0 +1,96 @@
+"""The formats that are tested alike: which file, which sensor, which times they hold."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+
+METADATA = {"prompt": 'a "red" car 🚗\r\n#end <x> & % end', "seed": 0, "nested": {"a": [1, None]}}
+
+
+@dataclass(frozen=True)
+class FormatCase:
+    """One format under test."""
+
+    name: str
+    file: str
+    """Name of the file or folder; its extension is the format's."""
+    largest: SensorSize
+    """The largest sensor that is tried."""
+    stop_us: int | None = None
+    """Events lie before this time, µs; None: any time a recording can have."""
+    extra: str | None = None
+    """Module that the format needs and the default environment may lack."""
+    is_exact_size: bool = False
+    """True if no other sensor size can be written."""
+    reads_by_content: bool = True
+    """True if the file is read without its format being named."""
+
+    @property
+    def sensor(self) -> SensorSize:
+        """A small sensor that the format holds."""
+        return self.largest if self.is_exact_size else SensorSize(64, 48)
+
+
+DAVIS = SensorSize(346, 260)
+DVS = SensorSize(128, 128)
+ANY = SensorSize(65_535, 65_535)
+SHORT = SensorSize(32_768, 32_768)
+CASES = (
+    FormatCase("aedat2", "e.aedat", DAVIS, 2**31, is_exact_size=True),
+    FormatCase("aedat2-davis346", "e.aedat", DAVIS, 2**31, is_exact_size=True),
+    FormatCase("aedat2-dvs128", "e.aedat", DVS, 2**31, is_exact_size=True),
+    FormatCase("cifar10-dvs", "e.aedat", DVS, 2**31, is_exact_size=True),
+    FormatCase("aedat3", "e.aedat", SHORT),
+    FormatCase("aedat4", "e.aedat4", SHORT),
+    FormatCase("aedat4-none", "e.aedat4", SHORT),
+    FormatCase("aedat4-zstd", "e.aedat4", SHORT),
+    FormatCase("es", "e.es", ANY, 2**36),
+    FormatCase("atis", "e.bin", SensorSize(256, 240), 2**23),
+)
+CASE_OF = {case.name: case for case in CASES}
+
+
+def random_events(
+    count: int, size: SensorSize, *, span_us: int = 50_000, start_us: int = 0, seed: int = 3
+) -> EventStream:
+    rng = np.random.default_rng(seed)
+    return EventStream(
+        rng.integers(0, size.width, count),
+        rng.integers(0, size.height, count),
+        np.sort(rng.integers(start_us, start_us + span_us, count)),
+        rng.integers(0, 2, count),
+        size,
+        METADATA,
+    )
+
+
+def at_times(times: list[int], size: SensorSize) -> EventStream:
+    count = np.arange(len(times))
+    return EventStream(
+        count % size.width, count % size.height, np.array(times, np.int64), count % 2, size
+    )
+
+
+def corners(size: SensorSize) -> EventStream:
+    right, bottom = size.width - 1, size.height - 1
+    return EventStream.from_columns(
+        [0, right, 0, right], [0, 0, bottom, bottom], [0, 1, 2, 3], [1, 0, 0, 1], size=size
+    )
+
+
+STREAMS: dict[str, Callable[[FormatCase], EventStream]] = {
+    "no event": lambda case: EventStream.empty(case.sensor, METADATA),
+    "one event": lambda case: random_events(1, case.sensor),
+    "equal times": lambda case: at_times([9] * 300, case.sensor),
+    "largest coordinates": lambda case: corners(case.largest),
+    "silences": lambda case: at_times(
+        [0, 1, 126, 253, 381, 100_000, 1_000_000, 5_000_000, 8_388_607], case.sensor
+    ),
+    "more than one block": lambda case: random_events(70_000, case.sensor, span_us=2_000_000),
+}

@@ -1,0 +1,201 @@
+"""Every format carries every stream it can hold unchanged, and refuses the others by name."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.errors import InputError, OutputError
+from texvent.events import EventPackets, EventStream
+from texvent.io.files import load, open_events, open_writer, save
+from texvent.sensor import SensorSize
+
+from .format_cases import CASES, METADATA, STREAMS, FormatCase, at_times, random_events
+
+ANY_BYTES = ("atis",)
+"""Formats without a header: every file of the right length is a recording."""
+
+
+@pytest.fixture(params=CASES, ids=lambda case: case.name)
+def case(request: pytest.FixtureRequest) -> FormatCase:
+    chosen: FormatCase = request.param
+    if chosen.extra:
+        pytest.importorskip(chosen.extra, reason=f"{chosen.name} needs {chosen.extra}")
+    return chosen
+
+
+@pytest.fixture
+def folder_is_clean(tmp_path: Path) -> Callable[[], bool]:
+    return lambda: not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("name", STREAMS)
+def test_every_stream_comes_back_unchanged(tmp_path: Path, case: FormatCase, name: str) -> None:
+    stream = STREAMS[name](case)
+    path = save(tmp_path / case.file, stream, format=case.name)
+    back = load(path, format=None if case.reads_by_content else case.name)
+    assert back.equals(stream)
+    assert dict(back.metadata) == dict(stream.metadata)
+    assert back.t.dtype == np.int64
+
+
+def test_late_times_come_back_or_are_refused_before_anything_is_kept(
+    tmp_path: Path, case: FormatCase, folder_is_clean: Callable[[], bool]
+) -> None:
+    path = tmp_path / case.file
+    for last in (2**23 - 1, 2**23, 2**31 - 1, 2**31, 2**32 - 1, 2**32 + 5):
+        stream = at_times([last - 1, last], case.sensor)
+        if case.stop_us is not None and last >= case.stop_us:
+            with pytest.raises(InputError, match=f"holds times below {case.stop_us} µs.*hdf5"):
+                save(path, stream, format=case.name, overwrite=True)
+        else:
+            save(path, stream, format=case.name, overwrite=True)
+            assert load(path, format=case.name).equals(stream)
+    if case.stop_us is not None:
+        with pytest.raises(InputError, match="holds times below"):
+            save(
+                tmp_path / f"late{path.suffix}",
+                at_times([case.stop_us], case.sensor),
+                format=case.name,
+            )
+        assert not (tmp_path / f"late{path.suffix}").exists()
+
+
+def test_a_sensor_that_does_not_fit_is_refused_with_the_formats_that_hold_it(
+    tmp_path: Path, case: FormatCase, folder_is_clean: Callable[[], bool]
+) -> None:
+    if case.largest.width == 65_535:
+        pytest.skip(f"{case.name} holds every sensor size")
+    for size in (SensorSize(case.largest.width + 1, 1), SensorSize(1, case.largest.height + 1)):
+        with pytest.raises(InputError, match=r"cannot write .* holds? sensors .*hdf5 \(\.h5\)"):
+            open_writer(tmp_path / case.file, size=size, format=case.name)
+    assert folder_is_clean()
+
+
+def test_the_noise_label_is_refused_with_the_formats_that_hold_it(
+    tmp_path: Path, case: FormatCase, folder_is_clean: Callable[[], bool]
+) -> None:
+    events = at_times([1, 2], case.sensor)
+    label = np.array([0, 1], dtype=np.uint8)
+    labelled = EventStream(events.x, events.y, events.t, events.p, events.size, {}, label)
+    with pytest.raises(InputError, match=r"no place for the signal/noise label; hdf5"):
+        save(tmp_path / case.file, labelled, format=case.name)
+    assert folder_is_clean()
+
+
+def test_packet_sizes_do_not_change_the_file(tmp_path: Path, case: FormatCase) -> None:
+    whole = random_events(1000, case.sensor).with_metadata({"seed": 1})
+    cuts = [0, 0, 1, 2, 500, 501, 1000]
+    parts = [whole[start:stop] for start, stop in itertools.pairwise(cuts)]
+    files = []
+    for index, packets in enumerate([[whole], parts]):
+        folder = tmp_path / str(index)
+        folder.mkdir()
+        path = folder / case.file
+        save(path, EventPackets(packets, whole.size, {"seed": 1}), format=case.name)
+        back = open_events(path, format=case.name)
+        assert back.collect().equals(whole)
+        assert back.collect().equals(whole), "packets of a file can be read again"
+        files.append(path)
+    if case.name != "parquet" and files[0].is_file():
+        assert files[0].read_bytes() == files[1].read_bytes()
+
+
+def test_an_error_midway_leaves_no_file(
+    tmp_path: Path, case: FormatCase, folder_is_clean: Callable[[], bool]
+) -> None:
+    def packets() -> Iterator[EventStream]:
+        yield random_events(300_000, case.sensor, span_us=1_000_000)
+        raise RuntimeError("the simulator stopped")
+
+    with pytest.raises(RuntimeError, match="the simulator stopped"):
+        save(tmp_path / case.file, EventPackets(packets(), case.sensor), format=case.name)
+    assert folder_is_clean()
+
+
+def test_packets_out_of_order_are_refused(
+    tmp_path: Path, case: FormatCase, folder_is_clean: Callable[[], bool]
+) -> None:
+    late, early = at_times([50], case.sensor), at_times([49], case.sensor)
+    with pytest.raises(InputError, match="in time order"):
+        save(tmp_path / case.file, EventPackets([late, early], case.sensor), format=case.name)
+    assert folder_is_clean()
+
+
+def test_an_existing_file_is_kept_unless_overwriting_is_allowed(
+    tmp_path: Path, case: FormatCase
+) -> None:
+    first, second = at_times([5], case.sensor), at_times([6, 7], case.sensor)
+    path = save(tmp_path / case.file, first, format=case.name)
+    with pytest.raises(OutputError, match="exists already"):
+        save(path, second, format=case.name)
+    assert load(path, format=case.name).equals(first)
+    save(path, second, format=case.name, overwrite=True)
+    assert load(path, format=case.name).equals(second)
+
+
+def test_metadata_that_is_not_json_is_refused_before_any_file_exists(
+    tmp_path: Path, case: FormatCase, folder_is_clean: Callable[[], bool]
+) -> None:
+    with pytest.raises(InputError, match="metadata cannot be stored"):
+        open_writer(
+            tmp_path / case.file, size=case.sensor, metadata={"a": object()}, format=case.name
+        )
+    assert folder_is_clean()
+
+
+def test_an_empty_or_foreign_file_is_an_input_error_of_one_line(
+    tmp_path: Path, case: FormatCase
+) -> None:
+    path = tmp_path / case.file
+    if case.file == "folder":
+        path.mkdir()
+        path = path / "0000000000.npz"
+    for content in (b"", b"\x89PNG\r\n\x1a\n" + bytes(301), b"three words here\n"):
+        path.write_bytes(content)
+        if case.name in ANY_BYTES and content.startswith(b"\x89"):
+            continue
+        if case.name in ANY_BYTES and not content:
+            assert len(load(path, format=case.name, size=case.sensor)) == 0
+            continue
+        with pytest.raises(InputError) as caught:
+            load(tmp_path / case.file, format=case.name, size=case.sensor)
+        assert "\n" not in str(caught.value)
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    rows=st.lists(
+        st.tuples(
+            st.integers(0, 127),
+            st.integers(0, 47),
+            st.one_of(st.integers(0, 600), st.integers(0, 2**23 - 1)),
+            st.booleans(),
+        ),
+        max_size=30,
+    ),
+    cut=st.integers(0, 30),
+    name=st.sampled_from([case.name for case in CASES if case.extra is None]),
+)
+def test_any_events_cut_anywhere_come_back(
+    tmp_path_factory: pytest.TempPathFactory,
+    rows: list[tuple[int, int, int, bool]],
+    cut: int,
+    name: str,
+) -> None:
+    chosen = next(case for case in CASES if case.name == name)
+    rows = sorted(rows, key=lambda row: row[2])
+    x, y, t, p = (list(column) for column in zip(*rows, strict=True)) if rows else ([],) * 4
+    size = chosen.sensor if chosen.is_exact_size else SensorSize(128, 48)
+    events = EventStream.from_columns(x, y, t, p, size=size, metadata=METADATA)
+    parts = EventPackets([events[:cut], events[cut:]], size, METADATA)
+    path = tmp_path_factory.mktemp("any") / chosen.file
+    back = load(save(path, parts, format=name), format=name)
+    assert back.equals(events)
+    assert back.metadata == METADATA
