@@ -45,8 +45,8 @@ class EvtCodec:
     """NumPy type of one word."""
     kernels: ClassVar[str]
     limits: ClassVar[FormatLimits]
-    options: ClassVar[tuple[str, ...]] = ()
-    """More of the `% format` line."""
+    options: ClassVar[Mapping[str, str]] = {}
+    """More of the `% format` line; each has a line of its own too, for readers that look there."""
 
     def recognises(self, path: Path) -> bool:
         """True if the header names this format."""
@@ -87,12 +87,12 @@ class EvtCodec:
         self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
     ) -> WordWriter:
         """Start a file; see `EventCodec.open_writer`."""
+        facts = {**self.options, "height": str(size.height), "width": str(size.width)}
         fields = {
+            **self.options,
             "camera_integrator_name": INTEGRATOR,
             "evt": self.version,
-            "format": ";".join(
-                [self.title, *self.options, f"height={size.height}", f"width={size.width}"]
-            ),
+            "format": ";".join([self.title, *(f"{key}={value}" for key, value in facts.items())]),
             "geometry": str(size),
             "integrator_name": INTEGRATOR,
             "plugin_integrator_name": INTEGRATOR,

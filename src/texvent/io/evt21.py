@@ -1,4 +1,4 @@
-"""EVT2.1 in RAW files: words of 64 bits, little-endian, for up to 32 events each.
+"""EVT2.1 in RAW files: words of 64 bits for up to 32 events each.
 
     bits 63..60   type: 0 OFF, 1 ON, 8 TIME_HIGH; others are skipped
     OFF, ON       59..54 low 6 bits of t (µs) · 53..43 first x, a multiple of 32 · 42..32 y
@@ -8,15 +8,17 @@
 Coordinates below 2048, times below 2^34 µs (4 h 46 min), as EVT2. Consecutive events of one time,
 row and polarity whose x rises share a word; the order of events is kept.
 
-Files of the IMX636 have the halves of each word exchanged: `endianness=legacy` in their header.
-texvent writes and states `endianness=little`. Where nothing is stated, cameras of Prophesee with
-a system number below 0x37 count as legacy, the others as little, as in OpenEB.
+The words come in one of two orders of bytes, as the header says: `endianness=little`, plain, or
+`endianness=legacy`, upper half first (each half little-endian), as the IMX636 sends them. texvent
+reads both and writes legacy, which more readers know. Where nothing is stated, cameras of
+Prophesee with a system number below 0x37 count as legacy, the others as little, as in OpenEB.
 
 Source: Prophesee, "EVT 2.1 Format".
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, ClassVar
 
 from numpy.typing import NDArray
@@ -39,16 +41,16 @@ class Evt21Codec(EvtCodec):
     word: ClassVar[str] = "<u8"
     kernels: ClassVar[str] = "texvent.io.kernels.evt21"
     limits: ClassVar[FormatLimits] = FormatLimits("EVT2.1", MAX_SIDE, 1 << 34)
-    options: ClassVar[tuple[str, ...]] = ("endianness=little",)
+    options: ClassVar[Mapping[str, str]] = {"endianness": LEGACY}
 
     def make_decoder(self, header: TextHeader) -> KernelDecoder:
         """The decoder for a file with this header: it may have to exchange the halves of words."""
-        kind = LegacyDecoder if is_legacy(header) else KernelDecoder
+        kind = KernelDecoder if is_legacy(header) else LittleDecoder
         return kind(self.kernels, self.word)
 
 
-class LegacyDecoder(KernelDecoder):
-    """Decodes words whose upper half comes first."""
+class LittleDecoder(KernelDecoder):
+    """Decodes words whose lower half comes first."""
 
     def decode(self, words: NDArray[Any]) -> Columns:
         """Columns x, y, t, p of the events in these words."""
@@ -56,7 +58,7 @@ class LegacyDecoder(KernelDecoder):
 
 
 def is_legacy(header: TextHeader) -> bool:
-    """True if the header says, or its camera implies, that the halves of words are exchanged."""
+    """True if the header says, or its camera implies, that the upper half of a word comes first."""
     stated = header.options()[1].get("endianness", header.fields.get("endianness"))
     if stated is not None:
         return stated == LEGACY

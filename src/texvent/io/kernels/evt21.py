@@ -1,7 +1,7 @@
 """EVT2.1 words ↔ events; the layout is described in `texvent.io.evt21`.
 
-A word of 64 bits is handled as two numbers of 32 bits, low half first: Numba has no type that
-holds both signed and unsigned 64 bits.
+A word of 64 bits is handled as two numbers of 32 bits, upper half first, the way it is written:
+Numba has no type that holds both signed and unsigned 64 bits.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 WORD = "<u4"
-START = (0, 0x8000_0000)
+START = (0x8000_0000, 0)
 """TIME_HIGH 0: see `texvent.io.evt2`."""
 DECODER_STATE = (0, -1)
 """How often TIME_HIGH wrapped, and its value (−1: none yet)."""
@@ -39,8 +39,8 @@ def count_events(words: NDArray[np.uint32]) -> int:
     """Number of valid bits in ON and OFF words."""
     count = 0
     for i in range(0, words.size, 2):
-        if (np.int64(words[i + 1]) >> 28) <= 1:
-            bits = np.int64(words[i])
+        if (np.int64(words[i]) >> 28) <= 1:
+            bits = np.int64(words[i + 1])
             while bits:
                 bits &= bits - 1
                 count += 1
@@ -56,10 +56,10 @@ def decode_words(
     turns, high = state[0], state[1]
     count = 0
     for i in range(0, words.size, 2):
-        upper = np.int64(words[i + 1])
+        upper = np.int64(words[i])
         kind = upper >> 28
         if kind <= 1 and high >= 0:
-            bits = np.int64(words[i])
+            bits = np.int64(words[i + 1])
             time = (((turns << 28) | high) << 6) + ((upper >> 22) & 0x3F)
             column = (upper >> 11) & 0x7FF
             while bits:
@@ -93,8 +93,8 @@ def encode_events(
         time, row, sign = np.int64(t[i]), np.int64(y[i]), np.int64(p[i])
         if time >> 6 != high:
             high = time >> 6
-            words[count] = 0
-            words[count + 1] = (TIME_HIGH << 28) | high
+            words[count] = (TIME_HIGH << 28) | high
+            words[count + 1] = 0
             count += 2
         base = np.int64(x[i]) & ~(VECTOR - 1)
         offset = np.int64(x[i]) - base
@@ -109,8 +109,8 @@ def encode_events(
             if following <= offset or following >= VECTOR:
                 break
             offset = following
-        words[count] = bits
-        words[count + 1] = (sign << 28) | ((time & 0x3F) << 22) | (base << 11) | row
+        words[count] = (sign << 28) | ((time & 0x3F) << 22) | (base << 11) | row
+        words[count + 1] = bits
         count += 2
     state[1] = high
     return count
