@@ -12,11 +12,12 @@ from texvent.bench.fidelity import FULL, FidelityPlan, record_truth, run_fidelit
 from texvent.bench.fidelity_table import fidelity_tables
 from texvent.bench.oracle import EXPOSURE, TrueFrames, oracle_scene, record
 from texvent.bench.oracle_pixel import IDEAL
-from texvent.bench.results import FidelityReport, Reference, Score
 from texvent.errors import ConfigError, InputError
 from texvent.metrics.compare import compare
 from texvent.pipeline import video_to_events
 from texvent.settings import resolve
+
+from .made_up import made_up_report
 
 CLEAN = Entry(simulator="physical", preset="clean", interpolate="exact")
 QUICK = FidelityPlan(
@@ -137,46 +138,6 @@ def test_an_unknown_simulator_and_no_process_are_refused_before_any_work():
         run_fidelity(FidelityPlan(entries=(entry,)))
     with pytest.raises(ConfigError, match="jobs is 0"):
         run_fidelity(QUICK, jobs=0)
-
-
-def made_up_report():
-    metrics = {"stpp": [0.9, 0.8], "nearest": [1.0, 3.0]}
-    reference = Reference(
-        scene="mixed",
-        target="noisy",
-        events=[100, 200],
-        floor=metrics,
-        null={"stpp": [0.1, 0.3], "nearest": [9.0, 9.0]},
-    )
-
-    def score(entry, stpp, **changes):
-        return Score(
-            **{
-                "scene": "mixed",
-                "target": "noisy",
-                "entry": entry,
-                "track": "frames",
-                "threshold": 0.1,
-                "is_matched": True,
-                "default_ratio": 0.5,
-                "seconds": 1.0,
-                "values": {"stpp": stpp, "nearest": [5.0, 7.0]},
-                **changes,
-            }
-        )
-
-    scores = [
-        score("texvent, blend", [0.5, 0.4]),
-        score("better", [0.7, 0.8], is_matched=False),
-        score("lost", [math.nan, math.nan]),
-    ]
-    return FidelityReport(
-        fit_seeds=[7],
-        score_seeds=[21, 33],
-        references=[reference],
-        scores=scores,
-        skipped={"v2ce, none": "needs weights"},
-    )
 
 
 def test_tables_rank_by_stpp_and_show_floor_null_errors_and_paired_differences():

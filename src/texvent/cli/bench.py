@@ -13,6 +13,7 @@ from rich.console import Console
 
 from texvent._registry import SIMULATORS, suggest
 from texvent.bench.ablation import read_ablations
+from texvent.bench.bar_chart import bar_chart
 from texvent.bench.entries import INTERPOLATIONS, Entry
 from texvent.bench.fidelity import FULL, FidelityPlan, run_fidelity
 from texvent.bench.fidelity_table import fidelity_tables
@@ -71,6 +72,8 @@ class FidelityOptions:
     """JSON file with every value; docs/benchmark.md describes it."""
     picture: Path | None = None
     """PNG file with the true events of the first scene beside those of every entry."""
+    chart: Path | None = None
+    """SVG file with STPP of every entry as bars with standard errors."""
     overwrite: bool = False
     """Replace a file that exists already."""
     quiet: bool = False
@@ -144,7 +147,7 @@ def _fidelity(arguments: Sequence[str]) -> None:
         "the events that truly happened. docs/benchmark.md explains the tables.",
     )
     options = FidelityOptions(**values)
-    for path in (options.out, options.picture):
+    for path in (options.out, options.picture, options.chart):
         if path is not None:
             check_output(path, overwrite=options.overwrite)
     plan = FULL if options.full else FidelityPlan()
@@ -161,6 +164,9 @@ def _fidelity(arguments: Sequence[str]) -> None:
         png = picture_grid(report, plan.scenes[0], list(plan.entries))
         with atomic_file(options.picture, overwrite=options.overwrite) as part:
             part.write_bytes(png)
+    if options.chart is not None:
+        with atomic_file(options.chart, overwrite=options.overwrite) as part:
+            part.write_text(bar_chart(report), encoding="utf-8")
     sys.stdout.write(fidelity_tables(report))
 
 

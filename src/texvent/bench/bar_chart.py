@@ -1,0 +1,95 @@
+"""STPP of every entry as bars with error bars, between null and floor: one panel per scene."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from html import escape
+
+from texvent.bench.results import FidelityReport, Reference, Score
+from texvent.metrics.summary import summarise
+
+LABEL_PX, BAR_PX, ROW_PX, HEAD_PX, GAP_PX = 130, 250, 16, 34, 24
+"""Widths of the labels and of an STPP of 1; heights of a row and of a panel's head."""
+PANELS_PER_ROW = 2
+COLOURS = {"frames": "#4c78a8", "true frames": "#59a14f"}
+STYLE = "font-family='sans-serif' font-size='11' fill='#26262e'"
+
+
+def bar_chart(report: FidelityReport) -> str:
+    """An SVG document.
+
+    Args:
+        report: a run that measured STPP.
+    """
+    panels = [_panel(report, reference) for reference in report.references]
+    width = LABEL_PX + BAR_PX + 60 + GAP_PX
+    height = max((len(_ranked(report, one)) for one in report.references), default=0)
+    height = HEAD_PX + height * ROW_PX + GAP_PX
+    columns = min(PANELS_PER_ROW, max(len(panels), 1))
+    rows = -(-len(panels) // columns)
+    placed = [
+        f"<g transform='translate({number % columns * width},{number // columns * height})'>"
+        f"{panel}</g>"
+        for number, panel in enumerate(panels)
+    ]
+    total = f"{columns * width} {rows * height + GAP_PX}"
+    return (
+        f"<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {total}' {STYLE}>"
+        "<rect width='100%' height='100%' fill='#ffffff'/>"
+        f"{''.join(placed)}{_legend(rows * height + GAP_PX // 2)}</svg>\n"
+    )
+
+
+def _ranked(report: FidelityReport, reference: Reference) -> list[Score]:
+    where = (reference.scene, reference.target)
+    scores = [score for score in report.scores if (score.scene, score.target) == where]
+    return sorted(scores, key=lambda score: -_finite(score.summary("stpp").mean))
+
+
+def _panel(report: FidelityReport, reference: Reference) -> str:
+    scores = _ranked(report, reference)
+    bottom = HEAD_PX + len(scores) * ROW_PX
+    parts = [
+        f"<text x='{LABEL_PX}' y='16' font-weight='bold'>"
+        f"{escape(f'{reference.scene}, {reference.target} pixels: STPP')}</text>"
+    ]
+    for name, values in (("null", reference.null), ("floor", reference.floor)):
+        x = LABEL_PX + BAR_PX * _finite(summarise(values["stpp"]).mean)
+        parts.append(
+            f"<line x1='{x:.1f}' y1='{HEAD_PX - 4}' x2='{x:.1f}' y2='{bottom}' "
+            f"stroke='#b04a4a' stroke-dasharray='3 2'/>"
+            f"<text x='{x:.1f}' y='{HEAD_PX - 6}' text-anchor='middle' fill='#b04a4a' "
+            f"font-size='9'>{name}</text>"
+        )
+    parts += [_bar(score, HEAD_PX + row * ROW_PX) for row, score in enumerate(scores)]
+    return "".join(parts)
+
+
+def _bar(score: Score, top: float) -> str:
+    summary = score.summary("stpp")
+    mean, error = _finite(summary.mean), _finite(summary.standard_error)
+    middle = top + ROW_PX / 2
+    left, right = (LABEL_PX + BAR_PX * (mean + sign * error) for sign in (-1, 1))
+    end = LABEL_PX + BAR_PX * mean
+    shown = f"{mean:.3f}" if summary.defined else "undefined"
+    return (
+        f"<text x='{LABEL_PX - 6}' y='{middle + 4}' text-anchor='end'>{escape(score.entry)}</text>"
+        f"<rect x='{LABEL_PX}' y='{top + 2}' width='{end - LABEL_PX:.1f}' height='{ROW_PX - 4}' "
+        f"fill='{COLOURS[score.track]}'/>"
+        f"<line x1='{left:.1f}' y1='{middle}' x2='{right:.1f}' y2='{middle}' stroke='#000000'/>"
+        f"<text x='{right + 6:.1f}' y='{middle + 4}' font-size='9'>{shown}</text>"
+    )
+
+
+def _legend(y: float) -> str:
+    parts: Sequence[str] = [
+        f"<rect x='{LABEL_PX + number * 130}' y='{y - 9}' width='10' height='10' fill='{colour}'/>"
+        f"<text x='{LABEL_PX + number * 130 + 15}' y='{y}'>{name}</text>"
+        for number, (name, colour) in enumerate(COLOURS.items())
+    ]
+    return "".join(parts)
+
+
+def _finite(value: float) -> float:
+    return value if math.isfinite(value) else 0.0
