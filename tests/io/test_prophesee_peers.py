@@ -57,6 +57,16 @@ def test_eventcv_reads_every_event_we_write(tmp_path: Path, name: str, format: s
     assert back.sensor_size == tuple(events.size)
 
 
+@pytest.mark.parametrize("extension", [".npz", ".h5"])
+def test_eventcv_reads_our_archives_and_universal_hdf5_too(tmp_path: Path, extension: str) -> None:
+    eventcv = pytest.importorskip("eventcv", reason=f"eventcv {REASON}")
+    events = row_bursts(50)
+    back = eventcv.load(str(save(tmp_path / f"e{extension}", events)))
+    table = back.numpy()
+    assert_columns(events, {column: table[:, index] for index, column in enumerate("xytp")})
+    assert back.sensor_size == tuple(events.size)
+
+
 @pytest.mark.parametrize("format", ["evt2", "dat"])
 def test_we_read_every_event_eventcv_writes(tmp_path: Path, format: str) -> None:
     eventcv = pytest.importorskip("eventcv", reason=f"eventcv {REASON}")

@@ -144,8 +144,9 @@ class NpzWriter:
             return
         arrays: dict[str, Any] = {
             **whole.columns(),
-            "width": np.int64(self._size.width),
-            "height": np.int64(self._size.height),
+            # eventcv reads no other integers here.
+            "width": np.uint64(self._size.width),
+            "height": np.uint64(self._size.height),
             "timestamp_scale_ms": np.float64(TIMESTAMP_SCALE_MS),
             "texvent": np.array(self._json),
         }
