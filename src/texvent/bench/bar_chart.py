@@ -54,12 +54,13 @@ def _panel(report: FidelityReport, reference: Reference) -> str:
         f"<text x='{LABEL_PX}' y='16' font-weight='bold'>"
         f"{escape(f'{reference.scene}, {reference.target} pixels: STPP')}</text>"
     ]
-    for name, values in (("null", reference.null), ("floor", reference.floor)):
+    bounds = (("null", "end", reference.null), ("floor", "start", reference.floor))
+    for name, anchor, values in bounds:
         x = LABEL_PX + BAR_PX * _finite(summarise(values["stpp"]).mean)
         parts.append(
             f"<line x1='{x:.1f}' y1='{HEAD_PX - 4}' x2='{x:.1f}' y2='{bottom}' "
             f"stroke='#b04a4a' stroke-dasharray='3 2'/>"
-            f"<text x='{x:.1f}' y='{HEAD_PX - 6}' text-anchor='middle' fill='#b04a4a' "
+            f"<text x='{x:.1f}' y='{HEAD_PX - 6}' text-anchor='{anchor}' fill='#b04a4a' "
             f"font-size='9'>{name}</text>"
         )
     parts += [_bar(score, HEAD_PX + row * ROW_PX) for row, score in enumerate(scores)]
@@ -78,7 +79,7 @@ def _bar(score: Score, top: float) -> str:
         f"<rect x='{LABEL_PX}' y='{top + 2}' width='{end - LABEL_PX:.1f}' height='{ROW_PX - 4}' "
         f"fill='{COLOURS[score.track]}'/>"
         f"<line x1='{left:.1f}' y1='{middle}' x2='{right:.1f}' y2='{middle}' stroke='#000000'/>"
-        f"<text x='{right + 6:.1f}' y='{middle + 4}' font-size='9'>{shown}</text>"
+        f"<text x='{LABEL_PX + BAR_PX + 8}' y='{middle + 4}' font-size='9'>{shown}</text>"
     )
 
 
