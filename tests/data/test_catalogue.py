@@ -14,6 +14,8 @@ WANTED = {
     "vtest",
     "tree",
     "mouse250",
+    "evk4",
+    "gen3",
 }
 
 

