@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from texvent._registry import REPRESENTATIONS, suggest
@@ -34,11 +35,26 @@ def represent(name: str, events: Events, *, device: str | None = None, **options
         >>> represent("voxel-e2vid", EventStream.empty(SensorSize(4, 3)), bins=5).shape
         (5, 3, 4)
     """
-    function = REPRESENTATIONS.load(name)
-    allowed = tuple(inspect.signature(function).parameters)[1:]
-    for option in options:
-        if option not in allowed:
-            raise ConfigError(f"{name} has no option {option!r}; {suggest(option, allowed)}")
+    function = load_representation(name, options)
     if device is not None and isinstance(events, EventStream):
         events = EventTensors.of(events, device)
     return function(events, **options)
+
+
+def load_representation(name: str, options: Iterable[str] = ()) -> Callable[..., Array]:
+    """The function of a representation, which takes the events and its options.
+
+    Raises:
+        ConfigError: unknown name, or it has no option of one of the names in `options`.
+    """
+    function: Callable[..., Array] = REPRESENTATIONS.load(name)
+    allowed = option_names_of(function)
+    for option in options:
+        if option not in allowed:
+            raise ConfigError(f"{name} has no option {option!r}; {suggest(option, allowed)}")
+    return function
+
+
+def option_names_of(function: Callable[..., Array]) -> tuple[str, ...]:
+    """Names of a representation's options, in order."""
+    return tuple(inspect.signature(function).parameters)[1:]

@@ -1,0 +1,1 @@
+"""Training samples, simulated when they are asked for."""

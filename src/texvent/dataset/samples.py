@@ -1,0 +1,150 @@
+"""Samples for training: prompt or video → events → arrays, each made from its number alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias, get_args
+
+import numpy as np
+
+from texvent._registry import load_object, suggest
+from texvent.api import Source
+from texvent.calibrate.rate import reach_target_rate
+from texvent.dataset.targets import Clip, Target, film, target_of
+from texvent.errors import ConfigError, InputError
+from texvent.events import EventStream
+from texvent.pipeline import Simulation, text_to_events, video_to_events
+from texvent.represent.named import load_representation, option_names_of, represent
+from texvent.settings import Settings, resolve
+from texvent.simulate.draws import frame_key
+
+Sample: TypeAlias = dict[str, Any]
+WINDOW_OPTIONS: Mapping[str, int] = {"start_us": 0, "stop_us": 1, "at_us": 1}
+"""Options of representations that say where the window lies: 0 = its start, 1 = its end."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SimulatedSamples:
+    """A table of samples without end, none of which is stored.
+
+    Sample i shows source i modulo the number of sources, simulated with a seed that depends on
+    `seed` and i alone. So any order, any split over processes and any machine gives the same
+    samples, and every pass over the sources gives new ones.
+
+    Raises:
+        ConfigError: no sources or two kinds of them; an unknown representation, option or target.
+
+    Example:
+        >>> samples = SimulatedSamples(
+        ...     prompts=["a red ball flies left"],
+        ...     slice_us=50_000,
+        ...     simulation={"sensor": "32x24", "duration": 0.125},
+        ... )
+        >>> samples.make(0)["representation"].shape  # time, bins, rows, columns
+        (2, 5, 24, 32)
+    """
+
+    prompts: Sequence[str] = ()
+    """What to show; see `texvent.generate`."""
+    videos: Sequence[Source] = ()
+    """What to read instead; see `texvent.simulate`."""
+    representation: str = "voxel-e2vid"
+    """Name of the representation; `texvent._registry.REPRESENTATIONS` lists them."""
+    representation_options: Mapping[str, Any] = field(default_factory=dict)
+    """Its options, such as `{"bins": 10}`. Those that name the window (`start_us`, `stop_us`,
+    `at_us`) are filled in."""
+    slice_us: int | None = None
+    """Length of a slice, µs. A clip gives as many whole slices as it has, stacked along a first
+    axis of time. None: the whole clip is one slice, without that axis."""
+    targets: Sequence[Target] = ()
+    """What else each slice comes with; see `make`."""
+    simulation: Mapping[str, Any] = field(default_factory=dict)
+    """Options of `texvent.generate` or `texvent.simulate`, such as `{"sensor": "davis240c",
+    "duration": 1.0, "randomize": "stoffregen"}`."""
+    seed: int = 0
+    """Seed of the seeds, 0..2⁶³−1."""
+
+    def __post_init__(self) -> None:
+        if bool(self.prompts) == bool(self.videos):
+            raise ConfigError("give either prompts or videos, and at least one")
+        if isinstance(self.prompts, str):
+            raise ConfigError(f"prompts is one text ({self.prompts!r}); give a list of texts")
+        for target in self.targets:
+            if target not in get_args(Target):
+                raise ConfigError(f"unknown target {target!r}; {suggest(target, get_args(Target))}")
+        if self.slice_us is not None and self.slice_us < 1:
+            raise ConfigError(f"slice_us is {self.slice_us}; it must be at least 1")
+        if "seed" in self.simulation:
+            raise ConfigError("every sample has a seed of its own; give seed beside simulation")
+        # Refused now, not in a worker process.
+        size = self._resolve(0).size
+        options = self._options((0, 1))
+        load_representation(self.representation, options)
+        if size is not None:
+            represent(self.representation, EventStream.empty(size), **options)
+
+    def seed_of(self, number: int) -> int:
+        """Seed of the simulation of sample `number`."""
+        return int(frame_key(self.seed, number)) >> 1
+
+    def make(self, number: int) -> Sample:
+        """Simulate sample `number`, 0 or more.
+
+        Returns:
+            Arrays by name. With `slice_us`, each has a first axis for the slices.
+
+            * `representation`: see its own function.
+            * `frame`: luma at the end of the slice, [H, W] float32, 0..255. A video that cannot be
+              rendered at that instant gives its last frame until then, interpolated ones included.
+            * `flow`: displacement (x, y) in pixels over the slice of what each pixel shows at its
+              start, [2, H, W] float32; NaN where it leaves the view.
+            * `depth`: metres at the end of the slice, [H, W] float32; inf for the sky.
+            * `instance`: id of the thing seen at the end of the slice, [H, W] int32.
+            * `stop_us`: end of the slice, µs, int64.
+            * `source`: index of the prompt or video.
+            * `number`, `seed`: of the sample.
+
+        Raises:
+            InputError: number is negative, the source cannot be read, or the clip is shorter than
+                one slice.
+            ConfigError: a target that the source does not know, such as the depth of a video.
+        """
+        if number < 0:
+            raise InputError(f"sample number is {number}; it must be 0 or more")
+        clip = film(self._simulation(number), self.slice_us)
+        parts = [self._part(clip, window) for window in clip.windows]
+        arrays = parts[0]
+        if self.slice_us is not None:
+            arrays = {name: np.stack([part[name] for part in parts]) for name in arrays}
+        source = number % len(self.prompts or self.videos)
+        return {**arrays, "source": source, "number": number, "seed": self.seed_of(number)}
+
+    def _part(self, clip: Clip, window: tuple[int, int]) -> Sample:
+        events = clip.events.between(*window)
+        options = self._options(window)
+        part = {"representation": represent(self.representation, events, **options)}
+        part |= {target: target_of(clip, target, window) for target in self.targets}
+        return {**part, "stop_us": np.int64(window[1])}
+
+    def _resolve(self, number: int) -> Settings:
+        options = {**self.simulation, "seed": self.seed_of(number)}
+        return resolve("generate" if self.prompts else "simulate", options)
+
+    def _simulation(self, number: int) -> Simulation:
+        settings = self._resolve(number)
+        if self.prompts:
+            run = text_to_events(self.prompts[number % len(self.prompts)], settings)
+        else:
+            open_frames = load_object("texvent.capture.open:open_frames")
+            source = self.videos[number % len(self.videos)]
+            run = video_to_events(
+                open_frames(source, settings.source, size=settings.size), settings
+            )
+        return reach_target_rate(run)[0]
+
+    def _options(self, window: tuple[int, int]) -> dict[str, Any]:
+        """The representation's options, with those that name the window."""
+        known = option_names_of(load_representation(self.representation))
+        placed = {name: window[end] for name, end in WINDOW_OPTIONS.items() if name in known}
+        return {**placed, **self.representation_options}

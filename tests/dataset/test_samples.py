@@ -1,0 +1,139 @@
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+import texvent
+from texvent.dataset.samples import SimulatedSamples
+from texvent.errors import ConfigError, InputError
+from texvent.represent.time_surface import time_surface
+from texvent.represent.voxel_grid import voxel_e2vid
+from texvent.video import Frame
+
+PROMPTS = ["a red ball flies left", "a dog runs right"]
+TINY = {"sensor": "32x24", "duration": 0.125, "samples": 1, "shadows": False}
+EDGES = [0, 40_000, 80_000, 120_000]
+# A dark square that steps right: 6 frames, 20 ms apart.
+CLIP = np.full((6, 12, 16), 200, np.uint8)
+for _index in range(6):
+    CLIP[_index, 4:8, 2 * _index : 2 * _index + 4] = 20
+
+
+@pytest.fixture(scope="module")
+def samples():
+    targets = ("frame", "flow", "depth", "instance")
+    return SimulatedSamples(prompts=PROMPTS, slice_us=40_000, targets=targets, simulation=TINY)
+
+
+@pytest.fixture(scope="module")
+def sample(samples):
+    return samples.make(3)
+
+
+def test_a_sample_is_what_the_api_makes_with_its_seed(samples, sample):
+    assert sample["source"] == 1
+    assert sample["number"] == 3
+    assert sample["seed"] == samples.seed_of(3)
+    events = texvent.generate(PROMPTS[1], seed=samples.seed_of(3), **TINY)
+    assert len(events) > 0
+    expected = [voxel_e2vid(events.between(*window)) for window in pairwise(EDGES)]
+    np.testing.assert_array_equal(sample["representation"], expected)
+    assert sample["stop_us"].tolist() == EDGES[1:]
+
+
+def test_targets_lie_where_they_say(samples, sample):
+    from texvent._registry import GENERATORS
+
+    generator = GENERATORS.load("procedural")
+    config = generator.config_type(duration=0.125, samples=1, shadows=False)
+    size = texvent.SensorSize(32, 24)
+    video = generator(config, seed=samples.seed_of(3), size=size).generate(PROMPTS[1])
+    np.testing.assert_array_equal(sample["frame"][1], video.at(80_000).luma)
+    np.testing.assert_array_equal(sample["depth"][1], video.ground_truth(80_000, 80_000).depth)
+    np.testing.assert_array_equal(
+        sample["instance"][1], video.ground_truth(80_000, 80_000).instance
+    )
+    flow = video.ground_truth(40_000, 80_000).flow
+    np.testing.assert_array_equal(sample["flow"][1], np.moveaxis(flow, -1, 0))
+    shapes = {name: sample[name].shape for name in ("frame", "flow", "depth", "instance")}
+    assert shapes == {
+        "frame": (3, 24, 32),
+        "flow": (3, 2, 24, 32),
+        "depth": (3, 24, 32),
+        "instance": (3, 24, 32),
+    }
+
+
+def test_a_sample_depends_on_its_number_alone_and_passes_differ(samples):
+    again = SimulatedSamples(prompts=PROMPTS, simulation=TINY, representation="event-frame")
+    first, later = again.make(4), again.make(2)
+    np.testing.assert_array_equal(again.make(4)["representation"], first["representation"])
+    assert first["source"] == later["source"] == 0
+    assert not np.array_equal(first["representation"], later["representation"])
+    seeds = {SimulatedSamples(prompts=PROMPTS, seed=seed).seed_of(0) for seed in range(3)}
+    assert len(seeds | {again.seed_of(number) for number in range(50)}) == 52
+
+
+def test_videos_give_the_last_frame_of_each_slice():
+    samples = SimulatedSamples(
+        videos=[CLIP],
+        slice_us=30_000,
+        targets=["frame"],
+        simulation={"fps": 50, "interpolate": "none"},
+    )
+    sample = samples.make(0)
+    assert sample["representation"].shape == (3, 5, 12, 16)
+    assert sample["stop_us"].tolist() == [30_000, 60_000, 90_000]
+    # Frames lie at 0, 20, .. 100 ms; a frame at the very end of a slice is its last.
+    np.testing.assert_array_equal(sample["frame"], CLIP[[1, 3, 4]].astype(np.float32))
+
+
+def test_without_slices_a_sample_is_the_whole_clip_without_an_axis_of_time():
+    samples = SimulatedSamples(
+        videos=[CLIP],
+        representation="time-surface",
+        representation_options={"tau_us": 5000},
+        targets=["frame"],
+        simulation={"fps": 50},
+    )
+    sample = samples.make(0)
+    events = texvent.simulate(CLIP, fps=50, seed=samples.seed_of(0))
+    # The instant is the end of the window, not the last event.
+    expected = time_surface(events, tau_us=5000, at_us=100_000)
+    np.testing.assert_array_equal(sample["representation"], expected)
+    np.testing.assert_array_equal(sample["frame"], Frame(CLIP[5], 0).luma)
+    assert sample["stop_us"] == 100_000
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({}, "give either prompts or videos"),
+        ({"prompts": PROMPTS, "videos": [CLIP]}, "give either prompts or videos"),
+        ({"prompts": "a dog"}, r"prompts is one text \('a dog'\)"),
+        ({"prompts": PROMPTS, "targets": ["flo"]}, "unknown target 'flo'.*did you mean 'flow'"),
+        ({"prompts": PROMPTS, "slice_us": 0}, "slice_us is 0"),
+        ({"prompts": PROMPTS, "simulation": {"seed": 1}}, "a seed of its own"),
+        ({"prompts": PROMPTS, "simulation": {"sensr": "32x24"}}, "unknown option 'sensr'"),
+        ({"prompts": PROMPTS, "representation": "voxel"}, "unknown representation 'voxel'"),
+        ({"prompts": PROMPTS, "representation_options": {"bins": 0}}, "bins is 0"),
+        ({"videos": [CLIP], "representation_options": {"bin": 5}}, "no option 'bin'"),
+    ],
+)
+def test_wrong_options_are_refused_before_any_simulation(options, message):
+    with pytest.raises(ConfigError, match=message):
+        SimulatedSamples(**options)
+
+
+def test_a_clip_shorter_than_a_slice_and_a_negative_number_are_refused():
+    samples = SimulatedSamples(videos=[CLIP], slice_us=10**6, simulation={"fps": 50})
+    with pytest.raises(InputError, match="lasts 100000 µs, less than one slice of 1000000 µs"):
+        samples.make(0)
+    with pytest.raises(InputError, match="sample number is -1"):
+        samples.make(-1)
+
+
+def test_ground_truth_of_a_recorded_video_is_refused():
+    samples = SimulatedSamples(videos=[CLIP], targets=["depth"], simulation={"fps": 50})
+    with pytest.raises(ConfigError, match="target 'depth' needs a source that knows its scene"):
+        samples.make(0)

@@ -1,0 +1,58 @@
+"""The torch dataset: same samples, same batches, whatever the number of workers."""
+
+import numpy as np
+import pytest
+
+from texvent.dataset.samples import SimulatedSamples
+from texvent.errors import ConfigError
+
+pytestmark = pytest.mark.torch
+torch = pytest.importorskip("torch")
+
+CLIP = np.full((4, 6, 8), 200, np.uint8)
+for _index in range(4):
+    CLIP[_index, 2:4, _index : _index + 3] = 20
+
+
+def dataset(count=5, **options):
+    from texvent.dataset.torch_dataset import SimulatedDataset
+
+    samples = SimulatedSamples(
+        videos=[CLIP, CLIP[::-1].copy()],
+        slice_us=50_000,
+        targets=["frame"],
+        simulation={"fps": 20, "interpolate": "none", "randomize": "stoffregen"},
+        seed=3,
+    )
+    return SimulatedDataset(samples, count=count, **options)
+
+
+def test_samples_are_tensors_equal_to_the_arrays():
+    items = list(dataset())
+    assert [item["number"] for item in items] == [0, 1, 2, 3, 4]
+    expected = dataset().samples.make(2)
+    assert isinstance(items[2]["representation"], torch.Tensor)
+    np.testing.assert_array_equal(items[2]["representation"].numpy(), expected["representation"])
+    np.testing.assert_array_equal(items[2]["frame"].numpy(), expected["frame"])
+    assert items[2]["source"] == 0
+
+
+def test_batches_do_not_depend_on_the_number_of_workers():
+    alone = list(dataset(batch_size=2).loader())
+    shared = list(dataset(batch_size=2).loader(workers=2))
+    assert [batch["number"].tolist() for batch in shared] == [[0, 1], [2, 3], [4]]
+    for one, other in zip(alone, shared, strict=True):
+        assert one.keys() == other.keys()
+        assert all(torch.equal(one[name], other[name]) for name in one)
+
+
+def test_an_epoch_may_start_anywhere():
+    assert [item["number"] for item in dataset(2, first=7)] == [7, 8]
+    assert len(dataset(2, first=7)) == 2
+    assert len(dataset(None)) == 2
+
+
+@pytest.mark.parametrize("options", [{"count": 0}, {"first": -1}, {"batch_size": 0}])
+def test_wrong_counts_are_refused(options):
+    with pytest.raises(ConfigError, match=next(iter(options))):
+        dataset(**options)
