@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import itertools
-from collections.abc import Callable
+import os
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -172,3 +174,37 @@ def test_the_stored_size_contradicts_a_wrong_one(tmp_path: Path, format: str) ->
     assert load(path, size=(1280, 720)).size == SIZE
     with pytest.raises(InputError, match="recorded at 1280x720, not 640x480"):
         load(path, size=(640, 480))
+
+
+@formats
+def test_a_disk_that_fills_up_leaves_nothing(
+    tmp_path: Path,
+    format: str,
+    monkeypatch: pytest.MonkeyPatch,
+    folder_is_clean: Callable[[], bool],
+) -> None:
+    def fail(*_: object) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    place = {
+        "dat": "texvent.io.dat.DatEncoder.encode",
+        "prophesee-hdf5": "os.pwrite",
+    }.get(format, "texvent.io.word_stream.KernelEncoder.encode")
+    monkeypatch.setattr(place, fail)
+    with pytest.raises(OutputError, match="the disk is full") as caught:
+        save(tmp_path / f"e{EXTENSIONS[format]}", at_times(1, 2), format=format)
+    assert "\n" not in str(caught.value)
+    assert folder_is_clean()
+
+
+@formats
+def test_an_error_midway_keeps_the_old_file(tmp_path: Path, format: str) -> None:
+    def packets() -> Iterator[EventStream]:
+        yield at_times(5)
+        raise RuntimeError("the simulator stopped")
+
+    path = save(tmp_path / f"e{EXTENSIONS[format]}", at_times(1), format=format)
+    with pytest.raises(RuntimeError, match="the simulator stopped"):
+        save(path, EventPackets(packets(), SIZE), format=format, overwrite=True)
+    assert load(path).t.tolist() == [1]
+    assert list(tmp_path.iterdir()) == [path]
