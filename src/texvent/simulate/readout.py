@@ -57,8 +57,7 @@ class Readout:
         self._rules = rules
         self._first_us = first_us
         self._width = width
-        nothing = np.empty(0, np.int64)
-        self._waiting = Firings.signal(nothing, nothing, nothing.astype(np.uint8))
+        self._waiting = Firings.none()
         self._window, self._count_before, self._count = 0, 0, 0
 
     def read(self, fired: Firings, interval: Interval) -> Firings:
