@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -115,3 +117,12 @@ def test_the_header_of_a_file_made_by_hand_is_the_one_texvent_reads(
 ) -> None:
     path = write_words(tmp_path, format, [], header=HEADERS[format])
     assert len(load(path)) == 0
+
+
+def test_numba_is_imported_only_when_words_are_decoded() -> None:
+    program = (
+        "import sys; from texvent.io.files import codec_for; codec_for('a.raw'); "
+        "codec_for('a.dat'); codec_for('a.h5', 'prophesee-hdf5'); "
+        "sys.exit('numba' in sys.modules)"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True, timeout=60)
