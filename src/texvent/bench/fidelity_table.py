@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from texvent.bench.results import FidelityReport, Reference, Score
-from texvent.metrics.summary import summarise
+from texvent.metrics.summary import normalise, summarise
 
 BASELINE = "texvent, blend"
 """The paper's own method: what the others are compared with, pair by pair."""
@@ -76,7 +76,8 @@ def _scene_table(report: FidelityReport, reference: Reference, baseline: str) ->
     scores = sorted(_scores_of(report, reference), key=_stpp, reverse=True)
     compared = next((score for score in scores if score.entry == baseline), None)
     for score in scores:
-        mark = "" if score.is_matched or score.threshold is None else " (count not reached)"
+        is_lost = score.threshold is not None and not score.is_matched and any(reference.events)
+        mark = " (count not reached)" if is_lost else ""
         cells = [score.entry, _number(score.threshold, 3) + mark, _number(score.default_ratio, 3)]
         cells += [_mean_and_error(score.values[metric]) for metric in metrics]
         cells.append(_number(score.normalised("stpp", reference), 2))
@@ -102,7 +103,10 @@ def _stpp(score: Score) -> float:
 def _bound_row(name: str, reference: Reference, metrics: Sequence[str], *, is_floor: bool) -> str:
     values = reference.floor if is_floor else reference.null
     cells = [_mean_and_error(values[metric]) for metric in metrics]
-    return _row([name, "", "", *cells, "1.00" if is_floor else "0.00", ""])
+    floor, null = (summarise(one["stpp"]).mean for one in (reference.floor, reference.null))
+    mine = floor if is_floor else null
+    bound = normalise(mine, floor=floor, null=null, better="higher")
+    return _row([name, "", "", *cells, _number(bound, 2), ""])
 
 
 def _paired(score: Score, baseline: Score | None) -> str:
