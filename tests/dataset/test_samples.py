@@ -112,6 +112,7 @@ def test_without_slices_a_sample_is_the_whole_clip_without_an_axis_of_time():
         ({"prompts": PROMPTS, "videos": [CLIP]}, "give either prompts or videos"),
         ({"prompts": "a dog"}, r"prompts is one text \('a dog'\)"),
         ({"prompts": PROMPTS, "targets": ["flo"]}, "unknown target 'flo'.*did you mean 'flow'"),
+        ({"prompts": PROMPTS, "seed": -1}, "seed is -1"),
         ({"prompts": PROMPTS, "slice_us": 0}, "slice_us is 0"),
         ({"prompts": PROMPTS, "simulation": {"seed": 1}}, "a seed of its own"),
         ({"prompts": PROMPTS, "simulation": {"sensr": "32x24"}}, "unknown option 'sensr'"),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from texvent._registry import REPRESENTATIONS
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.represent.named import represent
 
@@ -50,3 +50,10 @@ def test_unknown_names_and_options_suggest_the_closest():
         represent("voxel-zu", EventStream.empty(SMALL))
     with pytest.raises(ConfigError, match=r"voxel-e2vid has no option 'bin'.*did you mean 'bins'"):
         represent("voxel-e2vid", EventStream.empty(SMALL), bin=5)
+
+
+@pytest.mark.parametrize("device", [None, "cpu"])
+def test_arrays_that_are_no_stream_are_refused(device):
+    records = random_events(1, 3, SMALL).to_structured()
+    with pytest.raises(InputError, match="EventStream or EventTensors; got ndarray"):
+        represent("event-frame", records, device=device)

@@ -66,6 +66,14 @@ def test_convention_the_callers_tensors_stay_as_they_are(name):
     assert all(torch.equal(*pair) for pair in zip(columns, before, strict=True))
 
 
+def test_tensors_go_to_the_device_that_is_asked_for():
+    events = EventTensors.of(random_events(2, 20, SMALL))
+    for device in DEVICES:
+        assert represent("event-frame", events, device=device).device.type == device
+    with pytest.raises(ConfigError, match="torch cannot put events on device 'gpu'"):
+        represent("event-frame", events, device="gpu")
+
+
 def test_tensors_have_types_that_torch_can_index_with():
     events = EventStream([3, 4], [0, 2], [10, 2**40], [1, 0], SensorSize(65_535, 3), label=[0, 1])
     events = EventStream(**{**events.columns(), "x": np.array([3, 65_534])}, size=events.size)

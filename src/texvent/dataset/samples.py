@@ -11,6 +11,7 @@ import numpy as np
 from texvent._registry import load_object, suggest
 from texvent.api import Source
 from texvent.calibrate.rate import reach_target_rate
+from texvent.config import check_range
 from texvent.dataset.targets import Clip, Target, film, target_of
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
@@ -20,11 +21,12 @@ from texvent.settings import Settings, resolve
 from texvent.simulate.draws import frame_key
 
 Sample: TypeAlias = dict[str, Any]
+MAX_SEED = 2**63 - 1
 WINDOW_OPTIONS: Mapping[str, int] = {"start_us": 0, "stop_us": 1, "at_us": 1}
 """Options of representations that say where the window lies: 0 = its start, 1 = its end."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class SimulatedSamples:
     """A table of samples without end, none of which is stored.
 
@@ -75,6 +77,7 @@ class SimulatedSamples:
                 raise ConfigError(f"unknown target {target!r}; {suggest(target, get_args(Target))}")
         if self.slice_us is not None and self.slice_us < 1:
             raise ConfigError(f"slice_us is {self.slice_us}; it must be at least 1")
+        check_range("seed", self.seed, 0, MAX_SEED)
         if "seed" in self.simulation:
             raise ConfigError("every sample has a seed of its own; give seed beside simulation")
         # Refused now, not in a worker process.

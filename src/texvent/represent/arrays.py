@@ -11,11 +11,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, Protocol, TypeAlias
+from typing import Any, Literal, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 
@@ -125,6 +126,7 @@ class Columns:
         return self.ops.count_at(flat_index(*axes), math.prod(sides)).reshape(sides)
 
 
+@runtime_checkable
 class ColumnSource(Protocol):
     """Events that give their columns themselves, as `EventTensors` do."""
 
@@ -137,9 +139,18 @@ Events: TypeAlias = EventStream | ColumnSource
 
 
 def columns_of(events: Events) -> Columns:
-    """The events as int64 columns, in the library that holds them."""
-    if not isinstance(events, EventStream):
+    """The events as int64 columns, in the library that holds them.
+
+    Raises:
+        InputError: `events` is something else.
+    """
+    if isinstance(events, ColumnSource):
         return events.as_columns()
+    if not isinstance(events, EventStream):
+        raise InputError(
+            f"events must be an EventStream or EventTensors; got {type(events).__name__}. "
+            "EventStream.from_columns makes one from arrays x, y, t, p"
+        )
     x, y, t, p = (column.astype(np.int64) for column in (events.x, events.y, events.t, events.p))
     return Columns(x, y, t, p, events.size, NUMPY_OPS)
 

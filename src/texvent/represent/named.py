@@ -8,9 +8,8 @@ from typing import Any
 
 from texvent._registry import REPRESENTATIONS, suggest
 from texvent.errors import ConfigError
-from texvent.events import EventStream
 from texvent.represent.arrays import Array, Events
-from texvent.represent.tensors import EventTensors
+from texvent.represent.tensors import put_events
 
 
 def represent(name: str, events: Events, *, device: str | None = None, **options: Any) -> Array:
@@ -20,7 +19,7 @@ def represent(name: str, events: Events, *, device: str | None = None, **options
         name: such as "voxel-e2vid"; `REPRESENTATIONS` lists all.
         events: the slice.
         device: give a torch tensor on this device, such as "cpu" or "cuda"; default: a NumPy
-            array for an EventStream, a tensor where they are for EventTensors.
+            array for an EventStream, a tensor on their own device for EventTensors.
         **options: options of that representation, such as `bins=5`.
 
     Returns:
@@ -28,16 +27,18 @@ def represent(name: str, events: Events, *, device: str | None = None, **options
 
     Raises:
         ConfigError: unknown name, option or device, or a value out of range.
+        InputError: `events` is neither an EventStream nor EventTensors.
         MissingDependencyError: `device` is given and torch is not installed.
 
     Example:
+        >>> from texvent.events import EventStream
         >>> from texvent.sensor import SensorSize
         >>> represent("voxel-e2vid", EventStream.empty(SensorSize(4, 3)), bins=5).shape
         (5, 3, 4)
     """
     function = load_representation(name, options)
-    if device is not None and isinstance(events, EventStream):
-        events = EventTensors.of(events, device)
+    if device is not None:
+        events = put_events(events, device)
     return function(events, **options)
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeAlias
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 from texvent._require import require
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.represent.arrays import Columns, DType
+from texvent.represent.arrays import Columns, DType, Events
 from texvent.sensor import SensorSize
 
 Tensor: TypeAlias = Any
@@ -75,8 +76,19 @@ class EventTensors:
             ConfigError: torch knows or finds no such device.
             MissingDependencyError: torch is not installed.
         """
-        tensors = to_torch(events, device)
-        return cls(tensors["x"], tensors["y"], tensors["t"], tensors["p"], events.size)
+        columns = to_torch(events, device)
+        return cls(columns["x"], columns["y"], columns["t"], columns["p"], events.size)
+
+    def to(self, device: str) -> EventTensors:
+        """The same events on another device; the same tensors if they are there already.
+
+        Raises:
+            ConfigError: torch knows or finds no such device.
+        """
+        columns = (self.x, self.y, self.t, self.p)
+        with _device_errors(device):
+            x, y, t, p = (column.to(device) for column in columns)
+        return EventTensors(x, y, t, p, self.size)
 
     def __len__(self) -> int:
         return len(self.t)
@@ -125,11 +137,35 @@ class TorchOps:
 def to_torch(events: EventStream, device: str = "cpu") -> dict[str, Tensor]:
     """Columns as tensors; see `EventStream.to_torch`."""
     torch = require("torch", extra="torch")
-    try:
+    with _device_errors(device):
         return {
             name: torch.tensor(column.astype(TENSOR_TYPES[name]), device=device)
             for name, column in events.columns().items()
         }
+
+
+def put_events(events: Events, device: str) -> EventTensors:
+    """Events of either kind as tensors on `device`.
+
+    Raises:
+        ConfigError: torch knows or finds no such device.
+        InputError: `events` is something else.
+        MissingDependencyError: torch is not installed.
+    """
+    if isinstance(events, EventTensors):
+        return events.to(device)
+    if not isinstance(events, EventStream):
+        raise InputError(
+            f"events must be an EventStream or EventTensors; got {type(events).__name__}"
+        )
+    return EventTensors.of(events, device)
+
+
+@contextmanager
+def _device_errors(device: str) -> Iterator[None]:
+    """Name the device when torch cannot use it."""
+    try:
+        yield
     except (RuntimeError, AssertionError) as error:
         reason = str(error).splitlines()[0]
         raise ConfigError(
