@@ -110,7 +110,8 @@ def test_without_slices_a_sample_is_the_whole_clip_without_an_axis_of_time():
     [
         ({}, "give either prompts or videos"),
         ({"prompts": PROMPTS, "videos": [CLIP]}, "give either prompts or videos"),
-        ({"prompts": "a dog"}, r"prompts is one text \('a dog'\)"),
+        ({"prompts": "a dog"}, "prompts is one str; give a list"),
+        ({"videos": CLIP}, "videos is one ndarray; give a list"),
         ({"prompts": PROMPTS, "targets": ["flo"]}, "unknown target 'flo'.*did you mean 'flow'"),
         ({"prompts": PROMPTS, "seed": -1}, "seed is -1"),
         ({"prompts": PROMPTS, "slice_us": 0}, "slice_us is 0"),

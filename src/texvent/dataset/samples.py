@@ -68,10 +68,13 @@ class SimulatedSamples:
     """Seed of the seeds, 0..2⁶³−1."""
 
     def __post_init__(self) -> None:
+        for name, sources in (("prompts", self.prompts), ("videos", self.videos)):
+            if not isinstance(sources, list | tuple):
+                raise ConfigError(
+                    f"{name} is one {type(sources).__name__}; give a list, even of one source"
+                )
         if bool(self.prompts) == bool(self.videos):
             raise ConfigError("give either prompts or videos, and at least one")
-        if isinstance(self.prompts, str):
-            raise ConfigError(f"prompts is one text ({self.prompts!r}); give a list of texts")
         for target in self.targets:
             if target not in get_args(Target):
                 raise ConfigError(f"unknown target {target!r}; {suggest(target, get_args(Target))}")
@@ -101,7 +104,7 @@ class SimulatedSamples:
             * `frame`: luma at the end of the slice, [H, W] float32, 0..255. A video that cannot be
               rendered at that instant gives its last frame until then, interpolated ones included.
             * `flow`: displacement (x, y) in pixels over the slice of what each pixel shows at its
-              start, [2, H, W] float32; NaN where it leaves the view.
+              start, [2, H, W] float32; NaN where it ends behind the camera.
             * `depth`: metres at the end of the slice, [H, W] float32; inf for the sky.
             * `instance`: id of the thing seen at the end of the slice, [H, W] int32.
             * `stop_us`: end of the slice, µs, int64.
