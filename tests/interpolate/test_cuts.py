@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from texvent.interpolate.cuts import Jump, detect_jump
+from texvent.interpolate.pan import shift_agreement
 from texvent.video import Frame
 
 WIDTH, HEIGHT = 192, 144
@@ -35,7 +36,7 @@ def test_another_picture_is_a_cut(scene, moving_texture):
     assert jump(scene(0), scene(0)[::-1]) is Jump.CUT
 
 
-@pytest.mark.parametrize("pixels", [1, 6, 18])
+@pytest.mark.parametrize("pixels", [1, 6, 18, 40, 80])
 def test_a_pan_is_no_jump(moving_texture, pixels):
     first, second = (moving_texture(x, width=WIDTH, height=HEIGHT) for x in (0, pixels))
     assert jump(first, second) is Jump.NONE
@@ -122,3 +123,26 @@ def test_bytes_and_colours_are_judged_alike(scene):
     assert (
         jump(*(np.repeat(one[..., np.newaxis], 3, axis=2) for one in (dim, bright))) is Jump.FLASH
     )
+
+
+@pytest.mark.parametrize(("right", "down"), [(60, 0), (-50, 30), (0, 60)])
+def test_a_whip_pan_in_any_direction_is_no_jump(moving_texture, right, down):
+    first = moving_texture(0, 0, width=WIDTH, height=HEIGHT)
+    second = moving_texture(right, down, width=WIDTH, height=HEIGHT)
+    assert jump(first, second) is Jump.NONE
+
+
+def test_two_skies_that_share_only_a_gradient_do_not_agree(scene):
+    rng = np.random.default_rng(4)
+    sky = np.linspace(220, 60, HEIGHT)[:, None]
+    blocks = [np.kron(rng.uniform(-40, 40, (18, 24)), np.ones((8, 8))) for _ in range(2)]
+    first, second = (np.clip(sky + one, 0, 255) for one in blocks)
+    assert jump(first, second) is Jump.CUT
+
+
+def test_agreement_is_one_for_a_shifted_picture_and_low_for_another():
+    rng = np.random.default_rng(5)
+    large, other = rng.normal(size=(2, 48, 96))
+    assert shift_agreement(large[:, :64], large[:, 20:84]) > 0.9
+    assert shift_agreement(large[:, :64], other[:, :64]) < 0.4
+    assert shift_agreement(np.ones((48, 64)), np.ones((48, 64))) == pytest.approx(0.0, abs=1e-6)

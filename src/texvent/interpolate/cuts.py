@@ -5,7 +5,8 @@ noise and detail hardly count, and in log brightness, so a lamp scales nothing.
 
 * *Structure*: every 8×8-cell block of one thumbnail is looked for within 8 cells in the other, so
   motion of up to an eighth of the picture, zoom and moving objects keep it. After a cut most
-  blocks are found nowhere.
+  blocks are found nowhere, unless the whole picture has moved further than that: a whip pan
+  agrees at some shift (`pan`).
 * *Level*: the median change over the picture. A flash moves most of it by the same step.
 
 A fade moves everything too, but by small steps; near black those are large in log brightness, so
@@ -21,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.brightness import Float64Array, balanced_log
+from texvent.interpolate.pan import shift_agreement
 from texvent.video import Frame
 
 SIDE_CELLS = 64
@@ -44,6 +46,8 @@ CUT_CORRELATION = 0.8
 CUT_CHANGE_LOG = 0.15
 CUT_CHANGE_LEVELS = 12.0
 """A cut changes the picture by at least this much on average (log units; intensity levels)."""
+PAN_AGREEMENT = 0.6
+"""Detail that agrees at least this well at one shift of the whole picture is a pan, not a cut."""
 FLASH_CHANGE_LOG = 0.35
 FLASH_CHANGE_LEVELS = 32.0
 """A flash changes the median by at least this much: 1/8 of the scale within one frame."""
@@ -90,7 +94,8 @@ def detect_jump(first: Frame, second: Frame) -> Jump:
         and max(one_way.correlation, other_way.correlation) < CUT_CORRELATION
     )
     if is_lost and change.is_cut:
-        return Jump.CUT
+        is_pan = shift_agreement(earlier.log, later.log) >= PAN_AGREEMENT
+        return Jump.NONE if is_pan else Jump.CUT
     return Jump.FLASH if change.is_flash and not is_lost else Jump.NONE
 
 
