@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
+from texvent.represent import arrays
 from texvent.video import MICROSECONDS
 
 Int64Array = NDArray[np.int64]
@@ -72,8 +73,7 @@ def count_windows(predicted: EventStream, reference: EventStream, rate_hz: Fract
 
 
 def flat_index(*axes: tuple[Any, int]) -> Int64Array:
-    """Row-major index into an array from (coordinate, side) per axis, slowest axis first."""
-    index: Int64Array = np.zeros(np.shape(axes[0][0]), np.int64)
-    for coordinate, side in axes:
-        index = index * side + coordinate
+    """`represent.arrays.flat_index` of NumPy columns of any integer type."""
+    (first, side), *rest = axes
+    index: Int64Array = arrays.flat_index((np.asarray(first, np.int64), side), *rest)
     return index

@@ -156,7 +156,10 @@ def columns_of(events: Events) -> Columns:
 
 
 def flat_index(*axes: Axis) -> Array:
-    """Row-major index into an array from (coordinate, side) per axis, slowest axis first."""
+    """Row-major index into an array from (coordinate, side) per axis, slowest axis first.
+
+    The first coordinate must be int64: a narrower type would overflow.
+    """
     index, _ = axes[0]
     for coordinate, side in axes[1:]:
         index = index * side + coordinate
