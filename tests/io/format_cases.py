@@ -51,6 +51,17 @@ CASES = (
     FormatCase("aedat4-none", "e.aedat4", SHORT),
     FormatCase("aedat4-zstd", "e.aedat4", SHORT),
     FormatCase("es", "e.es", ANY, 2**36),
+    FormatCase("csv", "e.csv", ANY, 2**53),
+    FormatCase("e2vid", "e.zip", ANY),
+    FormatCase("n-imagenet", "e.npz", ANY),
+    FormatCase("v2e", "e.h5", ANY, 2**32),
+    FormatCase("dsec", "e.h5", ANY),
+    FormatCase("dsec-blosc", "e.h5", ANY, extra="hdf5plugin"),
+    FormatCase("parquet", "e.parquet", ANY, extra="pyarrow"),
+    FormatCase("rosbag1", "e.bag", ANY),
+    FormatCase("mcap", "e.mcap", SensorSize(2048, 2048)),
+    FormatCase("esim", "folder", ANY),
+    FormatCase("evreal", "folder", ANY, 2**51),
     FormatCase("atis", "e.bin", SensorSize(256, 240), 2**23),
 )
 CASE_OF = {case.name: case for case in CASES}

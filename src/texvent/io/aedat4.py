@@ -1,13 +1,10 @@
 """AEDAT4, the format of iniVation's DV software: packets of events, LZ4-compressed by default.
 
-    file     `#!AER-DAT4.0` CR LF · table IOHE · packets · table FTAB (list of packets)
-    packet   i32 stream · i32 bytes · table EVTS, compressed
-
+The container is that of `aedat4_container`; a packet of events is a table EVTS.
 Coordinates are i2: sensors up to 32768 pixels a side. Times are i8 µs. Packets hold 10 ms, as
 DV's do, so that its player can seek. How the events were made lies in the XML of the header, as
 attribute `texvent`. The first stream of events is read; frames, IMU samples and triggers beside
-it are read over. The list of packets is not needed for reading: a file whose recording stopped
-before the list was written (position -1) is read too.
+it are read over (`texvent.capture.aedat4_frames` reads the frames).
 
 Source: iniVation, AEDAT 4.0 file format; tables in `aedat4_tables`.
 """
@@ -15,19 +12,23 @@ Source: iniVation, AEDAT 4.0 file format; tables in `aedat4_tables`.
 from __future__ import annotations
 
 import itertools
-import os
-import struct
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any, BinaryIO, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from texvent.errors import FileFormatError
 from texvent.events import EventPackets
+from texvent.io.aedat4_container import (
+    MAGIC,
+    PACKET_HEAD,
+    Container,
+    open_container,
+    stored_size,
+)
 from texvent.io.aedat4_packing import LZ4, NONE, ZSTD, Packing, packing_of
 from texvent.io.aedat4_tables import (
     UNKNOWN,
@@ -38,7 +39,6 @@ from texvent.io.aedat4_tables import (
     make_info,
     make_list,
     read_events,
-    read_info,
 )
 from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
 from texvent.io.columns import (
@@ -47,16 +47,13 @@ from texvent.io.columns import (
     metadata_to_json,
     stored_or_given_size,
 )
-from texvent.io.flatbuffer import Table
 from texvent.io.limits import FormatLimits
 from texvent.io.magic import begins_with
 from texvent.sensor import SensorSize
 
-MAGIC = b"#!AER-DAT4.0\r\n"
 PACKET_US = 10_000
 """Time per packet, µs."""
 EVENTS = "EVTS"
-_HEAD = struct.Struct("<ii")
 
 
 class Aedat4Codec:
@@ -80,15 +77,15 @@ class Aedat4Codec:
             MissingDependencyError: it is compressed with Zstandard, which is not installed.
         """
         path = existing_file(path)
-        header = _read_header(path)
-        attributes = header.stream.attributes
-        final_size = stored_or_given_size(path, _stored_size(path, attributes), size)
+        container, stream = _open_events(path)
+        attributes = stream.attributes
+        final_size = stored_or_given_size(path, stored_size(path, stream), size)
         metadata: dict[str, Any] = {}
         if "texvent" in attributes:
             metadata = metadata_from_json(path, attributes["texvent"])
         elif attributes.get("source"):
             metadata = {"source": attributes["source"]}
-        blocks = partial(_read_blocks, path, header)
+        blocks = partial(_read_blocks, container, stream)
         return EventPackets(BlockPackets(path, blocks, final_size, metadata), final_size, metadata)
 
     def open_writer(
@@ -145,7 +142,7 @@ class Aedat4Sink:
 
     def _write_packet(self, columns: Columns) -> None:
         data = self._packing.pack(make_events(columns))
-        self._file.write(_HEAD.pack(0, len(data)))
+        self._file.write(PACKET_HEAD.pack(0, len(data)))
         times = columns["t"]
         self._entries.append(
             PacketEntry(self._file.tell(), len(data), len(times), int(times[0]), int(times[-1]))
@@ -153,84 +150,24 @@ class Aedat4Sink:
         self._file.write(data)
 
 
-@dataclass(frozen=True)
-class _Header:
-    packing: Packing
-    start: int
-    """First byte of the first packet."""
-    stop: int | None
-    """First byte of the list of packets; None: there is no list."""
-    stream: StreamInfo
-    """The first stream of events."""
-
-
-def _read_header(path: Path) -> _Header:
-    length = os.path.getsize(path)
-    with path.open("rb") as file:
-        if file.read(len(MAGIC)) != MAGIC:
-            raise FileFormatError(f"{path} is not AEDAT4: it does not begin with #!AER-DAT4.0")
-        prefix = file.read(4)
-        start = len(MAGIC) + 4 + int.from_bytes(prefix, "little")
-        if len(prefix) < 4 or start > length:
-            raise FileFormatError(f"{path} ends inside its header; the file was cut off")
-        data = prefix + file.read(start - len(MAGIC) - 4)
-    try:
-        table = Table.root(data, b"IOHE")
-        packing = packing_of(table.number(0, "<i", 0))
-        stop = table.number(1, "<q", UNKNOWN)
-        xml = table.text(2)
-    except FileFormatError as error:
-        raise FileFormatError(f"{path}: {error}") from error
-    if stop != UNKNOWN and not start <= stop < length:
-        raise FileFormatError(
-            f"{path} states its list of packets at byte {stop} of {length}; the file was cut off"
-        )
-    streams = [one for one in read_info(path, xml) if one.identifier == EVENTS]
-    if not streams:
+def _open_events(path: Path) -> tuple[Container, StreamInfo]:
+    container = open_container(path)
+    stream = container.find_stream(EVENTS)
+    if stream is None:
         raise FileFormatError(f"{path} holds no stream of events")
-    return _Header(packing, start, None if stop == UNKNOWN else stop, streams[0])
+    return container, stream
 
 
-def _stored_size(path: Path, attributes: Mapping[str, str]) -> tuple[int, int] | None:
-    try:
-        return int(attributes["sizeX"]), int(attributes["sizeY"])
-    except KeyError:
-        return None
-    except ValueError as error:
-        raise FileFormatError(f"{path}: its header states no sensor size ({error})") from error
-
-
-def _read_blocks(path: Path, header: _Header) -> Iterator[Columns]:
-    with path.open("rb") as file:
-        stop = os.fstat(file.fileno()).st_size if header.stop is None else header.stop
-        position = header.start
-        while position < stop:
-            file.seek(position)
-            stream, count = _read_head(file, path, stop - position)
-            position += _HEAD.size + count
-            if stream != header.stream.number:
-                continue
-            try:
-                events = read_events(header.packing.unpack(file.read(count)))
-            except FileFormatError as error:
-                raise FileFormatError(f"{path}, before byte {position}: {error}") from error
-            # int16 as uint16: a negative coordinate becomes one outside every sensor.
-            yield {
-                "x": events["x"].astype(np.uint16),
-                "y": events["y"].astype(np.uint16),
-                "t": events["t"].astype(np.int64),
-                "p": events["p"],
-            }
-
-
-def _read_head(file: BinaryIO, path: Path, room: int) -> tuple[int, int]:
-    """Stream and length of the packet that begins here, if it fits into `room` bytes."""
-    head = file.read(_HEAD.size)
-    if len(head) < _HEAD.size or room < _HEAD.size:
-        raise FileFormatError(f"{path} ends inside a packet; the file was cut off")
-    stream, count = _HEAD.unpack(head)
-    if not 0 <= count <= room - _HEAD.size:
-        raise FileFormatError(
-            f"{path} ends inside a packet: it states {count} bytes, {room - _HEAD.size} are left"
-        )
-    return stream, count
+def _read_blocks(container: Container, stream: StreamInfo) -> Iterator[Columns]:
+    for end, packet in container.read_packets(stream):
+        try:
+            events = read_events(packet)
+        except FileFormatError as error:
+            raise FileFormatError(f"{container.path}, before byte {end}: {error}") from error
+        # int16 as uint16: a negative coordinate becomes one outside every sensor.
+        yield {
+            "x": events["x"].astype(np.uint16),
+            "y": events["y"].astype(np.uint16),
+            "t": events["t"].astype(np.int64),
+            "p": events["p"],
+        }

@@ -11,7 +11,8 @@ from __future__ import annotations
 import errno
 import os
 import secrets
-from collections.abc import Iterator
+import shutil
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -88,6 +89,77 @@ def atomic_file(path: str | Path, *, overwrite: bool) -> Iterator[Path]:
                 "Free some space or choose another folder"
             ) from error
         raise
+    _flush_folder(target.parent)
+
+
+def check_output_folder(
+    path: str | Path, *, overwrite: bool, is_own: Callable[[Path], bool]
+) -> Path:
+    """The path, if a folder of files can be put there.
+
+    Args:
+        path: the folder to be written.
+        overwrite: whether a folder of the same kind may be replaced.
+        is_own: tells from its path whether a file is of this kind; a folder with any other file
+            is never replaced.
+
+    Raises:
+        OutputError: it exists already, holds other files, or its parent folder is missing or not
+            writable.
+    """
+    target = Path(os.path.realpath(path))
+    if target.is_dir():
+        foreign = [one.name for one in target.iterdir() if not (one.is_file() and is_own(one))]
+        if foreign:
+            raise OutputError(
+                f"cannot write {path}: the folder holds other files ({sorted(foreign)[0]!r}), "
+                "which are never replaced; choose another name"
+            )
+        if not overwrite:
+            raise OutputError(
+                f"{path} exists already; choose another name, or allow replacing it "
+                "(--overwrite, or overwrite=True in Python)"
+            )
+        return target
+    return check_output(path, overwrite=False)
+
+
+@contextmanager
+def atomic_folder(
+    path: str | Path, *, overwrite: bool, is_own: Callable[[Path], bool]
+) -> Iterator[Path]:
+    """A folder to write into, which becomes `path` if the `with` block ends without an exception.
+
+    Between the old folder's going and the new one's coming lies an instant without either; a
+    process killed then leaves the old one as the hidden folder `.texvent-….old`.
+
+    Raises:
+        OutputError: see `check_output_folder`; or the disk became full inside the block.
+    """
+    target = check_output_folder(path, overwrite=overwrite, is_own=is_own)
+    part = target.parent / f".texvent-{secrets.token_hex(6)}.part"
+    old = part.with_suffix(".old")
+    try:
+        part.mkdir()
+        yield part
+        for file in part.iterdir():
+            _flush_to_disk(file)
+        _flush_folder(part)
+        check_output_folder(path, overwrite=overwrite, is_own=is_own)
+        if target.is_dir():
+            os.replace(target, old)
+        os.replace(part, target)
+    except BaseException as error:
+        shutil.rmtree(part, ignore_errors=True)
+        if old.is_dir() and not target.exists():
+            os.replace(old, target)
+        if is_disk_full(error):
+            raise OutputError(
+                f"cannot write {path}: the disk is full ({target.parent}); nothing was kept. "
+                "Free some space or choose another folder"
+            ) from error
+        raise
+    shutil.rmtree(old, ignore_errors=True)
     _flush_folder(target.parent)
 
 

@@ -33,6 +33,22 @@ def existing_file(path: str | Path) -> Path:
     return path
 
 
+def existing_folder(path: str | Path) -> Path:
+    """The path of a readable folder.
+
+    Raises:
+        InputError: there is no such folder, it is a file, or it must not be read.
+    """
+    path = Path(path)
+    if not path.exists():
+        raise InputError(f"no such folder: {path}; check the name")
+    if not path.is_dir():
+        raise InputError(f"{path} is a file; this format is a folder of files")
+    if not os.access(path, os.R_OK | os.X_OK):
+        raise InputError(f"{path} must not be read by this user; change its permissions")
+    return path
+
+
 def binary_polarity(p: NDArray[Any]) -> NDArray[np.uint8]:
     """Polarity coded 0/1 (or false/true) or −1/+1 as uint8, 1 = ON; other values stay wrong.
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent._registry import CODECS, load_object
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, InputError
 from texvent.events import EventPackets, EventStream
 from texvent.io.protocol import EventCodec, EventWriter, RecognisingCodec
 from texvent.sensor import SensorSize, checked_size
@@ -30,7 +30,10 @@ def codec_that_reads(path: str | Path, format: str | None = None) -> EventCodec:
 
     Raises:
         ConfigError: unknown format, or unknown extension; the message lists the known ones.
+        InputError: a folder whose files no codec recognises.
     """
+    if format is None and Path(path).is_dir():
+        return _codec_of_folder(Path(path))
     codecs = _codecs_for(path, format)
     if len(codecs) == 1:
         return codecs[0]
@@ -41,6 +44,18 @@ def codec_that_reads(path: str | Path, format: str | None = None) -> EventCodec:
         elif codec.recognises(Path(path)):
             return codec
     return (others or codecs)[0]
+
+
+def _codec_of_folder(path: Path) -> EventCodec:
+    """The codec that recognises the files in a folder."""
+    codecs: list[EventCodec] = [CODECS.load(name)() for name in CODECS.names()]
+    for codec in codecs:
+        if not codec.extensions and isinstance(codec, RecognisingCodec) and codec.recognises(path):
+            return codec
+    raise InputError(
+        f"{path} is a folder, and not one of event files that texvent knows (esim, evreal); "
+        "give the name of a file in it"
+    )
 
 
 def _codecs_for(path: str | Path, format: str | None) -> list[EventCodec]:

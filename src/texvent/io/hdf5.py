@@ -22,7 +22,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack
 from pathlib import Path
-from types import TracebackType
+from types import MappingProxyType, TracebackType
 from typing import Any, ClassVar, Self
 
 import h5py
@@ -82,8 +82,8 @@ class Hdf5Codec:
         path = existing_file(path)
         with reporting_damage(path), h5py.File(path, "r") as file:
             _checked_columns(file, path)
-            stored = _stored_size(file)
-            metadata = _read_metadata(file, path)
+            stored = stored_size(file)
+            metadata = read_metadata(file, path)
         final_size = stored_or_given_size(path, stored, size)
         return EventPackets(_Packets(path, final_size, metadata), final_size, metadata)
 
@@ -101,6 +101,13 @@ class Hdf5Writer:
         OutputError: the file exists already, its folder refuses it, or the disk is full.
         InputError: a packet of another size, before the one before it, or before time 0.
     """
+
+    time_type: ClassVar[str] = COLUMNS["t"]
+    filters: Mapping[str, Any] = MappingProxyType(
+        {"compression": "gzip", "compression_opts": 1, "shuffle": True}
+    )
+    max_start_us: ClassVar[int] = MAX_START_US
+    max_span_us: ClassVar[int] = MAX_SPAN_US
 
     def __init__(
         self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
@@ -172,11 +179,11 @@ class Hdf5Writer:
                 f"({self._last_us} µs); append packets in time order"
             )
         if self._offset_us is None:
-            self._offset_us = first // 1000 * 1000 if first >= MAX_START_US else 0
-        if last - self._offset_us > MAX_SPAN_US:
+            self._offset_us = first // 1000 * 1000 if first >= self.max_start_us else 0
+        if last - self._offset_us > self.max_span_us:
             raise InputError(
-                f"events span {(last - self._offset_us) / 3.6e9:.1f} h; an HDF5 file with a "
-                "millisecond index holds up to 38 h: split the recording, or check its time unit"
+                f"events span {(last - self._offset_us) / 3.6e9:.3g} h; this file holds up to "
+                f"{self.max_span_us / 3.6e9:.3g} h: split the recording, or check its time unit"
             )
         self._last_us = last
 
@@ -194,12 +201,12 @@ class Hdf5Writer:
 
     def _create_layout(self) -> None:
         file = self._file
-        for name, dtype in COLUMNS.items():
+        for name, dtype in {**COLUMNS, "t": self.time_type}.items():
             self._create_column(f"events/{name}", dtype, CHUNK_EVENTS)
         self._create_column("ms_to_idx", "<u8", CHUNK_INDEX)
         file.attrs["width"], file.attrs["height"] = self._size
         file.attrs["timestamp_scale_ms"] = TIMESTAMP_SCALE_MS
-        _write_metadata(file, self._json, self._metadata)
+        write_metadata(file, self._json, self._metadata)
 
     def _create_column(self, name: str, dtype: str, chunk: int) -> None:
         self._file.create_dataset(
@@ -208,9 +215,7 @@ class Hdf5Writer:
             maxshape=(None,),
             dtype=dtype,
             chunks=(chunk,),
-            compression="gzip",
-            compression_opts=1,
-            shuffle=True,
+            **self.filters,
         )
 
     def _write_pending(self, *, final: bool) -> None:
@@ -307,14 +312,14 @@ def _checked_columns(file: Any, path: Path) -> dict[str, Any]:
     for name, column in columns.items():
         if column.dtype.kind not in "iub":
             raise FileFormatError(f"{path}: events/{name} holds {column.dtype}, not integers")
-        _check_filters(column, path)
+        check_filters(column, path)
     scale = float(file.attrs.get("timestamp_scale_ms", TIMESTAMP_SCALE_MS))
     if not np.isclose(scale, TIMESTAMP_SCALE_MS):
         raise FileFormatError(f"{path} counts time in units of {scale:g} ms; texvent reads 0.001")
     return columns
 
 
-def _check_filters(column: Any, path: Path) -> None:
+def check_filters(column: Any, path: Path) -> None:
     """Ask for hdf5plugin where a file, such as DSEC's, is compressed with a foreign filter."""
     properties = column.id.get_create_plist()
     filters = [properties.get_filter(index)[0] for index in range(properties.get_nfilters())]
@@ -338,13 +343,14 @@ def _time_offset(file: Any, path: Path) -> int:
     return int(value.reshape(-1)[0])
 
 
-def _stored_size(file: Any) -> tuple[int, int] | None:
+def stored_size(file: Any) -> tuple[int, int] | None:
+    """Width and height, pixels, from the root's attributes."""
     if "width" not in file.attrs or "height" not in file.attrs:
         return None
     return int(file.attrs["width"]), int(file.attrs["height"])
 
 
-def _write_metadata(file: Any, text: str, metadata: Mapping[str, Any]) -> None:
+def write_metadata(file: Any, text: str, metadata: Mapping[str, Any]) -> None:
     """All metadata as JSON, and its top-level scalars by name for people who look inside.
 
     The JSON has a fixed length, so it lies in the checksummed header. HDF5 keeps text of variable
@@ -376,7 +382,8 @@ def _is_plain_attribute(value: Any) -> bool:
     return isinstance(value, float)
 
 
-def _read_metadata(file: Any, path: Path) -> dict[str, Any]:
+def read_metadata(file: Any, path: Path) -> dict[str, Any]:
+    """What `write_metadata` wrote, or nothing."""
     text = file.attrs.get("texvent")
     if text is None and isinstance(file.get("texvent"), h5py.Dataset):
         text = file["texvent"][()]

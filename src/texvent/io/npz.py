@@ -23,6 +23,7 @@ import numpy as np
 
 from texvent.errors import FileFormatError, InputError, OutputError
 from texvent.events import EventPackets, EventStream
+from texvent.io.archives import check_archive
 from texvent.io.atomic import atomic_file, check_output
 from texvent.io.columns import (
     existing_file,
@@ -68,7 +69,7 @@ class NpzCodec:
             FileFormatError: it is damaged or lacks a column.
         """
         path = existing_file(path)
-        arrays = _read_arrays(path)
+        arrays = read_arrays(path)
         missing = [name for name in "xytp" if name not in arrays]
         if missing:
             raise FileFormatError(
@@ -77,7 +78,7 @@ class NpzCodec:
             )
         stored = None
         if "width" in arrays and "height" in arrays:
-            stored = _whole(path, arrays, "width"), _whole(path, arrays, "height")
+            stored = read_whole(path, arrays, "width"), read_whole(path, arrays, "height")
         _check_scale(path, arrays)
         metadata = {}
         if "texvent" in arrays:
@@ -154,8 +155,12 @@ class NpzWriter:
             np.savez(file, **arrays)
 
 
-def _read_arrays(path: Path) -> dict[str, Any]:
-    """Every array of the archive; pickled objects are refused, since they could run code."""
+def read_arrays(path: Path) -> dict[str, Any]:
+    """Every array of the archive; pickled objects are refused, since they could run code.
+
+    Raises:
+        FileFormatError: the archive is damaged, no archive, or would fill the memory.
+    """
     try:
         # Opened here, because np.load leaves a damaged file open.
         with path.open("rb") as file:
@@ -163,6 +168,8 @@ def _read_arrays(path: Path) -> dict[str, Any]:
             if not isinstance(archive, np.lib.npyio.NpzFile):
                 raise FileFormatError(f"{path} holds a single NumPy array, not an archive")
             with archive:
+                with zipfile.ZipFile(path) as contents:
+                    check_archive(path, contents)
                 return {name: archive[name] for name in archive.files}
     except InputError:
         raise
@@ -171,7 +178,12 @@ def _read_arrays(path: Path) -> dict[str, Any]:
         raise FileFormatError(f"{path} is damaged or not a NumPy archive ({reason})") from error
 
 
-def _whole(path: Path, arrays: Mapping[str, Any], name: str) -> int:
+def read_whole(path: Path, arrays: Mapping[str, Any], name: str) -> int:
+    """One whole number.
+
+    Raises:
+        FileFormatError: the array holds something else.
+    """
     value = np.asarray(arrays[name])
     if value.size != 1 or value.dtype.kind not in "iu":
         raise FileFormatError(f"{path}: {name} must be one whole number; it is {value!r}")
