@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from texvent._registry import load_object
+from texvent.capture.aedat4_frames import Aedat4Frames, is_aedat4
 from texvent.capture.arrays import ArrayFrames
 from texvent.capture.prepare import PreparedFrames
 from texvent.capture.times import FrameTimes, listed_times
@@ -33,10 +34,10 @@ def open_frames(
     """Frames of a video file, an image folder, an array, a camera or a network stream.
 
     Args:
-        source: a path of a video file, an image folder or a .npy file; a device such as
-            /dev/video0, an address such as rtsp://..., a named pipe, or "-" for standard input;
-            an array [N, H, W] or [N, H, W, 3] (RGB) or an iterable of such pictures; or a
-            FrameStream.
+        source: a path of a video file, an image folder, a .npy file or an AEDAT4 recording with
+            frames; a device such as /dev/video0, an address such as rtsp://..., a named pipe, or
+            "-" for standard input; an array [N, H, W] or [N, H, W, 3] (RGB) or an iterable of such
+            pictures; or a FrameStream.
         config: frame rate, times, start, stop, fit and white level.
         size: sensor size to fit the frames to, or None to keep theirs.
         t_us: [N] frame times, integer µs.
@@ -94,6 +95,8 @@ def _open_address(
         return PreparedFrames(folder, config, size=size)
     if path.suffix.lower() == ".npy" and path.is_file():
         return _open_array(_read_npy(path), config, size, given)
+    if is_aedat4(path):
+        return PreparedFrames(Aedat4Frames(path, _file_times(config, given)), config, size=size)
     video: FrameStream = load_object(VIDEO_FILE)(path, _file_times(config, given))
     return PreparedFrames(video, config, size=size)
 

@@ -31,7 +31,7 @@ good the fit is. The result is a config file:
 texvent calibrate --frames slider_depth --events slider_depth/events.txt \\
     --sensor davis240c -o my.toml
 
-texvent simulate video.mp4 --config my.toml"""
+texvent simulate video.mp4 --sensor my.toml"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,7 +41,7 @@ class CalibrateOptions:
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
 
     frames: str = REQUIRED
-    """Video file or image folder, on the clock of the events."""
+    """Video file, image folder or AEDAT4 recording, on the clock of the events."""
     events: Path = REQUIRED
     """Event file."""
     out: Path = REQUIRED

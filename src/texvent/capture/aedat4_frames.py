@@ -1,0 +1,180 @@
+"""Frames of AEDAT4 recordings, as a DAVIS makes them beside its events.
+
+Each packet of the stream FRME is one table:
+
+    slot 0 i64 time · 1, 2 i64 start and end of the frame · 3, 4 i64 start and end of the exposure
+    slot 5 i8 OpenCV's number of the pixel type · 6, 7 i16 width, height · 8, 9 i16 position
+    slot 10 vector of bytes, the pixels row by row · 11 i64 length of the exposure
+
+A picture shows the mean of its exposure, so a frame's time is the middle of it. Slot 0 cannot be
+relied on for that: the first DV software wrote the middle there, later versions the start.
+
+Source: iniVation, AEDAT 4.0 file format and dv-processing's description of frames.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from texvent.capture.times import FrameTimes
+from texvent.errors import FileFormatError
+from texvent.io.aedat4_container import MAGIC, Container, open_container, stored_size
+from texvent.io.aedat4_tables import StreamInfo
+from texvent.io.flatbuffer import Table
+from texvent.io.magic import begins_with
+from texvent.sensor import SensorSize, checked_size
+from texvent.video import Frame, PixelArray
+
+FRAMES = "FRME"
+CHANNELS: Mapping[int, int] = {0: 1, 16: 3, 24: 4}
+"""OpenCV's number of a pixel type → channels of 8 bits: grey, BGR, BGRA."""
+
+
+def is_aedat4(path: Path) -> bool:
+    """True if the file begins as AEDAT4 does."""
+    return begins_with(path, MAGIC)
+
+
+class Aedat4Frames:
+    """The frames of an AEDAT4 file; every iteration opens the file anew.
+
+    Times are the middle of each exposure on the recording's own clock, that of its events, unless
+    `times` are given.
+
+    Args:
+        path: the file.
+        times: frame times that replace the file's own.
+
+    Raises:
+        FileFormatError: it holds no frames or was cut off; while iterating: a frame is damaged, of
+            another size than the sensor, or of pixels that are not 8-bit.
+        InputError: another number of times is given than there are frames.
+        MissingDependencyError: it is compressed with Zstandard, which is not installed.
+    """
+
+    def __init__(self, path: Path, times: FrameTimes | None = None) -> None:
+        self._times = times
+        self._container, self._stream = _open_stream(path)
+        self._frame_count = self._container.count_packets(self._stream)
+        if times is not None:
+            times.check_count(self._frame_count)
+        self._size = self._find_size()
+
+    @property
+    def size(self) -> SensorSize:
+        """Width and height, pixels."""
+        return self._size
+
+    @property
+    def fps(self) -> Fraction | None:
+        """The frame rate that was given, or None: each frame has its own time."""
+        return None if self._times is None else self._times.fps
+
+    @property
+    def frame_count(self) -> int:
+        """Number of frames."""
+        return self._frame_count
+
+    @property
+    def is_live(self) -> bool:
+        """False: the file can be read again."""
+        return False
+
+    @property
+    def metadata(self) -> Mapping[str, Any]:
+        """Path, the camera's name, and what the times mean."""
+        return {
+            "source": str(self._container.path),
+            "kind": "AEDAT4 frames",
+            "camera": self._stream.attributes.get("source"),
+            "times": "given" if self._times else "middle of the exposure",
+        }
+
+    def __iter__(self) -> Iterator[Frame]:
+        """Frames in order; see the class for what can go wrong."""
+        for index, table in enumerate(self._tables()):
+            try:
+                pixels, t_us = _read_pixels(table), read_exposure(table)[0]
+            except FileFormatError as error:
+                raise FileFormatError(f"{self._container.path}, frame {index}: {error}") from error
+            height, width = pixels.shape[:2]
+            if (width, height) != self._size:
+                raise FileFormatError(
+                    f"{self._container.path}, frame {index} is {width}x{height}, the sensor "
+                    f"{self._size}; frames of a part of the sensor cannot be used"
+                )
+            yield Frame(pixels, t_us if self._times is None else self._times(index))
+
+    def _tables(self) -> Iterator[Table]:
+        for end, packet in self._container.read_packets(self._stream):
+            try:
+                yield Table.root(packet, FRAMES.encode())
+            except FileFormatError as error:
+                path = self._container.path
+                raise FileFormatError(f"{path}, before byte {end}: {error}") from error
+
+    def _find_size(self) -> SensorSize:
+        """What the header states, else the size of the first frame."""
+        stored = stored_size(self._container.path, self._stream)
+        if stored is not None:
+            return checked_size(*stored)
+        pixels = _read_pixels(next(self._tables()))
+        return checked_size(pixels.shape[1], pixels.shape[0])
+
+
+def read_exposure(table: Table) -> tuple[int, int]:
+    """Middle and length of a frame's exposure, µs.
+
+    Args:
+        table: of type FRME.
+
+    Returns:
+        The middle, rounded down, from the stated start and end; from the start and the length
+        where only these are there; else the frame's one time and a length of 0.
+
+    Raises:
+        FileFormatError: the table is damaged.
+    """
+    start, end = table.number(3, "<q", 0), table.number(4, "<q", 0)
+    if end <= start:
+        start = table.number(0, "<q", 0)
+        end = start + max(table.number(11, "<q", 0), 0)
+    return (start + end) // 2, end - start
+
+
+def _open_stream(path: Path) -> tuple[Container, StreamInfo]:
+    container = open_container(path)
+    stream = container.find_stream(FRAMES)
+    if stream is None or not container.count_packets(stream):
+        kinds = ", ".join(one.identifier for one in container.streams)
+        raise FileFormatError(
+            f"{path} holds no frames (its streams: {kinds or 'none'}); only cameras such as the "
+            "DAVIS record frames beside events"
+        )
+    return container, stream
+
+
+def _read_pixels(table: Table) -> PixelArray:
+    """[H, W] grey or [H, W, 3] RGB, uint8."""
+    kind = table.number(5, "<b", 0)
+    width, height = table.number(6, "<h", 0), table.number(7, "<h", 0)
+    if kind not in CHANNELS:
+        raise FileFormatError(
+            f"pixels of OpenCV type {kind}; those of AEDAT4 are 8-bit grey (0), BGR (16) or BGRA "
+            "(24)"
+        )
+    channels = CHANNELS[kind]
+    start, count = table.vector(10)
+    if width < 1 or height < 1 or count != width * height * channels:
+        raise FileFormatError(f"{count} bytes of pixels for {width}x{height}x{channels}")
+    if start + count > len(table.data):
+        raise FileFormatError("its pixels reach past the end of the packet")
+    flat = np.frombuffer(table.data, np.uint8, count, start)
+    if channels == 1:
+        return flat.reshape(height, width)
+    return np.ascontiguousarray(flat.reshape(height, width, channels)[..., 2::-1])
