@@ -12,7 +12,7 @@ import importlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import metadata
-from typing import Any
+from typing import Any, Protocol
 
 from texvent.errors import ConfigError
 
@@ -30,6 +30,18 @@ def suggest(name: str, allowed: tuple[str, ...]) -> str:
     return f"allowed: {', '.join(allowed)}{hint}"
 
 
+class PartTable(Protocol):
+    """Parts that share one class and differ in data, such as models of one adapter."""
+
+    def names(self) -> tuple[str, ...]:
+        """Names to list and to suggest."""
+        ...
+
+    def find(self, name: str) -> Any | None:
+        """The part of that name, or None; also for names that are not listed (paths)."""
+        ...
+
+
 @dataclass(frozen=True)
 class Registry:
     """A table of interchangeable parts of one kind."""
@@ -38,6 +50,8 @@ class Registry:
     """What the parts are, in the singular, as error messages say it."""
     builtin: Mapping[str, str]
     """Name → `"module:attribute"` of the parts that ship with texvent."""
+    table: str | None = None
+    """`"module:attribute"` of a `PartTable`: parts that are rows of data, not classes."""
 
     def entries(self) -> dict[str, str]:
         """Name → target of built-in and plugged-in parts; built-in names cannot be replaced."""
@@ -46,7 +60,8 @@ class Registry:
 
     def names(self) -> tuple[str, ...]:
         """All names, in table order."""
-        return tuple(self.entries())
+        more: tuple[str, ...] = load_object(self.table).names() if self.table else ()
+        return (*self.entries(), *more)
 
     def load(self, name: str) -> Any:
         """Return the part called `name`.
@@ -55,14 +70,20 @@ class Registry:
             ConfigError: no part has that name.
         """
         entries = self.entries()
-        if name not in entries:
-            raise ConfigError(f"unknown {self.kind} {name!r}; {suggest(name, tuple(entries))}")
-        return load_object(entries[name])
+        if name in entries:
+            return load_object(entries[name])
+        part = load_object(self.table).find(name) if self.table else None
+        if part is None:
+            raise ConfigError(f"unknown {self.kind} {name!r}; {suggest(name, self.names())}")
+        return part
 
 
 GENERATORS = Registry(
     "generator",
-    {"procedural": "texvent.generate.procedural.generator:ProceduralGenerator"},
+    {
+        "procedural": "texvent.generate.procedural.generator:ProceduralGenerator",
+    },
+    table="texvent.generate.model_names:MODEL_TABLE",
 )
 INTERPOLATORS = Registry(
     "interpolator",
@@ -71,6 +92,7 @@ INTERPOLATORS = Registry(
         "blend": "texvent.interpolate.blend:BlendInterpolator",
         "flow": "texvent.interpolate.flow:FlowInterpolator",
         "exact": "texvent.interpolate.exact:ExactInterpolator",
+        "rife": "texvent.interpolate.rife:RifeInterpolator",
     },
 )
 SIMULATORS = Registry(

@@ -15,8 +15,10 @@ from typing import Any
 
 from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS
 from texvent._version import __version__
-from texvent.config import RunConfig
+from texvent.capture.prepare import PreparedFrames
+from texvent.config import CaptureConfig, RunConfig
 from texvent.events import NOISE, SIGNAL, EventPackets, EventStream
+from texvent.generate.protocol import Watch
 from texvent.interpolate.densify import OnCut, densify
 from texvent.settings import Settings
 from texvent.simulate.look_ahead import step_through
@@ -24,15 +26,29 @@ from texvent.simulate.training import draw_training_config
 from texvent.video import Frame, FrameStream
 
 
-def text_to_events(prompt: str, settings: Settings) -> Simulation:
-    """Events for a text prompt (Eq. 2); nothing is computed before the result is iterated.
+def text_to_events(prompt: str, settings: Settings, *, watch: Watch | None = None) -> Simulation:
+    """Events for a text prompt (Eq. 2); none is computed before the result is iterated.
+
+    Args:
+        prompt: what to show.
+        settings: all options.
+        watch: told how a slow generator gets on: a learned model makes its video here.
 
     Raises:
-        InputError: the prompt is empty.
+        InputError: the prompt is empty, or the model cannot be had.
     """
+    return video_to_events(text_to_video(prompt, settings, watch=watch), settings, prompt=prompt)
+
+
+def text_to_video(prompt: str, settings: Settings, *, watch: Watch | None = None) -> FrameStream:
+    """The video for a text prompt (Eq. 3), fitted to the sensor; see `text_to_events`."""
     generator_class = GENERATORS.load(settings.generator or "procedural")
     generator = generator_class(settings.source, seed=settings.run.seed, size=settings.size)
-    return video_to_events(generator.generate(prompt), settings, prompt=prompt)
+    video: FrameStream = generator.generate(prompt, watch=watch)
+    if settings.size in (None, video.size):
+        return video
+    fit = CaptureConfig(fit=getattr(settings.source, "fit", CaptureConfig.fit))
+    return PreparedFrames(video, fit, size=settings.size, check_scale=False)
 
 
 def video_to_events(

@@ -28,7 +28,7 @@ from texvent.simulate.thresholds import with_contrast_threshold
 
 Command = Literal["generate", "simulate"]
 DEFAULT_SENSOR = "davis346"
-"""Size of a generated scene when no sensor is named."""
+"""Size of a generated scene when no sensor is named and the generator has no wish of its own."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -99,7 +99,9 @@ def default_settings(
     generator_name = generator or next(iter(GENERATORS.builtin))
     generator_class = GENERATORS.load(generator_name)
     return Settings(
-        run=dataclasses.replace(run, sensor=DEFAULT_SENSOR),
+        run=dataclasses.replace(
+            run, sensor=getattr(generator_class, "default_sensor", DEFAULT_SENSOR)
+        ),
         source=generator_class.config_type(),
         interpolate=_interpolation(simulator_class, generator_class),
         simulate=presets[preset_name],

@@ -2,23 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, ClassVar, Protocol
 
 from texvent.sensor import SensorSize
 from texvent.video import FrameStream
 
 
+class Watch(Protocol):
+    """Who is told how a slow generator gets on. Either method may raise to stop it cleanly."""
+
+    def announce(self, line: str) -> None:
+        """Take one line to show, such as the licence before a download."""
+        ...
+
+    def advance(self, stage: str, done: int, total: int) -> None:
+        """Take progress: `done` of `total` steps of a stage, such as "denoise"."""
+        ...
+
+
 class Generator(Protocol):
     """Turns a prompt into a video (Eq. 3). Built as `Generator(config, seed=seed, size=size)`."""
 
-    config_type: ClassVar[type]
-    """Frozen dataclass with the generator's options."""
+    config_type: ClassVar[Callable[[], Any]]
+    """Frozen dataclass with the generator's options, or a function that gives its defaults."""
     default_interpolate: ClassVar[str]
     """Interpolator that suits its videos: "exact" if they can be rendered at any instant."""
 
-    def generate(self, prompt: str) -> FrameStream:
-        """The video for `prompt`; frames are made as they are asked for.
+    def generate(self, prompt: str, *, watch: Watch | None = None) -> FrameStream:
+        """The video for `prompt`.
+
+        Frames are made as they are asked for where the generator can, all at once before this
+        returns where it cannot (learned models). Their size is the generator's own; the pipeline
+        fits them to the sensor.
+
+        Args:
+            prompt: what to show.
+            watch: told about progress; may stop it.
 
         Raises:
             InputError: the prompt is empty.
@@ -29,8 +49,9 @@ class Generator(Protocol):
 class GeneratorFactory(Protocol):
     """How a generator class is called."""
 
-    config_type: ClassVar[type]
+    config_type: ClassVar[Callable[[], Any]]
     default_interpolate: ClassVar[str]
+    # Optional: `default_sensor`, a sensor name, or None to keep the size of the video.
 
     def __call__(self, config: Any, *, seed: int, size: SensorSize | None) -> Generator:
         """Build a generator; `size` None means its own default size."""

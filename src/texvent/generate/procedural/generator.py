@@ -22,6 +22,7 @@ from texvent.video import MICROSECONDS, Frame, frame_time_us
 if TYPE_CHECKING:
     from texvent.generate.procedural.ground_truth import GroundTruth
     from texvent.generate.procedural.primitives import Scene
+    from texvent.generate.protocol import Watch
 
 DEFAULT_SIZE = SENSORS["davis346"].size
 """Picture size when none is asked for."""
@@ -129,11 +130,12 @@ class ProceduralGenerator:
         self.seed = seed
         self.size = size if size is not None else DEFAULT_SIZE
 
-    def generate(self, prompt: str) -> ProceduralVideo:
+    def generate(self, prompt: str, *, watch: Watch | None = None) -> ProceduralVideo:
         """The video for `prompt`.
 
         Args:
             prompt: English sentences, such as "a red car drives left past two trees at dusk".
+            watch: told nothing: frames are rendered when they are asked for.
 
         Returns:
             A stream of float RGB frames. Its metadata say what was understood and which words
@@ -142,6 +144,7 @@ class ProceduralGenerator:
         Raises:
             InputError: the prompt is empty.
         """
+        del watch
         if not prompt.strip():
             raise InputError(
                 "the prompt is empty; describe a scene, such as 'a red car drives left at dusk'"

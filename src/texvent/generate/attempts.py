@@ -1,0 +1,71 @@
+"""Generate, look at the result, and warn, refuse or try another seed (paper 9.6)."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+
+from texvent.errors import TexventError
+from texvent.generate.check import ClipReport, check_clip
+from texvent.generate.protocol import Watch
+from texvent.generate.stored_video import StoredVideo
+from texvent.generate.video_config import GeneratedVideoConfig
+
+
+def generate_checked(
+    make: Callable[[int], StoredVideo],
+    config: GeneratedVideoConfig,
+    *,
+    seed: int,
+    watch: Watch,
+) -> StoredVideo:
+    """A video that passes the failure filter, or what `on_failure` says instead.
+
+    Args:
+        make: seed → video.
+        config: what to do about a failed video, and how often to try again.
+        seed: the first seed; the others follow from it.
+        watch: told what is wrong.
+
+    Returns:
+        The video, with the filter's findings in its metadata.
+
+    Raises:
+        TexventError: the video failed and `on_failure` is "reject", or every seed failed.
+    """
+    if config.on_failure == "ignore":
+        return make(seed)
+    tries = config.retries + 1 if config.on_failure == "retry" else 1
+    for attempt in range(tries):
+        attempt_seed = nth_seed(seed, attempt)
+        video = make(attempt_seed)
+        report = check_clip(video)
+        if report.is_fine or config.on_failure == "warn":
+            if not report.is_fine:
+                watch.announce(f"warning: the generated video looks failed: {report.summary}")
+            return video.with_metadata(check=report.as_facts())
+        watch.announce(f"seed {attempt_seed} is refused: {report.summary}")
+    raise TexventError(_refusal(report, tries))
+
+
+def nth_seed(seed: int, attempt: int) -> int:
+    """The seed of an attempt: the given one first, then digests of it, below 2^31.
+
+    Example:
+        >>> nth_seed(7, 0)
+        7
+        >>> nth_seed(7, 1) == nth_seed(7, 1) != nth_seed(8, 1)
+        True
+    """
+    if attempt == 0:
+        return seed
+    digest = hashlib.sha256(f"{seed} {attempt}".encode()).digest()
+    return int.from_bytes(digest[:4], "big") >> 1
+
+
+def _refusal(report: ClipReport, tries: int) -> str:
+    seeds = "the video" if tries == 1 else f"all {tries} videos, each of another seed,"
+    return (
+        f"{seeds} failed the check of generated videos: {report.summary}. Reword the prompt, try "
+        "another --seed, or accept it with --on-failure warn"
+    )

@@ -1,0 +1,106 @@
+"""Where a model's files are: a local folder, or the model hub's cache on this machine."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from texvent._require import require
+from texvent.errors import InputError, TexventError
+from texvent.generate.models import VideoModel
+from texvent.generate.weight_files import INDEX, check_weight_files
+
+EXTRA = "generate"
+
+
+@dataclass(frozen=True)
+class ModelFiles:
+    """A model folder that was checked, and the commit it is of."""
+
+    folder: Path
+    commit: str | None
+    """Commit of the hub's repository; None for a local folder."""
+
+
+def find_files(model: VideoModel, announce: Callable[[str], None]) -> ModelFiles:
+    """The files of a model, fetched first if they are not on this machine.
+
+    Args:
+        model: the model.
+        announce: told size and licence before anything is fetched.
+
+    Raises:
+        InputError: the model is not here and cannot be fetched, or a file is missing.
+        FileFormatError: a file is damaged.
+        MissingDependencyError: diffusers is not installed.
+    """
+    if model.folder is not None:
+        check_weight_files(model.folder)
+        return ModelFiles(model.folder, None)
+    folder = find_downloaded(model)
+    if folder is None:
+        announce(describe_terms(model))
+        folder = _download(model)
+    check_weight_files(folder)
+    return ModelFiles(folder, folder.name)
+
+
+def find_downloaded(model: VideoModel) -> Path | None:
+    """Folder of a model that the hub's cache holds already, or None. Touches no network.
+
+    Raises:
+        MissingDependencyError: huggingface-hub is not installed.
+    """
+    hub = require("huggingface_hub", extra=EXTRA)
+    found = hub.try_to_load_from_cache(model.repo, INDEX, revision=model.revision)
+    if not isinstance(found, str):
+        return None
+    # The index is the first file that is fetched; the rest may be missing after an interruption.
+    folder = Path(found).parent
+    try:
+        check_weight_files(folder)
+    except InputError:
+        return None
+    return folder
+
+
+def describe_terms(model: VideoModel) -> str:
+    """Licence and origin, for the user to read before the download."""
+    doubt = "" if model.is_licence_verified else " (from general knowledge: check the model's page)"
+    return f"fetching {model.source} from the model hub; licence: {model.licence}{doubt}"
+
+
+def _download(model: VideoModel) -> Path:
+    diffusers = require("diffusers", extra=EXTRA)
+    errors = require("huggingface_hub.errors", extra=EXTRA)
+    try:
+        return Path(
+            diffusers.DiffusionPipeline.download(
+                model.repo, revision=model.revision, use_safetensors=True
+            )
+        )
+    except errors.GatedRepoError as error:
+        raise InputError(
+            f"{model.repo} is gated: accept its terms on the model's page and log in with: hf "
+            "auth login"
+        ) from error
+    except errors.RepositoryNotFoundError as error:
+        raise InputError(
+            f"the model hub has no repository {model.repo!r}, or it is private"
+        ) from error
+    except (OSError, ValueError) as error:
+        raise TexventError(_missing_text(model, error)) from error
+
+
+def _missing_text(model: VideoModel, error: Exception) -> str:
+    constants = require("huggingface_hub.constants", extra=EXTRA)
+    offline = " (HF_HUB_OFFLINE is set)" if os.environ.get("HF_HUB_OFFLINE") else ""
+    reason = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
+    return (
+        f"{INDEX} and the weights of {model.source} are not on this machine and the model hub "
+        f"cannot be reached{offline}: {reason}. Fetch them elsewhere (hf download "
+        f"{model.repo}) and put them into the hub's cache {constants.HF_HUB_CACHE}, "
+        "or into any folder and pass --generator ./FOLDER"
+    )

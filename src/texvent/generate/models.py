@@ -1,0 +1,335 @@
+"""Learned text-to-video models that `--generator` knows by name, as one table of facts.
+
+One adapter (`diffusers_generator.py`) runs all of them. A row says where the weights are, which
+diffusers pipeline runs them and what they were made for; every value is a default that an option
+overrides. Frame counts, sizes and step counts are the call defaults of diffusers 0.42. The weights
+cannot be redistributed here, so `is_verified` says how far a row was tried: True means that the
+pipeline class runs with tiny random weights of the same layout in the tests of texvent.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+
+@dataclass(frozen=True, kw_only=True)
+class VideoModel:
+    """One learned model; None means that the pipeline's own default is used."""
+
+    name: str
+    """What `--generator` calls it."""
+    repo: str = ""
+    """Repository on the model hub, `org/name`; empty for a local folder."""
+    folder: Path | None = None
+    """Local folder with the model, instead of the repository."""
+    revision: str | None = None
+    """Branch, tag or commit; None is the default branch."""
+    pipeline: str | None = None
+    """diffusers class; None is what `model_index.json` names."""
+    image_pipeline: str | None = None
+    """diffusers class that starts from a picture with the same weights, if there is one."""
+    fps: Fraction | None = None
+    """Frame rate the model was trained for; it is nowhere in the weights."""
+    frames: int | None = None
+    width: int | None = None
+    height: int | None = None
+    steps: int | None = None
+    licence: str = "not known to texvent; read the model's page"
+    is_licence_verified: bool = False
+    """False where the licence was not read from the model's own page."""
+    gpu_gb: float | None = None
+    """GPU memory with every part on the device, GB; None where nobody measured it."""
+    offload_gb: float | None = None
+    """GPU memory with parts moved to the device when used, GB."""
+    dtype: str = "bfloat16"
+    """Number format on a GPU."""
+    needs_float32_vae: bool = False
+    """Whether its decoder should stay in float32 (Wan's page asks for it)."""
+    ignores_fps: bool = False
+    """Whether the rate is known not to change the frames."""
+    is_verified: bool = False
+
+    @property
+    def source(self) -> str:
+        """Where the weights come from, for messages and metadata."""
+        if self.folder is not None:
+            return str(self.folder)
+        return f"{self.repo}@{self.revision}" if self.revision else self.repo
+
+
+def _row(
+    name: str, repo: str, pipeline: str, shape: tuple[int, int, int], **facts: Any
+) -> VideoModel:
+    """A row; `shape` is frames, height, width."""
+    frames, height, width = shape
+    if "fps" in facts:
+        facts["fps"] = Fraction(facts["fps"])
+    return VideoModel(
+        name=name,
+        repo=repo,
+        pipeline=pipeline,
+        frames=frames,
+        height=height,
+        width=width,
+        **facts,
+    )
+
+
+_NVIDIA = "NVIDIA Open Model License; switching off its guardrail ends the licence"
+_COG = "CogVideoX License (registration for commercial use)"
+_WAN_21: dict[str, Any] = {
+    "fps": 16,
+    "steps": 50,
+    "licence": "Apache-2.0",
+    "needs_float32_vae": True,
+    "ignores_fps": True,
+    "is_verified": True,
+}
+_COG_FACTS: dict[str, Any] = {
+    "fps": 8,
+    "steps": 50,
+    "ignores_fps": True,
+    "is_verified": True,
+}
+_WAN = "WanPipeline"
+_COGVIDEOX = "CogVideoXPipeline"
+
+_ROWS = (
+    _row(
+        "cosmos-7b",
+        "nvidia/Cosmos-1.0-Diffusion-7B-Text2World",
+        "CosmosTextToWorldPipeline",
+        (121, 704, 1280),
+        fps=24,
+        steps=36,
+        licence=_NVIDIA,
+        is_licence_verified=True,
+        gpu_gb=74,
+        offload_gb=24.4,
+        is_verified=True,
+    ),
+    _row(
+        "cosmos2.5-2b",
+        "nvidia/Cosmos-Predict2.5-2B",
+        "Cosmos2_5_PredictBasePipeline",
+        (93, 704, 1280),
+        revision="diffusers/base/post-trained",
+        fps=16,
+        steps=36,
+        licence=_NVIDIA,
+        gpu_gb=32.5,
+        is_verified=True,
+    ),
+    _row(
+        "cosmos3-nano",
+        "nvidia/Cosmos3-Nano",
+        "Cosmos3OmniPipeline",
+        (189, 720, 1280),
+        fps=24,
+        steps=35,
+        licence=_NVIDIA,
+    ),
+    _row(
+        "wan-1.3b",
+        "Wan-AI/Wan2.1-T2V-1.3B-Diffusers",
+        _WAN,
+        (81, 480, 832),
+        gpu_gb=20,
+        offload_gb=8.2,
+        **_WAN_21,
+    ),
+    _row(
+        "wan-14b",
+        "Wan-AI/Wan2.1-T2V-14B-Diffusers",
+        _WAN,
+        (81, 480, 832),
+        gpu_gb=48,
+        offload_gb=13,
+        **_WAN_21,
+    ),
+    _row(
+        "wan2.2-a14b",
+        "Wan-AI/Wan2.2-T2V-A14B-Diffusers",
+        _WAN,
+        (81, 480, 832),
+        gpu_gb=80,
+        **_WAN_21,
+    ),
+    _row(
+        "wan2.2-5b",
+        "Wan-AI/Wan2.2-TI2V-5B-Diffusers",
+        _WAN,
+        (121, 704, 1280),
+        gpu_gb=24,
+        **{**_WAN_21, "fps": 24, "image_pipeline": "WanImageToVideoPipeline"},
+    ),
+    _row(
+        "cogvideox-2b",
+        "THUDM/CogVideoX-2b",
+        _COGVIDEOX,
+        (49, 480, 720),
+        licence="Apache-2.0",
+        gpu_gb=18,
+        offload_gb=10,
+        dtype="float16",
+        **_COG_FACTS,
+    ),
+    _row(
+        "cogvideox-5b",
+        "THUDM/CogVideoX-5b",
+        _COGVIDEOX,
+        (49, 480, 720),
+        licence=_COG,
+        gpu_gb=33,
+        offload_gb=15,
+        **_COG_FACTS,
+    ),
+    _row(
+        "cogvideox1.5-5b",
+        "THUDM/CogVideoX1.5-5B",
+        _COGVIDEOX,
+        (81, 768, 1360),
+        licence=_COG,
+        gpu_gb=33,
+        offload_gb=15,
+        **{**_COG_FACTS, "fps": 16},
+    ),
+    _row(
+        "ltx",
+        "Lightricks/LTX-Video",
+        "LTXPipeline",
+        (161, 512, 704),
+        image_pipeline="LTXImageToVideoPipeline",
+        fps=25,
+        steps=50,
+        licence="LTX-Video licence",
+        gpu_gb=10,
+    ),
+    _row(
+        "ltx2",
+        "Lightricks/LTX-2",
+        "LTX2Pipeline",
+        (121, 512, 768),
+        fps=24,
+        steps=30,
+        licence="LTX-2 licence",
+    ),
+    _row(
+        "hunyuan",
+        "hunyuanvideo-community/HunyuanVideo",
+        "HunyuanVideoPipeline",
+        (129, 720, 1280),
+        fps=24,
+        steps=50,
+        licence="Tencent Hunyuan Community License (not for the EU, UK, South Korea)",
+        offload_gb=14,
+    ),
+    _row(
+        "hunyuan1.5",
+        "hunyuanvideo-community/HunyuanVideo-1.5-480p_t2v",
+        "HunyuanVideo15Pipeline",
+        (121, 480, 848),
+        fps=24,
+        steps=50,
+        licence="Tencent Hunyuan Community License (not for the EU, UK, South Korea)",
+    ),
+    _row(
+        "mochi",
+        "genmo/mochi-1-preview",
+        "MochiPipeline",
+        (84, 480, 848),
+        fps=30,
+        steps=64,
+        licence="Apache-2.0",
+        gpu_gb=70,
+        offload_gb=22,
+    ),
+    _row(
+        "allegro",
+        "rhymes-ai/Allegro",
+        "AllegroPipeline",
+        (88, 720, 1280),
+        fps=15,
+        steps=100,
+        licence="Apache-2.0",
+    ),
+    _row(
+        "latte",
+        "maxin-cn/Latte-1",
+        "LattePipeline",
+        (16, 512, 512),
+        fps=8,
+        steps=50,
+        licence="Apache-2.0",
+    ),
+    _row(
+        "skyreels2-14b",
+        "Skywork/SkyReels-V2-T2V-14B-720P-Diffusers",
+        "SkyReelsV2Pipeline",
+        (97, 544, 960),
+        fps=24,
+        steps=50,
+        licence="Skywork licence",
+    ),
+    _row(
+        "sana-2b",
+        "Efficient-Large-Model/SANA-Video_2B_480p_diffusers",
+        "SanaVideoPipeline",
+        (81, 480, 832),
+        fps=16,
+        steps=50,
+        licence="NVIDIA licence",
+    ),
+    _row(
+        "kandinsky5-lite",
+        "kandinskylab/Kandinsky-5.0-T2V-Lite-sft-5s-Diffusers",
+        "Kandinsky5T2VPipeline",
+        (121, 512, 768),
+        fps=24,
+        steps=50,
+        licence="MIT",
+    ),
+    _row(
+        "easyanimate-7b",
+        "alibaba-pai/EasyAnimateV5.1-7b-zh-diffusers",
+        "EasyAnimatePipeline",
+        (49, 512, 512),
+        fps=8,
+        steps=50,
+        licence="Apache-2.0",
+    ),
+    _row(
+        "helios",
+        "BestWishYsh/Helios-Base",
+        "HeliosPipeline",
+        (132, 384, 640),
+        fps=24,
+        steps=50,
+        licence="Apache-2.0",
+        offload_gb=6,
+    ),
+    _row(
+        "motif-2b",
+        "Motif-Technologies/Motif-Video-2B",
+        "MotifVideoPipeline",
+        (121, 736, 1280),
+        fps=24,
+        licence="not known to texvent; read the model's page",
+        offload_gb=30,
+    ),
+    _row(
+        "anyflow-14b",
+        "nvidia/AnyFlow-Wan2.1-T2V-14B-Diffusers",
+        "AnyFlowPipeline",
+        (81, 480, 832),
+        fps=16,
+        steps=4,
+        licence="NVIDIA licence",
+    ),
+)
+
+MODELS: dict[str, VideoModel] = {row.name: row for row in _ROWS}
+"""Name → row, the paper's default first."""

@@ -1,0 +1,143 @@
+"""Call any diffusers text-to-video pipeline: by its own argument names, watched, interruptible."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Mapping
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from texvent._require import require
+from texvent.errors import ConfigError, InputError, TexventError
+from texvent.generate.protocol import Watch
+from texvent.generate.video_config import DiffusersConfig
+
+EXTRA = "generate"
+ARGUMENTS: Mapping[str, tuple[str, ...]] = {
+    "frames": ("num_frames", "video_length", "frames"),
+    "width": ("width",),
+    "height": ("height",),
+    "steps": ("num_inference_steps",),
+    "guidance": ("guidance_scale",),
+    "negative_prompt": ("negative_prompt",),
+}
+"""Option → what pipelines call it."""
+RATE_ARGUMENTS = ("fps", "frame_rate")
+STEP_CALLBACK = "callback_on_step_end"
+
+
+def call_pipeline(
+    pipe: Any,
+    prompt: Mapping[str, Any],
+    config: DiffusersConfig,
+    *,
+    fps: Fraction,
+    seed: int,
+    output_type: str,
+    watch: Watch,
+) -> Any:
+    """Run a pipeline once.
+
+    Args:
+        pipe: a diffusers pipeline.
+        prompt: `{"prompt": text}`, or embeddings by the pipeline's argument names.
+        config: options; those that are None are not passed.
+        fps: passed where the model takes the rate as an input (it changes the pixels).
+        seed: of a CPU generator, which gives the same noise on every device.
+        output_type: "np" for frames [F, H, W, 3] float32 in 0..1, "latent" for latents.
+        watch: told about every denoising step.
+
+    Returns:
+        The first result of the batch of one: frames, or the latent tensor with its batch axis.
+
+    Raises:
+        ConfigError: the pipeline does not take an option, or refuses its value.
+        TexventError: the GPU's memory is too small.
+    """
+    torch = require("torch", extra=EXTRA)
+    accepted = inspect.signature(pipe.__call__).parameters
+    arguments = {**_options(pipe, config, accepted), **prompt}
+    if "prompt_embeds" in prompt:
+        arguments.pop("negative_prompt", None)
+    for name in RATE_ARGUMENTS:
+        if name in accepted:
+            arguments[name] = int(fps) if fps.denominator == 1 else float(fps)
+    if "image" in accepted:
+        arguments.update(_image(pipe, config, accepted["image"]))
+    elif config.image is not None:
+        raise ConfigError(f"image is set, but {type(pipe).__name__} starts from text alone")
+    if STEP_CALLBACK in accepted:
+        arguments[STEP_CALLBACK] = _step_callback(watch)
+    try:
+        output = pipe(
+            **arguments,
+            generator=torch.Generator("cpu").manual_seed(seed),
+            output_type=output_type,
+            return_dict=False,
+        )[0]
+    except ValueError as error:
+        raise ConfigError(f"{type(pipe).__name__} refuses the options: {error}") from error
+    except torch.OutOfMemoryError as error:
+        raise TexventError(
+            f"{type(pipe).__name__} does not fit into the GPU's memory; try --offload model or "
+            "--offload sequential, --quantize 8bit, a smaller --width and --height, or fewer "
+            "--frames"
+        ) from error
+    finally:
+        # Also after Ctrl-C: parts that are offloaded go back, so that the next prompt can run.
+        pipe.maybe_free_model_hooks()
+    return output if output_type == "latent" else output[0]
+
+
+def default_guidance(pipe: Any, config: DiffusersConfig) -> float:
+    """The guidance scale that a call will use."""
+    if config.guidance is not None:
+        return config.guidance
+    default = inspect.signature(pipe.__call__).parameters["guidance_scale"].default
+    return float(default)
+
+
+def _options(
+    pipe: Any, config: DiffusersConfig, accepted: Mapping[str, inspect.Parameter]
+) -> dict[str, Any]:
+    arguments: dict[str, Any] = {}
+    for option, names in ARGUMENTS.items():
+        value = getattr(config, option)
+        if value is None:
+            continue
+        name = next((one for one in names if one in accepted), None)
+        if name is None:
+            raise ConfigError(f"{option} is set, but {type(pipe).__name__} does not take it")
+        arguments[name] = value
+    return arguments
+
+
+def _image(pipe: Any, config: DiffusersConfig, parameter: inspect.Parameter) -> dict[str, Any]:
+    """The picture to start from, cut and resized to the video's size."""
+    if config.image is None:
+        if parameter.default is inspect.Parameter.empty:
+            raise ConfigError(f"{type(pipe).__name__} starts from a picture; give --image PATH")
+        return {}
+    images, operations = (require(f"PIL.{name}", extra=EXTRA) for name in ("Image", "ImageOps"))
+    return {"image": _fit_image(images, operations, config.image, config)}
+
+
+def _fit_image(images: Any, operations: Any, path: Path, config: DiffusersConfig) -> Any:
+    try:
+        with images.open(path) as opened:
+            picture = opened.convert("RGB")
+    except OSError as error:
+        raise InputError(f"{path} cannot be read as a picture ({error})") from error
+    if config.width is None or config.height is None:
+        return picture
+    return operations.fit(picture, (config.width, config.height))
+
+
+def _step_callback(watch: Watch) -> Any:
+    def report(pipe: Any, step: int, time: Any, tensors: dict[str, Any]) -> dict[str, Any]:
+        del time
+        watch.advance("denoise", step + 1, int(pipe.num_timesteps))
+        return tensors
+
+    return report

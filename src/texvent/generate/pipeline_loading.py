@@ -1,0 +1,168 @@
+"""Load a diffusers pipeline from a folder of its files, onto the device it will run on."""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from texvent._require import require
+from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.generate.guardrail import PART, check_wiring, load_guardrail, needs_guardrail
+from texvent.generate.placement import Placement
+from texvent.generate.torchvision_stand_in import stand_in_for_torchvision
+from texvent.generate.weight_files import read_pipeline_index
+
+EXTRA = "generate"
+Pipeline: TypeAlias = Any
+"""diffusers.DiffusionPipeline; diffusers is imported only when a pipeline is loaded."""
+DECODER = "vae"
+TEXT_PARTS = ("text_encoder", "tokenizer")
+QUANTIZED_PARTS = ("transformer", "transformer_2")
+
+
+@dataclass(frozen=True)
+class LoadRequest:
+    """What decides a loaded pipeline; equal requests share one."""
+
+    folder: Path
+    class_name: str | None
+    """diffusers class, or None for the one the folder names."""
+    placement: Placement
+    quantize: str
+    decoder_in_float32: bool
+    has_text_encoder: bool = True
+    """False leaves the text encoder out: prompts come as embeddings."""
+
+
+def resolve_device(wish: str) -> tuple[str, int | None]:
+    """The device, and its free memory in bytes (None for a CPU).
+
+    Args:
+        wish: "auto", or a torch device such as "cuda:1".
+
+    Raises:
+        ConfigError: there is no such device.
+        MissingDependencyError: torch is not installed.
+    """
+    torch = require("torch", extra=EXTRA)
+    if wish == "auto":
+        wish = "cuda" if torch.cuda.is_available() else "cpu"
+    try:
+        device = torch.device(wish)
+        torch.empty(1, device=device)
+        free = int(torch.cuda.mem_get_info(device)[0]) if device.type == "cuda" else None
+    except (RuntimeError, AssertionError) as error:
+        reason = str(error).splitlines()[0]
+        raise ConfigError(
+            f"generator_device is {wish!r}, which torch cannot use here ({reason}); "
+            "allowed: auto, cpu, cuda, cuda:N, mps"
+        ) from error
+    return str(device), free
+
+
+@functools.lru_cache(maxsize=1)
+def load_pipeline(request: LoadRequest) -> Pipeline:
+    """The pipeline, in evaluation mode, placed as asked. The last one is kept for the next prompt.
+
+    Raises:
+        FileFormatError: a weight file does not fit its network.
+        InputError: diffusers has no such class, or a file is missing.
+        MissingDependencyError: a package is not installed.
+    """
+    index = read_pipeline_index(request.folder)
+    name = request.class_name or str(index["_class_name"])
+    # By the class itself: DiffusionPipeline.from_pretrained ignores optional parts given to it.
+    pipeline_class = getattr(require("diffusers", extra=EXTRA), name, None)
+    if pipeline_class is None:
+        raise InputError(
+            f"{request.folder} needs the diffusers class {name}, which the installed diffusers "
+            "does not have; install a newer one: pip install -U diffusers"
+        )
+    parts: dict[str, Any] = {}
+    if needs_guardrail(index):
+        stand_in_for_torchvision()
+        parts[PART] = load_guardrail()
+    if not request.has_text_encoder:
+        parts.update(dict.fromkeys(TEXT_PARTS))
+    if request.quantize != "none":
+        parts["quantization_config"] = _quantization(request)
+    with _without_bars():
+        pipe = _from_pretrained(pipeline_class, request, parts)
+    if PART in parts:
+        check_wiring(pipe)
+    _place(pipe, request.placement)
+    for part in pipe.components.values():
+        # A text encoder in training mode drops units at random.
+        if hasattr(part, "eval") and callable(part.eval):
+            part.eval()
+    pipe.set_progress_bar_config(disable=True)
+    return pipe
+
+
+def _from_pretrained(pipeline_class: Any, request: LoadRequest, parts: dict[str, Any]) -> Pipeline:
+    torch = require("torch", extra=EXTRA)
+    safetensors = require("safetensors", extra=EXTRA)
+    dtype: Any = getattr(torch, request.placement.dtype)
+    if request.decoder_in_float32 and dtype is not torch.float32:
+        dtype = {"default": dtype, DECODER: torch.float32}
+    try:
+        return pipeline_class.from_pretrained(
+            str(request.folder), dtype=dtype, local_files_only=True, use_safetensors=True, **parts
+        )
+    except (OSError, ValueError, RuntimeError, safetensors.SafetensorError) as error:
+        reason = " ".join(str(error).split())[:300]
+        raise FileFormatError(
+            f"{request.folder} cannot be loaded as {pipeline_class.__name__}: {reason}"
+        ) from error
+
+
+@contextlib.contextmanager
+def _without_bars() -> Iterator[None]:
+    """Keep the libraries' progress bars out of the caller's terminal while loading."""
+    loggers = [
+        require(f"{package}.utils.logging", extra=EXTRA)
+        for package in ("diffusers", "transformers")
+    ]
+    shown = [one for one in loggers if one.is_progress_bar_enabled()]
+    for one in shown:
+        one.disable_progress_bar()
+    try:
+        yield
+    finally:
+        for one in shown:
+            one.enable_progress_bar()
+
+
+def _quantization(request: LoadRequest) -> Any:
+    diffusers = require("diffusers", extra=EXTRA)
+    require("bitsandbytes", extra="quantize")
+    torch = require("torch", extra=EXTRA)
+    if request.quantize == "8bit":
+        backend = "bitsandbytes_8bit"
+        options: dict[str, Any] = {"load_in_8bit": True}
+    else:
+        backend = "bitsandbytes_4bit"
+        options = {
+            "load_in_4bit": True,
+            "bnb_4bit_quant_type": "nf4",
+            "bnb_4bit_compute_dtype": getattr(torch, request.placement.dtype),
+        }
+    return diffusers.PipelineQuantizationConfig(
+        quant_backend=backend, quant_kwargs=options, components_to_quantize=list(QUANTIZED_PARTS)
+    )
+
+
+def _place(pipe: Pipeline, placement: Placement) -> None:
+    if placement.offload == "model":
+        pipe.enable_model_cpu_offload(device=placement.device)
+    elif placement.offload == "sequential":
+        pipe.enable_sequential_cpu_offload(device=placement.device)
+    else:
+        pipe.to(placement.device)
+    decoder: Any = getattr(pipe, DECODER, None)
+    if placement.tiles_decoder and hasattr(decoder, "enable_tiling"):
+        decoder.enable_tiling()

@@ -1,0 +1,156 @@
+"""Finished videos on disk: 16-bit lossless for what we generate, anything PyAV reads for the rest.
+
+A diffusion model's decoder gives floats. They are kept at 16 bits per component in FFV1, a
+lossless codec, in an AVI file: that is 256 times finer than 8-bit video and finer than the
+half-precision floats the models compute with. AVI is used because it counts frames exactly;
+Matroska rounds frame times to whole milliseconds. Common players show these files.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import av
+import numpy as np
+from av.error import FFmpegError
+from av.video.stream import VideoStream
+
+from texvent.errors import FileFormatError, InputError
+from texvent.io.atomic import atomic_file
+from texvent.sensor import SensorSize
+from texvent.video import Frame, PixelArray, frame_time_us
+
+EXTENSION = ".avi"
+FULL_SCALE = 65_535.0
+_CODEC_OPTIONS = {"level": "3", "slices": "4", "slicecrc": "1"}
+_EIGHT_BITS = 8
+
+
+@dataclass(frozen=True, eq=False)
+class StoredVideo:
+    """A video file as a stream of frames at a stated rate; decoded anew at every iteration.
+
+    The file's own times are not used: a generated video has a frame rate and nothing else.
+    """
+
+    path: Path
+    fps: Fraction
+    size: SensorSize
+    frame_count: int
+    metadata: Mapping[str, Any] = field(default_factory=dict)
+    """What made it (JSON-serialisable)."""
+
+    @property
+    def is_live(self) -> bool:
+        """False: the file can be read again."""
+        return False
+
+    def with_metadata(self, **facts: Any) -> StoredVideo:
+        """The same video with more facts about it."""
+        return dataclasses.replace(self, metadata={**self.metadata, **facts})
+
+    def __iter__(self) -> Iterator[Frame]:
+        """Frames in time order, [H, W, 3] RGB: uint16 (65535 is white), uint8 for 8-bit files.
+
+        Raises:
+            FileFormatError: the file is damaged.
+        """
+        for index, pixels in enumerate(_decode(self.path)):
+            yield Frame(pixels, frame_time_us(index, self.fps))
+
+
+def open_stored(path: Path, fps: Fraction, metadata: Mapping[str, Any]) -> StoredVideo:
+    """A video file that exists; its frames are counted by decoding them once.
+
+    Raises:
+        FileFormatError: the file is damaged or holds no frame.
+    """
+    count, shape = 0, (0, 0)
+    for pixels in _decode(path):
+        count, shape = count + 1, (pixels.shape[1], pixels.shape[0])
+    if count == 0:
+        raise FileFormatError(f"{path} holds no frame")
+    return StoredVideo(path, fps, SensorSize(*shape), count, metadata)
+
+
+def write_video(
+    frames: Iterable[PixelArray],
+    path: Path,
+    fps: Fraction,
+    metadata: Mapping[str, Any],
+    *,
+    overwrite: bool,
+) -> StoredVideo:
+    """Write frames losslessly, one at a time; nothing is left behind if that fails.
+
+    Args:
+        frames: [H, W, 3] RGB each: float from 0 to 1, or uint16 at full scale.
+        path: file to write; its name ends in .avi.
+        fps: frame rate.
+        metadata: what made the video, stored in the file as JSON.
+        overwrite: whether an existing file may be replaced.
+
+    Raises:
+        OutputError: the file exists already or cannot be written.
+        InputError: there are no frames.
+    """
+    count, size = 0, SensorSize(0, 0)
+    with atomic_file(path, overwrite=overwrite) as part, av.open(str(part), "w") as container:
+        stream: VideoStream | None = None
+        container.metadata["comment"] = json.dumps(dict(metadata), ensure_ascii=False)
+        for pixels in frames:
+            deep = to_16_bits(pixels)
+            if stream is None:
+                size = SensorSize(deep.shape[1], deep.shape[0])
+                stream = container.add_stream("ffv1", rate=fps, options=_CODEC_OPTIONS)
+                stream.width, stream.height, stream.pix_fmt = size.width, size.height, "gbrp16le"
+                stream.time_base = 1 / fps
+            picture = av.VideoFrame.from_ndarray(deep, format="rgb48le")
+            picture.pts, picture.time_base = count, 1 / fps
+            container.mux(stream.encode(picture))
+            count += 1
+        if stream is None:
+            raise InputError("the generator made no frame")
+        container.mux(stream.encode())
+    return StoredVideo(path, fps, size, count, metadata)
+
+
+def to_16_bits(pixels: PixelArray) -> PixelArray:
+    """Floats from 0 to 1 as uint16 at full scale, rounded to nearest; uint16 as it is.
+
+    Raises:
+        InputError: a value is NaN or infinite.
+    """
+    if pixels.dtype == np.uint16:
+        return np.ascontiguousarray(pixels)
+    if not np.isfinite(pixels).all():
+        raise InputError(
+            "the generator made a frame with NaN or infinite values; try --dtype float32 or "
+            "another seed"
+        )
+    scaled = np.clip(pixels.astype(np.float32), 0.0, 1.0) * np.float32(FULL_SCALE)
+    return np.ascontiguousarray(np.rint(scaled).astype(np.uint16))
+
+
+def _decode(path: Path) -> Iterator[PixelArray]:
+    try:
+        with av.open(str(path)) as container:
+            if not container.streams.video:
+                raise FileFormatError(f"{path} holds no video")
+            stream = container.streams.video[0]
+            stream.thread_type = "AUTO"
+            for picture in container.decode(stream):
+                deepest = max(component.bits for component in picture.format.components)
+                name = "rgb48le" if deepest > _EIGHT_BITS else "rgb24"
+                yield picture.to_ndarray(format=name)
+    except FFmpegError as error:
+        raise FileFormatError(
+            f"{path} cannot be decoded, it is damaged ({error.strerror}); delete it and "
+            "generate again"
+        ) from error

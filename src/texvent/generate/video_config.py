@@ -1,0 +1,75 @@
+"""Options of generators that make a whole video at once, with a learned model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Literal
+
+from texvent.config import check_range
+from texvent.errors import ConfigError
+
+
+@dataclass(frozen=True, kw_only=True)
+class GeneratedVideoConfig:
+    """What all learned generators share: the frame rate, the store, the failure filter."""
+
+    fps: Fraction | None = None
+    """Frame rate the model was made for, as 24, 29.97 or 30000/1001. Models that take it as an
+    input are given it; for the others it only says how fast their frames play."""
+    fit: Literal["cover", "contain", "stretch"] = "cover"
+    """How frames are fitted to the sensor's size: cut the excess, add black bars, or distort."""
+    reuse_video: bool = True
+    """Keep generated videos in the cache folder and use one again when prompt, model, seed and
+    generation options are the same, so that trying simulator options costs no generation."""
+    on_failure: Literal["ignore", "warn", "reject", "retry"] = "warn"
+    """What to do with a video that is frozen, flickering, cut, dark, saturated or noise: say
+    nothing, say it, refuse it, or generate again with another seed."""
+    retries: int = 3
+    """How many other seeds to try with --on-failure retry."""
+
+    def __post_init__(self) -> None:
+        check_range("retries", self.retries, 0, 100)
+        if self.fps is not None and not 0 < self.fps <= 1_000_000:
+            raise ConfigError(f"fps is {self.fps}; it must be above 0 and at most 1000000")
+
+
+@dataclass(frozen=True, kw_only=True)
+class DiffusersConfig(GeneratedVideoConfig):
+    """How a diffusers text-to-video pipeline is run; `none` is the pipeline's own default."""
+
+    frames: int | None = None
+    """Frames to generate. Models change it silently to a number they can make (4k+1 or 8k+1);
+    what they made is what is used, and is reported."""
+    width: int | None = None
+    """Width to generate, pixels."""
+    height: int | None = None
+    """Height to generate, pixels."""
+    steps: int | None = None
+    """Denoising steps."""
+    guidance: float | None = None
+    """How closely the prompt is followed (classifier-free guidance scale)."""
+    negative_prompt: str | None = None
+    """What not to show."""
+    image: Path | None = None
+    """Picture to start from, where the model can."""
+    dtype: Literal["auto", "float32", "bfloat16", "float16"] = "auto"
+    """Number format of the weights; auto: the model's own on a GPU, float32 on a CPU."""
+    offload: Literal["auto", "none", "model", "sequential"] = "auto"
+    """Which parts wait in the computer's memory: none, whole parts that are not in use, or every
+    layer (slow, fits small GPUs); auto: by the GPU's free memory."""
+    quantize: Literal["none", "8bit", "4bit"] = "none"
+    """Store the weights of the video transformer in fewer bits (needs bitsandbytes and a GPU);
+    it changes the video a little."""
+    generator_device: str = "auto"
+    """Where to generate: auto, cpu, cuda, cuda:1, mps."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name, low in (("frames", 2), ("width", 8), ("height", 8), ("steps", 1)):
+            value = getattr(self, name)
+            if value is not None:
+                check_range(name, value, low, 65_535)
+        if self.guidance is not None:
+            check_range("guidance", self.guidance, 0.0, 1000.0)

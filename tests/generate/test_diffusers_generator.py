@@ -1,0 +1,346 @@
+"""Learned generators end to end: pipelines of the real classes with tiny random weights.
+
+Everything but the weights is real: saved by `save_pretrained`, found, checked, loaded, called and
+decoded by the code that runs the published models. Offline.
+"""
+
+import dataclasses
+import json
+import os
+import shutil
+import sys
+
+import numpy as np
+import pytest
+
+pytestmark = [
+    pytest.mark.torch,
+    # Of the Karras noise schedule in diffusers 0.42.1 under NumPy 2; texvent cannot change it.
+    pytest.mark.filterwarnings("ignore:__array__ implementation:DeprecationWarning"),
+]
+os.environ["HF_HUB_OFFLINE"] = "1"
+torch = pytest.importorskip("torch")
+torch.set_num_threads(1)  # tiny arrays: more threads only wait for each other
+pytest.importorskip("diffusers")
+
+import texvent  # noqa: E402
+from texvent._registry import GENERATORS  # noqa: E402
+from texvent.errors import (  # noqa: E402
+    ConfigError,
+    FileFormatError,
+    InputError,
+    MissingDependencyError,
+    TexventError,
+)
+from texvent.generate import guardrail, model_run  # noqa: E402
+from texvent.generate.cache import made_folder  # noqa: E402
+from texvent.generate.pipeline_loading import load_pipeline  # noqa: E402
+from texvent.pipeline import text_to_events  # noqa: E402
+from texvent.settings import resolve  # noqa: E402
+
+from . import tiny_pipelines  # noqa: E402
+
+PROMPT = "a red cat walks"
+OPTIONS = {
+    "fps": 16,
+    "frames": 5,
+    "width": 32,
+    "height": 32,
+    "steps": 2,
+    "guidance": 3.0,
+    "on_failure": "ignore",
+}
+ALL = tuple(tiny_pipelines.BUILDERS)
+STREAMED = ("wan", "wan22", "cogvideox", "cogvideox15")
+
+
+@pytest.fixture(scope="module")
+def models(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("models")
+    saved = {}
+
+    def find(name):
+        if name not in saved:
+            saved[name] = tiny_pipelines.save(name, folder)
+        return saved[name]
+
+    return find
+
+
+@pytest.fixture(autouse=True)
+def cache(tmp_path, monkeypatch):
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))
+    load_pipeline.cache_clear()
+    return tmp_path / "cache"
+
+
+class Watcher:
+    def __init__(self, stop_at=None):
+        self.lines, self.steps, self.stop_at = [], [], stop_at
+
+    def announce(self, line):
+        self.lines.append(line)
+
+    def advance(self, stage, done, total):
+        self.steps.append((stage, done, total))
+        if done == self.stop_at:
+            raise KeyboardInterrupt
+
+
+def build(path, seed=3, **options):
+    part = GENERATORS.load(str(path))
+    config = dataclasses.replace(part.config_type(), **{**OPTIONS, **options})
+    return part(config, seed=seed, size=None)
+
+
+def pixels(video):
+    return np.stack([frame.pixels for frame in video])
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_prompt_to_events_and_a_second_run_does_not_call_the_pipeline(name, models, monkeypatch):
+    options = {**OPTIONS, "generator": str(models(name)), "seed": 3, "interpolate": "blend"}
+    watcher = Watcher()
+    events = text_to_events(PROMPT, resolve("generate", options), watch=watcher).packets.collect()
+    assert watcher.steps == [("denoise", 1, 2), ("denoise", 2, 2)]
+    source = events.metadata["source"]
+    assert source["prompt"] == PROMPT
+    assert source["seed"] == 3
+    assert source["pipeline"] == type(load_pipeline_of(models(name))).__name__
+    assert events.size == (32, 32)
+    assert events.t.max(initial=0) < 500_000
+
+    def forbidden(*_, **__):
+        raise AssertionError("the pipeline was called again")
+
+    monkeypatch.setattr(model_run, "call_pipeline", forbidden)
+    changed = {**options, "contrast_threshold": 0.01, "noise": "none"}
+    more = text_to_events(PROMPT, resolve("generate", changed)).packets.collect()
+    assert len(more) > len(events)
+    with pytest.raises(AssertionError, match="called again"):
+        text_to_events(PROMPT, resolve("generate", {**options, "seed": 4}))
+
+
+def load_pipeline_of(path):
+    """The class that a saved pipeline names, as an object to compare with."""
+    import diffusers
+
+    name = json.loads((path / "model_index.json").read_text())["_class_name"]
+    return object.__new__(getattr(diffusers, name))
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_a_seed_repeats_and_another_seed_prompt_or_negative_prompt_differs(name, models):
+    path = models(name)
+    first = pixels(build(path, reuse_video=False).generate(PROMPT))
+    assert np.array_equal(pixels(build(path, reuse_video=False).generate(PROMPT)), first)
+    for other in (
+        build(path, seed=4, reuse_video=False).generate(PROMPT),
+        build(path, reuse_video=False).generate("a blue dog"),
+        build(path, reuse_video=False, negative_prompt="dark").generate(PROMPT),
+    ):
+        assert not np.array_equal(pixels(other), first)
+
+
+@pytest.mark.parametrize("name", STREAMED)
+def test_decoding_step_by_step_gives_the_frames_of_the_pipeline_itself(name, models):
+    generator = build(models(name))
+    ours = pixels(generator.generate(PROMPT))
+    pipe = tiny_pipelines.diffusers.DiffusionPipeline.from_pretrained(models(name))
+    whole = pipe(
+        prompt=PROMPT,
+        num_frames=5,
+        width=32,
+        height=32,
+        num_inference_steps=2,
+        guidance_scale=3.0,
+        generator=torch.Generator("cpu").manual_seed(3),
+        output_type="np",
+    ).frames[0]
+    assert np.abs(ours / 65_535 - whole).max() < 1e-5
+
+
+def test_latents_come_with_scale_and_shift_and_are_decoded_one_after_another(models):
+    generator = build(models("wan"))
+    latents = generator.generate_latents(PROMPT)
+    assert latents.values.shape == (16, 2, 4, 4)
+    assert (latents.frames_per_latent, latents.pixels_per_latent) == (4, 8)
+    assert latents.decoder_input[1, 0, 0, 0] == pytest.approx(
+        latents.values[1, 0, 0, 0] * 1.4541 - 0.7089, rel=1e-5
+    )
+    decoded = pixels(generator.generate(PROMPT))
+    frames = generator.decode(latents)
+    assert np.abs(decoded[0] / 65_535 - next(frames)).max() < 1e-5
+    decoder = generator._run._pipe.vae
+    assert decoder._feat_map[0] is not None, "later frames are not decoded yet"
+    rest = list(frames)
+    assert len(rest) == 4
+    assert np.abs(decoded[4] / 65_535 - rest[-1]).max() < 1e-5
+
+
+@pytest.mark.parametrize(("asked", "made"), [(4, 5), (6, 5), (8, 9)])
+def test_the_real_frame_count_is_used_and_reported(asked, made, models):
+    watcher = Watcher()
+    video = build(models("wan"), frames=asked).generate(PROMPT, watch=watcher)
+    assert video.frame_count == len(list(video)) == made
+    assert any(f"made {made} frames, not {asked}" in line for line in watcher.lines)
+
+
+def test_cancelling_between_steps_leaves_nothing_and_the_next_run_works(models, cache):
+    generator = build(models("wan"))
+    with pytest.raises(KeyboardInterrupt):
+        generator.generate(PROMPT, watch=Watcher(stop_at=1))
+    assert list((cache / "videos").glob("*")) == []
+    assert generator.generate(PROMPT).frame_count == 5
+
+
+def test_a_prompt_asked_again_needs_no_text_encoder(models):
+    build(models("wan")).generate(PROMPT)
+    assert len(list(made_folder("prompts").iterdir())) == 1
+    load_pipeline.cache_clear()
+    again = build(models("wan"), seed=8)
+    from_embeddings = pixels(again.generate(PROMPT))
+    assert again._run._pipe.text_encoder is None
+    whole = pixels(build(models("wan"), seed=8, reuse_video=False).generate(PROMPT))
+    assert np.array_equal(from_embeddings, whole)
+    # The same loaded model is then asked for a prompt that nobody encoded before.
+    assert again.generate("a blue dog").frame_count == 5
+
+
+def test_the_frame_rate_is_an_input_of_cosmos_and_only_a_clock_for_wan(models):
+    slow, fast = (build(models("cosmos"), fps=fps).generate(PROMPT) for fps in (8, 30))
+    assert not np.array_equal(pixels(slow), pixels(fast))
+    slow, fast = (build(models("wan"), fps=fps).generate(PROMPT) for fps in (8, 30))
+    assert np.array_equal(pixels(slow), pixels(fast))
+    assert [frame.t_us for frame in fast][1] == 33_333
+
+
+def test_the_number_format_can_be_chosen(models):
+    video = build(models("wan"), dtype="bfloat16").generate(PROMPT)
+    assert video.metadata["dtype"] == "bfloat16"
+    assert video.frame_count == 5
+
+
+def test_a_picture_starts_the_video_where_the_pipeline_can(models, tmp_path):
+    from PIL import Image
+
+    Image.new("RGB", (200, 100), "red").save(tmp_path / "start.png")
+    with_picture = build(models("cosmos25"), image=tmp_path / "start.png").generate(PROMPT)
+    assert not np.array_equal(
+        pixels(with_picture), pixels(build(models("cosmos25")).generate(PROMPT))
+    )
+    with pytest.raises(ConfigError, match="starts from text alone"):
+        build(models("wan"), image=tmp_path / "start.png").generate(PROMPT)
+    with pytest.raises(InputError, match="there is no picture"):
+        build(models("cosmos25"), image=tmp_path / "none.png").generate(PROMPT)
+    (tmp_path / "bad.png").write_bytes(b"no picture")
+    with pytest.raises(InputError, match="cannot be read as a picture"):
+        build(models("cosmos25"), image=tmp_path / "bad.png").generate(PROMPT)
+
+
+def test_the_guardrail_sees_the_prompt_and_every_frame(models):
+    import cosmos_guardrail
+
+    checker = cosmos_guardrail.CosmosSafetyChecker
+    for name in ("cosmos", "cosmos25"):
+        before = checker.checked_frames
+        video = build(models(name)).generate(PROMPT)
+        assert checker.checked_frames == before + 5
+        assert video.metadata["guardrail"] == "0.0.0"
+        with pytest.raises(InputError, match="guardrail blocks this prompt"):
+            build(models(name)).generate("a weapon")
+        with pytest.raises(InputError, match="gives no latents"):
+            build(models(name)).generate_latents(PROMPT)
+
+
+def test_an_error_inside_the_guardrail_counts_as_a_refusal(models):
+    watcher = Watcher()
+    with pytest.raises(TexventError, match="guardrail failed"):
+        build(models("cosmos")).generate("break it", watch=watcher)
+    assert watcher.steps == []
+
+
+def test_cosmos_does_not_run_without_its_guardrail(models, monkeypatch):
+    monkeypatch.setitem(sys.modules, "cosmos_guardrail", None)
+    with pytest.raises(MissingDependencyError, match=r"texvent\[cosmos\]"):
+        build(models("cosmos")).generate(PROMPT)
+
+
+def test_a_pipeline_that_would_not_ask_its_guardrail_is_refused(models, monkeypatch):
+    from diffusers.pipelines.cosmos import pipeline_cosmos2_5_predict
+
+    monkeypatch.setattr(pipeline_cosmos2_5_predict, "CosmosSafetyChecker", type("Other", (), {}))
+    with pytest.raises(TexventError, match="does not use its guardrail"):
+        build(models("cosmos25")).generate(PROMPT)
+
+
+def test_a_guardrail_whose_weights_are_missing_stops_everything(models, monkeypatch):
+    import cosmos_guardrail
+
+    def gated(self):
+        raise OSError("403: accept the terms")
+
+    monkeypatch.setattr(cosmos_guardrail.CosmosSafetyChecker, "__init__", gated)
+    with pytest.raises(TexventError, match="must not run without it: 403"):
+        build(models("cosmos")).generate(PROMPT)
+    assert guardrail.needs_guardrail({"_class_name": "Cosmos3OmniPipeline"})
+
+
+def test_a_failed_video_is_refused_or_tried_again_with_other_seeds(models):
+    """Random weights give noise that stands still: exactly what the filter is for."""
+    watcher = Watcher()
+    with pytest.raises(TexventError, match="all 3 videos"):
+        build(models("wan"), on_failure="retry", retries=2).generate(PROMPT, watch=watcher)
+    assert len({line for line in watcher.lines if "is refused" in line}) == 3
+    with pytest.raises(TexventError, match="the video failed the check"):
+        build(models("wan"), on_failure="reject").generate(PROMPT)
+    warned = build(models("wan"), on_failure="warn").generate(PROMPT, watch=watcher)
+    assert warned.metadata["check"]["problems"]
+    assert "looks failed" in watcher.lines[-1]
+
+
+def test_what_a_pipeline_refuses_is_one_clear_error(models):
+    with pytest.raises(ConfigError, match=r"WanPipeline refuses the options: .*divisible"):
+        build(models("wan"), width=36).generate(PROMPT)
+    with pytest.raises(InputError, match="the prompt is empty"):
+        build(models("wan")).generate("  ")
+    with pytest.raises(ConfigError, match=r"frame rate of .* is not known.*--fps 16"):
+        build(models("wan"), fps=None).generate(PROMPT)
+    with pytest.raises(ConfigError, match="generator_device is 'warp'"):
+        build(models("wan"), generator_device="warp").generate(PROMPT)
+
+
+def test_weights_of_another_network_are_refused(models, tmp_path):
+    path = tmp_path / "mixed"
+    shutil.copytree(models("wan"), path)
+    config = path / "transformer" / "config.json"
+    config.write_text(config.read_text().replace('"ffn_dim": 32', '"ffn_dim": 48'))
+    with pytest.raises(FileFormatError, match=r"mixed cannot be loaded as WanPipeline"):
+        build(path).generate(PROMPT)
+
+
+def test_a_class_that_diffusers_lacks_is_named(models, tmp_path):
+    path = tmp_path / "future"
+    shutil.copytree(models("wan"), path)
+    index = path / "model_index.json"
+    index.write_text(index.read_text().replace("WanPipeline", "FuturePipeline"))
+    with pytest.raises(InputError, match="needs the diffusers class FuturePipeline"):
+        build(path).generate(PROMPT)
+
+
+def test_offline_the_missing_file_and_its_place_are_named_after_the_licence(tmp_path):
+    watcher = Watcher()
+    part = GENERATORS.load("wan-1.3b")
+    generator = part(part.config_type(), seed=0, size=None)
+    with pytest.raises(TexventError, match=r"model_index.json and .*put them into") as caught:
+        generator.generate(PROMPT, watch=watcher)
+    assert "--generator ./FOLDER" in str(caught.value)
+    assert "licence: Apache-2.0" in watcher.lines[0]
+
+
+def test_the_python_api_takes_a_folder(models):
+    events = texvent.generate(
+        PROMPT, generator=str(models("wan")), sensor="40x30", noise="none", **OPTIONS
+    )
+    assert events.size == (40, 30)
+    assert events.metadata["generator"] == str(models("wan"))

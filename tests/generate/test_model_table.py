@@ -1,0 +1,104 @@
+"""The table of learned models, the names that lead to them, and their options."""
+
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from texvent._registry import GENERATORS
+from texvent.cli.app import main
+from texvent.config import option_help, option_names
+from texvent.errors import ConfigError
+from texvent.generate.model_names import MODEL_TABLE
+from texvent.generate.models import MODELS
+from texvent.generate.video_config import DiffusersConfig
+from texvent.settings import default_settings, resolve
+
+
+def test_every_row_says_where_what_how_fast_and_under_which_licence():
+    for name, model in MODELS.items():
+        assert model.name == name
+        assert model.repo.count("/") == 1
+        assert model.pipeline
+        assert model.pipeline.endswith("Pipeline")
+        assert model.licence
+        assert model.fps is not None
+        assert model.fps > 0
+        assert model.frames >= 16
+        assert model.width % 8 == 0
+        assert model.height % 8 == 0
+
+
+def test_the_papers_default_is_the_first_row():
+    assert next(iter(MODELS)) == "cosmos-7b"
+    paper = MODELS["cosmos-7b"]
+    assert paper.repo == "nvidia/Cosmos-1.0-Diffusion-7B-Text2World"
+    assert (paper.frames, paper.height, paper.width, paper.fps) == (121, 704, 1280, 24)
+
+
+def test_a_row_gives_its_own_defaults_to_the_options():
+    settings = default_settings("generate", generator="wan-1.3b")
+    assert settings.source.fps == 16
+    assert (settings.source.frames, settings.source.height, settings.source.width) == (81, 480, 832)
+    assert settings.source.steps == 50
+    assert settings.interpolate.interpolate == "flow"
+
+
+def test_events_of_a_learned_model_have_the_size_of_its_video_unless_a_sensor_is_named():
+    assert default_settings("generate", generator="wan-1.3b").size is None
+    assert default_settings("generate").size == (346, 260)
+    named = resolve("generate", {"generator": "wan-1.3b", "sensor": "davis240c"})
+    assert named.size == (240, 180)
+
+
+def test_every_option_has_help():
+    assert set(option_help(DiffusersConfig)) == set(option_names(DiffusersConfig))
+
+
+def test_the_help_of_the_command_shows_the_defaults_of_the_model(capsys):
+    with pytest.raises(SystemExit):
+        main(["generate", "--help", "--generator", "wan2.2-5b"])
+    shown = " ".join(capsys.readouterr().out.replace("│", " ").split())
+    assert "(default: 24)" in shown
+    assert "(default: 121)" in shown
+    assert "--negative-prompt" in shown
+
+
+def test_unknown_names_are_refused_with_the_closest_match():
+    with pytest.raises(ConfigError, match=r"did you mean 'wan-1.3b'\?"):
+        GENERATORS.load("wan1.3b")
+
+
+def test_hub_repositories_and_folders_are_generators():
+    part = GENERATORS.load("hub:someone/their-model@v2")
+    assert (part.model.repo, part.model.revision, part.model.fps) == (
+        "someone/their-model",
+        "v2",
+        None,
+    )
+    folder = GENERATORS.load("./my-model")
+    assert folder.model.folder == Path("my-model")
+    assert not folder.model.repo
+
+
+def test_a_copy_of_a_known_model_keeps_its_facts():
+    part = GENERATORS.load("./models/Wan2.1-T2V-1.3B-Diffusers")
+    assert part.config_type().fps == Fraction(16)
+    mirror = GENERATORS.load("hub:mirror/CogVideoX-2b")
+    assert mirror.config_type().fps == 8
+    assert mirror.model.repo == "mirror/CogVideoX-2b"
+
+
+def test_the_registry_lists_table_rows_after_its_own_names():
+    names = GENERATORS.names()
+    assert names[0] == "procedural"
+    assert set(MODEL_TABLE.names()) <= set(names)
+
+
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [("frames", 1), ("width", 4), ("steps", 0), ("guidance", -1.0), ("retries", -1), ("fps", 0)],
+)
+def test_options_out_of_range_are_refused(option, value):
+    with pytest.raises(ConfigError, match=option):
+        resolve("generate", {"generator": "wan-1.3b", option: value})

@@ -1,0 +1,140 @@
+"""Generated videos on disk: lossless, whole or not there, found by what made them."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.capture.open import open_frames
+from texvent.config import CaptureConfig
+from texvent.errors import FileFormatError, InputError, OutputError
+from texvent.generate.cache import VideoCache, content_key, made_folder
+from texvent.generate.stored_video import open_stored, to_16_bits, write_video
+
+FPS = Fraction(30_000, 1001)
+
+
+@pytest.fixture(autouse=True)
+def cache(tmp_path, monkeypatch):
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))
+    return VideoCache(is_kept=True)
+
+
+def noise(count=5, height=18, width=22, seed=0):
+    return np.random.default_rng(seed).random((count, height, width, 3), dtype=np.float32)
+
+
+def test_frames_come_back_to_within_half_a_16_bit_step(tmp_path):
+    frames = noise()
+    video = write_video(iter(frames), tmp_path / "v.avi", FPS, {}, overwrite=False)
+    back = np.stack([frame.pixels for frame in video])
+    assert back.dtype == np.uint16
+    assert np.abs(back / 65_535 - frames).max() <= 0.5 / 65_535 + 1e-7
+    assert (video.frame_count, video.size) == (5, (22, 18))
+
+
+def test_sixteen_bit_frames_come_back_bit_for_bit(tmp_path):
+    deep = np.random.default_rng(1).integers(0, 65_536, (3, 17, 19, 3)).astype(np.uint16)
+    video = write_video(deep, tmp_path / "v.avi", FPS, {}, overwrite=False)
+    assert all(np.array_equal(frame.pixels, one) for frame, one in zip(video, deep, strict=True))
+
+
+def test_times_come_from_the_rate_and_never_drift(tmp_path):
+    video = write_video(noise(4), tmp_path / "v.avi", FPS, {}, overwrite=False)
+    assert [frame.t_us for frame in video] == [0, 33_367, 66_733, 100_100]
+
+
+def test_a_stored_video_read_as_any_other_video_gives_the_same_frames(tmp_path):
+    video = write_video(noise(), tmp_path / "v.avi", FPS, {"seed": 1}, overwrite=False)
+    read = open_frames(video.path, CaptureConfig())
+    for ours, theirs in zip(video, read, strict=True):
+        assert ours.t_us == theirs.t_us
+        assert np.array_equal(ours.pixels, theirs.pixels)
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.floats(-1, 2, width=32))
+def test_rounding_to_16_bits_clips_and_is_nearest(value):
+    levels = to_16_bits(np.full((1, 1, 3), value, np.float32))
+    assert abs(int(levels[0, 0, 0]) - min(max(value, 0), 1) * 65_535) <= 0.5 + 0.01
+
+
+def test_a_nan_of_the_model_is_refused_and_leaves_nothing(tmp_path):
+    frames = noise()
+    frames[3, 0, 0, 0] = np.nan
+    with pytest.raises(InputError, match="NaN"):
+        write_video(frames, tmp_path / "v.avi", FPS, {}, overwrite=False)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_interrupted_write_leaves_nothing(tmp_path):
+    def interrupted():
+        yield noise(1)[0]
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        write_video(interrupted(), tmp_path / "v.avi", FPS, {}, overwrite=False)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_no_frames_and_existing_files_are_refused(tmp_path):
+    with pytest.raises(InputError, match="no frame"):
+        write_video([], tmp_path / "v.avi", FPS, {}, overwrite=False)
+    (tmp_path / "v.avi").write_bytes(b"mine")
+    with pytest.raises(OutputError, match="exists already"):
+        write_video(noise(), tmp_path / "v.avi", FPS, {}, overwrite=False)
+    assert (tmp_path / "v.avi").read_bytes() == b"mine"
+
+
+def test_a_video_is_found_again_by_its_key_with_its_metadata(cache):
+    stored = cache.store("abc", noise(), FPS, {"prompt": "ä cat", "seed": 0})
+    found = cache.find("abc", Fraction(10))
+    assert found.path == stored.path
+    assert found.metadata == {"prompt": "ä cat", "seed": 0}
+    assert [frame.t_us for frame in found][1] == 100_000
+    assert cache.find("abd", FPS) is None
+
+
+def test_a_video_that_was_cut_short_or_lost_does_not_count(cache):
+    stored = cache.store("abc", noise(), FPS, {})
+    stored.path.write_bytes(stored.path.read_bytes()[:-10])
+    assert cache.find("abc", FPS) is None
+    stored.path.unlink()
+    assert cache.find("abc", FPS) is None
+
+
+def test_a_note_that_is_no_json_does_not_count(cache):
+    cache.store("abc", noise(), FPS, {})
+    (made_folder("videos") / "abc.json").write_text("{")
+    assert cache.find("abc", FPS) is None
+
+
+def test_without_reuse_nothing_is_kept_in_the_made_folder():
+    passing = VideoCache(is_kept=False)
+    video = passing.store("abc", noise(), FPS, {})
+    assert len(list(video)) == 5
+    assert passing.find("abc", FPS) is None
+    assert list(made_folder("videos").iterdir()) == []
+
+
+def test_the_key_follows_every_fact_and_not_their_order():
+    facts = {"prompt": "a cat", "seed": 0, "frames": 9}
+    assert content_key(facts) == content_key(dict(reversed(facts.items())))
+    keys = {content_key({**facts, name: "other"}) for name in facts} | {content_key(facts)}
+    assert len(keys) == 4
+
+
+def test_a_damaged_video_is_refused_by_name(tmp_path):
+    path = tmp_path / "v.mp4"
+    path.write_bytes(b"not a video at all")
+    with pytest.raises(FileFormatError, match=r"v.mp4 cannot be decoded"):
+        open_stored(path, FPS, {})
+
+
+def test_a_cache_folder_that_cannot_be_made_is_named(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "file"))
+    with pytest.raises(OutputError, match="TEXVENT_CACHE"):
+        made_folder("videos")

@@ -1,0 +1,108 @@
+"""A model folder is looked through before it is read, and what is wrong is named."""
+
+import json
+import struct
+
+import pytest
+
+from texvent.errors import FileFormatError, InputError
+from texvent.generate.weight_files import check_weight_files, fingerprint, read_pipeline_index
+
+
+def safetensors(payload: bytes) -> bytes:
+    header = json.dumps(
+        {
+            "__metadata__": {"format": "pt"},
+            "w": {"dtype": "U8", "shape": [len(payload)], "data_offsets": [0, len(payload)]},
+        }
+    ).encode()
+    return struct.pack("<Q", len(header)) + header + payload
+
+
+@pytest.fixture
+def model(tmp_path):
+    folder = tmp_path / "model"
+    for part in ("transformer", "scheduler"):
+        (folder / part).mkdir(parents=True)
+    index = {
+        "_class_name": "WanPipeline",
+        "_diffusers_version": "0.42.1",
+        "transformer": ["diffusers", "WanTransformer3DModel"],
+        "scheduler": ["diffusers", "UniPCMultistepScheduler"],
+        "transformer_2": [None, None],
+        "boundary_ratio": 0.5,
+    }
+    (folder / "model_index.json").write_text(json.dumps(index))
+    (folder / "scheduler" / "scheduler_config.json").write_text("{}")
+    (folder / "transformer" / "config.json").write_text("{}")
+    (folder / "transformer" / "weights.safetensors").write_bytes(safetensors(bytes(100)))
+    return folder
+
+
+def test_a_whole_folder_passes(model):
+    check_weight_files(model)
+    assert read_pipeline_index(model)["_class_name"] == "WanPipeline"
+
+
+def test_a_missing_folder_and_one_that_is_no_model_are_named(tmp_path):
+    with pytest.raises(InputError, match=r"there is no model folder .*nowhere"):
+        check_weight_files(tmp_path / "nowhere")
+    with pytest.raises(InputError, match=r"holds no model_index\.json"):
+        check_weight_files(tmp_path)
+
+
+def test_a_missing_part_is_named_with_the_place_to_put_it(model):
+    (model / "transformer" / "weights.safetensors").unlink()
+    with pytest.raises(InputError, match=r"lacks its weights in .*transformer; put its"):
+        check_weight_files(model)
+    for file in (model / "scheduler").iterdir():
+        file.unlink()
+    (model / "scheduler").rmdir()
+    (model / "transformer" / "weights.safetensors").write_bytes(safetensors(b"x"))
+    with pytest.raises(InputError, match=r"lacks the folder .*scheduler"):
+        check_weight_files(model)
+
+
+def test_a_shard_that_the_index_names_and_is_not_there_is_named(model):
+    text = json.dumps({"weight_map": {"w": "weights-00002.safetensors"}})
+    (model / "transformer" / "weights.safetensors.index.json").write_text(text)
+    with pytest.raises(InputError, match=r"weights-00002.safetensors, which .* names"):
+        check_weight_files(model)
+
+
+@pytest.mark.parametrize(
+    ("content", "why"),
+    [
+        (safetensors(bytes(100))[:-1], "its header says"),
+        (safetensors(bytes(100)) + b"\0", "its header says"),
+        (b"<!doctype html> not found", "no safetensors file"),
+        (b"", "no safetensors file"),
+        (struct.pack("<Q", 4) + b"{{{{", "header cannot be read"),
+        (b"version https://git-lfs.github.com/spec/v1\noid sha256:00\n", "git lfs pull"),
+    ],
+    ids=["cut short", "too long", "a web page", "empty", "bad header", "pointer"],
+)
+def test_damaged_weights_are_refused_by_name(model, content, why):
+    (model / "transformer" / "weights.safetensors").write_bytes(content)
+    with pytest.raises(FileFormatError, match=rf"weights.safetensors is .*{why}"):
+        check_weight_files(model)
+
+
+def test_weights_that_come_only_as_a_pickle_are_refused(model):
+    (model / "transformer" / "weights.safetensors").unlink()
+    (model / "transformer" / "diffusion_pytorch_model.bin").write_bytes(b"\x80\x04N.")
+    with pytest.raises(InputError, match=r"diffusion_pytorch_model.bin is a pickle"):
+        check_weight_files(model)
+
+
+def test_damaged_json_is_refused_by_name(model):
+    (model / "model_index.json").write_text("{")
+    with pytest.raises(FileFormatError, match=r"model_index\.json is damaged"):
+        check_weight_files(model)
+
+
+def test_the_fingerprint_follows_the_content(model):
+    before = fingerprint(model)
+    assert fingerprint(model) == before
+    (model / "transformer" / "config.json").write_text('{"layers": 2}')
+    assert fingerprint(model) != before

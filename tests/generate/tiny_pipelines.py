@@ -1,0 +1,236 @@
+"""Pipelines of the real classes with tiny random weights, saved as the real ones are.
+
+They make noise of 5 frames of 32x32 pixels in two steps, in about a second on a CPU, and go
+through the same files, classes and calls as models of 100 GB.
+"""
+
+import contextlib
+from pathlib import Path
+
+import diffusers
+import torch
+import transformers
+from tokenizers.pre_tokenizers import ByteLevel
+
+from texvent.generate.torchvision_stand_in import stand_in_for_torchvision
+
+TEXT = {"d_model": 32, "d_kv": 8, "d_ff": 37, "num_layers": 2, "num_heads": 4}
+
+
+@contextlib.contextmanager
+def random_weights(seed=0):
+    with torch.random.fork_rng():
+        torch.manual_seed(seed)
+        yield
+
+
+def t5(folder, encoder=transformers.T5EncoderModel, config=transformers.T5Config):
+    letters = [("<pad>", 0.0), ("</s>", 0.0), ("<unk>", 0.0), ("▁", -2.0)]
+    vocabulary = letters + [(chr(code), -3.0) for code in range(33, 127)]
+    tokenizer = transformers.T5TokenizerFast(vocab=vocabulary, extra_ids=0)
+    text_encoder = encoder(config(vocab_size=len(vocabulary), **TEXT)).eval()
+    return {"tokenizer": tokenizer, "text_encoder": text_encoder}
+
+
+def wan_vae():
+    return diffusers.AutoencoderKLWan(base_dim=3, z_dim=16, dim_mult=[1, 1, 1, 1], num_res_blocks=1)
+
+
+def wan_transformer():
+    return diffusers.WanTransformer3DModel(
+        num_attention_heads=2,
+        attention_head_dim=12,
+        num_layers=2,
+        text_dim=32,
+        freq_dim=16,
+        ffn_dim=32,
+        patch_size=(1, 2, 2),
+    )
+
+
+def wan(folder):
+    return diffusers.WanPipeline(
+        **t5(folder, transformers.UMT5EncoderModel, transformers.UMT5Config),
+        vae=wan_vae(),
+        scheduler=diffusers.FlowMatchEulerDiscreteScheduler(shift=7.0),
+        transformer=wan_transformer(),
+    )
+
+
+def wan22(folder):
+    return diffusers.WanPipeline(
+        **t5(folder, transformers.UMT5EncoderModel, transformers.UMT5Config),
+        vae=wan_vae(),
+        scheduler=diffusers.UniPCMultistepScheduler(
+            prediction_type="flow_prediction", use_flow_sigmas=True, flow_shift=3.0
+        ),
+        transformer=wan_transformer(),
+        transformer_2=wan_transformer(),
+        boundary_ratio=0.875,
+    )
+
+
+def cogvideox(folder, *, heads=8, head_size=4, **facts):
+    return diffusers.CogVideoXPipeline(
+        **t5(folder),
+        vae=diffusers.AutoencoderKLCogVideoX(
+            block_out_channels=(8, 8, 8, 8),
+            latent_channels=4,
+            layers_per_block=1,
+            norm_num_groups=2,
+            temporal_compression_ratio=4,
+        ),
+        scheduler=diffusers.CogVideoXDDIMScheduler(),
+        transformer=diffusers.CogVideoXTransformer3DModel(
+            num_attention_heads=heads,
+            attention_head_dim=head_size,
+            in_channels=4,
+            out_channels=4,
+            time_embed_dim=2,
+            text_embed_dim=32,
+            num_layers=1,
+            sample_width=8,
+            sample_height=8,
+            sample_frames=9,
+            patch_size=2,
+            temporal_compression_ratio=4,
+            max_text_seq_length=226,
+            **facts,
+        ),
+    )
+
+
+def cogvideox15(folder):
+    return cogvideox(
+        folder,
+        heads=4,
+        head_size=16,
+        patch_size_t=2,
+        use_rotary_positional_embeddings=True,
+        patch_bias=False,
+    )
+
+
+def cosmos_transformer(**facts):
+    stand_in_for_torchvision()
+    return diffusers.CosmosTransformer3DModel(
+        num_attention_heads=2,
+        attention_head_dim=16,
+        num_layers=2,
+        mlp_ratio=2,
+        adaln_lora_dim=4,
+        max_size=(4, 32, 32),
+        patch_size=(1, 2, 2),
+        rope_scale=(2.0, 1.0, 1.0),
+        concat_padding_mask=True,
+        **facts,
+    )
+
+
+def cosmos(folder):
+    import cosmos_guardrail
+
+    return diffusers.CosmosTextToWorldPipeline(
+        **t5(folder),
+        vae=diffusers.AutoencoderKLCosmos(
+            encoder_block_out_channels=(8, 8, 8, 8),
+            decode_block_out_channels=(8, 8, 8, 8),
+            attention_resolutions=(8,),
+            resolution=64,
+            latent_channels=4,
+            num_layers=2,
+            patch_size=4,
+            patch_type="haar",
+            spatial_compression_ratio=4,
+            temporal_compression_ratio=4,
+        ),
+        scheduler=diffusers.EDMEulerScheduler(
+            sigma_min=0.002,
+            sigma_max=80,
+            sigma_data=0.5,
+            sigma_schedule="karras",
+            num_train_timesteps=1000,
+            prediction_type="epsilon",
+            rho=7.0,
+            final_sigmas_type="sigma_min",
+        ),
+        transformer=cosmos_transformer(
+            in_channels=4, out_channels=4, text_embed_dim=32, extra_pos_embed_type="learnable"
+        ),
+        safety_checker=cosmos_guardrail.CosmosSafetyChecker(),
+    )
+
+
+def qwen():
+    specials = ["<|endoftext|>", "<|im_start|>", "<|im_end|>"]
+    letters = sorted(ByteLevel.alphabet()) + specials
+    tokenizer = transformers.Qwen2Tokenizer(
+        vocab={letter: index for index, letter in enumerate(letters)}, merges=[]
+    )
+    tokenizer.pad_token = "<|endoftext|>"
+    tokenizer.chat_template = (
+        "{% for m in messages %}<|im_start|>{{ m['role'] }}: {% for c in m['content'] %}"
+        "{{ c['text'] }}{% endfor %}<|im_end|>{% endfor %}"
+    )
+    config = transformers.Qwen2_5_VLConfig(
+        text_config={
+            "hidden_size": 16,
+            "intermediate_size": 16,
+            "num_hidden_layers": 2,
+            "num_attention_heads": 2,
+            "num_key_value_heads": 2,
+            "vocab_size": len(letters),
+            "rope_scaling": {"type": "mrope", "mrope_section": [1, 1, 2], "rope_type": "default"},
+            "rope_theta": 1_000_000.0,
+        },
+        vision_config={
+            "depth": 2,
+            "hidden_size": 16,
+            "intermediate_size": 16,
+            "num_heads": 2,
+            "out_hidden_size": 16,
+        },
+    )
+    encoder = transformers.Qwen2_5_VLForConditionalGeneration(config).eval()
+    return {"tokenizer": tokenizer, "text_encoder": encoder}
+
+
+def cosmos25(folder):
+    import cosmos_guardrail
+
+    return diffusers.Cosmos2_5_PredictBasePipeline(
+        **qwen(),
+        vae=wan_vae(),
+        scheduler=diffusers.UniPCMultistepScheduler(
+            prediction_type="flow_prediction", use_flow_sigmas=True, use_karras_sigmas=True
+        ),
+        transformer=cosmos_transformer(
+            in_channels=17,
+            out_channels=16,
+            text_embed_dim=32,
+            extra_pos_embed_type=None,
+            use_crossattn_projection=True,
+            crossattn_proj_in_channels=32,
+            encoder_hidden_states_channels=32,
+        ),
+        safety_checker=cosmos_guardrail.CosmosSafetyChecker(),
+    )
+
+
+BUILDERS = {
+    "wan": wan,
+    "wan22": wan22,
+    "cosmos": cosmos,
+    "cosmos25": cosmos25,
+    "cogvideox": cogvideox,
+    "cogvideox15": cogvideox15,
+}
+
+
+def save(name: str, folder: Path) -> Path:
+    """Save the tiny pipeline of that name as `folder/tiny-NAME` and return the path."""
+    path = folder / f"tiny-{name}"
+    with random_weights():
+        pipe = BUILDERS[name](folder)
+    pipe.save_pretrained(path, safe_serialization=True)
+    return path
