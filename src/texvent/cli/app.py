@@ -16,6 +16,8 @@ COMMANDS = {
     "simulate": "Events from a video, an image folder or a camera.",
     "render": "A film, GIF or picture of an event file.",
     "info": "What an event file or video holds, and how it was made.",
+    "convert": "Another event format, a region, a time range, several files in one.",
+    "validate": "Can this event file be trusted? A verdict and an exit code.",
     "compare": "How close an event file is to the true one, by many metrics.",
     "bench": "Benchmarks: which metrics can be trusted, which simulator is closest.",
     "calibrate": "Fit the physical model to a recording of frames and events.",

@@ -15,7 +15,7 @@ from texvent.cli.options import REQUIRED, parse_options
 from texvent.config import CaptureConfig
 from texvent.errors import InputError
 from texvent.events import EventPackets
-from texvent.io.files import open_events
+from texvent.io.files import find_folder_codec, open_events
 from texvent.sensor import parse_sensor
 from texvent.video import MICROSECONDS, FrameStream
 
@@ -47,7 +47,7 @@ def run(arguments: Sequence[str]) -> int:
     options = InfoOptions(**values)
     if not options.path.exists():
         raise InputError(f"no such file: {options.path}")
-    if options.format or options.path.suffix.lower() in event_extensions():
+    if options.format or is_event_path(options.path):
         size = parse_sensor(options.sensor) if options.sensor else None
         facts = describe_events(open_events(options.path, format=options.format, size=size))
     else:
@@ -57,6 +57,13 @@ def run(arguments: Sequence[str]) -> int:
     else:
         sys.stdout.write("\n".join(_lines(facts)) + "\n")
     return 0
+
+
+def is_event_path(path: Path) -> bool:
+    """True if the name, or the files of a folder, are those of an event format."""
+    if path.is_dir():
+        return find_folder_codec(path) is not None
+    return path.suffix.lower() in event_extensions()
 
 
 def event_extensions() -> set[str]:

@@ -89,6 +89,7 @@ def _group(config: Any) -> Any:
     hints = typing.get_type_hints(type(config))
     helps = option_help(type(config))
     positional = getattr(config, "positional", ())
+    required: list[Any] = []
     fields: list[Any] = []
     for field in dataclasses.fields(config):
         short = getattr(config, "short_flags", {}).get(field.name)
@@ -100,10 +101,10 @@ def _group(config: Any) -> Any:
         default = dataclasses.field(default=getattr(config, field.name))
         hint: Any = Annotated.__class_getitem__((hints[field.name], *notes))  # type: ignore[attr-defined]
         if default.default is REQUIRED:
-            fields.insert(0, (field.name, hint))
+            required.append((field.name, hint))
         else:
             fields.append((field.name, hint, default))
-    group = dataclasses.make_dataclass(type(config).__name__, fields, frozen=True)
+    group = dataclasses.make_dataclass(type(config).__name__, [*required, *fields], frozen=True)
     group.__doc__ = (type(config).__doc__ or "").strip()
     return group
 

@@ -33,7 +33,13 @@ def codec_that_reads(path: str | Path, format: str | None = None) -> EventCodec:
         InputError: a folder whose files no codec recognises.
     """
     if format is None and Path(path).is_dir():
-        return _codec_of_folder(Path(path))
+        found = find_folder_codec(Path(path))
+        if found is None:
+            raise InputError(
+                f"{path} is a folder, and not one of event files that texvent knows (esim, "
+                "evreal); give the name of a file in it"
+            )
+        return found
     codecs = _codecs_for(path, format)
     if len(codecs) == 1:
         return codecs[0]
@@ -46,16 +52,13 @@ def codec_that_reads(path: str | Path, format: str | None = None) -> EventCodec:
     return (others or codecs)[0]
 
 
-def _codec_of_folder(path: Path) -> EventCodec:
-    """The codec that recognises the files in a folder."""
+def find_folder_codec(path: Path) -> EventCodec | None:
+    """The codec of formats made of several files that recognises those in a folder, or None."""
     codecs: list[EventCodec] = [CODECS.load(name)() for name in CODECS.names()]
     for codec in codecs:
         if not codec.extensions and isinstance(codec, RecognisingCodec) and codec.recognises(path):
             return codec
-    raise InputError(
-        f"{path} is a folder, and not one of event files that texvent knows (esim, evreal); "
-        "give the name of a file in it"
-    )
+    return None
 
 
 def _codecs_for(path: str | Path, format: str | None) -> list[EventCodec]:

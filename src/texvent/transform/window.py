@@ -1,0 +1,40 @@
+"""Parts of the time, and other origins of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from texvent.errors import InputError
+from texvent.events import EventPackets, EventStream
+from texvent.transform.packets import LazyPackets, map_packets
+
+
+def keep_time(events: EventPackets, start_us: int, stop_us: int) -> EventPackets:
+    """The events with `start_us <= t < stop_us`; what comes later is not even read.
+
+    Raises:
+        InputError: the stop is not after the start.
+    """
+    if not start_us < stop_us:
+        raise InputError(
+            f"the time from {start_us} to {stop_us} µs is empty; the stop must be after the start"
+        )
+
+    def packets() -> Iterator[EventStream]:
+        for packet in events:
+            if len(packet) and int(packet.t[0]) >= stop_us:
+                return
+            yield packet.between(start_us, stop_us)
+
+    return EventPackets(LazyPackets(packets), events.size, events.metadata)
+
+
+def start_at_zero(events: EventPackets) -> EventPackets:
+    """The same events with times counted from the first one; it is looked up at once."""
+    first_us = next((int(packet.t[0]) for packet in events if len(packet)), 0)
+
+    def shift(packet: EventStream) -> EventStream:
+        columns = {**packet.columns(), "t": packet.t - first_us}
+        return EventStream(**columns, size=packet.size, metadata=packet.metadata)
+
+    return map_packets(events, shift)

@@ -1,0 +1,140 @@
+"""`texvent convert`, `texvent validate` and `texvent info` as a user meets them."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from texvent.cli.app import main
+from texvent.events import EventStream
+from texvent.io.files import load, save
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(346, 260)
+
+
+@pytest.fixture
+def recording(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> EventStream:
+    """Events in `in.h5` of the current folder."""
+    monkeypatch.chdir(tmp_path)
+    rng = np.random.default_rng(4)
+    count = 5000
+    times = np.cumsum(rng.integers(1, 400, count)) + 10**15
+    x, y = rng.integers(0, 346, count), rng.integers(0, 260, count)
+    events = EventStream(x, y, times, rng.integers(0, 2, count), SIZE, {"seed": 7})
+    save("in.h5", events)
+    return events
+
+
+def run(*words: object) -> int:
+    return main([str(word) for word in words])
+
+
+def refused(capsys: pytest.CaptureFixture[str], *words: object) -> str:
+    assert run(*words) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert said.startswith("error: ")
+    return said
+
+
+def test_a_file_goes_through_every_format_and_comes_back(
+    recording: EventStream, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("convert", "in.h5", "zero.h5", "--from-zero") == 0
+    assert capsys.readouterr().out == "zero.h5: 5,000 events, 346x260\n"
+    zero = load("zero.h5")
+    assert zero.metadata == {"seed": 7, "edits": [{"from_zero": True}]}
+    names = ["a.aedat4", "b.aedat", "c.es", "d.csv", "e.zip", "f.bag", "g.mcap", "h.npz", "i.raw"]
+    for before, after in zip(["zero.h5", *names], [*names, "last.h5"], strict=False):
+        assert run("convert", before, after, "-q") == 0
+    assert load("last.h5").equals(zero)
+    assert load("last.h5").metadata == zero.metadata
+    assert capsys.readouterr().out == ""
+
+
+def test_a_format_is_named_where_the_extension_does_not_say(recording: EventStream) -> None:
+    assert run("convert", "in.h5", "folder", "--format", "evreal") == 0
+    assert load("folder").equals(recording)
+    assert run("convert", "folder", "out.aedat", "--format", "aedat3") == 0
+    assert load("out.aedat").equals(recording)
+
+
+def test_region_time_and_size_are_edits_in_this_order(recording: EventStream) -> None:
+    words = ["--roi", "100,50,128,100", "--resize", "64x50", "--from-zero", "--time", "0.1,0.5"]
+    assert run("convert", "in.h5", "part.npz", *words) == 0
+    part = load("part.npz")
+    inside = (recording.x >= 100) & (recording.x < 228) & (recording.y >= 50) & (recording.y < 150)
+    t = recording.t[inside] - recording.t[inside][0]
+    kept = (t >= 100_000) & (t < 500_000)
+    assert part.size == SensorSize(64, 50)
+    assert np.array_equal(part.t, t[kept])
+    assert np.array_equal(part.x, (recording.x[inside][kept] - 100) // 2)
+    assert part.metadata["edits"][0]["crop"] == "100,50,128,100"
+
+
+def test_several_files_become_one(recording: EventStream) -> None:
+    assert run("convert", "in.h5", "two.h5", "--merge", "in.h5", "in.h5") == 0
+    assert len(load("two.h5")) == 3 * len(recording)
+
+
+def test_what_a_format_cannot_hold_is_refused_and_nothing_is_left(
+    recording: EventStream, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert "AEDAT2 holds times below 2147483648" in refused(capsys, "convert", "in.h5", "x.aedat")
+    assert "holds sensors of 128x128" in refused(
+        capsys, "convert", "in.h5", "x.aedat", "--format", "cifar10-dvs"
+    )
+    assert "crop is '1,2,3'" in refused(capsys, "convert", "in.h5", "x.npz", "--crop", "1,2,3")
+    assert "time is '5'" in refused(capsys, "convert", "in.h5", "x.npz", "--time", "5")
+    assert "exists already" in refused_output(capsys, "convert", "in.h5", "in.h5")
+    assert sorted(path.name for path in Path().iterdir()) == ["in.h5"]
+
+
+def refused_output(capsys: pytest.CaptureFixture[str], *words: object) -> str:
+    assert run(*words) == 3
+    return capsys.readouterr().err
+
+
+def test_a_label_is_dropped_where_that_is_asked_for(
+    recording: EventStream, capsys: pytest.CaptureFixture[str]
+) -> None:
+    label = np.zeros(len(recording), dtype=np.uint8)
+    columns = (recording.x, recording.y, recording.t, recording.p)
+    save("labelled.h5", EventStream(*columns, SIZE, {}, label))
+    assert "no place for the signal/noise label" in refused(
+        capsys, "convert", "labelled.h5", "x.aedat4"
+    )
+    assert run("convert", "labelled.h5", "x.aedat4", "--drop-label") == 0
+    assert load("x.aedat4").equals(recording)
+
+
+def test_validate_gives_a_verdict_and_an_exit_code(
+    recording: EventStream, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("validate", "in.h5") == 0
+    assert capsys.readouterr().out.startswith("sound\n")
+    run("convert", "in.h5", "twice.h5", "--merge", "in.h5", "-q")
+    assert run("validate", "twice.h5", "--json") == 1
+    facts = json.loads(capsys.readouterr().out)
+    assert facts["verdict"] == "suspicious"
+    assert facts["duplicates"] == 5000
+    Path("cut.h5").write_bytes(Path("in.h5").read_bytes()[:5000])
+    assert "damaged" in refused(capsys, "validate", "cut.h5")
+    Path("wild.csv").write_text("t,x,y,p\n5,1,1,1\n4,1,1,1\n")
+    assert "time decreases" in refused(capsys, "validate", "wild.csv", "--sensor", "8x8")
+    assert run("validate", "twice.h5", "-q") == 1
+    assert capsys.readouterr().out == ""
+
+
+def test_info_knows_every_format_and_folders_too(
+    recording: EventStream, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name, format in (("a.aedat4", "aedat4"), ("b.aedat", "aedat3"), ("c", "esim")):
+        run("convert", "in.h5", name, "--format", format, "-q")
+        assert run("info", name, "--json") == 0
+        facts = json.loads(capsys.readouterr().out)
+        assert (facts["events"], facts["sensor"], facts["seed"]) == (5000, "346x260", 7)

@@ -1,0 +1,93 @@
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.events import EventStream
+from texvent.metrics.soundness import Soundness, SoundnessCheck, find_hot_pixels
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(40, 30)
+
+
+def spread(count: int, *, step_us: int = 7, seed: int = 0) -> EventStream:
+    """Events at different times, everywhere."""
+    rng = np.random.default_rng(seed)
+    return EventStream(
+        rng.integers(0, 40, count),
+        rng.integers(0, 30, count),
+        np.arange(count) * step_us,
+        rng.integers(0, 2, count),
+        SIZE,
+    )
+
+
+def check(*packets: EventStream) -> Soundness:
+    one = SoundnessCheck(packets[0].size)
+    for packet in packets:
+        one.update(packet)
+    return one.report()
+
+
+def test_spread_events_are_sound() -> None:
+    report = check(spread(20_000))
+    assert report.complaints() == []
+    assert (report.events, report.duplicates, report.hot_pixels) == (20_000, 0, ())
+
+
+def test_no_event_is_sound() -> None:
+    report = check(EventStream.empty(SIZE))
+    assert report.complaints() == []
+    assert np.isnan(report.on_share)
+
+
+def test_duplicates_and_contradictions_are_counted_by_hand() -> None:
+    # (1, 1, 5, ON) three times, (1, 1, 5, OFF) once, (2, 1, 5, ON) once, (1, 1, 6, ON) once.
+    x, t, p = [1, 1, 1, 1, 2, 1], [5, 5, 5, 5, 5, 6], [1, 0, 1, 1, 1, 1]
+    events = EventStream.from_columns(x, [1] * 6, t, p, size=SIZE)
+    report = check(events)
+    assert (report.duplicates, report.contradictions) == (2, 1)
+    assert "repeat another one exactly" in report.complaints()[0]
+
+
+@given(cuts=st.lists(st.integers(0, 300), max_size=5))
+def test_how_packets_are_cut_changes_nothing(cuts: list[int]) -> None:
+    rng = np.random.default_rng(1)
+    t = np.sort(rng.integers(0, 20, 300))
+    p = rng.integers(0, 2, 300)
+    events = EventStream(rng.integers(0, 3, 300), rng.integers(0, 3, 300), t, p, SIZE)
+    bounds = [0, *sorted(cuts), 300]
+    parts = [events[a:b] for a, b in itertools.pairwise(bounds)]
+    assert check(*parts) == check(events)
+
+
+def test_a_hot_pixel_is_found_and_an_edge_is_not() -> None:
+    counts = np.ones((30, 40), dtype=np.int64)
+    counts[10, 20] = 500
+    counts[:, 5] = 500
+    assert find_hot_pixels(counts) == ((20, 10, 500),)
+    counts[0, 0] = 700
+    assert find_hot_pixels(counts)[0] == (0, 0, 700)
+
+
+def test_times_of_frames_are_clumped() -> None:
+    count = 20_000
+    rng = np.random.default_rng(2)
+    frames = np.sort(rng.integers(0, 30, count)) * 33_333
+    events = EventStream(
+        rng.integers(0, 40, count), rng.integers(0, 30, count), frames, rng.integers(0, 2, count),
+        SIZE,
+    )  # fmt: skip
+    report = check(events)
+    assert report.clumped_share == pytest.approx(1.0)
+    assert any("crowded timestamps" in text for text in report.complaints())
+
+
+def test_a_missing_polarity_is_reported() -> None:
+    events = spread(5000)
+    only_on = EventStream(events.x, events.y, events.t, np.ones(5000, int), SIZE)
+    assert any("one polarity is missing" in text for text in check(only_on).complaints())

@@ -1,0 +1,176 @@
+"""Regions, times, sizes, lenses and merging: by hand on few events, and by property on many."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.events import EventPackets, EventStream
+from texvent.sensor import SensorSize
+from texvent.transform.merge import merge
+from texvent.transform.region import Region, crop, resize
+from texvent.transform.undistort import (
+    Calibration,
+    read_calibration,
+    undistort,
+    undistorted_pixels,
+)
+from texvent.transform.window import keep_time, start_at_zero
+
+SIZE = SensorSize(8, 6)
+ROWS = st.lists(
+    st.tuples(st.integers(0, 7), st.integers(0, 5), st.integers(0, 20), st.integers(0, 1)),
+    max_size=40,
+)
+Rows = list[tuple[int, int, int, int]]
+
+
+def stream(rows: Rows) -> EventStream:
+    ordered = sorted(rows, key=lambda row: (row[2], row[1], row[0], row[3]))
+    x, y, t, p = (list(column) for column in zip(*ordered, strict=True)) if rows else ([],) * 4
+    return EventStream.from_columns(x, y, t, p, size=SIZE, metadata={"seed": 1})
+
+
+def packets(events: EventStream, *cuts: int) -> EventPackets:
+    bounds = [0, *sorted(cuts), len(events)]
+    parts = [events[a:b] for a, b in itertools.pairwise(bounds)]
+    return EventPackets(parts, events.size, events.metadata)
+
+
+def rows_of(events: EventPackets) -> list[tuple[int, ...]]:
+    whole = events.collect()
+    columns = (whole.x, whole.y, whole.t, whole.p)
+    return list(zip(*(column.tolist() for column in columns), strict=True))
+
+
+def test_crop_keeps_the_region_and_moves_its_corner_to_zero() -> None:
+    events = stream([(0, 0, 1, 1), (2, 1, 2, 0), (4, 3, 3, 1), (5, 3, 4, 1)])
+    cut = crop(packets(events, 2), Region(2, 1, 3, 3))
+    assert cut.size == SensorSize(3, 3)
+    assert rows_of(cut) == [(0, 0, 2, 0), (2, 2, 3, 1)]
+    assert cut.collect().metadata == {"seed": 1}
+
+
+@pytest.mark.parametrize("region", [(6, 0, 3, 1), (0, 0, 0, 1), (0, 5, 1, 2), (-1, 0, 2, 2)])
+def test_a_region_outside_the_sensor_is_refused(region: tuple[int, int, int, int]) -> None:
+    with pytest.raises(InputError, match="does not lie inside the sensor of 8x6"):
+        crop(packets(stream([])), Region(*region))
+
+
+def test_resize_puts_events_into_the_pixel_that_covers_their_old_one() -> None:
+    events = stream([(0, 0, 1, 1), (1, 1, 2, 0), (7, 5, 3, 1)])
+    assert rows_of(resize(packets(events), SensorSize(4, 3))) == [
+        (0, 0, 1, 1), (0, 0, 2, 0), (3, 2, 3, 1),
+    ]  # fmt: skip
+    assert rows_of(resize(packets(events), SensorSize(16, 12)))[-1] == (14, 10, 3, 1)
+    with pytest.raises(ConfigError):
+        resize(packets(events), SensorSize(0, 3))
+
+
+@given(rows=ROWS, width=st.integers(1, 20), height=st.integers(1, 20))
+def test_resize_loses_no_event_and_no_time(rows: Rows, width: int, height: int) -> None:
+    events = stream(rows)
+    resized = resize(packets(events), SensorSize(width, height)).collect()
+    assert np.array_equal(resized.t, events.t)
+    assert np.array_equal(resized.p, events.p)
+
+
+@given(rows=ROWS, start=st.integers(0, 20), length=st.integers(1, 20), cut=st.integers(0, 40))
+def test_a_time_range_is_half_open(rows: Rows, start: int, length: int, cut: int) -> None:
+    events = stream(rows)
+    kept = rows_of(keep_time(packets(events, cut), start, start + length))
+    whole = rows_of(packets(events))
+    assert kept == [row for row in whole if start <= row[2] < start + length]
+
+
+def test_what_comes_after_the_time_range_is_not_read() -> None:
+    def endless() -> Iterator[EventStream]:
+        yield stream([(1, 1, 1, 1)])
+        yield stream([(1, 1, 9, 1)])
+        raise AssertionError("read on")
+
+    kept = keep_time(EventPackets(endless(), SIZE), 0, 5)
+    assert len(kept.collect()) == 1
+    with pytest.raises(InputError, match="must be after the start"):
+        keep_time(EventPackets([], SIZE), 5, 5)
+
+
+def test_time_may_start_at_the_first_event() -> None:
+    late = stream([(1, 1, 7, 1), (2, 2, 9, 0)])
+    assert start_at_zero(packets(late, 1)).collect().t.tolist() == [0, 2]
+    assert len(start_at_zero(EventPackets([], SIZE)).collect()) == 0
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    parts=st.lists(st.tuples(ROWS, st.integers(0, 40), st.integers(0, 40)), min_size=1, max_size=4)
+)
+def test_merging_is_sorting_all_events(parts: list[tuple[Rows, int, int]]) -> None:
+    merged = merge([packets(stream(rows), *cuts) for rows, *cuts in parts])
+    together = [row for rows, *_ in parts for row in rows]
+    assert rows_of(merged) == rows_of(packets(stream(together)))
+    assert rows_of(merged) == rows_of(packets(stream(together))), "it can be read again"
+
+
+def test_merging_keeps_the_label_only_if_all_have_one() -> None:
+    label = np.array([1, 0], dtype=np.uint8)
+    plain = stream([(1, 1, 1, 1), (2, 2, 2, 0)])
+    labelled = EventStream(plain.x, plain.y, plain.t, plain.p, SIZE, {}, label)
+    both = merge([packets(labelled), packets(labelled)]).collect()
+    assert both.label is not None
+    assert both.label.tolist() == [1, 1, 0, 0]
+    assert merge([packets(labelled), packets(plain)]).collect().label is None
+
+
+def test_merging_other_sensors_or_nothing_is_refused() -> None:
+    other = EventPackets([], SensorSize(9, 6))
+    with pytest.raises(InputError, match="cannot merge sensors of 8x6 and 9x6"):
+        merge([packets(stream([])), other])
+    with pytest.raises(InputError, match="nothing to merge"):
+        merge([])
+
+
+ECD = Calibration(199.1, 198.8, 132.2, 110.7, -0.368, 0.151, -0.0003, -0.0018, 0.0)
+"""The order of magnitude of a DAVIS240C's calibration."""
+
+
+def test_undistorted_pixels_lead_back_to_where_opencv_distorts_from() -> None:
+    places = undistorted_pixels(SensorSize(240, 180), ECD)
+    y, x = np.mgrid[5:175, 5:235].astype(np.float64)
+    rays = np.stack([(x - ECD.cx) / ECD.fx, (y - ECD.cy) / ECD.fy, np.ones_like(x)], axis=-1)
+    camera = np.array([[ECD.fx, 0, ECD.cx], [0, ECD.fy, ECD.cy], [0, 0, 1.0]])
+    lens = np.array([ECD.k1, ECD.k2, ECD.p1, ECD.p2, ECD.k3])
+    still = np.zeros(3)
+    seen = cv2.projectPoints(rays.reshape(-1, 1, 3), still, still, camera, lens)[0]
+    column, row = np.rint(seen.reshape(-1, 2)).astype(int).T
+    back = places[row, column]
+    # Rounding twice: half a pixel before, stretched by the lens, and half a pixel after.
+    assert np.abs(back[:, 0] - x.reshape(-1)).max() <= 2
+    assert np.abs(back[:, 1] - y.reshape(-1)).max() <= 2
+    assert np.mean(np.abs(back - np.stack([x, y], axis=-1).reshape(-1, 2))) < 0.5
+
+
+def test_a_lens_without_distortion_moves_nothing() -> None:
+    events = stream([(0, 0, 1, 1), (7, 5, 2, 0), (3, 2, 3, 1)])
+    straight = Calibration(10, 10, 4, 3, 0, 0, 0, 0, 0)
+    assert undistort(packets(events), straight).collect().equals(events)
+
+
+def test_a_calibration_file_is_nine_numbers(tmp_path: Path) -> None:
+    path = tmp_path / "calib.txt"
+    path.write_text("199.1 198.8 132.2 110.7 -0.368 0.151 -0.0003 -0.0018 0.0\n")
+    assert read_calibration(path) == ECD
+    for text in ("1 2 3", "a b", "", "0 1 1 1 0 0 0 0 0", "nan 1 1 1 0 0 0 0 0"):
+        path.write_text(text)
+        with pytest.raises(FileFormatError, match="calibration"):
+            read_calibration(path)
+    with pytest.raises(InputError, match="no such file"):
+        read_calibration(tmp_path / "none.txt")
