@@ -2,6 +2,7 @@
 
 VENV := .venv
 TORCH_VENV := .venv-torch
+APP_VENV := .venv-app
 PROMPT ?= a red car drives left past two trees at dusk
 DEMO_OUT ?= demo-output/demo.h5
 # The first interpreter that is new enough; PYTHON=... overrides the search.
@@ -10,12 +11,13 @@ PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; 
 PIP_OPTIONS := --quiet --disable-pip-version-check -c constraints.txt
 PIP := $(VENV)/bin/python -m pip install $(PIP_OPTIONS)
 
-.PHONY: help demo test test-torch lint format clean
+.PHONY: help demo test test-torch test-app lint format clean
 
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
 	@echo "make test    the default test suite"
 	@echo "make test-torch   the tests that need torch, in $(TORCH_VENV)"
+	@echo "make test-app     the tests of the web page and of rerun files, in $(APP_VENV)"
 	@echo "make lint    ruff, mypy, import rules"
 	@echo "make format  let ruff rewrite the layout"
 	@echo "make clean   remove .venv, caches and demo output"
@@ -31,6 +33,9 @@ test: $(VENV)/.dev
 test-torch: $(TORCH_VENV)/.torch
 	$(TORCH_VENV)/bin/python -m pytest -q -m torch tests
 
+test-app: $(APP_VENV)/.app
+	$(APP_VENV)/bin/python -m pytest -q -m app tests
+
 lint: $(VENV)/.dev
 	$(VENV)/bin/ruff check .
 	$(VENV)/bin/ruff format --check .
@@ -42,10 +47,10 @@ format: $(VENV)/.dev
 	$(VENV)/bin/ruff format .
 
 clean:
-	rm -rf $(VENV) $(TORCH_VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
+	rm -rf $(VENV) $(TORCH_VENV) $(APP_VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
 
-# One rule makes both environments.
-$(VENV)/bin/python $(TORCH_VENV)/bin/python:
+# One rule makes every environment.
+$(VENV)/bin/python $(TORCH_VENV)/bin/python $(APP_VENV)/bin/python:
 	@test -n "$(PYTHON)" || { echo "error: texvent needs Python 3.11 or newer; none was found. Install one, or name it: make PYTHON=/path/to/python3"; exit 2; }
 	$(PYTHON) -m venv $(patsubst %/bin/python,%,$@)
 
@@ -64,4 +69,9 @@ $(TORCH_VENV)/.torch: $(TORCH_VENV)/bin/python pyproject.toml constraints.txt
 	@$(TORCH_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,v2ce,generate]' || { \
 		echo "error: torch could not be installed, so the tests that need it did not run. Name a place that has a CPU build of the version in constraints.txt, with PIP_FIND_LINKS or PIP_EXTRA_INDEX_URL, and run make test-torch again"; \
 		exit 2; }
+	@touch $@
+
+$(APP_VENV)/.app: $(APP_VENV)/bin/python pyproject.toml constraints.txt
+	@echo "installing texvent, gradio and rerun into $(APP_VENV) (once; about 1 GB)"
+	$(APP_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,app,rerun]'
 	@touch $@

@@ -1,10 +1,10 @@
-"""The page opened in a real browser: it draws, and it asks nothing of the network."""
+"""The page opened in a real browser: it draws, it obeys, and it asks nothing of the network."""
 
 from __future__ import annotations
 
-import shutil
-import subprocess
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -12,58 +12,88 @@ import pytest
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
+from texvent.video import Video
 from texvent.view.page import show
+from texvent.view.render import RenderConfig, render_events
 
-BROWSER = shutil.which("chromium") or shutil.which("chromium-browser")
-OPTIONS = (
-    "--headless",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--hide-scrollbars",
-    "--use-gl=angle",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--virtual-time-budget=2000",
-)
-
-pytestmark = pytest.mark.skipif(
-    BROWSER is None, reason="chromium is not installed, so the page was not opened"
-)
+SIZE = SensorSize(64, 48)
+WAIT_S = 20
 
 
-def cube_of_events() -> EventStream:
-    index = np.arange(20_000)
-    return EventStream(
-        index * 7 % 64, index * 13 % 48, index * 100, index % 2, SensorSize(64, 48), {"prompt": "p"}
+def cube_of_events(count: int = 20_000) -> EventStream:
+    index = np.arange(count)
+    t = index * 2_000_000 // count
+    return EventStream(index * 7 % 64, index * 13 % 48, t, index % 2, SIZE, {"prompt": "p"})
+
+
+def colourful_video() -> Video:
+    """Frame i of 4 is one grey level, 500 ms long."""
+    pixels = np.stack([np.full((48, 64, 3), 60 * i, dtype=np.uint8) for i in range(4)])
+    return Video(pixels, [0, 500_000, 1_000_000, 1_500_000])
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    target = tmp_path_factory.mktemp("page") / "out.html"
+    return render_events(cube_of_events(), target, frames=colourful_video())
+
+
+def run(browser: Any, script: str) -> Any:
+    """The value of a script two screen refreshes later, when everything was drawn."""
+    return browser.execute_async_script(
+        "const done = arguments[0]; (() => {" + script + "})();"
+        "requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame("
+        "() => done(true))));"
     )
 
 
-def browse(folder: Path, page: Path, *arguments: str) -> str:
-    finished = subprocess.run(
-        [
-            str(BROWSER),
-            *OPTIONS,
-            f"--user-data-dir={folder / 'profile'}",
-            *arguments,
-            page.as_uri(),
-        ],
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=True,
+def text(browser: Any, name: str) -> str:
+    return str(browser.execute_script(f"return document.getElementById('{name}').textContent"))
+
+
+def click(browser: Any, name: str) -> None:
+    run(browser, f"document.getElementById('{name}').click()")
+
+
+def slide(browser: Any, name: str, value: int, event: str = "input") -> None:
+    run(
+        browser,
+        f"const one = document.getElementById('{name}'); one.value = {value};"
+        f"one.dispatchEvent(new Event('{event}'));",
     )
-    return finished.stdout
 
 
-def screenshot(folder: Path, page: Path, width: int) -> np.ndarray:
-    target = folder / "shot.png"
-    browse(folder, page, f"--window-size={width},1100", f"--screenshot={target}")
-    picture = cv2.imread(str(target))
+def drag(browser: Any, name: str, start: tuple[float, float], stop: tuple[float, float]) -> None:
+    """Press, move and let go; ends are shares of the element's width and height."""
+    from selenium.webdriver import ActionChains
+
+    box = browser.execute_script(
+        f"const one = document.getElementById('{name}'); one.scrollIntoView({{block: 'center'}});"
+        "const box = one.getBoundingClientRect(); return [box.x, box.y, box.width, box.height];"
+    )
+    places = [(box[0] + x * box[2], box[1] + y * box[3]) for x, y in (start, stop)]
+    chain = ActionChains(browser, duration=0)
+    pointer = chain.w3c_actions.pointer_action
+    pointer.move_to_location(*map(round, places[0]))
+    pointer.pointer_down()
+    pointer.move_to_location(*map(round, places[1]))
+    pointer.pointer_up()
+    chain.perform()
+    run(browser, "")
+
+
+def window_on_the_curve(browser: Any) -> tuple[float, float]:
+    """Ends of the window that the curve marks, in thousandths of its width."""
+    start, width = (
+        float(browser.find_element("id", "rate-window").get_attribute(name))
+        for name in ("x", "width")
+    )
+    return start, start + width
+
+
+def picture_of(browser: Any, name: str) -> np.ndarray:
+    png = browser.find_element("id", name).screenshot_as_png
+    picture = cv2.imdecode(np.frombuffer(png, np.uint8), cv2.IMREAD_COLOR)
     assert picture is not None
     return picture
 
@@ -74,46 +104,184 @@ def coloured_pixels(picture: np.ndarray) -> tuple[int, int]:
     return int((signed > 60).sum()), int((signed < -60).sum())
 
 
-def page_with_only_the_cloud(folder: Path) -> Path:
-    page = show(cube_of_events(), folder / "out.html")
-    hide = "<style>.still, .rate, .controls { display: none }</style></head>"
-    alone = folder / "alone.html"
-    alone.write_text(page.read_text("utf-8").replace("</head>", hide), encoding="utf-8")
-    return alone
-
-
 @pytest.mark.parametrize("width", [1280, 500])
-def test_the_cloud_is_drawn_in_both_colours(tmp_path: Path, width: int) -> None:
-    blue, red = coloured_pixels(screenshot(tmp_path, page_with_only_the_cloud(tmp_path), width))
+def test_the_cloud_is_drawn_in_both_colours_and_nothing_overflows(
+    browser: Any, page: Path, width: int
+) -> None:
+    browser.set_window_size(width, 1100)
+    browser.get(page.as_uri())
+    run(browser, "")
+    blue, red = coloured_pixels(picture_of(browser, "cloud-canvas"))
     assert min(blue, red) > 3_000
     assert 0.5 < blue / red < 2.0
+    assert browser.execute_script(
+        "return document.documentElement.scrollWidth <= window.innerWidth"
+    )
 
 
-def test_the_controls_work_and_nothing_overflows_a_narrow_screen(tmp_path: Path) -> None:
-    page = show(cube_of_events(), tmp_path / "out.html")
-    probe = """<script>
-      document.getElementById("toggle-off").click();
-      const length = document.getElementById("length");
-      length.value = 100;
-      length.dispatchEvent(new Event("input"));
-      document.querySelector("[data-view=top]").click();
-      document.getElementById("play").click();
-      const text = (id) => document.getElementById(id).textContent;
-      document.title = [
-        document.getElementById("toggle-off").getAttribute("aria-pressed"),
-        document.getElementById("play").getAttribute("aria-pressed"),
-        text("length-text"),
-        document.getElementById("cloud-fallback").hidden,
-        document.documentElement.scrollWidth <= window.innerWidth,
-      ].join("|");
-    </script></body>"""
-    probed = page.with_name("probed.html")
-    probed.write_text(page.read_text("utf-8").replace("</body>", probe), encoding="utf-8")
-    dom = browse(tmp_path, probed, "--window-size=500,900", "--dump-dom")
-    assert "<title>false|true|199.99 ms|true|true</title>" in dom
+def test_the_page_asks_nothing_of_any_server_and_makes_no_complaint(
+    browser: Any, page: Path, requests_made: Any
+) -> None:
+    browser.get(page.as_uri())
+    click(browser, "play")
+    assert requests_made() == [page.as_uri()]
+    assert browser.get_log("browser") == []
 
 
-def test_a_browser_without_webgl_says_what_is_missing(tmp_path: Path) -> None:
-    page = show(cube_of_events(), tmp_path / "out.html")
-    dom = browse(tmp_path, page, "--disable-3d-apis", "--dump-dom")
-    assert '<p class="fallback" id="cloud-fallback">This browser offers no WebGL' in dom
+def test_polarity_buttons_hide_one_colour(browser: Any, page: Path) -> None:
+    browser.get(page.as_uri())
+    click(browser, "toggle-off")
+    blue, red = coloured_pixels(picture_of(browser, "cloud-canvas"))
+    assert blue > 3_000
+    assert red == 0
+    assert text(browser, "shown-text").startswith("10,000 of the cloud's 20,000 events")
+    pressed = browser.find_element("id", "toggle-off").get_attribute("aria-pressed")
+    assert pressed == "false"
+
+
+def test_sliders_choose_the_time_and_the_video_follows(browser: Any, page: Path) -> None:
+    browser.get(page.as_uri())
+    slide(browser, "length", 100)
+    slide(browser, "start", 505)
+    assert text(browser, "length-text") == "199.99 ms"
+    assert text(browser, "start-text") == "1.010 s"
+    assert text(browser, "shown-text").startswith("2,000 of the cloud's 20,000")
+    grey = picture_of(browser, "film-canvas")[5:-5, 5:-5].mean()
+    assert abs(grey - 120) < 4, "the frame that begins at 1.0 s"
+
+
+def test_playing_moves_the_window_and_space_stops_it(browser: Any, page: Path) -> None:
+    from selenium.webdriver.support.wait import WebDriverWait
+
+    browser.get(page.as_uri())
+    click(browser, "play")
+    moved = "return Number(document.getElementById('start').value) > 5"
+    WebDriverWait(browser, WAIT_S).until(lambda one: one.execute_script(moved))
+    browser.find_element("id", "cloud-canvas").send_keys(" ")
+    assert browser.find_element("id", "play").get_attribute("aria-pressed") == "false"
+    run(browser, "")
+    stopped = text(browser, "start-text")
+    run(browser, "")
+    assert text(browser, "start-text") == stopped
+
+
+def test_a_region_is_selected_by_dragging_and_by_typing(browser: Any, page: Path) -> None:
+    browser.get(page.as_uri())
+    before = sum(coloured_pixels(picture_of(browser, "cloud-canvas")))
+    drag(browser, "plane-canvas", (0.25, 0.25), (0.75, 0.75))
+    values = [
+        int(browser.find_element("id", f"region-{name}").get_attribute("value"))
+        for name in ("x0", "x1", "y0", "y1")
+    ]
+    np.testing.assert_allclose(values, [16, 47, 12, 35], atol=1)
+    shown = int(text(browser, "shown-text").split()[0].replace(",", ""))
+    assert abs(shown - 5_000) < 500, "a quarter of the plane holds a quarter of the events"
+    assert sum(coloured_pixels(picture_of(browser, "cloud-canvas"))) < 0.6 * before
+    assert browser.find_element("id", "rate-region").get_attribute("d").count("V") > 10
+    slide(browser, "region-x0", 0, "change")
+    slide(browser, "region-x1", 0, "change")
+    slide(browser, "region-y0", 0, "change")
+    slide(browser, "region-y1", 0, "change")
+    events = cube_of_events()
+    alone = int(((events.x == 0) & (events.y == 0)).sum())
+    assert text(browser, "shown-text").startswith(f"{alone:,} of")
+    click(browser, "region-clear")
+    assert text(browser, "shown-text").startswith("20,000 of")
+
+
+def test_dragging_on_the_curve_chooses_the_time(browser: Any, page: Path) -> None:
+    browser.get(page.as_uri())
+    drag(browser, "rate-curve", (0.5, 0.5), (0.25, 0.5))
+    np.testing.assert_allclose(window_on_the_curve(browser), [250, 500], atol=4)
+    length = text(browser, "length-text")
+    drag(browser, "rate-curve", (0.7, 0.5), (0.7, 0.5))
+    assert text(browser, "length-text") == length, "a click keeps the length"
+    assert abs(sum(window_on_the_curve(browser)) / 2 - 700) < 4
+
+
+def test_keys_turn_the_cloud(browser: Any, page: Path) -> None:
+    from selenium.webdriver.common.keys import Keys
+
+    browser.get(page.as_uri())
+    run(browser, "")
+    before = picture_of(browser, "cloud-canvas")
+    canvas = browser.find_element("id", "cloud-canvas")
+    canvas.send_keys(Keys.ARROW_LEFT * 4, "+")
+    run(browser, "")
+    assert (picture_of(browser, "cloud-canvas") != before).any(axis=2).mean() > 0.02
+    canvas.send_keys("0")
+    slide(browser, "length", 250)
+    canvas.send_keys("..")
+    run(browser, "")
+    assert text(browser, "start-text") == "1.000 s"
+
+
+@pytest.fixture
+def counting(browser: Any) -> Iterator[Any]:
+    """A browser that counts what is sent to the graphics card, before any page runs."""
+    script = """
+      window.sent = {draws: 0, points: 0, bytes: 0, frames: 0};
+      const gl = WebGLRenderingContext.prototype;
+      for (const name of ["drawArrays", "bufferData"]) {
+        const real = gl[name];
+        gl[name] = function (...values) {
+          if (name === "bufferData") sent.bytes += values[1].byteLength;
+          else sent.draws++;
+          if (name === "drawArrays" && values[0] === gl.POINTS) {
+            sent.points += values[2];
+            sent.frames++;
+          }
+          return real.apply(this, values);
+        };
+      }"""
+    added = browser.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": script})
+    yield browser
+    browser.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", added)
+
+
+def test_a_frame_draws_only_the_window_and_sends_no_event_again(counting: Any, page: Path) -> None:
+    counting.get(page.as_uri())
+    slide(counting, "length", 100)
+    run(counting, "window.sent = {draws: 0, points: 0, bytes: 0, frames: 0};")
+    slide(counting, "start", 300)
+    run(counting, "document.querySelector('[data-view=side]').click()")
+    sent = counting.execute_script("return window.sent")
+    assert sent["frames"] >= 2
+    assert sent["draws"] <= 3 * sent["frames"]
+    assert sent["points"] == 2_000 * sent["frames"]
+    assert sent["bytes"] <= 16 * 12 * sent["frames"], "only the outline of the window"
+
+
+def test_a_browser_without_webgl_says_what_is_missing_and_shows_the_rest(
+    browser: Any, page: Path
+) -> None:
+    source = """const real = HTMLCanvasElement.prototype.getContext;
+      HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+        return kind === "webgl" ? null : real.call(this, kind, ...rest);
+      };"""
+    added = browser.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": source})
+    browser.get(page.as_uri())
+    browser.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", added)
+    run(browser, "")
+    fallback = browser.find_element("id", "cloud-fallback")
+    assert fallback.is_displayed()
+    assert fallback.text.startswith("This browser offers no WebGL")
+    slide(browser, "length", 100)
+    assert text(browser, "shown-text").startswith("2,000 of")
+    assert min(coloured_pixels(picture_of(browser, "plane-canvas"))) > 50
+
+
+def test_a_recording_without_events_says_so(browser: Any, tmp_path: Path) -> None:
+    browser.get(show(EventStream.empty(SIZE), tmp_path / "empty.html").as_uri())
+    assert browser.find_element("id", "cloud-fallback").text == "This recording holds no events."
+    assert not browser.find_element("id", "controls").is_displayed()
+    assert browser.get_log("browser") == []
+
+
+def test_a_thinned_cloud_says_so(browser: Any, tmp_path: Path) -> None:
+    target = render_events(cube_of_events(), tmp_path / "out.html", config=RenderConfig(points=500))
+    browser.get(target.as_uri())
+    note = browser.find_element("class name", "note").text
+    assert note.startswith("Shows 500 of 20,000 events, drawn uniformly at random")
+    run(browser, "")
+    assert text(browser, "shown-text").startswith("500 of the cloud's 500 events")

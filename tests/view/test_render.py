@@ -12,6 +12,7 @@ import pytest
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventPackets, EventStream
 from texvent.sensor import SensorSize
+from texvent.video import Video
 from texvent.view.render import RenderConfig, render_events
 
 SIZE = SensorSize(32, 24)
@@ -91,8 +92,57 @@ def test_one_event_can_be_shown_in_every_way(tmp_path: Path, panels: int) -> Non
         assert path.stat().st_size > 300
 
 
+def test_slices_of_equal_count_give_a_picture_each(tmp_path: Path) -> None:
+    config = RenderConfig(events_per_picture=100, render_fps=Fraction(20))
+    path = render_events(moving_dot(), tmp_path / "out.mp4", config=config)
+    assert film_times(path) == [index * 50_000 for index in range(10)]
+
+
+def test_fading_events_leave_a_trail(tmp_path: Path) -> None:
+    """The dot goes down a column every 12 ms: with decay the older rows are paler, not gone."""
+    still, trail = (
+        cv2.imread(str(render_events(moving_dot(), tmp_path / f"{name}.png", config=config)))
+        for name, config in (
+            ("still", RenderConfig(window=1.0)),
+            ("trail", RenderConfig(decay=5.0)),
+        )
+    )
+    pale = [
+        ((one.max(axis=2) > 240) & (one.min(axis=2) > 60) & (one.min(axis=2) < 230)).sum()
+        for one in (still, trail)
+    ]
+    assert pale[0] == 0
+    assert pale[1] > 1000
+
+
+@pytest.mark.parametrize(("extension", "panels"), [(".mp4", 1), (".png", 1), (".png", 3)])
+def test_the_video_is_shown_on_the_left(tmp_path: Path, extension: str, panels: int) -> None:
+    green = np.zeros((3, *SIZE.shape, 3), dtype=np.uint8)
+    green[..., 1] = 200
+    path = render_events(
+        moving_dot(),
+        tmp_path / f"out{extension}",
+        config=RenderConfig(panels=panels),
+        frames=Video(green, [0, 100_000, 200_000]),
+    )
+    if extension == ".mp4":
+        with av.open(str(path)) as film:
+            picture = next(film.decode(video=0)).to_ndarray(format="bgr24")
+    else:
+        picture = cv2.imread(str(path))
+    is_green = (picture[..., 1] > 180) & (picture[..., [0, 2]].max(axis=2) < 30)
+    assert 0.3 < is_green.mean() < 0.5
+
+
+def test_a_page_holds_the_frames_of_the_video(tmp_path: Path) -> None:
+    video = Video(np.zeros((3, *SIZE.shape), dtype=np.uint8), [0, 100_000, 200_000])
+    page = render_events(moving_dot(), tmp_path / "out.html", frames=video).read_text("utf-8")
+    assert page.count("data:image/jpeg") == 3
+    assert "3 of 3 frames are in this page" in page
+
+
 def test_other_extensions_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(ConfigError, match=r"must end in \.mp4, \.gif, \.png, \.html"):
+    with pytest.raises(ConfigError, match=r"must end in \.mp4, \.gif, \.png, \.html, \.rrd"):
         render_events(moving_dot(), tmp_path / "out.webm")
 
 
@@ -104,6 +154,10 @@ def test_other_extensions_are_refused(tmp_path: Path) -> None:
         ({"panels": 0}, "panels is 0"),
         ({"render_fps": Fraction(0)}, "render_fps is 0"),
         ({"palette": "sepia"}, "unknown palette"),
+        ({"decay": 0.0}, "decay is 0"),
+        ({"events_per_picture": 0}, "events_per_picture is 0"),
+        ({"decay": 30.0, "window": 10.0}, "window and decay are different ways"),
+        ({"points": 0}, "points is 0"),
     ],
 )
 def test_options_out_of_range_are_refused(options: dict[str, object], message: str) -> None:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -9,8 +10,9 @@ from hypothesis import strategies as st
 
 from texvent.errors import ConfigError
 from texvent.events import EventPackets, EventStream
+from texvent.represent.time_surface import time_surface
 from texvent.sensor import SensorSize
-from texvent.view.windows import cut_windows, still_window_us, time_range
+from texvent.view.windows import cut_counts, cut_fading, cut_windows, still_window_us, time_range
 
 SIZE = SensorSize(4, 4)
 
@@ -85,3 +87,33 @@ def test_memory_holds_one_window_and_one_packet() -> None:
     packets = (at_times(*np.arange(start, start + 100)) for start in range(0, 10_000, 100))
     sizes = [n for *_, n in counted(list(packets), Fraction(50), 50)]
     assert sizes == [50] * 200
+
+
+def test_events_fade_as_the_time_surface_does() -> None:
+    events = busy_stream()
+    step_us, tau_us = Fraction(10_000, 3), 2_000
+    parts = (events[start : start + 17] for start in range(0, len(events), 17))
+    intervals = list(cut_fading(parts, size=events.size, step_us=step_us, tau_us=tau_us))
+    assert len(intervals) > 3
+    for interval in intervals:
+        past = events.between(0, interval.stop_us)
+        surface = time_surface(past, tau_us=tau_us, at_us=interval.stop_us - 1)
+        np.testing.assert_allclose(interval.fading, surface, atol=1e-6)
+
+
+@pytest.mark.parametrize("packet", [1, 7, 1000])
+def test_slices_of_equal_count_hold_that_many_events_and_leave_none_out(packet: int) -> None:
+    events = busy_stream()
+    parts = (events[start : start + packet] for start in range(0, len(events), packet))
+    intervals = list(cut_counts(parts, size=events.size, count=60))
+    counts = [interval.event_count for interval in intervals]
+    assert counts[:-1] == [60] * (len(counts) - 1)
+    assert sum(counts) == len(events)
+    for before, after in pairwise(intervals):
+        assert before.stop_us == after.start_us
+
+
+def busy_stream() -> EventStream:
+    """250 events with distinct times on a small sensor, so that pixels fire again and again."""
+    step = np.arange(250)
+    return EventStream(step * 7 % 8, step * 5 % 6, 100 + step * 61, step // 3 % 2, SensorSize(8, 6))

@@ -15,6 +15,7 @@ COMMANDS = {
     "generate": "Events, film, picture and page from a text prompt.",
     "simulate": "Events from a video, an image folder or a camera.",
     "render": "A film, GIF or picture of an event file.",
+    "view": "Open an event file in the browser: cloud, playback, region, rate, video.",
     "info": "What an event file or video holds, and how it was made.",
     "convert": "Another event format, a region, a time range, several files in one.",
     "validate": "Can this event file be trusted? A verdict and an exit code.",
@@ -22,6 +23,8 @@ COMMANDS = {
     "bench": "Benchmarks: which metrics can be trusted, which simulator is closest.",
     "calibrate": "Fit the physical model to a recording of frames and events.",
     "data": "Recordings and clips to try things on: list them, fetch them.",
+    "weights": "Published network weights: list them, fetch them.",
+    "generators": "Text-to-video generators: the embedded one, learned models, what is here.",
     "doctor": "What is installed, what is missing, how to get it.",
 }
 """Command → what it does; each is `texvent.cli.<command>` with a function `run(arguments)`."""

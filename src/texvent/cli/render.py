@@ -1,4 +1,4 @@
-"""`texvent render EVENTS -o out.mp4|gif|png|html`: make an event file visible."""
+"""`texvent render EVENTS -o out.mp4|gif|png|html|rrd`: make an event file visible."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
+from texvent.cli.beside import AUTOMATIC, frames_beside
 from texvent.cli.options import REQUIRED, parse_options
 from texvent.config import option_names
 from texvent.errors import InputError
@@ -15,12 +16,20 @@ from texvent.io.files import open_events
 from texvent.sensor import parse_sensor
 from texvent.view.render import RenderConfig, render_events
 
-DESCRIPTION = """Make an event file visible: a film (.mp4, .gif), a picture (.png) or a page that
-turns under the mouse (.html).
+DESCRIPTION = """Make an event file visible: a film (.mp4, .gif), a picture (.png), a page that
+turns under the mouse (.html), or a recording for the rerun viewer (.rrd).
 
-texvent render out.h5 -o slow.mp4 --speed 0.1     ten times slower
+texvent render out.h5 -o slow.mp4 --speed 0.1            ten times slower
 
-texvent render out.h5 -o sheet.png --panels 9     nine moments on one sheet"""
+texvent render out.h5 -o sheet.png --panels 9            nine moments on one sheet
+
+texvent render out.h5 -o out.mp4 --decay 30              events fade over 30 ms
+
+texvent render out.h5 -o out.mp4 --events-per-picture 5000
+
+texvent render out.h5 -o out.mp4 --overlay both          boxes and optical flow (embedded generator)
+
+texvent render clip.raw -o out.mp4 --video clip.mp4      the video on the left"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,7 +42,10 @@ class RenderOptions:
     path: Path = REQUIRED
     """Event file."""
     out: Path = REQUIRED
-    """What to write; the extension decides: .mp4, .gif, .png or .html."""
+    """What to write; the extension decides: .mp4, .gif, .png, .html or .rrd."""
+    video: str = AUTOMATIC
+    """Video beside the events: a file, an image folder, none, or auto, which renders the scene
+    again if the embedded generator made the file."""
     format: str | None = None
     """Event format, where the extension does not say."""
     sensor: str | None = None
@@ -58,7 +70,13 @@ def run(arguments: Sequence[str]) -> int:
         raise InputError(f"no such file: {options.path}")
     size = parse_sensor(options.sensor) if options.sensor else None
     events = open_events(options.path, format=options.format, size=size)
-    written = render_events(events, options.out, config=config, overwrite=options.overwrite)
+    written = render_events(
+        events,
+        options.out,
+        config=config,
+        frames=frames_beside(options.video, events),
+        overwrite=options.overwrite,
+    )
     if not options.quiet:
         sys.stdout.write(f"{written}\n")
     return 0

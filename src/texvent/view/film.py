@@ -12,11 +12,12 @@ from typing import Any, Self
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS, Frame
+from texvent.view.draw import compose_interval
 from texvent.view.encode import FilmEncoder
 from texvent.view.interval import Interval, IntervalCollector
 from texvent.view.layout import PLEASANT_WIDTH, Layout
 from texvent.view.palettes import DEFAULT_PALETTE, Palette, get_palette
-from texvent.view.picture import count_ceiling, draw_events
+from texvent.view.picture import count_ceiling
 
 GIF_WIDTH = 640.0
 """A gif compresses badly, so it is kept small."""
@@ -95,9 +96,12 @@ class FilmWriter:
             self._first_us = interval.start_us
         start_us = interval.start_us - self._first_us if film_start_us is None else film_start_us
         self._ceiling = max(count_ceiling(interval.counts), CEILING_MEMORY * self._ceiling)
-        events = draw_events(interval.counts, self._layout.palette, ceiling=self._ceiling)
-        picture = self._layout.compose(
-            interval.picture, events, title=self._title, facts=interval_facts(interval)
+        picture = compose_interval(
+            interval,
+            self._layout,
+            title=self._title,
+            facts=interval_facts(interval),
+            ceiling=self._ceiling,
         )
         self._encoder.write(picture, start_us)
         # With its own timing, the caller's nominal rate decides how long the last one stays.

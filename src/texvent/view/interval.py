@@ -12,6 +12,7 @@ from texvent.represent.event_frame import count_events
 from texvent.sensor import SensorSize
 from texvent.video import Frame
 from texvent.view.canvas import Picture
+from texvent.view.marks import Marks
 from texvent.view.picture import frame_picture
 
 
@@ -25,6 +26,11 @@ class Interval:
     """OFF and ON events per pixel, [2, H, W]."""
     picture: Picture | None = None
     """The frame at `start_us`, [H, W, 3] RGB, or None if there are only events."""
+    fading: NDArray[np.float32] | None = None
+    """Strength 0..1 of the last OFF and ON event per pixel at the end, [2, H, W], where events
+    fade instead of being counted."""
+    marks: Marks | None = None
+    """Boxes and arrows drawn over the panels."""
 
     @property
     def event_count(self) -> int:

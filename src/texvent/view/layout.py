@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from texvent.view.canvas import (
     fit_text,
     text_width,
 )
+from texvent.view.marks import Marks
 from texvent.view.palettes import Colour, Palette
 
 PLEASANT_WIDTH = 1280.0
@@ -72,7 +74,15 @@ class Layout:
         """Height of the whole picture, pixels, even."""
         return self.size.height * self.factor + self.caption_height
 
-    def compose(self, frame: Picture | None, events: Picture, *, title: str, facts: str) -> Picture:
+    def compose(
+        self,
+        frame: Picture | None,
+        events: Picture,
+        *,
+        title: str,
+        facts: str,
+        marks: Marks | None = None,
+    ) -> Picture:
         """The whole picture.
 
         Args:
@@ -80,6 +90,7 @@ class Layout:
             events: RGB picture of the events, [H, W, 3].
             title: what is shown; cut if it is too long.
             facts: time and counts, at the right of the caption.
+            marks: drawn over both panels.
 
         Returns:
             [height, width, 3] uint8.
@@ -89,13 +100,24 @@ class Layout:
         bottom = top + self.size.height * self.factor
         if self.side_by_side:
             if frame is not None:
-                whole[top:bottom, :panel] = enlarge(frame, self.factor, how="smooth")
+                whole[top:bottom, :panel] = self._panel(frame, marks, "smooth")
             left = panel + GAP
         else:
             left = 0
-        whole[top:bottom, left : left + panel] = enlarge(events, self.factor, how="blocks")
+        whole[top:bottom, left : left + panel] = self._panel(events, marks, "blocks")
         self._caption(whole, title, facts)
         return whole
+
+    def _panel(
+        self, picture: Picture, marks: Marks | None, how: Literal["smooth", "blocks"]
+    ) -> Picture:
+        large = enlarge(picture, self.factor, how=how)
+        if marks is None:
+            return large
+        # A factor of 1 gives the caller's own picture back; it is not ours to draw on.
+        large = large.copy()
+        marks.draw(large, self.factor)
+        return large
 
     def _caption(self, whole: Picture, title: str, facts: str) -> None:
         """Title left, facts and legend right; what does not fit is left out, title first."""

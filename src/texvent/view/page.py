@@ -17,20 +17,22 @@ from texvent.errors import OutputError
 from texvent.events import EventPackets, EventStream
 from texvent.io.atomic import atomic_file, check_output
 from texvent.sensor import SensorSize
-from texvent.video import MICROSECONDS
+from texvent.video import MICROSECONDS, Frame
 from texvent.view import page_parts
 from texvent.view.film import title_of
+from texvent.view.filmstrip import FrameStrip
 from texvent.view.palettes import DEFAULT_PALETTE, Palette, get_palette
 from texvent.view.sample import SAMPLE_EVENTS, RateCurve, UniformSample
 from texvent.view.windows import liveliest_window_png
 
-TEMPLATE_FILES = {"style": "page.css", "script": "page.js"}
+SCRIPTS = ("state.js", "cloud.js", "plane.js", "rate.js", "controls.js")
+"""Parts of the viewer, in the order in which they build on one another."""
 
 
 class PageWriter:
     """Gathers a sample and a rate curve while packets come in, and writes the page at the end.
 
-    Memory holds at most 400,000 events, however long the recording is.
+    Memory holds at most twice the sample and 64 small frames, however long the recording is.
 
     Raises:
         ConfigError: the palette is unknown.
@@ -65,12 +67,13 @@ class PageWriter:
         self._overwrite = overwrite
         self._sample = UniformSample(size, limit=sample_limit)
         self._curve = RateCurve()
+        self._strip = FrameStrip()
         self._on_events = 0
         self._stop_us = 0
         self._stack = ExitStack()
         self._part: Path | None = None
         self.still: bytes | None = None
-        """PNG file shown at the top of the page; set it before the `with` block ends."""
+        """PNG file shown below the curve; set it before the `with` block ends."""
 
     def __enter__(self) -> Self:
         self._part = self._stack.enter_context(atomic_file(self._path, overwrite=self._overwrite))
@@ -84,6 +87,10 @@ class PageWriter:
         self._curve.append(packet)
         self._on_events += int(packet.p.sum())
         self._stop_us = int(packet.t[-1]) + 1
+
+    def append_frame(self, frame: Frame) -> None:
+        """Add a frame of the video, to be seen beside the events; the page keeps a few."""
+        self._strip.append(frame)
 
     def __exit__(
         self,
@@ -101,7 +108,6 @@ class PageWriter:
 
     def _page(self) -> str:
         seen, sample, palette = self._sample.seen, self._sample.events(), self._palette
-        start_us = self._curve.start_us
         title = title_of(self._metadata) or "Events"
         nested = {
             name: value
@@ -117,13 +123,19 @@ class PageWriter:
         parts = {
             "title": html.escape(title),
             "summary": html.escape(self._summary()),
+            "film": page_parts.film_html(self._strip),
             "still": page_parts.still_html(self.still),
             "note": html.escape(note),
             "rate": page_parts.rate_curve_html(self._curve),
             "facts": page_parts.facts_html(self._facts()),
             "details": page_parts.details_html(nested),
-            "data": page_parts.cloud_json(
-                sample, palette, start_us=start_us, stop_us=max(start_us + 1, self._stop_us - 1)
+            "data": page_parts.viewer_json(
+                sample,
+                self._curve,
+                self._strip,
+                palette=palette,
+                seen=seen,
+                stop_us=max(self._curve.start_us + 1, self._stop_us - 1),
             ),
             **{name: getattr(palette, name) for name in ("on", "off", "background", "ink")},
         }
@@ -196,10 +208,11 @@ def show(
 
 def _fill_template(parts: Mapping[str, str]) -> str:
     """The page with every `{{name}}` replaced, in one pass: inserted text is never read again."""
-    folder = resources.files("texvent.view")
-    texts = {
-        name: folder.joinpath(file).read_text("utf-8") for name, file in TEMPLATE_FILES.items()
-    }
+    folder = resources.files("texvent.view").joinpath("viewer")
+
+    def read(name: str) -> str:
+        return folder.joinpath(name).read_text("utf-8")
+
+    texts = {"style": read("page.css"), "script": "\n".join(map(read, SCRIPTS))}
     known = {**texts, **parts}
-    template = folder.joinpath("page.html").read_text("utf-8")
-    return re.sub(r"\{\{(\w+)\}\}", lambda match: known[match[1]], template)
+    return re.sub(r"\{\{(\w+)\}\}", lambda match: known[match[1]], read("page.html"))

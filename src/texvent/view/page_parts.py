@@ -13,6 +13,7 @@ import numpy as np
 from texvent.config import plain
 from texvent.events import EventStream
 from texvent.video import MICROSECONDS
+from texvent.view.filmstrip import FrameStrip
 from texvent.view.palettes import Colour, Palette
 from texvent.view.sample import RateCurve
 
@@ -63,15 +64,20 @@ def rate_curve_html(curve: RateCurve) -> str:
     stop_us = curve.start_us + curve.bin_us * counts.shape[1]
     label = f"ON and OFF events per second over time; peak {count_text(peak * per_second)}"
     return (
-        f'<figure class="panel rate"><svg viewBox="0 0 {CURVE_WIDTH} {CURVE_HEIGHT}" '
+        '<figure class="panel rate"><svg id="rate-curve" '
+        f'viewBox="0 0 {CURVE_WIDTH} {CURVE_HEIGHT}" '
         f'preserveAspectRatio="none" role="img" aria-label="{label}">'
         f'<path class="on-area" d="{on_area}"/><path class="off-area" d="{off_area}"/>'
         f'<rect id="rate-window" class="window" x="0" y="0" width="0" height="{CURVE_HEIGHT}"/>'
+        '<path id="rate-region" class="region-line" d=""/>'
         f'<path class="zero" d="M0 {middle:g}H{CURVE_WIDTH}"/></svg>'
         f'<div class="scale"><span>{curve.start_us / MICROSECONDS:.3f} s</span>'
         f"<span>ON above, OFF below the line · peak {count_text(peak * per_second)} events/s · "
         f"bins of {curve.bin_us / 1000:.3g} ms</span>"
         f"<span>{stop_us / MICROSECONDS:.3f} s</span></div></figure>"
+        '<p class="note">Drag over the curve to choose a time, click to go there. '
+        '<span id="rate-region-note" hidden>The line is the region alone, estimated from the '
+        "events of the cloud.</span></p>"
     )
 
 
@@ -102,17 +108,47 @@ def still_html(png: bytes | None) -> str:
     if png is None:
         return ""
     return (
-        '<figure class="still"><img alt="The liveliest moment of the recording" '
-        f'src="data:image/png;base64,{base64.b64encode(png).decode("ascii")}">'
-        "<figcaption>The moment with the most events.</figcaption></figure>"
+        '<section aria-labelledby="still-heading"><h2 id="still-heading">The liveliest moment</h2>'
+        '<figure class="still"><img alt="The moment of the recording with the most events" '
+        f'src="data:image/png;base64,{base64.b64encode(png).decode("ascii")}"></figure></section>'
     )
 
 
-def cloud_json(sample: EventStream, palette: Palette, *, start_us: int, stop_us: int) -> str:
-    """The sampled events and colours as JSON that is safe inside a script element.
+def film_html(strip: FrameStrip) -> str:
+    """Where the page shows the video's frame beside the cloud; nothing without frames."""
+    if not strip.pictures:
+        return ""
+    return (
+        '<figure class="plane"><div class="panel">'
+        '<canvas id="film-canvas" role="img" aria-label="The video at the start of the chosen '
+        'time"></canvas><div class="region-mark" hidden></div></div>'
+        f"<figcaption>The video then; {len(strip.pictures)} of {strip.seen} frames are in this "
+        "page</figcaption></figure>"
+    )
+
+
+def viewer_json(
+    sample: EventStream,
+    curve: RateCurve,
+    strip: FrameStrip,
+    *,
+    palette: Palette,
+    seen: int,
+    stop_us: int,
+) -> str:
+    """All that the viewer shows as JSON that is safe inside a script element.
 
     Times become shares 0..1 of `[start_us, stop_us]` in float32: finer than a screen can show.
+
+    Args:
+        sample: the events of the cloud.
+        curve: ON and OFF events over time, all of them.
+        strip: frames of the video.
+        palette: the colours.
+        seen: how many events the recording has.
+        stop_us: time of the last event, µs.
     """
+    start_us = curve.start_us
     span_us = max(1, stop_us - start_us)
     share = ((sample.t - start_us) / span_us).astype("<f4")
     pixels = np.stack([sample.x, sample.y], axis=1).astype("<u2")
@@ -122,6 +158,19 @@ def cloud_json(sample: EventStream, palette: Palette, *, start_us: int, stop_us:
         "start_us": start_us,
         "duration_us": span_us,
         "count": len(sample),
+        "seen": seen,
+        "rate": {
+            "bins": curve.counts.shape[1],
+            "bin_us": curve.bin_us,
+            "peak": int(curve.counts.max(initial=0)),
+        },
+        "frames": [
+            {
+                "t": (t_us - start_us) / span_us,
+                "src": "data:image/jpeg;base64," + base64.b64encode(jpeg).decode("ascii"),
+            }
+            for t_us, jpeg in strip.pictures
+        ],
         "on": palette.on,
         "off": palette.off,
         "background": palette.background,

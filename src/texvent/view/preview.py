@@ -112,6 +112,7 @@ class Preview:
         """
         if self._page is not None:
             self._page.append(packet)
+            self._page.append_frame(frame)
         interval = self._collector.append(frame, packet)
         if interval is not None:
             self._show(interval)

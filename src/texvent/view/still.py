@@ -6,11 +6,11 @@ from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Frame
 from texvent.view.canvas import png_bytes
+from texvent.view.draw import compose_interval
 from texvent.view.film import interval_facts
 from texvent.view.interval import Interval, IntervalCollector
 from texvent.view.layout import Layout
 from texvent.view.palettes import DEFAULT_PALETTE, Palette, get_palette
-from texvent.view.picture import draw_events
 
 
 class StillPicker:
@@ -43,14 +43,19 @@ class StillPicker:
         if self._best is None or interval.event_count > self._best.event_count:
             self._best = interval
 
-    def png(self) -> bytes | None:
-        """The picture as a PNG file in memory, or None if there was no frame at all."""
-        interval = self._best or self._collector.lone_frame()
-        if interval is None:
-            return None
-        events = draw_events(interval.counts, self._layout.palette)
+    def pick(self) -> Interval | None:
+        """The liveliest interval, else the only frame, else None."""
+        return self._best or self._collector.lone_frame()
+
+    def draw(self, interval: Interval) -> bytes:
+        """The picture of an interval as a PNG file in memory."""
         return png_bytes(
-            self._layout.compose(
-                interval.picture, events, title=self._title, facts=interval_facts(interval)
+            compose_interval(
+                interval, self._layout, title=self._title, facts=interval_facts(interval)
             )
         )
+
+    def png(self) -> bytes | None:
+        """The picture of the liveliest interval, or None if there was no frame at all."""
+        interval = self.pick()
+        return None if interval is None else self.draw(interval)

@@ -15,6 +15,8 @@ from texvent.view.interval import Interval
 from texvent.view.palettes import DEFAULT_PALETTE, Palette
 from texvent.view.still import StillPicker
 
+NEVER = np.iinfo(np.int64).min // 2
+"""Time of the last event where there was none; half, so that ages do not overflow."""
 LIVELIEST_WINDOWS = 50
 """A recording is cut into this many windows to find the liveliest one ..."""
 LONGEST_STILL_US = 40_000
@@ -39,6 +41,64 @@ def cut_windows(
     Raises:
         ConfigError: step or window is not above 0.
     """
+    for start_us, part in _cut(packets, size, step_us, window_us):
+        yield Interval(start_us, start_us + window_us, count_events(part))
+
+
+def cut_fading(
+    packets: Iterable[EventStream], *, size: SensorSize, step_us: Fraction, tau_us: int
+) -> Iterator[Interval]:
+    """One interval per step with the exponential time surface at its end.
+
+    As `texvent.represent.time_surface`: exp(−age / τ) of the last event of each polarity at each
+    pixel. Memory holds one time per pixel and polarity besides the events of one step.
+
+    Args:
+        packets: events in time order.
+        size: sensor size, pixels.
+        step_us: from one picture to the next, µs.
+        tau_us: decay time τ, µs.
+
+    Raises:
+        ConfigError: the step is not above 0.
+    """
+    latest = np.full((2, *size.shape), NEVER, dtype=np.int64)
+    # Rounded up, so that no event falls between two steps.
+    window_us = max(1, -int(-step_us // 1))
+    for start_us, part in _cut(packets, size, step_us, window_us):
+        stop_us = start_us + window_us
+        np.maximum.at(latest, (part.p, part.y, part.x), part.t)
+        age = (stop_us - 1 - latest).astype(np.float32) / tau_us
+        fading = np.where(latest == NEVER, np.float32(0), np.exp(-age))
+        yield Interval(start_us, stop_us, count_events(part), fading=fading)
+
+
+def cut_counts(
+    packets: Iterable[EventStream], *, size: SensorSize, count: int
+) -> Iterator[Interval]:
+    """Intervals of `count` events each, however long they take; the last may have fewer.
+
+    Args:
+        packets: events in time order.
+        size: sensor size, pixels.
+        count: events per interval.
+    """
+    held = EventStream.empty(size)
+    for packet in packets:
+        held = EventStream.concat([held, packet])
+        # An interval lasts until the event after it, so one more must be known.
+        while len(held) > count:
+            part, held = held[:count], held[count:]
+            stop_us = max(int(held.t[0]), int(part.t[0]) + 1)
+            yield Interval(int(part.t[0]), stop_us, count_events(part))
+    if len(held):
+        yield Interval(int(held.t[0]), int(held.t[-1]) + 1, count_events(held))
+
+
+def _cut(
+    packets: Iterable[EventStream], size: SensorSize, step_us: Fraction, window_us: int
+) -> Iterator[tuple[int, EventStream]]:
+    """Start and events of every window of `cut_windows`."""
     if step_us <= 0 or window_us <= 0:
         raise ConfigError(
             f"window {window_us} µs, step {float(step_us):g} µs; both must be above 0"
@@ -53,14 +113,14 @@ def cut_windows(
         held = EventStream.concat([held, packet])
         # A window is complete once an event at or after its end is known.
         while (start_us := first_us + round(index * step_us)) + window_us <= int(held.t[-1]):
-            yield _interval(held, start_us, window_us)
+            yield start_us, held.between(start_us, start_us + window_us)
             index += 1
         held = held[int(np.searchsorted(held.t, start_us)) :]
     while first_us is not None and len(held):
         start_us = first_us + round(index * step_us)
         held = held[int(np.searchsorted(held.t, start_us)) :]
         if len(held):
-            yield _interval(held, start_us, window_us)
+            yield start_us, held.between(start_us, start_us + window_us)
         index += 1
 
 
@@ -98,8 +158,3 @@ def liveliest_window_png(
 def still_window_us(extent: tuple[int, int]) -> int:
     """A window short enough that moving edges stay sharp, µs."""
     return max(1, min(LONGEST_STILL_US, (extent[1] - extent[0]) // LIVELIEST_WINDOWS))
-
-
-def _interval(held: EventStream, start_us: int, window_us: int) -> Interval:
-    stop_us = start_us + window_us
-    return Interval(start_us, stop_us, count_events(held.between(start_us, stop_us)))

@@ -1,28 +1,19 @@
-"use strict";
-(() => {
-  const data = JSON.parse(document.getElementById("data").textContent);
-  const element = (id) => document.getElementById(id);
+// The turnable x-y-t cloud. Events go to the graphics card once; a frame is one draw call over the
+// events of the time window, and turning, hiding and selecting only change a few numbers.
+
+const makeCloud = (state, controls) => {
+  const { data, events } = state;
   const canvas = element("cloud-canvas");
-
-  // Base64 → typed array.
-  const decode = (text, type) => {
-    const raw = atob(text);
-    const bytes = new Uint8Array(raw.length);
-    for (let i = 0; i < raw.length; i++) bytes[i] = raw.charCodeAt(i);
-    return new type(bytes.buffer);
-  };
-  const seconds = (part) => (data.start_us + part * data.duration_us) / 1e6;
-  const duration = (us) => (us >= 1e6 ? (us / 1e6).toFixed(3) + " s" : (us / 1e3).toFixed(2) + " ms");
-
-  // State. `start` and `length` are shares of the recording.
-  const state = { yaw: 0, pitch: 0, perspective: 1, zoom: 1, start: 0, length: 1, on: true, off: true, playing: false };
+  const gl = canvas.getContext("webgl", { antialias: true, alpha: false });
+  if (!gl) return false;
+  const camera = { zoom: 1 };
   const views = {
     space: { yaw: -0.62, pitch: 0.32, perspective: 1 },
     front: { yaw: 0, pitch: 0, perspective: 0 },
     side: { yaw: -Math.PI / 2, pitch: 0, perspective: 0 },
     top: { yaw: 0, pitch: Math.PI / 2, perspective: 0 },
   };
-  Object.assign(state, views.space);
+  Object.assign(camera, views.space);
 
   // The box around all events: x and y keep their proportions, time runs into the depth.
   const longest = Math.max(data.width, data.height);
@@ -31,8 +22,8 @@
 
   // Rotation by yaw about the vertical axis, then pitch about the horizontal one.
   const rotate = ([x, y, z]) => {
-    const [cy, sy] = [Math.cos(state.yaw), Math.sin(state.yaw)];
-    const [cp, sp] = [Math.cos(state.pitch), Math.sin(state.pitch)];
+    const [cy, sy] = [Math.cos(camera.yaw), Math.sin(camera.yaw)];
+    const [cp, sp] = [Math.cos(camera.pitch), Math.sin(camera.pitch)];
     const [x1, z1] = [cy * x - sy * z, sy * x + cy * z];
     return [x1, cp * y + sp * z1, cp * z1 - sp * y];
   };
@@ -42,7 +33,7 @@
   let fit = { scale: 1, x: 0, y: 0 };
   const project = (point) => {
     const [x, y, z] = rotate(point);
-    const w = 1 + state.perspective * (z + 1.2) / focal;
+    const w = 1 + camera.perspective * (z + 1.2) / focal;
     return [x / w, y / w, w];
   };
   const fitBox = (aspect) => {
@@ -51,19 +42,8 @@
     const [left, right] = [Math.min(...xs), Math.max(...xs)];
     const [low, high] = [Math.min(...ys), Math.max(...ys)];
     const scale = 0.84 * Math.min((2 * aspect) / (right - left), 2 / (high - low));
-    fit = { scale: scale * state.zoom, x: (left + right) / 2, y: (low + high) / 2 };
+    fit = { scale: scale * camera.zoom, x: (left + right) / 2, y: (low + high) / 2 };
   };
-
-  const gl = data.count > 0 ? canvas.getContext("webgl", { antialias: true, alpha: false }) : null;
-  if (!gl) {
-    canvas.hidden = true;
-    element("controls").hidden = true;
-    element("cloud").style.height = "auto";
-    const fallback = element("cloud-fallback");
-    if (data.count === 0) fallback.textContent = "This recording holds no events.";
-    fallback.hidden = false;
-    return;
-  }
 
   const compile = (kind, source) => {
     const shader = gl.createShader(kind);
@@ -89,15 +69,16 @@
     }`;
   const points = link(`
     attribute vec2 xy; attribute float t; attribute float p;
-    uniform vec2 size; uniform vec3 halfBox; uniform vec2 span; uniform vec2 shown;
-    uniform float dot; varying float polarity; varying float depth;
+    uniform vec2 size; uniform vec3 halfBox; uniform vec2 shown;
+    uniform vec4 region; uniform float dot; varying float polarity; varying float depth;
     ${placing}
     void main() {
       vec2 unit = (xy + 0.5) / size * 2.0 - 1.0;
       gl_Position = place(vec3(unit.x, -unit.y, t * 2.0 - 1.0) * halfBox);
       gl_PointSize = max(1.0, dot / gl_Position.w);
       polarity = p; depth = gl_Position.w;
-      bool hidden = t < span.x || t > span.y || (p > 0.5 ? shown.x : shown.y) < 0.5;
+      bool outside = xy.x < region.x || xy.y < region.y || xy.x >= region.z || xy.y >= region.w;
+      bool hidden = outside || (p > 0.5 ? shown.x : shown.y) < 0.5;
       if (hidden) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     }`, `
     precision mediump float;
@@ -120,9 +101,9 @@
     return buffer;
   };
   const buffers = {
-    xy: upload(decode(data.xy, Uint16Array)),
-    t: upload(decode(data.t, Float32Array)),
-    p: upload(decode(data.p, Uint8Array)),
+    xy: upload(events.xy),
+    t: upload(events.t),
+    p: upload(events.p),
   };
   const edges = [];
   for (let axis = 0; axis < 3; axis++) {
@@ -138,14 +119,22 @@
   // A rectangle that shows where the time window begins and ends.
   buffers.frame = gl.createBuffer();
 
+  // Names are looked up once: asking the driver again in every frame is slow.
+  const places = new Map();
+  const placeOf = (program, name, ask) => {
+    if (!places.has(program)) places.set(program, {});
+    const known = places.get(program);
+    if (!(name in known)) known[name] = gl[ask](program, name);
+    return known[name];
+  };
   const attribute = (program, name, buffer, count, type) => {
-    const place = gl.getAttribLocation(program, name);
+    const place = placeOf(program, name, "getAttribLocation");
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
     gl.enableVertexAttribArray(place);
     gl.vertexAttribPointer(place, count, type, false, 0, 0);
   };
   const uniform = (program, name, ...values) =>
-    gl["uniform" + values.length + "f"](gl.getUniformLocation(program, name), ...values);
+    gl["uniform" + values.length + "f"](placeOf(program, name, "getUniformLocation"), ...values);
   const unit = (colour) => colour.map((value) => value / 255);
   const faded = data.ink.map((value, i) => value + 0.62 * (data.background[i] - value));
 
@@ -153,21 +142,21 @@
     { axis: 0, at: [0, -half[1], -half[2]], text: "x 0…" + (data.width - 1), shift: [-0.5, 0.35] },
     { axis: 1, at: [-half[0], 0, -half[2]], text: "y 0…" + (data.height - 1), shift: [-1.12, -0.5] },
     { axis: 2, at: [half[0], -half[1], 0], text: "time →", shift: [0.1, 0.35] },
-    { axis: 2, at: [half[0], -half[1], -half[2]], text: seconds(0).toFixed(3) + " s", shift: [0.15, 0.1] },
-    { axis: 2, at: [half[0], -half[1], half[2]], text: seconds(1).toFixed(3) + " s", shift: [0.1, 0.1] },
+    { axis: 2, at: [half[0], -half[1], -half[2]], text: state.seconds(0).toFixed(3) + " s", shift: [0.15, 0.1] },
+    { axis: 2, at: [half[0], -half[1], half[2]], text: state.seconds(1).toFixed(3) + " s", shift: [0.1, 0.1] },
   ].map((label) => {
     const span = document.createElement("span");
     span.textContent = label.text;
     element("cloud-labels").append(span);
-    return { ...label, span };
+    // Measured once: reading sizes between two changes makes the browser lay out the page again.
+    return { ...label, span, w: span.offsetWidth, h: span.offsetHeight };
   });
 
   const placeLabels = (width, height) => {
-    labels.forEach(({ axis, at, span, shift }) => {
+    labels.forEach(({ axis, at, span, shift, w, h }) => {
       const [x, y] = project(at);
       const left = (((x - fit.x) * fit.scale) / (width / height) + 1) / 2 * width;
       const top = (1 - (y - fit.y) * fit.scale) / 2 * height;
-      const [w, h] = [span.offsetWidth, span.offsetHeight];
       const px = Math.min(Math.max(left + shift[0] * w, 4), width - w - 4);
       const py = Math.min(Math.max(top + shift[1] * h, 2), height - h - 2);
       span.style.transform = `translate(${px.toFixed(1)}px, ${py.toFixed(1)}px)`;
@@ -184,14 +173,12 @@
   };
   const common = (program, aspect) => {
     gl.useProgram(program);
-    uniform(program, "turn", Math.cos(state.yaw), Math.sin(state.yaw), Math.cos(state.pitch), Math.sin(state.pitch));
+    uniform(program, "turn", Math.cos(camera.yaw), Math.sin(camera.yaw), Math.cos(camera.pitch), Math.sin(camera.pitch));
     uniform(program, "fit", fit.x, fit.y, fit.scale, aspect);
-    uniform(program, "bend", state.perspective / focal);
+    uniform(program, "bend", camera.perspective / focal);
   };
 
-  let asked = false;
   const draw = () => {
-    asked = false;
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
     if (!width || !height) return;
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
@@ -208,11 +195,13 @@
 
     common(lines, aspect);
     drawLines(buffers.edges, 0, 24, faded);
-    if (state.length < 1) {
+    const { x0, y0, x1, y1 } = state.region;
+    if (state.length < 1 || !state.regionIsWhole()) {
       const rectangle = [];
-      for (const share of [state.start, Math.min(1, state.start + state.length)]) {
+      for (const share of [state.start, state.stop()]) {
         const z = (share * 2 - 1) * half[2];
-        const loop = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([x, y]) => [x * half[0], y * half[1], z]);
+        const loop = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]].map(([x, y]) => [
+          ((2 * x) / data.width - 1) * half[0], (1 - (2 * y) / data.height) * half[1], z]);
         loop.forEach((corner, i) => rectangle.push(...corner, ...loop[(i + 1) % 4]));
       }
       gl.bindBuffer(gl.ARRAY_BUFFER, buffers.frame);
@@ -226,93 +215,41 @@
     attribute(points, "p", buffers.p, 1, gl.UNSIGNED_BYTE);
     uniform(points, "size", data.width, data.height);
     uniform(points, "halfBox", ...half);
-    uniform(points, "span", state.start - 1e-6, Math.min(1, state.start + state.length) + 1e-6);
+    uniform(points, "region", x0, y0, x1, y1);
     uniform(points, "shown", state.on ? 1 : 0, state.off ? 1 : 0);
     // Few points may be larger; a point is never larger than a pixel of the sensor.
     const pixel = (canvas.height * fit.scale) / longest;
-    const crowd = Math.sqrt(60000 / Math.max(data.count * Math.max(state.length, 0.05), 1));
-    uniform(points, "dot", Math.min(pixel * 1.1, ratio * Math.min(3, 1.35 * Math.max(1, crowd)) * state.zoom));
+    const [first, last] = state.range();
+    const crowd = Math.sqrt(60000 / Math.max(last - first, 0.05 * data.count, 1));
+    uniform(points, "dot", Math.min(pixel * 1.1, ratio * Math.min(3, 1.35 * Math.max(1, crowd)) * camera.zoom));
     uniform(points, "onColour", ...unit(data.on));
     uniform(points, "offColour", ...unit(data.off));
     uniform(points, "paper", ...unit(data.background));
-    gl.drawArrays(gl.POINTS, 0, data.count);
+    if (last > first) gl.drawArrays(gl.POINTS, first, last - first);
     placeLabels(width, height);
   };
-  const redraw = () => {
-    if (!asked) { asked = true; requestAnimationFrame(draw); }
-  };
+  state.watch(draw);
 
-  // Controls.
-  const startSlider = element("start"), lengthSlider = element("length"), play = element("play");
-  const showWindow = () => {
-    startSlider.value = Math.round(state.start * 1000);
-    lengthSlider.value = Math.max(1, Math.round(state.length * 1000));
-    element("start-text").textContent = seconds(state.start).toFixed(3) + " s";
-    element("length-text").textContent = duration(state.length * data.duration_us);
-    const mark = element("rate-window");
-    if (mark) {
-      mark.setAttribute("x", state.start * 1000);
-      mark.setAttribute("width", state.length < 1 ? Math.max(2, Math.min(state.length, 1 - state.start) * 1000) : 0);
-    }
-    redraw();
-  };
-  let before = 0;
-  const step = (now) => {
-    if (!state.playing) return;
-    // The whole recording plays in eight seconds, again and again.
-    state.start += Math.min(now - before, 100) / 8000;
-    if (state.start >= 1) state.start = 0;
-    before = now;
-    showWindow();
-    requestAnimationFrame(step);
-  };
-  const setPlaying = (playing) => {
-    state.playing = playing;
-    play.setAttribute("aria-pressed", String(playing));
-    play.textContent = playing ? "❚❚ Pause" : "▶ Play";
-    if (!playing) return;
-    if (state.length > 0.5) state.length = 0.06;
-    before = performance.now();
-    requestAnimationFrame(step);
-  };
-  play.addEventListener("click", () => setPlaying(!state.playing));
-  startSlider.addEventListener("input", () => {
-    setPlaying(false);
-    state.start = startSlider.value / 1000;
-    showWindow();
-  });
-  lengthSlider.addEventListener("input", () => {
-    state.length = lengthSlider.value / 1000;
-    showWindow();
-  });
-  for (const name of ["on", "off"]) {
-    const button = element("toggle-" + name);
-    button.addEventListener("click", () => {
-      state[name] = !state[name];
-      button.setAttribute("aria-pressed", String(state[name]));
-      redraw();
-    });
-  }
   for (const button of document.querySelectorAll("[data-view]")) {
     button.addEventListener("click", () => {
       const view = button.dataset.view;
-      Object.assign(state, views[view], { zoom: 1 });
+      Object.assign(camera, views[view], { zoom: 1 });
       // The whole recording in one picture plane is a smear: show 40 ms from its middle.
-      if (view === "front" && state.length === 1) Object.assign(state, { start: 0.5, length: Math.min(0.5, 40000 / data.duration_us) });
-      if (view === "space") Object.assign(state, { start: 0, length: 1 });
-      showWindow();
+      if (view === "front" && state.length === 1) state.set({ start: 0.5, length: Math.min(0.5, 40000 / data.duration_us) });
+      if (view === "space") state.set({ start: 0, length: 1 });
+      state.changed();
     });
   }
 
   const turn = (dx, dy) => {
-    state.perspective = 1;
-    state.yaw -= dx;
-    state.pitch = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, state.pitch + dy));
-    redraw();
+    camera.perspective = 1;
+    camera.yaw -= dx;
+    camera.pitch = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, camera.pitch + dy));
+    state.changed();
   };
   const zoom = (factor) => {
-    state.zoom = Math.max(0.5, Math.min(12, state.zoom * factor));
-    redraw();
+    camera.zoom = Math.max(0.5, Math.min(12, camera.zoom * factor));
+    state.changed();
   };
   const fingers = new Map();
   const spread = () => {
@@ -346,18 +283,18 @@
       ArrowLeft: () => turn(-0.08, 0), ArrowRight: () => turn(0.08, 0),
       ArrowUp: () => turn(0, -0.08), ArrowDown: () => turn(0, 0.08),
       "+": () => zoom(1.15), "=": () => zoom(1.15), "-": () => zoom(1 / 1.15),
-      "0": () => { Object.assign(state, views.space, { zoom: 1, start: 0, length: 1 }); showWindow(); },
-      " ": () => setPlaying(!state.playing),
+      "0": () => { Object.assign(camera, views.space, { zoom: 1 }); state.set({ start: 0, length: 1 }); },
+      " ": controls.toggle, ",": () => controls.jump(-1), ".": () => controls.jump(1),
     };
     if (!actions[event.key]) return;
     event.preventDefault();
     actions[event.key]();
   });
-  new ResizeObserver(redraw).observe(canvas);
+  new ResizeObserver(state.changed).observe(canvas);
   canvas.addEventListener("webglcontextlost", (event) => {
     event.preventDefault();
     element("cloud-fallback").textContent = "The graphics card was reset; reload the page to see the cloud.";
     element("cloud-fallback").hidden = false;
   });
-  showWindow();
-})();
+  return true;
+};

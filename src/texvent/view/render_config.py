@@ -1,0 +1,75 @@
+"""How a recording is made visible: the options of `texvent render`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from texvent.config import check_range
+from texvent.errors import ConfigError
+from texvent.video import MICROSECONDS
+from texvent.view.marks import Overlay
+from texvent.view.palettes import DEFAULT_PALETTE, get_palette
+from texvent.view.sample import SAMPLE_EVENTS
+
+
+@dataclass(frozen=True, kw_only=True)
+class RenderConfig:
+    """How events are made visible."""
+
+    render_fps: Fraction = Fraction(30)
+    """Pictures per second of film."""
+    window: float | None = None
+    """Time that one picture gathers, in ms of the recording. Without it, films show every event
+    once and pictures show at most 40 ms."""
+    events_per_picture: int | None = None
+    """Fixed count instead of fixed time: every picture gathers this many events, however long
+    that takes; a film shows one such slice after the other."""
+    decay: float | None = None
+    """Let events fade instead of counting them: exp(-age / decay), decay in ms (30 is usual)."""
+    speed: float = 1.0
+    """Speed of the film: 0.1 is ten times slower than the recording."""
+    palette: str = DEFAULT_PALETTE
+    """Colours of ON and OFF events."""
+    panels: int = 1
+    """Pictures on a PNG: 1 shows the liveliest moment, more show moments evenly spaced."""
+    overlay: Overlay = "none"
+    """Boxes with class names, optical flow (arrows as long as the motion in 50 ms), or both, for
+    scenes that the embedded generator renders again."""
+    points: int = SAMPLE_EVENTS
+    """Most events in the cloud of a page or .rrd file; more are drawn uniformly at random."""
+
+    def __post_init__(self) -> None:
+        get_palette(self.palette)
+        check_range("speed", self.speed, 1e-6, 1e6)
+        check_range("panels", self.panels, 1, 100)
+        check_range("points", self.points, 1, 20_000_000)
+        ways = {
+            "window": self.window,
+            "events_per_picture": self.events_per_picture,
+            "decay": self.decay,
+        }
+        given = {name: value for name, value in ways.items() if value is not None}
+        if len(given) > 1:
+            raise ConfigError(
+                f"{' and '.join(given)} are different ways to gather events; give one of them"
+            )
+        for name, value in given.items():
+            check_range(name, value, 1 if name == "events_per_picture" else 0.001, 1e12)
+        if not 0 < self.render_fps <= 1000:
+            raise ConfigError(f"render_fps is {self.render_fps}; it must be above 0, at most 1000")
+
+    @property
+    def window_us(self) -> int | None:
+        """The window in µs."""
+        return None if self.window is None else max(1, round(self.window * 1000))
+
+    @property
+    def step_us(self) -> Fraction:
+        """Time of the recording from one film frame to the next, µs, exact."""
+        return Fraction(self.speed) * MICROSECONDS / self.render_fps
+
+    @property
+    def tau_us(self) -> int | None:
+        """Decay time in µs."""
+        return None if self.decay is None else max(1, round(self.decay * 1000))

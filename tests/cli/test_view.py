@@ -1,0 +1,94 @@
+from __future__ import annotations
+
+import re
+import webbrowser
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from texvent.cli.app import main
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+
+CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
+SCENE = ["--duration", "0.2", "--fps", "10", "--sensor", "48x36", "--samples", "1"]
+
+
+def run(*words: object) -> int:
+    return main([str(word) for word in words])
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def recording(folder) -> Path:
+    step = np.arange(500)
+    size = SensorSize(32, 18)
+    return EventStream(step % 32, step % 18, step * 400, step % 2, size).save(folder / "in.h5")
+
+
+@pytest.fixture
+def generated(folder) -> Path:
+    words = ("generate", "a red ball bounces", "-o", "scene.h5", "--events-only", "-q", *SCENE)
+    assert run(*words) == 0
+    return folder / "scene.h5"
+
+
+def test_view_opens_a_temporary_page(recording, monkeypatch, tmp_path, capsys) -> None:
+    opened: list[str] = []
+    monkeypatch.setattr(webbrowser, "open", lambda url: opened.append(url) or True)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    assert run("view", recording) == 0
+    page = Path(capsys.readouterr().out.strip())
+    assert opened == [page.as_uri()]
+    assert "Shows all 500 events." in page.read_text("utf-8")
+
+
+def test_view_says_so_where_no_browser_can_be_opened(recording, monkeypatch, capsys) -> None:
+    monkeypatch.setattr(webbrowser, "open", lambda url: False)
+    assert run("view", recording) == 0
+    assert "open that page yourself" in capsys.readouterr().err
+
+
+def test_view_saves_a_page_with_the_video_beside_and_opens_nothing(recording, monkeypatch) -> None:
+    monkeypatch.setattr(webbrowser, "open", lambda url: pytest.fail("nothing was to be opened"))
+    assert run("view", recording, "-o", "page.html", "--video", CLIP, "--points", 100) == 0
+    page = Path("page.html").read_text("utf-8")
+    assert "Shows 100 of 500 events" in page
+    assert page.count("data:image/jpeg") > 3
+
+
+def test_a_generated_recording_is_seen_with_its_scene_unless_told_not_to(generated) -> None:
+    assert run("view", generated, "-o", "with.html") == 0
+    assert Path("with.html").read_text("utf-8").count("data:image/jpeg") == 3
+    assert run("view", generated, "-o", "without.html", "--video", "none") == 0
+    assert "data:image/jpeg" not in Path("without.html").read_text("utf-8")
+
+
+def test_render_draws_boxes_and_flow_of_a_generated_recording(generated) -> None:
+    assert run("render", generated, "-o", "plain.png") == 0
+    assert run("render", generated, "-o", "marked.png", "--overlay", "both") == 0
+    assert Path("plain.png").read_bytes() != Path("marked.png").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["view", "in.h5", "-o", "page.mp4"], "must end in .html"),
+        (["view", "missing.h5"], "no such file"),
+        (["view", "in.h5", "--points", "0", "-o", "p.html"], "points is 0"),
+        (["view", "in.h5", "-o", "p.html", "--video", "missing.mp4"], "no such video"),
+        (["render", "in.h5", "-o", "p.mp4", "--overlay", "boxes"], "embedded generator"),
+    ],
+)
+def test_mistakes_are_one_line_and_leave_nothing(recording, capsys, words, message) -> None:
+    assert run(*words) == 2
+    said = capsys.readouterr().err
+    assert re.fullmatch(r"error: .*\n", said), said
+    assert message in said
+    assert [path.name for path in recording.parent.iterdir()] == ["in.h5"]

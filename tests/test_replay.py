@@ -1,0 +1,38 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from texvent.pipeline import text_to_events
+from texvent.replay import film_again
+from texvent.settings import resolve
+
+OPTIONS = {"duration": 0.2, "fps": 10, "sensor": "48x36", "seed": 4, "samples": 1}
+
+
+@pytest.fixture
+def simulation():
+    return text_to_events("a red ball bounces", resolve("generate", OPTIONS))
+
+
+def test_a_generated_recording_is_filmed_again_from_its_provenance(simulation) -> None:
+    again = film_again(simulation.provenance)
+    assert again is not None
+    assert again.size == (48, 36)
+    for first, second in zip(simulation.video, again, strict=True):
+        assert first.t_us == second.t_us
+        np.testing.assert_array_equal(first.pixels, second.pixels)
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {"generator": None},
+        {"generator": "somebody-elses"},
+        {"prompt": None},
+        {"settings": None},
+        {"texvent_version": "0.0.0"},
+    ],
+)
+def test_other_recordings_cannot_be_filmed_again(simulation, changed: dict[str, object]) -> None:
+    assert film_again({**simulation.provenance, **changed}) is None

@@ -1,0 +1,99 @@
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from texvent.errors import ConfigError, InputError
+from texvent.sensor import SensorSize
+from texvent.video import Video
+from texvent.view.beside import Companion
+from texvent.view.interval import Interval
+from texvent.view.marks import ARROW_US, BOX_COLOUR, FLOW_COLOUR, Marks, marks_of
+
+SIZE = SensorSize(48, 32)
+
+
+@dataclass(frozen=True)
+class Box:
+    class_name: str = "car"
+    x0: int = 10
+    y0: int = 12
+    x1: int = 30
+    y1: int = 24
+
+
+@dataclass(frozen=True)
+class Truth:
+    boxes: tuple[Box, ...]
+    flow: np.ndarray
+
+
+class KnownVideo(Video):
+    """The left half moves 3 px right in the time asked for; the right half is unknown."""
+
+    def ground_truth(self, t0_us: int, t1_us: int) -> Truth:
+        assert t1_us - t0_us == ARROW_US
+        flow = np.full((*SIZE.shape, 2), np.nan, dtype=np.float32)
+        flow[:, :24] = (3, 0)
+        return Truth((Box(),), flow)
+
+
+def video(kind: type[Video] = KnownVideo) -> Video:
+    pixels = np.stack([np.full(SIZE.shape, 50 * i, dtype=np.uint8) for i in range(3)])
+    return kind(pixels, [0, 10_000, 20_000])
+
+
+def is_painted(picture: np.ndarray, colour: tuple[int, int, int]) -> np.ndarray:
+    return (picture == colour).all(axis=2)
+
+
+def test_arrows_stand_where_motion_is_known_and_show_it() -> None:
+    arrows = marks_of(video(), 0, "flow").arrows
+    assert arrows is not None
+    assert len(arrows) > 10
+    assert (arrows[:, 0] < 24).all()
+    np.testing.assert_array_equal(arrows[:, 2:], np.tile([3, 0], (len(arrows), 1)))
+
+
+@pytest.mark.parametrize(("overlay", "boxes", "arrows"), [("boxes", 1, 0), ("flow", 0, 1)])
+def test_only_what_was_asked_for_is_marked(overlay, boxes: int, arrows: int) -> None:
+    marks = marks_of(video(), 0, overlay)
+    assert len(marks.boxes) == boxes
+    assert (marks.arrows is not None) == arrows
+
+
+def test_a_box_is_drawn_around_its_pixels_at_any_enlargement() -> None:
+    picture = np.zeros((SIZE.height * 4, SIZE.width * 4, 3), dtype=np.uint8)
+    marks_of(video(), 0, "boxes").draw(picture, 4)
+    rows, columns = np.nonzero(is_painted(picture, BOX_COLOUR))
+    assert (columns.min(), rows.max()) == pytest.approx((40, 95), abs=2)
+    assert columns.max() == pytest.approx(119, abs=2)
+    assert not is_painted(picture, BOX_COLOUR)[60:80, 60:80].any(), "hollow"
+
+
+def test_an_arrow_is_drawn_from_its_tail_along_the_motion() -> None:
+    picture = np.zeros((64, 64, 3), dtype=np.uint8)
+    Marks(arrows=np.array([[2, 8, 10, 0]], dtype=np.float32)).draw(picture, 4)
+    _, columns = np.nonzero(is_painted(picture, FLOW_COLOUR))
+    assert (columns.min(), columns.max()) == pytest.approx((8, 48), abs=2)
+
+
+def test_each_interval_gets_the_frame_that_was_on_show_when_it_began() -> None:
+    counts = np.zeros((2, *SIZE.shape), dtype=np.int32)
+    starts = [-5, 0, 9_999, 10_000, 25_000]
+    beside = Companion(video(), "none", size=SIZE)
+    shown = beside.add_pictures(Interval(t, t + 1, counts) for t in starts)
+    assert [int(one.picture.mean()) for one in shown] == [0, 0, 0, 50, 100]
+
+
+def test_an_overlay_without_ground_truth_is_refused() -> None:
+    for frames in (None, video(Video)):
+        with pytest.raises(ConfigError, match="embedded generator"):
+            Companion(frames, "both", size=SIZE)
+
+
+def test_a_video_of_another_size_is_refused() -> None:
+    with pytest.raises(InputError, match="the video is 48x32, the events are 8x8"):
+        Companion(video(), "none", size=SensorSize(8, 8))
