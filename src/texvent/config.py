@@ -107,7 +107,9 @@ class InterpolateConfig:
 
     interpolate: str = "flow"
     """What fills the time between two source frames: none, blend (mix of both), flow (motion
-    compensation by DIS optical flow), or exact (the generator renders the instant itself)."""
+    compensation by DIS optical flow), rife (a trained network, the paper's choice), super-slomo
+    (the network of the paper's ablation E8), or exact (the generator renders the instant
+    itself)."""
     count: Literal["brightness", "fixed"] = "brightness"
     """How many intermediate frames: as many as the brightness change needs (Eq. 4), or a fixed
     number."""
@@ -125,8 +127,23 @@ class InterpolateConfig:
     detect_cuts: bool = True
     """Detect scene cuts and flashes and let them happen at one instant instead of smearing them
     over the frame interval."""
+    interpolator_weights: Path | None = None
+    """Weights of rife or super-slomo. Without it, rife uses what texvent weights pull fetched."""
+    interpolator_device: Literal["auto", "cpu", "cuda"] = "auto"
+    """Where rife and super-slomo run; auto is the GPU if torch finds one."""
+    interpolator_precision: Literal["float32", "float16", "bfloat16"] = "float32"
+    """Number type inside rife and super-slomo; frames are moved at float32 whatever it is. The
+    halves are for GPUs."""
+    interpolator_compile: bool = False
+    """Compile rife's network with torch.compile: slower to start, faster on long clips."""
+    interpolator_tile: int = 0
+    """Estimate rife's motion on tiles of this side, px, to save memory on large frames (0: on the
+    whole frame). Motion above 64 px per pair does not cross tiles well."""
+    rife_flow: Literal["each", "shared"] = "each"
+    """Estimate rife's motion anew at each intermediate frame, or once per pair, at its middle."""
 
     def __post_init__(self) -> None:
+        check_range("interpolator_tile", self.interpolator_tile, 0, 100_000)
         check_range("fixed_count", self.fixed_count, 0, 10_000)
         check_range("max_intermediate", self.max_intermediate, 0, 10_000)
         check_range("count_percentile", self.count_percentile, 0.0, 100.0)

@@ -32,6 +32,8 @@ DATA_VARIABLE = "TEXVENT_DATA"
 INDEX_VARIABLE = "PIP_INDEX_URL"
 """Environment variable that names another package index, as pip reads it."""
 TIMEOUT_S = 60.0
+ARCHIVES = "archives"
+"""Folder of archives in the data folder."""
 
 Progress: TypeAlias = Callable[[int | None], ProgressTracker]
 """Number of bytes to come (if known) → a context manager with `update(bytes)`."""
@@ -87,16 +89,33 @@ def pull(
     root = folder or data_folder()
     target = root / data_set.name
     if not is_complete(data_set, target):
-        archive = data_set.archive
-        path = root / "archives" / archive.filename
-        make_folder(path.parent)
         if announce is not None:
             announce(describe(data_set))
-        if not path.is_file():
-            _download(archive, path, progress, client)
-        _check_archive(archive, path)
+        path = fetch_archive(data_set.archive, root / ARCHIVES, progress=progress, client=client)
         unpack(path, data_set, target)
     return target / data_set.path
+
+
+def fetch_archive(
+    archive: Archive,
+    folder: Path,
+    *,
+    progress: Progress | None = None,
+    client: PyPISimple | None = None,
+) -> Path:
+    """Download an archive into a folder, unless it is there already, and check its digest.
+
+    Raises:
+        FileFormatError: what arrived is not what the catalogue says.
+        OutputError: the folder cannot be written.
+        TexventError: the package index cannot be reached, or no longer has the file.
+    """
+    path = folder / archive.filename
+    make_folder(folder)
+    if not path.is_file():
+        _download(archive, path, progress, client)
+    _check_archive(archive, path)
+    return path
 
 
 def describe(data_set: DataSet) -> str:

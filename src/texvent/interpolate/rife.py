@@ -1,0 +1,99 @@
+"""RIFE: the paper's interpolator, with its published weights."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from texvent._require import require
+from texvent.config import InterpolateConfig
+from texvent.errors import FileFormatError
+from texvent.interpolate.network_device import Placement, explain_failures, luma_tensor, place
+from texvent.interpolate.network_files import EXTRA, Tensor
+from texvent.interpolate.position import check_between, position
+from texvent.interpolate.rife_estimator import RifeEstimator
+from texvent.interpolate.rife_network import Motion
+from texvent.interpolate.rife_shared import MIDDLE, move_motion
+from texvent.interpolate.rife_weights import find_rife_weights, read_rife_weights
+from texvent.interpolate.torch_warp import warp
+from texvent.video import Frame, FrameStream
+
+
+class RifeInterpolator:
+    """Moves both frames along the flow that a trained network estimates, and mixes them.
+
+    The network sees 8 bits or more of every channel; the frames that are moved are float32 luma,
+    whatever the network's precision, so intermediate frames have no steps.
+
+    Source: Huang et al., Real-Time Intermediate Flow Estimation for Video Frame Interpolation
+        (ECCV 2022); section 3.2.1 of the paper.
+    Deviation: grey frames are shown to the network as colour, edges are padded by repetition
+        instead of with black, and the result is not clipped.
+    """
+
+    def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
+        """An interpolator with its weights loaded.
+
+        Args:
+            config: weights, device, precision, tiles, and how often the flow is estimated.
+            stream: not used; every interpolator is built alike.
+
+        Raises:
+            MissingDependencyError: torch or safetensors is not installed.
+            InputError: there are no weights.
+            FileFormatError: the weights are damaged or of another network.
+            ConfigError: "cuda" without a GPU.
+        """
+        del stream
+        require("torch", extra=EXTRA)
+        self._path: Path = find_rife_weights(config.interpolator_weights)
+        self._placement: Placement = place(config)
+        weights = read_rife_weights(self._path)
+        self._estimator = RifeEstimator(weights, self._placement, config)
+        self._is_shared = config.rife_flow == "shared"
+
+    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
+        """Frames with every point moved along its path from `first` to `second`.
+
+        Args:
+            first: the earlier source frame.
+            second: the later source frame.
+            times_us: times of the intermediate frames, µs.
+
+        Yields:
+            One frame per time, [H, W] float32 luma, 0..255 scale.
+
+        Raises:
+            InputError: the frames differ in size, a time is not between theirs, or they do not
+                fit into the device's memory.
+            FileFormatError: the weights give numbers that are NaN or infinite.
+        """
+        check_between(first, second, times_us)
+        torch = require("torch", extra=EXTRA)
+        device = self._placement.device
+        with torch.inference_mode():
+            lumas = luma_tensor(first, device), luma_tensor(second, device)
+            positions = [position(first, second, t_us) for t_us in times_us]
+            pair = self._estimator.prepare(first, second)
+            middle = self._estimator.estimate(pair, MIDDLE) if self._is_shared else None
+        for t_us, at in zip(times_us, positions, strict=True):
+            # Not around the yield: the caller must not inherit the mode.
+            with torch.inference_mode(), explain_failures(device):
+                if middle is None:
+                    motion = self._estimator.estimate(pair, at)
+                else:
+                    motion = move_motion(middle, at)
+                picture = self._mix(lumas, motion)
+            yield Frame(picture, t_us, is_source=False)
+
+    def _mix(self, lumas: tuple[Tensor, Tensor], motion: Motion) -> Tensor:
+        torch = require("torch", extra=EXTRA)
+        weight = torch.sigmoid(motion.mask)
+        first, second = warp(lumas[0], motion.flow[:, :2]), warp(lumas[1], motion.flow[:, 2:])
+        mixed = (second + (first - second) * weight)[0, 0]
+        if not bool(mixed.isfinite().all()):
+            raise FileFormatError(
+                f"{self._path}: the network's output is NaN or infinite; with float16 try "
+                "bfloat16 or float32"
+            )
+        return mixed.cpu().numpy()

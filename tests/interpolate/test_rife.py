@@ -1,0 +1,340 @@
+"""RIFE from a published file to frames: any size, pixel type, device option; refusals by name."""
+
+import copy
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from texvent._registry import INTERPOLATORS
+from texvent.config import InterpolateConfig
+from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.interpolate import rife_layouts, rife_weights
+from texvent.interpolate.densify import densify
+from texvent.interpolate.rife import RifeInterpolator
+from texvent.interpolate.rife_layouts import LAYOUTS, RIFE_4_0
+from texvent.interpolate.rife_network import Motion
+from texvent.interpolate.rife_weights import read_rife_weights, write_rife_weights
+from texvent.video import Frame, Video
+
+from .rife_files import random_tensors, save_published
+
+pytestmark = pytest.mark.torch
+torch = pytest.importorskip("torch")
+
+TIMES_US = [250, 500, 750]
+NARROW = tuple(replace(layout, widths=(8,) * len(layout.widths)) for layout in LAYOUTS)
+"""The published layouts with 8 channels instead of 192 to 32: the same code, a hundredth of it."""
+NARROW_4_0, NARROW_4_6, _ = NARROW
+
+
+@pytest.fixture(autouse=True)
+def narrow_layouts(monkeypatch) -> None:
+    monkeypatch.setattr(rife_layouts, "LAYOUTS", NARROW)
+    monkeypatch.setattr(rife_weights, "LAYOUTS", NARROW)
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory) -> dict[str, Path]:
+    """Layout name → a file as published, untrained."""
+    folder = tmp_path_factory.mktemp("rife")
+    return {
+        layout.name: save_published(torch, layout, folder / f"{layout.name}.pkl")
+        for layout in NARROW
+    }
+
+
+@pytest.fixture
+def build(files, stream):
+    def make(layout="4.6", **options) -> RifeInterpolator:
+        config = InterpolateConfig(
+            interpolate="rife", interpolator_weights=files[layout], **options
+        )
+        return INTERPOLATORS.load("rife")(config, stream)
+
+    return make
+
+
+def frames_of(interpolator, first, second, times_us=TIMES_US):
+    found = list(interpolator.between(Frame(first, 0), Frame(second, 1000), times_us))
+    assert [frame.t_us for frame in found] == list(times_us)
+    assert not any(frame.is_source for frame in found)
+    return [frame.pixels for frame in found]
+
+
+def noise(height=40, width=50, seed=0, *, channels=None):
+    shape = (2, height, width) if channels is None else (2, height, width, channels)
+    return np.random.default_rng(seed).integers(0, 256, shape).astype(np.uint8)
+
+
+@pytest.mark.parametrize("layout", [layout.name for layout in LAYOUTS])
+@pytest.mark.parametrize("size", [(1, 1), (33, 70), (64, 64)])
+def test_every_layout_takes_any_size(build, layout, size):
+    for picture in frames_of(build(layout), *noise(*size)):
+        assert picture.shape == size
+        assert picture.dtype == np.float32
+        # A mix of two moved pictures stays between their levels.
+        assert picture.min() >= 0
+        assert picture.max() <= 255
+
+
+def test_an_even_picture_stays_even_and_is_not_rounded(build):
+    first, second = np.full((32, 32), 100.25), np.full((32, 32), 100.25)
+    for picture in frames_of(build(), first, second):
+        assert np.abs(picture - 100.25).max() < 1e-4
+
+
+def test_every_pixel_type_gives_the_same_picture(build):
+    grey = noise()
+    interpolator = build()
+    expected = frames_of(interpolator, *grey)
+    for levels in (
+        grey.astype(np.float64),
+        grey.astype(np.uint16) * 257,
+        np.repeat(grey[..., None], 3, axis=-1),
+    ):
+        for found, wanted in zip(frames_of(interpolator, *levels), expected, strict=True):
+            assert np.abs(found - wanted).max() < 0.02
+
+
+def test_colour_decides_the_motion_but_luma_is_moved(build):
+    colour = noise(channels=3)
+    pictures = frames_of(build(), *colour)
+    from_luma = frames_of(build(), *(Frame(one, 0).luma for one in colour))
+    assert max(np.abs(a - b).max() for a, b in zip(pictures, from_luma, strict=True)) > 1.0
+    assert all(picture.ndim == 2 for picture in pictures)
+
+
+def test_levels_above_white_are_scaled_for_the_network_only(build):
+    bright = noise().astype(np.float32)
+    bright[:, 0, 0] = 255.0
+    interpolator = build()
+    doubled = frames_of(interpolator, *(bright * 2))
+    for found, wanted in zip(doubled, frames_of(interpolator, *bright), strict=True):
+        assert np.abs(found - 2 * wanted).max() < 0.02
+
+
+def test_shared_motion_equals_each_at_the_middle_and_costs_one_estimate(build, monkeypatch):
+    each, shared = build(rife_flow="each"), build(rife_flow="shared")
+    counts = {}
+    for name, interpolator in (("each", each), ("shared", shared)):
+        estimator = interpolator._estimator
+        original = estimator.estimate
+
+        def counting(pair, position, *, original=original, name=name):
+            counts[name] = counts.get(name, 0) + 1
+            return original(pair, position)
+
+        monkeypatch.setattr(estimator, "estimate", counting)
+    expected, found = frames_of(each, *noise()), frames_of(shared, *noise())
+    assert counts == {"each": 3, "shared": 1}
+    assert np.abs(found[1] - expected[1]).max() < 0.01
+    assert np.abs(found[0] - expected[0]).max() > 0.01
+
+
+@pytest.mark.parametrize("precision", ["bfloat16", "float16"])
+def test_half_precision_changes_the_motion_little_and_leaves_no_steps(build, precision):
+    ramp = np.linspace(10, 12, 64 * 64, dtype=np.float32).reshape(64, 64)
+    expected = frames_of(build(), ramp, ramp + 0.5)
+    found = frames_of(build(interpolator_precision=precision), ramp, ramp + 0.5)
+    for a, b in zip(found, expected, strict=True):
+        assert np.abs(a - b).max() < 0.3
+        assert len(np.unique(a)) > 1000
+
+
+def test_tiles_are_estimated_one_by_one_and_joined_without_seams(build, monkeypatch):
+    y, x = np.mgrid[:200, :300].astype(np.float32)
+    first, second = 128 + 60 * np.sin(x / 9) * np.cos(y / 7), 128 + 60 * np.sin((x - 2) / 9)
+    found, sizes = {}, []
+
+    def pixelwise(pair, instant):
+        """A motion that depends on each pixel alone, so that tiles cannot change it."""
+        sizes.append(tuple(pair.pictures[0].shape[-2:]))
+        level = pair.pictures[0][:, :1]
+        return Motion(4 * level.expand(-1, 4, -1, -1), level)
+
+    for side in (0, 320, 192):
+        interpolator = build(interpolator_tile=side)
+        monkeypatch.setattr(interpolator._estimator, "_estimate", pixelwise)
+        found[side] = frames_of(interpolator, first, second, [500])[0]
+    assert sizes == [(224, 320), (224, 320), *[(192, 192)] * 4]
+    assert np.array_equal(found[320], found[0])
+    assert np.abs(found[192] - found[0]).max() < 1e-3
+
+
+def test_a_compiled_network_gives_the_same_frames(build, monkeypatch):
+    compile_network = torch.compile
+    # "eager" runs the traced graph without a C++ compiler.
+    monkeypatch.setattr(
+        torch, "compile", lambda f, **options: compile_network(f, backend="eager", **options)
+    )
+    expected = frames_of(build(), *noise(32, 32))
+    found = frames_of(build(interpolator_compile=True), *noise(32, 32))
+    for a, b in zip(found, expected, strict=True):
+        assert np.abs(a - b).max() < 0.05
+
+
+def test_the_published_widths_are_read_beside_a_teacher(tmp_path, monkeypatch):
+    monkeypatch.undo()  # the real layouts
+    teacher = {"block_tea.conv0.0.0.weight": torch.zeros(45, 16, 3, 3), "epoch": 3}
+    path = save_published(torch, RIFE_4_0, tmp_path / "flownet.pkl", **teacher)
+    weights = read_rife_weights(path)
+    assert weights.layout is RIFE_4_0
+    assert weights.tensors.keys() == RIFE_4_0.tensor_shapes().keys()
+
+
+def test_safetensors_hold_the_same_network(files, tmp_path):
+    pytest.importorskip("safetensors")
+    weights = read_rife_weights(files["4.6"])
+    path = tmp_path / "rife.safetensors"
+    write_rife_weights(weights, path)
+    again = read_rife_weights(path)
+    assert again.layout is NARROW_4_6
+    for name, array in random_tensors(NARROW_4_6).items():
+        assert np.array_equal(again.tensors[name].numpy(), array)
+    path.write_bytes(path.read_bytes()[:-100])
+    with pytest.raises(FileFormatError, match=r"rife\.safetensors cannot be read as network"):
+        read_rife_weights(path)
+
+
+def test_a_pulled_file_is_found_without_being_named(files, stream, tmp_path, monkeypatch):
+    pytest.importorskip("safetensors")
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path))
+    (tmp_path / "weights").mkdir()
+    write_rife_weights(read_rife_weights(files["4.6"]), tmp_path / "weights" / "rife.safetensors")
+    assert len(frames_of(RifeInterpolator(InterpolateConfig(), stream), *noise())) == 3
+
+
+def test_missing_weights_say_what_to_run(stream, tmp_path, monkeypatch):
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path))
+    with pytest.raises(InputError, match=r"not here: .*run|texvent weights pull rife"):
+        RifeInterpolator(InterpolateConfig(), stream)
+    config = InterpolateConfig(interpolator_weights=tmp_path / "mine.pkl")
+    with pytest.raises(InputError, match=r"no weights file .*mine\.pkl; .*texvent weights pull"):
+        RifeInterpolator(config, stream)
+
+
+def damaged(path):
+    path.write_bytes(path.read_bytes()[:10_000])
+
+
+def nothing(path):
+    path.write_bytes(b"")
+
+
+def other_network(path):
+    torch.save({"conv1.weight": torch.zeros(3, 3)}, path)
+
+
+def no_mapping(path):
+    torch.save([1, 2], path)
+
+
+def code(path):
+    torch.save({"block0": Path("x")}, path)
+
+
+def another_version(path):
+    tensors = {name: torch.from_numpy(one) for name, one in random_tensors(NARROW_4_6).items()}
+    tensors["block1.conv0.0.0.weight"] = torch.zeros(4, 20, 3, 3)
+    torch.save(tensors, path)
+
+
+def a_layer_less(path):
+    tensors = {name: torch.from_numpy(one) for name, one in random_tensors(NARROW_4_6).items()}
+    del tensors["block3.lastconv.0.bias"]
+    torch.save(tensors, path)
+
+
+def one_more(path):
+    tensors = {name: torch.from_numpy(one) for name, one in random_tensors(NARROW_4_6).items()}
+    torch.save({**tensors, "block4.conv": torch.zeros(1)}, path)
+
+
+def not_a_number(path):
+    tensors = {name: torch.from_numpy(one) for name, one in random_tensors(NARROW_4_6).items()}
+    tensors["block2.convblock.3.beta"][0, 0] = float("nan")
+    torch.save(tensors, path)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "complaint"),
+    [
+        (damaged, "cannot be read as network weights"),
+        (nothing, "cannot be read as network weights"),
+        (other_network, "has no tensor of RIFE's network"),
+        (no_mapping, "holds list, not named tensors"),
+        (code, "cannot be read as network weights"),
+        (another_version, r"has block1\.conv0\.0\.0\.weight of shape \[4, 20, 3, 3\].*4\.6"),
+        (a_layer_less, r"lacks block3\.lastconv\.0\.bias"),
+        (one_more, r"has the unknown block4\.conv"),
+        (not_a_number, r"block2\.convblock\.3\.beta holds values that are NaN"),
+    ],
+    ids=lambda value: getattr(value, "__name__", ""),
+)
+def test_a_wrong_file_is_refused_by_name(files, tmp_path, spoil, complaint):
+    path = tmp_path / "flownet.pkl"
+    path.write_bytes(files["4.6"].read_bytes())
+    spoil(path)
+    with pytest.raises(FileFormatError, match=rf"flownet\.pkl:? .*{complaint}|{complaint}") as told:
+        read_rife_weights(path)
+    assert str(path) in str(told.value)
+    assert "\n" not in str(told.value)
+
+
+def test_overflowing_weights_are_reported_not_returned(build):
+    interpolator = build()
+    estimate = interpolator._estimator.estimate
+
+    def overflow(pair, position):
+        motion = estimate(pair, position)
+        return replace(motion, mask=motion.mask * float("nan"))
+
+    interpolator._estimator.estimate = overflow
+    with pytest.raises(FileFormatError, match=r"4\.6\.pkl: the network's output is NaN"):
+        frames_of(interpolator, *noise())
+
+
+def test_memory_that_runs_out_says_what_to_change(build, monkeypatch):
+    interpolator = build()
+
+    def fail(*_):
+        raise RuntimeError("CUDA out of memory. Tried to allocate 20 GiB")
+
+    monkeypatch.setattr(interpolator._estimator._network, "encode", fail)
+    with pytest.raises(InputError, match=r"memory of device cpu; set --interpolator-tile 512"):
+        frames_of(interpolator, *noise())
+
+
+@pytest.mark.skipif(torch.cuda.is_available(), reason="checks the error without a GPU")
+def test_a_gpu_that_is_not_there_is_refused(build):
+    with pytest.raises(ConfigError, match=r"interpolator_device is cuda, but torch finds no GPU"):
+        build(interpolator_device="cuda")
+
+
+def test_bad_pairs_are_refused(build):
+    first, second = Frame(noise()[0], 0), Frame(noise(41, 50)[0], 1000)
+    with pytest.raises(InputError, match="both must have one size"):
+        list(build().between(first, second, [500]))
+    with pytest.raises(InputError, match="not strictly between"):
+        list(build().between(first, Frame(noise()[1], 1000), [1000]))
+
+
+def test_a_copied_interpolator_gives_the_same_frames(build):
+    interpolator = build()
+    expected = frames_of(interpolator, *noise())
+    found = frames_of(copy.deepcopy(interpolator), *noise())
+    assert all(np.array_equal(a, b) for a, b in zip(found, expected, strict=True))
+
+
+def test_inference_mode_does_not_leak_to_the_caller(build):
+    for _ in build().between(Frame(noise()[0], 0), Frame(noise()[1], 1000), TIMES_US):
+        assert not torch.is_inference_mode_enabled()
+
+
+def test_a_video_is_densified_with_rife(build):
+    video = Video(noise(), [0, 40_000])
+    config = InterpolateConfig(interpolate="rife", count="fixed", fixed_count=2, detect_cuts=False)
+    frames = list(densify(video, build(), config, balance=30.0, contrast_threshold=0.2))
+    assert [frame.is_source for frame in frames] == [True, False, False, True]

@@ -1,0 +1,27 @@
+"""Without its packages, RIFE says which extra to install; nothing else needs torch."""
+
+import sys
+
+import pytest
+
+from texvent._registry import INTERPOLATORS
+from texvent.config import InterpolateConfig
+from texvent.errors import MissingDependencyError
+from texvent.weights.pull import pull_weights
+
+
+def test_without_torch_the_error_names_the_extra(stream, monkeypatch):
+    monkeypatch.setitem(sys.modules, "torch", None)
+    build = INTERPOLATORS.load("rife")
+    with pytest.raises(MissingDependencyError, match=r"pip install 'texvent\[rife\]'"):
+        build(InterpolateConfig(interpolate="rife"), stream)
+
+
+def test_pulling_without_torch_downloads_nothing(monkeypatch, tmp_path):
+    monkeypatch.setitem(sys.modules, "torch", None)
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setenv("TEXVENT_DATA", str(tmp_path / "data"))
+    with pytest.raises(MissingDependencyError, match=r"pip install 'texvent\[rife\]'") as told:
+        pull_weights("rife")
+    assert "\n" not in str(told.value)
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,51 @@
+"""Tiles cover the picture, overlap, and join without seams."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.errors import ConfigError
+from texvent.interpolate.tiles import OVERLAP_PX, cut_tiles, tile_weights
+
+SIZES = st.integers(1, 700)
+
+
+def joined(picture, side):
+    """Every tile cut out and put back, weighted."""
+    height, width = picture.shape
+    total, weight_sum = np.zeros((2, height, width))
+    for tile in cut_tiles(height, width, side):
+        weights = tile_weights(tile, height, width)
+        assert weights.shape == (tile.height, tile.width)
+        assert weights.min() > 0
+        total[tile.rows, tile.columns] += weights * picture[tile.rows, tile.columns]
+        weight_sum[tile.rows, tile.columns] += weights
+    return total / weight_sum
+
+
+@given(SIZES, SIZES, st.integers(2 * OVERLAP_PX + 1, 400))
+def test_a_picture_survives_being_cut_and_joined(height, width, side):
+    picture = np.random.default_rng(height).uniform(0, 255, (height, width))
+    assert np.abs(joined(picture, side) - picture).max() < 1e-9 * 255
+
+
+@given(SIZES, st.integers(2 * OVERLAP_PX + 1, 400))
+def test_neighbours_overlap_enough_and_no_tile_is_too_large(length, side):
+    tiles = cut_tiles(1, length, side)
+    assert tiles[0].left == 0
+    assert tiles[-1].left + tiles[-1].width == length
+    assert all(tile.width <= side for tile in tiles)
+    for tile, following in pairwise(tiles):
+        assert tile.left + tile.width - following.left >= OVERLAP_PX
+
+
+def test_zero_means_one_tile():
+    assert [(tile.height, tile.width) for tile in cut_tiles(4000, 5000, 0)] == [(4000, 5000)]
+
+
+def test_a_tile_without_an_inside_is_refused():
+    with pytest.raises(ConfigError, match=r"tiles of 128 px are too small.*above 128 px"):
+        cut_tiles(1000, 1000, 128)

