@@ -2,20 +2,31 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import ClassVar
 
-from texvent._registry import GENERATORS
+from texvent._registry import GENERATORS, load_object
+from texvent.capture.open import open_frames
 from texvent.cli.command import resolve_command
-from texvent.cli.options import REQUIRED
+from texvent.cli.options import REQUIRED, peek_options
+from texvent.cli.outputs import OutputOptions
 from texvent.cli.run import execute, print_settings
-from texvent.pipeline import text_to_events
+from texvent.cli.watch import ConsoleWatch
+from texvent.errors import ConfigError, InputError
+from texvent.io.atomic import check_output
+from texvent.pipeline import text_to_events, text_to_video, video_to_events
+from texvent.settings import Settings
 
 DESCRIPTION = """Turn a sentence into the events a camera would see.
 
 The embedded generator needs no weights and no download: it draws the scene with simple 3-D shapes
-and says which words it did not understand."""
+and says which words it did not understand. `texvent generators` lists learned models; their videos
+are kept, so that trying other options of the simulator does not generate again."""
+STORED_VIDEO = "texvent.generate.stored_video"
+VIDEO_EXTENSION = ".avi"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,14 +38,73 @@ class PromptOptions:
     prompt: str = REQUIRED
     """What to show, in plain English, quoted."""
     generator: str = next(iter(GENERATORS.builtin))
-    """Text-to-video generator."""
+    """Text-to-video generator: a name of `texvent generators`, the folder of a saved diffusers
+    pipeline (./my-model), or a repository of the model hub (hub:org/name)."""
+    video_only: bool = False
+    """Write the generated video (.avi, lossless, 16 bits) instead of events, and stop."""
+    from_video: Path | None = None
+    """Take this video for the prompt's instead of generating one; the options are then those of
+    texvent simulate."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class FromVideoOptions:
+    """A prompt and its video."""
+
+    positional: ClassVar[tuple[str, ...]] = ("prompt",)
+
+    prompt: str = REQUIRED
+    """What the video shows; stored with the events."""
+    from_video: Path = REQUIRED
+    """The video: one that --video-only wrote, or any other."""
 
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
+    if peek_options(arguments, ("from_video",))["from_video"]:
+        return _run_from_video(arguments)
     settings, own, output = resolve_command(
         "generate", arguments, PromptOptions(), description=DESCRIPTION
     )
     if output.print_config:
         return print_settings(settings)
-    return execute(text_to_events(own.prompt, settings), output, subject=own.prompt)
+    if own.video_only:
+        return _write_video(own.prompt, settings, output)
+    output.check(own.prompt)
+    with ConsoleWatch(is_quiet=output.quiet) as watch:
+        simulation = text_to_events(own.prompt, settings, watch=watch)
+    return execute(simulation, output, subject=own.prompt)
+
+
+def _run_from_video(arguments: Sequence[str]) -> int:
+    settings, own, output = resolve_command(
+        "simulate", arguments, FromVideoOptions(), description=DESCRIPTION
+    )
+    if output.print_config:
+        return print_settings(settings)
+    if not own.from_video.is_file():
+        raise InputError(f"no such video: {own.from_video}")
+    output.check(own.prompt)
+    # A video of ours knows what made it; any other is read as texvent simulate reads it.
+    known = load_object(f"{STORED_VIDEO}:reopen")(own.from_video)
+    source = known if known is not None and settings.source.fps is None else own.from_video
+    video = open_frames(source, settings.source, size=settings.size)
+    simulation = video_to_events(video, settings, prompt=own.prompt)
+    return execute(simulation, output, subject=own.prompt)
+
+
+def _write_video(prompt: str, settings: Settings, output: OutputOptions) -> int:
+    """Write the video of a prompt and print its path."""
+    named = output.event_file(prompt)
+    path = named if output.out is not None else named.with_suffix(VIDEO_EXTENSION)
+    if path.suffix.lower() != VIDEO_EXTENSION:
+        raise ConfigError(
+            f"{path} is to hold a lossless video; its name must end in {VIDEO_EXTENSION}"
+        )
+    check_output(path, overwrite=output.overwrite)
+    with ConsoleWatch(is_quiet=output.quiet) as watch:
+        video = text_to_video(prompt, settings, watch=watch)
+        load_object(f"{STORED_VIDEO}:write_stream")(video, path, overwrite=output.overwrite)
+    if not output.quiet:
+        sys.stdout.write(f"{path}\n")
+    return 0

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
+from texvent.io.atomic import check_output
+
 
 @dataclass(frozen=True, kw_only=True)
 class OutputOptions:
@@ -46,6 +48,17 @@ class OutputOptions:
             return ()
         wanted = {"mp4": self.film, "png": self.still, "html": self.page}
         return tuple(kind for kind, is_wanted in wanted.items() if is_wanted)
+
+    def check(self, subject: str) -> None:
+        """Refuse outputs that cannot be written, before minutes of work.
+
+        Raises:
+            OutputError: a file exists already, or its folder is missing or not writable.
+        """
+        path = self.event_file(subject)
+        if not self.dry_run:
+            for one in (path, *(path.with_suffix(f".{kind}") for kind in self.previews)):
+                check_output(one, overwrite=self.overwrite)
 
     def event_file(self, subject: str) -> Path:
         """The event file: the one asked for, or a name made from a prompt or a file's name."""

@@ -41,7 +41,7 @@ class VideoModel:
     is_licence_verified: bool = False
     """False where the licence was not read from the model's own page."""
     gpu_gb: float | None = None
-    """GPU memory with every part on the device, GB; None where nobody measured it."""
+    """GPU memory with every part on the device, GB, as its makers or users report it; or None."""
     offload_gb: float | None = None
     """GPU memory with parts moved to the device when used, GB."""
     dtype: str = "bfloat16"
@@ -137,7 +137,6 @@ _ROWS = (
         "Wan-AI/Wan2.1-T2V-1.3B-Diffusers",
         _WAN,
         (81, 480, 832),
-        gpu_gb=20,
         offload_gb=8.2,
         **_WAN_21,
     ),
@@ -146,7 +145,6 @@ _ROWS = (
         "Wan-AI/Wan2.1-T2V-14B-Diffusers",
         _WAN,
         (81, 480, 832),
-        gpu_gb=48,
         offload_gb=13,
         **_WAN_21,
     ),
@@ -172,7 +170,6 @@ _ROWS = (
         _COGVIDEOX,
         (49, 480, 720),
         licence="Apache-2.0",
-        gpu_gb=18,
         offload_gb=10,
         dtype="float16",
         **_COG_FACTS,
@@ -184,7 +181,6 @@ _ROWS = (
         (49, 480, 720),
         licence=_COG,
         gpu_gb=33,
-        offload_gb=15,
         **_COG_FACTS,
     ),
     _row(
@@ -194,7 +190,6 @@ _ROWS = (
         (81, 768, 1360),
         licence=_COG,
         gpu_gb=33,
-        offload_gb=15,
         **{**_COG_FACTS, "fps": 16},
     ),
     _row(
@@ -225,7 +220,6 @@ _ROWS = (
         fps=24,
         steps=50,
         licence="Tencent Hunyuan Community License (not for the EU, UK, South Korea)",
-        offload_gb=14,
     ),
     _row(
         "hunyuan1.5",

@@ -24,7 +24,7 @@ from av.video.stream import VideoStream
 from texvent.errors import FileFormatError, InputError
 from texvent.io.atomic import atomic_file
 from texvent.sensor import SensorSize
-from texvent.video import Frame, PixelArray, frame_time_us
+from texvent.video import UINT16_PER_LEVEL, Frame, FrameStream, PixelArray, frame_time_us
 
 EXTENSION = ".avi"
 FULL_SCALE = 65_535.0
@@ -66,7 +66,7 @@ class StoredVideo:
 
 
 def open_stored(path: Path, fps: Fraction, metadata: Mapping[str, Any]) -> StoredVideo:
-    """A video file that exists; its frames are counted by decoding them once.
+    """A video file that another program wrote; its frames are counted by decoding them once.
 
     Raises:
         FileFormatError: the file is damaged or holds no frame.
@@ -77,6 +77,36 @@ def open_stored(path: Path, fps: Fraction, metadata: Mapping[str, Any]) -> Store
     if count == 0:
         raise FileFormatError(f"{path} holds no frame")
     return StoredVideo(path, fps, SensorSize(*shape), count, metadata)
+
+
+def reopen(path: Path) -> StoredVideo | None:
+    """A video that `write_video` wrote, with what made it, or None for any other file."""
+    try:
+        with av.open(str(path)) as container:
+            if not container.streams.video:
+                return None
+            stream = container.streams.video[0]
+            metadata = json.loads(container.metadata.get("comment", ""))
+            size = SensorSize(stream.width, stream.height)
+            rate, count = stream.average_rate, stream.frames
+    except (FFmpegError, ValueError):
+        return None
+    is_ours = stream.codec_context.name == "ffv1" and isinstance(metadata, dict)
+    if not is_ours or rate is None or count < 1:
+        return None
+    return StoredVideo(path, Fraction(rate), size, count, metadata)
+
+
+def write_stream(video: FrameStream, path: Path, *, overwrite: bool) -> StoredVideo:
+    """Write any stream of frames losslessly at 16 bits; see `write_video`.
+
+    Raises:
+        InputError: the stream has no frame rate.
+    """
+    if video.fps is None:
+        raise InputError("the video has no frame rate, so it cannot be written; give --fps")
+    frames = (_full_scale(frame.pixels) for frame in video)
+    return write_video(frames, path, video.fps, video.metadata, overwrite=overwrite)
 
 
 def write_video(
@@ -136,6 +166,14 @@ def to_16_bits(pixels: PixelArray) -> PixelArray:
         )
     scaled = np.clip(pixels.astype(np.float32), 0.0, 1.0) * np.float32(FULL_SCALE)
     return np.ascontiguousarray(np.rint(scaled).astype(np.uint16))
+
+
+def _full_scale(pixels: PixelArray) -> PixelArray:
+    """RGB of a frame on any scale as `write_video` takes it; 8-bit values stay exact."""
+    rgb = pixels if pixels.ndim == 3 else np.repeat(pixels[..., None], 3, axis=2)
+    if rgb.dtype == np.uint8:
+        return rgb.astype(np.uint16) * np.uint16(UINT16_PER_LEVEL)
+    return rgb if rgb.dtype == np.uint16 else rgb / np.float32(255.0)
 
 
 def _decode(path: Path) -> Iterator[PixelArray]:

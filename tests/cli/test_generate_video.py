@@ -1,0 +1,108 @@
+"""`--video-only`, `--from-video` and `texvent generators`, as a user meets them."""
+
+import json
+from fractions import Fraction
+
+import av
+import h5py
+import numpy as np
+import pytest
+
+import texvent
+from texvent.cli.app import main
+from texvent.generate.stored_video import reopen
+from texvent.pipeline import text_to_video
+from texvent.settings import resolve
+
+PROMPT = "a red ball bounces on the grass"
+SMALL = ["--sensor", "48x36", "--duration", "0.2", "--samples", "1", "--fps", "30000/1001"]
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))
+    return tmp_path
+
+
+def run(*words: object) -> int:
+    return main([str(word) for word in words])
+
+
+def test_a_video_written_once_gives_events_again_and_again(folder, capsys):
+    assert run("generate", PROMPT, *SMALL, "--video-only", "-o", "ball.avi") == 0
+    assert capsys.readouterr().out == "ball.avi\n"
+    video = reopen(folder / "ball.avi")
+    assert (video.fps, video.size, video.frame_count) == (Fraction(30_000, 1001), (48, 36), 6)
+    for name, threshold in (("a.h5", 0.3), ("b.h5", 0.1)):
+        words = ("--contrast-threshold", threshold, "--noise", "none", "--events-only")
+        assert run("generate", "a ball", "--from-video", "ball.avi", *words, "-o", name) == 0
+    assert len(texvent.load("b.h5")) > len(texvent.load("a.h5")) > 0
+    with h5py.File("a.h5") as file:
+        stored = json.loads(file.attrs["texvent"])
+    assert stored["prompt"] == "a ball"
+    assert stored["source"]["prompt"] == PROMPT
+    assert stored["source"]["generator"] == "procedural"
+
+
+def test_the_written_video_is_what_was_rendered_to_16_bits(folder):
+    assert run("generate", PROMPT, *SMALL, "--video-only", "-o", "ball.avi") == 0
+    options = {"sensor": "48x36", "duration": 0.2, "samples": 1, "fps": "30000/1001"}
+    rendered = text_to_video(PROMPT, resolve("generate", options))
+    for ours, stored in zip(rendered, reopen(folder / "ball.avi"), strict=True):
+        assert ours.t_us == stored.t_us
+        assert np.abs(stored.pixels / 257.0 - ours.pixels).max() <= 0.5 / 257 + 1e-4
+
+
+def test_any_other_video_can_stand_for_the_prompts_video(folder):
+    with av.open("clip.mp4", "w") as container:
+        stream = container.add_stream("libx264", rate=25)
+        stream.width, stream.height, stream.pix_fmt = 32, 24, "yuv420p"
+        for level in (20, 200, 20):
+            pixels = np.full((24, 32, 3), level, np.uint8)
+            container.mux(stream.encode(av.VideoFrame.from_ndarray(pixels, format="rgb24")))
+        container.mux(stream.encode())
+    assert reopen(folder / "clip.mp4") is None
+    assert run("generate", "blinks", "--from-video", "clip.mp4", "--events-only") == 0
+    assert len(texvent.load("blinks.h5")) > 0
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "why"),
+    [
+        (("--from-video", "none.avi"), 2, "no such video: none.avi"),
+        (("--video-only", "-o", "x.mp4"), 2, "must end in .avi"),
+        (("--video-only", "-o", "taken.avi"), 3, "exists already"),
+        (("--generator", "wan-1.3b", "-o", "taken.h5"), 3, "exists already"),
+        (("--generator", "./no-model", "--fps", "16"), 2, "there is no model folder no-model"),
+        (("--generator", "wan-9b"), 2, "unknown generator 'wan-9b'"),
+    ],
+)
+def test_mistakes_are_one_line_before_any_work(folder, capsys, words, code, why):
+    (folder / "taken.avi").write_bytes(b"mine")
+    (folder / "taken.h5").write_bytes(b"mine")
+    assert run("generate", PROMPT, *words) == code
+    said = capsys.readouterr().err
+    assert said.startswith("error: ")
+    assert why in said
+    assert said.count("\n") == 1
+    assert (folder / "taken.avi").read_bytes() == b"mine"
+
+
+def test_the_list_of_generators_names_size_rate_licence_and_the_extra(folder, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "200")
+    monkeypatch.setattr("texvent.cli.generators.find_spec", lambda name: None)
+    assert run("generators") == 0
+    shown = capsys.readouterr().out
+    row = next(line for line in shown.splitlines() if line.startswith("cosmos-7b"))
+    assert "121 frames of 1280x704 at 24 fps" in row
+    assert "74 / 24.4 " in row
+    assert "NVIDIA Open Model License" in row
+    assert shown.splitlines()[1].startswith("procedural")
+    assert "pip install 'texvent[generate]'" in shown
+
+
+def test_the_list_of_generators_has_help_and_no_arguments(capsys):
+    assert run("generators", "--help") == 0
+    assert "--generator ./my-model" in capsys.readouterr().out
+    assert run("generators", "wan") == 2
