@@ -41,7 +41,7 @@ def cut_windows(
     Raises:
         ConfigError: step or window is not above 0.
     """
-    for start_us, part in _cut(packets, size, step_us, window_us):
+    for start_us, part in cut_streams(packets, size, step_us, window_us):
         yield Interval(start_us, start_us + window_us, count_events(part))
 
 
@@ -65,7 +65,7 @@ def cut_fading(
     latest = np.full((2, *size.shape), NEVER, dtype=np.int64)
     # Rounded up, so that no event falls between two steps.
     window_us = max(1, -int(-step_us // 1))
-    for start_us, part in _cut(packets, size, step_us, window_us):
+    for start_us, part in cut_streams(packets, size, step_us, window_us):
         stop_us = start_us + window_us
         np.maximum.at(latest, (part.p, part.y, part.x), part.t)
         age = (stop_us - 1 - latest).astype(np.float32) / tau_us
@@ -95,10 +95,10 @@ def cut_counts(
         yield Interval(int(held.t[0]), int(held.t[-1]) + 1, count_events(held))
 
 
-def _cut(
+def cut_streams(
     packets: Iterable[EventStream], size: SensorSize, step_us: Fraction, window_us: int
 ) -> Iterator[tuple[int, EventStream]]:
-    """Start and events of every window of `cut_windows`."""
+    """Start and events of every window of `cut_windows`; arguments and errors as there."""
     if step_us <= 0 or window_us <= 0:
         raise ConfigError(
             f"window {window_us} µs, step {float(step_us):g} µs; both must be above 0"
