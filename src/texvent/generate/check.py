@@ -33,8 +33,8 @@ FLASH_LEVELS = 20.0
 """Jump of a frame's mean away from both neighbours that counts as a flash."""
 CUT_LEVELS = 20.0
 """Smallest mean change of a pair that can be a cut."""
-CUT_RATIO = 5.0
-"""How many times the clip's usual change a cut must be."""
+CUT_RATIO = 2.5
+"""How many times the change of the pairs before and after it a cut must be."""
 DARK_LEVEL = 12.0
 """95th percentile of all blocks below which the clip is dark."""
 BRIGHT_LEVEL = 243.0
@@ -97,9 +97,10 @@ def measure_clip(frames: Iterable[Frame]) -> dict[str, float]:
     Returns:
         By name: `still_share`, share of pairs that do not change; `motion`, 99th percentile over
         blocks of their range over time; `flicker` and `flash`, upper quartile and maximum of
-        how far a frame's mean stands out from both neighbours; `cut` and `cut_ratio`, largest
-        change of a pair, and its ratio to the usual one; `dark_end` and `bright_end`, 5th and
-        95th percentile of all blocks; `correlation`, of neighbouring pixels, median over frames.
+        how far a frame's mean stands out from both neighbours; `cut` and `cut_ratio`, change of
+        the pair that stands out most from those beside it, and how many times theirs it is;
+        `dark_end` and `bright_end`, 5th and 95th percentile of all blocks; `correlation`, of
+        neighbouring pixels, median over frames.
     """
     blocks: list[NDArray[np.float32]] = []
     correlations: list[float] = []
@@ -110,14 +111,14 @@ def measure_clip(frames: Iterable[Frame]) -> dict[str, float]:
     stack = np.stack(blocks)
     change = np.abs(np.diff(stack, axis=0)).mean(axis=(1, 2)) if len(stack) > 1 else np.zeros(1)
     jitter = _jitter(stack.mean(axis=(1, 2)))
-    usual = max(float(np.median(change)), STILL_LEVELS)
+    cut, cut_ratio = _sharpest_cut(change)
     return {
         "still_share": float((change < STILL_LEVELS).mean()),
         "motion": float(np.percentile(stack.max(axis=0) - stack.min(axis=0), 99)),
         "flicker": float(np.percentile(jitter, 75)),
         "flash": float(jitter.max()),
-        "cut": float(change.max()),
-        "cut_ratio": float(change.max()) / usual,
+        "cut": cut,
+        "cut_ratio": cut_ratio,
         "dark_end": float(np.percentile(stack, 5)),
         "bright_end": float(np.percentile(stack, 95)),
         "correlation": float(np.median(correlations)),
@@ -141,6 +142,15 @@ def neighbour_correlation(luma: NDArray[np.float32]) -> float:
     right = float((centred[:, 1:] * centred[:, :-1]).mean()) if luma.shape[1] > 1 else variance
     below = float((centred[1:] * centred[:-1]).mean()) if luma.shape[0] > 1 else variance
     return (right + below) / (2 * variance)
+
+
+def _sharpest_cut(change: NDArray[np.floating[Any]]) -> tuple[float, float]:
+    """Change of the pair that stands out most among those above `CUT_LEVELS`, and by how much."""
+    padded = np.concatenate([[0.0], change.astype(np.float64), [0.0]])
+    beside = np.maximum(np.maximum(padded[:-2], padded[2:]), CUT_LEVELS / CUT_RATIO / 2)
+    ratio = np.where(change > CUT_LEVELS, change / beside, 0.0)
+    index = int(ratio.argmax())
+    return float(change[index]), float(ratio[index])
 
 
 def _jitter(means: NDArray[np.float32]) -> NDArray[np.float64]:
