@@ -8,6 +8,7 @@ from texvent.data.catalogue import DATA_SETS
 WANTED = {
     "slider_depth",
     "davis346",
+    "dvxplorer",
     "bikes",
     "bigbuckbunny",
     "carphone",

@@ -59,7 +59,7 @@ CASES = (
     FormatCase("dsec-blosc", "e.h5", ANY, extra="hdf5plugin"),
     FormatCase("parquet", "e.parquet", ANY, extra="pyarrow"),
     FormatCase("rosbag1", "e.bag", ANY),
-    FormatCase("mcap", "e.mcap", SensorSize(2048, 2048)),
+    FormatCase("mcap", "e.mcap", SensorSize(2048, 2048), 2**42),
     FormatCase("esim", "folder", ANY),
     FormatCase("evreal", "folder", ANY, 2**51),
     FormatCase("atis", "e.bin", SensorSize(256, 240), 2**23),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,8 +18,12 @@ from texvent.io.protocol import EventCodec
 from .format_cases import CASES, FormatCase, random_events
 
 COUNT = 12
-FILES = [case for case in CASES if case.extra is None and case.file != "folder"]
-SEALED = ("e2vid", "n-imagenet", "v2e", "dsec", "rosbag1", "mcap")
+FILES = [
+    case
+    for case in CASES
+    if case.file != "folder" and (case.extra is None or importlib.util.find_spec(case.extra))
+]
+SEALED = ("e2vid", "n-imagenet", "v2e", "dsec", "dsec-blosc", "rosbag1", "mcap", "parquet")
 """Formats whose end can be told; of the others, a cut file may be a shorter recording."""
 
 

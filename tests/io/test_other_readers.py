@@ -1,0 +1,207 @@
+"""Independent readers find every event where texvent put it.
+
+`aedat`, `dv-processing` and `rosbags` belong to the development tools. Where one cannot be
+installed the test is reported as skipped; CI installs them.
+"""
+
+from __future__ import annotations
+
+import json
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+import pytest
+
+from texvent.events import EventStream
+from texvent.io.files import save
+from texvent.sensor import SensorSize
+
+from .format_cases import random_events
+
+SIZE = SensorSize(346, 260)
+AEDAT4 = ("aedat4", "aedat4-none", "aedat4-zstd")
+
+
+@pytest.fixture(scope="module")
+def events() -> EventStream:
+    """Ten packets of 10 ms and a silence."""
+    burst = random_events(20_000, SIZE, span_us=100_000)
+    late = random_events(500, SIZE, span_us=5_000, start_us=3_000_000)
+    return EventStream.concat([burst, late])
+
+
+def columns_equal(events: EventStream, x: Any, y: Any, t: Any, p: Any) -> bool:
+    theirs = {"x": x, "y": y, "t": t, "p": p}
+    mine = events.columns()
+    return all(
+        np.array_equal(mine[name].astype(np.int64), np.asarray(theirs[name]).astype(np.int64))
+        for name in "xytp"
+    )
+
+
+@pytest.mark.parametrize("format", AEDAT4)
+def test_aedat_reads_aedat4(tmp_path: Path, events: EventStream, format: str) -> None:
+    aedat = pytest.importorskip("aedat", reason="the reader `aedat` is not installed")
+    path = save(tmp_path / "e.aedat4", events, format=format)
+    decoder = aedat.Decoder(str(path))
+    assert decoder.id_to_stream() == {0: {"type": "events", "width": 346, "height": 260}}
+    theirs = np.concatenate([packet["events"] for packet in decoder])
+    assert columns_equal(events, theirs["x"], theirs["y"], theirs["t"], theirs["on"])
+
+
+@pytest.mark.parametrize("format", AEDAT4)
+def test_dv_processing_reads_aedat4_and_seeks_in_it(
+    tmp_path: Path, events: EventStream, format: str
+) -> None:
+    dv = pytest.importorskip("dv_processing", reason="the reader dv-processing is not installed")
+    path = save(tmp_path / "e.aedat4", events, format=format)
+    recording = dv.io.MonoCameraRecording(str(path))
+    assert recording.getEventResolution() == (346, 260)
+    assert recording.getTimeRange() == (int(events.t[0]), int(events.t[-1]))
+    parts = []
+    while (batch := recording.getNextEventBatch()) is not None:
+        parts.append(batch.numpy())
+    theirs = np.concatenate(parts)
+    assert columns_equal(events, theirs["x"], theirs["y"], theirs["timestamp"], theirs["polarity"])
+    window = recording.getEventsTimeRange(35_000, 62_000)
+    assert window.size() == len(events.between(35_000, 62_000))
+
+
+def test_dv_processing_takes_a_recording_without_events(tmp_path: Path) -> None:
+    dv = pytest.importorskip("dv_processing", reason="the reader dv-processing is not installed")
+    path = save(tmp_path / "e.aedat4", EventStream.empty(SIZE))
+    recording = dv.io.MonoCameraRecording(str(path))
+    assert recording.getEventResolution() == (346, 260)
+    assert recording.getNextEventBatch() is None
+
+
+def test_rosbags_reads_every_field_of_a_bag(tmp_path: Path, events: EventStream) -> None:
+    rosbag1 = pytest.importorskip("rosbags.rosbag1", reason="rosbags is not installed")
+    typesys = pytest.importorskip("rosbags.typesys")
+    few = events[:300]
+    path = save(tmp_path / "e.bag", few)
+    types = typesys.get_typestore(typesys.Stores.EMPTY)
+    found = []
+    with rosbag1.Reader(path) as bag:
+        chosen = [one for one in bag.connections if one.topic == "/dvs/events"]
+        types = typesys.get_typestore(typesys.Stores.ROS1_NOETIC)
+        types.register(typesys.get_types_from_msg(chosen[0].msgdef.data, chosen[0].msgtype))
+        for connection, stamp, data in bag.messages(chosen):
+            message = types.deserialize_ros1(data, connection.msgtype)
+            assert (message.width, message.height) == (346, 260)
+            first = message.events[0].ts
+            assert stamp == first.sec * 10**9 + first.nanosec
+            found += [
+                (one.x, one.y, one.ts.sec * 10**6 + one.ts.nanosec // 1000, one.polarity)
+                for one in message.events
+            ]
+    assert columns_equal(few, *zip(*found, strict=True))
+
+
+def test_rosbags_reads_an_mcap_file_and_its_words_are_evt3(
+    tmp_path: Path, events: EventStream
+) -> None:
+    rosbag2 = pytest.importorskip("rosbags.rosbag2", reason="rosbags is not installed")
+    typesys = pytest.importorskip("rosbags.typesys")
+    path = save(tmp_path / "e.mcap", events)
+    raw = save(tmp_path / "e.raw", events).read_bytes()
+    words = b""
+    with rosbag2.Reader(path) as bag:
+        chosen = [one for one in bag.connections if one.topic == "/dvs/events"]
+        types = typesys.get_typestore(typesys.Stores.ROS2_HUMBLE)
+        types.register(typesys.get_types_from_msg(chosen[0].msgdef.data, chosen[0].msgtype))
+        for index, (connection, stamp, data) in enumerate(bag.messages(chosen)):
+            message = types.deserialize_cdr(data, connection.msgtype)
+            assert (message.width, message.height, message.seq) == (346, 260, index)
+            assert (message.encoding, message.is_bigendian) == ("evt3", False)
+            header = message.header.stamp
+            assert stamp == header.sec * 10**9 + header.nanosec == message.time_base
+            words += message.events.tobytes()
+    assert len(words) > 40_000
+    # Byte for byte what the EVT3 file holds after its text header.
+    assert raw.endswith(b"% end\n" + words)
+
+
+def test_plain_h5py_slices_dsec_as_its_own_loader_does(tmp_path: Path) -> None:
+    start = 58_122_045_678
+    events = random_events(20_000, SensorSize(640, 480), span_us=80_000, start_us=start)
+    path = save(tmp_path / "events.h5", events, format="dsec")
+    with h5py.File(path) as file:
+        assert {name: file[f"events/{name}"].dtype.str for name in "xytp"} == {
+            "x": "<u2", "y": "<u2", "t": "<u4", "p": "|u1",
+        }  # fmt: skip
+        offset = int(file["t_offset"][()])
+        assert 0 <= int(events.t[0]) - offset < 1000
+        index = file["ms_to_idx"][:].astype(np.int64)
+        t = file["events/t"][:].astype(np.int64)
+        for ms in (0, 1, 40, 79):
+            assert index[ms] == np.searchsorted(t, ms * 1000, side="left")
+        x, y, p = (file[f"events/{name}"][:] for name in "xyp")
+        assert columns_equal(events, x, y, t + offset, p)
+
+
+def test_blosc_needs_hdf5plugin_and_is_dsec_s_own_filter(
+    tmp_path: Path, events: EventStream
+) -> None:
+    pytest.importorskip("hdf5plugin", reason="hdf5plugin (180 MB, extra `blosc`) is not installed")
+    path = save(tmp_path / "events.h5", events, format="dsec-blosc")
+    with h5py.File(path) as file:
+        properties = file["events/t"].id.get_create_plist()
+        assert properties.get_filter(0)[0] == 32_001
+        assert np.array_equal(file["events/t"][:] + file["t_offset"][()], events.t)
+
+
+def test_plain_h5py_reads_v2e_rows(tmp_path: Path, events: EventStream) -> None:
+    path = save(tmp_path / "events.h5", events, format="v2e")
+    with h5py.File(path) as file:
+        rows = file["events"][:]
+    assert rows.dtype == np.uint32
+    assert columns_equal(events, rows[:, 1], rows[:, 2], rows[:, 0], rows[:, 3])
+
+
+def test_plain_numpy_reads_n_imagenet_as_its_loader_does(
+    tmp_path: Path, events: EventStream
+) -> None:
+    path = save(tmp_path / "e.npz", events, format="n-imagenet")
+    with np.load(path) as archive:
+        data = archive["event_data"]
+    rows = np.vstack([data["x"], data["y"], data["t"], data["p"].astype(np.uint8)]).T
+    assert columns_equal(events, *rows.T)
+
+
+def test_plain_numpy_reads_esim_in_nanoseconds(tmp_path: Path, events: EventStream) -> None:
+    folder = save(tmp_path / "esim", events, format="esim")
+    assert sorted(path.name for path in folder.iterdir()) == ["0000000000.npz", "texvent.json"]
+    with np.load(folder / "0000000000.npz") as archive:
+        columns = {name: archive[name] for name in "xytp"}
+    assert set(np.unique(columns["p"]).tolist()) == {-1, 1}
+    assert columns_equal(events, columns["x"], columns["y"], columns["t"] // 1000, columns["p"] > 0)
+
+
+def test_plain_numpy_maps_evreal_as_its_loader_does(tmp_path: Path, events: EventStream) -> None:
+    folder = save(tmp_path / "evreal", events, format="evreal")
+    t = np.load(folder / "events_ts.npy", mmap_mode="r").squeeze()
+    xy = np.load(folder / "events_xy.npy", mmap_mode="r").squeeze()
+    p = np.load(folder / "events_p.npy", mmap_mode="r").squeeze()
+    assert columns_equal(events, xy[:, 0], xy[:, 1], np.rint(t * 1e6), p * 2.0 - 1.0 > 0)
+    assert json.loads((folder / "metadata.json").read_text())["sensor_resolution"] == [260, 346]
+
+
+def test_plain_zipfile_reads_e2vid(tmp_path: Path, events: EventStream) -> None:
+    path = save(tmp_path / "e.zip", events)
+    with zipfile.ZipFile(path) as archive:
+        assert archive.namelist() == ["events.txt"]
+        first, *rows = archive.read("events.txt").decode().splitlines()
+    assert first == "346 260"
+    t, x, y, p = np.array([row.split() for row in rows], dtype=np.float64).T
+    assert columns_equal(events, x, y, np.rint(t * 1e6), p)
+
+
+def test_parquet_is_read_by_pyarrow(tmp_path: Path, events: EventStream) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet", reason="pyarrow (170 MB) is not installed")
+    table = parquet.read_table(save(tmp_path / "e.parquet", events))
+    assert columns_equal(events, *(table.column(name).to_numpy() for name in "xytp"))
+    assert table.schema.metadata[b"width"] == b"346"

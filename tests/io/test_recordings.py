@@ -1,0 +1,62 @@
+"""Real recordings of iniVation cameras: read as others read them, converted, and read back.
+
+Run with `pytest -m network`; the archives are fetched into the data folder, once.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from texvent.data.pull import pull
+from texvent.events import EventPackets, EventStream
+from texvent.io.files import load, save
+from texvent.transform.window import start_at_zero
+
+from .format_cases import CASES, FormatCase
+
+pytestmark = pytest.mark.network
+# Name, file, sensor, events, ON events.
+RECORDINGS = [
+    ("davis346", "", (346, 260), 78_830, 41_257),
+    ("dvxplorer", "test.aedat4", (320, 240), 111_954, 55_023),
+    ("dvxplorer", "data_sample.aedat4", (320, 240), 323_963, 167_949),
+]
+recordings = pytest.mark.parametrize(("name", "file", "size", "count", "on"), RECORDINGS)
+
+
+@recordings
+def test_aedat_reads_the_recording_as_we_do(
+    name: str, file: str, size: tuple[int, int], count: int, on: int
+) -> None:
+    aedat = pytest.importorskip("aedat", reason="the reader `aedat` is not installed")
+    path = pull(name) / file if file else pull(name)
+    ours = load(path)
+    assert (tuple(ours.size), len(ours), int(ours.p.sum())) == (size, count, on)
+    packets = aedat.Decoder(str(path))
+    theirs = np.concatenate([packet["events"] for packet in packets if "events" in packet])
+    for mine, other in (("x", "x"), ("y", "y"), ("t", "t"), ("p", "on")):
+        np.testing.assert_array_equal(getattr(ours, mine), theirs[other].astype(np.int64))
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+def test_a_recording_survives_every_format(tmp_path: Path, case: FormatCase) -> None:
+    if case.extra:
+        pytest.importorskip(case.extra, reason=f"{case.name} needs {case.extra}")
+    recorded = load(pull("davis346"))
+    if case.stop_us is not None:
+        recorded = start_at_zero(
+            EventPackets((recorded,), recorded.size, recorded.metadata)
+        ).collect()
+    if case.largest.width < recorded.size.width:
+        # A corner of it, for the small sensors.
+        side = case.largest
+        inside = (recorded.x < side.width) & (recorded.y < side.height)
+        columns = (column[inside] for column in (recorded.x, recorded.y, recorded.t, recorded.p))
+        recorded = EventStream(*columns, side, recorded.metadata)
+    back = load(save(tmp_path / case.file, recorded, format=case.name), format=case.name)
+    assert back.equals(recorded)
+    assert back.metadata == recorded.metadata
+    assert len(back) > 100
