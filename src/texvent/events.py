@@ -116,7 +116,9 @@ class EventStream:
         for packet in packets:
             if packet.size != size:
                 raise InputError(f"cannot concatenate sensors of {size} and {packet.size}")
+        # Packets without events need not have labels; where there are no others, one is enough.
         labels = [packet.label for packet in packets if len(packet)]
+        labels = labels or [packet.label for packet in packets if packet.label is not None]
         known = [label for label in labels if label is not None]
         return cls(
             np.concatenate([packet.x for packet in packets]),

@@ -1,0 +1,128 @@
+"""What a user gets of every pixel model alike: labels, noise or clean only, rates per second."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import texvent
+from texvent._registry import SIMULATORS
+from texvent.cli.app import main
+from texvent.events import NOISE, SIGNAL
+from texvent.io.files import save
+
+from .published import moving_texture
+
+RATE_HZ = 4.0
+DARK = 10.0
+"""Level of the pixels that are asked for noise."""
+V2E_SHARE = 1 - 0.75 * (DARK + 20) / 275
+"""v2e's noise at this level, as a share of that in the dark."""
+NOISY: dict[str, dict[str, Any]] = {
+    "texvent": {"noise_rate_hz": RATE_HZ},
+    "physical": {"noise_curve": f"0:{RATE_HZ} 255:{RATE_HZ}", "leak_rate_hz": 0.0},
+    "v2e": {"shot_noise_rate_hz": RATE_HZ / V2E_SHARE, "leak_rate_hz": 0.0, "threshold_sigma": 0.0},
+    "senpi": {"noise_rate_hz": RATE_HZ, "refractory_period_us": 0},
+    "voltmeter": {"k4": RATE_HZ * 1e-6, "k5": 0.0},
+}
+"""Options with which a dark pixel at rest fires at `RATE_HZ`. ESIM has no noise, and V2CE's is in
+its network."""
+CLEAN: dict[str, dict[str, Any]] = {
+    "texvent": {"noise": "none"},
+    "physical": {"preset": "clean"},
+    "esim": {},
+    "v2e": {"preset": "peer-common"},
+    "senpi": {"preset": "peer-common"},
+    "voltmeter": {"k3": 0.0, "k4": 0.0, "k5": 0.0, "k6": 0.0},
+}
+CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
+
+
+def texture(**options: Any):
+    frames = np.stack([frame.pixels for frame in moving_texture(6, (30, 40))])
+    return texvent.simulate(frames, fps=24, interpolate="none", label_noise=True, **options)
+
+
+def test_no_model_is_forgotten():
+    assert set(SIMULATORS.names()) - {"v2ce"} == set(CLEAN)
+    assert set(CLEAN) - {"esim"} == set(NOISY)
+
+
+@pytest.mark.parametrize("model", NOISY)
+@pytest.mark.parametrize(("fps", "inner"), [(24, 0), (24, 1), (24, 20), (240, 0), (240, 3)])
+def test_noise_has_its_rate_for_any_frame_rate_and_number_of_inner_frames(model, fps, inner):
+    shape = (24, 32)
+    frames = np.full((fps + 1, *shape), DARK, np.float32)
+    events = texvent.simulate(
+        frames,
+        fps=fps,
+        simulator=model,
+        interpolate="blend",
+        count="fixed",
+        fixed_count=inner,
+        label_noise=True,
+        seed=fps + inner,
+        **NOISY[model],
+    )
+    expected = RATE_HZ * shape[0] * shape[1]
+    # Pixels of `physical` differ by 0.63 of their mean, which is 2.3 % of the total.
+    spread = np.hypot(np.sqrt(expected), 0.025 * expected)
+    assert len(events) == pytest.approx(expected, abs=4 * spread)
+    assert (events.label == NOISE).all()
+
+
+@pytest.mark.parametrize("model", CLEAN)
+def test_without_noise_every_event_is_signal_and_a_scene_at_rest_is_silent(model):
+    moving = texture(simulator=model, **CLEAN[model])
+    assert len(moving) > 100
+    assert (moving.label == SIGNAL).all()
+    still = np.full((13, 8, 9), DARK, np.float32)
+    at_rest = texvent.simulate(still, fps=24, simulator=model, **CLEAN[model])
+    assert len(at_rest) == 0
+
+
+@pytest.mark.parametrize("model", CLEAN)
+def test_signal_and_noise_alone_are_the_parts_of_the_whole(model):
+    options = {"simulator": model, **NOISY.get(model, {})}
+    both = texture(**options)
+    signal, noise = (texture(events=part, **options) for part in ("signal", "noise"))
+    assert len(signal) > 0
+    assert (len(noise) > 0) == (model in NOISY)
+    assert both[both.label == SIGNAL].equals(signal)
+    assert both[both.label == NOISE].equals(noise)
+
+
+@pytest.mark.parametrize("model", CLEAN)
+@pytest.mark.parametrize("name", ["e.h5", "e.npz"])
+def test_labels_are_stored_and_read_back(model, name, tmp_path):
+    events = texture(simulator=model, **NOISY.get(model, {}))
+    back = texvent.load(save(tmp_path / name, events))
+    assert back.label is not None
+    assert np.array_equal(back.label, events.label)
+    assert back.equals(events)
+
+
+@pytest.mark.parametrize("model", CLEAN)
+def test_the_command_line_stores_labels_only_if_asked(model, tmp_path):
+    words = ["simulate", str(CLIP), "--simulator", model, "--interpolate", "none", "--stop", "0.2"]
+    words += ["--events-only", "-q"]
+    asked, unasked = tmp_path / "asked.h5", tmp_path / "unasked.h5"
+    assert main([*words, "--label-noise", "-o", str(asked)]) == 0
+    assert main([*words, "-o", str(unasked)]) == 0
+    labelled, plain = texvent.load(asked), texvent.load(unasked)
+    assert labelled.label is not None
+    assert plain.label is None
+    assert labelled.without_label().equals(plain)
+
+
+@pytest.mark.parametrize("model", [name for name in CLEAN if name != "texvent"])
+def test_events_lie_on_the_sensor_inside_the_clip(model):
+    events = texture(simulator=model, seed=5, **NOISY.get(model, {}))
+    assert events.size == (40, 30)
+    assert events.x.max() < 40
+    assert events.y.max() < 30
+    assert 0 <= events.t.min() <= events.t.max() < round(5e6 / 24)
+    assert (np.diff(events.t) >= 0).all()
