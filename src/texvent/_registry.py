@@ -82,6 +82,7 @@ GENERATORS = Registry(
     "generator",
     {
         "procedural": "texvent.generate.procedural.generator:ProceduralGenerator",
+        "opensora": "texvent.generate.opensora:OpenSoraGenerator",
     },
     table="texvent.generate.model_names:MODEL_TABLE",
 )

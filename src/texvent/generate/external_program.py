@@ -1,0 +1,70 @@
+"""Run a long program of somebody else's: watched, stoppable as a whole, its last words kept."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+
+from texvent.errors import TexventError
+
+GRACE_S = 10.0
+"""Time to end by itself after being asked to."""
+LAST_LINES = 4
+LONGEST_LINE = 300
+
+
+def run_program(command: Sequence[str], *, cwd: Path | None, log: Path) -> None:
+    """Run a program to its end; Ctrl-C or any other exception ends it and its children.
+
+    Args:
+        command: program and arguments; no shell is involved.
+        cwd: folder to run in.
+        log: file for everything it prints.
+
+    Raises:
+        TexventError: it cannot be started, or ends with an error; its last lines are quoted.
+    """
+    with log.open("wb") as output:
+        try:
+            process = subprocess.Popen(
+                command,
+                cwd=cwd,
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                # A group of its own, so that a terminal's Ctrl-C reaches it only through us.
+                start_new_session=True,
+            )
+        except OSError as error:
+            raise TexventError(f"{command[0]} cannot be started: {error.strerror}") from error
+        try:
+            code = process.wait()
+        except BaseException:
+            _end(process)
+            raise
+    if code != 0:
+        raise TexventError(
+            f"{Path(command[0]).name} ended with code {code}; its last words: {_last_words(log)}"
+        )
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    """Ask the whole group to end, then insist."""
+    for request in (signal.SIGTERM, signal.SIGKILL):
+        try:
+            os.killpg(process.pid, request)
+            process.wait(GRACE_S)
+        except ProcessLookupError:
+            return
+        except subprocess.TimeoutExpired:
+            continue
+        return
+
+
+def _last_words(log: Path) -> str:
+    lines = [line.strip() for line in log.read_text("utf-8", "replace").splitlines()]
+    words = [line[:LONGEST_LINE] for line in lines if line][-LAST_LINES:]
+    return " | ".join(words) if words else "(none)"

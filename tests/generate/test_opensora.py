@@ -1,0 +1,222 @@
+"""The Open-Sora adapter against a stand-in program that honours the same command line."""
+
+import os
+import signal
+import stat
+import sys
+import textwrap
+import threading
+import time
+from fractions import Fraction
+
+import pytest
+
+import texvent
+from texvent.errors import ConfigError, InputError, TexventError
+from texvent.generate.external_program import run_program
+from texvent.generate.opensora import WEIGHTS, OpenSoraConfig, OpenSoraGenerator
+from texvent.settings import default_settings
+
+PROMPT = 'a red car, "fast", drives left'
+TORCHRUN = """
+    #!{python}
+    # Stands in for torchrun + Open-Sora's inference script: same words, same results, no model.
+    import argparse, csv, pathlib, sys
+    import av
+    import numpy as np
+
+    launch = argparse.ArgumentParser()
+    launch.add_argument("--nproc_per_node", type=int, required=True)
+    launch.add_argument("--standalone", action="store_true")
+    launch.add_argument("script", type=pathlib.Path)
+    launch.add_argument("config", type=pathlib.Path)
+    for name in ("--save-dir", "--dataset.data-path", "--seed", "--fps_save", "--offload",
+                 "--sampling_option.seed", "--sampling_option.num_frames",
+                 "--sampling_option.num_steps", "--sampling_option.guidance",
+                 "--sampling_option.aspect_ratio"):
+        launch.add_argument(name, required=True)
+    words = vars(launch.parse_args())
+    assert words["script"].is_file() and words["config"].is_file(), "run in the checkout"
+    rows = list(csv.DictReader(open(words["dataset.data_path"], newline="")))
+    prompt = rows[0]["text"]
+    print("Inference progress:", prompt)
+    if "crash" in prompt:
+        sys.exit("RuntimeError: CUDA out of memory")
+    if "nothing" in prompt:
+        sys.exit(0)
+    seed = int(words["sampling_option.seed"])
+    if not seed:
+        sys.exit("an unseeded run")
+    folder = pathlib.Path(words["save_dir"]) / ("video_" + words["config"].stem)
+    folder.mkdir(parents=True)
+    ground = np.random.default_rng(seed).integers(0, 255, (48, 80, 3), dtype=np.uint8)
+    ground = np.repeat(np.repeat(ground, 2, axis=0), 2, axis=1)
+    with av.open(str(folder / (prompt[:8].replace('"', "") + ".mp4")), "w") as container:
+        stream = container.add_stream("libx264", rate=int(words["fps_save"]))
+        stream.width, stream.height, stream.pix_fmt = 96, 64, "yuv420p"
+        for index in range(int(words["sampling_option.num_frames"])):
+            picture = ground[:64, index * 2 : index * 2 + 96].copy()
+            frame = av.VideoFrame.from_ndarray(picture, format="rgb24")
+            container.mux(stream.encode(frame))
+        container.mux(stream.encode())
+"""
+
+
+def program(path, text) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(textwrap.dedent(text).lstrip().format(python=sys.executable))
+    path.chmod(path.stat().st_mode | stat.S_IXUSR)
+
+
+@pytest.fixture
+def root(tmp_path, monkeypatch):
+    """A checkout as `git clone` and the weights' download leave it, with a small torchrun."""
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))
+    folder = tmp_path / "Open-Sora"
+    for path in ("scripts/diffusion/inference.py", "configs/diffusion/inference/256px.py"):
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_text("")
+    for path in WEIGHTS:
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_bytes(b"")
+    program(folder / ".venv/bin/torchrun", TORCHRUN)
+    monkeypatch.setenv("OPENSORA_ROOT", str(folder))
+    return folder
+
+
+def build(seed=0, **options):
+    return OpenSoraGenerator(OpenSoraConfig(**{"frames": 9, **options}), seed=seed)
+
+
+class Told:
+    def __init__(self):
+        self.lines = []
+
+    def announce(self, line):
+        self.lines.append(line)
+
+    def advance(self, stage, done, total):
+        raise AssertionError("Open-Sora does not tell its steps")
+
+
+def test_a_prompt_becomes_the_frames_of_its_mp4_and_is_kept(root):
+    told = Told()
+    video = build().generate(PROMPT, watch=told)
+    assert (video.fps, video.size, video.frame_count) == (24, (96, 64), 9)
+    assert len(list(video)) == 9
+    assert video.metadata["prompt"] == PROMPT
+    assert video.metadata["check"]["problems"] == []
+    assert told.lines == ["running Open-Sora (256px, 50 steps)"]
+    (root / ".venv/bin/torchrun").unlink()
+    again = build().generate(PROMPT, watch=told)
+    assert again.path == video.path
+    assert "generated before" in told.lines[-1]
+
+
+def test_prompt_to_events_through_the_api(root):
+    events = texvent.generate(
+        PROMPT, generator="opensora", frames=9, sensor="48x32", noise="none", interpolate="blend"
+    )
+    assert events.size == (48, 32)
+    assert len(events) > 0
+    assert events.metadata["source"]["generator"] == "opensora"
+
+
+def test_seeds_differ_and_seed_zero_is_a_seed(root):
+    first, second = (build(seed=seed).generate(PROMPT) for seed in (0, 1))
+    assert (next(iter(first)).pixels != next(iter(second)).pixels).any()
+
+
+def test_its_failure_is_told_in_its_own_words(root):
+    with pytest.raises(TexventError, match=r"ended with code 1; .*CUDA out of memory"):
+        build().generate("crash please")
+    with pytest.raises(TexventError, match="without writing a video"):
+        build().generate("nothing at all")
+    assert not list((root.parent / "cache" / "videos").glob("*"))
+
+
+@pytest.mark.parametrize(
+    ("remove", "why"),
+    [
+        ("scripts/diffusion/inference.py", r"has no scripts/diffusion/inference.py"),
+        ("configs/diffusion/inference/256px.py", r"has no configs/.*256px.py"),
+        ("ckpts/hunyuan_vae.safetensors", r"hunyuan_vae.safetensors are missing; .* hf download"),
+        (".venv/bin/torchrun", r"no torchrun in .*--opensora-launcher"),
+    ],
+)
+def test_what_is_missing_is_named_with_what_to_do(root, monkeypatch, remove, why):
+    (root / remove).unlink()
+    monkeypatch.setenv("PATH", "/nonexistent")
+    with pytest.raises(TexventError, match=why):
+        build().generate(PROMPT)
+
+
+def test_without_a_checkout_the_place_to_get_it_is_named(monkeypatch, tmp_path):
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path))
+    monkeypatch.delenv("OPENSORA_ROOT", raising=False)
+    with pytest.raises(TexventError, match="OPENSORA_ROOT or pass --opensora-root"):
+        build().generate(PROMPT)
+    with pytest.raises(TexventError, match="there is no folder"):
+        build(opensora_root=tmp_path / "gone").generate(PROMPT)
+
+
+@pytest.mark.parametrize(
+    ("options", "why"),
+    [
+        ({"frames": 10}, "4k\\+1"),
+        ({"frames": 133}, "5..129"),
+        ({"fps": Fraction(30_000, 1001)}, "whole number"),
+        ({"steps": 0}, "steps"),
+    ],
+)
+def test_options_it_cannot_take_are_refused(options, why):
+    with pytest.raises(ConfigError, match=why):
+        OpenSoraConfig(**options)
+
+
+def test_an_empty_prompt_is_refused_and_the_video_decides_the_size():
+    with pytest.raises(InputError, match="prompt is empty"):
+        build().generate(" ")
+    assert default_settings("generate", generator="opensora").size is None
+
+
+def test_stopping_ends_the_program_and_its_children(tmp_path):
+    marker = tmp_path / "child.pid"
+    program(
+        tmp_path / "slow",
+        f"""
+        #!/bin/sh
+        sleep 60 &
+        echo $! > {marker}
+        wait
+        """,
+    )
+    main_thread = threading.main_thread().ident
+
+    def interrupt():
+        while not marker.exists() or not marker.read_text().strip():
+            time.sleep(0.01)
+        signal.pthread_kill(main_thread, signal.SIGINT)
+
+    threading.Thread(target=interrupt).start()
+    with pytest.raises(KeyboardInterrupt):
+        run_program([str(tmp_path / "slow")], cwd=tmp_path, log=tmp_path / "log")
+    child = int(marker.read_text())
+    deadline = time.monotonic() + 5
+    while is_running(child) and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert not is_running(child)
+
+
+def is_running(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    with open(f"/proc/{process}/stat") as file:
+        return file.read().split()[2] != "Z"
+
+
+def test_a_program_that_is_not_there_is_one_clear_error(tmp_path):
+    with pytest.raises(TexventError, match="cannot be started: No such file"):
+        run_program([str(tmp_path / "none")], cwd=tmp_path, log=tmp_path / "log")
