@@ -97,7 +97,10 @@ def test_colour_is_turned_from_bgr_to_rgb(tmp_path, kind, channels):
 
 def test_given_times_replace_the_recorded_ones(tmp_path):
     path = write_file(tmp_path / "r.aedat4", [grey(1, start=0, end=10), grey(2, start=50, end=60)])
-    assert [frame.t_us for frame in open_frames(path, CaptureConfig(fps=Fraction(25)))] == [0, 40_000]
+    assert [frame.t_us for frame in open_frames(path, CaptureConfig(fps=Fraction(25)))] == [
+        0,
+        40_000,
+    ]
     assert [f.t_us for f in open_frames(path, CaptureConfig(), t_us=[3, 9])] == [3, 9]
     with pytest.raises(InputError, match="3 times for 2 frames"):
         open_frames(path, CaptureConfig(), t_us=[3, 9, 12])
