@@ -129,6 +129,19 @@ class RenderableStream(FrameStream, Protocol):
         ...
 
 
+@runtime_checkable
+class FlickeringStream(RenderableStream, Protocol):
+    """A renderable stream that knows how fast its light beats.
+
+    Two frames cannot show a beat between them (it aliases), so Eq. 4 cannot ask for it.
+    """
+
+    @property
+    def flicker_hz(self) -> float | None:
+        """Periods per second with which all light beats, or None where it is steady."""
+        ...
+
+
 @dataclass(frozen=True, eq=False)
 class Video:
     """Frames held in memory.

@@ -10,6 +10,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+import texvent
 from texvent.errors import ConfigError, InputError
 from texvent.generate.procedural.generator import (
     ProceduralConfig,
@@ -107,6 +108,20 @@ def test_a_prompt_becomes_a_moving_video_that_says_what_was_understood() -> None
     again = ProceduralGenerator(ProceduralConfig(duration=1.0), seed=3, size=SMALL)
     same = again.generate("a red car drives left past two trees, xylophonically")
     np.testing.assert_array_equal(same.at(400_000).pixels, video.at(400_000).pixels)
+
+
+def test_a_flicker_faster_than_the_frames_fires_events_everywhere() -> None:
+    prompt = "a white wall in a room, the lamp flickers at 48 Hz"
+    events = texvent.generate(
+        prompt, duration=0.125, fps=24, sensor="32x24", noise="none", multi_event=False
+    )
+    steady = texvent.generate(
+        prompt.replace(", the lamp flickers at 48 Hz", ""), duration=0.125, fps=24,
+        sensor="32x24", noise="none",
+    )  # fmt: skip
+    assert len(events) > 4 * 2 * 32 * 24
+    assert len(steady) < len(events) / 10
+    assert 0.4 < events.p.mean() < 0.6
 
 
 def test_the_default_size_is_the_davis346() -> None:

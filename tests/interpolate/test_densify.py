@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import math
 import weakref
 from itertools import pairwise
 
@@ -52,6 +53,41 @@ def test_black_to_white_gets_the_count_of_eq4():
     assert [frame.t_us for frame in frames] == [1000 * k for k in range(13)]
     levels = [float(frame.pixels[0, 0]) for frame in frames]
     assert levels == pytest.approx([255 * k / 12 for k in range(13)], abs=1e-3)
+
+
+class Beating(Video):
+    """A grey field under light that beats at 100 Hz, between 50 and 150."""
+
+    flicker_hz = 100.0
+
+    def at(self, t_us):
+        level = 100.0 + 50.0 * math.cos(2.0 * math.pi * self.flicker_hz * t_us / 1e6)
+        return Frame(np.full((4, 4), level), t_us, is_source=False)
+
+
+def test_a_beat_that_the_frames_miss_is_rendered_between_them():
+    # Every frame meets the beat at its brightest, so Eq. 4 alone would ask for none.
+    video = Beating(np.full((3, 4, 4), 150.0), [0, 20_000, 40_000])
+    levels = [float(f.pixels[0, 0]) for f in run(video, InterpolateConfig(interpolate="exact"))]
+    assert len(levels) == 1 + 2 * 2 * 12
+    assert min(levels) == pytest.approx(50.0)
+    assert sum(level > 149 for level in levels) == 5
+
+
+@pytest.mark.parametrize(
+    ("options", "count"),
+    [({"interpolate": "blend"}, 0), ({"count": "fixed", "fixed_count": 3}, 3), ({}, 23)],
+)
+def test_only_rendered_frames_follow_the_beat(options, count):
+    video = Beating(np.full((2, 4, 4), 150.0), [0, 20_000])
+    dense = run(video, InterpolateConfig(**{"interpolate": "exact", **options}))
+    assert len(dense) - 2 == count
+
+
+def test_the_beat_keeps_to_the_cap():
+    video = Beating(np.full((2, 4, 4), 150.0), [0, 20_000])
+    dense = run(video, InterpolateConfig(interpolate="exact", max_intermediate=5))
+    assert len(dense) - 2 == 5
 
 
 def test_each_pair_has_its_own_count():

@@ -8,10 +8,13 @@ import numpy as np
 
 from texvent.brightness import balanced_log
 from texvent.errors import ConfigError, InputError
-from texvent.video import Frame, PixelArray
+from texvent.video import MICROSECONDS, Frame, PixelArray
 
 DEFAULT_CAP = 64
 """Most intermediate frames per pair, unless the caller says otherwise."""
+STEPS_PER_BEAT = 12
+"""Frames that show one period of flickering light. From one to the next, the embedded generator's
+beat then changes brightness by at most 0.18 (white; α = 30): below the paper preset's δ."""
 
 
 def count_intermediate(
@@ -66,6 +69,33 @@ def count_intermediate(
     change = np.abs(balanced_log(earlier, balance) - balanced_log(later, balance))
     statistic = change.max() if percentile == 100.0 else np.percentile(change, percentile)
     return min(math.floor(float(statistic) / contrast_threshold), cap)
+
+
+def count_for_flicker(
+    first_us: int, second_us: int, flicker_hz: float | None, *, cap: int = DEFAULT_CAP
+) -> int:
+    """How many intermediate frames show light that beats faster than the frames come.
+
+    Args:
+        first_us: time of the earlier frame, µs.
+        second_us: time of the later frame, µs.
+        flicker_hz: periods per second; None is steady light.
+        cap: upper limit of the count.
+
+    Returns:
+        K, 0..cap, for `STEPS_PER_BEAT` frames in each period.
+
+    Deviation: not in the paper. Eq. 4 compares two frames, between which a beat does not show:
+        at 24 frames per second, light that beats at 48 Hz looks steady to it.
+
+    Example:
+        >>> count_for_flicker(0, 41_667, 50.0), count_for_flicker(0, 41_667, None)
+        (25, 0)
+    """
+    if flicker_hz is None:
+        return 0
+    beats = flicker_hz * (second_us - first_us) / MICROSECONDS
+    return min(math.ceil(STEPS_PER_BEAT * beats) - 1, cap)
 
 
 def intermediate_times_us(first_us: int, second_us: int, count: int) -> list[int]:

@@ -6,11 +6,15 @@ from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
 from texvent.config import InterpolateConfig
-from texvent.interpolate.count import count_intermediate, intermediate_times_us
+from texvent.interpolate.count import (
+    count_for_flicker,
+    count_intermediate,
+    intermediate_times_us,
+)
 from texvent.interpolate.cuts import Jump, detect_jump
 from texvent.interpolate.position import float_luma
 from texvent.interpolate.protocol import Interpolator
-from texvent.video import Frame, FrameStream, StreamChecker
+from texvent.video import FlickeringStream, Frame, FrameStream, StreamChecker
 
 JUMP_DURATION_US = 1_000
 """A cut or flash takes at most this long, µs; the old picture is held until then."""
@@ -53,8 +57,10 @@ def densify(
 
     Equation: (4), section 3.2.1.
     Deviation: the paper interpolates across scene cuts; here the earlier picture is held and the
-        change happens within the last millisecond.
+        change happens within the last millisecond. Light that is known to beat between the
+        frames gets enough intermediate frames to be seen, where they can be rendered.
     """
+    flicker_hz = _flicker_hz(stream, config)
     checker = StreamChecker()
     previous: Frame | None = None
     for frame in stream:
@@ -66,7 +72,12 @@ def densify(
                     on_cut(jump, frame.t_us)
                 yield from hold(previous, frame)
             else:
-                count = _count(previous, frame, config, balance, contrast_threshold)
+                count = max(
+                    _count(previous, frame, config, balance, contrast_threshold),
+                    count_for_flicker(
+                        previous.t_us, frame.t_us, flicker_hz, cap=config.max_intermediate
+                    ),
+                )
                 times_us = intermediate_times_us(previous.t_us, frame.t_us, count)
                 if times_us:
                     yield from interpolator.between(previous, frame, times_us)
@@ -90,6 +101,12 @@ def _jump(first: Frame, second: Frame, config: InterpolateConfig) -> Jump:
     if not config.detect_cuts or config.interpolate in NEVER_SMEARS:
         return Jump.NONE
     return detect_jump(first, second)
+
+
+def _flicker_hz(stream: FrameStream, config: InterpolateConfig) -> float | None:
+    """The beat that intermediate frames must follow: only rendered ones can show it."""
+    is_seen = config.interpolate == "exact" and config.count == "brightness"
+    return stream.flicker_hz if is_seen and isinstance(stream, FlickeringStream) else None
 
 
 def _count(

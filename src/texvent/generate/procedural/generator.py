@@ -72,6 +72,8 @@ class ProceduralVideo:
     """How it is filmed."""
     metadata: Mapping[str, Any] = field(default_factory=dict)
     """What the generator made of the prompt (JSON-serialisable)."""
+    flicker_hz: float | None = None
+    """Periods per second with which all light beats, or None where it is steady."""
 
     @property
     def fps(self) -> Fraction:
@@ -167,4 +169,6 @@ class ProceduralGenerator:
             "not_understood": list(description.not_understood),
             "understood_nothing": bool(description.understood_nothing),
         }
-        return ProceduralVideo(scene, self.size, self.config, metadata)
+        return ProceduralVideo(
+            scene, self.size, self.config, metadata, flicker_hz=description.light.flicker_hz
+        )
