@@ -62,6 +62,7 @@ $(VENV)/.base: $(VENV)/bin/python pyproject.toml constraints.txt
 $(VENV)/.dev: $(VENV)/bin/python pyproject.toml constraints.txt
 	@echo "installing texvent and its test tools into $(VENV) (about a minute, once)"
 	$(PIP) -e '.[dev]'
+	@$(PIP) -e '.[readers]' || echo "note: not every independent reader of event files has a wheel for this machine; the tests that need them will be reported as skipped"
 	@touch $@ $(VENV)/.base
 
 $(TORCH_VENV)/.torch: $(TORCH_VENV)/bin/python pyproject.toml constraints.txt

@@ -8,6 +8,7 @@ their own parts through entry points in the group `texvent.<kind>s`.
 from __future__ import annotations
 
 import difflib
+import functools
 import importlib
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -55,8 +56,7 @@ class Registry:
 
     def entries(self) -> dict[str, str]:
         """Name → target of built-in and plugged-in parts; built-in names cannot be replaced."""
-        plugged = metadata.entry_points(group=f"texvent.{self.kind.replace(' ', '_')}s")
-        return {**{point.name: point.value for point in plugged}, **self.builtin}
+        return {**_plugged_in(f"texvent.{self.kind.replace(' ', '_')}s"), **self.builtin}
 
     def names(self) -> tuple[str, ...]:
         """All names, in table order."""
@@ -78,6 +78,12 @@ class Registry:
         return part
 
 
+@functools.cache
+def _plugged_in(group: str) -> Mapping[str, str]:
+    """Name → target of the parts that other packages add; what is installed does not change."""
+    return {point.name: point.value for point in metadata.entry_points(group=group)}
+
+
 GENERATORS = Registry(
     "generator",
     {
@@ -94,6 +100,7 @@ INTERPOLATORS = Registry(
         "flow": "texvent.interpolate.flow:FlowInterpolator",
         "exact": "texvent.interpolate.exact:ExactInterpolator",
         "rife": "texvent.interpolate.rife:RifeInterpolator",
+        "super-slomo": "texvent.interpolate.super_slomo:SuperSlomoInterpolator",
     },
 )
 SIMULATORS = Registry(
