@@ -1,8 +1,10 @@
-"""How well none, blend and flow guess held-out middle frames: PSNR, and the brightness travelled.
+"""How well interpolators guess frames that are known: PSNR, SSIM, brightness travelled, time.
 
-    python -m benchmarks.interpolation                            # synthetic scenes, exact truth
+    python -m benchmarks.interpolation                            # textures, exact truth
+    python -m benchmarks.interpolation --embedded                 # embedded scenes, exact truth
     python -m benchmarks.interpolation --clip bikes.mp4           # frames i, i+2 → i+1
-    python -m benchmarks.interpolation --clip mouse.mp4 --gap 4   # frames i, i+4 → i+2
+    python -m benchmarks.interpolation --clip mouse.mp4 --gap 4   # frames i, i+4 → i+1..i+3
+    python -m benchmarks.interpolation --rife rife.safetensors    # with RIFE; --rife repeats
 
 A clip is a video file or a folder of pictures. Pairs with a cut between them are left out, and
 every jump found between neighbouring frames is listed.
@@ -12,7 +14,8 @@ from __future__ import annotations
 
 import argparse
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -22,91 +25,149 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from benchmarks.interpolation_scenes import SPEEDS, TEXTURES, embedded_scene, moving_scene
 from texvent.config import InterpolateConfig
 from texvent.interpolate.blend import BlendInterpolator
 from texvent.interpolate.cuts import Jump, detect_jump
 from texvent.interpolate.flow import FlowInterpolator
 from texvent.interpolate.protocol import Interpolator
+from texvent.interpolate.rife import RifeInterpolator
+from texvent.interpolate.rife_weights import read_rife_weights
+from texvent.metrics.structural_similarity import structural_similarity
 from texvent.video import Frame, Video
 
-FloatArray = NDArray[np.float64]
 INTERVAL_US = 40_000
-STEPS = 12
-"""Intermediate frames per pair when the brightness travel is measured."""
-TEXTURES = {
-    "sharp": ((16.0, 0.55), (5.0, 0.3), (2.3, 0.15)),
-    "smooth": ((32.0, 0.6), (16.0, 0.4)),
-}
-"""Octaves of value noise: (cell size, px; weight)."""
+STEPS = 11
+"""Intermediate frames per pair where the truth is known at every instant: odd, for a middle."""
+PIXELS = (3, 10, 24)
+"""Motion between the two given frames of a texture, px."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """Frames of which the first and the last are given."""
+
+    frames: list[NDArray[Any]]
+    is_exact: bool
+    """True if they hold no sensor noise, so that the brightness travelled can be compared."""
+
+    @property
+    def inner(self) -> list[NDArray[Any]]:
+        """The frames to be guessed."""
+        return self.frames[1:-1]
 
 
 def main() -> None:
-    """Print one table: synthetic scenes, or a clip."""
+    """Print one table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--clip", type=Path, help="video file or folder of pictures")
+    parser.add_argument("--embedded", action="store_true", help="scenes of the embedded generator")
     parser.add_argument("--gap", type=int, default=2, help="frames between the two given ones")
-    parser.add_argument("--pairs", type=int, default=12, help="pairs per clip, spread evenly")
+    parser.add_argument("--pairs", type=int, default=12, help="pairs per clip")
+    parser.add_argument("--first", type=int, default=0, help="where the first pair starts")
+    parser.add_argument("--step", type=int, help="frames from pair to pair; default: even spread")
+    parser.add_argument("--rife", type=Path, action="append", default=[], help="RIFE weights")
     options = parser.parse_args()
     if options.gap < 2 or options.gap % 2:
         parser.error(f"--gap is {options.gap}; it must be even and at least 2")
-    if options.clip is None:
-        print_synthetic()
+    chosen = interpolators(options.rife)
+    print("| scene | frames from | middle, dB | SSIM | all, dB | travel | ms first | ms further |")
+    print("|---|---|---|---|---|---|---|---|")
+    if options.clip is not None:
+        frames = list(read_grey(options.clip))
+        cases = clip_cases(frames, options)
+        print_rows(f"{options.clip.stem}, gap {options.gap}", cases, chosen)
+        print("jumps: " + (", ".join(list_jumps(frames)) or "none"))
+        return
+    positions = np.linspace(0, 1, STEPS + 2)
+    if options.embedded:
+        for speed in SPEEDS:
+            render = embedded_scene(speed)
+            print_rows(speed, [Case([render(at) for at in positions], True)], chosen)
+        return
+    for texture in TEXTURES:
+        for pixels in PIXELS:
+            truth = [moving_scene(pixels * at, texture) for at in positions]
+            print_rows(f"{texture} {pixels} px", [Case(list(truth), True)], chosen)
+
+
+def clip_cases(frames: Sequence[NDArray[Any]], options: argparse.Namespace) -> list[Case]:
+    """Runs of gap + 1 frames without a cut, spread evenly or by a fixed step."""
+    last = len(frames) - 1 - options.gap
+    if options.step is None:
+        starts = np.unique(np.linspace(options.first, last, options.pairs).astype(int))
     else:
-        print_clip(options.clip, options.gap, options.pairs)
-
-
-def print_synthetic() -> None:
-    """PSNR and brightness travel on scenes that can be rendered at any instant."""
-    print("| scene | px/frame | hold | blend | flow | blend travel | flow travel |")
-    print("|---|---|---|---|---|---|---|")
-    for name in TEXTURES:
-        for pixels in (3, 10, 24):
-            truth = [moving_scene(pixels * k / (STEPS + 1), name) for k in range(STEPS + 2)]
-            middle = moving_scene(pixels / 2, name)
-            first, second = truth[0], truth[-1]
-            cells = [f"{psnr(first, middle):.1f}"]
-            travels = []
-            for interpolator in interpolators().values():
-                cells.append(f"{psnr(between(interpolator, first, second, 1)[0], middle):.1f}")
-                inner = between(interpolator, first, second, STEPS)
-                travels.append(f"{travel([first, *inner, second]) / travel(truth):.0%}")
-            print(f"| {name} | {pixels} | {' | '.join([*cells, *travels])} |")
-
-
-def print_clip(path: Path, gap: int, pairs: int) -> None:
-    """PSNR on held-out frames of a real clip, time per frame, and the jumps in it."""
-    frames = list(read_grey(path))
-    spread = np.unique(np.linspace(0, len(frames) - 1 - gap, pairs).astype(int))
-    triplets = [
-        (frames[i], frames[i + gap // 2], frames[i + gap])
-        for i in spread
-        if detect_jump(Frame(frames[i], 0), Frame(frames[i + gap], 1)) is Jump.NONE
+        starts = options.first + options.step * np.arange(options.pairs)
+    runs = [list(frames[start : start + options.gap + 1]) for start in starts if start <= last]
+    return [
+        Case(run, False)
+        for run in runs
+        if detect_jump(Frame(run[0], 0), Frame(run[-1], 1)) is Jump.NONE
     ]
-    print(f"{path.name}: {len(frames)} frames, gap {gap}, {len(triplets)} pairs")
-    print(f"  hold  {np.mean([psnr(first, middle) for first, middle, _ in triplets]):.2f} dB")
-    for name, interpolator in interpolators().items():
-        between(interpolator, triplets[0][0], triplets[0][2], 1)
-        start = time.perf_counter()
-        guesses = [between(interpolator, first, last, 1)[0] for first, _, last in triplets]
-        spent_ms = (time.perf_counter() - start) / len(triplets) * 1e3
-        scores = [
-            psnr(guess, middle) for guess, (_, middle, _) in zip(guesses, triplets, strict=True)
-        ]
-        print(f"  {name:5} {np.mean(scores):.2f} dB, {spent_ms:.1f} ms per pair")
-    print("  jumps " + (", ".join(list_jumps(frames)) or "none"))
 
 
-def interpolators() -> dict[str, Interpolator]:
-    """The interpolators that guess."""
+def print_rows(name: str, cases: list[Case], chosen: dict[str, Interpolator | None]) -> None:
+    """One row per interpolator, averaged over the cases."""
+    for kind, interpolator in chosen.items():
+        found = [measure(case, interpolator) for case in cases]
+        means = [float(np.mean(column)) for column in zip(*found, strict=True)]
+        middle, ssim, inner, travelled, first_ms, further_ms = means
+        share = "" if np.isnan(travelled) else f"{travelled:.0%}"
+        print(
+            f"| {name} | {kind} | {middle:.2f} | {ssim:.3f} | {inner:.2f} | {share} "
+            f"| {first_ms:.1f} | {further_ms:.1f} |",
+            flush=True,
+        )
+
+
+def measure(case: Case, interpolator: Interpolator | None) -> tuple[float, ...]:
+    """PSNR and SSIM of the middle, mean PSNR of all, travel, ms of the first and of a further."""
+    first, last, count = case.frames[0], case.frames[-1], len(case.inner)
+    middle = case.inner[count // 2]
+    start = time.perf_counter()
+    guess = between(interpolator, first, last, 1)[0]
+    first_s = time.perf_counter() - start
+    start = time.perf_counter()
+    guesses = between(interpolator, first, last, count)
+    all_s = time.perf_counter() - start
+    pair = guess.astype(np.float64), middle.astype(np.float64)
+    travelled = travel([first, *guesses, last]) / travel(case.frames) if case.is_exact else np.nan
+    return (
+        psnr(guess, middle),
+        structural_similarity(*pair, data_range=255.0),
+        float(np.mean([psnr(a, b) for a, b in zip(guesses, case.inner, strict=True)])),
+        travelled,
+        1e3 * first_s,
+        1e3 * (all_s - first_s) / (count - 1) if count > 1 else np.nan,
+    )
+
+
+def interpolators(rife: Sequence[Path]) -> dict[str, Interpolator | None]:
+    """Name → what guesses; None repeats the first frame. Each has run once, so it is compiled."""
     config = InterpolateConfig()
     stream = Video(np.zeros((1, 4, 4), np.uint8), [0])
-    return {"blend": BlendInterpolator(config, stream), "flow": FlowInterpolator(config, stream)}
+    found: dict[str, Interpolator | None] = {
+        "none": None,
+        "blend": BlendInterpolator(config, stream),
+        "flow": FlowInterpolator(config, stream),
+    }
+    for path in rife:
+        name = read_rife_weights(path).layout.name
+        for flow in ("each", "shared"):
+            config = InterpolateConfig(interpolator_weights=path, rife_flow=flow)
+            found[f"RIFE {name}, {flow}"] = RifeInterpolator(config, stream)
+    for interpolator in found.values():
+        flat = np.zeros((64, 64), np.uint8)
+        between(interpolator, flat, flat, 2)
+    return found
 
 
 def between(
-    interpolator: Interpolator, first: NDArray[Any], second: NDArray[Any], count: int
+    interpolator: Interpolator | None, first: NDArray[Any], second: NDArray[Any], count: int
 ) -> list[NDArray[Any]]:
     """`count` equally spaced intermediate pictures."""
+    if interpolator is None:
+        return [first] * count
     times_us = [INTERVAL_US * k // (count + 1) for k in range(1, count + 1)]
     pair = Frame(first, 0), Frame(second, INTERVAL_US)
     return [frame.pixels for frame in interpolator.between(*pair, times_us)]
@@ -142,43 +203,6 @@ def read_grey(path: Path) -> Iterator[NDArray[np.uint8]]:
     with av.open(str(path)) as container:
         for frame in container.decode(video=0):
             yield np.asarray(frame.to_ndarray(format="gray"), dtype=np.uint8)
-
-
-def moving_scene(position: float, texture: str, width: int = 346, height: int = 260) -> FloatArray:
-    """A panning texture with a counter-moving disc, 3×3 samples per pixel, float levels.
-
-    Args:
-        position: how far both have moved, px.
-        texture: a name in `TEXTURES`.
-        width: px.
-        height: px.
-    """
-    samples = 3
-    total = np.zeros((height, width))
-    rows, columns = np.mgrid[:height, :width].astype(np.float64)
-    for k in range(samples * samples):
-        x = columns + (k % samples + 0.5) / samples - 0.5
-        y = rows + (k // samples + 0.5) / samples - 0.5
-        ground = value_noise(x + position, y + 0.3 * position, 1, texture)
-        disc = value_noise(x - position, y - 0.2 * position, 20, texture)
-        from_centre = np.hypot(x - width / 2 - position, y - height / 2 - 0.2 * position)
-        total += np.where(from_centre < height / 4, disc, ground)
-    return total / samples**2
-
-
-def value_noise(x: FloatArray, y: FloatArray, seed: int, texture: str) -> FloatArray:
-    """Random levels on a lattice, joined smoothly; 0..255."""
-    total = np.zeros_like(x)
-    for octave, (cell, weight) in enumerate(TEXTURES[texture]):
-        lattice = np.random.default_rng(seed + octave).random((64, 64))
-        u, v = x / cell, y / cell
-        column, row = np.floor(u).astype(int), np.floor(v).astype(int)
-        fx, fy = (f * f * (3 - 2 * f) for f in (u - column, v - row))
-        left, right, top, bottom = column % 64, (column + 1) % 64, row % 64, (row + 1) % 64
-        upper = lattice[top, left] * (1 - fx) + lattice[top, right] * fx
-        lower = lattice[bottom, left] * (1 - fx) + lattice[bottom, right] * fx
-        total += weight * (upper * (1 - fy) + lower * fy)
-    return np.asarray(255 * np.clip((total - 0.5) * 1.6 + 0.5, 0, 1))
 
 
 if __name__ == "__main__":

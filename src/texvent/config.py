@@ -139,8 +139,9 @@ class InterpolateConfig:
     interpolator_tile: int = 0
     """Estimate rife's motion on tiles of this side, px, to save memory on large frames (0: on the
     whole frame). Motion above 64 px per pair does not cross tiles well."""
-    rife_flow: Literal["each", "shared"] = "each"
-    """Estimate rife's motion anew at each intermediate frame, or once per pair, at its middle."""
+    rife_flow: Literal["shared", "each"] = "shared"
+    """Estimate rife's motion once per pair, at its middle, for all intermediate frames; or anew
+    at each of them, as the paper does: slower, and differences between the estimates flicker."""
 
     def __post_init__(self) -> None:
         check_range("interpolator_tile", self.interpolator_tile, 0, 100_000)

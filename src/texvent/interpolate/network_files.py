@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 import pickle
 import zipfile
 from collections.abc import Mapping
@@ -42,7 +43,9 @@ def read_mapping(path: Path, where_from: str) -> Mapping[str, Any]:
         if path.suffix.lower() == SAFETENSORS:
             content: Any = _read_safetensors(path)
         else:
-            content = torch.load(path, map_location="cpu", weights_only=True)
+            # Training stores when it saved; a date runs no code.
+            with torch.serialization.safe_globals([datetime.datetime]):
+                content = torch.load(path, map_location="cpu", weights_only=True)
     except DAMAGE as error:
         raise _damaged(path, error, where_from) from error
     if not isinstance(content, Mapping) or not all(isinstance(name, str) for name in content):

@@ -1,0 +1,206 @@
+"""Super SloMo from a checkpoint in the published format, against a reference in NumPy."""
+
+import datetime
+import sys
+
+import numpy as np
+import pytest
+
+from texvent._registry import INTERPOLATORS
+from texvent.config import InterpolateConfig
+from texvent.errors import ConfigError, FileFormatError, InputError, MissingDependencyError
+from texvent.interpolate.super_slomo_layout import FLOW_NET, REFINE_NET
+from texvent.interpolate.super_slomo_network import UNet
+from texvent.interpolate.super_slomo_weights import read_checkpoint
+from texvent.video import Frame
+
+from .rife_numpy import warp
+
+WIDTH = 2
+"""Instead of 32; every name and relation of shapes stays."""
+MEAN = np.array([0.429, 0.431, 0.397])[:, None, None]
+TIMES_US = [250, 500, 700]
+
+
+def random_tensors(net, seed):
+    random = np.random.default_rng(seed)
+    return {
+        name: random.normal(0, 1.2 / np.sqrt(max(1, np.prod(shape[1:]))), shape).astype(np.float32)
+        for name, shape in net.tensor_shapes(WIDTH).items()
+    }
+
+
+def save(torch, path, *, legacy=False, **changes):
+    """A training checkpoint as published: networks beside dates, losses and counters."""
+    content = {
+        "Detail": "End to end Super SloMo.",
+        "epoch": 199,
+        "timestamp": datetime.datetime(2018, 12, 1, 3, 4, 5),
+        "trainBatchSz": 6,
+        "loss": [[0.5, 0.25]],
+        "valPSNR": [[30.1]],
+    }
+    for seed, net in enumerate((FLOW_NET, REFINE_NET)):
+        tensors = random_tensors(net, seed).items()
+        content[net.key] = {name: torch.from_numpy(one) for name, one in tensors}
+    content.update(changes)
+    torch.save(content, path, _use_new_zipfile_serialization=not legacy)
+    return path
+
+
+def convolve(x, weight, bias):
+    side = weight.shape[-1]
+    padded = np.pad(x, ((0, 0), *[(side // 2, side // 2)] * 2))
+    windows = np.lib.stride_tricks.sliding_window_view(padded, (side, side), axis=(1, 2))
+    return np.einsum("chwyx,ocyx->ohw", windows, weight) + bias[:, None, None]
+
+
+def double(x):
+    """Bilinear from corner to corner."""
+    for axis in (1, 2):
+        length = x.shape[axis]
+        at = np.linspace(0, length - 1, 2 * length)
+        low = np.floor(at).astype(int)
+        high = np.minimum(low + 1, length - 1)
+        shape = [1, 1, 1]
+        shape[axis] = -1
+        share = (at - low).reshape(shape)
+        x = np.take(x, low, axis) * (1 - share) + np.take(x, high, axis) * share
+    return x
+
+
+def unet(x, tensors):
+    def layer(x, name):
+        x = convolve(x, tensors[f"{name}.weight"].astype(float), tensors[f"{name}.bias"])
+        return np.where(x > 0, x, 0.1 * x)
+
+    x = layer(layer(x, "conv1"), "conv2")
+    skipped = []
+    for depth in range(1, 6):
+        skipped.append(x)
+        channels, height, width = x.shape
+        x = x.reshape(channels, height // 2, 2, width // 2, 2).mean(axis=(2, 4))
+        x = layer(layer(x, f"down{depth}.conv1"), f"down{depth}.conv2")
+    for step in range(1, 6):
+        x = layer(double(x), f"up{step}.conv1")
+        x = layer(np.concatenate([x, skipped.pop()]), f"up{step}.conv2")
+    return layer(x, "conv3")
+
+
+def expected_frame(first, second, t):
+    """The published steps in float64; pictures [3, H, W], 0..1; returns grey levels."""
+    a, b = first - MEAN, second - MEAN
+    flows = unet(np.concatenate([a, b]), random_tensors(FLOW_NET, 0))
+    f01, f10 = flows[:2], flows[2:]
+    ft0, ft1 = -t * (1 - t) * f01 + t * t * f10, (1 - t) ** 2 * f01 - t * (1 - t) * f10
+    seen = [a, b, f01, f10, ft1, ft0, warp(b, ft1), warp(a, ft0)]
+    out = unet(np.concatenate(seen), random_tensors(REFINE_NET, 1))
+    visible = 1 / (1 + np.exp(-out[4]))
+    w0, w1 = (1 - t) * visible, t * (1 - visible)
+    mixed = w0 * warp(first[:1], ft0 + out[:2])[0] + w1 * warp(second[:1], ft1 + out[2:4])[0]
+    return 255 * mixed / (w0 + w1), np.abs(flows).mean()
+
+
+def test_without_torch_the_error_names_the_extra(stream, monkeypatch):
+    monkeypatch.setitem(sys.modules, "torch", None)
+    with pytest.raises(MissingDependencyError, match=r"pip install 'texvent\[rife\]'"):
+        INTERPOLATORS.load("super-slomo")(InterpolateConfig(), stream)
+
+
+def test_the_layout_has_the_published_sizes():
+    sizes = [
+        sum(int(np.prod(shape)) for shape in net.tensor_shapes().values())
+        for net in (FLOW_NET, REFINE_NET)
+    ]
+    assert sizes == [19_794_116, 19_816_357]
+    assert FLOW_NET.tensor_shapes()["down5.conv2.weight"] == (512, 512, 3, 3)
+    assert REFINE_NET.tensor_shapes()["up3.conv2.weight"] == (128, 256, 3, 3)
+
+
+@pytest.mark.torch
+class TestWithTorch:
+    @pytest.fixture
+    def torch(self):
+        return pytest.importorskip("torch")
+
+    @pytest.fixture
+    def build(self, torch, tmp_path, stream):
+        def make(**options):
+            path = save(torch, tmp_path / "SuperSloMo.ckpt")
+            config = InterpolateConfig(interpolator_weights=path, **options)
+            return INTERPOLATORS.load("super-slomo")(config, stream)
+
+        return make
+
+    def test_a_network_gives_the_numbers_of_the_reference(self, torch):
+        tensors = random_tensors(REFINE_NET, 1)
+        x = np.random.default_rng(0).normal(0, 1, (20, 32, 64))
+        network = UNet({name: torch.from_numpy(one) for name, one in tensors.items()})
+        found = network.predict(torch.from_numpy(x.astype(np.float32))[None])[0].numpy()
+        expected = unet(x, tensors)
+        assert np.abs(found - expected).max() < 1e-4
+        assert np.std(expected) > 0.05
+
+    def test_frames_follow_the_published_steps(self, build):
+        pictures = np.random.default_rng(3).integers(0, 256, (2, 32, 64)).astype(np.uint8)
+        found = list(build().between(Frame(pictures[0], 0), Frame(pictures[1], 1000), TIMES_US))
+        levels = [np.repeat(one[None] / 255.0, 3, axis=0) for one in pictures]
+        for frame, t_us in zip(found, TIMES_US, strict=True):
+            expected, motion = expected_frame(*levels, t_us / 1000)
+            assert motion > 0.01
+            assert frame.t_us == t_us
+            assert not frame.is_source
+            assert frame.pixels.dtype == np.float32
+            assert np.abs(frame.pixels - expected).max() < 0.05
+
+    @pytest.mark.parametrize("size", [(1, 1), (33, 70)])
+    @pytest.mark.parametrize("precision", ["float32", "bfloat16"])
+    def test_any_size_and_precision(self, build, size, precision):
+        pictures = np.random.default_rng(0).uniform(0, 255, (2, *size))
+        interpolator = build(interpolator_precision=precision)
+        found = interpolator.between(Frame(pictures[0], 0), Frame(pictures[1], 1000), [500])
+        for frame in found:
+            assert frame.pixels.shape == size
+            assert 0 <= frame.pixels.min() <= frame.pixels.max() <= 255
+
+    @pytest.mark.parametrize("legacy", [False, True])
+    def test_a_checkpoint_with_dates_and_losses_is_read(self, torch, tmp_path, legacy):
+        path = save(torch, tmp_path / "SuperSloMo.ckpt", legacy=legacy)
+        networks = read_checkpoint(path)
+        for seed, net in enumerate((FLOW_NET, REFINE_NET)):
+            for name, array in random_tensors(net, seed).items():
+                assert np.array_equal(networks[net.key][name].numpy(), array)
+
+    @pytest.mark.parametrize(
+        ("change", "complaint"),
+        [
+            ({"state_dictAT": None}, "holds no state_dictAT"),
+            ({"state_dictFC": {}}, "state_dictFC lacks conv1.bias"),
+            (
+                {"state_dictAT": "swapped"},
+                r"state_dictAT has shape \[2, 6, 7, 7\] for conv1\.weight",
+            ),
+        ],
+    )
+    def test_a_wrong_checkpoint_is_refused_by_name(self, torch, tmp_path, change, complaint):
+        if "swapped" in change.values():
+            flow = random_tensors(FLOW_NET, 0)
+            change = {"state_dictAT": {name: torch.from_numpy(one) for name, one in flow.items()}}
+        path = save(torch, tmp_path / "SuperSloMo.ckpt", **change)
+        with pytest.raises(FileFormatError, match=complaint) as told:
+            read_checkpoint(path)
+        assert str(path) in str(told.value)
+
+    def test_a_truncated_checkpoint_is_refused_by_name(self, torch, tmp_path):
+        path = save(torch, tmp_path / "SuperSloMo.ckpt")
+        path.write_bytes(path.read_bytes()[:5000])
+        with pytest.raises(FileFormatError, match=r"SuperSloMo\.ckpt cannot be read"):
+            read_checkpoint(path)
+
+    def test_missing_weights_say_where_they_come_from(self, torch, stream, tmp_path):
+        build = INTERPOLATORS.load("super-slomo")
+        with pytest.raises(ConfigError, match=r"SuperSloMo\.ckpt.*--interpolator-weights PATH"):
+            build(InterpolateConfig(), stream)
+        config = InterpolateConfig(interpolator_weights=tmp_path / "no.ckpt")
+        with pytest.raises(InputError, match=r"no weights file .*no\.ckpt"):
+            build(config, stream)
