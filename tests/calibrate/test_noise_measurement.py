@@ -3,7 +3,13 @@ import dataclasses
 import numpy as np
 import pytest
 
-from texvent.calibrate.noise import average_neighbours, find_still_pixels, measure_noise
+from texvent.calibrate.noise import (
+    CALM_FRAMES,
+    average_neighbours,
+    find_calm_pixels,
+    find_still_pixels,
+    measure_noise,
+)
 from texvent.calibrate.recording import Recording, Span
 from texvent.config import InterpolateConfig
 from texvent.events import EventStream
@@ -40,6 +46,36 @@ def test_on_events_without_off_events_are_leak():
     noise = measure_noise(recording, SPAN, gamma=1.0)
     assert noise.leak_rate_hz == pytest.approx(3.0, rel=0.1)
     assert (noise.curve.rates_hz < 0.01).all()
+
+
+def test_a_textured_scene_at_rest_is_measured_pixel_by_pixel():
+    random = np.random.default_rng(1)
+    picture = random.choice([3.0, 60.0], size=(40, 60)).astype(np.float32)
+    frames = Video(np.stack([picture] * 41), [i * 50_000 for i in range(41)])
+    curve = {"noise_scale": 1.0, "noise_curve": "3:4 60:0.5", "noise_on_fraction": 0.5}
+    sensor = PhysicalSimulator(dataclasses.replace(TRUTH, **curve), seed=5)
+    events = EventStream.concat([sensor.step(frame) for frame in frames])
+    recording = Recording(frames, events, InterpolateConfig(interpolate="none"))
+    noise = measure_noise(recording, SPAN, gamma=1.0)
+    assert noise.curve.levels.tolist() == [3.5, 57.5]
+    assert noise.curve.rates_hz == pytest.approx([4, 0.5], rel=0.2)
+
+
+def test_a_short_exposure_without_events_does_not_pass_for_noise():
+    still = still_recording(leak_rate_hz=3.0)
+    # No OFF event in 4,680 pixel-seconds, a third of them in each range: half an event in one range
+    # alone would be 6e-4 per second.
+    rates_hz = measure_noise(still, SPAN, gamma=1.0).curve.rates_hz
+    assert rates_hz.max() <= 2 * 0.5 / 4_000
+
+
+def test_pixels_are_calm_if_their_neighbourhood_keeps_its_texture():
+    texture = np.random.default_rng(0).uniform(0, 200, (7, 7))
+    frames = [texture.copy() for _ in range(CALM_FRAMES)]
+    assert find_calm_pixels(frames).all()
+    assert not find_calm_pixels(frames[1:]).any()
+    frames[4][:, 6] += 12.0
+    assert find_calm_pixels(frames)[3].tolist() == [True] * 4 + [False] * 3
 
 
 def test_a_recording_without_still_pixels_says_so(recording):

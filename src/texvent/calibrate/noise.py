@@ -21,9 +21,13 @@ LEAK_FROM = 30
 """Intensity from which noise is rare enough to see the leak beside it, levels."""
 STILL_LEVELS, STILL_SHARE = 1.5, 0.02
 """A pixel is still if all of its neighbourhood, in the frame before, this one and the next, lies
-within 1.5 levels plus 2 % of its intensity, once 3×3 means have calmed the frames' own noise."""
+within 1.5 levels plus 2 % of its intensity, once 3×3 means have calmed the frames' own noise; or if
+each pixel of its neighbourhood stays that close to its own mean for a second."""
 RADIUS = 2
 """Of the neighbourhood, pixels: what moves in from farther away within a frame is seen too late."""
+CALM_US, CALM_FRAMES = 1_000_000, 10
+"""How long a textured neighbourhood must not change for its pixel to be still, µs, and in how many
+frames at least this must be seen: three frames do not tell a slow edge from none."""
 LEAST_EXPOSURE_S = 20.0
 """Pixel-seconds that a range needs to count."""
 LEAST_RANGES = 2
@@ -59,11 +63,8 @@ def measure_noise(recording: Recording, span: Span, *, gamma: float) -> Measured
     edges = np.array(EDGES)
     exposure = np.zeros(len(edges) - 1)
     counts = np.zeros((2, len(edges) - 1))
-    for frames in _triples(recording, span):
-        before, now, after = (average_neighbours(linearize(frame.luma, gamma)) for frame in frames)
-        still = find_still_pixels(now, [before, now, after])
+    for now, (start_us, stop_us), still in _still_pixels(recording, span, gamma):
         group = np.digitize(now[still], edges) - 1
-        start_us, stop_us = frames[1].t_us, frames[2].t_us
         size = len(exposure)
         exposure += (stop_us - start_us) / MICROSECONDS * np.bincount(group, minlength=size)
         events = count_events(recording.events.between(start_us, stop_us))
@@ -72,8 +73,7 @@ def measure_noise(recording: Recording, span: Span, *, gamma: float) -> Measured
     known = exposure >= LEAST_EXPOSURE_S
     if known.sum() < LEAST_RANGES:
         return None
-    # Half an event stands for none: a rate above zero that the exposure does not contradict.
-    rate_hz = 2 * np.maximum(counts[0], 0.5)[known] / exposure[known]
+    rate_hz = 2 * _rates(counts[0][known], exposure[known])
     middle = (edges[:-1] + edges[1:])[known] / 2
     surplus_hz = (counts[1] - counts[0])[known] / exposure[known]
     bright = surplus_hz[edges[:-1][known] >= LEAK_FROM]
@@ -82,11 +82,65 @@ def measure_noise(recording: Recording, span: Span, *, gamma: float) -> Measured
     return MeasuredNoise(NoiseCurve(np.minimum(middle, 255.0), rate_hz), leak_hz)
 
 
-def _triples(recording: Recording, span: Span) -> Iterator[tuple[Frame, Frame, Frame]]:
-    """Every three neighbouring frames of a span."""
-    inside = (frame for frame in recording.frames if span.start_us <= frame.t_us < span.stop_us)
-    for (first, second), (_, third) in itertools.pairwise(itertools.pairwise(inside)):
-        yield first, second, third
+def _rates(counts: Float64Array, exposure: Float64Array) -> Float64Array:
+    """Counts over exposure, above 0 also where nothing was counted.
+
+    There, half an event stands for none, and the mean rate of all ranges for what a short exposure
+    cannot tell: `0.5 / (exposure + 0.5 / mean)`.
+    """
+    mean = max(float(counts.sum()), 0.5) / float(exposure.sum())
+    return np.where(counts > 0, counts / exposure, 0.5 / (exposure + 0.5 / mean))
+
+
+def _still_pixels(
+    recording: Recording, span: Span, gamma: float
+) -> Iterator[tuple[Float64Array, tuple[int, int], BoolArray]]:
+    """Intensity, interval and still pixels of the frames of a span that have two neighbours."""
+    for window in _windows(recording, span):
+        times = [frame.t_us for frame in window]
+        seen = [linearize(frame.luma, gamma) for frame in window]
+        own = np.mean(seen, axis=0)
+        light = [average_neighbours(intensity) for intensity in seen]
+        calm = find_calm_pixels(light)
+        for i in range(1, len(window) - 1):
+            still = find_still_pixels(light[i], light[i - 1 : i + 2]) | calm
+            # Beside an edge, the mean of neighbours is not what the pixel sees.
+            yield np.where(calm, own, light[i]), (times[i], times[i + 1]), still
+
+
+def _windows(recording: Recording, span: Span) -> Iterator[list[Frame]]:
+    """The frames of a span, a second at a time; neighbouring windows share two frames."""
+    window: list[Frame] = []
+    for frame in recording.frames:
+        if not span.start_us <= frame.t_us < span.stop_us:
+            continue
+        window.append(frame)
+        if frame.t_us - window[0].t_us >= CALM_US:
+            yield window
+            window = window[-2:]
+    if len(window) > 2:
+        yield window
+
+
+def find_calm_pixels(frames: list[Float64Array]) -> BoolArray:
+    """Pixels around which time changes nothing, whatever the texture, [H, W].
+
+    A camera at rest has them, and they are many more than those of `find_still_pixels`.
+
+    Args:
+        frames: linear intensity, levels 0..255, [H, W]; none is calm in fewer than ten.
+    """
+    if len(frames) < CALM_FRAMES:
+        return np.zeros(frames[0].shape, np.bool_)
+    mean = np.mean(frames, axis=0)
+    tolerance = STILL_LEVELS + STILL_SHARE * mean
+    calm = np.ones(mean.shape, np.bool_)
+    for frame in frames:
+        calm &= np.abs(frame - mean) <= tolerance
+    padded = np.pad(calm, RADIUS, constant_values=True)
+    reach = 2 * RADIUS + 1
+    windows = np.lib.stride_tricks.sliding_window_view(padded, (reach, reach))
+    return np.asarray(windows.all(axis=(2, 3)))
 
 
 def find_still_pixels(now: Float64Array, frames: list[Float64Array]) -> BoolArray:
