@@ -210,6 +210,22 @@ def test_local_cache_needs_no_state_at_a_source_frame(frames, options, noise, se
 
 
 @CHECKED
+@given(
+    clips(),
+    st.sampled_from([one for one in SWITCHES if one["stamp"] != "random"]),
+    st.integers(-(10**15), 10**15),
+)
+def test_shifting_a_clip_in_time_shifts_its_events(frames, options, shift_us):
+    """Without noise: noise is keyed by the time itself, so that clips can be cut anywhere."""
+    moved = [Frame(frame.pixels, frame.t_us + shift_us, frame.is_source) for frame in frames]
+    events = simulate(frames, noise="none", **options)
+    shifted = simulate(moved, noise="none", **options)
+    assert np.array_equal(shifted.t, events.t + shift_us)
+    for column in "xyp":
+        assert np.array_equal(getattr(shifted, column), getattr(events, column))
+
+
+@CHECKED
 @given(clips(), switches)
 def test_no_change_gives_no_events(frames, options):
     still = [Frame(frames[0].pixels, frame.t_us, frame.is_source) for frame in frames]
