@@ -228,6 +228,39 @@ def test_excluded_things_are_not_added() -> None:
     assert parse_prompt("a street without any people or cars").absent == ("person", "car")
 
 
+@pytest.mark.parametrize(
+    ("prompt", "shown", "absent"),
+    [
+        ("no cars, only 3 bicycles", ["bicycle"], ("car",)),
+        ("no cars, people or dogs but a horse walks left", ["horse"], ("car", "person", "dog")),
+        ("no cars, no bicycles", [], ("car", "bicycle")),
+    ],
+)
+def test_a_contrast_ends_what_is_left_out(
+    prompt: str, shown: list[str], absent: tuple[str, ...]
+) -> None:
+    description = parse_prompt(prompt)
+    assert [thing.noun for thing in description.things] == shown
+    assert description.absent == absent
+    assert description.not_understood == ()
+
+
+def test_a_construction_site_is_at_work_unless_the_prompt_says_otherwise() -> None:
+    site = "a construction site with workers, an excavator and a crane"
+    assert kinds_of_motion(site) == {"worker": "walk", "excavator": "work", "crane": "work"}
+    assert kinds_of_motion(f"{site}. The excavator stands still")["excavator"] == "stand"
+
+
+def test_what_cannot_travel_leaves_a_shared_verb_to_the_others() -> None:
+    kinds = kinds_of_motion("a construction site with a crane, workers walking around")
+    assert kinds == {"crane": "work", "worker": "walk"}
+
+
+def kinds_of_motion(prompt: str) -> dict[str, str | None]:
+    things = parse_prompt(prompt).things
+    return {thing.noun: thing.motion.kind if thing.motion else None for thing in things}
+
+
 def test_the_suv_sentence_is_a_mountain_road_with_dust() -> None:
     surroundings = parse_prompt(SUV_PROMPT).surroundings
     assert surroundings.backdrops == ("mountain",)

@@ -226,6 +226,9 @@ class _Reading:
 
     def _read_unknown(self, position: int) -> None:
         """An unlisted word where a noun should be takes the subject's place."""
+        if self._phrases[position].text in lexicon.CONTRASTS:
+            self._things.negation = None
+            return
         before = self._phrases[position - 1].role if position else Role.BREAK
         if before in ADJECTIVES or before in (Role.DETERMINER, Role.RELATION, Role.BREAK):
             self._things.meet_unknown()

@@ -39,7 +39,7 @@ def complete_description(
     description = _let_chased_move(replace(description, things=things), nouns)
     things = description.things
     said = replace(description.surroundings, place=choose_place(description, nouns))
-    description = replace(description, surroundings=said)
+    description = _put_to_work(replace(description, surroundings=said))
     if description.shot.is_moving or any(_moves(thing) for thing in things):
         return _settle_rest(description)
     return _settle_rest(_set_in_motion(description, nouns))
@@ -73,6 +73,21 @@ def _add_crew(description: SceneDescription, nouns: Mapping[str, Noun]) -> Scene
     names = ", ".join(pluralise(t.noun) if t.count > 1 else t.noun for t in shown)
     note = f"the {description.surroundings.place} is shown with: {names}"
     return replace(description, things=shown, notes=(*description.notes, note))
+
+
+def _put_to_work(description: SceneDescription) -> SceneDescription:
+    """At a place that is known by what is done there, it is done, unless the prompt says what is.
+
+    A crane that turns slowly in the distance would else count as all the motion there is.
+    """
+    crew = {thing.noun: thing for thing in _CREWS.get(description.surroundings.place or "", ())}
+    things = tuple(
+        replace(thing, motion=crew[thing.noun].motion)
+        if thing.motion is None and thing.noun in crew
+        else thing
+        for thing in description.things
+    )
+    return replace(description, things=things)
 
 
 HAS_RIDER = frozenset({"bicycle", "motorcycle"})

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from texvent.generate.procedural.description import Motion, Paint, Thing
 from texvent.generate.procedural.language import lexicon
 from texvent.generate.procedural.language.tagging import Phrase, Role
+from texvent.generate.procedural.model import Noun
 
 _GREY_LEVELS = {"light": "silver", "pale": "silver", "dark": "black"}
 
@@ -33,6 +35,19 @@ class Draft:
                 motion.kind, motion.direction, motion.pace * self.pace, motion.speed_m_s
             )
         return Thing(self.noun, self.count, self.paint, self.scale, motion, self.side)
+
+
+_TRAVELS = ("walk", "run", "drive", "fly", "swim", "sail")
+
+
+def list_able(
+    subjects: Sequence[Draft], motion: Motion, nouns: Mapping[str, Noun]
+) -> Sequence[Draft]:
+    """Those of several subjects that can do it: of "a crane, workers walking", the workers."""
+    if motion.kind not in _TRAVELS:
+        return subjects
+    able = [draft for draft in subjects if nouns[draft.noun].habitat != "fixed"]
+    return able or subjects
 
 
 @dataclass

@@ -113,6 +113,9 @@ NEGATIONS = (
     "there is no",
 )
 
+CONTRASTS = frozenset({"but", "only", "just"})
+"""Words after which a negation no longer holds: "no cars, only bicycles"."""
+
 
 def decode_hex(code: str) -> Colour:
     """Linear-light RGB of an sRGB code such as "ff8000" (IEC 61966-2-1).
@@ -209,13 +212,13 @@ STOP_WORDS = frozenset(
         "does", "during", "each", "feature", "featuring", "features", "footage", "for", "from",
         "generate", "had", "has", "have", "having", "here", "how", "i", "if", "image", "in",
         "into", "is", "its", "itself", "just", "kind", "let", "like", "ll", "m", "make", "may",
-        "me", "might", "must", "my", "nice", "of", "off", "on", "one's", "onto", "or", "other",
-        "our", "out", "over", "per", "photo", "photograph", "photorealistic", "picture", "please",
-        "pretty", "quite", "re", "really", "realistic", "render", "rendered", "s", "scene",
-        "scenes", "see", "seen", "shot", "should", "show", "showing", "shown", "shows", "sight",
-        "so", "some", "sort", "such", "t", "than", "that", "the", "their", "themselves", "then",
-        "there", "these", "this", "those", "through", "to", "too", "type", "until", "upon", "us",
-        "ve", "very", "via", "video", "view", "visible", "was", "we", "were", "what", "when",
+        "me", "might", "must", "my", "nice", "of", "off", "on", "one's", "only", "onto", "or",
+        "other", "our", "out", "over", "per", "photo", "photograph", "photorealistic", "picture",
+        "please", "pretty", "quite", "re", "really", "realistic", "render", "rendered", "s",
+        "scene", "scenes", "see", "seen", "shot", "should", "show", "showing", "shown", "shows",
+        "sight", "so", "some", "sort", "such", "t", "than", "that", "the", "their", "themselves",
+        "then", "there", "these", "this", "those", "through", "to", "too", "type", "until", "upon",
+        "us", "ve", "very", "via", "video", "view", "visible", "was", "we", "were", "what", "when",
         "where", "while", "why", "will", "with", "within", "would", "you", "your",
     }
 )  # fmt: skip

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from texvent.generate.procedural.description import Motion, Paint, Relation
 from texvent.generate.procedural.language import lexicon, lexicon_scene
-from texvent.generate.procedural.language.drafts import Draft, NounGroup
+from texvent.generate.procedural.language.drafts import Draft, NounGroup, list_able
 from texvent.generate.procedural.language.lexicon_motion import SPIN_RATE_HZ, Verb
 from texvent.generate.procedural.language.linking import Links
 from texvent.generate.procedural.language.tagging import Phrase, Role
@@ -159,8 +159,10 @@ class ThingReader:
             self._relation = ("on", None)
             self._object_motion = Motion("move", motion.direction, motion.pace)
             motion = Motion("sit")
-        for index in self.subjects:
-            self._set_motion(self.drafts[index], motion)
+        for draft in list_able(
+            [self.drafts[index] for index in self.subjects], motion, self._nouns
+        ):
+            self._set_motion(draft, motion)
 
     def _act_on_mentioned(self, motion: Motion) -> bool:
         """A participle after a related thing is about that: "a boat with dolphins jumping"."""
@@ -361,11 +363,9 @@ class ThingReader:
 
     def _set_motion(self, draft: Draft, motion: Motion) -> None:
         noun = self._nouns[draft.noun]
-        kind = motion.kind
-        if kind == "move":
+        if (kind := motion.kind) == "move":
             kind = noun.motion if noun.motion != "stand" else "slide"
-        old = draft.motion
-        direction = motion.direction
+        old, direction = draft.motion, motion.direction
         if direction is None and old is not None and old.is_moving:
             direction = old.direction
         draft.motion = Motion(kind, direction, motion.pace)
@@ -378,8 +378,7 @@ class ThingReader:
             if not (is_target and self._links.extend(index, self.subjects)):
                 self._become_subject(index, is_joined)
             return
-        kind, phrase = self._relation
-        self._relation = None
+        (kind, phrase), self._relation = self._relation, None
         if phrase is not None:
             phrase.is_used = bool(self.subjects) or not self._is_lost
         if kind == "from":

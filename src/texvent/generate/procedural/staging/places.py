@@ -114,7 +114,7 @@ _SPACE = Lighting(
     (-0.75, -0.55, 0.35), (1.3, 1.25, 1.15), (0.05, 0.055, 0.07), (0.0, 0.0, 0.003),
     (0.0, 0.0, 0.003), 0.0,
 )  # fmt: skip
-_WATER_COLOUR: Colour = (0.03, 0.19, 0.30)
+_WATER_COLOUR: Colour = (0.05, 0.28, 0.42)
 _UNDERWATER_SIGHT_M = 16.0
 _FOG_SIGHT = 3.0
 """In fog, sight (to 37 %) in camera distances."""
@@ -252,7 +252,7 @@ def _choose_fog(
     place: str, weather: str | None, horizon: Colour, distance_m: float
 ) -> tuple[float, Colour]:
     if place == "underwater":
-        return max(_UNDERWATER_SIGHT_M, 2.2 * distance_m), _WATER_COLOUR
+        return max(_UNDERWATER_SIGHT_M, 3.5 * distance_m), _WATER_COLOUR
     if weather == "fog":
         grey = sum(horizon) / 3.0
         return _FOG_SIGHT * distance_m, _mix(horizon, (grey, grey, grey), 0.7)
