@@ -151,7 +151,7 @@ def make(tmp_path, clip):
 def test_retrying_takes_the_first_seed_that_passes(make):
     told = Told()
     config = GeneratedVideoConfig(on_failure="retry", retries=3)
-    video = generate_checked(make, config, seed=0, watch=told)
+    video = generate_checked(make, config, prompt="a pan", seed=0, watch=told)
     assert make.asked == [0, nth_seed(0, 1), nth_seed(0, 2)]
     assert video.metadata["seed"] == nth_seed(0, 2)
     assert video.metadata["check"]["problems"] == []
@@ -161,15 +161,21 @@ def test_retrying_takes_the_first_seed_that_passes(make):
 def test_retrying_gives_up_after_the_last_seed(make):
     config = GeneratedVideoConfig(on_failure="retry", retries=1)
     with pytest.raises(TexventError, match="all 2 videos, each of another seed, failed"):
-        generate_checked(make, config, seed=0, watch=Told())
+        generate_checked(make, config, prompt="a pan", seed=0, watch=Told())
 
 
 def test_rejecting_warning_and_ignoring(make):
     told = Told()
     with pytest.raises(TexventError, match=r"failed the check .*frozen, no motion"):
-        generate_checked(make, GeneratedVideoConfig(on_failure="reject"), seed=0, watch=told)
-    warned = generate_checked(make, GeneratedVideoConfig(on_failure="warn"), seed=0, watch=told)
+        generate_checked(
+            make, GeneratedVideoConfig(on_failure="reject"), prompt="a pan", seed=0, watch=told
+        )
+    warned = generate_checked(
+        make, GeneratedVideoConfig(on_failure="warn"), prompt="a pan", seed=0, watch=told
+    )
     assert warned.metadata["check"]["problems"] == ["frozen", "no motion"]
     assert told.lines[-1] == "warning: the generated video looks failed: frozen, no motion"
-    ignored = generate_checked(make, GeneratedVideoConfig(on_failure="ignore"), seed=0, watch=told)
+    ignored = generate_checked(
+        make, GeneratedVideoConfig(on_failure="ignore"), prompt="a pan", seed=0, watch=told
+    )
     assert "check" not in ignored.metadata

@@ -9,6 +9,7 @@ import json
 import os
 import shutil
 import sys
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -33,8 +34,10 @@ from texvent.errors import (  # noqa: E402
     TexventError,
 )
 from texvent.generate import guardrail, model_run  # noqa: E402
+from texvent.generate.agreement import measure_agreement  # noqa: E402
 from texvent.generate.cache import made_folder  # noqa: E402
 from texvent.generate.pipeline_loading import load_pipeline  # noqa: E402
+from texvent.generate.stored_video import write_video  # noqa: E402
 from texvent.pipeline import text_to_events  # noqa: E402
 from texvent.settings import resolve  # noqa: E402
 
@@ -344,3 +347,52 @@ def test_the_python_api_takes_a_folder(models):
     )
     assert events.size == (40, 30)
     assert events.metadata["generator"] == str(models("wan"))
+
+
+def test_another_decoder_for_the_same_latents_gives_other_frames(models, tmp_path):
+    own = models("wan") / "vae"
+    with tiny_pipelines.random_weights(seed=5):
+        tiny_pipelines.wan_vae().save_pretrained(tmp_path / "tiny")
+    usual = pixels(build(models("wan")).generate(PROMPT))
+    assert np.array_equal(pixels(build(models("wan"), decoder=own).generate(PROMPT)), usual)
+    other = build(models("wan"), decoder=tmp_path / "tiny").generate(PROMPT)
+    assert not np.array_equal(pixels(other), usual)
+    with pytest.raises(InputError, match="there is no decoder"):
+        build(models("wan"), decoder=tmp_path / "none").generate(PROMPT)
+    config = (tmp_path / "tiny" / "config.json").read_text().replace('"z_dim": 16', '"z_dim": 8')
+    (tmp_path / "tiny" / "config.json").write_text(config)
+    with pytest.raises(FileFormatError, match="tiny cannot be loaded as a decoder"):
+        build(models("wan"), decoder=tmp_path / "tiny").generate(PROMPT)
+
+
+def test_the_agreement_of_video_and_prompt_is_measured_and_can_refuse(models, tmp_path):
+    folder = tiny_pipelines.save_clip(tmp_path / "clip")
+    video = build(models("wan"), on_failure="warn", agreement_model=folder).generate(PROMPT)
+    score = video.metadata["check"]["agreement"]
+    assert -1 < score < 1
+    assert score != measure_agreement(video, "a house by the sea", folder)
+    strict = {"agreement_model": folder, "min_agreement": 0.99, "on_failure": "reject"}
+    with pytest.raises(TexventError, match=r"agreement -?0\.\d+"):
+        build(models("wan"), **strict).generate(PROMPT)
+    with pytest.raises(InputError, match="no CLIP model"):
+        measure_agreement(video, PROMPT, tmp_path / "none")
+    with pytest.raises(ConfigError, match="no agreement_model"):
+        build(models("wan"), min_agreement=0.2)
+
+
+def test_agreement_equals_the_library_on_a_frame_of_the_models_own_size(tmp_path):
+    """Against transformers' own preprocessing, where nothing has to be resized."""
+    folder = tiny_pipelines.save_clip(tmp_path / "clip")
+    model = tiny_pipelines.transformers.CLIPModel.from_pretrained(folder).eval()
+    words = tiny_pipelines.transformers.AutoTokenizer.from_pretrained(folder)(
+        [PROMPT], return_tensors="pt"
+    )
+    frames = np.random.default_rng(0).random((2, 32, 32, 3), dtype=np.float32)
+    video = write_video(frames, tmp_path / "v.avi", Fraction(8), {}, overwrite=False)
+    mean, std = (0.48145466, 0.4578275, 0.40821073), (0.26862954, 0.26130258, 0.27577711)
+    normalised = ((frames - mean) / std).transpose(0, 3, 1, 2).astype(np.float32)
+    with torch.no_grad():
+        expected = model(**words, pixel_values=torch.from_numpy(normalised)).logits_per_text
+    scale = model.logit_scale.exp().item()
+    measured = measure_agreement(video, PROMPT, folder)
+    assert measured == pytest.approx(expected.mean().item() / scale, abs=1e-4)

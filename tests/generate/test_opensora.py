@@ -196,6 +196,7 @@ def test_stopping_ends_the_program_and_its_children(tmp_path):
     def interrupt():
         while not marker.exists() or not marker.read_text().strip():
             time.sleep(0.01)
+        time.sleep(0.3)  # the child runs; now its parent waits for it
         signal.pthread_kill(main_thread, signal.SIGINT)
 
     threading.Thread(target=interrupt).start()

@@ -234,3 +234,30 @@ def save(name: str, folder: Path) -> Path:
         pipe = BUILDERS[name](folder)
     pipe.save_pretrained(path, safe_serialization=True)
     return path
+
+
+def save_clip(folder: Path) -> Path:
+    """Save a tiny random CLIP model with its tokenizer and return the folder."""
+    tokenizer = t5(folder)["tokenizer"]
+    small = {
+        "hidden_size": 16,
+        "intermediate_size": 16,
+        "num_hidden_layers": 2,
+        "num_attention_heads": 2,
+    }
+    config = transformers.CLIPConfig(
+        text_config={
+            **small,
+            "vocab_size": len(tokenizer),
+            "max_position_embeddings": 40,
+            "eos_token_id": tokenizer.eos_token_id,
+            "bos_token_id": None,
+            "pad_token_id": tokenizer.pad_token_id,
+        },
+        vision_config={**small, "image_size": 32, "patch_size": 8},
+        projection_dim=16,
+    )
+    with random_weights():
+        transformers.CLIPModel(config).save_pretrained(folder)
+    tokenizer.save_pretrained(folder)
+    return folder

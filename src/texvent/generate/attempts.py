@@ -16,6 +16,7 @@ def generate_checked(
     make: Callable[[int], StoredVideo],
     config: GeneratedVideoConfig,
     *,
+    prompt: str,
     seed: int,
     watch: Watch,
 ) -> StoredVideo:
@@ -24,6 +25,7 @@ def generate_checked(
     Args:
         make: seed → video.
         config: what to do about a failed video, and how often to try again.
+        prompt: what the video should show.
         seed: the first seed; the others follow from it.
         watch: told what is wrong.
 
@@ -39,13 +41,29 @@ def generate_checked(
     for attempt in range(tries):
         attempt_seed = nth_seed(seed, attempt)
         video = make(attempt_seed)
-        report = check_clip(video)
+        report = _judge(video, prompt, config)
         if report.is_fine or config.on_failure == "warn":
             if not report.is_fine:
                 watch.announce(f"warning: the generated video looks failed: {report.summary}")
             return video.with_metadata(check=report.as_facts())
         watch.announce(f"seed {attempt_seed} is refused: {report.summary}")
     raise TexventError(_refusal(report, tries))
+
+
+def _judge(video: StoredVideo, prompt: str, config: GeneratedVideoConfig) -> ClipReport:
+    """What is wrong with the video itself, and whether it shows the prompt."""
+    report = check_clip(video)
+    if config.agreement_model is None:
+        return report
+    # Imported here: it needs torch, which the checks of the video itself do not.
+    from texvent.generate.agreement import measure_agreement
+
+    score = measure_agreement(video, prompt, config.agreement_model)
+    low = config.min_agreement is not None and score < config.min_agreement
+    return ClipReport(
+        problems=(*report.problems, *((f"agreement {score:.3f}",) if low else ())),
+        measures={**report.measures, "agreement": score},
+    )
 
 
 def nth_seed(seed: int, attempt: int) -> int:

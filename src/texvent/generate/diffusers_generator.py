@@ -75,6 +75,7 @@ class DiffusersGenerator:
         return generate_checked(
             lambda seed: self._find_or_make(prompt, seed, told),
             self.config,
+            prompt=prompt,
             seed=self.seed,
             watch=told,
         )
@@ -114,6 +115,9 @@ class DiffusersGenerator:
         image = self.config.image
         if image is not None and not image.is_file():
             raise InputError(f"there is no picture {image}")
+        decoder = self.config.decoder
+        if decoder is not None and not (decoder / "config.json").is_file():
+            raise InputError(f"there is no decoder in {decoder} (no config.json)")
         self.fps  # noqa: B018  (an unknown rate is refused before anything is loaded)
 
     def _loaded(self, watch: Watch) -> ModelRun:
@@ -153,6 +157,8 @@ class DiffusersGenerator:
         facts: dict[str, Any] = {name: getattr(config, name) for name in PIXEL_OPTIONS}
         if not model.ignores_fps:
             facts["fps"] = self.fps
+        if config.decoder is not None:
+            facts["decoder"] = fingerprint(config.decoder)
         if config.image is not None:
             facts["image"] = hashlib.sha256(config.image.read_bytes()).hexdigest()
         if model.folder is None:

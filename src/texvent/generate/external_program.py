@@ -27,6 +27,7 @@ def run_program(command: Sequence[str], *, cwd: Path | None, log: Path) -> None:
     Raises:
         TexventError: it cannot be started, or ends with an error; its last lines are quoted.
     """
+    process: subprocess.Popen[bytes] | None = None
     with log.open("wb") as output:
         try:
             process = subprocess.Popen(
@@ -38,12 +39,12 @@ def run_program(command: Sequence[str], *, cwd: Path | None, log: Path) -> None:
                 # A group of its own, so that a terminal's Ctrl-C reaches it only through us.
                 start_new_session=True,
             )
+            code = process.wait()
         except OSError as error:
             raise TexventError(f"{command[0]} cannot be started: {error.strerror}") from error
-        try:
-            code = process.wait()
         except BaseException:
-            _end(process)
+            if process is not None:
+                _end(process)
             raise
     if code != 0:
         raise TexventError(

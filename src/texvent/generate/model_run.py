@@ -20,7 +20,7 @@ from texvent.generate.placement import Placement, place
 from texvent.generate.prompt_embeddings import EMBEDDING_PIPELINES, embed_prompt, find_embeddings
 from texvent.generate.protocol import Watch
 from texvent.generate.video_config import DiffusersConfig
-from texvent.generate.weight_files import read_pipeline_index
+from texvent.generate.weight_files import fingerprint, read_pipeline_index
 from texvent.video import PixelArray
 
 PACKAGES = ("diffusers", "transformers", "torch")
@@ -112,12 +112,19 @@ class ModelRun:
         device, free = resolve_device(self._config.generator_device)
         return place(self._model, self._config, device, free)
 
+    @functools.cached_property
+    def _content(self) -> str:
+        folders = (self._files.folder, self._config.decoder)
+        return " ".join(fingerprint(folder) for folder in folders if folder is not None)
+
     def _request(self, *, has_text_encoder: bool) -> LoadRequest:
         return LoadRequest(
             folder=self._files.folder,
+            content=self._content,
             class_name=self._class_name,
             placement=self._placement,
             quantize=self._config.quantize,
+            decoder=self._config.decoder,
             decoder_in_float32=self._model.needs_float32_vae,
             has_text_encoder=has_text_encoder,
         )
@@ -148,7 +155,7 @@ class ModelRun:
     def _embedding_key(self, prompt: str) -> str:
         return content_key(
             {
-                "folder": str(self._files.folder),
+                "content": self._content,
                 "prompt": prompt,
                 "negative": self._config.negative_prompt,
                 "guidance": self._config.guidance,

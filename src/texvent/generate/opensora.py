@@ -142,6 +142,7 @@ class OpenSoraGenerator:
         return generate_checked(
             lambda seed: self._find_or_make(prompt, seed, told),
             self.config,
+            prompt=prompt,
             seed=self.seed,
             watch=told,
         )

@@ -29,10 +29,14 @@ class LoadRequest:
     """What decides a loaded pipeline; equal requests share one."""
 
     folder: Path
+    content: str
+    """Digest of the files, so that changed ones are loaded again."""
     class_name: str | None
     """diffusers class, or None for the one the folder names."""
     placement: Placement
     quantize: str
+    decoder: Path | None
+    """Folder of another decoder than the model's."""
     decoder_in_float32: bool
     has_text_encoder: bool = True
     """False leaves the text encoder out: prompts come as embeddings."""
@@ -88,6 +92,8 @@ def load_pipeline(request: LoadRequest) -> Pipeline:
         parts[PART] = load_guardrail()
     if not request.has_text_encoder:
         parts.update(dict.fromkeys(TEXT_PARTS))
+    if request.decoder is not None:
+        parts[DECODER] = _load_decoder(request, request.decoder)
     if request.quantize != "none":
         parts["quantization_config"] = _quantization(request)
     with _without_bars():
@@ -101,6 +107,19 @@ def load_pipeline(request: LoadRequest) -> Pipeline:
             part.eval()
     pipe.set_progress_bar_config(disable=True)
     return pipe
+
+
+def _load_decoder(request: LoadRequest, folder: Path) -> Any:
+    """A decoder of any class that diffusers knows."""
+    torch = require("torch", extra=EXTRA)
+    name = "float32" if request.decoder_in_float32 else request.placement.dtype
+    try:
+        return require("diffusers", extra=EXTRA).AutoModel.from_pretrained(
+            str(folder), dtype=getattr(torch, name), local_files_only=True, use_safetensors=True
+        )
+    except (OSError, ValueError, RuntimeError) as error:
+        reason = " ".join(str(error).split())[:300]
+        raise FileFormatError(f"{folder} cannot be loaded as a decoder: {reason}") from error
 
 
 def _from_pretrained(pipeline_class: Any, request: LoadRequest, parts: dict[str, Any]) -> Pipeline:

@@ -29,8 +29,17 @@ class GeneratedVideoConfig:
     retries: int = 3
     """How many other seeds to try with --on-failure retry."""
 
+    agreement_model: Path | None = None
+    """Folder of a CLIP model saved by transformers: scores how well the video shows the prompt."""
+    min_agreement: float | None = None
+    """Agreement (cosine, about 0.15 to 0.35) below which a video counts as failed."""
+
     def __post_init__(self) -> None:
         check_range("retries", self.retries, 0, 100)
+        if self.min_agreement is not None:
+            check_range("min_agreement", self.min_agreement, -1.0, 1.0)
+            if self.agreement_model is None:
+                raise ConfigError("min_agreement is set, but no agreement_model to measure it with")
         if self.fps is not None and not 0 < self.fps <= 1_000_000:
             raise ConfigError(f"fps is {self.fps}; it must be above 0 and at most 1000000")
 
@@ -62,6 +71,8 @@ class DiffusersConfig(GeneratedVideoConfig):
     quantize: Literal["none", "8bit", "4bit"] = "none"
     """Store the weights of the video transformer in fewer bits (needs bitsandbytes and a GPU);
     it changes the video a little."""
+    decoder: Path | None = None
+    """Folder of another decoder (VAE) for the same latents, such as a tiny one: faster, coarser."""
     generator_device: str = "auto"
     """Where to generate: auto, cpu, cuda, cuda:1, mps."""
 
