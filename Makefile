@@ -3,6 +3,7 @@
 VENV := .venv
 TORCH_VENV := .venv-torch
 APP_VENV := .venv-app
+FORMATS_VENV := .venv-formats
 PROMPT ?= a red car drives left past two trees at dusk
 DEMO_OUT ?= demo-output/demo.h5
 # The first interpreter that is new enough; PYTHON=... overrides the search.
@@ -11,13 +12,14 @@ PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; 
 PIP_OPTIONS := --quiet --disable-pip-version-check -c constraints.txt
 PIP := $(VENV)/bin/python -m pip install $(PIP_OPTIONS)
 
-.PHONY: help demo test test-torch test-app lint format clean
+.PHONY: help demo test test-torch test-app test-formats lint format clean
 
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
 	@echo "make test    the default test suite"
 	@echo "make test-torch   the tests that need torch, in $(TORCH_VENV)"
 	@echo "make test-app     the tests of the web page and of rerun files, in $(APP_VENV)"
+	@echo "make test-formats the tests of Parquet and blosc, in $(FORMATS_VENV)"
 	@echo "make lint    ruff, mypy, import rules"
 	@echo "make format  let ruff rewrite the layout"
 	@echo "make clean   remove .venv, caches and demo output"
@@ -36,6 +38,9 @@ test-torch: $(TORCH_VENV)/.torch
 test-app: $(APP_VENV)/.app
 	$(APP_VENV)/bin/python -m pytest -q -m app tests
 
+test-formats: $(FORMATS_VENV)/.formats
+	$(FORMATS_VENV)/bin/python -m pytest -q -k "parquet or blosc" tests/io
+
 lint: $(VENV)/.dev
 	$(VENV)/bin/ruff check .
 	$(VENV)/bin/ruff format --check .
@@ -47,10 +52,10 @@ format: $(VENV)/.dev
 	$(VENV)/bin/ruff format .
 
 clean:
-	rm -rf $(VENV) $(TORCH_VENV) $(APP_VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
+	rm -rf $(VENV) $(TORCH_VENV) $(APP_VENV) $(FORMATS_VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
 
 # One rule makes every environment.
-$(VENV)/bin/python $(TORCH_VENV)/bin/python $(APP_VENV)/bin/python:
+$(VENV)/bin/python $(TORCH_VENV)/bin/python $(APP_VENV)/bin/python $(FORMATS_VENV)/bin/python:
 	@test -n "$(PYTHON)" || { echo "error: texvent needs Python 3.11 or newer; none was found. Install one, or name it: make PYTHON=/path/to/python3"; exit 2; }
 	$(PYTHON) -m venv $(patsubst %/bin/python,%,$@)
 
@@ -75,4 +80,9 @@ $(TORCH_VENV)/.torch: $(TORCH_VENV)/bin/python pyproject.toml constraints.txt
 $(APP_VENV)/.app: $(APP_VENV)/bin/python pyproject.toml constraints.txt
 	@echo "installing texvent, gradio and rerun into $(APP_VENV) (once; about 1 GB)"
 	$(APP_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,app,rerun]'
+	@touch $@
+
+$(FORMATS_VENV)/.formats: $(FORMATS_VENV)/bin/python pyproject.toml constraints.txt
+	@echo "installing texvent, pyarrow and hdf5plugin into $(FORMATS_VENV) (once; these two take 360 MB)"
+	$(FORMATS_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,parquet,blosc]'
 	@touch $@

@@ -31,6 +31,8 @@ from texvent.io.files import open_events, save
 from texvent.sensor import SensorSize
 
 HD = SensorSize(1280, 720)
+DAVIS = SensorSize(346, 260)
+DVS = SensorSize(128, 128)
 SPAN_US = 1_000_000
 
 
@@ -66,8 +68,53 @@ CASES = (
     Case("hdf5", ".h5"),
     Case("npz", ".npz"),
     Case("ecd", ".txt", share=0.1),
+    Case("aedat2", ".aedat", DAVIS),
+    Case("cifar10-dvs", ".aedat", DVS),
+    Case("aedat3", ".aedat"),
+    Case("aedat4", ".aedat4"),
+    Case("aedat4-none", ".aedat4"),
+    Case("aedat4-zstd", ".aedat4"),
+    Case("es", ".es"),
+    Case("atis", ".bin", DVS),
+    Case("dsec", ".h5"),
+    Case("v2e", ".h5"),
+    Case("n-imagenet", ".npz"),
+    Case("esim", ""),
+    Case("evreal", ""),
+    Case("rosbag1", ".bag"),
+    Case("mcap", ".mcap"),
+    Case("csv", ".csv", share=0.1),
+    Case("e2vid", ".zip", share=0.1),
 )
+
+
+def read_with_aedat(aedat: Any, path: str) -> list[Any]:
+    """Packets of an AEDAT4 file."""
+    return list(aedat.Decoder(path))
+
+
+def read_with_dv(dv: Any, path: str) -> list[Any]:
+    """Batches of an AEDAT4 file."""
+    recording = dv.io.MonoCameraRecording(path)
+    batches = []
+    while (batch := recording.getNextEventBatch()) is not None:
+        batches.append(batch)
+    return batches
+
+
+def write_with_dv(dv: Any, batches: Any, path: str) -> None:
+    """An AEDAT4 file of batches."""
+    config = dv.io.MonoCameraWriter.EventOnlyConfig("benchmark", tuple(HD))
+    writer = dv.io.MonoCameraWriter(path, config)
+    for batch in batches:
+        writer.writeEvents(batch)
+
+
 PEERS = (
+    Peer("aedat", "aedat4", read_with_aedat),
+    Peer("aedat", "aedat4-none", read_with_aedat),
+    Peer("dv_processing", "aedat4", read_with_dv, write_with_dv),
+    Peer("dv_processing", "aedat4-none", read_with_dv),
     Peer("eventcv", "evt2", lambda eventcv, path: eventcv.load(path), lambda _, e, p: e.save(p)),
     Peer("eventcv", "evt3", lambda eventcv, path: eventcv.load(path)),
     Peer("eventcv", "dat", lambda eventcv, path: eventcv.load(path), lambda _, e, p: e.save(p)),
@@ -104,7 +151,7 @@ def measure(action: Callable[[], object], count: int, repeats: int) -> dict[str,
 def measure_case(case: Case, count: int, repeats: int, folder: Path) -> Iterator[dict[str, Any]]:
     """A row for texvent, and one for each installed peer."""
     events = make_events(int(count * case.share), case.size)
-    path = folder / f"events{case.extension}"
+    path = folder / f"{case.format}{case.extension}"
 
     def write() -> None:
         save(path, events, format=case.format, overwrite=True)
@@ -115,11 +162,17 @@ def measure_case(case: Case, count: int, repeats: int, folder: Path) -> Iterator
     row = {"format": case.format, "program": "texvent", "events": len(events)}
     row["write"] = measure(write, len(events), repeats)
     row["read"] = measure(read, len(events), repeats)
-    row["bytes_per_event"] = round(path.stat().st_size / len(events), 2)
+    row["bytes_per_event"] = round(bytes_of(path) / len(events), 2)
     yield row
     for peer in PEERS:
         if peer.format == case.format and importlib.util.find_spec(peer.package):
             yield measure_peer(peer, path, len(events), repeats)
+
+
+def bytes_of(path: Path) -> int:
+    """Length of a file, or of all files in a folder."""
+    files = path.iterdir() if path.is_dir() else [path]
+    return sum(file.stat().st_size for file in files)
 
 
 def measure_peer(peer: Peer, path: Path, count: int, repeats: int) -> dict[str, Any]:
@@ -141,7 +194,7 @@ def _line(row: dict[str, Any]) -> str:
         return f"{row[side]['median']:8.1f} ({row[side]['iqr']:5.1f})" if side in row else " " * 16
 
     size = f"{row['bytes_per_event']:6.2f}" if "bytes_per_event" in row else ""
-    return f"{row['format']:15} {row['program']:8} {rate('write')} {rate('read')} {size:>6}"
+    return f"{row['format']:15} {row['program']:13} {rate('write')} {rate('read')} {size:>6}"
 
 
 def main() -> None:
@@ -154,7 +207,7 @@ def main() -> None:
     options = parser.parse_args()
     rows = []
     print("M events per CPU-second: median (interquartile range)")
-    print("format          program  write            read             B/event")
+    print("format          program       write            read             B/event")
     with tempfile.TemporaryDirectory() as folder:
         for case in CASES:
             if options.only and case.format not in options.only:
