@@ -1,6 +1,7 @@
 """The command line as a user meets it: results, summaries, and one line for every mistake."""
 
 import json
+import os
 import resource
 import signal
 import subprocess
@@ -182,6 +183,26 @@ def test_unknown_commands_flags_presets_and_parts_are_named(folder, capsys):
         capsys, "simulate", CLIP, "--contrast-threshold", "-1"
     )
     assert not list(folder.iterdir())
+
+
+def test_a_prompt_without_quotes_is_told_to_take_them(folder, capsys):
+    assert "put all of it in quotes" in fails(capsys, "generate", "a", "ball")
+    assert "did you mean --help" not in fails(capsys, "generate", "a ball", "--nosuch", "1")
+
+
+def test_a_value_that_begins_with_a_hyphen_is_read(folder, capsys):
+    assert "unknown sensor '-3x5'" in fails(capsys, "simulate", CLIP, "--sensor", "-3x5")
+    assert "Missing value" in fails(capsys, "simulate", CLIP, "--sensor", "--quiet")
+    assert "did you mean 'davis346'" in fails(capsys, "simulate", CLIP, "--sensor=davis34")
+    assert not list(folder.iterdir())
+
+
+def test_help_is_readable_where_the_terminal_knows_ascii_only(folder):
+    plain = {**os.environ, "LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0"}
+    words = [sys.executable, "-m", "texvent.cli.app", "generate", "--help"]
+    done = subprocess.run(words, env=plain, capture_output=True, check=False)
+    assert done.returncode == 0, done.stderr.decode()
+    assert b"--contrast-threshold" in done.stdout.replace(b"\n", b"")
 
 
 def test_a_missing_file_and_a_missing_argument_are_named(folder, capsys):

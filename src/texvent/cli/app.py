@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import io
 import os
 import sys
 from collections.abc import Sequence
@@ -43,6 +44,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         Exit code: 0, or the `exit_code` of the error (2 for bad input), or 130 after Ctrl-C.
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
+    _allow_any_text()
     try:
         return _dispatch(words)
     except TexventError as error:
@@ -59,6 +61,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
         where = f" ({error.filename})" if error.filename else ""
         _say(f"error: the system refused{where}: {error.strerror or error}")
         return OutputError.exit_code
+
+
+def _allow_any_text() -> None:
+    """Let output that the terminal's encoding cannot show lose a character, not the run.
+
+    Help has frames and Greek letters, which a plain C locale has not; a path may hold bytes that
+    are not UTF-8, and those are written as they are.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            is_utf8 = stream.encoding.lower().replace("-", "") == "utf8"
+            stream.reconfigure(errors="surrogateescape" if is_utf8 else "replace")
 
 
 def _dispatch(words: list[str]) -> int:

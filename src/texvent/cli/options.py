@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import argparse
 import contextlib
 import dataclasses
 import io
+import itertools
 import re
 import types
 import typing
@@ -74,14 +74,18 @@ def parse_options(
 
 def peek_options(arguments: Sequence[str], names: Sequence[str]) -> dict[str, str | None]:
     """The values of a few flags that decide which other flags there are, without checking."""
-    parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False, exit_on_error=False)
-    for name in names:
-        parser.add_argument(f"--{name.replace('_', '-')}", nargs="?", dest=name)
-    try:
-        known, _ = parser.parse_known_args(list(arguments))
-    except argparse.ArgumentError as error:
-        raise ConfigError(str(error)) from error
-    return vars(known)
+    flags = {f"--{name.replace('_', '-')}": name for name in names}
+    values: dict[str, str | None] = dict.fromkeys(names)
+    for word, following in itertools.zip_longest(arguments, arguments[1:]):
+        flag, has_value, value = word.partition("=")
+        if flag not in flags:
+            continue
+        if has_value:
+            values[flags[flag]] = value
+        elif following is not None and not following.startswith("--"):
+            # A value may begin with a hyphen ("-3x5"); the parser would take it, so it counts.
+            values[flags[flag]] = following
+    return values
 
 
 def _group(config: Any) -> Any:
@@ -175,5 +179,10 @@ def _first_message(complaint: str) -> str:
     if "╭" not in complaint:
         filled = filled[1:]
     message = filled[0] if filled else "the options cannot be understood"
+    if "nrecog" not in message:
+        return message
+    if not re.search(r": -", message):
+        return f"{message}; if they belong to a text or a name, put all of it in quotes"
     close = re.search(r"--[\w-]+", filled[1]) if len(filled) > 1 else None
-    return f"{message}; did you mean {close[0]}?" if close and "nrecog" in message else message
+    is_helpful = close is not None and close[0] != "--help"
+    return f"{message}; did you mean {close[0]}?" if close and is_helpful else message
