@@ -99,7 +99,7 @@ def run(arguments: Sequence[str]) -> int:
         seconds=options.seconds,
         report=lambda line: console.print(line, markup=False, soft_wrap=True),
     )
-    source = f"{options.frames} and {options.events}"
+    source = " and ".join(dict.fromkeys((options.frames, str(options.events))))
     for line in describe_fit(fit, source):
         console.print(line, markup=False, soft_wrap=True)
     written = write_preset(
