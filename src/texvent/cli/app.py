@@ -14,9 +14,11 @@ from texvent.errors import ConfigError, OutputError, TexventError
 
 COMMANDS = {
     "generate": "Events, film, picture and page from a text prompt.",
+    "batch": "Events for every prompt of a file.",
     "simulate": "Events from a video, an image folder or a camera.",
     "render": "A film, GIF or picture of an event file.",
     "view": "Open an event file in the browser: cloud, playback, region, rate, video.",
+    "app": "The web page: type a prompt or drop a video, see and download the events.",
     "info": "What an event file or video holds, and how it was made.",
     "convert": "Another event format, a region, a time range, several files in one.",
     "validate": "Can this event file be trusted? A verdict and an exit code.",
@@ -29,6 +31,9 @@ COMMANDS = {
     "doctor": "What is installed, what is missing, how to get it.",
 }
 """Command → what it does; each is `texvent.cli.<command>` with a function `run(arguments)`."""
+
+MODULES = {"app": "web"}
+"""Commands whose module has another name; `app` is this one."""
 
 INTERRUPTED = 130
 """Exit code after Ctrl-C: 128 + SIGINT, as shells expect."""
@@ -84,7 +89,7 @@ def _dispatch(words: list[str]) -> int:
         return 0
     if words[0] not in COMMANDS:
         raise ConfigError(f"unknown command {words[0]!r}; {suggest(words[0], tuple(COMMANDS))}")
-    command = importlib.import_module(f"texvent.cli.{words[0]}")
+    command = importlib.import_module(f"texvent.cli.{MODULES.get(words[0], words[0])}")
     code: int = command.run(words[1:])
     return code
 

@@ -22,7 +22,12 @@ class OneThreshold:
 
 
 def resolve_command(
-    command: Command, arguments: Sequence[str], subject: Any, *, description: str
+    command: Command,
+    arguments: Sequence[str],
+    subject: Any,
+    *,
+    description: str,
+    prog: str | None = None,
 ) -> tuple[Settings, Any, OutputOptions]:
     """Settings, the command's own options and the output options from a command line.
 
@@ -34,6 +39,7 @@ def resolve_command(
         arguments: words after the command.
         subject: the command's own config, such as its prompt.
         description: first lines of its help.
+        prog: how it is called, where that is not "texvent" and the command.
 
     Raises:
         ConfigError: an unknown flag or name, or a value that does not fit.
@@ -46,7 +52,9 @@ def resolve_command(
     groups = {"input": subject, "output": OutputOptions(), **defaults.groups()}
     if "contrast_threshold" not in option_names(type(defaults.simulate)):
         groups["threshold"] = OneThreshold()
-    values = parse_options(arguments, groups, prog=f"texvent {command}", description=description)
+    values = parse_options(
+        arguments, groups, prog=prog or f"texvent {command}", description=description
+    )
     own, output = _take(subject, values), _take(OutputOptions(), values)
     shown = {
         name: getattr(group, name)
