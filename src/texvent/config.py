@@ -124,6 +124,15 @@ class InterpolateConfig:
     """Contrast threshold in Eq. 4; without it, the simulator's own."""
     count_balance: float | None = None
     """Balance α in Eq. 4; without it, the simulator's own."""
+    motion_floor: bool = False
+    """Put at least as many intermediate frames into a pair as its fastest part moves in pixels
+    (DIS optical flow), so that thin and faint things do not jump over pixels."""
+    max_frames_per_second: float | None = None
+    """Upper limit of frames per second after interpolation: a budget, whatever else asks for
+    more. Source frames always stay."""
+    flicker_guard: bool = False
+    """Divide fast changes of the whole picture's brightness out of the frames, before they are
+    counted and simulated: generated video flickers. Fades stay, a little later."""
     detect_cuts: bool = True
     """Detect scene cuts and flashes and let them happen at one instant instead of smearing them
     over the frame interval."""
@@ -144,6 +153,13 @@ class InterpolateConfig:
     at each of them, as the paper does: slower, and differences between the estimates flicker."""
 
     def __post_init__(self) -> None:
+        if self.max_frames_per_second is not None:
+            check_range("max_frames_per_second", self.max_frames_per_second, 1e-3, 1e6)
+        if self.flicker_guard and self.interpolate == "exact":
+            raise ConfigError(
+                "flicker_guard corrects the frames of a video, and exact frames are rendered; "
+                "leave it out, or choose another interpolate"
+            )
         check_range("interpolator_tile", self.interpolator_tile, 0, 100_000)
         check_range("fixed_count", self.fixed_count, 0, 10_000)
         check_range("max_intermediate", self.max_intermediate, 0, 10_000)

@@ -6,15 +6,13 @@ from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
 from texvent.config import InterpolateConfig
-from texvent.interpolate.count import (
-    count_for_flicker,
-    count_intermediate,
-    intermediate_times_us,
-)
+from texvent.interpolate.count import intermediate_times_us
 from texvent.interpolate.cuts import Jump, detect_jump
+from texvent.interpolate.gain_jumps import steady_frames
+from texvent.interpolate.policy import CountPolicy
 from texvent.interpolate.position import float_luma
 from texvent.interpolate.protocol import Interpolator
-from texvent.video import FlickeringStream, Frame, FrameStream, StreamChecker
+from texvent.video import Frame, FrameStream, StreamChecker
 
 JUMP_DURATION_US = 1_000
 """A cut or flash takes at most this long, µs; the old picture is held until then."""
@@ -42,14 +40,15 @@ def densify(
     Args:
         stream: source frames.
         interpolator: what makes the intermediate frames.
-        config: how many there are, and whether cuts are looked for.
+        config: how many there are, and whether cuts and flicker are looked for.
         balance: the simulator's α, for Eq. 4 unless `config.count_balance` is set.
         contrast_threshold: the simulator's δ, for Eq. 4 unless `config.count_threshold` is set.
         on_cut: called at every cut and flash.
 
     Yields:
-        Source frames as they came (`is_source` True, pixels untouched), and between them the
-        intermediate frames (`is_source` False, [H, W] float32 luma); times strictly increase.
+        Source frames as they came (`is_source` True, pixels untouched unless the flicker guard
+        is on), and between them the intermediate frames (`is_source` False, [H, W] float32 luma);
+        times strictly increase.
 
     Raises:
         InputError: a source frame has another size than the first, a time that does not
@@ -60,11 +59,17 @@ def densify(
         change happens within the last millisecond. Light that is known to beat between the
         frames gets enough intermediate frames to be seen, where they can be rendered.
     """
-    flicker_hz = _flicker_hz(stream, config)
     checker = StreamChecker()
+    policy = CountPolicy(
+        config,
+        stream,
+        interpolator,
+        balance=balance,
+        contrast_threshold=contrast_threshold,
+    )
     previous: Frame | None = None
-    for frame in stream:
-        checker.check(frame)
+    frames = map(checker.check, stream)
+    for frame in steady_frames(frames) if config.flicker_guard else frames:
         if previous is not None:
             jump = _jump(previous, frame, config)
             if jump is not Jump.NONE:
@@ -72,12 +77,7 @@ def densify(
                     on_cut(jump, frame.t_us)
                 yield from hold(previous, frame)
             else:
-                count = max(
-                    _count(previous, frame, config, balance, contrast_threshold),
-                    count_for_flicker(
-                        previous.t_us, frame.t_us, flicker_hz, cap=config.max_intermediate
-                    ),
-                )
+                count = policy.count(previous, frame)
                 times_us = intermediate_times_us(previous.t_us, frame.t_us, count)
                 if times_us:
                     yield from interpolator.between(previous, frame, times_us)
@@ -101,28 +101,3 @@ def _jump(first: Frame, second: Frame, config: InterpolateConfig) -> Jump:
     if not config.detect_cuts or config.interpolate in NEVER_SMEARS:
         return Jump.NONE
     return detect_jump(first, second)
-
-
-def _flicker_hz(stream: FrameStream, config: InterpolateConfig) -> float | None:
-    """The beat that intermediate frames must follow: only rendered ones can show it."""
-    is_seen = config.interpolate == "exact" and config.count == "brightness"
-    return stream.flicker_hz if is_seen and isinstance(stream, FlickeringStream) else None
-
-
-def _count(
-    first: Frame, second: Frame, config: InterpolateConfig, balance: float, threshold: float
-) -> int:
-    if config.interpolate == "none":
-        return 0
-    if config.count == "fixed":
-        return config.fixed_count
-    return count_intermediate(
-        first,
-        second,
-        balance=balance if config.count_balance is None else config.count_balance,
-        contrast_threshold=(
-            threshold if config.count_threshold is None else config.count_threshold
-        ),
-        percentile=config.count_percentile,
-        cap=config.max_intermediate,
-    )

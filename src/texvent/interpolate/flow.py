@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from texvent.config import InterpolateConfig
 from texvent.interpolate.kernels.cpu import warp_between
-from texvent.interpolate.optical_flow import DisFlow
+from texvent.interpolate.pair_flow import PairFlow
 from texvent.interpolate.position import check_between, float_luma, position
 from texvent.video import Frame, FrameStream
 
@@ -23,7 +23,8 @@ class FlowInterpolator:
 
     def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
         del config, stream  # every interpolator is built alike; this one needs neither
-        self._flow = DisFlow()
+        self.pair_flow = PairFlow()
+        """The flow of the last pair, for whoever counts by motion."""
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
         """Frames with every point moved along its path from `first` to `second`.
@@ -41,7 +42,7 @@ class FlowInterpolator:
         """
         check_between(first, second, times_us)
         earlier, later = float_luma(first), float_luma(second)
-        forward, backward = self._flow.both_ways(earlier, later)
+        forward, backward = self.pair_flow.both_ways(first, second)
         for t_us in times_us:
             picture = warp_between(earlier, later, forward, backward, position(first, second, t_us))
             yield Frame(picture, t_us, is_source=False)

@@ -1,0 +1,125 @@
+"""Flicker of the whole picture goes, fades and motion stay."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent._registry import INTERPOLATORS
+from texvent.config import InterpolateConfig
+from texvent.errors import ConfigError
+from texvent.interpolate.densify import densify
+from texvent.interpolate.gain_jumps import FOLLOW, global_gain, steady_frames
+from texvent.video import Frame, Video
+
+
+def clip(moving_texture, gains, *, speed=1.0, dtype=np.float32):
+    pictures = [0.6 * moving_texture(speed * i) * gain for i, gain in enumerate(gains)]
+    return [Frame(one.astype(dtype), 40_000 * i) for i, one in enumerate(pictures)]
+
+
+def levels(frames):
+    """ln of the mean level of each frame, from the first one's."""
+    means = np.log([float(frame.luma.mean()) for frame in frames])
+    return means - means[0]
+
+
+FLICKER = np.exp(0.05 * np.array([0, 1, -1, 1, 0, -1, 1, -1, 0, 1, -1, 0]))
+
+
+def test_flicker_is_divided_out(moving_texture):
+    frames = clip(moving_texture, FLICKER, speed=0.0)
+    steady = levels(list(steady_frames(iter(frames))))
+    assert np.abs(np.diff(levels(frames))).max() == pytest.approx(0.1, abs=1e-3)
+    # What is left is the followed share.
+    assert np.abs(np.diff(steady)).max() < 0.1 * FOLLOW * 1.1
+
+
+def test_flicker_is_found_under_motion(moving_texture):
+    still = levels(clip(moving_texture, np.ones(12)))
+    frames = clip(moving_texture, FLICKER)
+    steady = levels(list(steady_frames(iter(frames)))) - still
+    assert np.abs(np.diff(steady)).max() < 0.03
+
+
+def test_a_lasting_change_is_let_through_step_by_step(moving_texture):
+    frames = clip(moving_texture, [1.0] * 3 + [1.2] * 20, speed=0.0)
+    steady = levels(list(steady_frames(iter(frames))))
+    expected = np.log(1.2) * (1 - (1 - FOLLOW) ** np.arange(1, 21))
+    # float32 means, and corrections too small to be made.
+    assert steady[3:] == pytest.approx(expected, abs=3e-3)
+
+
+def test_a_fade_keeps_its_pace(moving_texture):
+    rate = 0.02
+    frames = clip(moving_texture, np.exp(-rate * np.arange(40)), speed=0.0)
+    steady = levels(list(steady_frames(iter(frames))))
+    assert np.diff(steady)[25:] == pytest.approx(-rate, abs=2e-3)
+
+
+def test_steady_frames_pass_untouched(moving_texture):
+    frames = clip(moving_texture, np.ones(6), speed=2.0, dtype=np.uint8)
+    assert all(a is b for a, b in zip(steady_frames(iter(frames)), frames, strict=True))
+
+
+def test_motion_alone_is_no_gain(moving_texture):
+    background = 0.3 * moving_texture(0)
+    pair = []
+    for left in (10, 40):
+        picture = background.copy()
+        picture[30:90, left : left + 60] = 220
+        pair.append(Frame(picture, left))
+    assert global_gain(*pair) == 0.0
+
+
+def test_black_and_saturated_pictures_have_no_gain():
+    for level in (0.0, 255.0):
+        first, second = (Frame(np.full((20, 20), level), t) for t in (0, 1))
+        assert global_gain(first, second) == 0.0
+
+
+@given(st.floats(0.7, 1.4), st.integers(1, 70), st.integers(1, 70))
+def test_a_pure_gain_is_measured_at_any_size(gain, height, width):
+    picture = np.random.default_rng(height * 71 + width).uniform(40, 160, (height, width))
+    first, second = Frame(picture, 0), Frame(picture * gain, 1)
+    assert global_gain(first, second) == pytest.approx(np.log(gain), abs=1e-5)
+
+
+def test_a_cut_starts_anew(moving_texture):
+    frames = clip(moving_texture, [1.0, 1.1, 1.0])
+    other = 255 - moving_texture(3000, 900)
+    frames += [Frame(other, 120_000), Frame(other, 160_000)]
+    steady = list(steady_frames(iter(frames)))
+    assert steady[3] is frames[3]
+    assert steady[4] is frames[4]
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float64])
+def test_every_pixel_type_and_colour_is_corrected_alike(moving_texture, dtype):
+    scale = 257 if dtype == np.uint16 else 1
+    grey = [frame.pixels * scale for frame in clip(moving_texture, [1.0, 1.1], speed=0.0)]
+    colour = [np.repeat(one[..., None], 3, axis=2) for one in grey]
+    for pictures in (grey, colour):
+        frames = [Frame(one.astype(dtype), 1000 * i) for i, one in enumerate(pictures)]
+        corrected = list(steady_frames(iter(frames)))[1]
+        assert corrected.pixels.dtype == np.float32
+        assert corrected.pixels.shape == frames[1].pixels.shape
+        assert corrected.is_source
+        assert corrected.luma.mean() == pytest.approx(frames[0].luma.mean() * 1.1**FOLLOW, rel=5e-3)
+
+
+def test_the_guard_acts_before_the_count(moving_texture):
+    frames = clip(moving_texture, [1.0, 1.3, 1.0, 1.3], speed=0.0)
+    video = Video(np.stack([frame.pixels for frame in frames]), [0, 40_000, 80_000, 120_000])
+    counts = {}
+    for guard in (False, True):
+        config = InterpolateConfig(interpolate="blend", flicker_guard=guard)
+        interpolator = INTERPOLATORS.load("blend")(config, video)
+        dense = densify(video, interpolator, config, balance=30.0, contrast_threshold=0.1)
+        counts[guard] = sum(not frame.is_source for frame in dense)
+    assert counts == {False: 6, True: 0}
+
+
+def test_exact_frames_cannot_be_guarded():
+    with pytest.raises(ConfigError, match="flicker_guard corrects the frames of a video"):
+        InterpolateConfig(interpolate="exact", flicker_guard=True)

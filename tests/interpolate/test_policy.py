@@ -1,0 +1,121 @@
+"""What raises and what lowers the number of intermediate frames."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from texvent._registry import INTERPOLATORS
+from texvent.config import InterpolateConfig
+from texvent.errors import ConfigError
+from texvent.interpolate.densify import densify
+from texvent.interpolate.pair_flow import PairFlow
+from texvent.interpolate.policy import CountPolicy
+from texvent.video import Frame, Video
+
+
+@pytest.fixture
+def policy(stream):
+    def build(interpolator=None, **options):
+        config = InterpolateConfig(**{"interpolate": "blend", **options})
+        interpolator = interpolator or INTERPOLATORS.load(config.interpolate)(config, stream)
+        return CountPolicy(config, stream, interpolator, balance=30.0, contrast_threshold=0.2)
+
+    return build
+
+
+@pytest.fixture
+def faint_pair(moving_texture, pair):
+    """A texture too faint for Eq. 4 that moves by 7 px."""
+    faint = [100 + moving_texture(dx) / 50 for dx in (0, 7)]
+    return pair(*faint, interval_us=40_000)
+
+
+@pytest.fixture
+def contrast_pair(pair):
+    """Black to white: 11 by Eq. 4."""
+    black, white = np.zeros((40, 40), np.uint8), np.full((40, 40), 255, np.uint8)
+    return pair(black, white, interval_us=40_000)
+
+
+def test_motion_raises_the_count_of_a_faint_pair(policy, faint_pair):
+    assert policy().count(*faint_pair) == 0
+    assert policy(motion_floor=True).count(*faint_pair) in (7, 8)
+    assert policy(motion_floor=True, max_intermediate=5).count(*faint_pair) == 5
+
+
+def test_motion_lowers_nothing(policy, contrast_pair):
+    assert policy(motion_floor=True).count(*contrast_pair) == 11
+
+
+def test_a_fixed_count_and_none_ignore_motion(policy, faint_pair):
+    assert policy(motion_floor=True, count="fixed", fixed_count=2).count(*faint_pair) == 2
+    assert policy(motion_floor=True, interpolate="none").count(*faint_pair) == 0
+
+
+@pytest.mark.parametrize(
+    ("rate", "expected"), [(24.9, 0), (25.0, 0), (50.0, 1), (100.0, 3), (1e6, 11)]
+)
+def test_the_budget_counts_frames_per_second(policy, contrast_pair, rate, expected):
+    assert policy(max_frames_per_second=rate).count(*contrast_pair) == expected
+
+
+def test_the_budget_bounds_fixed_counts_and_motion(policy, contrast_pair, faint_pair):
+    fixed = policy(count="fixed", fixed_count=90, max_frames_per_second=250)
+    assert fixed.count(*contrast_pair) == 9
+    assert policy(count="fixed", fixed_count=90).count(*contrast_pair) == 90
+    assert policy(motion_floor=True, max_frames_per_second=100).count(*faint_pair) == 3
+
+
+def test_the_budget_holds_over_a_whole_clip(moving_texture):
+    times_us = [0, 41_667, 83_333, 125_000]
+    video = Video(np.stack([moving_texture(9 * i) for i in range(4)]), times_us)
+    config = InterpolateConfig(interpolate="blend", max_frames_per_second=200.0)
+    frames = list(
+        densify(
+            video,
+            INTERPOLATORS.load("blend")(config, video),
+            config,
+            balance=30.0,
+            contrast_threshold=0.02,
+        )
+    )
+    assert min(later.t_us - earlier.t_us for earlier, later in pairwise(frames)) >= 5_000
+    assert [frame.t_us for frame in frames if frame.is_source] == times_us
+    assert len(frames) == 4 + 3 * 7
+
+
+@pytest.mark.parametrize("value", [0.0, -1.0, float("nan")])
+def test_a_budget_of_nothing_is_refused(value):
+    with pytest.raises(ConfigError, match="max_frames_per_second"):
+        InterpolateConfig(max_frames_per_second=value)
+
+
+def test_flow_for_the_count_and_for_the_frames_is_computed_once(moving_texture, monkeypatch):
+    video = Video(np.stack([100 + moving_texture(4 * i) / 50 for i in range(3)]), [0, 9000, 18_000])
+    config = InterpolateConfig(interpolate="flow", motion_floor=True)
+    interpolator = INTERPOLATORS.load("flow")(config, video)
+    dis = interpolator.pair_flow._dis
+    calls = []
+    compute = dis.both_ways
+    monkeypatch.setattr(dis, "both_ways", lambda *pair: calls.append(pair) or compute(*pair))
+    frames = list(densify(video, interpolator, config, balance=30.0, contrast_threshold=0.2))
+    assert len(calls) == 2
+    assert len(frames) >= 3 + 2 * 4
+
+
+def test_a_pairs_flow_is_remembered_but_not_its_frames(moving_texture):
+    flow = PairFlow()
+    first, second = Frame(moving_texture(0), 0), Frame(moving_texture(3), 1000)
+    forward, backward = flow.both_ways(first, second)
+    assert flow.both_ways(first, second)[0] is forward
+    assert np.median(forward[..., 0]) == pytest.approx(3, abs=0.2)
+    assert np.median(backward[..., 0]) == pytest.approx(-3, abs=0.2)
+    assert flow.both_ways(second, first)[0] is not forward
+
+
+def test_motion_is_that_of_the_fastest_thousandth(moving_texture):
+    still = PairFlow().motion_px(Frame(moving_texture(0), 0), Frame(moving_texture(0), 1))
+    assert still == 0
+    fast = PairFlow().motion_px(Frame(moving_texture(0), 0), Frame(moving_texture(5.2), 1))
+    assert fast in (6, 7)
