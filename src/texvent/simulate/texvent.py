@@ -14,15 +14,20 @@ from texvent.brightness import Float64Array, balanced_log
 from texvent.config import check_range
 from texvent.errors import ConfigError
 from texvent.events import NOISE, EventStream
-from texvent.simulate.cache import BrightnessCache
+from texvent.simulate.cache import BrightnessCache, CachePolicy, ResetRule
 from texvent.simulate.draws import frame_key
 from texvent.simulate.event_frame import EventFrame, generate_event_frame, list_activations
 from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.interval import SubInterval
 from texvent.simulate.kernels.interface import Kernels
 from texvent.simulate.kernels.select import check_backend, load_kernels
-from texvent.simulate.noise import draw_noise, draw_voltage_noise, low_light_background
-from texvent.simulate.timestamps import reconstruct_timestamps
+from texvent.simulate.noise import (
+    NoiseKind,
+    draw_noise,
+    draw_voltage_noise,
+    low_light_background,
+)
+from texvent.simulate.timestamps import StampRule, reconstruct_timestamps
 from texvent.video import Frame, StreamChecker
 
 
@@ -41,7 +46,7 @@ class TexventConfig:
     balance: float = 30.0
     """Balance α, in levels of 0..255: what is added to intensities before the logarithm, so that
     dark pixels do not fire more easily than bright ones."""
-    cache: Literal["local", "global", "none", "leaky"] = "local"
+    cache: CachePolicy = "local"
     """How long a pixel that has not fired remembers its reference brightness: within a pair of
     source frames (local), for the whole video (global), not at all (none), or with a loss at each
     source frame (leaky)."""
@@ -51,12 +56,12 @@ class TexventConfig:
     cache_leak: float = 0.1
     """With --cache leaky: share of the way, 0..1, by which a reference moves to the brightness of
     each source frame; 0 is global, 1 is local."""
-    reset: Literal["current", "step"] = "current"
+    reset: ResetRule = "current"
     """Where a pixel fires, its reference becomes the current brightness (current), or moves by one
     threshold per event, as in the circuit (step)."""
     multi_event: bool = False
     """Fire one event per threshold crossed, not one per frame; needs a --stamp other than eq7."""
-    noise: Literal["adaptive", "gaussian", "random", "none"] = "adaptive"
+    noise: NoiseKind = "adaptive"
     """Background activity: in dark, resting pixels (adaptive, Eq. 6); as Gaussian noise on the
     brightness (gaussian); at any pixel (random); or none."""
     noise_rate_hz: float = 0.1
@@ -67,7 +72,7 @@ class TexventConfig:
     """Pixels darker than this level of 0..255 are low-light (σ); with --noise adaptive."""
     noise_on_fraction: float = 0.5
     """Share of ON among noise events, 0..1; Gaussian noise decides polarity by itself."""
-    stamp: Literal["eq7", "random", "linear", "hyperbolic", "even", "end"] = "eq7"
+    stamp: StampRule = "eq7"
     """Time of an event between two frames: larger change earlier (eq7), random, where a straight
     line crosses the threshold (linear), where a ramp from the reference does (hyperbolic), evenly
     spaced (even), or at the end (end)."""
