@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +25,7 @@ def recording() -> EventStream:
 def test_without_rerun_the_extra_is_named_and_nothing_is_written(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setitem(__import__("sys").modules, "rerun", None)
+    monkeypatch.setitem(sys.modules, "rerun", None)
     with pytest.raises(MissingDependencyError, match=r"pip install 'texvent\[rerun\]'"):
         render_events(recording(), tmp_path / "out.rrd")
     assert not list(tmp_path.iterdir())

@@ -1,0 +1,1 @@
+"""The web page: prompts and videos in the browser, events out."""

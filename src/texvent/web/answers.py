@@ -1,0 +1,46 @@
+"""What the page shows of a job, as HTML that user text cannot break out of."""
+
+from __future__ import annotations
+
+import html
+from pathlib import Path
+
+from texvent.web.job import Answer
+
+PAGE_HEIGHT_PX = 900
+
+
+def progress_html(answer: Answer) -> str:
+    """A bar and one line."""
+    value = "" if answer.share is None else f' value="{answer.share:.3f}"'
+    return (
+        f'<div class="texvent-status" role="status"><progress max="1"{value}></progress> '
+        f"{html.escape(answer.text)}</div>"
+    )
+
+
+def summary_html(answer: Answer) -> str:
+    """What a finished job made and understood, one line each."""
+    first, *rest = answer.text.splitlines() or [""]
+    items = "".join(f"<li>{html.escape(line)}</li>" for line in rest)
+    return (
+        f'<div class="texvent-status" role="status"><strong id="texvent-done">'
+        f"{html.escape(first)}</strong><ul>{items}</ul></div>"
+    )
+
+
+def failure_html(message: str) -> str:
+    """One clear error."""
+    return (
+        '<div class="texvent-status texvent-error" role="alert"><strong>This did not work.'
+        f"</strong> {html.escape(message)}</div>"
+    )
+
+
+def viewer_html(page: str | Path) -> str:
+    """The viewer's page in a frame of its own, which may run its script and nothing else."""
+    text = html.escape(Path(page).read_text(encoding="utf-8"), quote=True)
+    return (
+        f'<iframe id="texvent-viewer" title="Events in space and time" sandbox="allow-scripts" '
+        f'style="width:100%;height:{PAGE_HEIGHT_PX}px;border:0" srcdoc="{text}"></iframe>'
+    )

@@ -1,0 +1,102 @@
+"""Runs workers and survives them: time limit, crash, cancel."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import queue
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator
+
+from texvent.errors import InputError
+from texvent.web.job import Answer, Job, job_line, read_answer
+
+WORKER = (sys.executable, "-m", "texvent.web.worker")
+PATIENCE_S = 0.5
+"""How often the clock is looked at while a worker says nothing."""
+
+
+def run_job(job: Job, *, time_limit_s: float) -> Iterator[Answer]:
+    """Answers of a worker as they come; the last one is "done".
+
+    Closing the iterator stops the worker.
+
+    Args:
+        job: what to do.
+        time_limit_s: longest work, seconds.
+
+    Raises:
+        InputError: the worker refused the job, crashed, or ran out of time; the message is
+            meant for the visitor.
+    """
+    # In a group of its own, so that a Ctrl-C in the terminal is left to us to handle.
+    worker = subprocess.Popen(
+        WORKER,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        encoding="utf-8",
+        env={**os.environ, "PYTHONUNBUFFERED": "1"},
+        start_new_session=True,
+    )
+    try:
+        yield from _follow(worker, job, time.monotonic() + time_limit_s, time_limit_s)
+    finally:
+        worker.kill()
+        worker.wait()
+        for pipe in (worker.stdin, worker.stdout):
+            if pipe is not None:
+                with contextlib.suppress(BrokenPipeError):
+                    pipe.close()
+
+
+def _follow(
+    worker: subprocess.Popen[str], job: Job, deadline: float, time_limit_s: float
+) -> Iterator[Answer]:
+    lines: queue.Queue[str | None] = queue.Queue()
+    reader = threading.Thread(target=_read, args=(worker, lines), daemon=True)
+    _hand_over(worker, job)
+    reader.start()
+    while True:
+        try:
+            line = lines.get(timeout=PATIENCE_S)
+        except queue.Empty:
+            line = ""
+        if line is None:
+            raise InputError(
+                f"the job crashed (exit code {worker.wait()}); nothing else was harmed. Its input "
+                "may be damaged or too large"
+            )
+        answer = read_answer(line)
+        if answer is not None:
+            if answer.kind == "failed":
+                raise InputError(answer.text)
+            yield answer
+            if answer.kind == "done":
+                return
+        if time.monotonic() > deadline:
+            raise InputError(
+                f"the job took longer than {time_limit_s:g} s and was stopped; try a shorter or "
+                "smaller one"
+            )
+
+
+def _hand_over(worker: subprocess.Popen[str], job: Job) -> None:
+    if worker.stdin is None:
+        raise InputError("the worker takes no jobs")
+    # A worker that died already is noticed when its answers end.
+    with contextlib.suppress(BrokenPipeError):
+        worker.stdin.write(job_line(job) + "\n")
+        worker.stdin.flush()
+
+
+def _read(worker: subprocess.Popen[str], lines: queue.Queue[str | None]) -> None:
+    """Pass on lines until the worker ends, then None."""
+    if worker.stdout is not None:
+        for line in worker.stdout:
+            lines.put(line)
+    lines.put(None)

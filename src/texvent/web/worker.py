@@ -1,0 +1,205 @@
+"""One job in a process of its own: `python -m texvent.web.worker`, job on stdin, answers on stdout.
+
+A job that crashes a decoder, eats memory or never ends takes only this process with it.
+"""
+
+from __future__ import annotations
+
+import shutil
+import sys
+from collections.abc import Callable
+from contextlib import ExitStack
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from texvent._registry import CODECS
+from texvent.capture.open import open_frames
+from texvent.errors import InputError, TexventError
+from texvent.io.files import open_events, open_writer, save
+from texvent.pipeline import Simulation, text_to_events, video_to_events
+from texvent.sensor import SensorSize
+from texvent.settings import resolve
+from texvent.video import MICROSECONDS
+from texvent.view.preview import Preview
+from texvent.web.job import (
+    Answer,
+    ConvertJob,
+    SimulateJob,
+    answer_line,
+    read_job,
+)
+from texvent.web.limits import Limits
+
+Tell = Callable[[Answer], None]
+
+
+def main() -> int:
+    """Do the job on stdin; returns 0, or 1 after an answer that says what was wrong."""
+
+    def tell(answer: Answer) -> None:
+        sys.stdout.write(answer_line(answer) + "\n")
+        sys.stdout.flush()
+
+    try:
+        job = read_job(sys.stdin.readline())
+        tell(convert(job) if isinstance(job, ConvertJob) else simulate(job, tell))
+    except TexventError as error:
+        tell(Answer(kind="failed", text=str(error)))
+        return 1
+    return 0
+
+
+def simulate(job: SimulateJob, tell: Tell) -> Answer:
+    """Events, film and page in the job's folder.
+
+    Raises:
+        InputError: the job is larger than its limits allow, or its input cannot be used.
+        ConfigError: an unknown option, or a value out of range.
+    """
+    tell(Answer(kind="progress", text="starting"))
+    simulation = _prepare(job, _Watch(tell))
+    _check_size(simulation.video.size, job.limits)
+    folder = Path(job.folder)
+    events = folder / "events.h5"
+    metadata = _shown(simulation)
+    total, seen, count = simulation.video.frame_count, 0, 0
+    with ExitStack() as stack:
+        preview = Preview(
+            folder / "events",
+            size=simulation.video.size,
+            fps=simulation.video.fps or Fraction(30),
+            kinds=("mp4", "html"),
+            metadata=metadata,
+        )
+        stack.enter_context(preview)
+        writer = stack.enter_context(
+            open_writer(events, size=simulation.video.size, metadata=metadata)
+        )
+        first_us: int | None = None
+        for frame, packet in simulation.steps():
+            first_us = frame.t_us if first_us is None else first_us
+            count += len(packet)
+            _check_progress(frame.t_us - first_us, count, job.limits)
+            preview.append(frame, packet)
+            writer.append(packet)
+            if frame.is_source:
+                seen += 1
+                share = min(1.0, seen / total) if total else None
+                tell(Answer(kind="progress", share=share, text=f"frame {seen}, {count:,} events"))
+    files = {"events": events, "film": folder / "events.mp4", "page": folder / "events.html"}
+    return Answer(
+        kind="done",
+        text=_summary(simulation, count),
+        files={name: str(path) for name, path in files.items()},
+    )
+
+
+def convert(job: ConvertJob) -> Answer:
+    """The events in another format, folders as one zip file.
+
+    Raises:
+        InputError: the format cannot hold these events.
+        MissingDependencyError: the format needs an extra.
+    """
+    target = Path(job.folder) / f"events{extension_of(job.format)}"
+    save(target, open_events(job.source), format=job.format, overwrite=True)
+    if target.is_dir():
+        target = Path(shutil.make_archive(str(target), "zip", root_dir=target))
+    return Answer(kind="done", text=f"events as {job.format}", files={"download": str(target)})
+
+
+def extension_of(format: str) -> str:
+    """The usual extension of a format: its own, else that of the format it is a variant of.
+
+    Example:
+        >>> extension_of("evt3"), extension_of("dsec")
+        ('.raw', '.h5')
+    """
+    for kind in type(CODECS.load(format)()).__mro__:
+        extensions = getattr(kind, "extensions", ())
+        if extensions:
+            return str(extensions[0])
+    return ""
+
+
+class _Watch:
+    """Passes on what a slow generator reports."""
+
+    def __init__(self, tell: Tell) -> None:
+        self._tell = tell
+
+    def announce(self, line: str) -> None:
+        self._tell(Answer(kind="progress", text=line))
+
+    def advance(self, stage: str, done: int, total: int) -> None:
+        share = done / total if total else None
+        self._tell(Answer(kind="progress", share=share, text=stage))
+
+
+def _prepare(job: SimulateJob, watch: _Watch) -> Simulation:
+    options = dict(job.options)
+    if job.video is None:
+        if float(options.get("duration") or 0) > job.limits.max_seconds:
+            raise InputError(
+                f"duration is {options['duration']} s; at most {job.limits.max_seconds:g} s here"
+            )
+        settings = resolve("generate", options)
+        _check_size(settings.size or SensorSize(1, 1), job.limits)
+        return text_to_events(job.prompt or "", settings, watch=watch)
+    settings = resolve("simulate", options)
+    video = open_frames(job.video, settings.source, size=settings.size)
+    _check_length(video, job.limits)
+    return video_to_events(video, settings)
+
+
+def _check_length(video: Any, limits: Limits) -> None:
+    """Refuse a long video before any work, where its container says how long it is."""
+    if video.frame_count is None or not video.fps:
+        return
+    seconds = float(video.frame_count / video.fps)
+    if seconds > limits.max_seconds:
+        raise InputError(
+            f"the video is {seconds:.1f} s long; at most {limits.max_seconds:g} s are taken here. "
+            "Cut it, or run texvent simulate on your own machine"
+        )
+
+
+def _check_size(size: SensorSize, limits: Limits) -> None:
+    if size.width * size.height > limits.max_pixels:
+        raise InputError(
+            f"{size} is {size.width * size.height:,} pixels; at most {limits.max_pixels:,} are "
+            "taken here. Choose a sensor"
+        )
+
+
+def _check_progress(passed_us: int, count: int, limits: Limits) -> None:
+    if passed_us > limits.max_seconds * MICROSECONDS:
+        raise InputError(
+            f"the video is longer than {limits.max_seconds:g} s, which is the most taken here"
+        )
+    if count > limits.max_events:
+        raise InputError(
+            f"more than {limits.max_events:,} events; choose a higher contrast threshold or a "
+            "smaller sensor"
+        )
+
+
+def _shown(simulation: Simulation) -> dict[str, Any]:
+    """Provenance without the server's folders: uploads have meaningless temporary paths."""
+    metadata = simulation.provenance
+    source = {
+        name: Path(value).name if isinstance(value, str) and Path(value).is_absolute() else value
+        for name, value in metadata["source"].items()
+    }
+    return {**metadata, "source": source}
+
+
+def _summary(simulation: Simulation, count: int) -> str:
+    lines = [f"{count:,} events on {simulation.video.size} pixels"]
+    lines += [str(line) for line in simulation.video.metadata.get("understood", ())]
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

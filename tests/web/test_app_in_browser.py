@@ -1,0 +1,160 @@
+"""The web page, served as `texvent app` serves it and used as a visitor would."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import urllib.request
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import texvent
+
+pytest.importorskip("gradio", reason="gradio is an extra; make test-app")
+
+CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
+WAIT_S = 120
+OPTIONS = ("--no-browser", "--max-seconds", "0.2", "--max-upload-mb", "1", "--port", "0")
+
+pytestmark = pytest.mark.app
+
+
+@pytest.fixture(scope="module")
+def temporary(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("temporary")
+
+
+@pytest.fixture(scope="module")
+def address(temporary: Path) -> Iterator[str]:
+    """A running page; afterwards it must leave, cleanly and without files."""
+    server = subprocess.Popen(
+        [sys.executable, "-m", "texvent.cli.app", "app", *OPTIONS],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        env={**os.environ, "TMPDIR": str(temporary)},
+    )
+    try:
+        line = server.stdout.readline().strip()
+        assert line.startswith("http://127.0.0.1:")
+        assert list(temporary.glob("texvent-app-*"))
+        yield line
+        server.send_signal(signal.SIGTERM)
+        assert server.wait(timeout=30) == 0
+        assert not list(temporary.glob("texvent-app-*"))
+    finally:
+        server.kill()
+        server.wait()
+        server.stdout.close()
+
+
+@pytest.fixture
+def page(browser: Any, address: str) -> Any:
+    browser.get(address)
+    until(browser, lambda: browser.find_elements("id", "from-prompt"))
+    return browser
+
+
+def until(browser: Any, condition: Any) -> Any:
+    from selenium.common.exceptions import StaleElementReferenceException
+    from selenium.webdriver.support.wait import WebDriverWait
+
+    patient = WebDriverWait(browser, WAIT_S, ignored_exceptions=[StaleElementReferenceException])
+    return patient.until(lambda _: condition())
+
+
+def status(page: Any) -> str:
+    return str(page.find_element("id", "status").text)
+
+
+def make_events(page: Any, prompt: str) -> str:
+    """Type a prompt, press the button, wait; returns what the page says."""
+    from selenium.webdriver.common.keys import Keys
+
+    field = page.find_element("css selector", "#prompt textarea")
+    field.send_keys(Keys.CONTROL, "a")
+    field.send_keys(prompt)
+    page.find_element("id", "from-prompt").click()
+    until(page, lambda: "events on" in status(page) or "did not work" in status(page))
+    return status(page)
+
+
+def upload(page: Any, path: Path) -> None:
+    page.find_element("xpath", "//button[@role='tab'][contains(., 'Video')]").click()
+    until(page, lambda: page.find_element("id", "from-video").is_displayed())
+    page.find_element("css selector", "#video input[type=file]").send_keys(str(path))
+
+
+def test_a_prompt_gives_a_film_a_viewer_and_a_download(
+    page: Any, address: str, tmp_path: Path, requests_made: Any
+) -> None:
+    said = make_events(page, "a red ball bounces on the grass")
+    assert "ball" in said
+    count = int(said.split()[0].replace(",", ""))
+
+    film = until(page, lambda: page.find_elements("css selector", "#film video"))[0]
+    until(page, lambda: page.execute_script("return arguments[0].videoWidth", film) > 600)
+    page.switch_to.frame(until(page, lambda: page.find_elements("id", "texvent-viewer"))[0])
+    until(page, lambda: page.find_element("id", "shown-text").text)
+    assert page.find_element("id", "shown-text").text.startswith(f"{count:,} of")
+    page.find_element("id", "toggle-off").click()
+    until(page, lambda: not page.find_element("id", "shown-text").text.startswith(f"{count:,} "))
+    page.switch_to.default_content()
+
+    page.find_element("css selector", "#format input").click()
+    choice = "//ul[@role='listbox']//li[contains(., 'evt3')]"
+    until(page, lambda: page.find_elements("xpath", choice))[0].click()
+    page.find_element("id", "prepare").click()
+    link = until(page, lambda: page.find_elements("css selector", "#download a[href]"))[0]
+    target = tmp_path / "events.raw"
+    with urllib.request.urlopen(link.get_attribute("href")) as response:
+        target.write_bytes(response.read())
+    assert len(texvent.load(target, format="evt3")) == count
+
+    asked = requests_made()
+    assert len(asked) > 10
+    assert [url for url in asked if not url.startswith(address)] == []
+
+
+def test_an_example_fills_in_its_prompt(page: Any) -> None:
+    pictures = until(page, lambda: page.find_elements("css selector", "#examples .thumbnail-lg"))
+    assert len(pictures) >= 6
+    page.execute_script("arguments[0].click()", pictures[2])
+    field = page.find_element("css selector", "#prompt textarea")
+    until(page, lambda: "sharks" in field.get_attribute("value"))
+
+
+def test_bad_uploads_are_refused_and_harm_nobody(page: Any, tmp_path: Path) -> None:
+    broken = tmp_path / "broken.mp4"
+    broken.write_bytes(b"this is no video" * 99)
+    for path, message in ((broken, "broken.mp4"), (CLIP, "at most 0.2 s are taken here")):
+        upload(page, path)
+        until(page, lambda name=path.name: name[:6] in page.find_element("id", "video").text)
+        page.find_element("id", "from-video").click()
+        until(page, lambda: "did not work" in status(page))
+        assert message in status(page)
+        page.refresh()
+        until(page, lambda: page.find_elements("id", "from-prompt"))
+    assert "events on" in make_events(page, "a ball bounces")
+
+
+def test_a_file_that_is_too_large_is_not_taken(page: Any, temporary: Path, tmp_path: Path) -> None:
+    large = tmp_path / "large.mp4"
+    large.write_bytes(bytes(2 * 2**20))
+    upload(page, large)
+    until(page, lambda: "exceed" in page.find_element("tag name", "body").text.lower())
+    assert not [path for path in temporary.rglob("*large*") if path.is_file()]
+
+
+def test_an_empty_prompt_is_one_clear_error(page: Any) -> None:
+    assert "the prompt is empty" in make_events(page, "   ")
+
+
+def test_hostile_text_stays_text(page: Any) -> None:
+    make_events(page, "a ball <img src=x onerror=document.title='broken-into'>")
+    assert page.title == "texvent"

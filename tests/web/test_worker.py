@@ -1,0 +1,110 @@
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+
+import pytest
+
+import texvent
+from texvent._registry import CODECS
+from texvent.errors import InputError, TexventError
+from texvent.web.job import Answer, ConvertJob, SimulateJob
+from texvent.web.limits import Limits
+from texvent.web.worker import convert, extension_of, simulate
+
+CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
+SCENE = {"generator": "procedural", "duration": 0.1, "sensor": "48x36", "seed": 3}
+
+
+def run(folder: Path, **values: object) -> tuple[Answer, list[Answer]]:
+    told: list[Answer] = []
+    return simulate(SimulateJob(folder=str(folder), **values), told.append), told
+
+
+def test_a_prompt_gives_events_film_and_page_and_reports_on_its_way(tmp_path: Path) -> None:
+    done, told = run(tmp_path, prompt="a red ball bounces", options=SCENE)
+    events = texvent.load(done.files["events"])
+    assert done.text.startswith(f"{len(events):,} events on 48x36 pixels")
+    assert "ball" in done.text
+    assert [Path(path).stat().st_size > 500 for path in done.files.values()] == [True] * 3
+    shares = [answer.share for answer in told if answer.share is not None]
+    assert shares == sorted(shares)
+    assert shares[-1] == 1.0
+
+
+def test_the_same_events_as_the_command_and_the_api_give(tmp_path: Path) -> None:
+    done, _ = run(tmp_path, prompt="a red ball bounces", options=SCENE)
+    again = texvent.generate("a red ball bounces", **SCENE)
+    assert texvent.load(done.files["events"]).equals(again)
+
+
+def test_a_video_gives_events_and_its_folder_stays_private(tmp_path: Path) -> None:
+    done, _ = run(tmp_path, video=str(CLIP), options={"sensor": "48x36", "interpolate": "none"})
+    events = texvent.load(done.files["events"])
+    assert len(events) > 500
+    assert CLIP.name in str(events.metadata["source"])
+    for path in (done.files["page"], done.files["events"]):
+        assert str(CLIP.parent).encode() not in Path(path).read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        (
+            {"prompt": "a ball", "options": {**SCENE, "duration": 30}},
+            "duration is 30 s; at most 20",
+        ),
+        ({"prompt": "  ", "options": SCENE}, "the prompt is empty"),
+        ({"prompt": "a ball", "options": {**SCENE, "sensor": "4000x3000"}}, "12,000,000 pixels"),
+        ({"prompt": "a ball", "options": {**SCENE, "seed": -1}}, "seed is -1"),
+        ({"video": str(CLIP), "limits": Limits(max_seconds=0.1)}, "at most 0.1 s are taken here"),
+        ({"video": str(CLIP), "limits": Limits(max_pixels=1000)}, "at most 1,000 are taken here"),
+        (
+            {
+                "video": str(CLIP),
+                "options": {"interpolate": "none"},
+                "limits": Limits(max_events=10),
+            },
+            "more than 10 events",
+        ),
+        ({"video": __file__}, "test_worker.py"),
+    ],
+)
+def test_too_much_is_refused_and_leaves_nothing(tmp_path: Path, values, message: str) -> None:
+    with pytest.raises(TexventError, match=message):
+        run(tmp_path, **values)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.fixture(scope="module")
+def source(tmp_path_factory: pytest.TempPathFactory) -> str:
+    done, _ = run(tmp_path_factory.mktemp("source"), prompt="a red ball bounces", options=SCENE)
+    return done.files["events"]
+
+
+@pytest.mark.parametrize("format", ["hdf5", "evt3", "npz", "ecd", "dsec", "aedat4-none"])
+def test_events_are_converted_exactly(tmp_path: Path, source: str, format: str) -> None:
+    done = convert(ConvertJob(source=source, folder=str(tmp_path), format=format))
+    download = Path(done.files["download"])
+    assert download.suffix == extension_of(format)
+    events, again = texvent.load(source), texvent.load(download, format=format, size=(48, 36))
+    assert events.columns().keys() == again.columns().keys()
+    assert events.equals(again)
+
+
+def test_a_format_that_is_a_folder_is_downloaded_as_one_file(tmp_path: Path, source: str) -> None:
+    done = convert(ConvertJob(source=source, folder=str(tmp_path), format="evreal"))
+    with zipfile.ZipFile(done.files["download"]) as archive:
+        assert len(archive.namelist()) > 3
+
+
+def test_a_format_that_cannot_hold_the_events_says_so(tmp_path: Path, source: str) -> None:
+    with pytest.raises(InputError, match="128"):
+        convert(ConvertJob(source=source, folder=str(tmp_path), format="cifar10-dvs"))
+    assert not list(tmp_path.iterdir())
+
+
+def test_every_registered_format_has_a_name_to_be_downloaded_by() -> None:
+    folders = {"esim", "evreal"}
+    for name in CODECS.names():
+        assert extension_of(name).startswith(".") or name in folders
