@@ -15,6 +15,7 @@ from texvent.errors import ConfigError, OutputError, TexventError
 COMMANDS = {
     "generate": "Events, film, picture and page from a text prompt.",
     "batch": "Events for every prompt of a file.",
+    "caption": "Prompts from pictures, by an image-and-text model of yours.",
     "simulate": "Events from a video, an image folder or a camera.",
     "render": "A film, GIF or picture of an event file.",
     "view": "Open an event file in the browser: cloud, playback, region, rate, video.",

@@ -1,0 +1,86 @@
+"""`texvent caption PICTURES`: prompts from pictures, ready for `texvent batch`."""
+
+from __future__ import annotations
+
+import csv
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import ClassVar
+
+from rich.console import Console
+
+from texvent._registry import load_object
+from texvent.cli.options import REQUIRED, parse_options
+from texvent.config import check_range
+from texvent.errors import ConfigError
+from texvent.generate.caption import INSTRUCTION, find_pictures
+from texvent.io.atomic import atomic_file, check_output
+
+DESCRIPTION = """Describe pictures with an image-and-text model of yours (LLaVA and its kin, run by
+transformers), one line each. The result of -o is a file for texvent batch:
+
+texvent caption photos/ --model hub:llava-hf/llava-1.5-7b-hf -o prompts.csv
+
+texvent batch prompts.csv --generator wan-1.3b -o events"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CaptionOptions:
+    """Which pictures, which model, what to ask."""
+
+    positional: ClassVar[tuple[str, ...]] = ("pictures",)
+    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+
+    pictures: Path = REQUIRED
+    """Picture, or folder of pictures."""
+    model: str = REQUIRED
+    """Folder of an image-and-text model saved by transformers, or hub:org/name."""
+    out: Path | None = None
+    """CSV file for the captions (columns name, prompt); without it they are printed."""
+    instruction: str = INSTRUCTION
+    """What the model is asked."""
+    longest: int = 124
+    """Most tokens of a caption."""
+    generator_device: str = "auto"
+    """Where the model runs: auto, cpu, cuda, cuda:1."""
+    overwrite: bool = False
+    """Replace the file if it exists already."""
+    quiet: bool = False
+    """No progress."""
+
+    def __post_init__(self) -> None:
+        check_range("longest", self.longest, 1, 4096)
+        if self.out is not None and self.out.suffix.lower() != ".csv":
+            raise ConfigError(f"captions are written as CSV; {self.out} must end in .csv")
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the command; returns its exit code."""
+    values = parse_options(
+        arguments, {"input": CaptionOptions()}, prog="texvent caption", description=DESCRIPTION
+    )
+    options = CaptionOptions(**values)
+    if options.out is not None:
+        check_output(options.out, overwrite=options.overwrite)
+    pictures = find_pictures(options.pictures)
+    console = Console(stderr=True, quiet=options.quiet, highlight=False)
+    captioner = load_object("texvent.generate.caption:Captioner")(
+        options.model, device=options.generator_device
+    )
+    rows: list[tuple[str, str]] = []
+    for number, picture in enumerate(pictures, start=1):
+        console.print(f"{number}/{len(pictures)} {picture}", markup=False)
+        text = captioner.caption(picture, instruction=options.instruction, longest=options.longest)
+        rows.append((picture.stem, text))
+        if options.out is None:
+            sys.stdout.write(f"{text}\n")
+    if options.out is not None:
+        with (
+            atomic_file(options.out, overwrite=options.overwrite) as part,
+            part.open("w", encoding="utf-8", newline="") as file,
+        ):
+            csv.writer(file).writerows([("name", "prompt"), *rows])
+        sys.stdout.write(f"{options.out}\n")
+    return 0

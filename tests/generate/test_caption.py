@@ -1,0 +1,88 @@
+"""Captions of pictures by a tiny random LLaVA, through the code that runs the published ones."""
+
+import os
+
+import numpy as np
+import pytest
+
+pytestmark = pytest.mark.torch
+os.environ["HF_HUB_OFFLINE"] = "1"
+torch = pytest.importorskip("torch")
+pytest.importorskip("transformers")
+torch.set_num_threads(1)
+
+from PIL import Image  # noqa: E402
+
+from texvent.cli.app import main  # noqa: E402
+from texvent.errors import FileFormatError, InputError, TexventError  # noqa: E402
+from texvent.generate.caption import Captioner, find_pictures  # noqa: E402
+from texvent.generate.prompts import read_prompts  # noqa: E402
+
+from . import tiny_pipelines  # noqa: E402
+
+TEMPLATE = (
+    "{% for m in messages %}ASK: {% for c in m['content'] %}"
+    "{% if c['type'] == 'image' %}<image> {% else %}{{ c['text'] }}{% endif %}"
+    "{% endfor %}{% endfor %} ANSWER:"
+)
+
+
+@pytest.fixture(scope="module")
+def model(tmp_path_factory):
+    return tiny_pipelines.save_llava(tmp_path_factory.mktemp("models") / "llava")
+
+
+@pytest.fixture
+def pictures(tmp_path):
+    folder = tmp_path / "pictures"
+    folder.mkdir()
+    for seed in (1, 2):
+        noise = np.random.default_rng(seed).integers(0, 255, (20, 30, 3), dtype=np.uint8)
+        Image.fromarray(noise).save(folder / f"p{seed}.png")
+    (folder / "notes.txt").write_text("no picture")
+    return folder
+
+
+def test_a_caption_repeats_and_follows_the_picture_and_the_instruction(model, pictures):
+    captioner = Captioner(str(model), device="cpu")
+    first, second = (captioner.caption(one, longest=12) for one in find_pictures(pictures))
+    assert first
+    assert captioner.caption(pictures / "p1.png", longest=12) == first
+    other = captioner.caption(pictures / "p1.png", longest=12, instruction="Name the colours.")
+    assert len({first, second, other}) == 3
+
+
+def test_a_chat_template_is_used_where_the_model_brings_one(tmp_path, pictures):
+    folder = tiny_pipelines.save_llava(tmp_path / "chat", chat_template=TEMPLATE)
+    captioner = Captioner(str(folder), device="cpu")
+    assert captioner._ask("What is it?") == "ASK: <image> What is it? ANSWER:"
+    assert captioner.caption(pictures / "p1.png", longest=8)
+
+
+def test_captions_become_a_file_of_prompts(model, pictures, tmp_path, capsys):
+    out = tmp_path / "prompts.csv"
+    words = ["caption", str(pictures), "--model", str(model), "--longest", "8", "-o", str(out)]
+    assert main(words) == 0
+    lines = read_prompts(out)
+    assert [line.name for line in lines] == ["p1", "p2"]
+    assert main(words) == 3
+    assert "exists already" in capsys.readouterr().err
+    assert main(["caption", str(pictures / "p1.png"), *words[2:6], "-q"]) == 0
+    assert capsys.readouterr().out.strip() == lines[0].prompt
+
+
+def test_mistakes_are_named(model, pictures, tmp_path, capsys):
+    with pytest.raises(InputError, match="there is no model in"):
+        Captioner(str(tmp_path / "none"))
+    with pytest.raises(TexventError, match="hf download someone/model"):
+        Captioner("hub:someone/model")
+    with pytest.raises(InputError, match="there is no picture at"):
+        find_pictures(tmp_path / "none")
+    captioner = Captioner(str(model), device="cpu")
+    with pytest.raises(InputError, match="cannot be read as a picture"):
+        captioner.caption(pictures / "notes.txt")
+    (tmp_path / "bad").mkdir()
+    (tmp_path / "bad" / "config.json").write_text("{}")
+    with pytest.raises(FileFormatError, match="cannot be loaded as an image-and-text model"):
+        Captioner(str(tmp_path / "bad"))
+    assert main(["caption", str(pictures), "--model", str(model), "-o", "x.txt"]) == 2
