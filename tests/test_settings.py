@@ -3,6 +3,7 @@
 import pytest
 
 from texvent.errors import ConfigError, InputError
+from texvent.sensor import SENSORS, SensorSize
 from texvent.settings import base_settings, read_config, resolve, unmeasured_sensor
 
 SENSOR_FILE = """
@@ -43,6 +44,20 @@ def test_a_sensor_with_measured_constants_chooses_its_preset():
         "simulate", {"simulator": "physical", "sensor": "davis346", "preset": "default"}
     )
     assert named.run.preset == "default"
+
+
+@pytest.mark.parametrize(
+    ("sensor", "name"),
+    [((64, 48), "64x48"), (SensorSize(64, 48), "64x48"), (SENSORS["dvs128"], "dvs128")],
+)
+def test_a_sensor_may_be_given_as_numbers_or_as_an_object(sensor, name):
+    assert resolve("simulate", {"sensor": sensor}).run.sensor == name
+
+
+@pytest.mark.parametrize("sensor", [(64,), (64, 48, 3), 64, ("a", "b"), (-1, 5)])
+def test_what_is_no_sensor_is_refused(sensor):
+    with pytest.raises(ConfigError, match="sensor"):
+        resolve("simulate", {"sensor": sensor})
 
 
 def test_a_sensor_without_measured_constants_is_said_to_have_none():

@@ -23,7 +23,7 @@ from texvent.config import (
     with_options,
 )
 from texvent.errors import ConfigError, InputError
-from texvent.sensor import SENSORS, SensorSize, parse_sensor
+from texvent.sensor import SENSORS, Sensor, SensorSize, parse_sensor
 from texvent.simulate.thresholds import with_contrast_threshold
 
 Command = Literal["generate", "simulate"]
@@ -195,8 +195,20 @@ def resolve(
         ConfigError: an unknown name, a wrong type, a value out of range, an unreadable file.
     """
     single = {name: value for name, value in options.items() if value is not None}
+    if "sensor" in single:
+        single["sensor"] = _sensor_text(single["sensor"])
     deciding = {name: single.pop(name) for name in DECIDING if name in single}
     return apply_options(base_settings(command, config=config, **deciding), single, where="options")
+
+
+def _sensor_text(sensor: Any) -> Any:
+    """A sensor given as an object, a file or numbers (width, height), as files and flags say it."""
+    if isinstance(sensor, Sensor):
+        return sensor.name
+    if isinstance(sensor, Path):
+        return str(sensor)
+    is_size = isinstance(sensor, (tuple, list)) and len(sensor) == 2
+    return f"{sensor[0]}x{sensor[1]}" if is_size else sensor
 
 
 def apply_options(settings: Settings, options: Mapping[str, Any], *, where: str) -> Settings:
@@ -249,8 +261,11 @@ def read_config(path: str | Path) -> dict[str, Any]:
     path = Path(path)
     try:
         text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"cannot read config file {path}: {error}") from error
+    except OSError as error:
+        reason = error.strerror or error
+        raise InputError(f"cannot read config file {path}: {reason}; check its name") from error
+    except UnicodeDecodeError as error:
+        raise InputError(f"config file {path} is not UTF-8 text: {error}") from error
     try:
         document = _parse(path, text)
     except (tomllib.TOMLDecodeError, ValueError) as error:

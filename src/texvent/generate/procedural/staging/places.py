@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.generate.procedural.description import Light, SceneDescription
+from texvent.generate.procedural.description import Light, SceneDescription, Surroundings
 from texvent.generate.procedural.model import Colour
 from texvent.generate.procedural.primitives import Environment, Float32Array, Float64Array, Ground
 
@@ -206,15 +206,7 @@ def build_setting(
     if place == "snow":
         lighting = replace(lighting, lamps=0.3 * lighting.lamps)
     said = description.surroundings
-    colour, second = ground.colour, ground.second_colour
-    if said.has_snow and ground.ground in _SNOWED_OVER:
-        colour = _SNOW
-        second = _SNOW if ground.ground is Ground.GRASS else second
-    if said.paint is not None:
-        # Grass is darker than paint: blades shade one another.
-        depth = 0.45 if ground.ground is Ground.GRASS else 0.8
-        colour = _mix((0.0, 0.0, 0.0), said.paint.rgb, depth)
-        second = _mix((0.0, 0.0, 0.0), said.paint.rgb, min(1.5 * depth, 1.0))
+    colour, second = _ground_colours(ground, said)
     sky_top, horizon = lighting.sky_top, lighting.sky_horizon
     if said.sky is not None:
         sky_top, horizon = said.sky.rgb, _mix(said.sky.rgb, horizon, 0.5)
@@ -246,6 +238,20 @@ def build_setting(
         room_half_size=room_m,
     )
     return Setting(base, description.light.flicker_hz)
+
+
+def _ground_colours(ground: Place, said: Surroundings) -> tuple[Colour, Colour]:
+    """Both colours of the ground, under snow or painted as the prompt says."""
+    colour, second = ground.colour, ground.second_colour
+    if said.has_snow and ground.ground in _SNOWED_OVER:
+        colour = _SNOW
+        second = _SNOW if ground.ground is Ground.GRASS else second
+    if said.paint is not None:
+        # Grass is darker than paint: blades shade one another.
+        depth = 0.45 if ground.ground is Ground.GRASS else 0.8
+        colour = _mix((0.0, 0.0, 0.0), said.paint.rgb, depth)
+        second = _mix((0.0, 0.0, 0.0), said.paint.rgb, min(1.5 * depth, 1.0))
+    return colour, second
 
 
 def _choose_fog(
