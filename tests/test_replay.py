@@ -32,6 +32,10 @@ def test_a_generated_recording_is_filmed_again_from_its_provenance(simulation) -
         {"prompt": None},
         {"settings": None},
         {"texvent_version": "0.0.0"},
+        {"edits": [{"crop": "0,0,8,8"}]},
+        {"settings": {"run": {"seed": "x"}, "generate": {}}},
+        {"settings": {"run": {}, "generate": {"no_such_option": 3}}},
+        {"prompt": " "},
     ],
 )
 def test_other_recordings_cannot_be_filmed_again(simulation, changed: dict[str, object]) -> None:

@@ -7,6 +7,7 @@ from typing import Any
 
 from texvent._registry import GENERATORS
 from texvent._version import __version__
+from texvent.errors import InputError
 from texvent.settings import resolve
 from texvent.video import FrameStream, RenderableStream
 
@@ -22,21 +23,25 @@ def film_again(metadata: Mapping[str, Any]) -> FrameStream | None:
 
     Returns:
         The video, not rendered before it is iterated; None where the recording was not made by
-        such a generator or by another version.
-
-    Raises:
-        ConfigError: the settings in the file are not those of this version.
+        such a generator, was made by another version, or was edited since (cropped, moved in
+        time), so that the video would not fit.
     """
     name, prompt, tables = (metadata.get(key) for key in ("generator", "prompt", "settings"))
     if not (isinstance(name, str) and isinstance(prompt, str) and isinstance(tables, Mapping)):
         return None
-    if metadata.get("texvent_version") != __version__ or name not in GENERATORS.builtin:
+    if metadata.get("texvent_version") != __version__ or metadata.get("edits"):
+        return None
+    if name not in GENERATORS.builtin:
         return None
     generator_class = GENERATORS.load(name)
     if generator_class.default_interpolate != "exact":
         return None
     options = {**tables.get("run", {}), **tables.get("generate", {})}
-    settings = resolve("generate", options)
-    generator = generator_class(settings.source, seed=settings.run.seed, size=settings.size)
-    video = generator.generate(prompt)
+    try:
+        settings = resolve("generate", options)
+        generator = generator_class(settings.source, seed=settings.run.seed, size=settings.size)
+        video = generator.generate(prompt)
+    except InputError:
+        # Anybody can write metadata; what is no scene is no reason to refuse the events.
+        return None
     return video if isinstance(video, RenderableStream) else None

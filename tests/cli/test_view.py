@@ -65,7 +65,7 @@ def test_view_saves_a_page_with_the_video_beside_and_opens_nothing(recording, mo
 
 def test_a_generated_recording_is_seen_with_its_scene_unless_told_not_to(generated) -> None:
     assert run("view", generated, "-o", "with.html") == 0
-    assert Path("with.html").read_text("utf-8").count("data:image/jpeg") == 3
+    assert Path("with.html").read_text("utf-8").count("data:image/jpeg") == 2
     assert run("view", generated, "-o", "without.html", "--video", "none") == 0
     assert "data:image/jpeg" not in Path("without.html").read_text("utf-8")
 

@@ -29,7 +29,8 @@ def frames_beside(video: str, events: EventPackets) -> FrameStream | None:
     if video == NO_VIDEO:
         return None
     if video == AUTOMATIC:
-        return film_again(events.metadata)
+        again = film_again(events.metadata)
+        return again if again is not None and again.size == events.size else None
     if not Path(video).exists():
         raise InputError(
             f"no such video: {video}; give a file, a folder of pictures, {AUTOMATIC} or {NO_VIDEO}"

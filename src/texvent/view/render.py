@@ -195,7 +195,8 @@ def _evenly_spaced(
 def _page(
     packets: EventPackets, path: Path, config: RenderConfig, beside: Companion, *, overwrite: bool
 ) -> None:
-    still = _still(packets, config, beside) if time_range(packets) is not None else None
+    extent = time_range(packets)
+    still = _still(packets, config, beside) if extent is not None else None
     with PageWriter(
         path,
         size=packets.size,
@@ -207,5 +208,8 @@ def _page(
         for packet in packets:
             page.append(packet)
         for frame in beside.frames or ():
+            # A video may go on long after the events; the page ends with them.
+            if extent is not None and frame.t_us >= extent[1]:
+                break
             page.append_frame(frame)
         page.still = still

@@ -65,6 +65,8 @@ def write_rrd(
         log = _Log(rerun, recording, palette)
         log.facts(packets)
         for frame in frames or ():
+            if frame.t_us >= extent[1]:
+                break
             log.frame(frame_picture(frame), frame.t_us)
         sample = UniformSample(packets.size, limit=config.points)
         windows = cut_streams(packets, packets.size, Fraction(window_us), window_us)
