@@ -224,6 +224,16 @@ def test_the_number_format_can_be_chosen(models):
     assert video.frame_count == 5
 
 
+def test_the_decoder_of_wan_stays_in_float32_as_its_page_asks(models, tmp_path):
+    """A folder named like the published repository is treated as that model."""
+    path = tmp_path / "Wan2.1-T2V-1.3B-Diffusers"
+    shutil.copytree(models("wan"), path)
+    generator = build(path, dtype="bfloat16", reuse_video=False)
+    assert generator.generate(PROMPT).frame_count == 5
+    pipe = generator._run._pipe
+    assert (pipe.transformer.dtype, pipe.vae.dtype) == (torch.bfloat16, torch.float32)
+
+
 def test_a_picture_starts_the_video_where_the_pipeline_can(models, tmp_path):
     from PIL import Image
 

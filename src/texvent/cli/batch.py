@@ -11,6 +11,7 @@ from typing import ClassVar
 
 from texvent._registry import GENERATORS
 from texvent.cli.command import resolve_command
+from texvent.cli.generate import detail
 from texvent.cli.options import REQUIRED
 from texvent.cli.outputs import OutputOptions
 from texvent.cli.run import execute, print_settings
@@ -23,7 +24,8 @@ from texvent.errors import (
     TexventError,
 )
 from texvent.generate.prompts import PromptLine, read_prompts
-from texvent.pipeline import text_to_events
+from texvent.generate.upsample_config import UpsampleConfig
+from texvent.pipeline import text_to_video, video_to_events
 from texvent.settings import Settings, apply_options
 
 DESCRIPTION = """Events for every prompt of a file: .txt (one per line), .csv or .jsonl (prompt, and
@@ -32,7 +34,7 @@ stopped goes on where it was. A model is loaded once."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class BatchOptions:
+class BatchOptions(UpsampleConfig):
     """Which prompts."""
 
     positional: ClassVar[tuple[str, ...]] = ("prompts",)
@@ -64,7 +66,9 @@ def run(arguments: Sequence[str]) -> int:
                 watch.announce(f"kept     {target}")
                 continue
             try:
-                _run_one(line, settings, dataclasses.replace(output, out=target), watch)
+                one = dataclasses.replace(output, out=target)
+                prompt = detail(line.prompt, own, watch)
+                _run_one(line, prompt, settings, output=one, watch=watch)
             except (ConfigError, OutputError, MissingDependencyError):
                 raise
             except TexventError as error:
@@ -77,12 +81,14 @@ def run(arguments: Sequence[str]) -> int:
 
 
 def _run_one(
-    line: PromptLine, settings: Settings, output: OutputOptions, watch: ConsoleWatch
+    line: PromptLine, prompt: str, settings: Settings, *, output: OutputOptions, watch: ConsoleWatch
 ) -> None:
+    """Events of a line; `prompt` is what the generator is given for it."""
     if line.seed is not None:
         settings = apply_options(settings, {"seed": line.seed}, where=f"line {line.line}")
     output.check(line.prompt)
-    execute(text_to_events(line.prompt, settings, watch=watch), output, subject=line.prompt)
+    video = text_to_video(prompt, settings, watch=watch)
+    execute(video_to_events(video, settings, prompt=line.prompt), output, subject=line.prompt)
 
 
 def _name_results(lines: Sequence[PromptLine], folder: Path) -> list[Path]:

@@ -16,8 +16,9 @@ from texvent.cli.outputs import OutputOptions
 from texvent.cli.run import execute, print_settings
 from texvent.cli.watch import ConsoleWatch
 from texvent.errors import ConfigError, InputError
+from texvent.generate.upsample_config import UpsampleConfig
 from texvent.io.atomic import check_output
-from texvent.pipeline import text_to_events, text_to_video, video_to_events
+from texvent.pipeline import text_to_video, video_to_events
 from texvent.settings import Settings
 
 DESCRIPTION = """Turn a sentence into the events a camera would see.
@@ -30,7 +31,7 @@ VIDEO_EXTENSION = ".avi"
 
 
 @dataclass(frozen=True, kw_only=True)
-class PromptOptions:
+class PromptOptions(UpsampleConfig):
     """What to show."""
 
     positional: ClassVar[tuple[str, ...]] = ("prompt",)
@@ -69,11 +70,21 @@ def run(arguments: Sequence[str]) -> int:
     if output.print_config:
         return print_settings(settings)
     if own.video_only:
-        return _write_video(own.prompt, settings, output)
+        return _write_video(own, settings, output)
     output.check(own.prompt)
     with ConsoleWatch(is_quiet=output.quiet) as watch:
-        simulation = text_to_events(own.prompt, settings, watch=watch)
+        video = text_to_video(detail(own.prompt, own, watch), settings, watch=watch)
+    simulation = video_to_events(video, settings, prompt=own.prompt)
     return execute(simulation, output, subject=own.prompt)
+
+
+def detail(prompt: str, options: UpsampleConfig, watch: ConsoleWatch) -> str:
+    """The prompt that the generator is given: the user's, made detailed if that is wanted."""
+    if options.upsample is None:
+        return prompt
+    detailed: str = load_object("texvent.generate.upsample:upsample_prompt")(prompt, options)
+    watch.announce(f"prompt   {detailed}")
+    return detailed
 
 
 def _run_from_video(arguments: Sequence[str]) -> int:
@@ -93,9 +104,9 @@ def _run_from_video(arguments: Sequence[str]) -> int:
     return execute(simulation, output, subject=own.prompt)
 
 
-def _write_video(prompt: str, settings: Settings, output: OutputOptions) -> int:
+def _write_video(own: PromptOptions, settings: Settings, output: OutputOptions) -> int:
     """Write the video of a prompt and print its path."""
-    named = output.event_file(prompt)
+    named = output.event_file(own.prompt)
     path = named if output.out is not None else named.with_suffix(VIDEO_EXTENSION)
     if path.suffix.lower() != VIDEO_EXTENSION:
         raise ConfigError(
@@ -103,7 +114,7 @@ def _write_video(prompt: str, settings: Settings, output: OutputOptions) -> int:
         )
     check_output(path, overwrite=output.overwrite)
     with ConsoleWatch(is_quiet=output.quiet) as watch:
-        video = text_to_video(prompt, settings, watch=watch)
+        video = text_to_video(detail(own.prompt, own, watch), settings, watch=watch)
         load_object(f"{STORED_VIDEO}:write_stream")(video, path, overwrite=output.overwrite)
     if not output.quiet:
         sys.stdout.write(f"{path}\n")
