@@ -196,6 +196,7 @@ def test_directions_are_as_the_viewer_sees_them(direction: str, axis: int, sign:
         ("a dog behind a house", lambda a, b: a[1] > b[1]),
         ("a dog in front of a house", lambda a, b: a[1] < b[1]),
         ("a drone hovers above a house", lambda a, b: a[2] > b[2] + 3.0),
+        ("a street lamp over a car", lambda a, b: a[2] < 3.0 and 1.0 < a[1] - b[1] < 6.0),
         ("a cat to the left of a chair", lambda a, b: a[0] < b[0]),
         ("a cat to the right of a chair", lambda a, b: a[0] > b[0]),
         ("a car drives right past a house", lambda a, b: abs(a[0] - b[0]) < 2.0 < b[1] - a[1]),

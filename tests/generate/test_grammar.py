@@ -229,6 +229,22 @@ def test_excluded_things_are_not_added() -> None:
 
 
 @pytest.mark.parametrize(
+    ("prompt", "first", "words"),
+    [
+        ("a white vintage SUV drives left", "1 suv, white, drives left", ("vintage",)),
+        ("three shiny happy red cars stop", "3 cars, red, stand still", ("shiny", "happy")),
+        ("a red wizard, a blue car", "1 car, blue, drives", ("red", "wizard")),
+    ],
+)
+def test_an_unknown_adjective_does_not_part_the_others_from_their_noun(
+    prompt: str, first: str, words: tuple[str, ...]
+) -> None:
+    description = parse_prompt(prompt)
+    assert description.summary()[0] == first
+    assert description.not_understood == words
+
+
+@pytest.mark.parametrize(
     ("prompt", "shown", "absent"),
     [
         ("no cars, only 3 bicycles", ["bicycle"], ("car",)),

@@ -225,11 +225,16 @@ class _Reading:
         return None
 
     def _read_unknown(self, position: int) -> None:
-        """An unlisted word where a noun should be takes the subject's place."""
+        """An unlisted word where a noun should be takes the subject's place.
+
+        Before a noun or one of its adjectives it is only one more adjective: the group goes on.
+        """
         if self._phrases[position].text in lexicon.CONTRASTS:
             self._things.negation = None
             return
         before = self._phrases[position - 1].role if position else Role.BREAK
+        if self._following(position, ADJECTIVES | {Role.UNKNOWN}) is Role.NOUN:
+            return
         if before in ADJECTIVES or before in (Role.DETERMINER, Role.RELATION, Role.BREAK):
             self._things.meet_unknown()
 

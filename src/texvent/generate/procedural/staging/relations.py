@@ -34,6 +34,10 @@ def place_on_targets(
     if kind == "above" and group.course.motion.kind == "jump":
         group.clear_m = min(top, 2.0 * group.models[0].height)
         return target.centre * [1.0, 1.0, 0.0], still
+    if kind == "above" and group.noun.habitat == "fixed" and group.models[0].height > top:
+        # A street lamp over a car stands on the ground and reaches over it.
+        back = target.half[1] + group.half[1] + 0.3
+        return target.centre * [1.0, 1.0, 0.0] + [0.0, back, height], np.array([0.0, 1.0, 0.0])
     if kind == "above":
         clear = top + 0.7 * group.models[0].height + 0.3
         return target.centre + np.array([0.0, 0.0, max(clear + lift, height)]), still
