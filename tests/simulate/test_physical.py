@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from texvent.errors import ConfigError
 from texvent.events import NOISE, SIGNAL
+from texvent.simulate.kernels.circuit_reference import answer_to_line
 from texvent.simulate.physical import PhysicalSimulator
 from texvent.simulate.physical_config import PRESETS, RANGES, PhysicalConfig
 from texvent.video import Frame
@@ -144,6 +145,22 @@ def test_the_low_pass_follows_a_line_by_its_closed_form(backend, count):
     reached = [follow_line(t * 1e-6, 0.1, tau) for t in events.t]
     # The corner rises by 2 % on the way, in as many steps as there are frames.
     assert reached == pytest.approx([threshold, 2 * threshold, 3 * threshold], rel=0.01)
+
+
+@pytest.mark.parametrize("angle", [1e-9, 0.1, 0.25, 0.5, 0.501, 1.0, 3.7, 40.0, 800.0, 1e9])
+def test_the_answer_to_a_line_is_right_for_pieces_of_any_length(angle):
+    decay, gain = answer_to_line(angle)
+    assert decay == pytest.approx(math.exp(-angle), rel=2e-4, abs=1e-12)
+    assert gain == pytest.approx(-math.expm1(-angle) / angle, rel=1e-4)
+
+
+def test_frames_an_hour_apart_are_simulated_at_once(backend):
+    hour_us = 3_600_000_000
+    start = math.log(110)
+    values = [intensity(start, 10.0), intensity(start + 0.65, 10.0)]
+    events = run(clean(backend, cutoff_hz=250.0), frames_of(values, [0, hour_us]))
+    expected = np.array([0.2, 0.4, 0.6]) / 0.65 * hour_us
+    assert events.t == pytest.approx(expected, abs=hour_us / 1024)
 
 
 @pytest.mark.parametrize("fps", [240, 1000])

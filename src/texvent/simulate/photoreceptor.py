@@ -26,6 +26,9 @@ DARK_OFFSET = 20.0
 PIECE_ANGLE = 0.25
 """Longest piece of an interval that counts as straight, in time constants 1/ω: crossing times on
 it are wrong by (1/4)² / 8 < 1 % of the time constant."""
+MOST_PIECES = 1024
+"""Of one interval. Only intervals above 0.16 s at 250 Hz need more; their crossing times are wrong
+by less than a piece, so a thousandth of the interval, and frames an hour apart take no hour."""
 
 
 def linearize(luma: IntensityArray, gamma: float) -> Float64Array:
@@ -93,7 +96,7 @@ def drive_photoreceptors(before: Light, now: Light, cutoff_hz: float, duration_u
     levels = [light.intensity.reshape(-1) + DARK_OFFSET for light in (before, now)]
     turn = corner_per_level * duration_us
     # Many pieces cost time only where a pixel may fire.
-    pieces = np.maximum(np.ceil(turn * np.maximum(*levels) / PIECE_ANGLE), 1.0)
+    pieces = np.clip(np.ceil(turn * np.maximum(*levels) / PIECE_ANGLE), 1.0, MOST_PIECES)
     rise = (now.brightness - before.brightness).reshape(-1)
     decay, gain = _answer_to_line(turn * (levels[0] + levels[1]) / 2)
     return Drive(

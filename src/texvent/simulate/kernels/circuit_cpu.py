@@ -13,6 +13,7 @@ from texvent.simulate.firings import Firings
 from texvent.simulate.kernels.circuit import Arrivals, Drive, Pixels, PixelState, ResetRules
 from texvent.simulate.kernels.circuit_reference import LEAK_SHARE, NEVER, answer_to_line
 
+# Numba's cache looks at this file only: whoever changes answer_to_line must touch this one as well.
 _answer_to_line = numba.njit(cache=True, nogil=True, inline="always")(answer_to_line)
 
 Events = tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.uint8], NDArray[np.uint8]]

@@ -20,6 +20,8 @@ from texvent.simulate.kernels.circuit import (
 )
 
 NEVER = math.inf
+LONGEST_ANGLE = 0.5
+"""Up to here the approximant of `answer_to_line` is used as it is."""
 LEAK_SHARE = 0.5
 """An ON event is noise if leakage made at least this share of its change."""
 
@@ -99,15 +101,26 @@ def _run(circuit: _Circuit, drive: Drive, i: int, lag: float, duration: int) -> 
 
 
 def answer_to_line(angle: float) -> tuple[float, float]:
-    """`e^(−a)` and `(1 − e^(−a)) / a` for a short piece; (0, 0), no lag, if nothing limits it.
+    """`e^(−a)` and `(1 − e^(−a)) / a`; (0, 0), no lag, if nothing limits the bandwidth.
 
     By the Padé approximant [2/2] of e^(−a), whose error is below a⁵ / 720, so 1.4e-6 for a = 1/4:
-    it needs no exponential, whose last bit differs between libraries.
+    it needs no exponential, whose last bit differs between libraries. Above a = 1/2, by squaring
+    that of a / 2ⁿ, which is 1/8 at most.
     """
     if angle == 0:
         return 0.0, 0.0
-    even, odd = 1.0 + angle * angle / 12.0, angle / 2.0
-    return (even - odd) / (even + odd), 1.0 / (even + odd)
+    short, squarings = angle, 0
+    if angle > LONGEST_ANGLE:
+        while short > LONGEST_ANGLE / 4:
+            short *= 0.5
+            squarings += 1
+    even, odd = 1.0 + short * short / 12.0, short / 2.0
+    decay = (even - odd) / (even + odd)
+    if squarings == 0:
+        return decay, 1.0 / (even + odd)
+    for _ in range(squarings):
+        decay *= decay
+    return decay, (1.0 - decay) / angle
 
 
 @dataclass
