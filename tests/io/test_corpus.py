@@ -1,0 +1,52 @@
+"""Small files of every format, committed: what texvent wrote before it reads for ever.
+
+They are also the seeds of `fuzz_formats.py`. A new format's file is made by
+`python -m tests.io.test_corpus` in the repository's root, which never touches existing ones.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from texvent.errors import MissingDependencyError
+from texvent.events import EventStream
+from texvent.io.files import load, save
+
+from .format_cases import CASES, FormatCase, random_events
+
+CORPUS = Path(__file__).with_name("corpus")
+
+
+def expected(case: FormatCase) -> EventStream:
+    """Twelve events, two of them after a silence of three seconds."""
+    burst = random_events(10, case.sensor, span_us=30_000, seed=11)
+    late = random_events(2, case.sensor, span_us=50, start_us=3_000_000, seed=12)
+    return EventStream.concat([burst, late])
+
+
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+def test_a_committed_file_still_reads(case: FormatCase) -> None:
+    if case.extra:
+        pytest.importorskip(case.extra, reason=f"{case.name} needs {case.extra}")
+    events = load(CORPUS / case.name / case.file, format=case.name)
+    assert events.equals(expected(case))
+    assert events.metadata == expected(case).metadata
+
+
+def make_missing() -> None:
+    """Write the files of formats that have none yet."""
+    for case in CASES:
+        folder = CORPUS / case.name
+        if folder.exists():
+            continue
+        folder.mkdir(parents=True)
+        try:
+            save(folder / case.file, expected(case), format=case.name)
+        except MissingDependencyError:
+            folder.rmdir()
+
+
+if __name__ == "__main__":
+    make_missing()
