@@ -36,7 +36,7 @@ test-torch: $(TORCH_VENV)/.torch
 	$(TORCH_VENV)/bin/python -m pytest -q -m torch tests
 
 test-app: $(APP_VENV)/.app
-	$(APP_VENV)/bin/python -m pytest -q -m app tests
+	$(APP_VENV)/bin/python -m pytest -q -m app tests/view tests/web
 
 test-formats: $(FORMATS_VENV)/.formats
 	$(FORMATS_VENV)/bin/python -m pytest -q -k "parquet or blosc" tests/io

@@ -173,4 +173,6 @@ def test_a_full_disk_while_encoding_is_one_clear_line(
 def test_the_title_is_the_prompt_or_else_the_source() -> None:
     assert title_of({"prompt": " a\ncar "}) == "a car"
     assert title_of({"prompt": None, "source": {"path": "x"}, "title": "t"}) == "t"
+    assert title_of({"prompt": None, "source": {"source": "/a/b/clip.mp4"}}) == "clip.mp4"
+    assert title_of({"source": {"kind": "array"}}) == ""
     assert title_of({}) == ""

@@ -148,11 +148,20 @@ const makeCloud = (state, controls) => {
     const span = document.createElement("span");
     span.textContent = label.text;
     element("cloud-labels").append(span);
-    // Measured once: reading sizes between two changes makes the browser lay out the page again.
-    return { ...label, span, w: span.offsetWidth, h: span.offsetHeight };
+    return { ...label, span, w: 0, h: 0 };
   });
+  // Only for a new canvas size: reading sizes in every frame makes the browser lay out the page
+  // again and again.
+  let measuredFor = 0;
+  const measureLabels = (width) => {
+    if (measuredFor === width) return;
+    measuredFor = width;
+    for (const label of labels) label.span.hidden = false;
+    for (const label of labels) [label.w, label.h] = [label.span.offsetWidth, label.span.offsetHeight];
+  };
 
   const placeLabels = (width, height) => {
+    measureLabels(width);
     labels.forEach(({ axis, at, span, shift, w, h }) => {
       const [x, y] = project(at);
       const left = (((x - fit.x) * fit.scale) / (width / height) + 1) / 2 * width;
