@@ -109,6 +109,15 @@ def test_a_broken_config_file_is_one_clear_error(tmp_path, name, text, message):
         read_config(path)
 
 
+def test_a_single_option_is_stronger_than_the_config_file(tmp_path):
+    path = tmp_path / "run.toml"
+    path.write_text('sensor = "64x48"\nsimulator = "esim"\nseed = 4\nfps = 30\n', encoding="utf-8")
+    given = {"sensor": "dvs128", "simulator": "texvent", "fps": 50}
+    settings = resolve("generate", given, config=path)
+    assert (settings.run.sensor, settings.run.simulator) == ("dvs128", "texvent")
+    assert (settings.source.fps, settings.run.seed) == (50, 4)
+
+
 def test_a_missing_config_file_is_named(tmp_path):
     with pytest.raises(InputError, match=r"nope\.toml"):
         read_config(tmp_path / "nope.toml")
