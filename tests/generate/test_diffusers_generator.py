@@ -406,3 +406,15 @@ def test_agreement_equals_the_library_on_a_frame_of_the_models_own_size(tmp_path
     scale = model.logit_scale.exp().item()
     measured = measure_agreement(video, PROMPT, folder)
     assert measured == pytest.approx(expected.mean().item() / scale, abs=1e-4)
+
+
+def test_a_plan_says_what_is_to_be_done_and_ends_when_the_video_is_there(models):
+    generator = build(models("wan"))
+    plan = generator.plan(PROMPT)
+    assert "5 frames, 2 steps" in plan
+    assert str(models("wan")) in plan
+    generator.generate(PROMPT)
+    assert generator.plan(PROMPT) is None
+    part = GENERATORS.load("cosmos-7b")
+    absent = part(part.config_type(), seed=0, size=None).plan(PROMPT)
+    assert "it has to be fetched first; licence: NVIDIA Open Model License" in absent

@@ -12,6 +12,7 @@ from fractions import Fraction
 import pytest
 
 import texvent
+from texvent.cli.app import main
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.generate.external_program import run_program
 from texvent.generate.opensora import WEIGHTS, OpenSoraConfig, OpenSoraGenerator
@@ -120,6 +121,19 @@ def test_prompt_to_events_through_the_api(root):
     assert events.size == (48, 32)
     assert len(events) > 0
     assert events.metadata["source"]["generator"] == "opensora"
+
+
+def test_a_dry_run_says_what_would_be_done_and_does_not_do_it(root, capsys, monkeypatch):
+    words = ["generate", PROMPT, "--generator", "opensora", "--frames", "9", "--dry-run"]
+    assert main(words) == 0
+    said = capsys.readouterr().out
+    assert "Open-Sora would make it (9 frames, 50 steps, 256px); it is ready" in said
+    assert not (root.parent / "cache" / "videos").exists() or not list(
+        (root.parent / "cache" / "videos").iterdir()
+    )
+    build().generate(PROMPT)
+    assert main(words) == 0
+    assert "events" in capsys.readouterr().out
 
 
 def test_seeds_differ_and_seed_zero_is_a_seed(root):

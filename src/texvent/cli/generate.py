@@ -71,11 +71,22 @@ def run(arguments: Sequence[str]) -> int:
         return print_settings(settings)
     if own.video_only:
         return _write_video(own, settings, output)
+    if output.dry_run and (plan := _plan(own.prompt, settings)) is not None:
+        sys.stdout.write(f"{plan}\n")
+        return 0
     output.check(own.prompt)
     with ConsoleWatch(is_quiet=output.quiet) as watch:
         video = text_to_video(detail(own.prompt, own, watch), settings, watch=watch)
     simulation = video_to_events(video, settings, prompt=own.prompt)
     return execute(simulation, output, subject=own.prompt)
+
+
+def _plan(prompt: str, settings: Settings) -> str | None:
+    """What a learned generator would have to do first; None if the video is at hand."""
+    part = GENERATORS.load(str(settings.generator))
+    generator = part(settings.source, seed=settings.run.seed, size=settings.size)
+    plan = getattr(generator, "plan", None)
+    return None if plan is None else plan(prompt)
 
 
 def detail(prompt: str, options: UpsampleConfig, watch: ConsoleWatch) -> str:

@@ -21,6 +21,7 @@ from texvent.generate.attempts import generate_checked
 from texvent.generate.cache import VideoCache, content_key
 from texvent.generate.latents import Latents
 from texvent.generate.model_run import ModelRun
+from texvent.generate.model_source import find_downloaded
 from texvent.generate.models import VideoModel
 from texvent.generate.protocol import Watch
 from texvent.generate.silence import Silence
@@ -93,6 +94,21 @@ class DiffusersGenerator:
     def decode(self, latents: Latents) -> Iterator[PixelArray]:
         """Frames of latents, [H, W, 3] float32 in 0..1, a few at a time in memory."""
         return self._loaded(Silence()).decode(latents)
+
+    def plan(self, prompt: str) -> str | None:
+        """What making the video would take, or None if it was made before. Touches no network."""
+        self._check(prompt)
+        key = content_key(self._pixel_facts(prompt, self.seed))
+        if VideoCache(is_kept=self.config.reuse_video).find(key, self.fps) is not None:
+            return None
+        config, folder = self.config, self.model.folder or find_downloaded(self.model)
+        here = f"its files are in {folder}" if folder is not None else "it has to be fetched first"
+        wishes = {"frames": config.frames, "steps": config.steps}
+        amounts = ", ".join(f"{value} {name}" for name, value in wishes.items() if value)
+        return (
+            f"the video is not made yet: {self.model.name} would make it"
+            f"{f' ({amounts})' if amounts else ''}; {here}; licence: {self.model.licence}"
+        )
 
     @property
     def fps(self) -> Fraction:

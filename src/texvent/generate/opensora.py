@@ -147,12 +147,27 @@ class OpenSoraGenerator:
             watch=told,
         )
 
+    def plan(self, prompt: str) -> str | None:
+        """What making the video would take, or None if it was made before."""
+        config = self.config
+        key = self._key(prompt, self.seed)
+        if VideoCache(is_kept=config.reuse_video).find(key, Fraction(config.fps or 24)) is not None:
+            return None
+        state = self.find_missing(config) or "it is ready"
+        return (
+            f"the video is not made yet: Open-Sora would make it ({config.frames} frames, "
+            f"{config.steps} steps, {config.resolution}); {state}"
+        )
+
+    def _key(self, prompt: str, seed: int) -> str:
+        names = ("fps", "resolution", "aspect_ratio", "frames", "steps", "guidance")
+        facts = {name: getattr(self.config, name) for name in names}
+        return content_key({**facts, "source": "open-sora 2", "prompt": prompt, "seed": seed})
+
     def _find_or_make(self, prompt: str, seed: int, watch: Watch) -> StoredVideo:
         config = self.config
         fps = Fraction(config.fps or 24)
-        names = ("fps", "resolution", "aspect_ratio", "frames", "steps", "guidance")
-        facts = {name: getattr(config, name) for name in names}
-        key = content_key({**facts, "source": "open-sora 2", "prompt": prompt, "seed": seed})
+        key = self._key(prompt, seed)
         cache = VideoCache(is_kept=config.reuse_video)
         found = cache.find(key, fps)
         if found is not None:
