@@ -101,6 +101,16 @@ def test_rosbags_reads_every_field_of_a_bag(tmp_path: Path, events: EventStream)
     assert columns_equal(few, *zip(*found, strict=True))
 
 
+@pytest.mark.parametrize(("file", "module"), [("e.bag", "rosbag1"), ("e.mcap", "rosbag2")])
+def test_a_bag_begins_with_its_first_event(tmp_path: Path, file: str, module: str) -> None:
+    bags = pytest.importorskip(f"rosbags.{module}", reason="rosbags is not installed")
+    start = 1_000_000_000_000
+    path = save(tmp_path / file, random_events(50, SIZE, start_us=start))
+    with bags.Reader(path) as bag:
+        # A player waits from message to message: none may lie at 1970.
+        assert start * 1000 <= bag.start_time < (start + 50_000) * 1000
+
+
 def test_rosbags_reads_an_mcap_file_and_its_words_are_evt3(
     tmp_path: Path, events: EventStream
 ) -> None:

@@ -157,10 +157,11 @@ class Rosbag1Codec(BagCodec):
         types = _types(1)
         text = sidecar_text(target.size, target.metadata).encode("utf-8")
         facts = bag.add_connection(FACTS_TOPIC, STRING, typestore=types)
-        bag.write(facts, 0, struct.pack("<I", len(text)) + text)
+        message = struct.pack("<I", len(text)) + text
         events = bag.add_connection(TOPIC, EVENT_ARRAY, typestore=types)
         pack = partial(pack_event_array, size=target.size)
-        return BagSink(bag, events, lambda columns, number: pack(columns, sequence=number))
+        start = partial(bag.write, facts, data=message)
+        return BagSink(bag, events, lambda columns, number: pack(columns, sequence=number), start)
 
 
 class McapCodec(BagCodec):
@@ -207,7 +208,7 @@ class McapCodec(BagCodec):
         types = _types(2)
         text = sidecar_text(target.size, target.metadata).encode("utf-8")
         facts = bag.add_connection(FACTS_TOPIC, STRING, typestore=types)
-        bag.write(facts, 0, b"\0\1\0\0" + struct.pack("<I", len(text) + 1) + text + b"\0")
+        message = b"\0\1\0\0" + struct.pack("<I", len(text) + 1) + text + b"\0"
         events = bag.add_connection(TOPIC, EVENT_PACKET, typestore=types)
         encoder = KernelEncoder(KERNELS)
 
@@ -217,7 +218,8 @@ class McapCodec(BagCodec):
             return pack_event_packet(words, target.size, number, int(columns["t"][0]))
 
         closing_bag = partial(_close_and_move, closing, Path(folder) / "bag" / "bag.mcap", part)
-        return BagSink(bag, events, pack, closing_bag)
+        start = partial(bag.write, facts, data=message)
+        return BagSink(bag, events, pack, start, closing_bag)
 
 
 class BagSink:
@@ -227,6 +229,8 @@ class BagSink:
         bag: rosbags' writer.
         connection: its connection for the events.
         pack: makes a message of columns and its number.
+        start: writes the message of size and metadata, at a time in ns: that of the first event,
+            because players wait from one message to the next.
         finish: what remains to be done after the last message.
     """
 
@@ -235,16 +239,20 @@ class BagSink:
         bag: Any,
         connection: Any,
         pack: Callable[[Columns, int], bytes],
+        start: Callable[[int], None],
         finish: Callable[[], None] = lambda: None,
     ) -> None:
         self._bag = bag
         self._connection = connection
         self._pack = pack
+        self._start = start
         self._finish = finish
         self._count = 0
 
     def write(self, columns: Columns) -> None:
         """Add events."""
+        if self._count == 0:
+            self._start(int(columns["t"][0]) * NS)
         windows = columns["t"] // PACKET_US
         cuts = np.flatnonzero(windows[1:] != windows[:-1]) + 1
         for start, stop in itertools.pairwise([0, *cuts.tolist(), len(windows)]):
@@ -254,6 +262,8 @@ class BagSink:
 
     def finish(self) -> None:
         """Do what remains; the index is written when the bag is closed."""
+        if self._count == 0:
+            self._start(0)
         self._finish()
 
 

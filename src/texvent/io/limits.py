@@ -58,7 +58,7 @@ class FormatLimits:
             raise InputError(
                 f"cannot write {path}: an event has time {last} µs; {self.name} holds times below "
                 f"{self.stop_us} µs ({self.stop_us / 3.6e9:.3g} h). {UNLIMITED} hold it; or check "
-                "the time unit, or start the recording near 0"
+                "the time unit, or start the recording near 0 (texvent convert --from-zero)"
             )
         span = last - (first if start_us is None else start_us)
         if self.max_span_us is not None and span > self.max_span_us:
