@@ -67,7 +67,7 @@ def run(arguments: Sequence[str]) -> int:
     try:
         with Workspace() as workspace:
             page = AppPage(workspace, limits=limits, generators=generators)
-            server, address = page.launch(host=options.host, port=options.port)
+            address = page.launch(host=options.host, port=options.port)
             if not options.quiet:
                 sys.stdout.write(f"{address}\npress Ctrl-C to stop\n")
                 sys.stdout.flush()
@@ -77,7 +77,7 @@ def run(arguments: Sequence[str]) -> int:
                 stop.wait()
             except KeyboardInterrupt:
                 stop.set()
-            server.close(verbose=False)
+            page.close()
     finally:
         signal.signal(signal.SIGTERM, before)
     return 0

@@ -15,7 +15,7 @@ from texvent.web.answers import failure_html, progress_html, summary_html, viewe
 from texvent.web.examples import examples
 from texvent.web.job import Answer, ConvertJob, Job, SimulateJob
 from texvent.web.limits import Limits
-from texvent.web.supervisor import run_job
+from texvent.web.supervisor import Supervisor
 from texvent.web.workspace import Workspace
 
 OWN_SIZE = "as the video"
@@ -69,9 +69,11 @@ class AppPage:
         self._gradio: Any = require("gradio", extra="app")
         self._workspace = workspace
         self._limits = limits
+        self._supervisor = Supervisor(time_limit_s=limits.time_limit)
+        self._server: Any = None
         self._generators = generators
 
-    def launch(self, *, host: str, port: int) -> tuple[Any, str]:
+    def launch(self, *, host: str, port: int) -> str:
         """Start the server in threads of its own.
 
         Args:
@@ -79,7 +81,7 @@ class AppPage:
             port: TCP port; 0 lets Gradio choose a free one from 7860 on.
 
         Returns:
-            The running page (with `close()`) and its address.
+            The page's address.
 
         Raises:
             OSError: the port is taken.
@@ -103,7 +105,14 @@ class AppPage:
                 primary_hue="blue", font=list(FONTS), font_mono=["monospace"]
             ),
         )
-        return blocks, address
+        self._server = blocks
+        return str(address)
+
+    def close(self) -> None:
+        """Stop the jobs that run, then the server."""
+        self._supervisor.close()
+        if self._server is not None:
+            self._server.close(verbose=False)
 
     def build(self) -> Any:
         """The page, not started."""
@@ -265,7 +274,7 @@ class AppPage:
         skip = self._gradio.skip()
         try:
             job = make_job(str(self._workspace.new_folder()))
-            for answer in run_job(job, time_limit_s=self._limits.time_limit):
+            for answer in self._supervisor.run(job):
                 if answer.kind == "progress":
                     yield [progress_html(answer), skip, skip, None, skip]
                 else:
@@ -277,7 +286,7 @@ class AppPage:
             yield [failure_html(str(error)), None, "", None, None]
 
     def _last(self, job: Job) -> Answer:
-        *_, done = run_job(job, time_limit_s=self._limits.time_limit)
+        *_, done = self._supervisor.run(job)
         return done
 
 

@@ -19,44 +19,75 @@ PATIENCE_S = 0.5
 """How often the clock is looked at while a worker says nothing."""
 
 
-def run_job(job: Job, *, time_limit_s: float) -> Iterator[Answer]:
-    """Answers of a worker as they come; the last one is "done".
+class Supervisor:
+    """Runs jobs, each in a process of its own.
 
-    Closing the iterator stops the worker.
-
-    Args:
-        job: what to do.
-        time_limit_s: longest work, seconds.
-
-    Raises:
-        InputError: the worker refused the job, crashed, or ran out of time; the message is
-            meant for the visitor.
+    Its time limit is the longest work on one job, seconds.
     """
-    # In a group of its own, so that a Ctrl-C in the terminal is left to us to handle.
-    worker = subprocess.Popen(
-        WORKER,
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        text=True,
-        encoding="utf-8",
-        env={**os.environ, "PYTHONUNBUFFERED": "1"},
-        start_new_session=True,
-    )
-    try:
-        yield from _follow(worker, job, time.monotonic() + time_limit_s, time_limit_s)
-    finally:
-        worker.kill()
-        worker.wait()
-        for pipe in (worker.stdin, worker.stdout):
-            if pipe is not None:
-                with contextlib.suppress(BrokenPipeError):
-                    pipe.close()
+
+    def __init__(self, *, time_limit_s: float) -> None:
+        self._time_limit_s = time_limit_s
+        self._running: set[subprocess.Popen[str]] = set()
+        self._lock = threading.Lock()
+        self._is_closed = False
+
+    def run(self, job: Job) -> Iterator[Answer]:
+        """Answers of a worker as they come; the last one is "done".
+
+        Closing the iterator stops the worker.
+
+        Args:
+            job: what to do.
+
+        Raises:
+            InputError: the worker refused the job, crashed, or ran out of time; the message is
+                meant for the visitor.
+        """
+        worker = self._start()
+        try:
+            yield from _follow(worker, job, self._time_limit_s)
+        finally:
+            with self._lock:
+                self._running.discard(worker)
+            _end(worker)
+
+    def close(self) -> None:
+        """Stop all workers, whoever waits for them; no other job is taken."""
+        with self._lock:
+            self._is_closed = True
+            for worker in self._running:
+                worker.kill()
+
+    def _start(self) -> subprocess.Popen[str]:
+        with self._lock:
+            if self._is_closed:
+                raise InputError("the page is closing and takes no more jobs")
+            # In a session of its own, so that a Ctrl-C in the terminal is ours to handle.
+            worker = subprocess.Popen(
+                WORKER,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.DEVNULL,
+                text=True,
+                encoding="utf-8",
+                env={**os.environ, "PYTHONUNBUFFERED": "1"},
+                start_new_session=True,
+            )
+            self._running.add(worker)
+        return worker
 
 
-def _follow(
-    worker: subprocess.Popen[str], job: Job, deadline: float, time_limit_s: float
-) -> Iterator[Answer]:
+def _end(worker: subprocess.Popen[str]) -> None:
+    worker.kill()
+    worker.wait()
+    for pipe in (worker.stdin, worker.stdout):
+        if pipe is not None:
+            with contextlib.suppress(BrokenPipeError):
+                pipe.close()
+
+
+def _follow(worker: subprocess.Popen[str], job: Job, time_limit_s: float) -> Iterator[Answer]:
+    deadline = time.monotonic() + time_limit_s
     lines: queue.Queue[str | None] = queue.Queue()
     reader = threading.Thread(target=_read, args=(worker, lines), daemon=True)
     _hand_over(worker, job)
