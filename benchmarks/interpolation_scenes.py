@@ -16,11 +16,9 @@ TEXTURES = {
     "smooth": ((32.0, 0.6), (16.0, 0.4)),
 }
 """Octaves of value noise: (cell size, px; weight)."""
-SPEEDS = {"slow": "slowly", "medium": "", "fast": "fast"}
-"""Name → the word of the prompt."""
-PROMPT = "a red car drives {} left past two trees"
-FRAME_US = 41_667
-"""Interval between the two given frames of an embedded scene: 24 frames per second."""
+SPEEDS = {"slow": 14_000, "medium": 42_000, "fast": 126_000}
+"""Name → interval between the two given frames, µs: one drive, three times as slow and as fast."""
+PROMPT = "a red car drives left past two trees"
 START_US = 1_000_000
 """Time of the first of them; the car is in the picture."""
 
@@ -31,11 +29,10 @@ def embedded_scene(speed: str) -> Callable[[float], NDArray[Any]]:
     Args:
         speed: a name in `SPEEDS`.
     """
-    prompt = " ".join(PROMPT.format(SPEEDS[speed]).split())
-    stream = ProceduralGenerator(ProceduralConfig()).generate(prompt)
+    stream = ProceduralGenerator(ProceduralConfig()).generate(PROMPT)
 
     def render(position: float) -> NDArray[Any]:
-        return stream.at(START_US + round(position * FRAME_US)).luma
+        return stream.at(START_US + round(position * SPEEDS[speed])).luma
 
     return render
 
