@@ -22,8 +22,8 @@ from texvent.video import Frame, FrameStream
 class RifeInterpolator:
     """Moves both frames along the flow that a trained network estimates, and mixes them.
 
-    The network sees 8 bits or more of every channel; the frames that are moved are float32 luma,
-    whatever the network's precision, so intermediate frames have no steps.
+    The network only sees the frames; what is moved is their float32 luma, whatever the network's
+    precision, so intermediate frames have no steps.
 
     Source: Huang et al., Real-Time Intermediate Flow Estimation for Video Frame Interpolation
         (ECCV 2022); section 3.2.1 of the paper.
