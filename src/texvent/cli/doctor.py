@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import importlib.util
 import os
 import platform
 import shutil
@@ -13,7 +14,7 @@ from importlib import metadata
 from pathlib import Path
 
 from rich.console import Console
-from rich.table import Table
+from rich.markup import escape
 
 from texvent._registry import REGISTRIES
 from texvent._version import __version__
@@ -30,8 +31,24 @@ BASE = {
     "pyyaml": "YAML config files",
     "tomli-w": "--print-config",
     "pypi-simple": "texvent data pull",
+    "requests": "texvent data pull",
+    "lz4": "AEDAT4 event files",
 }
 """Package → what it is for; `pip install texvent` brings all of them."""
+
+EXTRAS = {
+    "generate": ("diffusers", "learned text-to-video models: Cosmos, Wan, CogVideoX, ..."),
+    "rife": ("torch", "RIFE interpolation"),
+    "v2ce": ("torch", "the V2CE simulator"),
+    "app": ("gradio", "the web page: texvent app"),
+    "rerun": ("rerun", "rerun files (.rrd)"),
+    "bags": ("rosbags", "ROS bags and mcap"),
+    "parquet": ("pyarrow", "Parquet event files"),
+    "blosc": ("hdf5plugin", "HDF5 files packed with blosc, as DSEC's own"),
+    "zstd": ("backports.zstd", "AEDAT4 packed with zstd (Python 3.14 has it)"),
+    "pandas": ("pandas", "events.to_dataframe()"),
+}
+"""Extra → the module that shows it is there, and what it is for; none is needed to start."""
 
 MODULES = {"opencv-python-headless": "cv2", "pyyaml": "yaml", "tomli-w": "tomli_w"}
 """Packages whose module has another name."""
@@ -58,16 +75,17 @@ def run(arguments: Sequence[str]) -> int:
     if arguments:
         raise ConfigError(f"texvent doctor takes no arguments; got {' '.join(arguments)!r}")
     findings = examine()
-    table = Table(box=None, pad_edge=False, header_style="bold")
-    for title in ("", "what", "state", "what to do"):
-        table.add_column(title)
+    console = Console(highlight=False, soft_wrap=True)
+    width = max(len(finding.name) for finding in findings)
     for finding in findings:
-        mark = "[green]ok[/]" if finding.is_fine else "[red]no[/]"
-        table.add_row(mark, finding.name, finding.state, finding.remedy)
-    console = Console(highlight=False)
-    console.print(table)
+        is_absent = finding.is_fine and bool(finding.remedy)
+        mark = "--" if is_absent else "[green]ok[/]" if finding.is_fine else "[red]no[/]"
+        remedy = f"  [bold]{escape(finding.remedy)}[/]" if finding.remedy else ""
+        console.print(
+            f"{mark}  {escape(finding.name.ljust(width))}  {escape(finding.state)}{remedy}"
+        )
     for kind, registry in REGISTRIES.items():
-        console.print(f"   {kind + 's':<16}{', '.join(registry.names())}", markup=False)
+        console.print(f"{kind + 's'}: {', '.join(registry.names())}", markup=False)
     return 0 if all(finding.is_fine for finding in findings) else 1
 
 
@@ -76,6 +94,7 @@ def examine() -> list[Finding]:
     findings = [_python(), Finding("texvent", True, __version__)]
     findings += [_package(name, purpose) for name, purpose in BASE.items()]
     findings += [_encoder(), _processors(), _folder("current folder", Path.cwd())]
+    findings += [_extra(name, *entry) for name, entry in EXTRAS.items()]
     return findings
 
 
@@ -91,7 +110,19 @@ def _package(name: str, purpose: str) -> Finding:
         importlib.import_module(MODULES.get(name, name.replace("-", "_")))
     except ImportError as error:
         return Finding(name, False, f"cannot be imported: {error}", f"pip install {name}")
-    return Finding(name, True, f"{version:<12} {purpose}")
+    return Finding(name, True, f"{version:<10} {purpose}")
+
+
+def _extra(name: str, module: str, purpose: str) -> Finding:
+    """An optional part: fine either way, but told how to get."""
+    try:
+        is_here = importlib.util.find_spec(module) is not None
+    except ModuleNotFoundError:
+        is_here = False
+    if name == "zstd" and sys.version_info >= (3, 14):
+        is_here = True
+    state = f"{'here' if is_here else 'missing':<10} {purpose}"
+    return Finding(f"[{name}]", True, state, "" if is_here else f"pip install 'texvent[{name}]'")
 
 
 def _encoder() -> Finding:
