@@ -25,6 +25,7 @@ from texvent.calibrate.recording import WARM_UP_US, Recording, Span
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig, InterpolateConfig
 from texvent.data.pull import pull
+from texvent.errors import InputError
 from texvent.io.files import load
 from texvent.pipeline import video_to_events
 from texvent.sensor import SensorSize
@@ -117,11 +118,17 @@ def main() -> None:
     recording = read_recording(arguments.recording)
     span, held_out = (half.first(arguments.seconds) for half in recording.halves())
     rows: list[tuple[Distance, str, float]] = []
+    too_noisy: list[str] = []
     for simulator, preset in MODELS:
+        name = f"{simulator}, `{preset}`"
         settings = resolve("simulate", {**options_of(simulator), "preset": preset})
-        matched = match_threshold(recording, settings, span)
+        try:
+            matched = match_threshold(recording, settings, span)
+        except InputError:
+            too_noisy.append(name)
+            continue
         threshold = contrast_threshold_of(matched.simulate)
-        rows.append((score(recording, matched, held_out), f"{simulator}, `{preset}`", threshold))
+        rows.append((score(recording, matched, held_out), name, threshold))
     if arguments.fitted is not None:
         options = {**options_of("physical"), "sensor": str(arguments.fitted)}
         settings = resolve("simulate", options)
@@ -135,6 +142,8 @@ def main() -> None:
             f"| {name} | {threshold:.3g} | {distance.total:.3f} | {distance.overlap:.3f} "
             f"| {distance.intervals:.3f} | ×{on:.2f} | ×{off:.2f} |"
         )
+    for name in too_noisy:
+        print(f"| {name} | count not reached at any δ | | | | | |")
 
 
 if __name__ == "__main__":
