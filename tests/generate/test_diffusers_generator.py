@@ -36,7 +36,12 @@ from texvent.errors import (  # noqa: E402
 from texvent.generate import guardrail, model_run  # noqa: E402
 from texvent.generate.agreement import measure_agreement  # noqa: E402
 from texvent.generate.cache import made_folder  # noqa: E402
-from texvent.generate.pipeline_loading import load_pipeline  # noqa: E402
+from texvent.generate.pipeline_loading import (  # noqa: E402
+    LoadRequest,
+    load_pipeline,
+    place_pipeline,
+)
+from texvent.generate.placement import Placement  # noqa: E402
 from texvent.generate.stored_video import write_video  # noqa: E402
 from texvent.pipeline import text_to_events  # noqa: E402
 from texvent.settings import resolve  # noqa: E402
@@ -418,3 +423,46 @@ def test_a_plan_says_what_is_to_be_done_and_ends_when_the_video_is_there(models)
     part = GENERATORS.load("cosmos-7b")
     absent = part(part.config_type(), seed=0, size=None).plan(PROMPT)
     assert "it has to be fetched first; licence: NVIDIA Open Model License" in absent
+
+
+class FakePipeline:
+    """Notes how a pipeline is placed; a GPU is not at hand in the tests."""
+
+    def __init__(self):
+        self.calls = []
+        self.vae = self
+
+    def __getattr__(self, name):
+        return lambda *_, **options: self.calls.append((name, options))
+
+
+@pytest.mark.parametrize(
+    ("offload", "called"),
+    [
+        ("none", ["to"]),
+        ("model", ["enable_model_cpu_offload", "enable_tiling"]),
+        ("sequential", ["enable_sequential_cpu_offload", "enable_tiling"]),
+    ],
+)
+def test_parts_are_placed_as_the_placement_says(offload, called):
+    pipe = FakePipeline()
+    placement = Placement("cuda:0", "bfloat16", offload, tiles_decoder=offload != "none")
+    place_pipeline(pipe, placement)
+    assert [name for name, _ in pipe.calls] == called
+    assert all(options in ({}, {"device": "cuda:0"}) for _, options in pipe.calls)
+
+
+def test_quantised_weights_without_their_package_name_the_extra(models, monkeypatch):
+    monkeypatch.setitem(sys.modules, "bitsandbytes", None)
+    placement = Placement("cuda:0", "bfloat16", "none", tiles_decoder=False)
+    request = LoadRequest(
+        folder=models("wan"),
+        content="",
+        class_name=None,
+        placement=placement,
+        quantize="8bit",
+        decoder=None,
+        decoder_in_float32=False,
+    )
+    with pytest.raises(MissingDependencyError, match=r"texvent\[quantize\]"):
+        load_pipeline(request)

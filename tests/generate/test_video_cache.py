@@ -11,6 +11,7 @@ from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError, OutputError
 from texvent.generate.cache import VideoCache, content_key, made_folder
+from texvent.generate.check import measure_clip
 from texvent.generate.stored_video import open_stored, to_16_bits, write_video
 
 FPS = Fraction(30_000, 1001)
@@ -92,7 +93,8 @@ def test_a_video_is_found_again_by_its_key_with_its_metadata(cache):
     stored = cache.store("abc", noise(), FPS, {"prompt": "ä cat", "seed": 0})
     found = cache.find("abc", Fraction(10))
     assert found.path == stored.path
-    assert found.metadata == {"prompt": "ä cat", "seed": 0}
+    assert found.metadata["prompt"] == "ä cat"
+    assert found.metadata["seed"] == 0
     assert [frame.t_us for frame in found][1] == 100_000
     assert cache.find("abd", FPS) is None
 
@@ -138,3 +140,9 @@ def test_a_cache_folder_that_cannot_be_made_is_named(tmp_path, monkeypatch):
     monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "file"))
     with pytest.raises(OutputError, match="TEXVENT_CACHE"):
         made_folder("videos")
+
+
+def test_the_measures_of_the_filter_are_taken_while_writing_and_kept(cache):
+    cache.store("abc", noise(), FPS, {})
+    found = cache.find("abc", FPS)
+    assert found.metadata["measures"] == measure_clip(found)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
 import hashlib
 from collections.abc import Callable
 
 from texvent.errors import TexventError
-from texvent.generate.check import ClipReport, check_clip
+from texvent.generate.cache import MEASURES
+from texvent.generate.check import ClipReport, check_clip, judge_measures
 from texvent.generate.protocol import Watch
 from texvent.generate.stored_video import StoredVideo
 from texvent.generate.video_config import GeneratedVideoConfig
@@ -45,14 +47,15 @@ def generate_checked(
         if report.is_fine or config.on_failure == "warn":
             if not report.is_fine:
                 watch.announce(f"warning: the generated video looks failed: {report.summary}")
-            return video.with_metadata(check=report.as_facts())
+            return _with_findings(video, report)
         watch.announce(f"seed {attempt_seed} is refused: {report.summary}")
     raise TexventError(_refusal(report, tries))
 
 
 def _judge(video: StoredVideo, prompt: str, config: GeneratedVideoConfig) -> ClipReport:
     """What is wrong with the video itself, and whether it shows the prompt."""
-    report = check_clip(video)
+    measures = video.metadata.get(MEASURES)
+    report = check_clip(video) if measures is None else judge_measures(dict(measures))
     if config.agreement_model is None:
         return report
     # Imported here: it needs torch, which the checks of the video itself do not.
@@ -64,6 +67,12 @@ def _judge(video: StoredVideo, prompt: str, config: GeneratedVideoConfig) -> Cli
         problems=(*report.problems, *((f"agreement {score:.3f}",) if low else ())),
         measures={**report.measures, "agreement": score},
     )
+
+
+def _with_findings(video: StoredVideo, report: ClipReport) -> StoredVideo:
+    """The video with the findings in place of the bare measures."""
+    facts = {name: fact for name, fact in video.metadata.items() if name != MEASURES}
+    return dataclasses.replace(video, metadata={**facts, "check": report.as_facts()})
 
 
 def nth_seed(seed: int, attempt: int) -> int:

@@ -7,6 +7,7 @@ option of the simulator finds the video again, and changing the seed does not.
 from __future__ import annotations
 
 import atexit
+import dataclasses
 import functools
 import hashlib
 import json
@@ -20,11 +21,14 @@ from typing import Any
 from texvent._cache import CACHE_VARIABLE, cache_folder
 from texvent.config import plain
 from texvent.errors import OutputError
+from texvent.generate.check import ClipMeasurer, measure_clip
 from texvent.generate.stored_video import EXTENSION, StoredVideo, write_video
 from texvent.io.atomic import atomic_file
 from texvent.sensor import SensorSize
 from texvent.video import PixelArray
 
+MEASURES = "measures"
+"""Key of the failure filter's numbers in a video's metadata."""
 LAYOUT = 1
 """Goes into every key; raised when the same request would be stored in another way."""
 
@@ -92,9 +96,16 @@ class VideoCache:
     def store(
         self, key: str, frames: Iterable[PixelArray], fps: Fraction, metadata: Mapping[str, Any]
     ) -> StoredVideo:
-        """Write a video and its note; see `stored_video.write_video`."""
-        video = write_video(frames, self._path(key, EXTENSION), fps, metadata, overwrite=True)
-        self._note(key, video)
+        """Write a video and its note; see `stored_video.write_video`.
+
+        The failure filter's measures are taken while the frames pass by and are noted too.
+        """
+        measurer = ClipMeasurer()
+        path = self._path(key, EXTENSION)
+        video = write_video(
+            frames, path, fps, metadata, overwrite=True, on_frame=measurer.add
+        ).with_metadata(**{MEASURES: measurer.measures()})
+        self._note(video)
         return video
 
     def adopt(self, key: str, video: StoredVideo) -> StoredVideo:
@@ -102,19 +113,16 @@ class VideoCache:
         path = self._path(key, video.path.suffix)
         with atomic_file(path, overwrite=True) as part:
             part.write_bytes(video.path.read_bytes())
-        kept = StoredVideo(path, video.fps, video.size, video.frame_count, video.metadata)
-        self._note(key, kept)
+        kept = dataclasses.replace(video, path=path)
+        kept = kept.with_metadata(**{MEASURES: measure_clip(kept)})
+        self._note(kept)
         return kept
-
-    def forget(self, key: str) -> None:
-        """Remove a video, so that the next request makes it again."""
-        (made_folder("videos") / f"{key}.json").unlink(missing_ok=True)
 
     def _path(self, key: str, extension: str) -> Path:
         folder = made_folder("videos") if self._is_kept else _scratch_folder()
         return folder / f"{key}{extension}"
 
-    def _note(self, key: str, video: StoredVideo) -> None:
+    def _note(self, video: StoredVideo) -> None:
         note = {
             "file": video.path.name,
             "bytes": video.path.stat().st_size,

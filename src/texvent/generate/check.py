@@ -73,9 +73,13 @@ def check_clip(frames: Iterable[Frame]) -> ClipReport:
     Args:
         frames: a video; at least two frames, else it has no motion.
     """
-    measures = measure_clip(frames)
+    return judge_measures(measure_clip(frames))
+
+
+def judge_measures(measures: dict[str, float]) -> ClipReport:
+    """The problems that the numbers of `ClipMeasurer` amount to."""
     found = {
-        "frozen": _is_frozen(measures),
+        "frozen": measures["still_share"] > FROZEN_SHARE,
         "no motion": measures["motion"] < MOTION_LEVELS,
         "flicker": measures["flicker"] > FLICKER_LEVELS,
         "flash": measures["flash"] > FLASH_LEVELS,
@@ -87,42 +91,53 @@ def check_clip(frames: Iterable[Frame]) -> ClipReport:
     return ClipReport(tuple(name for name, is_found in found.items() if is_found), measures)
 
 
-def _is_frozen(measures: dict[str, float]) -> bool:
-    return measures["still_share"] > FROZEN_SHARE
-
-
 def measure_clip(frames: Iterable[Frame]) -> dict[str, float]:
-    """The numbers behind the checks.
-
-    Returns:
-        By name: `still_share`, share of pairs that do not change; `motion`, 99th percentile over
-        blocks of their range over time; `flicker` and `flash`, upper quartile and maximum of
-        how far a frame's mean stands out from both neighbours; `cut` and `cut_ratio`, change of
-        the pair that stands out most from those beside it, and how many times theirs it is;
-        `dark_end` and `bright_end`, 5th and 95th percentile of all blocks; `correlation`, of
-        neighbouring pixels, median over frames.
-    """
-    blocks: list[NDArray[np.float32]] = []
-    correlations: list[float] = []
+    """The numbers behind the checks; see `ClipMeasurer.measures`."""
+    measurer = ClipMeasurer()
     for frame in frames:
+        measurer.add(frame)
+    return measurer.measures()
+
+
+class ClipMeasurer:
+    """Takes the measures of a clip while its frames pass by; keeps block means only."""
+
+    def __init__(self) -> None:
+        self._blocks: list[NDArray[np.float32]] = []
+        self._correlations: list[float] = []
+
+    def add(self, frame: Frame) -> None:
+        """Take one frame."""
         luma = frame.luma.astype(np.float32)
-        blocks.append(block_means(luma))
-        correlations.append(neighbour_correlation(luma))
-    stack = np.stack(blocks)
-    change = np.abs(np.diff(stack, axis=0)).mean(axis=(1, 2)) if len(stack) > 1 else np.zeros(1)
-    jitter = _jitter(stack.mean(axis=(1, 2)))
-    cut, cut_ratio = _sharpest_cut(change)
-    return {
-        "still_share": float((change < STILL_LEVELS).mean()),
-        "motion": float(np.percentile(stack.max(axis=0) - stack.min(axis=0), 99)),
-        "flicker": float(np.percentile(jitter, 75)),
-        "flash": float(jitter.max()),
-        "cut": cut,
-        "cut_ratio": cut_ratio,
-        "dark_end": float(np.percentile(stack, 5)),
-        "bright_end": float(np.percentile(stack, 95)),
-        "correlation": float(np.median(correlations)),
-    }
+        self._blocks.append(block_means(luma))
+        self._correlations.append(neighbour_correlation(luma))
+
+    def measures(self) -> dict[str, float]:
+        """The numbers behind the checks.
+
+        Returns:
+            By name: `still_share`, share of pairs that do not change; `motion`, 99th percentile
+            over blocks of their range over time; `flicker` and `flash`, upper quartile and
+            maximum of how far a frame's mean stands out from both neighbours; `cut` and
+            `cut_ratio`, change of the pair that stands out most from those beside it, and how
+            many times theirs it is; `dark_end` and `bright_end`, 5th and 95th percentile of all
+            blocks; `correlation`, of neighbouring pixels, median over frames.
+        """
+        stack = np.stack(self._blocks)
+        change = np.abs(np.diff(stack, axis=0)).mean(axis=(1, 2)) if len(stack) > 1 else np.zeros(1)
+        jitter = _jitter(stack.mean(axis=(1, 2)))
+        cut, cut_ratio = _sharpest_cut(change)
+        return {
+            "still_share": float((change < STILL_LEVELS).mean()),
+            "motion": float(np.percentile(stack.max(axis=0) - stack.min(axis=0), 99)),
+            "flicker": float(np.percentile(jitter, 75)),
+            "flash": float(jitter.max()),
+            "cut": cut,
+            "cut_ratio": cut_ratio,
+            "dark_end": float(np.percentile(stack, 5)),
+            "bright_end": float(np.percentile(stack, 95)),
+            "correlation": float(np.median(self._correlations)),
+        }
 
 
 def block_means(luma: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -55,7 +55,6 @@ def call_pipeline(
         ConfigError: the pipeline does not take an option, or refuses its value.
         TexventError: the GPU's memory is too small.
     """
-    torch = require("torch", extra=EXTRA)
     accepted = inspect.signature(pipe.__call__).parameters
     arguments = {**_options(pipe, config, accepted), **prompt}
     if "prompt_embeds" in prompt:
@@ -69,12 +68,16 @@ def call_pipeline(
         raise ConfigError(f"image is set, but {type(pipe).__name__} starts from text alone")
     if STEP_CALLBACK in accepted:
         arguments[STEP_CALLBACK] = _step_callback(watch)
+    output = _run(pipe, {**arguments, "output_type": output_type}, seed)
+    return output if output_type == "latent" else output[0]
+
+
+def _run(pipe: Any, arguments: Mapping[str, Any], seed: int) -> Any:
+    """The first result of a call."""
+    torch = require("torch", extra=EXTRA)
     try:
-        output = pipe(
-            **arguments,
-            generator=torch.Generator("cpu").manual_seed(seed),
-            output_type=output_type,
-            return_dict=False,
+        return pipe(
+            **arguments, generator=torch.Generator("cpu").manual_seed(seed), return_dict=False
         )[0]
     except ValueError as error:
         raise ConfigError(f"{type(pipe).__name__} refuses the options: {error}") from error
@@ -87,7 +90,6 @@ def call_pipeline(
     finally:
         # Also after Ctrl-C: parts that are offloaded go back, so that the next prompt can run.
         pipe.maybe_free_model_hooks()
-    return output if output_type == "latent" else output[0]
 
 
 def default_guidance(pipe: Any, config: DiffusersConfig) -> float:

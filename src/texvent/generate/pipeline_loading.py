@@ -100,7 +100,7 @@ def load_pipeline(request: LoadRequest) -> Pipeline:
         pipe = _from_pretrained(pipeline_class, request, parts)
     if PART in parts:
         check_wiring(pipe)
-    _place(pipe, request.placement)
+    place_pipeline(pipe, request.placement)
     for part in pipe.components.values():
         # A text encoder in training mode drops units at random.
         if hasattr(part, "eval") and callable(part.eval):
@@ -175,7 +175,8 @@ def _quantization(request: LoadRequest) -> Any:
     )
 
 
-def _place(pipe: Pipeline, placement: Placement) -> None:
+def place_pipeline(pipe: Pipeline, placement: Placement) -> None:
+    """Bring a pipeline to its device, whole or part by part."""
     if placement.offload == "model":
         pipe.enable_model_cpu_offload(device=placement.device)
     elif placement.offload == "sequential":

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
@@ -116,6 +116,7 @@ def write_video(
     metadata: Mapping[str, Any],
     *,
     overwrite: bool,
+    on_frame: Callable[[Frame], None] | None = None,
 ) -> StoredVideo:
     """Write frames losslessly, one at a time; nothing is left behind if that fails.
 
@@ -125,6 +126,7 @@ def write_video(
         fps: frame rate.
         metadata: what made the video, stored in the file as JSON.
         overwrite: whether an existing file may be replaced.
+        on_frame: given every frame as it is stored.
 
     Raises:
         OutputError: the file exists already or cannot be written.
@@ -144,6 +146,8 @@ def write_video(
             picture = av.VideoFrame.from_ndarray(deep, format="rgb48le")
             picture.pts, picture.time_base = count, 1 / fps
             container.mux(stream.encode(picture))
+            if on_frame is not None:
+                on_frame(Frame(deep, frame_time_us(count, fps)))
             count += 1
         if stream is None:
             raise InputError("the generator made no frame")
