@@ -81,6 +81,14 @@ def test_hub_repositories_and_folders_are_generators():
     assert not folder.model.repo
 
 
+@pytest.mark.parametrize(
+    "name", ["hub:", "hub:name", "hub:a/b/c", "hub:a/b c", "hub:../x", "hub:a/b--c"]
+)
+def test_what_is_no_repository_is_refused(name):
+    with pytest.raises(ConfigError, match="write hub:organisation/name"):
+        GENERATORS.load(name)
+
+
 def test_a_copy_of_a_known_model_keeps_its_facts():
     part = GENERATORS.load("./models/Wan2.1-T2V-1.3B-Diffusers")
     assert part.config_type().fps == Fraction(16)
@@ -102,3 +110,8 @@ def test_the_registry_lists_table_rows_after_its_own_names():
 def test_options_out_of_range_are_refused(option, value):
     with pytest.raises(ConfigError, match=option):
         resolve("generate", {"generator": "wan-1.3b", option: value})
+
+
+def test_the_repositories_of_the_table_are_names_that_the_hub_allows():
+    for model in MODELS.values():
+        assert GENERATORS.load(f"hub:{model.repo}").model.pipeline == model.pipeline

@@ -5,11 +5,13 @@ from __future__ import annotations
 import dataclasses
 import functools
 import os
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from texvent.errors import ConfigError
 from texvent.generate.models import MODELS, VideoModel
 from texvent.generate.video_config import DiffusersConfig
 
@@ -17,6 +19,8 @@ if TYPE_CHECKING:
     from texvent.generate.diffusers_generator import DiffusersGenerator
     from texvent.sensor import SensorSize
 
+REPOSITORY = r"[A-Za-z0-9]\w*(?:[.-]\w+)*/[A-Za-z0-9]\w*(?:[.-]\w+)*"
+"""`organisation/name` as the model hub allows it: no two dots or hyphens in a row."""
 HUB = "hub:"
 """Prefix of a generator name that is a repository of the model hub: `hub:org/name`."""
 
@@ -62,11 +66,18 @@ class ModelTable:
 
         A row's name, `hub:org/name`, or the path of a folder that holds a saved pipeline. A
         folder or repository that is named like one of a row takes the row's defaults.
+
+        Raises:
+            ConfigError: what follows `hub:` is no repository.
         """
         if name in MODELS:
             return ModelGenerator(MODELS[name])
         if name.startswith(HUB):
             repo, _, revision = name.removeprefix(HUB).partition("@")
+            if not re.fullmatch(REPOSITORY, repo):
+                raise ConfigError(
+                    f"generator {name!r} names no repository; write hub:organisation/name"
+                )
             known = _row_like(repo.rpartition("/")[2])
             revision_or_row = revision or known.revision
             return ModelGenerator(
