@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any, ClassVar, Protocol
 
-from texvent.sensor import SensorSize
 from texvent.video import FrameStream
 
 
@@ -22,7 +21,11 @@ class Watch(Protocol):
 
 
 class Generator(Protocol):
-    """Turns a prompt into a video (Eq. 3). Built as `Generator(config, seed=seed, size=size)`."""
+    """Turns a prompt into a video (Eq. 3).
+
+    Built as `Generator(config, seed=seed, size=size)`; size None means its own. A class may also
+    have `default_sensor`: a sensor name, or None to keep the size of its videos.
+    """
 
     config_type: ClassVar[Callable[[], Any]]
     """Frozen dataclass with the generator's options, or a function that gives its defaults."""
@@ -44,19 +47,3 @@ class Generator(Protocol):
             InputError: the prompt is empty.
         """
         ...
-
-
-class GeneratorFactory(Protocol):
-    """How a generator class is called."""
-
-    config_type: ClassVar[Callable[[], Any]]
-    default_interpolate: ClassVar[str]
-    # Optional: `default_sensor`, a sensor name, or None to keep the size of the video.
-
-    def __call__(self, config: Any, *, seed: int, size: SensorSize | None) -> Generator:
-        """Build a generator; `size` None means its own default size."""
-        ...
-
-
-Notes = Mapping[str, Any]
-"""What a generator reports about a prompt, such as the words it did not understand."""

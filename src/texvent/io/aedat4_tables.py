@@ -36,8 +36,6 @@ EVENT = np.dtype(
 )
 EVENTS_START = 32
 """Events lie here in a packet: a multiple of 8, as FlatBuffers demands for i8."""
-LIST_POSITION_AT = 32
-"""The list's position lies here in the header table."""
 UNKNOWN = -1
 """Position of the list while there is none."""
 
