@@ -10,6 +10,8 @@ import pytest
 
 import texvent
 from texvent.cli.app import main
+from texvent.errors import FileFormatError
+from texvent.generate.models import MODELS
 from texvent.generate.stored_video import reopen
 from texvent.pipeline import text_to_video
 from texvent.settings import resolve
@@ -95,11 +97,31 @@ def test_the_list_of_generators_names_size_rate_licence_and_the_extra(folder, ca
     assert run("generators") == 0
     shown = capsys.readouterr().out
     row = next(line for line in shown.splitlines() if line.startswith("cosmos-7b"))
-    assert "121 frames of 1280x704 at 24 fps" in row
+    assert "121 x 1280x704, 24 fps" in row
     assert "74 / 24.4 " in row
     assert "NVIDIA Open Model License" in row
     assert shown.splitlines()[1].startswith("procedural")
     assert "pip install 'texvent[generate]'" in shown
+
+
+def test_a_narrow_terminal_hides_no_name_of_the_list(folder, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    assert run("generators") == 0
+    shown = capsys.readouterr().out
+    starts = {line.split(" ")[0] for line in shown.splitlines()}
+    assert {"procedural", "opensora", *MODELS} <= starts
+    assert "\N{HORIZONTAL ELLIPSIS}" not in shown
+
+
+def test_a_damaged_download_does_not_end_the_list(folder, capsys, monkeypatch):
+    def damaged(model):
+        raise FileFormatError("x.safetensors is damaged")
+
+    monkeypatch.setattr("texvent.cli.generators.find_spec", lambda name: True)
+    monkeypatch.setattr("texvent.cli.generators.load_object", lambda where: damaged)
+    assert run("generators") == 0
+    rows = capsys.readouterr().out.splitlines()
+    assert next(line for line in rows if line.startswith("wan-1.3b")).split()[1] == "damaged"
 
 
 def test_the_list_of_generators_has_help_and_no_arguments(capsys):

@@ -33,11 +33,13 @@ from texvent.errors import (  # noqa: E402
     MissingDependencyError,
     TexventError,
 )
-from texvent.generate import guardrail, model_run  # noqa: E402
+from texvent.generate import guardrail, model_run, pipeline_loading  # noqa: E402
 from texvent.generate.agreement import measure_agreement  # noqa: E402
 from texvent.generate.cache import made_folder  # noqa: E402
+from texvent.generate.models import MODELS  # noqa: E402
 from texvent.generate.pipeline_loading import (  # noqa: E402
     LoadRequest,
+    forget_pipeline,
     load_pipeline,
     place_pipeline,
 )
@@ -78,7 +80,7 @@ def models(tmp_path_factory):
 @pytest.fixture(autouse=True)
 def cache(tmp_path, monkeypatch):
     monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))
-    load_pipeline.cache_clear()
+    forget_pipeline()
     return tmp_path / "cache"
 
 
@@ -205,7 +207,7 @@ def test_cancelling_between_steps_leaves_nothing_and_the_next_run_works(models, 
 def test_a_prompt_asked_again_needs_no_text_encoder(models):
     build(models("wan")).generate(PROMPT)
     assert len(list(made_folder("prompts").iterdir())) == 1
-    load_pipeline.cache_clear()
+    forget_pipeline()
     again = build(models("wan"), seed=8)
     from_embeddings = pixels(again.generate(PROMPT))
     assert again._run._pipe.text_encoder is None
@@ -213,6 +215,23 @@ def test_a_prompt_asked_again_needs_no_text_encoder(models):
     assert np.array_equal(from_embeddings, whole)
     # The same loaded model is then asked for a prompt that nobody encoded before.
     assert again.generate("a blue dog").frame_count == 5
+
+
+def test_a_batch_of_new_and_known_prompts_loads_its_model_once(models, monkeypatch):
+    loaded = []
+    real = pipeline_loading._load
+    monkeypatch.setattr(
+        pipeline_loading, "_load", lambda request: loaded.append(request) or real(request)
+    )
+    for prompt, seed in ((PROMPT, 3), (PROMPT, 4), ("a blue dog", 3), (PROMPT, 5)):
+        build(models("wan"), seed=seed).generate(prompt)
+    assert len(loaded) == 1
+
+
+def test_diffusers_has_every_pipeline_of_the_table():
+    for model in MODELS.values():
+        for name in filter(None, (model.pipeline, model.image_pipeline)):
+            assert hasattr(tiny_pipelines.diffusers, name), f"{model.name}: {name}"
 
 
 def test_the_frame_rate_is_an_input_of_cosmos_and_only_a_clock_for_wan(models):
@@ -346,7 +365,7 @@ def test_a_class_that_diffusers_lacks_is_named(models, tmp_path):
         build(path).generate(PROMPT)
 
 
-def test_offline_the_missing_file_and_its_place_are_named_after_the_licence(tmp_path):
+def test_offline_the_missing_file_and_its_place_are_named_after_the_licence(capsys):
     watcher = Watcher()
     part = GENERATORS.load("wan-1.3b")
     generator = part(part.config_type(), seed=0, size=None)
@@ -354,6 +373,8 @@ def test_offline_the_missing_file_and_its_place_are_named_after_the_licence(tmp_
         generator.generate(PROMPT, watch=watcher)
     assert "--generator ./FOLDER" in str(caught.value)
     assert "licence: Apache-2.0" in watcher.lines[0]
+    assert "stacktrace" not in str(caught.value)
+    assert capsys.readouterr() == ("", "")
 
 
 def test_the_python_api_takes_a_folder(models):

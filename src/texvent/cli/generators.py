@@ -10,11 +10,12 @@ from rich.console import Console
 from rich.table import Table
 
 from texvent._registry import GENERATORS, load_object
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, FileFormatError
 from texvent.generate.models import MODELS, VideoModel
 
 HUB_PACKAGE = "huggingface_hub"
 PIPELINE_PACKAGE = "diffusers"
+MAKES_WIDTH = len("121 x 1280x704, 24 fps")
 USAGE = """usage: texvent generators
 
 The text-to-video generators: what they make, under which licence, and whether they are here.
@@ -36,8 +37,13 @@ def run(arguments: Sequence[str]) -> int:
         raise ConfigError(f"texvent generators takes no arguments; got {' '.join(arguments)!r}")
     console = Console(highlight=False)
     table = Table(box=None, pad_edge=False, header_style="bold")
-    for title in ("name", "here", "makes", "GPU memory, GB", "licence"):
-        table.add_column(title, no_wrap=title != "licence")
+    for title in ("name", "here", "makes", "GPU GB", "licence"):
+        # Sentences wrap in a narrow terminal; what is typed or compared stays whole.
+        table.add_column(
+            title,
+            no_wrap=title in ("name", "here", "GPU GB"),
+            min_width=MAKES_WIDTH if title == "makes" else None,
+        )
     for name in GENERATORS.entries():
         table.add_row(name, *_describe_part(name))
     for model in MODELS.values():
@@ -58,7 +64,7 @@ def _describe_part(name: str) -> tuple[str, str, str, str]:
 
 
 def _describe_model(model: VideoModel) -> tuple[str, str, str, str]:
-    makes = f"{model.frames} frames of {model.width}x{model.height} at {model.fps} fps"
+    makes = f"{model.frames} x {model.width}x{model.height}, {model.fps} fps"
     memory = " / ".join("-" if gb is None else f"{gb:g}" for gb in (model.gpu_gb, model.offload_gb))
     marks = ("" if model.is_licence_verified else " ?") + ("" if model.is_verified else " *")
     return _is_here(model), makes, memory, model.licence + marks
@@ -67,13 +73,16 @@ def _describe_model(model: VideoModel) -> tuple[str, str, str, str]:
 def _is_here(model: VideoModel) -> str:
     if find_spec(HUB_PACKAGE) is None:
         return ""
-    found = load_object("texvent.generate.model_source:find_downloaded")(model)
+    try:
+        found = load_object("texvent.generate.model_source:find_downloaded")(model)
+    except FileFormatError:
+        return "damaged"
     return "yes" if found is not None else ""
 
 
 def _notes() -> list[str]:
     notes = [
-        "GPU memory as reported: with every part on the GPU / with --offload model.",
+        "makes: frames x size. GPU GB, as reported: every part on the GPU / with --offload model.",
         "? licence not read from the model's own page: check it before use. * pipeline not tried "
         "by texvent's tests.",
         "Learned models are fetched from the model hub when first used, after showing the licence.",

@@ -145,7 +145,9 @@ class ModelRun:
         if not takes_embeddings:
             return pipe, {"prompt": prompt}
         if getattr(pipe, "text_encoder", None) is None:
-            # Loaded for a prompt whose embeddings were known; this one needs the encoder.
+            # Loaded for a prompt whose embeddings were known; this one needs the encoder. Nothing
+            # may hold the old one while the new one is loaded.
+            self._pipe = pipe = None
             pipe = self._pipe = load_pipeline(self._request(has_text_encoder=True))
         guidance = default_guidance(pipe, self._config)
         return pipe, embed_prompt(

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
+import logging
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -41,6 +43,7 @@ def find_files(model: VideoModel, announce: Callable[[str], None]) -> ModelFiles
         return ModelFiles(model.folder, None)
     folder = find_downloaded(model)
     if folder is None:
+        require("diffusers", extra=EXTRA)  # before a download is announced that cannot begin
         announce(describe_terms(model))
         folder = _download(model)
     check_weight_files(folder)
@@ -76,11 +79,12 @@ def _download(model: VideoModel) -> Path:
     diffusers = require("diffusers", extra=EXTRA)
     errors = require("huggingface_hub.errors", extra=EXTRA)
     try:
-        return Path(
-            diffusers.DiffusionPipeline.download(
-                model.repo, revision=model.revision, use_safetensors=True
+        with _without_warnings():
+            return Path(
+                diffusers.DiffusionPipeline.download(
+                    model.repo, revision=model.revision, use_safetensors=True
+                )
             )
-        )
     except errors.GatedRepoError as error:
         raise InputError(
             f"{model.repo} is gated: accept its terms on the model's page and log in with: hf "
@@ -94,10 +98,25 @@ def _download(model: VideoModel) -> Path:
         raise TexventError(_missing_text(model, error)) from error
 
 
-def _missing_text(model: VideoModel, error: Exception) -> str:
+@contextlib.contextmanager
+def _without_warnings() -> Iterator[None]:
+    """Keep what diffusers says about the hub out of the terminal; the error says it in one line."""
+    logger = logging.getLogger("diffusers.pipelines.pipeline_utils")
+    level = logger.level
+    logger.setLevel(logging.ERROR)
+    try:
+        yield
+    finally:
+        logger.setLevel(level)
+
+
+def _missing_text(model: VideoModel, error: BaseException) -> str:
+    while error.__cause__ is not None:
+        error = error.__cause__  # the libraries wrap the reason in advice about their own options
     constants = require("huggingface_hub.constants", extra=EXTRA)
     offline = " (HF_HUB_OFFLINE is set)" if os.environ.get("HF_HUB_OFFLINE") else ""
-    reason = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
+    text = str(error).strip() or type(error).__name__
+    reason = text.splitlines()[0].rstrip(".")
     return (
         f"{INDEX} and the weights of {model.source} are not on this machine and the model hub "
         f"cannot be reached{offline}: {reason}. Fetch them elsewhere (hf download "

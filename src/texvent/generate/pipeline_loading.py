@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-import functools
+import dataclasses
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,6 +22,10 @@ Pipeline: TypeAlias = Any
 DECODER = "vae"
 TEXT_PARTS = ("text_encoder", "tokenizer")
 QUANTIZED_PARTS = ("transformer", "transformer_2")
+
+
+_KEPT: dict[LoadRequest, Pipeline] = {}
+"""At most one: a model of 14 billion weights leaves no room for another."""
 
 
 @dataclass(frozen=True)
@@ -68,15 +72,31 @@ def resolve_device(wish: str) -> tuple[str, int | None]:
     return str(device), free
 
 
-@functools.lru_cache(maxsize=1)
 def load_pipeline(request: LoadRequest) -> Pipeline:
     """The pipeline, in evaluation mode, placed as asked. The last one is kept for the next prompt.
+
+    One that has a text encoder also serves requests without, so that a batch that mixes new and
+    known prompts loads its model once.
 
     Raises:
         FileFormatError: a weight file does not fit its network.
         InputError: diffusers has no such class, or a file is missing.
         MissingDependencyError: a package is not installed.
     """
+    for fitting in (request, dataclasses.replace(request, has_text_encoder=True)):
+        if fitting in _KEPT:
+            return _KEPT[fitting]
+    forget_pipeline()  # before the next is loaded: memory holds one
+    _KEPT[request] = _load(request)
+    return _KEPT[request]
+
+
+def forget_pipeline() -> None:
+    """Let go of the pipeline that `load_pipeline` keeps."""
+    _KEPT.clear()
+
+
+def _load(request: LoadRequest) -> Pipeline:
     index = read_pipeline_index(request.folder)
     name = request.class_name or str(index["_class_name"])
     # By the class itself: DiffusionPipeline.from_pretrained ignores optional parts given to it.
