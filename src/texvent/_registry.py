@@ -101,7 +101,6 @@ INTERPOLATORS = Registry(
         "exact": "texvent.interpolate.exact:ExactInterpolator",
         "rife": "texvent.interpolate.rife:RifeInterpolator",
         "super-slomo": "texvent.interpolate.super_slomo:SuperSlomoInterpolator",
-        "super-slomo": "texvent.interpolate.super_slomo:SuperSlomoInterpolator",
     },
 )
 SIMULATORS = Registry(

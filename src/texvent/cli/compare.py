@@ -32,10 +32,10 @@ class CompareOptions:
 
     positional: ClassVar[tuple[str, ...]] = ("predicted", "reference")
 
-    reference: Path = REQUIRED
-    """Event file with the truth, or another recording of the same scene."""
     predicted: Path = REQUIRED
     """Event file to judge."""
+    reference: Path = REQUIRED
+    """Event file with the truth, or another recording of the same scene."""
     metrics: str | None = None
     """Names of metrics, separated by commas; default: all of them."""
     start: float | None = None
