@@ -70,6 +70,16 @@ def test_a_generated_recording_is_seen_with_its_scene_unless_told_not_to(generat
     assert "data:image/jpeg" not in Path("without.html").read_text("utf-8")
 
 
+def test_a_part_of_the_time_is_shown_alone(recording) -> None:
+    assert run("view", recording, "-o", "part.html", "--time", "0.04,0.12") == 0
+    page = Path("part.html").read_text("utf-8")
+    # One event every 400 µs, from 40 ms to 120 ms.
+    assert "Shows all 200 events." in page
+    assert run("render", recording, "-o", "part.png", "--time", "0.04,0.12") == 0
+    assert run("render", recording, "-o", "whole.png") == 0
+    assert Path("part.png").read_bytes() != Path("whole.png").read_bytes()
+
+
 def test_render_draws_boxes_and_flow_of_a_generated_recording(generated) -> None:
     assert run("render", generated, "-o", "plain.png") == 0
     assert run("render", generated, "-o", "marked.png", "--overlay", "both") == 0
@@ -84,6 +94,9 @@ def test_render_draws_boxes_and_flow_of_a_generated_recording(generated) -> None
         (["view", "in.h5", "--points", "0", "-o", "p.html"], "points is 0"),
         (["view", "in.h5", "-o", "p.html", "--video", "missing.mp4"], "no such video"),
         (["render", "in.h5", "-o", "p.mp4", "--overlay", "boxes"], "embedded generator"),
+        (["render", "in.h5", "-o", "p.mp4", "--time", "1"], "give START,STOP in seconds"),
+        (["render", "in.h5", "-o", "p.mp4", "--time", "5,6"], "no events"),
+        (["view", "in.h5", "-o", "p.html", "--time", "2,1"], "the stop must be after the start"),
     ],
 )
 def test_mistakes_are_one_line_and_leave_nothing(recording, capsys, words, message) -> None:

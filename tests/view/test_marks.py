@@ -97,3 +97,19 @@ def test_an_overlay_without_ground_truth_is_refused() -> None:
 def test_a_video_of_another_size_is_refused() -> None:
     with pytest.raises(InputError, match="the video is 48x32, the events are 8x8"):
         Companion(video(), "none", size=SensorSize(8, 8))
+
+
+@pytest.mark.parametrize(
+    ("extent", "times"),
+    [
+        (None, [0, 100_000, 200_000]),
+        ((150_000, 160_000), [100_000]),
+        ((100_000, 200_000), [100_000]),
+        ((50_000, 200_001), [0, 100_000, 200_000]),
+        ((900_000, 999_000), [200_000]),
+    ],
+)
+def test_a_page_holds_the_frames_that_are_on_during_its_events(extent, times) -> None:
+    pixels = np.zeros((3, *SIZE.shape, 3), dtype=np.uint8)
+    beside = Companion(Video(pixels, [0, 100_000, 200_000]), "none", size=SIZE)
+    assert [frame.t_us for frame in beside.frames_during(extent)] == times

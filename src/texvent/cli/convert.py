@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from texvent.cli.options import REQUIRED, parse_options
+from texvent.cli.time_range import keep_time_range
 from texvent.errors import ConfigError
 from texvent.events import EventPackets, EventStream
 from texvent.io.files import open_events, open_writer
@@ -17,9 +18,8 @@ from texvent.transform.merge import merge
 from texvent.transform.packets import add_metadata, map_packets
 from texvent.transform.region import Region, crop, resize
 from texvent.transform.undistort import read_calibration, undistort
-from texvent.transform.window import keep_time, start_at_zero
+from texvent.transform.window import start_at_zero
 
-MICROSECONDS = 1_000_000
 DESCRIPTION = """Convert an event file, or a part of it, to another format. Memory stays flat.
 
 texvent convert davis.aedat4 davis.h5
@@ -102,8 +102,7 @@ def edit(events: EventPackets, options: ConvertOptions) -> EventPackets:
         events = resize(events, parse_sensor(options.resize))
     if options.from_zero:
         events = start_at_zero(events)
-    if options.time is not None:
-        events = keep_time(events, *parse_time_range(options.time))
+    events = keep_time_range(events, options.time)
     if options.drop_label:
         events = map_packets(events, EventStream.without_label)
     edits = _edits(options)
@@ -124,25 +123,6 @@ def parse_region(text: str) -> Region:
             f"crop is {text!r}; give X,Y,WIDTH,HEIGHT in pixels, such as 100,50,128,128"
         )
     return Region(*(int(word) for word in words))
-
-
-def parse_time_range(text: str) -> tuple[int, int]:
-    """`START,STOP` in seconds as µs; either may be left out.
-
-    Raises:
-        ConfigError: it is not two numbers.
-    """
-    words = [word.strip() for word in text.split(",")]
-    try:
-        if len(words) != 2:
-            raise ValueError(text)
-        start = round(float(words[0]) * MICROSECONDS) if words[0] else 0
-        stop = round(float(words[1]) * MICROSECONDS) if words[1] else 2**63 - 1
-    except (ValueError, OverflowError) as error:
-        raise ConfigError(
-            f"time is {text!r}; give START,STOP in seconds, such as 0.5,2 or 0.5, or ,2"
-        ) from error
-    return start, stop
 
 
 def _open_inputs(options: ConvertOptions) -> EventPackets:

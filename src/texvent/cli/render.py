@@ -10,6 +10,7 @@ from typing import ClassVar
 
 from texvent.cli.beside import AUTOMATIC, frames_beside
 from texvent.cli.options import REQUIRED, parse_options
+from texvent.cli.time_range import keep_time_range
 from texvent.config import option_names
 from texvent.errors import InputError
 from texvent.io.files import open_events
@@ -26,6 +27,8 @@ texvent render out.h5 -o sheet.png --panels 9            nine moments on one she
 texvent render out.h5 -o out.mp4 --decay 30              events fade over 30 ms
 
 texvent render out.h5 -o out.mp4 --events-per-picture 5000
+
+texvent render out.h5 -o part.mp4 --time 0.5,1            half a second of it
 
 texvent render out.h5 -o out.mp4 --overlay both          boxes and optical flow (embedded generator)
 
@@ -46,6 +49,9 @@ class RenderOptions:
     video: str = AUTOMATIC
     """Video beside the events: a file, an image folder, none, or auto, which renders the scene
     again if the embedded generator made the file."""
+    time: str | None = None
+    """Show START,STOP alone, in seconds of the recording's clock, START included; either may be
+    left out."""
     format: str | None = None
     """Event format, where the extension does not say."""
     sensor: str | None = None
@@ -69,7 +75,8 @@ def run(arguments: Sequence[str]) -> int:
     if not options.path.exists():
         raise InputError(f"no such file: {options.path}")
     size = parse_sensor(options.sensor) if options.sensor else None
-    events = open_events(options.path, format=options.format, size=size)
+    recording = open_events(options.path, format=options.format, size=size)
+    events = keep_time_range(recording, options.time)
     written = render_events(
         events,
         options.out,

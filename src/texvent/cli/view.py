@@ -12,6 +12,7 @@ from typing import ClassVar
 
 from texvent.cli.beside import AUTOMATIC, frames_beside
 from texvent.cli.options import REQUIRED, parse_options
+from texvent.cli.time_range import keep_time_range
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError
 from texvent.io.files import open_events
@@ -48,6 +49,9 @@ class ViewOptions:
     and the page says so. A million make a page of 12 MB."""
     palette: str = DEFAULT_PALETTE
     """Colours of ON and OFF events."""
+    time: str | None = None
+    """Show START,STOP alone, in seconds of the recording's clock, START included; either may be
+    left out."""
     format: str | None = None
     """Event format, where the extension does not say."""
     sensor: str | None = None
@@ -77,7 +81,8 @@ def run(arguments: Sequence[str]) -> int:
     if not options.path.exists():
         raise InputError(f"no such file: {options.path}")
     size = parse_sensor(options.sensor) if options.sensor else None
-    events = open_events(options.path, format=options.format, size=size)
+    recording = open_events(options.path, format=options.format, size=size)
+    events = keep_time_range(recording, options.time)
     page = options.out or Path(tempfile.mkdtemp(prefix="texvent-")) / "events.html"
     render_events(
         events,

@@ -56,6 +56,25 @@ class Companion:
             picture = _picture(shown) if picture is None else picture
             yield replace(interval, picture=picture)
 
+    def frames_during(self, extent: tuple[int, int] | None) -> Iterator[Frame]:
+        """The frames that are on from start to stop, µs; a video may be longer than the events.
+
+        The first is the last frame that is not after the start. Without an extent, all frames.
+        """
+        earlier: Frame | None = None
+        for frame in self.frames or ():
+            if extent is not None and frame.t_us >= extent[1]:
+                break
+            if extent is not None and frame.t_us <= extent[0]:
+                earlier = frame
+                continue
+            if earlier is not None:
+                yield earlier
+                earlier = None
+            yield frame
+        if earlier is not None:
+            yield earlier
+
     def add_marks(self, interval: Interval) -> Interval:
         """The interval with its boxes and arrows."""
         if self._overlay == "none" or not isinstance(self.frames, TruthfulStream):

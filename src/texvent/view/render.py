@@ -89,7 +89,7 @@ def _as_packets(events: EventStream) -> EventPackets:
 
 
 def _no_events() -> InputError:
-    return InputError("the recording holds no events, so there is nothing to show")
+    return InputError("the recording, or the part asked for, holds no events to show")
 
 
 def _cut(
@@ -207,9 +207,6 @@ def _page(
     ) as page:
         for packet in packets:
             page.append(packet)
-        for frame in beside.frames or ():
-            # A video may go on long after the events; the page ends with them.
-            if extent is not None and frame.t_us >= extent[1]:
-                break
+        for frame in beside.frames_during(extent):
             page.append_frame(frame)
         page.still = still

@@ -56,7 +56,7 @@ def write_rrd(
     rerun = require("rerun", extra="rerun")
     extent = time_range(packets)
     if extent is None:
-        raise InputError("the recording holds no events, so there is nothing to show")
+        raise InputError("the recording, or the part asked for, holds no events to show")
     window_us = config.window_us or max(SHORTEST_WINDOW_US, (extent[1] - extent[0]) // WINDOWS)
     palette = get_palette(config.palette)
     with atomic_file(path, overwrite=overwrite) as part:

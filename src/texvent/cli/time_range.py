@@ -1,0 +1,38 @@
+"""`--time START,STOP`: the part of a recording that a command works on."""
+
+from __future__ import annotations
+
+from texvent.errors import ConfigError
+from texvent.events import EventPackets
+from texvent.transform.window import keep_time
+
+MICROSECONDS = 1_000_000
+
+
+def keep_time_range(events: EventPackets, text: str | None) -> EventPackets:
+    """The events of the part that `text` names; without one all of them.
+
+    Raises:
+        ConfigError: it is not two numbers.
+        InputError: the stop is not after the start.
+    """
+    return events if text is None else keep_time(events, *parse_time_range(text))
+
+
+def parse_time_range(text: str) -> tuple[int, int]:
+    """`START,STOP` in seconds as µs; either may be left out.
+
+    Raises:
+        ConfigError: it is not two numbers.
+    """
+    words = [word.strip() for word in text.split(",")]
+    try:
+        if len(words) != 2:
+            raise ValueError(text)
+        start = round(float(words[0]) * MICROSECONDS) if words[0] else 0
+        stop = round(float(words[1]) * MICROSECONDS) if words[1] else 2**63 - 1
+    except (ValueError, OverflowError) as error:
+        raise ConfigError(
+            f"time is {text!r}; give START,STOP in seconds, such as 0.5,2 or 0.5, or ,2"
+        ) from error
+    return start, stop
