@@ -7,7 +7,7 @@ import pytest
 
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
-from texvent.io.files import load, save
+from texvent.io.files import load, open_events, save
 from texvent.sensor import SensorSize
 
 
@@ -64,3 +64,11 @@ def test_an_archive_without_a_size_asks_for_it(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="give it"):
         load(path)
     assert load(path, size=(4, 4)).size == (4, 4)
+
+
+def test_random_bytes_are_no_archive_and_nobody_advises_to_unpickle_them(tmp_path: Path) -> None:
+    path = tmp_path / "random.npz"
+    path.write_bytes(bytes(range(7, 200)))
+    with pytest.raises(FileFormatError, match="is not a NumPy archive") as caught:
+        open_events(path)
+    assert "pickle" not in str(caught.value)

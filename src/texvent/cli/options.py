@@ -97,10 +97,16 @@ def _group(config: Any) -> Any:
     fields: list[Any] = []
     for field in dataclasses.fields(config):
         short = getattr(config, "short_flags", {}).get(field.name)
+        is_positional = field.name in positional
         notes: list[Any] = [
-            tyro.conf.arg(help=helps.get(field.name, ""), aliases=[short] if short else None)
+            tyro.conf.arg(
+                help=helps.get(field.name, ""),
+                aliases=[short] if short else None,
+                # Usage lines tell one word from the other: IN OUT, not PATH PATH.
+                metavar=field.name.upper() if is_positional else None,
+            )
         ]
-        if field.name in positional:
+        if is_positional:
             notes.append(tyro.conf.Positional)
         default = dataclasses.field(default=getattr(config, field.name))
         hint: Any = Annotated.__class_getitem__((hints[field.name], *notes))  # type: ignore[attr-defined]

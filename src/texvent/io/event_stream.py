@@ -128,7 +128,9 @@ def _read_size(path: Path) -> tuple[int, int]:
     with path.open("rb") as file:
         header = file.read(HEADER_BYTES)
     if not header.startswith(MAGIC):
-        raise FileFormatError(f"{path} is not an Event Stream: it does not begin with {MAGIC!r}")
+        raise FileFormatError(
+            f"{path} is not an Event Stream: it does not begin with {MAGIC.decode()!r}"
+        )
     if len(header) < HEADER_BYTES - 4:
         raise FileFormatError(f"{path} ends inside its header; the file was cut off")
     version, kind = header[12:15], header[15]

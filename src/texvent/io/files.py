@@ -71,7 +71,11 @@ def _codecs_for(path: str | Path, format: str | None) -> list[EventCodec]:
     found = [codec for codec in codecs if extension in codec.extensions]
     if found:
         return found
-    known = [f"{one} ({codec.name})" for codec in codecs for one in codec.extensions]
+    names: dict[str, list[str]] = {}
+    for codec in codecs:
+        for one in codec.extensions:
+            names.setdefault(one, []).append(codec.name)
+    known = [f"{one} ({' or '.join(formats)})" for one, formats in names.items()]
     what = f"extension {extension!r}" if extension else "no extension"
     raise ConfigError(
         f"{path} has {what}; event files end in {', '.join(known)}, or state the format"

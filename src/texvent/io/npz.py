@@ -32,6 +32,7 @@ from texvent.io.columns import (
     stored_or_given_size,
     stream_from_file,
 )
+from texvent.io.magic import begins_with
 from texvent.sensor import SensorSize
 
 TIMESTAMP_SCALE_MS = 0.001
@@ -161,6 +162,11 @@ def read_arrays(path: Path) -> dict[str, Any]:
     Raises:
         FileFormatError: the archive is damaged, no archive, or would fill the memory.
     """
+    # NumPy takes anything else for a pickle, and advises to load it "unsafely".
+    if not begins_with(path, b"PK") and not begins_with(path, b"\x93NUMPY"):
+        raise FileFormatError(
+            f"{path} is not a NumPy archive: it does not begin as a zip file does"
+        )
     try:
         # Opened here, because np.load leaves a damaged file open.
         with path.open("rb") as file:
