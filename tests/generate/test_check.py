@@ -9,7 +9,7 @@ import pytest
 
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
-from texvent.errors import TexventError
+from texvent.errors import InputError, TexventError
 from texvent.generate.attempts import generate_checked, nth_seed
 from texvent.generate.check import block_means, check_clip, neighbour_correlation
 from texvent.generate.procedural.generator import ProceduralConfig, ProceduralGenerator
@@ -156,6 +156,13 @@ def test_retrying_takes_the_first_seed_that_passes(make):
     assert video.metadata["seed"] == nth_seed(0, 2)
     assert video.metadata["check"]["problems"] == []
     assert len(told.lines) == 2
+
+
+def test_a_missing_clip_model_is_named_before_anything_is_generated(make, tmp_path):
+    config = GeneratedVideoConfig(agreement_model=tmp_path / "none")
+    with pytest.raises(InputError, match=r"there is no CLIP model in .*none"):
+        generate_checked(make, config, prompt="a pan", seed=0, watch=Told())
+    assert make.asked == []
 
 
 def test_retrying_gives_up_after_the_last_seed(make):

@@ -58,13 +58,22 @@ def measure_agreement(video: StoredVideo, prompt: str, folder: Path) -> float:
     return float((outputs.image_embeds @ outputs.text_embeds.T).mean())
 
 
-@functools.lru_cache(maxsize=1)
-def _load_clip(folder: Path) -> tuple[Any, Any]:
+def check_clip_folder(folder: Path) -> None:
+    """Refuse a folder that holds no saved model, without loading anything.
+
+    Raises:
+        InputError: it has no `config.json`.
+    """
     if not (folder / "config.json").is_file():
         raise InputError(
             f"there is no CLIP model in {folder} (no config.json); give the folder of one saved by "
             "transformers, such as openai/clip-vit-base-patch32 fetched with: hf download"
         )
+
+
+@functools.lru_cache(maxsize=1)
+def _load_clip(folder: Path) -> tuple[Any, Any]:
+    check_clip_folder(folder)
     transformers = require("transformers", extra=EXTRA)
     errors = require("safetensors", extra=EXTRA).SafetensorError
     try:

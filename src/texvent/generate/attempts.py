@@ -7,6 +7,7 @@ import hashlib
 from collections.abc import Callable
 
 from texvent.errors import TexventError
+from texvent.generate.agreement import check_clip_folder, measure_agreement
 from texvent.generate.cache import MEASURES
 from texvent.generate.check import ClipReport, check_clip, judge_measures
 from texvent.generate.protocol import Watch
@@ -35,10 +36,13 @@ def generate_checked(
         The video, with the filter's findings in its metadata.
 
     Raises:
+        InputError: there is no CLIP model where `agreement_model` says; nothing was generated.
         TexventError: the video failed and `on_failure` is "reject", or every seed failed.
     """
     if config.on_failure == "ignore":
         return make(seed)
+    if config.agreement_model is not None:
+        check_clip_folder(config.agreement_model)
     tries = config.retries + 1 if config.on_failure == "retry" else 1
     for attempt in range(tries):
         attempt_seed = nth_seed(seed, attempt)
@@ -58,9 +62,6 @@ def _judge(video: StoredVideo, prompt: str, config: GeneratedVideoConfig) -> Cli
     report = check_clip(video) if measures is None else judge_measures(dict(measures))
     if config.agreement_model is None:
         return report
-    # Imported here: it needs torch, which the checks of the video itself do not.
-    from texvent.generate.agreement import measure_agreement
-
     score = measure_agreement(video, prompt, config.agreement_model)
     low = config.min_agreement is not None and score < config.min_agreement
     return ClipReport(
