@@ -40,7 +40,7 @@ from texvent.io.columns import (
     stored_or_given_size,
     stream_from_file,
 )
-from texvent.io.hdf5_damage import reporting_damage
+from texvent.io.hdf5_damage import check_claims, reporting_damage
 from texvent.io.interrupts import delay_interrupts
 from texvent.io.patient_file import PatientFile
 from texvent.sensor import SensorSize
@@ -313,6 +313,7 @@ def _checked_columns(file: Any, path: Path) -> dict[str, Any]:
         if column.dtype.kind not in "iub":
             raise FileFormatError(f"{path}: events/{name} holds {column.dtype}, not integers")
         check_filters(column, path)
+        check_claims(column, path)
     scale = float(file.attrs.get("timestamp_scale_ms", TIMESTAMP_SCALE_MS))
     if not np.isclose(scale, TIMESTAMP_SCALE_MS):
         raise FileFormatError(f"{path} counts time in units of {scale:g} ms; texvent reads 0.001")
@@ -337,10 +338,10 @@ def check_filters(column: Any, path: Path) -> None:
 def _time_offset(file: Any, path: Path) -> int:
     if "t_offset" not in file:
         return 0
-    value = np.asarray(file["t_offset"][()])
+    value = file["t_offset"]
     if value.size != 1 or value.dtype.kind not in "iu":
         raise FileFormatError(f"{path}: t_offset must be one whole number; it is {value!r}")
-    return int(value.reshape(-1)[0])
+    return int(np.asarray(value[()]).reshape(-1)[0])
 
 
 def stored_size(file: Any) -> tuple[int, int] | None:
@@ -386,5 +387,6 @@ def read_metadata(file: Any, path: Path) -> dict[str, Any]:
     """What `write_metadata` wrote, or nothing."""
     text = file.attrs.get("texvent")
     if text is None and isinstance(file.get("texvent"), h5py.Dataset):
+        check_claims(file["texvent"], path)
         text = file["texvent"][()]
     return {} if text is None else metadata_from_json(path, text)

@@ -44,7 +44,7 @@ from texvent.io.columns import (
     stream_from_file,
 )
 from texvent.io.ecf_dataset import ECF_FILTER, check_storage, read_columns, whole_chunks
-from texvent.io.hdf5_damage import reporting_damage
+from texvent.io.hdf5_damage import check_claims, reporting_damage
 from texvent.io.interrupts import delay_interrupts
 from texvent.io.limits import FormatLimits
 from texvent.io.patient_file import PatientFile
@@ -320,6 +320,7 @@ def _read_metadata(file: Any, path: Path) -> dict[str, Any]:
     group = file["CD"]
     text = group.attrs.get("texvent")
     if text is None and isinstance(group.get("texvent"), h5py.Dataset):
+        check_claims(group["texvent"], path)
         text = group["texvent"][()]
     if text is not None:
         return metadata_from_json(path, text)

@@ -26,7 +26,7 @@ from texvent.events import EventPackets, EventStream
 from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
 from texvent.io.columns import existing_file, metadata_to_json, stored_or_given_size
 from texvent.io.hdf5 import check_filters, read_metadata, stored_size, write_metadata
-from texvent.io.hdf5_damage import reporting_damage
+from texvent.io.hdf5_damage import check_claims, reporting_damage
 from texvent.io.interrupts import delay_interrupts
 from texvent.io.limits import FormatLimits
 from texvent.io.patient_file import PatientFile
@@ -143,6 +143,7 @@ def _checked_events(file: Any, path: Path) -> Any:
             f"{path}: events is {events.dtype} of shape {events.shape}; v2e writes integers [n, 4]"
         )
     check_filters(events, path)
+    check_claims(events, path)
     return events
 
 
