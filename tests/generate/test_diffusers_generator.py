@@ -223,9 +223,11 @@ def test_a_batch_of_new_and_known_prompts_loads_its_model_once(models, monkeypat
     monkeypatch.setattr(
         pipeline_loading, "_load", lambda request: loaded.append(request) or real(request)
     )
+    watcher = Watcher()
     for prompt, seed in ((PROMPT, 3), (PROMPT, 4), ("a blue dog", 3), (PROMPT, 5)):
-        build(models("wan"), seed=seed).generate(prompt)
+        build(models("wan"), seed=seed).generate(prompt, watch=watcher)
     assert len(loaded) == 1
+    assert [line.split()[0] for line in watcher.lines] == ["loading"]
 
 
 def test_diffusers_has_every_pipeline_of_the_table():
@@ -273,6 +275,23 @@ def test_a_picture_starts_the_video_where_the_pipeline_can(models, tmp_path):
     (tmp_path / "bad.png").write_bytes(b"no picture")
     with pytest.raises(InputError, match="cannot be read as a picture"):
         build(models("cosmos25"), image=tmp_path / "bad.png").generate(PROMPT)
+
+
+def test_a_picture_starts_wan_through_its_other_pipeline_with_the_same_weights(models, tmp_path):
+    from PIL import Image
+
+    folder = tmp_path / "Wan2.2-TI2V-5B-Diffusers"
+    shutil.copytree(models("wan"), folder)
+    index = json.loads((folder / "model_index.json").read_text())
+    (folder / "model_index.json").write_text(json.dumps({**index, "expand_timesteps": True}))
+    first_frames = []
+    for colour in ("red", "blue"):
+        Image.new("RGB", (200, 100), colour).save(tmp_path / f"{colour}.png")
+        video = build(folder, image=tmp_path / f"{colour}.png").generate(PROMPT)
+        assert video.metadata["pipeline"] == "WanImageToVideoPipeline"
+        first_frames.append(pixels(video)[0])
+    assert not np.array_equal(*first_frames)
+    assert build(folder).generate(PROMPT).metadata["pipeline"] == "WanPipeline"
 
 
 def test_the_guardrail_sees_the_prompt_and_every_frame(models):

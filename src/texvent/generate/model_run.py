@@ -15,7 +15,13 @@ from texvent.generate.latents import Latents, can_stream, decode_frames, read_la
 from texvent.generate.model_source import ModelFiles, find_files
 from texvent.generate.models import VideoModel
 from texvent.generate.pipeline_call import call_pipeline, default_guidance
-from texvent.generate.pipeline_loading import LoadRequest, Pipeline, load_pipeline, resolve_device
+from texvent.generate.pipeline_loading import (
+    LoadRequest,
+    Pipeline,
+    find_kept,
+    load_pipeline,
+    resolve_device,
+)
 from texvent.generate.placement import Placement, place
 from texvent.generate.prompt_embeddings import EMBEDDING_PIPELINES, embed_prompt, find_embeddings
 from texvent.generate.protocol import Watch
@@ -135,8 +141,10 @@ class ModelRun:
         key = self._embedding_key(prompt) if self._config.reuse_video else None
         known = find_embeddings(key) if takes_embeddings and key is not None else None
         if self._pipe is None:
-            self.watch.announce(f"loading {self._model.source} ({self._describe_placement()})")
-            self._pipe = load_pipeline(self._request(has_text_encoder=known is None))
+            request = self._request(has_text_encoder=known is None)
+            if find_kept(request) is None:
+                self.watch.announce(f"loading {self._model.source} ({self._describe_placement()})")
+            self._pipe = load_pipeline(request)
         pipe = self._pipe
         if self.has_guardrail:
             check_prompt(getattr(pipe, PART, None), prompt)

@@ -83,12 +83,17 @@ def load_pipeline(request: LoadRequest) -> Pipeline:
         InputError: diffusers has no such class, or a file is missing.
         MissingDependencyError: a package is not installed.
     """
-    for fitting in (request, dataclasses.replace(request, has_text_encoder=True)):
-        if fitting in _KEPT:
-            return _KEPT[fitting]
-    forget_pipeline()  # before the next is loaded: memory holds one
-    _KEPT[request] = _load(request)
-    return _KEPT[request]
+    kept = find_kept(request)
+    if kept is None:
+        forget_pipeline()  # before the next is loaded: memory holds one
+        kept = _KEPT[request] = _load(request)
+    return kept
+
+
+def find_kept(request: LoadRequest) -> Pipeline | None:
+    """The pipeline for that request if it is loaded already, else None."""
+    complete = dataclasses.replace(request, has_text_encoder=True)
+    return _KEPT.get(request) or _KEPT.get(complete)
 
 
 def forget_pipeline() -> None:
