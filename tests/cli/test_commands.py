@@ -18,8 +18,10 @@ import pytest
 
 import texvent
 from texvent.cli.app import main
+from texvent.cli.doctor import EXTRAS
 
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
+PYPROJECT = Path(__file__).parents[2] / "pyproject.toml"
 QUICK = ["--interpolate", "none", "--stop", "0.2"]
 PROMPT = "a red ball bounces on the grass"
 
@@ -147,6 +149,13 @@ def test_render_makes_films_pictures_and_pages(folder, name, capsys):
     assert run("render", "a.h5", "-o", name) == 0
     assert capsys.readouterr().out.strip() == name
     assert Path(name).stat().st_size > 500
+
+
+def test_doctor_knows_every_extra_that_a_user_can_install():
+    for_developers = {"dev", "readers"}
+    same_as_another = {"torch"}
+    project = tomllib.loads(PYPROJECT.read_text(encoding="utf-8"))["project"]
+    assert set(EXTRAS) == set(project["optional-dependencies"]) - for_developers - same_as_another
 
 
 def test_doctor_and_help_succeed(capsys):
