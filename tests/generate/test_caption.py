@@ -73,6 +73,20 @@ def test_captions_become_a_file_of_prompts(model, pictures, tmp_path, capsys):
     assert capsys.readouterr().out.strip() == lines[0].prompt
 
 
+def test_a_damaged_picture_does_not_cost_the_captions_of_the_others(model, pictures, capsys):
+    (pictures / "p0.png").write_bytes(b"damaged")
+    out = pictures / "prompts.csv"
+    words = ["--model", str(model), "--longest", "8", "-o", str(out), "-q"]
+    assert main(["caption", str(pictures), *words]) == 1
+    assert [line.name for line in read_prompts(out)] == ["p1", "p2"]
+    said = capsys.readouterr().err
+    assert "p0.png cannot be read as a picture" in said
+    assert said.endswith("error: 1 of 3 pictures have no caption\n")
+    out.unlink()
+    assert main(["caption", str(pictures / "p0.png"), *words]) == 2
+    assert not out.exists()
+
+
 def test_mistakes_are_named(model, pictures, tmp_path, capsys):
     with pytest.raises(InputError, match="there is no model in"):
         Captioner(str(tmp_path / "none"))

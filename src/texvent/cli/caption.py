@@ -14,7 +14,7 @@ from rich.console import Console
 from texvent._registry import load_object
 from texvent.cli.options import REQUIRED, parse_options
 from texvent.config import check_range
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, InputError, TexventError
 from texvent.generate.caption import INSTRUCTION, find_pictures
 from texvent.io.atomic import atomic_file, check_output
 
@@ -57,7 +57,11 @@ class CaptionOptions:
 
 
 def run(arguments: Sequence[str]) -> int:
-    """Run the command; returns its exit code."""
+    """Run the command; returns 0.
+
+    Raises:
+        TexventError: some pictures have no caption; those of the others are written.
+    """
     values = parse_options(
         arguments, {"input": CaptionOptions()}, prog="texvent caption", description=DESCRIPTION
     )
@@ -72,15 +76,27 @@ def run(arguments: Sequence[str]) -> int:
     rows: list[tuple[str, str]] = []
     for number, picture in enumerate(pictures, start=1):
         console.print(f"{number}/{len(pictures)} {picture}", markup=False)
-        text = captioner.caption(picture, instruction=options.instruction, longest=options.longest)
+        try:
+            text = captioner.caption(
+                picture, instruction=options.instruction, longest=options.longest
+            )
+        except InputError as error:
+            # One damaged picture must not cost the captions of the others.
+            if len(pictures) == 1:
+                raise
+            sys.stderr.write(f"failed   {error}\n")
+            continue
         rows.append((picture.stem, text))
         if options.out is None:
             sys.stdout.write(f"{text}\n")
-    if options.out is not None:
+    if options.out is not None and rows:
         with (
             atomic_file(options.out, overwrite=options.overwrite) as part,
             part.open("w", encoding="utf-8", newline="") as file,
         ):
             csv.writer(file).writerows([("name", "prompt"), *rows])
         sys.stdout.write(f"{options.out}\n")
+    if len(rows) < len(pictures):
+        failed = len(pictures) - len(rows)
+        raise TexventError(f"{failed} of {len(pictures)} pictures have no caption")
     return 0
