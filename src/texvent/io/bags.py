@@ -28,6 +28,7 @@ import numpy as np
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError, MissingDependencyError
 from texvent.events import EventPackets
+from texvent.io.bag_chunks import bound_chunks
 from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
 from texvent.io.columns import existing_file, stored_or_given_size
 from texvent.io.limits import FormatLimits
@@ -53,6 +54,7 @@ STRING = "std_msgs/msg/String"
 PACKET_US = 10_000
 NS = 1000
 KERNELS, WORD = "texvent.io.kernels.evt3", "<u2"
+ROSBAG1 = "rosbags.rosbag1"
 EXTRA = "bags"
 
 
@@ -135,7 +137,7 @@ class Rosbag1Codec(BagCodec):
 
     def open_bag(self, path: Path) -> Any:
         """A context manager that gives a reader and reports damage."""
-        return _open_bag(path, "rosbags.rosbag1")
+        return _open_bag(path, ROSBAG1)
 
     def open_message(self, data: bytes) -> RawMessage:
         """The parts of a message of events."""
@@ -153,7 +155,7 @@ class Rosbag1Codec(BagCodec):
     def start_sink(self, target: FileTarget, part: Path, stack: ExitStack) -> BagSink:
         """Open a bag for writing."""
         part.unlink()
-        bag = stack.enter_context(require("rosbags.rosbag1", extra=EXTRA).Writer(part))
+        bag = stack.enter_context(require(ROSBAG1, extra=EXTRA).Writer(part))
         types = _types(1)
         text = sidecar_text(target.size, target.metadata).encode("utf-8")
         facts = bag.add_connection(FACTS_TOPIC, STRING, typestore=types)
@@ -291,6 +293,8 @@ def _open_bag(path: Path, module: str) -> Iterator[Any]:
     package = require(module, extra=EXTRA)
     try:
         with package.Reader(path) as bag:
+            if module == ROSBAG1:
+                bound_chunks(bag)
             yield bag
     except (InputError, MissingDependencyError) as error:
         if str(path) in str(error) or isinstance(error, MissingDependencyError):
