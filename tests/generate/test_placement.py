@@ -3,6 +3,7 @@
 import pytest
 
 from texvent.errors import ConfigError
+from texvent.generate import placement
 from texvent.generate.models import MODELS
 from texvent.generate.placement import GB, place
 from texvent.generate.video_config import DiffusersConfig
@@ -22,6 +23,36 @@ def test_offload_follows_the_free_memory(free_gb, offload):
 def test_quantised_weights_need_less():
     config = DiffusersConfig(quantize="4bit")
     assert place(COSMOS, config, "cuda", int(40 * GB)).offload == "none"
+
+
+@pytest.mark.parametrize(
+    ("free_gb", "quantize", "offload"),
+    [(80, "none", "none"), (30, "none", "model"), (20, "8bit", "model"), (12, "4bit", "model")],
+)
+def test_weights_are_quantised_only_where_layers_would_have_to_wait(
+    monkeypatch, free_gb, quantize, offload
+):
+    monkeypatch.setattr(placement, "find_spec", lambda name: name == "bitsandbytes" or None)
+    placed = place(COSMOS, DiffusersConfig(), "cuda", int(free_gb * GB))
+    assert (placed.quantize, placed.offload) == (quantize, offload)
+
+
+@pytest.mark.parametrize("options", [{"quantize": "none"}, {"offload": "sequential"}])
+def test_weights_keep_all_bits_where_the_user_decided(monkeypatch, options):
+    monkeypatch.setattr(placement, "find_spec", lambda name: name == "bitsandbytes" or None)
+    placed = place(COSMOS, DiffusersConfig(**options), "cuda", int(20 * GB))
+    assert (placed.quantize, placed.offload) == ("none", "sequential")
+
+
+def test_weights_keep_all_bits_without_the_package(monkeypatch):
+    monkeypatch.setattr(placement, "find_spec", lambda name: None)
+    assert place(COSMOS, DiffusersConfig(), "cuda", int(20 * GB)).quantize == "none"
+
+
+def test_nothing_helps_where_even_four_bits_are_too_many(monkeypatch):
+    monkeypatch.setattr(placement, "find_spec", lambda name: name == "bitsandbytes" or None)
+    placed = place(COSMOS, DiffusersConfig(), "cuda", int(4 * GB))
+    assert (placed.quantize, placed.offload) == ("none", "sequential")
 
 
 def test_what_the_user_sets_is_kept():

@@ -100,6 +100,7 @@ class ModelRun:
             "commit": self._files.commit,
             "pipeline": self._class_name,
             "dtype": self._placement.dtype,
+            "quantize": self._placement.quantize,
             "licence": self._model.licence,
             **{name: metadata.version(name) for name in PACKAGES},
         }
@@ -129,7 +130,7 @@ class ModelRun:
             content=self._content,
             class_name=self._class_name,
             placement=self._placement,
-            quantize=self._config.quantize,
+            quantize=self._placement.quantize,
             decoder=self._config.decoder,
             decoder_in_float32=self._model.needs_float32_vae,
             has_text_encoder=has_text_encoder,
@@ -174,9 +175,11 @@ class ModelRun:
         )
 
     def _describe_placement(self) -> str:
-        place_text = f"{self._placement.device}, {self._placement.dtype}"
-        offload = self._placement.offload
-        return place_text if offload == "none" else f"{place_text}, offload {offload}"
+        placement = self._placement
+        facts = [placement.device, placement.dtype]
+        facts += [] if placement.quantize == "none" else [f"weights in {placement.quantize}"]
+        facts += [] if placement.offload == "none" else [f"offload {placement.offload}"]
+        return ", ".join(facts)
 
     def _latents(self, pipe: Pipeline, arguments: dict[str, Any], seed: int) -> Latents:
         output = self._call(pipe, arguments, seed, "latent")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from importlib.util import find_spec
 
 from texvent.errors import ConfigError
 from texvent.generate.models import VideoModel
@@ -27,6 +28,8 @@ class Placement:
     """"none", "model" or "sequential"."""
     tiles_decoder: bool
     """Decode in tiles: less memory, faint differences where tiles meet."""
+    quantize: str = "none"
+    """Bits of the video transformer's weights: "none" (all), "8bit" or "4bit"."""
 
 
 def place(
@@ -52,11 +55,26 @@ def place(
                 )
         format_on_cpu = "float32" if config.dtype == "auto" else config.dtype
         return Placement(device, format_on_cpu, "none", tiles_decoder=False)
+    quantize = _choose_quantization(model, config, free_bytes / GB)
     offload: str = config.offload
     if offload == "auto":
-        offload = _choose_offload(model, free_bytes / GB, QUANTIZED_SHARE[config.quantize])
+        offload = _choose_offload(model, free_bytes / GB, QUANTIZED_SHARE[quantize])
     dtype = model.dtype if config.dtype == "auto" else config.dtype
-    return Placement(device, dtype, offload, tiles_decoder=offload != "none")
+    return Placement(device, dtype, offload, tiles_decoder=offload != "none", quantize=quantize)
+
+
+def _choose_quantization(model: VideoModel, config: DiffusersConfig, free_gb: float) -> str:
+    """As many bits as keep whole parts on the GPU; layer by layer is slower by an order."""
+    if config.quantize != "auto":
+        return config.quantize
+    if config.offload != "auto" or find_spec("bitsandbytes") is None:
+        return "none"
+    fitting = (
+        bits
+        for bits, share in QUANTIZED_SHARE.items()
+        if _choose_offload(model, free_gb, share) != "sequential"
+    )
+    return next(fitting, "none")
 
 
 def _choose_offload(model: VideoModel, free_gb: float, share: float) -> str:

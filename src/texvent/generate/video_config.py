@@ -68,9 +68,10 @@ class DiffusersConfig(GeneratedVideoConfig):
     offload: Literal["auto", "none", "model", "sequential"] = "auto"
     """Which parts wait in the computer's memory: none, whole parts that are not in use, or every
     layer (slow, fits small GPUs); auto: by the GPU's free memory."""
-    quantize: Literal["none", "8bit", "4bit"] = "none"
+    quantize: Literal["auto", "none", "8bit", "4bit"] = "auto"
     """Store the weights of the video transformer in fewer bits (needs bitsandbytes and a GPU);
-    it changes the video a little."""
+    it changes the video a little. auto: only where the GPU's free memory would otherwise force
+    layer-by-layer offload and bitsandbytes is installed."""
     decoder: Path | None = None
     """Folder of another decoder (VAE) for the same latents, such as a tiny one: faster, coarser."""
     generator_device: str = "auto"
