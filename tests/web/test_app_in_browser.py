@@ -110,9 +110,16 @@ def test_a_prompt_gives_a_film_a_viewer_and_a_download(
     choice = "//ul[@role='listbox']//li[contains(., 'evt3')]"
     until(page, lambda: page.find_elements("xpath", choice))[0].click()
     page.find_element("id", "prepare").click()
-    link = until(page, lambda: page.find_elements("css selector", "#download a[href]"))[0]
+    # Until the conversion is done, the link still leads to the file of the run itself.
+    prepared = "#download a[href$='.raw']"
+    address_of_raw = until(
+        page,
+        lambda: [
+            link.get_attribute("href") for link in page.find_elements("css selector", prepared)
+        ],
+    )[0]
     target = tmp_path / "events.raw"
-    with urllib.request.urlopen(link.get_attribute("href")) as response:
+    with urllib.request.urlopen(address_of_raw) as response:
         target.write_bytes(response.read())
     assert len(texvent.load(target, format="evt3")) == count
 
