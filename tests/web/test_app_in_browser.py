@@ -61,10 +61,19 @@ def page(browser: Any, address: str) -> Any:
 
 
 def until(browser: Any, condition: Any) -> Any:
-    from selenium.common.exceptions import StaleElementReferenceException
+    from selenium.common.exceptions import (
+        ElementClickInterceptedException,
+        ElementNotInteractableException,
+        StaleElementReferenceException,
+    )
     from selenium.webdriver.support.wait import WebDriverWait
 
-    patient = WebDriverWait(browser, WAIT_S, ignored_exceptions=[StaleElementReferenceException])
+    moving = [
+        ElementClickInterceptedException,
+        ElementNotInteractableException,
+        StaleElementReferenceException,
+    ]
+    patient = WebDriverWait(browser, WAIT_S, ignored_exceptions=moving)
     return patient.until(lambda _: condition())
 
 
@@ -90,6 +99,17 @@ def upload(page: Any, path: Path) -> None:
     page.find_element("css selector", "#video input[type=file]").send_keys(str(path))
 
 
+def choose_format(page: Any, name: str) -> bool:
+    """Try to choose a format; True once it is chosen. A list that still moves loses a click."""
+    field = page.find_element("css selector", "#format input")
+    if name in field.get_attribute("value"):
+        return True
+    field.click()
+    for choice in page.find_elements("xpath", f"//ul[@role='listbox']//li[contains(., '{name}')]"):
+        choice.click()
+    return False
+
+
 def test_a_prompt_gives_a_film_a_viewer_and_a_download(
     page: Any, address: str, tmp_path: Path, requests_made: Any
 ) -> None:
@@ -106,9 +126,7 @@ def test_a_prompt_gives_a_film_a_viewer_and_a_download(
     until(page, lambda: not page.find_element("id", "shown-text").text.startswith(f"{count:,} "))
     page.switch_to.default_content()
 
-    page.find_element("css selector", "#format input").click()
-    choice = "//ul[@role='listbox']//li[contains(., 'evt3')]"
-    until(page, lambda: page.find_elements("xpath", choice))[0].click()
+    until(page, lambda: choose_format(page, "evt3"))
     page.find_element("id", "prepare").click()
     # Until the conversion is done, the link still leads to the file of the run itself.
     prepared = "#download a[href$='.raw']"
