@@ -93,6 +93,7 @@ def _group(config: Any) -> Any:
     hints = typing.get_type_hints(type(config))
     helps = option_help(type(config))
     positional = getattr(config, "positional", ())
+    annotate: Any = Annotated  # the notes are only known at run time, which mypy cannot follow
     required: list[Any] = []
     fields: list[Any] = []
     for field in dataclasses.fields(config):
@@ -109,7 +110,7 @@ def _group(config: Any) -> Any:
         if is_positional:
             notes.append(tyro.conf.Positional)
         default = dataclasses.field(default=getattr(config, field.name))
-        hint: Any = Annotated.__class_getitem__((hints[field.name], *notes))  # type: ignore[attr-defined]
+        hint = annotate[(hints[field.name], *notes)]
         if default.default is REQUIRED:
             required.append((field.name, hint))
         else:
