@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from texvent.errors import FileFormatError, InputError, MissingDependencyError, OutputError
 from texvent.events import EventPackets, EventStream
-from texvent.io import hdf5
+from texvent.io import hdf5, hdf5_writer
 from texvent.io.files import load, open_events, save
 from texvent.sensor import SensorSize
 
@@ -67,8 +67,8 @@ def test_ms_to_idx_follows_its_definition(
 def test_ms_to_idx_spans_silence_and_batches(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(hdf5, "CHUNK_EVENTS", 4)
-    monkeypatch.setattr(hdf5, "BATCH_EVENTS", 8)
+    monkeypatch.setattr(hdf5.Hdf5Writer, "chunk_events", 4)
+    monkeypatch.setattr(hdf5_writer, "BATCH_EVENTS", 8)
     monkeypatch.setattr(hdf5, "INDEX_PIECE", 3)
     times = [0, 1, 999, 1000, 1000, 1001, 30_000, 30_000, 30_500, 31_000, 90_001]
     parts = [at_times(time) for time in times]

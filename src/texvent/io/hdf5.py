@@ -20,37 +20,31 @@ not fit otherwise.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from contextlib import ExitStack
 from pathlib import Path
-from types import MappingProxyType, TracebackType
-from typing import Any, ClassVar, Self
+from types import MappingProxyType
+from typing import Any, ClassVar
 
 import h5py
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent._require import require
-from texvent.errors import FileFormatError, InputError, MissingDependencyError, OutputError
+from texvent.errors import FileFormatError, InputError, MissingDependencyError
 from texvent.events import EventPackets, EventStream
-from texvent.io.atomic import atomic_file, check_output
 from texvent.io.columns import (
     existing_file,
     metadata_from_json,
-    metadata_to_json,
     stored_or_given_size,
     stream_from_file,
 )
 from texvent.io.hdf5_damage import check_claims, reporting_damage
-from texvent.io.interrupts import delay_interrupts
-from texvent.io.patient_file import PatientFile
+from texvent.io.hdf5_writer import BatchedHdf5Writer
 from texvent.sensor import SensorSize
 
 TIMESTAMP_SCALE_MS = 0.001
 """Milliseconds per unit of events/t: µs."""
 CHUNK_EVENTS = 65_536
 CHUNK_INDEX = 4096
-BATCH_EVENTS = 4 * CHUNK_EVENTS
-"""Events held before they are compressed and written."""
 PACKET_EVENTS = 1_048_576
 INDEX_PIECE = 1_048_576
 MAX_START_US = 1 << 36
@@ -94,7 +88,7 @@ class Hdf5Codec:
         return Hdf5Writer(path, size=size, metadata=metadata, overwrite=overwrite)
 
 
-class Hdf5Writer:
+class Hdf5Writer(BatchedHdf5Writer):
     """Appends packets to a universal HDF5 file; memory does not grow with the recording.
 
     Raises:
@@ -102,6 +96,7 @@ class Hdf5Writer:
         InputError: a packet of another size, before the one before it, or before time 0.
     """
 
+    chunk_events: ClassVar[int] = CHUNK_EVENTS
     time_type: ClassVar[str] = COLUMNS["t"]
     filters: Mapping[str, Any] = MappingProxyType(
         {"compression": "gzip", "compression_opts": 1, "shuffle": True}
@@ -112,72 +107,19 @@ class Hdf5Writer:
     def __init__(
         self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
     ) -> None:
-        check_output(path, overwrite=overwrite)
-        self._path = path
-        self._size = size
-        self._overwrite = overwrite
-        self._metadata = metadata
-        self._json = metadata_to_json(metadata)
-        self._stack = ExitStack()
-        self._file: Any = None
-        self._disk: Any = None
-        self._pending: list[EventStream] = []
-        self._pending_events = 0
-        self._written = 0
+        super().__init__(path, size=size, metadata=metadata, overwrite=overwrite)
         self._next_ms = 0
-        self._last_us = 0
         self._offset_us: int | None = None
         self._has_label: bool | None = None
 
-    def __enter__(self) -> Self:
-        with delay_interrupts(), ExitStack() as stack:
-            part = stack.enter_context(atomic_file(self._path, overwrite=self._overwrite))
-            # v110: object headers and chunk indexes then carry checksums.
-            self._disk = stack.enter_context(PatientFile(part))
-            self._file = h5py.File(self._disk, "w", libver=("v110", "v110"))
-            stack.callback(self._file.close)
-            self._create_layout()
-            self._stack = stack.pop_all()
-        return self
-
-    def append(self, packet: EventStream) -> None:
-        """Add the events of a packet, which starts no earlier than the one before it ended."""
-        if self._file is None:
-            raise OutputError(f"{self._path} is not open; append inside the writer's with block")
-        if packet.size != self._size:
-            raise InputError(f"the packet is {packet.size}, the file is {self._size}")
-        if len(packet) == 0:
-            return
+    def _check(self, packet: EventStream) -> None:
         self._check_time(packet)
         self._check_label(packet)
-        self._pending.append(packet)
-        self._pending_events += len(packet)
-        if self._pending_events >= BATCH_EVENTS:
-            with delay_interrupts():
-                self._write_pending(final=False)
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        with delay_interrupts():
-            if error is not None:
-                self._stack.__exit__(kind, error, trace)
-                return
-            with self._stack:
-                self._finish()
 
     def _check_time(self, packet: EventStream) -> None:
         first, last = int(packet.t[0]), int(packet.t[-1])
         if first < 0:
             raise InputError(f"an event has time {first} µs; event files start at 0 or later")
-        if first < self._last_us:
-            raise InputError(
-                f"a packet starts at {first} µs, before the one before it ends "
-                f"({self._last_us} µs); append packets in time order"
-            )
         if self._offset_us is None:
             self._offset_us = first // 1000 * 1000 if first >= self.max_start_us else 0
         if last - self._offset_us > self.max_span_us:
@@ -185,7 +127,6 @@ class Hdf5Writer:
                 f"events span {(last - self._offset_us) / 3.6e9:.3g} h; this file holds up to "
                 f"{self.max_span_us / 3.6e9:.3g} h: split the recording, or check its time unit"
             )
-        self._last_us = last
 
     def _check_label(self, packet: EventStream) -> None:
         """The first events decide whether the file has a label column."""
@@ -218,22 +159,11 @@ class Hdf5Writer:
             **self.filters,
         )
 
-    def _write_pending(self, *, final: bool) -> None:
-        """Write whole chunks, so that none is compressed twice; at the end, the rest too."""
-        whole = EventStream.concat(self._pending)
-        count = len(whole) if final else len(whole) // CHUNK_EVENTS * CHUNK_EVENTS
-        stop = self._written + count
-        times = whole.t[:count] - (self._offset_us or 0)
+    def _store(self, events: EventStream, count: int) -> None:
+        times = events.t[:count] - (self._offset_us or 0)
         self._index(times)
-        for name, values in whole.columns().items():
-            column = times if name == "t" else values[:count]
-            dataset = self._file[f"events/{name}"]
-            dataset.resize((stop,))
-            dataset[self._written : stop] = column
-        self._disk.raise_failure()
-        self._written = stop
-        self._pending = [whole[count:]]
-        self._pending_events = len(whole) - count
+        for name, values in events.columns().items():
+            self._extend(f"events/{name}", times if name == "t" else values[:count])
 
     def _index(self, times: NDArray[np.int64]) -> None:
         """Extend ms_to_idx up to the last of these times, µs after t_offset."""
@@ -241,26 +171,17 @@ class Hdf5Writer:
         while self._next_ms <= last_ms:
             stop = min(last_ms + 1, self._next_ms + INDEX_PIECE)
             starts_us = np.arange(self._next_ms, stop, dtype=np.int64) * 1000
-            self._append_index(np.searchsorted(times, starts_us, side="left") + self._written)
+            indexes = np.searchsorted(times, starts_us, side="left") + self._written
+            self._extend("ms_to_idx", indexes)
             self._next_ms = stop
 
-    def _append_index(self, indexes: NDArray[Any]) -> None:
-        dataset = self._file["ms_to_idx"]
-        known = dataset.shape[0]
-        dataset.resize((known + len(indexes),))
-        dataset[known:] = indexes
-
-    def _finish(self) -> None:
-        if self._pending_events:
-            self._write_pending(final=True)
-        self._append_index(np.array([self._written], dtype=np.uint64))
+    def _complete(self) -> None:
+        self._extend("ms_to_idx", np.array([self._written], dtype=np.uint64))
         # Compact: the value then lies inside the checksummed header.
         properties = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
         properties.set_layout(h5py.h5d.COMPACT)
         offset = self._file.create_dataset("t_offset", shape=(), dtype="<i8", dcpl=properties)
         offset[()] = self._offset_us or 0
-        self._file.close()
-        self._disk.raise_failure()
 
 
 class _Packets:

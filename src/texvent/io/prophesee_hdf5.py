@@ -23,37 +23,29 @@ Source: Prophesee, "HDF5 Event Files", and OpenEB.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from contextlib import ExitStack
 from pathlib import Path
-from types import TracebackType
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 import h5py
 import numpy as np
-from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError, InputError, OutputError
+from texvent.errors import FileFormatError
 from texvent.events import EventPackets, EventStream
 from texvent.io import ecf
-from texvent.io.atomic import atomic_file, check_output
 from texvent.io.columns import (
     existing_file,
     metadata_from_json,
-    metadata_to_json,
     stored_or_given_size,
     stream_from_file,
 )
 from texvent.io.ecf_dataset import ECF_FILTER, check_storage, read_columns, whole_chunks
 from texvent.io.hdf5_damage import check_claims, reporting_damage
-from texvent.io.interrupts import delay_interrupts
+from texvent.io.hdf5_writer import BatchedHdf5Writer
 from texvent.io.limits import FormatLimits
-from texvent.io.patient_file import PatientFile
 from texvent.io.prophesee_index import ENTRY, TimeIndex
 from texvent.sensor import SensorSize
 
 CHUNK_EVENTS = 16_384
-BATCH_EVENTS = 16 * CHUNK_EVENTS
-"""Events held before they are coded and written."""
 PACKET_CHUNKS = 16
 MAX_SPAN_US = 1 << 35
 MAX_METADATA_BYTES = 32_768
@@ -115,7 +107,7 @@ class PropheseeHdf5Codec:
         return PropheseeHdf5Writer(path, size=size, metadata=metadata, overwrite=overwrite)
 
 
-class PropheseeHdf5Writer:
+class PropheseeHdf5Writer(BatchedHdf5Writer):
     """Appends packets to a Metavision file; memory does not grow with the recording.
 
     Raises:
@@ -124,71 +116,19 @@ class PropheseeHdf5Writer:
             before the one before it.
     """
 
+    chunk_events: ClassVar[int] = CHUNK_EVENTS
+
     def __init__(
         self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
     ) -> None:
-        check_output(path, overwrite=overwrite)
+        super().__init__(path, size=size, metadata=metadata, overwrite=overwrite)
         PropheseeHdf5Codec.limits.check_size(path, size)
-        self._path = path
-        self._size = size
-        self._overwrite = overwrite
-        self._json = metadata_to_json(metadata)
-        self._stack = ExitStack()
-        self._file: Any = None
-        self._disk: Any = None
         self._index = TimeIndex()
-        self._pending: list[EventStream] = []
-        self._pending_events = 0
-        self._written = 0
         self._start_us: int | None = None
-        self._last_us = 0
 
-    def __enter__(self) -> Self:
-        with delay_interrupts(), ExitStack() as stack:
-            part = stack.enter_context(atomic_file(self._path, overwrite=self._overwrite))
-            self._disk = stack.enter_context(PatientFile(part))
-            # v110: object headers and chunk indexes then carry checksums.
-            self._file = h5py.File(self._disk, "w", libver=("v110", "v110"))
-            stack.callback(self._file.close)
-            self._create_layout()
-            self._stack = stack.pop_all()
-        return self
-
-    def append(self, packet: EventStream) -> None:
-        """Add the events of a packet, which starts no earlier than the one before it ended."""
-        if self._file is None:
-            raise OutputError(f"{self._path} is not open; append inside the writer's with block")
-        if packet.size != self._size:
-            raise InputError(f"the packet is {packet.size}, the file is {self._size}")
-        if len(packet) == 0:
-            return
+    def _check(self, packet: EventStream) -> None:
         PropheseeHdf5Codec.limits.check_packet(self._path, packet, self._start_us)
-        first = int(packet.t[0])
-        if first < self._last_us:
-            raise InputError(
-                f"a packet starts at {first} µs, before the one before it ends "
-                f"({self._last_us} µs); append packets in time order"
-            )
-        self._start_us = first if self._start_us is None else self._start_us
-        self._last_us = int(packet.t[-1])
-        self._pending.append(packet)
-        self._pending_events += len(packet)
-        if self._pending_events >= BATCH_EVENTS:
-            with delay_interrupts():
-                self._write_pending(final=False)
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        with delay_interrupts():
-            if error is not None:
-                self._stack.__exit__(kind, error, trace)
-                return
-            with self._stack:
-                self._finish()
+        self._start_us = int(packet.t[0]) if self._start_us is None else self._start_us
 
     def _create_layout(self) -> None:
         file = self._file
@@ -227,38 +167,21 @@ class PropheseeHdf5Writer:
             dcpl=properties,
         )
 
-    def _write_pending(self, *, final: bool) -> None:
-        """Write whole chunks; at the end, a short one too."""
-        whole = EventStream.concat(self._pending)
-        count = len(whole) if final else len(whole) // CHUNK_EVENTS * CHUNK_EVENTS
+    def _store(self, events: EventStream, count: int) -> None:
         dataset = self._file["CD/events"]
         dataset.resize((self._written + count,))
-        columns = whole.columns()
+        columns = events.columns()
         for start in range(0, count, CHUNK_EVENTS):
             piece = slice(start, min(start + CHUNK_EVENTS, count))
             chunk = ecf.encode_chunk({name: columns[name][piece] for name in "xytp"})
             dataset.id.write_direct_chunk((self._written + start,), chunk)
-        for entries in self._index.add(whole.t[:count]):
-            self._append_index(entries)
-        self._disk.raise_failure()
-        self._written += count
-        self._pending = [whole[count:]]
-        self._pending_events = len(whole) - count
+        for entries in self._index.add(events.t[:count]):
+            self._extend("CD/indexes", entries)
 
-    def _append_index(self, entries: NDArray[Any]) -> None:
-        dataset = self._file["CD/indexes"]
-        known = dataset.shape[0]
-        dataset.resize((known + len(entries),))
-        dataset[known:] = entries
-
-    def _finish(self) -> None:
-        if self._pending_events:
-            self._write_pending(final=True)
+    def _complete(self) -> None:
         if self._start_us is not None:
-            self._append_index(self._index.close())
+            self._extend("CD/indexes", self._index.close())
             _set_text(self._file["CD/indexes"], "offset", str(-self._start_us))
-        self._file.close()
-        self._disk.raise_failure()
 
 
 class _Packets:
