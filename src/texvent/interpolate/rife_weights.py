@@ -6,15 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from texvent._cache import cache_folder
+from texvent._network_files import Tensor, check_finite, named_tensors, read_mapping
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError
-from texvent.interpolate.network_files import (
-    EXTRA,
-    Tensor,
-    check_finite,
-    named_tensors,
-    read_mapping,
-)
+from texvent.interpolate.network_files import EXTRA
 from texvent.interpolate.rife_layouts import (
     LAYOUTS,
     RifeLayout,
@@ -63,7 +58,7 @@ def read_rife_weights(path: Path) -> RifeWeights:
         FileFormatError: the file is damaged or holds another network.
         MissingDependencyError: torch or safetensors is not installed.
     """
-    tensors = named_tensors(read_mapping(path, WHERE_FROM))
+    tensors = named_tensors(read_mapping(path, WHERE_FROM, extra=EXTRA), extra=EXTRA)
     inner = {name: tensor for name, tensor in tensors.items() if is_network_tensor(name)}
     layout = recognise_layout({name: tuple(tensor.shape) for name, tensor in inner.items()})
     if layout is None:

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from texvent._network_files import Tensor, check_finite, named_tensors, read_mapping
 from texvent.errors import ConfigError, FileFormatError, InputError
-from texvent.interpolate.network_files import Tensor, check_finite, named_tensors, read_mapping
+from texvent.interpolate.network_files import EXTRA
 from texvent.interpolate.super_slomo_layout import FLOW_NET, REFINE_NET, UNetLayout
 
 WHERE_FROM = (
@@ -43,7 +44,7 @@ def read_checkpoint(path: Path) -> dict[str, dict[str, Tensor]]:
         FileFormatError: the file is damaged, or a network is missing or of another shape.
         MissingDependencyError: torch is not installed.
     """
-    content = read_mapping(path, WHERE_FROM)
+    content = read_mapping(path, WHERE_FROM, extra=EXTRA)
     return {net.key: _read_network(content, net, path) for net in (FLOW_NET, REFINE_NET)}
 
 
@@ -51,7 +52,7 @@ def _read_network(content: Mapping[str, Any], net: UNetLayout, path: Path) -> di
     state = content.get(net.key)
     if not isinstance(state, Mapping):
         raise FileFormatError(f"{path} holds no {net.key}; it is not Super SloMo's. {WHERE_FROM}")
-    tensors = named_tensors(state)
+    tensors = named_tensors(state, extra=EXTRA)
     width = getattr(tensors.get(FIRST_TENSOR), "shape", (0,))[0]
     expected = net.tensor_shapes(width)
     for name in sorted(expected.keys() | tensors.keys()):

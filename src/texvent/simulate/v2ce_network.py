@@ -10,6 +10,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent._network_files import Tensor
 from texvent._require import require
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.simulate.v2ce_layout import (
@@ -22,7 +23,7 @@ from texvent.simulate.v2ce_layout import (
     POLARITIES,
     PREDICTION,
 )
-from texvent.simulate.v2ce_weights import Tensor, read_weights
+from texvent.simulate.v2ce_weights import read_weights
 
 Device: TypeAlias = Literal["auto", "cpu", "cuda"]
 Float32Array: TypeAlias = NDArray[np.float32]

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import pickle
-import zipfile
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any
 
+from texvent._network_files import Tensor, check_finite, read_mapping
 from texvent._require import require
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.simulate.v2ce_layout import (
@@ -18,19 +17,11 @@ from texvent.simulate.v2ce_layout import (
     tensor_shapes,
 )
 
-Tensor: TypeAlias = Any
-"""torch.Tensor; torch is imported only when a network is loaded."""
-
 FILE_NAME = "v2ce_3d.pt"
 WHERE_FROM = (
     f"the published file is {FILE_NAME}; its authors' project V2CE-Toolbox "
     "(github.com/ucsd-hdsi-dvs/V2CE-Toolbox) links to it"
 )
-DAMAGE = (
-    *(RuntimeError, OSError, EOFError, ValueError, LookupError, AttributeError, TypeError),
-    *(pickle.UnpicklingError, zipfile.BadZipFile),
-)
-"""What reading arbitrary bytes as a pickle can raise."""
 FIRST_TENSOR = f"{HEAD}.weight"
 
 
@@ -70,7 +61,7 @@ def read_weights(path: Path, device: str) -> dict[str, Tensor]:
             another shape.
         MissingDependencyError: torch is not installed.
     """
-    tensors = _strip_prefix(_read_state(path, device), path)
+    tensors = _strip_prefix(_read_state(path), path)
     width = getattr(tensors[FIRST_TENSOR], "shape", (0,))[0]
     expected = tensor_shapes(width)
     _check_names(tensors, expected, path)
@@ -80,24 +71,15 @@ def read_weights(path: Path, device: str) -> dict[str, Tensor]:
                 f"{path}: {name} has shape {list(tensors[name].shape)}; it must be {list(shape)}. "
                 "The file is of another network"
             )
-    used = {name: tensors[name].float() for name in expected if not name.endswith(BATCH_COUNTER)}
-    for name, tensor in used.items():
-        if not bool(tensor.isfinite().all()):
-            raise FileFormatError(f"{path}: {name} holds values that are NaN or infinite")
+    kept = [name for name in expected if not name.endswith(BATCH_COUNTER)]
+    used = {name: tensors[name].float().to(device) for name in kept}
+    check_finite(used, path)
     return apply_spectral_norm(used)
 
 
-def _read_state(path: Path, device: str) -> Mapping[str, Any]:
-    torch = require("torch", extra="v2ce")
-    try:
-        content = torch.load(path, map_location=device, weights_only=True)
-    except DAMAGE as error:
-        reason = f"{type(error).__name__}: {error}".splitlines()[0][:120]
-        raise FileFormatError(
-            f"{path} cannot be read as network weights, it is damaged or of another kind "
-            f"({reason}); {WHERE_FROM}"
-        ) from error
-    state = content.get("state_dict", content) if isinstance(content, Mapping) else content
+def _read_state(path: Path) -> Mapping[str, Any]:
+    content = read_mapping(path, WHERE_FROM, extra="v2ce")
+    state = content.get("state_dict", content)
     if not isinstance(state, Mapping) or not all(isinstance(name, str) for name in state):
         raise FileFormatError(
             f"{path} holds {type(state).__name__}, not named tensors; {WHERE_FROM}"

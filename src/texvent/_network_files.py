@@ -1,0 +1,93 @@
+"""Files of network weights: read without running what they hold, refused by name."""
+
+from __future__ import annotations
+
+import datetime
+import pickle
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from texvent._require import require
+from texvent.errors import FileFormatError
+
+Tensor: TypeAlias = Any
+"""torch.Tensor; torch is imported only when weights are read."""
+
+SAFETENSORS = ".safetensors"
+DAMAGE = (
+    *(RuntimeError, OSError, EOFError, ValueError, LookupError, AttributeError, TypeError),
+    *(pickle.UnpicklingError, zipfile.BadZipFile),
+)
+"""What reading arbitrary bytes as a pickle can raise."""
+PARALLEL_PREFIX = "module."
+"""Put before every name by training on several GPUs."""
+
+
+def read_mapping(path: Path, where_from: str, *, extra: str) -> Mapping[str, Any]:
+    """What a weights file holds at its top: names → tensors, or → further mappings.
+
+    Args:
+        path: a `.safetensors` file, or a torch checkpoint of any other name.
+        where_from: where the right file comes from, for messages.
+        extra: the texvent extra that brings what reading needs.
+
+    Raises:
+        FileFormatError: it is damaged, or holds something else.
+        MissingDependencyError: torch or safetensors is not installed.
+    """
+    torch = require("torch", extra=extra)
+    try:
+        if path.suffix.lower() == SAFETENSORS:
+            content: Any = _read_safetensors(path, extra)
+        else:
+            # Training stores when it saved; a date runs no code.
+            with torch.serialization.safe_globals([datetime.datetime]):
+                content = torch.load(path, map_location="cpu", weights_only=True)
+    except DAMAGE as error:
+        raise _damaged(path, error, where_from) from error
+    if not isinstance(content, Mapping) or not all(isinstance(name, str) for name in content):
+        raise FileFormatError(
+            f"{path} holds {type(content).__name__}, not named tensors; {where_from}"
+        )
+    return content
+
+
+def named_tensors(mapping: Mapping[str, Any], *, extra: str) -> dict[str, Tensor]:
+    """The tensors of a mapping under their own names, as float32; other entries are left out."""
+    torch = require("torch", extra=extra)
+    return {
+        name.removeprefix(PARALLEL_PREFIX): tensor.float()
+        for name, tensor in mapping.items()
+        if isinstance(tensor, torch.Tensor)
+    }
+
+
+def check_finite(tensors: Mapping[str, Tensor], path: Path) -> None:
+    """Refuse weights that are NaN or infinite.
+
+    Raises:
+        FileFormatError: with the name of the first such tensor.
+    """
+    for name, tensor in tensors.items():
+        if not bool(tensor.isfinite().all()):
+            raise FileFormatError(f"{path}: {name} holds values that are NaN or infinite")
+
+
+def _read_safetensors(path: Path, extra: str) -> dict[str, Tensor]:
+    module = require("safetensors", extra=extra)
+    loader = require("safetensors.torch", extra=extra)
+    try:
+        tensors: dict[str, Tensor] = loader.load_file(path)
+    except module.SafetensorError as error:
+        raise ValueError(str(error)) from error
+    return tensors
+
+
+def _damaged(path: Path, error: Exception, where_from: str) -> FileFormatError:
+    reason = f"{type(error).__name__}: {error}".splitlines()[0][:120]
+    return FileFormatError(
+        f"{path} cannot be read as network weights, it is damaged or of another kind "
+        f"({reason}); {where_from}"
+    )
