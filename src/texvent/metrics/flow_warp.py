@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.events import EventStream
 from texvent.metrics.protocol import UNDEFINED
+from texvent.metrics.splat import splat_events
 from texvent.metrics.windows import occupied_windows, rate_of_window
 from texvent.video import MICROSECONDS
 
@@ -46,7 +46,7 @@ def flow_warp_sharpness(
         reach = [abs(one) * window_us / MICROSECONDS for one in velocity_px_s]
         pad_x, pad_y = (int(np.ceil(one)) + 1 for one in reach)
         pictures = [
-            _splat(
+            splat_events(
                 window.predicted.x - scale * velocity_px_s[0] * seconds + pad_x,
                 window.predicted.y - scale * velocity_px_s[1] * seconds + pad_y,
                 (events.size.height + 2 * pad_y, events.size.width + 2 * pad_x),
@@ -57,19 +57,3 @@ def flow_warp_sharpness(
         if still > 0:
             ratios.append(float(pictures[0].var()) / still)
     return float(np.mean(ratios)) if ratios else UNDEFINED
-
-
-def _splat(
-    x: NDArray[np.float64], y: NDArray[np.float64], shape: tuple[int, int]
-) -> NDArray[np.float64]:
-    """Weight 1 per event, shared between the four pixels around it."""
-    left, top = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
-    right_share, lower_share = x - left, y - top
-    picture = np.zeros(shape[0] * shape[1])
-    for down, across in ((0, 0), (0, 1), (1, 0), (1, 1)):
-        weight = (lower_share if down else 1 - lower_share) * (
-            right_share if across else 1 - right_share
-        )
-        index = (top + down) * shape[1] + left + across
-        picture += np.bincount(index, weights=weight, minlength=picture.size)
-    return picture.reshape(shape)

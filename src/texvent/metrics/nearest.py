@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.events import EventStream
@@ -50,13 +51,28 @@ class NearestTime:
 
     def _mean_us(self, events: Trains, others: Trains) -> float:
         """Mean capped time from each of `events` to the nearest of `others`, µs."""
-        # One sorted axis for all trains: they are laid end to end, further apart than the cap.
-        start = min(int(events.t.min()), int(others.t.min()))
-        stop = max(int(events.t.max()), int(others.t.max()))
-        stride = stop - start + self.cap_us + 1
-        here, there = (one.train * stride + (one.t - start) for one in (events, others))
-        after = np.searchsorted(there, here)
-        to_next = there[np.minimum(after, len(there) - 1)] - here
-        to_last = here - there[np.maximum(after - 1, 0)]
-        nearest = np.minimum(np.abs(to_next), np.abs(to_last))
-        return float(np.minimum(nearest, self.cap_us).mean())
+        return float(np.abs(time_to_nearest(events, others, cap_us=self.cap_us)).mean())
+
+
+def time_to_nearest(events: Trains, others: Trains, *, cap_us: int) -> NDArray[np.int64]:
+    """Time from each of `events` to the nearest of `others` in the same train.
+
+    Args:
+        events: where the times start; not empty.
+        others: where they end; not empty.
+        cap_us: longest time that counts, µs.
+
+    Returns:
+        [n] µs, in the order of `events`: positive where the nearest comes later; `cap_us` where it
+        is further away than that, or there is none.
+    """
+    # One sorted axis for all trains: they are laid end to end, further apart than the cap.
+    start = min(int(events.t.min()), int(others.t.min()))
+    stop = max(int(events.t.max()), int(others.t.max()))
+    stride = stop - start + cap_us + 1
+    here, there = (one.train * stride + (one.t - start) for one in (events, others))
+    after = np.searchsorted(there, here)
+    to_next = there[np.minimum(after, len(there) - 1)] - here
+    to_last = here - there[np.maximum(after - 1, 0)]
+    nearest = np.where(np.abs(to_next) < np.abs(to_last), to_next, -to_last)
+    return np.where(np.abs(nearest) < cap_us, nearest, cap_us)
