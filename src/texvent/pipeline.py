@@ -4,24 +4,29 @@
     dense = densify(video)                   Eq. 4   texvent.interpolate
     packet = simulator.step(frame)           Eq. 5-7 texvent.simulate
 
-Everything is pulled through one frame at a time, so memory does not grow with the clip.
+Everything is pulled through one frame at a time, so memory does not grow with the clip. Decoding
+and optical flow run a few frames ahead in threads of their own; the events are the same without.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from contextlib import ExitStack, closing
 from dataclasses import dataclass, replace
 from typing import Any
 
+from texvent._ahead import read_ahead
 from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS
 from texvent._version import __version__
 from texvent.capture.prepare import PreparedFrames
 from texvent.config import CaptureConfig, RunConfig
 from texvent.events import NOISE, SIGNAL, EventPackets, EventStream
 from texvent.generate.protocol import Watch
-from texvent.interpolate.densify import OnCut, densify
+from texvent.interpolate.densify import OnCut, Pair, dense_frames, pair_up
+from texvent.interpolate.policy import CountPolicy
 from texvent.settings import Settings
 from texvent.simulate.look_ahead import step_through
+from texvent.simulate.protocol import Simulator
 from texvent.simulate.training import draw_training_config
 from texvent.video import Frame, FrameStream
 
@@ -77,19 +82,34 @@ class Simulation:
             on_cut: told of every scene cut and flash that was not smeared.
         """
         settings = self.settings
-        interpolate, simulate = settings.interpolate, settings.run.simulator
-        simulator = SIMULATORS.load(simulate)(settings.simulate, seed=settings.run.seed)
-        interpolator = INTERPOLATORS.load(interpolate.interpolate)(interpolate, self.video)
-        dense = densify(
+        simulator = SIMULATORS.load(settings.run.simulator)(
+            settings.simulate, seed=settings.run.seed
+        )
+        with ExitStack() as threads:
+            dense = dense_frames(self._pairs(simulator, threads), on_cut)
+            for frame, packet in step_through(simulator, dense):
+                yield frame, select(packet, settings.run)
+
+    def _pairs(self, simulator: Simulator, threads: ExitStack) -> Iterator[Pair]:
+        """Pairs of source frames, decoded and planned ahead in threads that `threads` ends.
+
+        A live source is read only when its next frame is asked for: what it shows may depend on
+        the events, and nothing could interrupt a thread that waits for it.
+        """
+        config = self.settings.interpolate
+        interpolator = INTERPOLATORS.load(config.interpolate)(config, self.video)
+        policy = CountPolicy(
+            config,
             self.video,
             interpolator,
-            interpolate,
             balance=simulator.balance,
             contrast_threshold=simulator.contrast_threshold,
-            on_cut=on_cut,
         )
-        for frame, packet in step_through(simulator, dense):
-            yield frame, select(packet, settings.run)
+        if self.video.is_live:
+            return pair_up(self.video, interpolator, config, policy)
+        frames = threads.enter_context(closing(read_ahead(_with_luma(self.video), depth=2)))
+        pairs = pair_up(frames, interpolator, config, policy)
+        return threads.enter_context(closing(read_ahead(pairs, depth=1)))
 
     @property
     def packets(self) -> EventPackets:
@@ -111,6 +131,13 @@ class Simulation:
             "settings": self.settings.as_tables(),
             "texvent_version": __version__,
         }
+
+
+def _with_luma(frames: Iterable[Frame]) -> Iterator[Frame]:
+    """The frames, with their luma computed: it is kept, so it costs the reading thread only."""
+    for frame in frames:
+        frame.luma  # noqa: B018  (a cached property)
+        yield frame
 
 
 def select(packet: EventStream, run: RunConfig) -> EventStream:

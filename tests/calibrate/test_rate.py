@@ -64,7 +64,8 @@ def test_only_the_start_of_the_clip_is_simulated():
     video = moving_waves(30)
     counted = Counted(video.pixels, video.times_us)
     measure_rate(simulation(counted, simulator="physical"), 0.2)
-    assert max(read) == pytest.approx(208_333, abs=1)
+    # Up to three frames more are decoded ahead.
+    assert 208_333 <= max(read) <= 333_333
 
 
 def test_what_cannot_be_matched_fails_clearly():

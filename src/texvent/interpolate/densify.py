@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import TypeAlias
 
 from texvent.config import InterpolateConfig
@@ -22,6 +23,28 @@ OnCut: TypeAlias = Callable[[Jump, int], None]
 
 NEVER_SMEARS = frozenset({"none", "exact"})
 """Interpolators that mix no frames, so that a cut cannot be smeared and is not looked for."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pair:
+    """What follows one source frame, up to and including the next."""
+
+    first: Frame | None
+    """The earlier source frame; None before the first frame of a stream."""
+    second: Frame
+    """The later source frame."""
+    jump: Jump
+    """Whether a cut or a flash lies between the two."""
+    times_us: Sequence[int]
+    """Times of the intermediate frames, µs; none at a jump."""
+    between: Iterator[Frame]
+    """The frames between the two, made when they are asked for."""
+
+    @property
+    def frames(self) -> Iterator[Frame]:
+        """The frames between the two, then the later one; to be read once."""
+        yield from self.between
+        yield self.second
 
 
 def densify(
@@ -59,7 +82,6 @@ def densify(
         change happens within the last millisecond. Light that is known to beat between the
         frames gets enough intermediate frames to be seen, where they can be rendered.
     """
-    checker = StreamChecker()
     policy = CountPolicy(
         config,
         stream,
@@ -67,22 +89,46 @@ def densify(
         balance=balance,
         contrast_threshold=contrast_threshold,
     )
+    yield from dense_frames(pair_up(stream, interpolator, config, policy), on_cut)
+
+
+def pair_up(
+    frames: Iterable[Frame],
+    interpolator: Interpolator,
+    config: InterpolateConfig,
+    policy: CountPolicy,
+) -> Iterator[Pair]:
+    """Source frames as pairs that know what goes between them; the first has no earlier frame.
+
+    What a pair costs once, such as its optical flow, is paid here; its pictures are made when
+    `Pair.between` is read. So a thread may run ahead here while another one reads the pictures.
+
+    Raises:
+        InputError: as `densify`.
+    """
     previous: Frame | None = None
-    frames = map(checker.check, stream)
-    for frame in steady_frames(frames) if config.flicker_guard else frames:
-        if previous is not None:
-            jump = _jump(previous, frame, config)
-            if jump is not Jump.NONE:
-                if on_cut is not None:
-                    on_cut(jump, frame.t_us)
-                yield from hold(previous, frame)
-            else:
-                count = policy.count(previous, frame)
-                times_us = intermediate_times_us(previous.t_us, frame.t_us, count)
-                if times_us:
-                    yield from interpolator.between(previous, frame, times_us)
-        yield frame
+    checked = map(StreamChecker().check, frames)
+    for frame in steady_frames(checked) if config.flicker_guard else checked:
+        jump = Jump.NONE if previous is None else _jump(previous, frame, config)
+        times_us: Sequence[int] = ()
+        between: Iterator[Frame] = iter(())
+        if previous is not None and jump is not Jump.NONE:
+            between = hold(previous, frame)
+        elif previous is not None:
+            count = policy.count(previous, frame)
+            times_us = intermediate_times_us(previous.t_us, frame.t_us, count)
+            if times_us:
+                between = interpolator.between(previous, frame, times_us)
+        yield Pair(previous, frame, jump, times_us, between)
         previous = frame
+
+
+def dense_frames(pairs: Iterable[Pair], on_cut: OnCut | None = None) -> Iterator[Frame]:
+    """The frames of all pairs; `on_cut` is told of each jump before the frames that show it."""
+    for pair in pairs:
+        if pair.jump is not Jump.NONE and on_cut is not None:
+            on_cut(pair.jump, pair.second.t_us)
+        yield from pair.frames
 
 
 def hold(first: Frame, second: Frame) -> Iterator[Frame]:

@@ -34,15 +34,20 @@ class FlowInterpolator:
             second: the later source frame.
             times_us: times of the intermediate frames, µs.
 
-        Yields:
-            One frame per time, [H, W] float32 luma, 0..255 scale.
+        Returns:
+            One frame per time, [H, W] float32 luma, 0..255 scale; the flow is computed at once,
+            each frame when it is asked for.
 
         Raises:
             InputError: the frames differ in size, or a time is not between theirs.
         """
         check_between(first, second, times_us)
         earlier, later = float_luma(first), float_luma(second)
+        # Now, not when the first frame is asked for: a thread may be running ahead here.
         forward, backward = self.pair_flow.both_ways(first, second)
-        for t_us in times_us:
+
+        def moved(t_us: int) -> Frame:
             picture = warp_between(earlier, later, forward, backward, position(first, second, t_us))
-            yield Frame(picture, t_us, is_source=False)
+            return Frame(picture, t_us, is_source=False)
+
+        return map(moved, times_us)

@@ -1,0 +1,43 @@
+"""Work that runs ahead of whoever needs its result, in a thread of its own."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Generator, Iterable
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import Any, TypeVar
+
+Item = TypeVar("Item")
+
+_END: Any = object()
+
+
+def read_ahead(items: Iterable[Item], *, depth: int) -> Generator[Item, None, None]:
+    """The same items in the same order, made in another thread while earlier ones are used.
+
+    Worth it where making an item releases the interpreter lock: decoding, optical flow, NumPy on
+    large arrays, compiled kernels. Closing the result (also by an exception in the loop over it,
+    Ctrl-C included) waits for the item that is being made, makes no more and closes `items`.
+
+    Args:
+        items: what to read; only one thread at a time does.
+        depth: how many items are made before they are asked for, at least 1; they are held in
+            memory.
+
+    Yields:
+        Every item. An exception of `items` is raised in its place, after the items before it.
+    """
+    source = iter(items)
+    pending: deque[Future[Item]] = deque()
+    # One worker takes the calls in the order in which they were made.
+    worker = ThreadPoolExecutor(1, thread_name_prefix="texvent-ahead")
+    try:
+        pending.extend(worker.submit(next, source, _END) for _ in range(depth))
+        while (item := pending.popleft().result()) is not _END:
+            pending.append(worker.submit(next, source, _END))
+            yield item
+    finally:
+        worker.shutdown(cancel_futures=True)
+        close = getattr(source, "close", None)
+        if close is not None:
+            close()
