@@ -1,6 +1,35 @@
-"""Makes the stand-in for NVIDIA's guardrail importable before any test imports diffusers."""
+"""What the tests of learned generators share; diffusers is imported only by those that need it."""
 
 import sys
 from pathlib import Path
 
+import pytest
+
+# The stand-in for NVIDIA's guardrail must be importable before any test imports diffusers.
 sys.path.insert(0, str(Path(__file__).parent / "stand_ins"))
+
+
+@pytest.fixture(scope="session")
+def models(tmp_path_factory):
+    """Folder of a tiny pipeline by its name, saved once."""
+    from . import tiny_pipelines
+
+    folder = tmp_path_factory.mktemp("models")
+    saved = {}
+
+    def find(name):
+        if name not in saved:
+            saved[name] = tiny_pipelines.save(name, folder)
+        return saved[name]
+
+    return find
+
+
+@pytest.fixture
+def model_cache(tmp_path, monkeypatch):
+    """An empty cache folder, and no pipeline in memory."""
+    from texvent.generate.pipeline_loading import forget_pipeline
+
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))
+    forget_pipeline()
+    return tmp_path / "cache"

@@ -4,7 +4,6 @@ Everything but the weights is real: saved by `save_pretrained`, found, checked, 
 decoded by the code that runs the published models. Offline.
 """
 
-import dataclasses
 import json
 import os
 import shutil
@@ -16,6 +15,7 @@ import pytest
 
 pytestmark = [
     pytest.mark.torch,
+    pytest.mark.usefixtures("model_cache"),
     # Of the Karras noise schedule in diffusers 0.42.1 under NumPy 2; texvent cannot change it.
     pytest.mark.filterwarnings("ignore:__array__ implementation:DeprecationWarning"),
 ]
@@ -49,39 +49,9 @@ from texvent.pipeline import text_to_events  # noqa: E402
 from texvent.settings import resolve  # noqa: E402
 
 from . import tiny_pipelines  # noqa: E402
+from .tiny_models import OPTIONS, PROMPT, build, pixels  # noqa: E402
 
-PROMPT = "a red cat walks"
-OPTIONS = {
-    "fps": 16,
-    "frames": 5,
-    "width": 32,
-    "height": 32,
-    "steps": 2,
-    "guidance": 3.0,
-    "on_failure": "ignore",
-}
 ALL = tuple(tiny_pipelines.BUILDERS)
-STREAMED = ("wan", "wan22", "cogvideox", "cogvideox15")
-
-
-@pytest.fixture(scope="module")
-def models(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("models")
-    saved = {}
-
-    def find(name):
-        if name not in saved:
-            saved[name] = tiny_pipelines.save(name, folder)
-        return saved[name]
-
-    return find
-
-
-@pytest.fixture(autouse=True)
-def cache(tmp_path, monkeypatch):
-    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))
-    forget_pipeline()
-    return tmp_path / "cache"
 
 
 class Watcher:
@@ -95,16 +65,6 @@ class Watcher:
         self.steps.append((stage, done, total))
         if done == self.stop_at:
             raise KeyboardInterrupt
-
-
-def build(path, seed=3, **options):
-    part = GENERATORS.load(str(path))
-    config = dataclasses.replace(part.config_type(), **{**OPTIONS, **options})
-    return part(config, seed=seed, size=None)
-
-
-def pixels(video):
-    return np.stack([frame.pixels for frame in video])
 
 
 @pytest.mark.parametrize("name", ALL)
@@ -152,42 +112,6 @@ def test_a_seed_repeats_and_another_seed_prompt_or_negative_prompt_differs(name,
         assert not np.array_equal(pixels(other), first)
 
 
-@pytest.mark.parametrize("name", STREAMED)
-def test_decoding_step_by_step_gives_the_frames_of_the_pipeline_itself(name, models):
-    generator = build(models(name))
-    ours = pixels(generator.generate(PROMPT))
-    pipe = tiny_pipelines.diffusers.DiffusionPipeline.from_pretrained(models(name))
-    whole = pipe(
-        prompt=PROMPT,
-        num_frames=5,
-        width=32,
-        height=32,
-        num_inference_steps=2,
-        guidance_scale=3.0,
-        generator=torch.Generator("cpu").manual_seed(3),
-        output_type="np",
-    ).frames[0]
-    assert np.abs(ours / 65_535 - whole).max() < 1e-5
-
-
-def test_latents_come_with_scale_and_shift_and_are_decoded_one_after_another(models):
-    generator = build(models("wan"))
-    latents = generator.generate_latents(PROMPT)
-    assert latents.values.shape == (16, 2, 4, 4)
-    assert (latents.frames_per_latent, latents.pixels_per_latent) == (4, 8)
-    assert latents.decoder_input[1, 0, 0, 0] == pytest.approx(
-        latents.values[1, 0, 0, 0] * 1.4541 - 0.7089, rel=1e-5
-    )
-    decoded = pixels(generator.generate(PROMPT))
-    frames = generator.decode(latents)
-    assert np.abs(decoded[0] / 65_535 - next(frames)).max() < 1e-5
-    decoder = generator._run._pipe.vae
-    assert decoder._feat_map[0] is not None, "later frames are not decoded yet"
-    rest = list(frames)
-    assert len(rest) == 4
-    assert np.abs(decoded[4] / 65_535 - rest[-1]).max() < 1e-5
-
-
 @pytest.mark.parametrize(("asked", "made"), [(4, 5), (6, 5), (8, 9)])
 def test_the_real_frame_count_is_used_and_reported(asked, made, models):
     watcher = Watcher()
@@ -196,11 +120,11 @@ def test_the_real_frame_count_is_used_and_reported(asked, made, models):
     assert any(f"made {made} frames, not {asked}" in line for line in watcher.lines)
 
 
-def test_cancelling_between_steps_leaves_nothing_and_the_next_run_works(models, cache):
+def test_cancelling_between_steps_leaves_nothing_and_the_next_run_works(models, model_cache):
     generator = build(models("wan"))
     with pytest.raises(KeyboardInterrupt):
         generator.generate(PROMPT, watch=Watcher(stop_at=1))
-    assert list((cache / "videos").glob("*")) == []
+    assert list((model_cache / "videos").glob("*")) == []
     assert generator.generate(PROMPT).frame_count == 5
 
 
@@ -402,22 +326,6 @@ def test_the_python_api_takes_a_folder(models):
     )
     assert events.size == (40, 30)
     assert events.metadata["generator"] == str(models("wan"))
-
-
-def test_another_decoder_for_the_same_latents_gives_other_frames(models, tmp_path):
-    own = models("wan") / "vae"
-    with tiny_pipelines.random_weights(seed=5):
-        tiny_pipelines.wan_vae().save_pretrained(tmp_path / "tiny")
-    usual = pixels(build(models("wan")).generate(PROMPT))
-    assert np.array_equal(pixels(build(models("wan"), decoder=own).generate(PROMPT)), usual)
-    other = build(models("wan"), decoder=tmp_path / "tiny").generate(PROMPT)
-    assert not np.array_equal(pixels(other), usual)
-    with pytest.raises(InputError, match="there is no decoder"):
-        build(models("wan"), decoder=tmp_path / "none").generate(PROMPT)
-    config = (tmp_path / "tiny" / "config.json").read_text().replace('"z_dim": 16', '"z_dim": 8')
-    (tmp_path / "tiny" / "config.json").write_text(config)
-    with pytest.raises(FileFormatError, match="tiny cannot be loaded as a decoder"):
-        build(models("wan"), decoder=tmp_path / "tiny").generate(PROMPT)
 
 
 def test_the_agreement_of_video_and_prompt_is_measured_and_can_refuse(models, tmp_path):

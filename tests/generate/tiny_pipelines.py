@@ -70,16 +70,20 @@ def wan22(folder):
     )
 
 
+def cogvideox_vae():
+    return diffusers.AutoencoderKLCogVideoX(
+        block_out_channels=(8, 8, 8, 8),
+        latent_channels=4,
+        layers_per_block=1,
+        norm_num_groups=2,
+        temporal_compression_ratio=4,
+    )
+
+
 def cogvideox(folder, *, heads=8, head_size=4, **facts):
     return diffusers.CogVideoXPipeline(
         **t5(folder),
-        vae=diffusers.AutoencoderKLCogVideoX(
-            block_out_channels=(8, 8, 8, 8),
-            latent_channels=4,
-            layers_per_block=1,
-            norm_num_groups=2,
-            temporal_compression_ratio=4,
-        ),
+        vae=cogvideox_vae(),
         scheduler=diffusers.CogVideoXDDIMScheduler(),
         transformer=diffusers.CogVideoXTransformer3DModel(
             num_attention_heads=heads,
@@ -217,6 +221,95 @@ def cosmos25(folder):
     )
 
 
+def ltx_vae(**facts):
+    return diffusers.AutoencoderKLLTXVideo(
+        latent_channels=8,
+        block_out_channels=(8, 8, 8, 8),
+        decoder_block_out_channels=(8, 8, 8, 8),
+        layers_per_block=(1, 1, 1, 1, 1),
+        decoder_layers_per_block=(1, 1, 1, 1, 1),
+        **facts,
+    )
+
+
+def ltx(folder):
+    shapes = {"patch_size": 1, "patch_size_t": 1, "decoder_causal": False}
+    shapes |= {"spatio_temporal_scaling": (True, True, False, False)}
+    shapes |= {"decoder_spatio_temporal_scaling": (True, True, False, False)}
+    return diffusers.LTXPipeline(
+        **t5(folder),
+        vae=ltx_vae(**shapes),
+        scheduler=diffusers.FlowMatchEulerDiscreteScheduler(),
+        transformer=diffusers.LTXVideoTransformer3DModel(
+            in_channels=8,
+            out_channels=8,
+            num_attention_heads=4,
+            attention_head_dim=8,
+            cross_attention_dim=32,
+            num_layers=1,
+            caption_channels=32,
+        ),
+    )
+
+
+def clip_text():
+    tokenizer = t5(None)["tokenizer"]
+    config = transformers.CLIPTextConfig(
+        vocab_size=len(tokenizer),
+        hidden_size=16,
+        intermediate_size=16,
+        num_hidden_layers=2,
+        num_attention_heads=2,
+        max_position_embeddings=40,
+        eos_token_id=tokenizer.eos_token_id,
+        bos_token_id=None,
+        pad_token_id=tokenizer.pad_token_id,
+    )
+    tokenizer.model_max_length = 40
+    return {"tokenizer": tokenizer, "text_encoder": transformers.CLIPTextModel(config).eval()}
+
+
+def stable_diffusion(folder):
+    """An image model: what AnimateDiff adds motion to."""
+    return diffusers.StableDiffusionPipeline(
+        **clip_text(),
+        vae=diffusers.AutoencoderKL(
+            block_out_channels=(8, 8),
+            down_block_types=("DownEncoderBlock2D",) * 2,
+            up_block_types=("UpDecoderBlock2D",) * 2,
+            latent_channels=4,
+            norm_num_groups=2,
+        ),
+        unet=diffusers.UNet2DConditionModel(
+            block_out_channels=(8, 8),
+            layers_per_block=1,
+            sample_size=16,
+            down_block_types=("CrossAttnDownBlock2D", "DownBlock2D"),
+            up_block_types=("CrossAttnUpBlock2D", "UpBlock2D"),
+            cross_attention_dim=16,
+            norm_num_groups=2,
+            attention_head_dim=4,
+        ),
+        scheduler=diffusers.DDIMScheduler(steps_offset=1, clip_sample=False),
+        safety_checker=None,
+        feature_extractor=None,
+        requires_safety_checker=False,
+    )
+
+
+def save_motion_adapter(folder: Path) -> Path:
+    """Save a tiny random motion adapter for `stable_diffusion` and return its folder."""
+    with random_weights():
+        diffusers.MotionAdapter(
+            block_out_channels=(8, 8),
+            motion_layers_per_block=1,
+            motion_mid_block_layers_per_block=1,
+            motion_norm_num_groups=2,
+            motion_num_attention_heads=2,
+        ).save_pretrained(folder)
+    return folder
+
+
 BUILDERS = {
     "wan": wan,
     "wan22": wan22,
@@ -224,14 +317,16 @@ BUILDERS = {
     "cosmos25": cosmos25,
     "cogvideox": cogvideox,
     "cogvideox15": cogvideox15,
+    "ltx": ltx,
 }
+IMAGE_BUILDERS = {"stable-diffusion": stable_diffusion}
 
 
 def save(name: str, folder: Path) -> Path:
     """Save the tiny pipeline of that name as `folder/tiny-NAME` and return the path."""
     path = folder / f"tiny-{name}"
     with random_weights():
-        pipe = BUILDERS[name](folder)
+        pipe = (BUILDERS | IMAGE_BUILDERS)[name](folder)
     pipe.save_pretrained(path, safe_serialization=True)
     return path
 

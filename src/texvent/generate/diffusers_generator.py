@@ -27,7 +27,7 @@ from texvent.generate.protocol import Watch
 from texvent.generate.silence import Silence
 from texvent.generate.stored_video import StoredVideo
 from texvent.generate.video_config import DiffusersConfig
-from texvent.generate.weight_files import fingerprint
+from texvent.generate.weight_files import CONFIG, check_part, fingerprint
 from texvent.video import PixelArray
 
 PIXEL_OPTIONS = (
@@ -35,6 +35,8 @@ PIXEL_OPTIONS = (
     *("negative_prompt", "dtype", "quantize"),
 )
 """Options that decide the pixels, beside model, prompt, seed and picture."""
+NETWORK_OPTIONS = ("decoder", "motion_adapter")
+"""Options that name a folder with a network."""
 
 
 class DiffusersGenerator:
@@ -131,9 +133,13 @@ class DiffusersGenerator:
         image = self.config.image
         if image is not None and not image.is_file():
             raise InputError(f"there is no picture {image}")
-        decoder = self.config.decoder
-        if decoder is not None and not (decoder / "config.json").is_file():
-            raise InputError(f"there is no decoder in {decoder} (no config.json)")
+        for option in NETWORK_OPTIONS:
+            folder = getattr(self.config, option)
+            if folder is None:
+                continue
+            if not (folder / CONFIG).is_file():
+                raise InputError(f"there is no {option} in {folder} (no {CONFIG})")
+            check_part(folder)
         self.fps  # noqa: B018  (an unknown rate is refused before anything is loaded)
 
     def _loaded(self, watch: Watch) -> ModelRun:
@@ -173,8 +179,9 @@ class DiffusersGenerator:
         facts: dict[str, Any] = {name: getattr(config, name) for name in PIXEL_OPTIONS}
         if not model.ignores_fps:
             facts["fps"] = self.fps
-        if config.decoder is not None:
-            facts["decoder"] = fingerprint(config.decoder)
+        for option in NETWORK_OPTIONS:
+            if getattr(config, option) is not None:
+                facts[option] = fingerprint(getattr(config, option))
         if config.image is not None:
             facts["image"] = hashlib.sha256(config.image.read_bytes()).hexdigest()
         if model.folder is None:

@@ -23,12 +23,15 @@ PART = "safety_checker"
 
 
 def needs_guardrail(index: Mapping[str, Any]) -> bool:
-    """True for pipelines of the Cosmos family and all that name a safety checker of theirs.
+    """True for pipelines of the Cosmos family and all that have a part of theirs.
+
+    (Image models have a safety checker too: another one, for single pictures.)
 
     Args:
         index: content of `model_index.json`.
     """
-    return str(index.get("_class_name", "")).startswith("Cosmos") or PART in index
+    parts = [entry[1] for entry in index.values() if isinstance(entry, list) and len(entry) == 2]
+    return any(str(name).startswith("Cosmos") for name in [index.get("_class_name"), *parts])
 
 
 def load_guardrail() -> Any:

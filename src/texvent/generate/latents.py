@@ -1,9 +1,6 @@
 """Latents of a generated video, and decoding them a few frames at a time.
 
 A video diffusion model denoises latents: small arrays that its decoder (VAE) turns into frames.
-Decoding is where memory peaks, because the pipeline decodes the whole clip at once. The decoders
-of Wan and CogVideoX are causal in time and keep what they need of earlier frames, so going
-through the latents one after another gives exactly the frames of decoding them together.
 """
 
 from __future__ import annotations
@@ -18,12 +15,11 @@ from numpy.typing import NDArray
 
 from texvent._require import require
 from texvent.errors import InputError
+from texvent.generate.streamed_decoding import COGVIDEOX, WAN, stream_decoder
 
 EXTRA = "generate"
-WAN_DECODER = "AutoencoderKLWan"
-COG_DECODER = "AutoencoderKLCogVideoX"
-STREAMED_DECODERS = (WAN_DECODER, COG_DECODER)
-"""Decoders that this file can run step by step."""
+KNOWN_DECODERS = (WAN, COGVIDEOX)
+"""Decoders whose scale and shift `read_latents` knows where to find."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,17 +49,11 @@ class Latents:
         return self.values * self.scale[per_channel] + self.shift[per_channel]
 
 
-def can_stream(pipe: Any) -> bool:
-    """True if the decoder of a pipeline can be run step by step."""
-    decoder = getattr(pipe, "vae", None)
-    return type(decoder).__name__ in STREAMED_DECODERS and not getattr(decoder, "use_tiling", False)
-
-
 def read_latents(pipe: Any, output: Any, frames: int | None, fps: Fraction) -> Latents:
     """Latents from what a pipeline returns with `output_type="latent"`.
 
     Args:
-        pipe: the pipeline, with one of `STREAMED_DECODERS`.
+        pipe: the pipeline, with one of `KNOWN_DECODERS`.
         output: its tensor: [1, C, T, h, w], or [1, T, C, h, w] for CogVideoX.
         frames: number of frames asked for; CogVideoX 1.5 pads at the start, which is removed.
         fps: rate of the decoded frames.
@@ -72,13 +62,13 @@ def read_latents(pipe: Any, output: Any, frames: int | None, fps: Fraction) -> L
         InputError: the pipeline has another decoder.
     """
     name, config = type(pipe.vae).__name__, pipe.vae.config
-    if name not in STREAMED_DECODERS:
+    if name not in KNOWN_DECODERS:
         raise InputError(
             f"latents of {type(pipe).__name__} cannot be given: its decoder is {name}; known: "
-            f"{', '.join(STREAMED_DECODERS)}"
+            f"{', '.join(KNOWN_DECODERS)}"
         )
     values = output[0].float().cpu().numpy()
-    if name == COG_DECODER:
+    if name == COGVIDEOX:
         frames_per_latent = int(pipe.vae_scale_factor_temporal)
         if frames is not None:
             values = values[-((frames - 1) // frames_per_latent + 1) :]
@@ -103,57 +93,36 @@ def decode_frames(pipe: Any, latents: Latents) -> Iterator[NDArray[np.float32]]:
         Frames in time order, [H, W, 3] float32 RGB, 0..1.
     """
     torch = require("torch", extra=EXTRA)
-    decoder = pipe.vae
-    _wake(decoder)
     # Not the device of its parameters: offloaded layer by layer, those have none.
     inputs = torch.from_numpy(latents.decoder_input)[None]
-    inputs = inputs.to(pipe._execution_device, decoder.dtype)
-    steps = _decode_wan if type(decoder).__name__ == WAN_DECODER else _decode_cog
-    chunks = steps(decoder, inputs)
-    while True:
-        # Gradients are switched off around every step, not around the generator, which would
-        # leave them off in the code that consumes it.
-        with torch.no_grad():
-            chunk = next(chunks, None)
-        if chunk is None:
-            return
-        pixels = (chunk * 0.5 + 0.5).clamp(0, 1)[0].permute(1, 2, 3, 0).cpu().float().numpy()
-        yield from pixels
+    return stream_frames(pipe, inputs.to(pipe._execution_device, pipe.vae.dtype))
 
 
-def _decode_wan(decoder: Any, inputs: Any) -> Iterator[Any]:
-    """Chunks [1, 3, n, H, W] in -1..1: the loop of `AutoencoderKLWan._decode`, step by step."""
-    unpatchify = require("diffusers.models.autoencoders.autoencoder_kl_wan", extra=EXTRA).unpatchify
-    decoder.clear_cache()
+def stream_frames(pipe: Any, *decoder_input: Any) -> Iterator[NDArray[np.float32]]:
+    """Frames of what a decoder takes, a few at a time in memory.
+
+    Args:
+        pipe: the pipeline, whose decoder `streamed_decoding.can_stream`.
+        *decoder_input: latents [1, C, T, h, w], and what else the decoder takes.
+
+    Yields:
+        Frames in time order, [H, W, 3] float32 RGB, 0..1.
+    """
+    torch = require("torch", extra=EXTRA)
+    _wake(pipe.vae)
+    chunks = stream_decoder(pipe.vae, *decoder_input)
     try:
-        prepared = decoder.post_quant_conv(inputs)
-        memory = decoder._feat_map
-        for index in range(prepared.shape[2]):
-            first = {"first_chunk": True} if index == 0 else {}
-            chunk = decoder.decoder(
-                prepared[:, :, index : index + 1], feat_cache=memory, feat_idx=[0], **first
-            )
-            if decoder.config.patch_size is not None:
-                chunk = unpatchify(chunk, patch_size=decoder.config.patch_size)
-            yield chunk.clamp(-1.0, 1.0)
+        while True:
+            # Gradients are switched off around every step, not around the generator, which would
+            # leave them off in the code that consumes it.
+            with torch.no_grad():
+                chunk = next(chunks, None)
+            if chunk is None:
+                return
+            pixels = (chunk * 0.5 + 0.5).clamp(0, 1)[0].permute(1, 2, 3, 0).cpu().float().numpy()
+            yield from pixels
     finally:
-        decoder.clear_cache()
-
-
-def _decode_cog(decoder: Any, inputs: Any) -> Iterator[Any]:
-    """Chunks [1, 3, n, H, W] in -1..1, in the same batches as `AutoencoderKLCogVideoX`."""
-    batch, total = decoder.num_latent_frames_batch_size, inputs.shape[2]
-    rest = total % batch
-    memory = None
-    start = 0
-    for index in range(max(total // batch, 1)):
-        stop = batch * (index + 1) + rest
-        chunk = inputs[:, :, start:stop]
-        if decoder.post_quant_conv is not None:
-            chunk = decoder.post_quant_conv(chunk)
-        chunk, memory = decoder.decoder(chunk, conv_cache=memory)
-        start = stop
-        yield chunk
+        pipe.maybe_free_model_hooks()
 
 
 def _wake(decoder: Any) -> None:

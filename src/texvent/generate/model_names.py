@@ -40,7 +40,7 @@ class ModelGenerator:
         defaults = {
             field.name: getattr(self.model, field.name)
             for field in dataclasses.fields(DiffusersConfig)
-            if field.name in ("fps", "frames", "width", "height", "steps")
+            if field.name in ("fps", "frames", "width", "height", "steps", "guidance")
         }
         return functools.partial(DiffusersConfig, **defaults)
 

@@ -6,16 +6,19 @@ import functools
 from collections.abc import Iterator
 from fractions import Fraction
 from importlib import metadata
+from pathlib import Path
 from typing import Any
 
 from texvent.errors import InputError
 from texvent.generate.cache import content_key
+from texvent.generate.decoder_tap import TAPPED_PIPELINES, tap_decoder
 from texvent.generate.guardrail import PART, check_prompt, guardrail_version, needs_guardrail
-from texvent.generate.latents import Latents, can_stream, decode_frames, read_latents
+from texvent.generate.latents import Latents, decode_frames, read_latents, stream_frames
 from texvent.generate.model_source import ModelFiles, find_files
 from texvent.generate.models import VideoModel
 from texvent.generate.pipeline_call import call_pipeline, default_guidance
 from texvent.generate.pipeline_loading import (
+    MOTION_PIPELINE,
     LoadRequest,
     Pipeline,
     find_kept,
@@ -25,6 +28,7 @@ from texvent.generate.pipeline_loading import (
 from texvent.generate.placement import Placement, place
 from texvent.generate.prompt_embeddings import EMBEDDING_PIPELINES, embed_prompt, find_embeddings
 from texvent.generate.protocol import Watch
+from texvent.generate.streamed_decoding import can_stream
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.weight_files import fingerprint, read_pipeline_index
 from texvent.video import PixelArray
@@ -70,9 +74,12 @@ class ModelRun:
         """
         pipe, arguments = self._prepare(prompt)
         # The guardrail looks at decoded frames, inside the pipeline: it must decode them itself.
-        if can_stream(pipe) and not self.has_guardrail:
-            return decode_frames(pipe, self._latents(pipe, arguments, seed))
-        return iter(self._call(pipe, arguments, seed, "np"))
+        is_streamed = self._class_name in TAPPED_PIPELINES and can_stream(pipe.vae)
+        if not is_streamed or self.has_guardrail:
+            return iter(self._call(pipe, arguments, seed, "np"))
+        with tap_decoder(pipe) as taken:
+            self._call(pipe, arguments, seed, "np")
+        return stream_frames(pipe, *taken[0])
 
     def latents(self, prompt: str, seed: int) -> Latents:
         """What the model denoises.
@@ -112,7 +119,13 @@ class ModelRun:
     def _class_name(self) -> str:
         if self._config.image is not None and self._model.image_pipeline is not None:
             return self._model.image_pipeline
+        if self._motion_adapter is not None:
+            return MOTION_PIPELINE
         return str(self._index["_class_name"])
+
+    @property
+    def _motion_adapter(self) -> Path | None:
+        return self._config.motion_adapter or self._files.motion_adapter
 
     @functools.cached_property
     def _placement(self) -> Placement:
@@ -121,7 +134,7 @@ class ModelRun:
 
     @functools.cached_property
     def _content(self) -> str:
-        folders = (self._files.folder, self._config.decoder)
+        folders = (self._files.folder, self._config.decoder, self._motion_adapter)
         return " ".join(fingerprint(folder) for folder in folders if folder is not None)
 
     def _request(self, *, has_text_encoder: bool) -> LoadRequest:
@@ -133,6 +146,7 @@ class ModelRun:
             quantize=self._placement.quantize,
             decoder=self._config.decoder,
             decoder_in_float32=self._model.needs_float32_vae,
+            motion_adapter=self._motion_adapter,
             has_text_encoder=has_text_encoder,
         )
 

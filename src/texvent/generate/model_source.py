@@ -12,7 +12,7 @@ from pathlib import Path
 from texvent._require import require
 from texvent.errors import InputError, TexventError
 from texvent.generate.models import VideoModel
-from texvent.generate.weight_files import INDEX, check_weight_files
+from texvent.generate.weight_files import CONFIG, INDEX, check_part, check_weight_files
 
 EXTRA = "generate"
 
@@ -24,6 +24,8 @@ class ModelFiles:
     folder: Path
     commit: str | None
     """Commit of the hub's repository; None for a local folder."""
+    motion_adapter: Path | None = None
+    """Folder of the motion adapter of an image model."""
 
 
 def find_files(model: VideoModel, announce: Callable[[str], None]) -> ModelFiles:
@@ -47,7 +49,10 @@ def find_files(model: VideoModel, announce: Callable[[str], None]) -> ModelFiles
         announce(describe_terms(model))
         folder = _download(model)
     check_weight_files(folder)
-    return ModelFiles(folder, folder.name)
+    if model.motion_adapter is None:
+        return ModelFiles(folder, folder.name)
+    adapter = _find_cached(model.motion_adapter, None, check_part)
+    return ModelFiles(folder, folder.name, adapter)
 
 
 def find_downloaded(model: VideoModel) -> Path | None:
@@ -56,14 +61,21 @@ def find_downloaded(model: VideoModel) -> Path | None:
     Raises:
         MissingDependencyError: huggingface-hub is not installed.
     """
+    if model.motion_adapter and not _find_cached(model.motion_adapter, None, check_part):
+        return None
+    return _find_cached(model.repo, model.revision, check_weight_files)
+
+
+def _find_cached(repo: str, revision: str | None, check: Callable[[Path], None]) -> Path | None:
     hub = require("huggingface_hub", extra=EXTRA)
-    found = hub.try_to_load_from_cache(model.repo, INDEX, revision=model.revision)
+    first = INDEX if check is check_weight_files else CONFIG
+    found = hub.try_to_load_from_cache(repo, first, revision=revision)
     if not isinstance(found, str):
         return None
     # The index is the first file that is fetched; the rest may be missing after an interruption.
     folder = Path(found).parent
     try:
-        check_weight_files(folder)
+        check(folder)
     except InputError:
         return None
     return folder
@@ -80,6 +92,10 @@ def _download(model: VideoModel) -> Path:
     errors = require("huggingface_hub.errors", extra=EXTRA)
     try:
         with _without_warnings():
+            if model.motion_adapter is not None:
+                require("huggingface_hub", extra=EXTRA).snapshot_download(
+                    model.motion_adapter, allow_patterns=[CONFIG, "*.safetensors"]
+                )
             return Path(
                 diffusers.DiffusionPipeline.download(
                     model.repo, revision=model.revision, use_safetensors=True

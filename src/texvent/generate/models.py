@@ -37,6 +37,9 @@ class VideoModel:
     width: int | None = None
     height: int | None = None
     steps: int | None = None
+    guidance: float | None = None
+    motion_adapter: str | None = None
+    """Repository of an AnimateDiff network, `org/name`: makes an image model one of videos."""
     licence: str = "not known to texvent; read the model's page"
     is_licence_verified: bool = False
     """False where the licence was not read from the model's own page."""
@@ -120,6 +123,7 @@ _ROWS = (
         fps=16,
         steps=36,
         licence=_NVIDIA,
+        is_licence_verified=True,
         gpu_gb=32.5,
         is_verified=True,
     ),
@@ -166,17 +170,18 @@ _ROWS = (
     ),
     _row(
         "cogvideox-2b",
-        "THUDM/CogVideoX-2b",
+        "zai-org/CogVideoX-2b",
         _COGVIDEOX,
         (49, 480, 720),
         licence="Apache-2.0",
+        is_licence_verified=True,
         offload_gb=10,
         dtype="float16",
         **_COG_FACTS,
     ),
     _row(
         "cogvideox-5b",
-        "THUDM/CogVideoX-5b",
+        "zai-org/CogVideoX-5b",
         _COGVIDEOX,
         (49, 480, 720),
         licence=_COG,
@@ -185,7 +190,7 @@ _ROWS = (
     ),
     _row(
         "cogvideox1.5-5b",
-        "THUDM/CogVideoX1.5-5B",
+        "zai-org/CogVideoX1.5-5B",
         _COGVIDEOX,
         (81, 768, 1360),
         licence=_COG,
@@ -200,8 +205,9 @@ _ROWS = (
         image_pipeline="LTXImageToVideoPipeline",
         fps=25,
         steps=50,
-        licence="LTX-Video licence",
+        licence="LTX-Video Open Weights License",
         gpu_gb=10,
+        is_verified=True,
     ),
     _row(
         "ltx2",
@@ -285,6 +291,29 @@ _ROWS = (
         fps=24,
         steps=50,
         licence="MIT",
+    ),
+    _row(
+        "kandinsky6-distill",
+        "kandinskylab/Kandinsky-6.0-Pro-distill-5s-Diffusers",
+        "Kandinsky6TI2VAPipeline",
+        (121, 480, 864),
+        fps=24,
+        steps=16,
+        guidance=1.0,
+        licence="MIT",
+    ),
+    _row(
+        "animatediff",
+        "frankjoshua/toonyou_beta6",
+        "AnimateDiffPipeline",
+        (16, 512, 512),
+        motion_adapter="guoyww/animatediff-motion-adapter-v1-5-2",
+        fps=8,
+        steps=50,
+        licence="adapter Apache-2.0; image model: read its page",
+        dtype="float16",
+        ignores_fps=True,
+        is_verified=True,
     ),
     _row(
         "easyanimate-7b",

@@ -13,6 +13,7 @@ from texvent._require import require
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.generate.guardrail import PART, check_wiring, load_guardrail, needs_guardrail
 from texvent.generate.placement import Placement
+from texvent.generate.streamed_decoding import LTX
 from texvent.generate.torchvision_stand_in import stand_in_for_torchvision
 from texvent.generate.weight_files import read_pipeline_index
 
@@ -21,6 +22,8 @@ Pipeline: TypeAlias = Any
 """diffusers.DiffusionPipeline; diffusers is imported only when a pipeline is loaded."""
 DECODER = "vae"
 TEXT_PARTS = ("text_encoder", "tokenizer")
+MOTION_PIPELINE = "AnimateDiffPipeline"
+"""Runs an image model with a motion adapter."""
 QUANTIZED_PARTS = ("transformer", "transformer_2")
 
 
@@ -42,6 +45,8 @@ class LoadRequest:
     decoder: Path | None
     """Folder of another decoder than the model's."""
     decoder_in_float32: bool
+    motion_adapter: Path | None = None
+    """Folder of the motion adapter of an image model."""
     has_text_encoder: bool = True
     """False leaves the text encoder out: prompts come as embeddings."""
 
@@ -118,7 +123,10 @@ def _load(request: LoadRequest) -> Pipeline:
     if not request.has_text_encoder:
         parts.update(dict.fromkeys(TEXT_PARTS))
     if request.decoder is not None:
-        parts[DECODER] = _load_decoder(request, request.decoder)
+        dtype = "float32" if request.decoder_in_float32 else request.placement.dtype
+        parts[DECODER] = _load_network(request.decoder, dtype, "a decoder")
+    if request.motion_adapter is not None:
+        parts.update(_load_motion(request, request.motion_adapter))
     if request.quantize != "none":
         parts["quantization_config"] = _quantization(request)
     with _without_bars():
@@ -134,17 +142,25 @@ def _load(request: LoadRequest) -> Pipeline:
     return pipe
 
 
-def _load_decoder(request: LoadRequest, folder: Path) -> Any:
-    """A decoder of any class that diffusers knows."""
+def _load_motion(request: LoadRequest, folder: Path) -> dict[str, Any]:
+    """A motion adapter, and the noise schedule that it was trained with (its authors' example)."""
+    scheduler = require("diffusers", extra=EXTRA).DDIMScheduler(
+        beta_schedule="linear", steps_offset=1, clip_sample=False
+    )
+    adapter = _load_network(folder, request.placement.dtype, "a motion adapter")
+    return {"motion_adapter": adapter, "scheduler": scheduler}
+
+
+def _load_network(folder: Path, dtype: str, role: str) -> Any:
+    """A network of any class that diffusers knows."""
     torch = require("torch", extra=EXTRA)
-    name = "float32" if request.decoder_in_float32 else request.placement.dtype
     try:
         return require("diffusers", extra=EXTRA).AutoModel.from_pretrained(
-            str(folder), dtype=getattr(torch, name), local_files_only=True, use_safetensors=True
+            str(folder), dtype=getattr(torch, dtype), local_files_only=True, use_safetensors=True
         )
     except (OSError, ValueError, RuntimeError) as error:
         reason = " ".join(str(error).split())[:300]
-        raise FileFormatError(f"{folder} cannot be loaded as a decoder: {reason}") from error
+        raise FileFormatError(f"{folder} cannot be loaded as {role}: {reason}") from error
 
 
 def _from_pretrained(pipeline_class: Any, request: LoadRequest, parts: dict[str, Any]) -> Pipeline:
@@ -211,3 +227,5 @@ def place_pipeline(pipe: Pipeline, placement: Placement) -> None:
     decoder: Any = getattr(pipe, DECODER, None)
     if placement.tiles_decoder and hasattr(decoder, "enable_tiling"):
         decoder.enable_tiling()
+    if placement.tiles_decoder and type(decoder).__name__ == LTX:
+        decoder.use_framewise_decoding = True

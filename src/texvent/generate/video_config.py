@@ -74,6 +74,8 @@ class DiffusersConfig(GeneratedVideoConfig):
     layer-by-layer offload and bitsandbytes is installed."""
     decoder: Path | None = None
     """Folder of another decoder (VAE) for the same latents, such as a tiny one: faster, coarser."""
+    motion_adapter: Path | None = None
+    """Folder of an AnimateDiff motion adapter: makes a Stable Diffusion model one of videos."""
     generator_device: str = "auto"
     """Where to generate: auto, cpu, cuda, cuda:1, mps."""
 

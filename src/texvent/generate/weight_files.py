@@ -17,6 +17,7 @@ from typing import Any
 from texvent.errors import FileFormatError, InputError
 
 INDEX = "model_index.json"
+CONFIG = "config.json"
 LENGTH_BYTES = 8
 LARGEST_HEADER = 100_000_000
 POINTER = b"version https://git-lfs"
@@ -59,30 +60,18 @@ def check_weight_files(folder: Path) -> None:
     for part, entry in index.items():
         is_part = isinstance(entry, list) and len(entry) == 2 and entry[0] is not None
         if not part.startswith("_") and is_part and part != "safety_checker":
-            _check_part(folder / part, str(entry[1]))
+            check_part(folder / part, str(entry[1]))
 
 
-def fingerprint(folder: Path) -> str:
-    """Digest of a model folder that costs a moment even for 100 GB.
+def check_part(folder: Path, class_name: str = "a network") -> None:
+    """Refuse the folder of one part if its weights are missing, truncated or pickled.
 
-    It covers the text of the JSON files, name and size of every file, and when the weights were
-    last changed.
+    A network must have safetensors; schedulers and tokenizers have only JSON.
+
+    Raises:
+        InputError: the part lacks its weights, or has them only as a pickle.
+        FileFormatError: a file is damaged.
     """
-    digest = hashlib.sha256()
-    for path in sorted(folder.rglob("*")):
-        if not path.is_file() or any(part.startswith(".") for part in path.parts[-2:]):
-            continue
-        stat = path.stat()
-        digest.update(f"{path.relative_to(folder)} {stat.st_size}\n".encode())
-        if path.suffix == ".json":
-            digest.update(path.read_bytes())
-        elif path.suffix == ".safetensors":
-            digest.update(str(stat.st_mtime_ns).encode())
-    return digest.hexdigest()
-
-
-def _check_part(folder: Path, class_name: str) -> None:
-    """One part: a model must have safetensors; schedulers and tokenizers have only JSON."""
     if not folder.is_dir():
         raise InputError(
             f"the model lacks the folder {folder} ({class_name}); put the model's files there"
@@ -107,9 +96,28 @@ def _check_part(folder: Path, class_name: str) -> None:
         raise InputError(f"the model lacks its weights in {folder}; put its .safetensors there")
 
 
+def fingerprint(folder: Path) -> str:
+    """Digest of a model folder that costs a moment even for 100 GB.
+
+    It covers the text of the JSON files, name and size of every file, and when the weights were
+    last changed.
+    """
+    digest = hashlib.sha256()
+    for path in sorted(folder.rglob("*")):
+        if not path.is_file() or any(part.startswith(".") for part in path.parts[-2:]):
+            continue
+        stat = path.stat()
+        digest.update(f"{path.relative_to(folder)} {stat.st_size}\n".encode())
+        if path.suffix == ".json":
+            digest.update(path.read_bytes())
+        elif path.suffix == ".safetensors":
+            digest.update(str(stat.st_mtime_ns).encode())
+    return digest.hexdigest()
+
+
 def _is_network(folder: Path) -> bool:
     """Networks have a config.json; tokenizers and schedulers have configs of other names."""
-    return (folder / "config.json").is_file()
+    return (folder / CONFIG).is_file()
 
 
 def _check_safetensors(path: Path) -> None:
