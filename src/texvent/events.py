@@ -130,6 +130,22 @@ class EventStream:
             np.concatenate(known) if known and len(known) == len(labels) else None,
         )
 
+    @classmethod
+    def unchecked(
+        cls, *columns: NDArray[Any], size: SensorSize, label: NDArray[np.uint8] | None
+    ) -> EventStream:
+        """A stream from columns x, y, t, p that a kernel just made in the right order and types.
+
+        Checking costs more than a small packet. The arrays themselves become read-only.
+        """
+        stream = object.__new__(cls)
+        named = dict(zip("xytp", columns, strict=True), label=label)
+        for column in named.values():
+            if column is not None:
+                column.flags.writeable = False
+        vars(stream).update(named, size=size, metadata={})
+        return stream
+
     def __len__(self) -> int:
         return len(self.t)
 

@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 from texvent.events import NOISE, SIGNAL, EventStream
 from texvent.sensor import SensorSize
+from texvent.simulate.kernels.order import Unordered, load_order_events
+from texvent.simulate.kernels.select import AUTO
 
 
 class Interval(NamedTuple):
@@ -71,19 +73,9 @@ class Firings(NamedTuple):
             np.concatenate([self.label, other.label]),
         )
 
-    def packet(self, interval: Interval, size: SensorSize) -> EventStream:
+    def packet(self, interval: Interval, size: SensorSize, backend: str = AUTO) -> EventStream:
         """The events in the order every packet has: by (t, y, x, p), labels included."""
-        pixels = size.width * size.height
-        pixel, p, label = self.pixel, self.p, self.label
-        if interval.duration_us * pixels * 4 < 2**63:
-            # One integer per event sorts much faster than four columns, and holds all of them.
-            place = (self.t - interval.start_us) * pixels + pixel
-            key = np.sort((place * 2 + p) * 2 + label)
-            label, p = (key & 1).astype(np.uint8), (key >> 1 & 1).astype(np.uint8)
-            offset, pixel = np.divmod(key >> 2, pixels)
-            t = interval.start_us + offset
-        else:
-            order = np.lexsort((label, p, pixel, self.t))
-            t, pixel, p, label = self.t[order], pixel[order], p[order], label[order]
-        y, x = np.divmod(pixel, size.width)
-        return EventStream(x.astype(np.uint16), y.astype(np.uint16), t, p, size, label=label)
+        span_us = (interval.start_us, interval.stop_us)
+        order_events = load_order_events(backend)
+        x, y, t, p, label = order_events(Unordered(*self), span_us, size.shape)
+        return EventStream.unchecked(x, y, t, p, size=size, label=label)

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import functools
 import importlib
+import importlib.util
 from typing import cast
 
 from texvent._registry import suggest
 from texvent._require import require
 from texvent.errors import ConfigError, MissingDependencyError
 from texvent.simulate.kernels.interface import Kernels
+from texvent.simulate.kernels.readiness import is_ready
 
 AUTO = "auto"
+_FOLDER = "texvent.simulate.kernels"
 _MODULES = {
-    "cpu": "texvent.simulate.kernels.cpu",
-    "reference": "texvent.simulate.kernels.reference",
+    "cpu": f"{_FOLDER}.cpu",
+    "numpy": f"{_FOLDER}.reference",
+    "reference": f"{_FOLDER}.reference",
 }
 _PACKAGES = {"cpu": "numba"}
 BACKENDS = (AUTO, *_MODULES)
@@ -56,6 +60,8 @@ def load_kernels(backend: str = AUTO) -> Kernels:
 def load_kernel(model: str, function: str, backend: str) -> object:
     """`function` of a model's own kernels, the module `<model>_<backend>` beside this file.
 
+    Where a model has nothing of its own for "numpy" its reference serves, which is NumPy too.
+
     Raises:
         ConfigError: no backend has that name.
         MissingDependencyError: what the backend needs is not installed.
@@ -68,4 +74,25 @@ def load_kernel(model: str, function: str, backend: str) -> object:
             return load_kernel(model, function, "reference")
     if backend in _PACKAGES:
         require(_PACKAGES[backend])
-    return getattr(importlib.import_module(f"texvent.simulate.kernels.{model}_{backend}"), function)
+    module = f"{_FOLDER}.{model}_{backend}"
+    if backend == "numpy" and importlib.util.find_spec(module) is None:
+        module = f"{_FOLDER}.{model}_reference"
+    return getattr(importlib.import_module(module), function)
+
+
+def load_kernel_when_ready(model: str, function: str, backend: str, *variant: str) -> object:
+    """As `load_kernel`, but "auto" is "numpy" until the compiled module is ready to run.
+
+    Args:
+        model: the module's name begins with it; `<model>_cpu` has a function `warm_up(*variant)`.
+        function: its name.
+        backend: "auto" or a backend's name.
+        variant: what has to be compiled, such as the type of the frames.
+
+    Raises:
+        ConfigError: no backend has that name.
+        MissingDependencyError: what the backend needs is not installed.
+    """
+    if check_backend(backend) == AUTO:
+        backend = "cpu" if is_ready(f"{_FOLDER}.{model}_cpu", *variant) else "numpy"
+    return load_kernel(model, function, backend)

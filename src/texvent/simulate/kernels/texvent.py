@@ -21,10 +21,10 @@ so a scan needs two multiplications and two comparisons per pixel, in float32. T
 rounding hides no event the levels are brought together by a margin (`SCAN_MARGIN`, ten times the
 rounding error): a pixel outside them *may* fire (a candidate), a pixel inside cannot. A candidate
 fires if and only if `L(I) − L(R)`, both in float64 as `brightness.balanced_log` computes them,
-differs from 0 by δ or more. For 8-bit frames a look-up table of 256 logarithms does that, for 16-bit
-ones one of 65,536; float frames take NumPy's logarithm of the candidates. For 8-bit frames there is
-an even cheaper scan, on bytes: no pixel fires whose intensity differs from R by less than the
-smallest difference of any two levels that fires.
+differs from 0 by δ or more. For 8-bit frames a look-up table of 256 logarithms does that, for
+16-bit ones one of 65,536; float frames take NumPy's logarithm of the candidates. For 8-bit frames
+there is an even cheaper scan, on bytes: no pixel fires whose intensity differs from R by less than
+the smallest difference of any two levels that fires.
 
 **Noise.** Eq. 6 is a Poisson process of `mean` = λ1·λ2 events per pixel. The frame is cut into runs
 of `NOISE_BLOCK` pixels in row-major order. Block b draws how many events its pixels would have if
@@ -33,10 +33,10 @@ where they fell. A Poisson number per block with uniform places is the same dist
 Poisson number per pixel, and costs time only where noise is. All draws are hashes
 (`draws.draw_words`) of the frame's key, with y, x = b div 2¹⁶, b mod 2¹⁶:
 
-    u      = uniform(Purpose.NOISE_COUNT.draw())          count = Poisson quantile of u, mean·NOISE_BLOCK
-    word k = word(Purpose.NOISE_PLACE.draw(k))            k = 0..count−1
-             top 12 bits: pixel in the block; other 52 bits · 2⁻⁵²: time, a fraction of the interval
-    v    k = uniform(Purpose.NOISE_POLARITY.draw(k))      ON where v < on_fraction
+    u  = uniform(NOISE_COUNT.draw())        count: Poisson quantile of u, mean · NOISE_BLOCK
+    wₖ = word(NOISE_PLACE.draw(k))          k = 0..count−1; its top 12 bits: pixel in the block;
+                                            its other 52 · 2⁻⁵²: time, fraction of the interval
+    vₖ = uniform(NOISE_POLARITY.draw(k))    ON where vₖ < on_fraction
 
 Places beyond the last pixel of the frame are dropped. Blocks know nothing of each other, so bands,
 threads, chunks and GPUs draw the same noise.
@@ -51,4 +51,4 @@ NOISE_BLOCK = 4096
 NOISE_PLACE_SHIFT = 52
 """By how many bits a place word is shifted to give the pixel in its block."""
 SCAN_MARGIN = 1e-6
-"""Relative distance by which the scan's levels are brought together: above four float32 roundings."""
+"""Relative distance by which the scan's levels are brought together: over four roundings."""

@@ -1,0 +1,149 @@
+"""Events of an interval into the order of a packet, compiled: sorting by counting.
+
+An event is one 64-bit key: from the highest bits down its time since the start of the interval, its
+pixel, p and label, so that the order of the keys is the order of a packet. A stable counting sort
+by digits, lowest first (radix sort), sorts them. Most models hand over their events by pixel, p and
+label; then only the digits of the time are left, and an interval of few µs is a single digit.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.simulate.kernels import order_reference
+from texvent.simulate.kernels.order import Columns, Unordered
+
+Uint64Array = NDArray[np.uint64]
+
+# Numba turns a sum of uint64 and int64 into a float, so every constant is uint64.
+_1, _2 = np.uint64(1), np.uint64(2)
+FEWEST_BITS, MOST_BITS = 8, 13
+"""Bits of a digit: 2¹³ counters of 32 bits just fit the nearest cache."""
+
+
+def order_events(events: Unordered, span_us: tuple[int, int], shape: tuple[int, int]) -> Columns:
+    """See `order_reference.order_events`."""
+    duration_us, pixels = span_us[1] - span_us[0], shape[0] * shape[1]
+    low, high = key_bits(pixels), duration_us.bit_length()
+    if low + high > 64:
+        return order_reference.order_events(events, span_us, shape)
+    pixel, t, p, label = (read_only(column) for column in events)
+    ordered = _order_events(pixel, t, p, label, span_us[0], shape[1], low, low + high)
+    return Columns(*ordered)
+
+
+def read_only(array: NDArray[Any]) -> NDArray[Any]:
+    """A flat view that cannot be written, so that Numba compiles for one kind of array only."""
+    view = np.ascontiguousarray(array).reshape(-1).view()
+    view.flags.writeable = False
+    return view
+
+
+def key_bits(pixels: int) -> int:
+    """Bits of a key below its time: those of the pixel, and one each for p and label."""
+    return (pixels - 1).bit_length() + 2
+
+
+def warm_up() -> None:
+    """Compile, or load what was compiled before."""
+    one, byte = np.zeros(1, np.int64), np.zeros(1, np.uint8)
+    order_events(Unordered(one, one, byte, byte), (0, 1), (1, 1))
+
+
+@numba.njit(cache=True, nogil=True)
+def _order_events(
+    pixel: NDArray[np.int64],
+    t: NDArray[np.int64],
+    p: NDArray[np.uint8],
+    label: NDArray[np.uint8],
+    start_us: int,
+    width: int,
+    low: int,
+    bits: int,
+) -> Any:
+    keys = np.empty(pixel.size, np.uint64)
+    mask, last, steps_back = (_1 << np.uint64(low)) - _1, np.uint64(0), np.int64(0)
+    for i in range(pixel.size):
+        key = np.uint64(pixel[i]) << _2 | np.uint64(p[i]) << _1 | np.uint64(label[i])
+        steps_back += key < last
+        last = key
+        keys[i] = np.uint64(t[i] - start_us) << np.uint64(low) | key & mask
+    keys = sort_keys(keys, 0 if steps_back else low, bits)
+    return unpack_keys(keys, start_us, width, low)
+
+
+@numba.njit(cache=True, nogil=True)
+def sort_keys(keys: Uint64Array, first: int, bits: int) -> Uint64Array:
+    """Keys in ascending order of their bits `first`..`bits`; equal ones stay in order.
+
+    Args:
+        keys: [n]; used as scratch.
+        first: bits below it are sorted already, or do not matter.
+        bits: how many bits a key has.
+
+    Returns:
+        [n], `keys` or another array.
+    """
+    widest, spare = FEWEST_BITS, np.empty(keys.size, np.uint64)
+    while widest < MOST_BITS and 1 << widest < 4 * keys.size:
+        widest += 1
+    digits = -(-(bits - first) // widest)
+    while digits > 0:
+        width = -(-(bits - first) // digits)
+        _sort_by_digit(keys, spare, first, width)
+        keys, spare = spare, keys
+        first += width
+        digits -= 1
+    return keys
+
+
+@numba.njit(cache=True, nogil=True)
+def _sort_by_digit(keys: Uint64Array, target: Uint64Array, first: int, width: int) -> None:
+    shift, mask = np.uint64(first), np.uint64((1 << width) - 1)
+    place = np.zeros(1 << width, np.uint32)
+    for i in range(keys.size):
+        place[keys[i] >> shift & mask] += 1
+    count_to_start(place)
+    for i in range(keys.size):
+        digit = keys[i] >> shift & mask
+        target[place[digit]] = keys[i]
+        place[digit] += 1
+
+
+@numba.njit(cache=True, nogil=True)
+def count_to_start(place: NDArray[np.uint32]) -> None:
+    """Turn how many there are of each into where each begins, in place."""
+    start = 0
+    for digit in range(place.size):
+        count = place[digit]
+        place[digit] = start
+        start += count
+
+
+@numba.njit(cache=True, nogil=True)
+def unpack_keys(keys: Uint64Array, start_us: int, width: int, low: int) -> Any:
+    """Columns x, y, t, p, label of sorted keys.
+
+    Args:
+        keys: [n].
+        start_us: start of the interval, µs.
+        width: of the sensor, pixels.
+        low: how many bits there are below the time.
+    """
+    n = keys.size
+    x, y = np.empty(n, np.uint16), np.empty(n, np.uint16)
+    t, p, label = np.empty(n, np.int64), np.empty(n, np.uint8), np.empty(n, np.uint8)
+    mask, inverse = (_1 << np.uint64(low)) - _1, 1.0 / width
+    for i in range(n):
+        key = keys[i]
+        t[i] = start_us + np.int64(key >> np.uint64(low))
+        pixel = np.int64((key & mask) >> _2)
+        # Half a pixel off the row's start, so that rounding of the product cannot miss the row.
+        row = np.int64((np.float64(pixel) + 0.5) * inverse)
+        y[i], x[i] = row, pixel - row * width
+        p[i], label[i] = key >> _1 & _1, key & _1
+    return x, y, t, p, label

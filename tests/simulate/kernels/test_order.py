@@ -1,0 +1,65 @@
+"""Order of packets: equal on every backend, for any order that events come in."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.simulate.kernels import order_cpu, order_reference
+from texvent.simulate.kernels.order import Unordered
+
+DURATIONS = (1, 2, 255, 5000, 8192, 41_667, 3_000_000, 2**40)
+
+
+def events(seed: int, count: int, shape: tuple[int, int], duration_us: int, *, start_us: int):
+    rng = np.random.default_rng(seed)
+    return Unordered(
+        rng.integers(0, shape[0] * shape[1], count),
+        start_us + rng.integers(0, duration_us, count),
+        rng.integers(0, 2, count).astype(np.uint8),
+        rng.integers(0, 2, count).astype(np.uint8),
+    )
+
+
+def by_pixel(unordered: Unordered) -> Unordered:
+    order = np.lexsort((unordered.label, unordered.p, unordered.pixel))
+    return Unordered(*(column[order] for column in unordered))
+
+
+@settings(max_examples=200, deadline=None)
+@given(
+    st.integers(0, 2**32),
+    st.sampled_from([0, 1, 5, 700, 9000]),
+    st.tuples(st.integers(1, 50), st.integers(1, 50)),
+    st.sampled_from(DURATIONS),
+    st.booleans(),
+)
+def test_backends_order_events_alike(seed, count, shape, duration_us, is_by_pixel):
+    start_us = seed - 2**31
+    given_events = events(seed, count, shape, duration_us, start_us=start_us)
+    if is_by_pixel:
+        given_events = by_pixel(given_events)
+    span_us = (start_us, start_us + duration_us)
+    one, two = (
+        module.order_events(given_events, span_us, shape) for module in (order_reference, order_cpu)
+    )
+    assert [column.dtype for column in one] == [column.dtype for column in two]
+    assert all(np.array_equal(a, b) for a, b in zip(one, two, strict=True))
+
+
+@pytest.mark.parametrize("module", [order_reference, order_cpu])
+def test_every_pixel_of_an_odd_width_keeps_its_place(module):
+    """Rows are found by a product with 1 / width, which must not miss at a row's ends."""
+    shape = (3, 65_535)
+    pixel = np.arange(shape[0] * shape[1])
+    byte = np.zeros(len(pixel), np.uint8)
+    columns = module.order_events(Unordered(pixel, pixel * 0 + 7, byte, byte), (7, 8), shape)
+    assert np.array_equal(columns.y, pixel // shape[1])
+    assert np.array_equal(columns.x, pixel % shape[1])
+
+
+def test_sorting_changes_nothing_that_was_given():
+    given_events = events(1, 100, (10, 10), 50, start_us=0)
+    kept = [column.copy() for column in given_events]
+    order_cpu.order_events(given_events, (0, 50), (10, 10))
+    assert all(np.array_equal(a, b) for a, b in zip(kept, given_events, strict=True))
