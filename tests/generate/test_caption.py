@@ -73,6 +73,16 @@ def test_captions_become_a_file_of_prompts(model, pictures, tmp_path, capsys):
     assert capsys.readouterr().out.strip() == lines[0].prompt
 
 
+def test_pictures_of_one_name_and_two_kinds_stay_apart(model, pictures, tmp_path):
+    (pictures / "p1.jpg").write_bytes((pictures / "p1.png").read_bytes())
+    out = tmp_path / "prompts.csv"
+    assert (
+        main(["caption", str(pictures), "--model", str(model), "--longest", "8", "-o", str(out)])
+        == 0
+    )
+    assert [line.name for line in read_prompts(out)] == ["p1.jpg", "p1.png", "p2"]
+
+
 def test_a_damaged_picture_does_not_cost_the_captions_of_the_others(model, pictures, capsys):
     (pictures / "p0.png").write_bytes(b"damaged")
     out = pictures / "prompts.csv"

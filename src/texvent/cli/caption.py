@@ -86,7 +86,7 @@ def run(arguments: Sequence[str]) -> int:
                 raise
             sys.stderr.write(f"failed   {error}\n")
             continue
-        rows.append((picture.stem, text))
+        rows.append((_row_name(picture, pictures), text))
         if options.out is None:
             sys.stdout.write(f"{text}\n")
     if options.out is not None and rows:
@@ -100,3 +100,9 @@ def run(arguments: Sequence[str]) -> int:
         failed = len(pictures) - len(rows)
         raise TexventError(f"{failed} of {len(pictures)} pictures have no caption")
     return 0
+
+
+def _row_name(picture: Path, pictures: Sequence[Path]) -> str:
+    """The stem, or the whole name where a.png and a.jpg would share it: `batch` wants each once."""
+    is_shared = sum(other.stem == picture.stem for other in pictures) > 1
+    return picture.name if is_shared else picture.stem
