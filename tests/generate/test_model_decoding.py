@@ -1,6 +1,7 @@
 """From latents to frames: whole pipelines whose clips are decoded a few frames at a time."""
 
 import os
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -14,7 +15,10 @@ pytest.importorskip("diffusers")
 from texvent.errors import FileFormatError, InputError  # noqa: E402
 from texvent.generate import pipeline_loading  # noqa: E402
 from texvent.generate.decoder_tap import TAPPED_PIPELINES  # noqa: E402
+from texvent.generate.pipeline_call import call_pipeline  # noqa: E402
 from texvent.generate.placement import Placement  # noqa: E402
+from texvent.generate.silence import Silence  # noqa: E402
+from texvent.generate.video_config import DiffusersConfig  # noqa: E402
 
 from . import tiny_pipelines  # noqa: E402
 from .tiny_models import PROMPT, build, pixels  # noqa: E402
@@ -138,3 +142,24 @@ def test_an_image_model_with_a_motion_adapter_makes_a_video(models, tmp_path):
     weights.write_bytes(weights.read_bytes()[:-10])
     with pytest.raises(FileFormatError, match=r"adapter/.*is damaged"):
         build(models("stable-diffusion"), motion_adapter=adapter).generate(PROMPT)
+
+
+def test_no_sound_is_made_for_events():
+    class Pipeline:
+        def __call__(self, prompt, *, sample_audio=True, generator, output_type, return_dict):
+            return [[sample_audio]]
+
+        def maybe_free_model_hooks(self):
+            pass
+
+    config = DiffusersConfig()
+    frames = call_pipeline(
+        Pipeline(),
+        {"prompt": PROMPT},
+        config,
+        fps=Fraction(24),
+        seed=0,
+        output_type="np",
+        watch=Silence(),
+    )
+    assert frames is False

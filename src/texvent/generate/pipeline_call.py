@@ -24,6 +24,8 @@ ARGUMENTS: Mapping[str, tuple[str, ...]] = {
 }
 """Option → what pipelines call it."""
 RATE_ARGUMENTS = ("fps", "frame_rate")
+SOUND = "sample_audio"
+"""Switch of pipelines that can make sound as well, which no event shows."""
 STEP_CALLBACK = "callback_on_step_end"
 
 
@@ -62,6 +64,8 @@ def call_pipeline(
     for name in RATE_ARGUMENTS:
         if name in accepted:
             arguments[name] = int(fps) if fps.denominator == 1 else float(fps)
+    if SOUND in accepted:
+        arguments[SOUND] = False
     if "image" in accepted:
         arguments.update(_image(pipe, config, accepted["image"]))
     elif config.image is not None:
