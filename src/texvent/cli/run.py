@@ -23,19 +23,22 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
+from texvent._registry import load_object
 from texvent.calibrate.rate import reach_target_rate
 from texvent.cli.estimate import describe_estimate, estimate_run
 from texvent.cli.outputs import OutputOptions
 from texvent.events import EventStream
 from texvent.interpolate.cuts import Jump
+from texvent.io.behind import WriteBehind
 from texvent.io.files import open_writer
 from texvent.pipeline import Simulation
 from texvent.settings import Settings, unmeasured_sensor
 from texvent.video import MICROSECONDS, Frame
-from texvent.view.preview import Preview
 
 FALLBACK_FPS = Fraction(30)
 """Film rate where the source states none."""
+PREVIEW = "texvent.view.preview:Preview"
+"""By name: it brings PyAV and OpenCV, which help and the event file alone do not need."""
 
 
 def print_settings(settings: Settings) -> int:
@@ -139,26 +142,27 @@ class _EventFile:
 def _open_outputs(
     outputs: ExitStack, simulation: Simulation, options: OutputOptions, path: Path
 ) -> list[Sink]:
-    """Open every output; all are checked (existing file, folder, format) before any work."""
+    """Open every output; all are checked (existing file, folder, format) before any work.
+
+    Each is written by a thread of its own, while the next frames are simulated.
+    """
     size, metadata = simulation.video.size, simulation.provenance
     sinks: list[Sink] = []
     # The exit stack closes in reverse: the event file is safe on disk before the previews end.
     if options.previews:
-        sinks.append(
-            outputs.enter_context(
-                Preview(
-                    path.with_suffix(""),
-                    size=size,
-                    fps=simulation.video.fps or FALLBACK_FPS,
-                    kinds=options.previews,
-                    palette=options.palette,
-                    overwrite=options.overwrite,
-                    metadata=metadata,
-                )
-            )
+        preview = load_object(PREVIEW)(
+            path.with_suffix(""),
+            size=size,
+            fps=simulation.video.fps or FALLBACK_FPS,
+            kinds=options.previews,
+            palette=options.palette,
+            overwrite=options.overwrite,
+            metadata=metadata,
         )
+        sinks.append(outputs.enter_context(WriteBehind(outputs.enter_context(preview))))
     writer = open_writer(path, size=size, metadata=metadata, overwrite=options.overwrite)
-    sinks.append(_EventFile(outputs.enter_context(writer)))
+    events = _EventFile(outputs.enter_context(writer))
+    sinks.append(outputs.enter_context(WriteBehind(events)))
     return sinks
 
 

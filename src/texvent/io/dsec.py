@@ -16,6 +16,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, ClassVar
 
+from numpy.typing import NDArray
+
 from texvent._require import require
 from texvent.io.hdf5 import Hdf5Codec, Hdf5Writer
 from texvent.sensor import SensorSize
@@ -42,6 +44,9 @@ class DsecBloscWriter(DsecWriter):
         super().__init__(path, size=size, metadata=metadata, overwrite=overwrite)
         plugin = require("hdf5plugin", extra="blosc")
         self.filters = dict(plugin.Blosc(cname="zstd", clevel=1, shuffle=plugin.Blosc.SHUFFLE))
+
+    def _extend_column(self, name: str, values: NDArray[Any]) -> None:
+        self._extend(f"events/{name}", values)
 
 
 class DsecCodec(Hdf5Codec):

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from texvent._registry import CODECS, load_object
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventPackets, EventStream
+from texvent.io.behind import WriteBehind
 from texvent.io.protocol import EventCodec, EventWriter, RecognisingCodec
 from texvent.sensor import SensorSize, checked_size
 
@@ -149,11 +150,14 @@ def save(
         OutputError: it exists already, its folder cannot be written, or the disk is full.
         ConfigError: unknown format or extension.
     """
-    packets: Iterable[EventStream] = (events,) if isinstance(events, EventStream) else events
     writer = open_writer(
         path, size=events.size, metadata=events.metadata, format=format, overwrite=overwrite
     )
-    with writer:
-        for packet in packets:
-            writer.append(packet)
+    if isinstance(events, EventStream):
+        with writer:
+            writer.append(events)
+    else:
+        with writer, WriteBehind(writer) as behind:
+            for packet in events:
+                behind.append(packet)
     return Path(path)

@@ -37,6 +37,7 @@ from texvent.io.columns import (
     stored_or_given_size,
     stream_from_file,
 )
+from texvent.io.hdf5_chunks import append_chunks
 from texvent.io.hdf5_damage import check_claims, reporting_damage
 from texvent.io.hdf5_writer import BatchedHdf5Writer
 from texvent.sensor import SensorSize
@@ -134,7 +135,7 @@ class Hdf5Writer(BatchedHdf5Writer):
         if self._has_label is None:
             self._has_label = has_label
             if has_label:
-                self._create_column("events/label", "|u1", CHUNK_EVENTS)
+                self._create_column("events/label", "|u1", self.chunk_events)
         elif has_label != self._has_label:
             raise InputError(
                 "some packets have a signal/noise label and some do not; give all or none one"
@@ -143,7 +144,7 @@ class Hdf5Writer(BatchedHdf5Writer):
     def _create_layout(self) -> None:
         file = self._file
         for name, dtype in {**COLUMNS, "t": self.time_type}.items():
-            self._create_column(f"events/{name}", dtype, CHUNK_EVENTS)
+            self._create_column(f"events/{name}", dtype, self.chunk_events)
         self._create_column("ms_to_idx", "<u8", CHUNK_INDEX)
         file.attrs["width"], file.attrs["height"] = self._size
         file.attrs["timestamp_scale_ms"] = TIMESTAMP_SCALE_MS
@@ -163,7 +164,10 @@ class Hdf5Writer(BatchedHdf5Writer):
         times = events.t[:count] - (self._offset_us or 0)
         self._index(times)
         for name, values in events.columns().items():
-            self._extend(f"events/{name}", times if name == "t" else values[:count])
+            self._extend_column(name, times if name == "t" else values[:count])
+
+    def _extend_column(self, name: str, values: NDArray[Any]) -> None:
+        append_chunks(self._file[f"events/{name}"], values)
 
     def _index(self, times: NDArray[np.int64]) -> None:
         """Extend ms_to_idx up to the last of these times, µs after t_offset."""
