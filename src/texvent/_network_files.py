@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import datetime
 import pickle
+import re
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -25,13 +26,25 @@ PARALLEL_PREFIX = "module."
 """Put before every name by training on several GPUs."""
 
 
-def read_mapping(path: Path, where_from: str, *, extra: str) -> Mapping[str, Any]:
+class StandIn:
+    """In place of an object whose class is not known here: its attributes, and no behaviour."""
+
+    def __init__(self, *arguments: object) -> None:
+        """Anything may be passed; nothing is done with it."""
+        del arguments
+
+
+def read_mapping(
+    path: Path, where_from: str, *, extra: str, stand_ins: Sequence[str] = ()
+) -> Mapping[str, Any]:
     """What a weights file holds at its top: names → tensors, or → further mappings.
 
     Args:
         path: a `.safetensors` file, or a torch checkpoint of any other name.
         where_from: where the right file comes from, for messages.
         extra: the texvent extra that brings what reading needs.
+        stand_ins: `module.Class` of objects that training left in the file; each becomes a
+            `StandIn`, so none of their code is needed or run.
 
     Raises:
         FileFormatError: it is damaged, or holds something else.
@@ -43,7 +56,8 @@ def read_mapping(path: Path, where_from: str, *, extra: str) -> Mapping[str, Any
             content: Any = _read_safetensors(path, extra)
         else:
             # Training stores when it saved; a date runs no code.
-            with torch.serialization.safe_globals([datetime.datetime]):
+            known = [datetime.datetime, *map(_make_stand_in, stand_ins)]
+            with torch.serialization.safe_globals(known):
                 content = torch.load(path, map_location="cpu", weights_only=True)
     except DAMAGE as error:
         raise _damaged(path, error, where_from) from error
@@ -75,6 +89,12 @@ def check_finite(tensors: Mapping[str, Tensor], path: Path) -> None:
             raise FileFormatError(f"{path}: {name} holds values that are NaN or infinite")
 
 
+def _make_stand_in(name: str) -> type[StandIn]:
+    """A class that a pickle finds under that name."""
+    module, _, qualname = name.rpartition(".")
+    return type(qualname, (StandIn,), {"__module__": module})
+
+
 def _read_safetensors(path: Path, extra: str) -> dict[str, Tensor]:
     module = require("safetensors", extra=extra)
     loader = require("safetensors.torch", extra=extra)
@@ -86,6 +106,13 @@ def _read_safetensors(path: Path, extra: str) -> dict[str, Tensor]:
 
 
 def _damaged(path: Path, error: Exception, where_from: str) -> FileFormatError:
+    foreign = re.search(r"Unsupported global: GLOBAL ([\w.]+)", str(error))
+    if foreign:
+        return FileFormatError(
+            f"{path} holds not only tensors but an object of class {foreign[1]}, whose code would "
+            "have to be run; where that class is known, save the tensors alone, as "
+            'torch.save({"state_dict": model.state_dict()}, "plain.pth"), and give that file'
+        )
     reason = f"{type(error).__name__}: {error}".splitlines()[0][:120]
     return FileFormatError(
         f"{path} cannot be read as network weights, it is damaged or of another kind "

@@ -1,0 +1,1 @@
+"""Pictures from events alone, by published recurrent networks."""
