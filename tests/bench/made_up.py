@@ -2,7 +2,20 @@
 
 import math
 
+from texvent.bench.details import BINS, Details
 from texvent.bench.results import FidelityReport, Reference, Score
+
+
+def made_up_details(**changes):
+    return Details(
+        **{
+            "levels": [[0.9 - 0.1 * row] * 6 for row in range(5)],
+            "time_error": [0.02] * BINS,
+            "sharpness": [1.5, 1.4],
+            "flow_error": [10.0, math.nan],
+            **changes,
+        }
+    )
 
 
 def made_up_report():
@@ -13,6 +26,7 @@ def made_up_report():
         events=[100, 200],
         floor=metrics,
         null={"stpp": [0.1, 0.3], "nearest": [9.0, 9.0]},
+        details=made_up_details(),
     )
 
     def score(entry, stpp, **changes):
@@ -27,6 +41,7 @@ def made_up_report():
                 "default_ratio": 0.5,
                 "seconds": 1.0,
                 "values": {"stpp": stpp, "nearest": [5.0, 7.0]},
+                "details": made_up_details(),
                 **changes,
             }
         )
@@ -37,6 +52,7 @@ def made_up_report():
         score("lost", [math.nan, math.nan]),
     ]
     return FidelityReport(
+        environment={"commit": "0123abc", "device": "a processor, 2 cores"},
         fit_seeds=[7],
         score_seeds=[21, 33],
         references=[reference],

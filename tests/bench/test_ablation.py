@@ -78,10 +78,3 @@ def test_a_wrong_config_file_fails_by_its_name(tmp_path):
     (tmp_path / "E1.toml").write_text("balanse = 3.0\n")
     with pytest.raises(ConfigError, match=r"E1\.toml.*did you mean 'balance'"):
         read_ablations(tmp_path)
-
-
-def test_an_interpolator_that_the_benchmark_lacks_fails(tmp_path, monkeypatch):
-    (tmp_path / "E1.toml").write_text('interpolate = "blend"\n')
-    monkeypatch.delitem(read_ablations.__globals__["INTERPOLATIONS"], "blend")
-    with pytest.raises(ConfigError, match="'blend'; the benchmark has none, flow, exact"):
-        read_ablations(tmp_path)

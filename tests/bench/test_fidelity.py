@@ -7,12 +7,16 @@ import numpy as np
 import pytest
 
 from texvent._registry import SIMULATORS
-from texvent.bench.entries import INTERPOLATIONS, Entry, default_entries
-from texvent.bench.fidelity import FULL, FidelityPlan, record_truth, run_fidelity, score_entry
+from texvent.bench.camera import EXPOSURE
+from texvent.bench.details import BINS, describe
+from texvent.bench.entries import INTERPOLATIONS, Entry, choose_entries, default_entries
+from texvent.bench.fidelity import FULL, FidelityPlan, record_truths, run_fidelity, score_entry
 from texvent.bench.fidelity_table import fidelity_tables
-from texvent.bench.oracle import EXPOSURE, TrueFrames, oracle_scene, record
-from texvent.bench.oracle_pixel import IDEAL
-from texvent.errors import ConfigError, InputError
+from texvent.bench.oracle import TrueFrames, oracle_scene, record
+from texvent.bench.oracle_pixel import IDEAL, NOISY
+from texvent.bench.results import read_report
+from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.events import EventStream
 from texvent.metrics.compare import compare
 from texvent.pipeline import video_to_events
 from texvent.settings import resolve
@@ -64,6 +68,53 @@ def test_the_rate_is_matched_on_the_fitting_seeds(report):
         assert score.values["count_ratio"][0] == pytest.approx(1, abs=0.021)
 
 
+def test_details_say_where_and_when_events_are_wrong(report):
+    exact, frames_only = (score.details for score in report.scores)
+    assert np.mean(exact.levels) == pytest.approx(report.scores[0].summary("stpp").mean)
+    # Times: within 2 ms of the truth there are far more events of the exact entry.
+    middle = slice(BINS // 2 - 4, BINS // 2 + 4)
+    assert sum(exact.time_error[middle]) > 0.7 > 2 * sum(frames_only.time_error[middle])
+    assert sum(exact.time_error) <= 1 + 1e-9
+    # Motion: 125 px/s are found again in the events, and they lie on moving edges.
+    assert exact.flow_error[0] < 20 < frames_only.flow_error[0]
+    assert exact.sharpness[0] > 1.4 > frames_only.sharpness[0]
+
+
+def test_scenes_at_rest_and_scenes_without_one_motion_have_no_flow_error(report):
+    truth = oracle_truth("static")
+    details = describe([truth], [truth], (0.0, 0.0))
+    assert math.isnan(details.flow_error[0])
+    assert math.isnan(details.sharpness[0])
+    empty = EventStream.empty(truth.size)
+    assert sum(describe([empty], [truth], None).time_error) == 0
+
+
+def oracle_truth(name):
+    return record(oracle_scene(name, 7), {"ideal": (NOISY, 1)})["ideal"]
+
+
+def test_a_document_read_back_gives_the_report(report):
+    document = json.loads(json.dumps(report.document(), allow_nan=False))
+    assert read_report(document).document() == document
+    restored = read_report(json.loads(json.dumps(made_up_report().document())))
+    assert math.isnan(restored.scores[2].values["stpp"][0])
+    assert fidelity_tables(restored) == fidelity_tables(made_up_report())
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"), [({"schema": "other-1"}, "'other-1'"), ({"scores": [{}]}, "damaged")]
+)
+def test_a_document_of_another_kind_is_refused(report, changes, message):
+    with pytest.raises(FileFormatError, match=message):
+        read_report({**report.document(), **changes})
+
+
+def test_entries_are_chosen_by_name_and_preset():
+    entries = choose_entries("physical:davis346,esim", "none")
+    assert [entry.name for entry in entries] == ["physical davis346, none", "esim, none"]
+    assert [Entry.parse(entry.name) for entry in entries] == entries
+
+
 def test_floor_and_null_bound_the_scores(report):
     reference = report.reference("translate", "ideal")
     # Ideal pixels have no noise: a second recording is the same recording.
@@ -75,7 +126,8 @@ def test_floor_and_null_bound_the_scores(report):
 
 def test_the_document_is_json_with_everything_needed_to_repeat_it(report):
     document = json.loads(json.dumps(report.document(), allow_nan=False))
-    assert document["schema"] == "texvent-fidelity-1"
+    assert document["schema"] == "texvent-fidelity-2"
+    assert {"commit", "python", "packages", "device"} <= set(document["environment"])
     assert document["fit_seeds"] == document["score_seeds"] == [7]
     assert {score["entry"] for score in document["scores"]} == {
         "physical clean, exact",
@@ -85,8 +137,8 @@ def test_the_document_is_json_with_everything_needed_to_repeat_it(report):
 
 
 def test_a_simulator_that_cannot_run_is_named_with_the_reason(report):
-    truth, _ = record_truth(
-        FidelityPlan(scenes=("static",), targets=("ideal",), score_seeds=(7,)), "static", "ideal"
+    ((truth, _),) = record_truths(
+        FidelityPlan(scenes=("static",), targets=("ideal",), score_seeds=(7,)), "static"
     )
     skipped = score_entry(QUICK, truth, Entry(simulator="v2ce", interpolate="none"))
     assert skipped[0] == "v2ce, none"
@@ -97,7 +149,7 @@ def test_a_scene_without_true_events_has_undefined_ratios_not_numbers():
     plan = FidelityPlan(
         scenes=("static",), targets=("ideal",), score_seeds=(7,), metrics=("nearest", "stpp")
     )
-    truth, reference = record_truth(plan, "static", "ideal")
+    ((truth, reference),) = record_truths(plan, "static")
     score = score_entry(plan, truth, Entry(simulator="esim", interpolate="none"))
     assert math.isnan(score.default_ratio)
     assert math.isnan(score.values["nearest"][0])
@@ -107,12 +159,13 @@ def test_a_scene_without_true_events_has_undefined_ratios_not_numbers():
 
 def test_default_entries_are_every_simulator_by_every_interpolation():
     entries = default_entries()
-    assert len(entries) == len(SIMULATORS.names()) * len(INTERPOLATIONS)
+    assert len(entries) == (len(SIMULATORS.names()) + 1) * len(INTERPOLATIONS)
+    assert "texvent accurate, flow" in {entry.name for entry in entries}
     assert {entry.track for entry in entries} == {"frames", "true frames"}
 
 
-def test_the_full_plan_covers_seven_scenes_two_kinds_of_pixels_and_five_seeds():
-    assert len(FULL.scenes) == 7
+def test_the_full_plan_covers_ten_scenes_two_kinds_of_pixels_and_five_seeds():
+    assert len(FULL.scenes) == 10
     assert set(FULL.targets) == {"noisy", "ideal"}
     assert len({*FULL.fit_seeds, *FULL.score_seeds}) == 5
     assert not set(FULL.fit_seeds) & set(FULL.score_seeds)

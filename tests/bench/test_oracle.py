@@ -3,11 +3,14 @@
 import numpy as np
 import pytest
 
-from texvent.bench.oracle import SIZE, TrueFrames, film, film_level, oracle_scene, record
+from texvent.bench.camera import film_level, radiance_of
+from texvent.bench.oracle import SIZE, TrueFrames, film, oracle_scene, record
 from texvent.bench.oracle_pixel import IDEAL, NOISY, PixelArray, PixelModel
+from texvent.bench.prompt_scenes import PROMPTS
 from texvent.bench.scenes import SCENES, build_scene, known_flow
 from texvent.bench.value_noise import ValueNoise
 from texvent.errors import ConfigError
+from texvent.generate.procedural.generator import ProceduralConfig, ProceduralGenerator
 from texvent.sensor import SensorSize
 
 ONE = SensorSize(1, 1)
@@ -135,3 +138,22 @@ def test_true_frames_are_the_film_before_rounding_at_any_instant():
 def test_an_unknown_scene_is_refused():
     with pytest.raises(ConfigError, match="did you mean 'mixed'"):
         build_scene("mixd", 0, SIZE)
+
+
+def test_a_prompt_is_a_scene_that_the_camera_films_as_the_generator_drew_it():
+    name, seed = "prompt-car", 7
+    video = ProceduralGenerator(ProceduralConfig(duration=0.5), seed=seed, size=SIZE).generate(
+        PROMPTS[name]
+    )
+    shown = next(iter(film(oracle_scene(name, seed)))).pixels
+    drawn = video.at(0).luma
+    assert np.abs(shown - drawn).max() <= 0.501
+    assert known_flow(name) is None
+    # It moves, and another seed shows another scene.
+    assert not np.array_equal(oracle_scene(name, seed)(0.0), oracle_scene(name, seed)(0.4))
+    assert not np.array_equal(oracle_scene(name, seed)(0.0), oracle_scene(name, 8)(0.0))
+
+
+def test_radiance_of_levels_turns_the_camera_round():
+    levels = np.array([0.0, 17.25, 128.0, 255.0], np.float32)
+    assert film_level(radiance_of(levels)) == pytest.approx(levels, abs=1e-4)

@@ -3,11 +3,13 @@ import numpy as np
 
 from texvent.bench.entries import Entry
 from texvent.bench.picture_grid import COLUMNS, picture_grid
-from texvent.bench.results import FidelityReport, Score
+from texvent.bench.results import FidelityReport, Reference, Score
+
+from .made_up import made_up_details
 
 
 def test_the_grid_shows_scene_truth_second_recording_and_the_scored_entries_best_first():
-    entries = [Entry(simulator="esim", interpolate=name) for name in ("none", "blend", "exact")]
+    entries = [Entry(simulator="esim", interpolate=name) for name in ("none", "blend")]
     scores = [
         Score(
             scene="translate",
@@ -19,11 +21,17 @@ def test_the_grid_shows_scene_truth_second_recording_and_the_scored_entries_best
             default_ratio=1.0,
             seconds=1.0,
             values={"stpp": [value]},
+            details=made_up_details(),
         )
-        for entry, value in zip(entries[:2], (0.4, 0.6), strict=True)
+        for entry, value in zip(entries, (0.4, 0.6), strict=True)
     ]
-    report = FidelityReport(fit_seeds=[7], score_seeds=[21], references=[], scores=scores)
-    png = picture_grid(report, "translate", entries)
+    reference = Reference(
+        scene="translate", target="noisy", events=[1], floor={}, null={}, details=made_up_details()
+    )
+    report = FidelityReport(
+        environment={}, fit_seeds=[7], score_seeds=[21], references=[reference], scores=scores
+    )
+    png = picture_grid(report, "translate")
     picture = cv2.imdecode(np.frombuffer(png, np.uint8), cv2.IMREAD_COLOR)
     # Scene, truth, second recording and two scored entries: two rows of four.
     rows, columns = picture.shape[0] // 2, picture.shape[1] // COLUMNS

@@ -6,8 +6,8 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from texvent.bench.entries import INTERPOLATIONS, Entry
-from texvent.errors import ConfigError, InputError
+from texvent.bench.entries import Entry
+from texvent.errors import InputError
 from texvent.settings import Settings, resolve
 
 
@@ -45,7 +45,7 @@ def read_ablations(folder: Path, *, is_rate_matched: bool = False) -> list[Confi
 
     Raises:
         InputError: there is no such folder, or no config file in it.
-        ConfigError: a file is wrong, or asks for an interpolator that the benchmark lacks.
+        ConfigError: a file is wrong.
     """
     paths = sorted(folder.glob("*.toml"), key=_by_number)
     if not paths:
@@ -56,16 +56,10 @@ def read_ablations(folder: Path, *, is_rate_matched: bool = False) -> list[Confi
     entries = []
     for path in paths:
         settings = resolve("simulate", {}, config=path)
-        interpolate = settings.interpolate.interpolate
-        if interpolate not in INTERPOLATIONS:
-            raise ConfigError(
-                f"{path} wants interpolator {interpolate!r}; the benchmark has "
-                f"{', '.join(INTERPOLATIONS)}"
-            )
         entries.append(
             ConfigEntry(
                 simulator=settings.run.simulator,
-                interpolate=interpolate,
+                interpolate=settings.interpolate.interpolate,
                 path=path,
                 is_rate_matched=is_rate_matched,
             )

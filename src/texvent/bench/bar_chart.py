@@ -7,13 +7,12 @@ from collections.abc import Sequence
 from html import escape
 
 from texvent.bench.results import FidelityReport, Reference, Score
+from texvent.bench.svg import COLOURS, placed, svg_document
 from texvent.metrics.summary import summarise
 
 LABEL_PX, BAR_PX, ROW_PX, HEAD_PX, GAP_PX = 130, 250, 16, 34, 24
 """Widths of the labels and of an STPP of 1; heights of a row and of a panel's head."""
 PANELS_PER_ROW = 2
-COLOURS = {"frames": "#4c78a8", "true frames": "#59a14f"}
-STYLE = "font-family='sans-serif' font-size='11' fill='#26262e'"
 
 
 def bar_chart(report: FidelityReport) -> str:
@@ -24,31 +23,22 @@ def bar_chart(report: FidelityReport) -> str:
     """
     panels = [_panel(report, reference) for reference in report.references]
     width = LABEL_PX + BAR_PX + 60 + GAP_PX
-    height = max((len(_ranked(report, one)) for one in report.references), default=0)
+    height = max(
+        (len(report.ranked(one.scene, one.target)) for one in report.references), default=0
+    )
     height = HEAD_PX + height * ROW_PX + GAP_PX
     columns = min(PANELS_PER_ROW, max(len(panels), 1))
     rows = -(-len(panels) // columns)
-    placed = [
-        f"<g transform='translate({number % columns * width},{number // columns * height})'>"
-        f"{panel}</g>"
+    parts = [
+        placed(panel, number % columns * width, number // columns * height)
         for number, panel in enumerate(panels)
     ]
-    total = f"{columns * width} {rows * height + GAP_PX}"
-    return (
-        f"<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {total}' {STYLE}>"
-        "<rect width='100%' height='100%' fill='#ffffff'/>"
-        f"{''.join(placed)}{_legend(rows * height + GAP_PX // 2)}</svg>\n"
-    )
-
-
-def _ranked(report: FidelityReport, reference: Reference) -> list[Score]:
-    where = (reference.scene, reference.target)
-    scores = [score for score in report.scores if (score.scene, score.target) == where]
-    return sorted(scores, key=lambda score: -_finite(score.summary("stpp").mean))
+    parts.append(_legend(rows * height + GAP_PX // 2))
+    return svg_document(columns * width, rows * height + GAP_PX, parts)
 
 
 def _panel(report: FidelityReport, reference: Reference) -> str:
-    scores = _ranked(report, reference)
+    scores = report.ranked(reference.scene, reference.target)
     bottom = HEAD_PX + len(scores) * ROW_PX
     parts = [
         f"<text x='{LABEL_PX}' y='16' font-weight='bold'>"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -19,13 +20,8 @@ from texvent.video import FrameStream
 Track: TypeAlias = Literal["frames", "true frames"]
 """What a simulator is given: 24 frames per second in 8 bits, or the scene at any instant."""
 
-INTERPOLATIONS: dict[str, Track] = {
-    "none": "frames",
-    "blend": "frames",
-    "flow": "frames",
-    "exact": "true frames",
-}
-"""Interpolator → the track it belongs to."""
+INTERPOLATIONS = ("none", "blend", "flow", "exact")
+"""Interpolators that are compared; "exact" gets the true frames, all others the film."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,7 +42,14 @@ class Entry:
     @property
     def track(self) -> Track:
         """Whether it is given the true intermediate frames."""
-        return INTERPOLATIONS[self.interpolate]
+        return "true frames" if self.interpolate == "exact" else "frames"
+
+    @classmethod
+    def parse(cls, name: str) -> Entry:
+        """The entry that tables call so."""
+        model, _, interpolate = name.rpartition(", ")
+        simulator, _, preset = model.partition(" ")
+        return cls(simulator=simulator, preset=preset or None, interpolate=interpolate)
 
     def settings(self, seed: int) -> Settings:
         """Resolved options of a run.
@@ -71,7 +74,7 @@ class Entry:
             return None
 
     def simulate(self, scene: Scene, seed: int, threshold: float | None) -> EventStream:
-        """Events of one run.
+        """Events of one run on a scene of the oracle.
 
         Args:
             scene: what is filmed.
@@ -81,18 +84,50 @@ class Entry:
         Raises:
             TexventError: the simulator cannot run as it is, such as without its weights.
         """
-        settings = self.settings(seed)
-        if threshold is not None:
-            simulate = with_contrast_threshold(settings.simulate, threshold)
-            settings = dataclasses.replace(settings, simulate=simulate)
         video: FrameStream = film(scene) if self.track == "frames" else TrueFrames(scene)
-        return video_to_events(video, settings).packets.collect()
+        return simulate_video(video, self.settings(seed), threshold)
+
+
+def simulate_video(video: FrameStream, settings: Settings, threshold: float | None) -> EventStream:
+    """Events of a film with a contrast threshold, log units, or the settings' own (None)."""
+    if threshold is not None:
+        simulate = with_contrast_threshold(settings.simulate, threshold)
+        settings = dataclasses.replace(settings, simulate=simulate)
+    return video_to_events(video, settings).packets.collect()
+
+
+MORE_PRESETS: Mapping[str, tuple[str, ...]] = {"texvent": ("accurate",)}
+"""Simulator → presets that are listed beside its first one."""
+
+
+def simulators_to_compare() -> list[tuple[str, str | None]]:
+    """(simulator, preset) of every registered simulator, with the presets listed beside."""
+    return [
+        (simulator, preset)
+        for simulator in SIMULATORS.names()
+        for preset in (None, *MORE_PRESETS.get(simulator, ()))
+    ]
+
+
+def choose_entries(simulators: str | None, interpolations: str | None) -> list[Entry]:
+    """Entries from the words of a command line.
+
+    Args:
+        simulators: `NAME` or `NAME:PRESET`, separated by commas; None means all to compare.
+        interpolations: names of interpolators, separated by commas; None means `INTERPOLATIONS`.
+    """
+    chosen = simulators_to_compare()
+    if simulators is not None:
+        words = (word.partition(":") for word in simulators.split(","))
+        chosen = [(simulator, preset or None) for simulator, _, preset in words]
+    names = interpolations.split(",") if interpolations is not None else INTERPOLATIONS
+    return [
+        Entry(simulator=simulator, preset=preset, interpolate=interpolate)
+        for simulator, preset in chosen
+        for interpolate in names
+    ]
 
 
 def default_entries() -> list[Entry]:
-    """Every registered simulator by every interpolator, each with its first preset."""
-    return [
-        Entry(simulator=simulator, interpolate=interpolate)
-        for simulator in SIMULATORS.names()
-        for interpolate in INTERPOLATIONS
-    ]
+    """Every simulator to compare by every interpolator."""
+    return choose_entries(None, None)

@@ -3,27 +3,25 @@
 from __future__ import annotations
 
 import itertools
-import multiprocessing
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass, replace
-from typing import Any, TypeAlias
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
 
+from texvent.bench.details import describe
 from texvent.bench.entries import Entry, default_entries
-from texvent.bench.oracle import SIZE, oracle_scene, record
-from texvent.bench.oracle_pixel import IDEAL, NOISY, PixelModel
+from texvent.bench.environment import describe_environment
+from texvent.bench.jobs import check_jobs, run_jobs
+from texvent.bench.oracle import oracle_scene, record
+from texvent.bench.oracle_pixel import FLOOR_SEED, REFERENCE_SEED, TARGETS
 from texvent.bench.perturbations import perturb
 from texvent.bench.rate_matching import Match, match_rate
 from texvent.bench.results import FidelityReport, Reference, Score
-from texvent.bench.scenes import SCENES, build_scene
+from texvent.bench.scenes import check_scene, known_flow, scene_names
 from texvent.errors import ConfigError, TexventError
 from texvent.events import EventStream
 from texvent.metrics.compare import compare, load_metric
 
-TARGETS: Mapping[str, PixelModel] = {"noisy": NOISY, "ideal": IDEAL}
-REFERENCE_SEED, FLOOR_SEED = 1, 2
-"""Noise seeds of the reference and of the second recording."""
 NULL = "shuffle all times"
 
 Announce: TypeAlias = Callable[[str], None]
@@ -58,7 +56,7 @@ class FidelityPlan:
 
     def __post_init__(self) -> None:
         for scene in self.scenes:
-            build_scene(scene, 0, SIZE)
+            check_scene(scene)
         for metric in self.metrics:
             load_metric(metric)
         unknown = set(self.targets) - set(TARGETS)
@@ -70,7 +68,7 @@ class FidelityPlan:
 
 
 FULL = FidelityPlan(
-    scenes=tuple(SCENES),
+    scenes=scene_names(),
     targets=tuple(TARGETS),
     fit_seeds=(7, 21),
     score_seeds=(33, 54, 68),
@@ -87,8 +85,6 @@ class Truth:
     target: str
     references: Mapping[int, EventStream]
     """Texture seed → the recording that counts as the truth."""
-    seconds: Mapping[int, EventStream]
-    """Texture seed → a second recording."""
 
 
 def run_fidelity(
@@ -104,36 +100,32 @@ def run_fidelity(
     Raises:
         ConfigError: the plan names something that does not exist, or jobs is below 1.
     """
-    if jobs < 1:
-        raise ConfigError(f"jobs is {jobs}; it must be at least 1")
+    check_jobs(jobs)
     start = time.perf_counter()
     entries = list(plan.entries) or default_entries()
     for entry in entries:
         entry.settings(0)
-    report = FidelityReport(
-        fit_seeds=plan.fit_seeds, score_seeds=plan.score_seeds, references=[], scores=[]
-    )
+    environment = describe_environment()
     truths: list[Truth] = []
     references: list[Reference] = []
-    for truth, reference in _run_jobs(
-        record_truth,
-        [(plan, scene, target) for scene in plan.scenes for target in plan.targets],
-        jobs,
-    ):
-        announce(f"recorded {truth.scene}, {truth.target} pixels")
-        truths.append(truth)
-        references.append(reference)
+    for found in run_jobs(record_truths, [(plan, scene) for scene in plan.scenes], jobs):
+        for truth, reference in found:
+            announce(f"recorded {truth.scene}, {truth.target} pixels")
+            truths.append(truth)
+            references.append(reference)
     scores: list[Score] = []
     skipped: dict[str, str] = {}
     work = [(plan, truth, entry) for truth, entry in itertools.product(truths, entries)]
-    for score in _run_jobs(score_entry, work, jobs):
+    for score in run_jobs(score_entry, work, jobs):
         if isinstance(score, Score):
             announce(f"{score.scene}, {score.target}: {score.entry} ({score.seconds:.1f} s a run)")
             scores.append(score)
         else:
             skipped[score[0]] = score[1]
-    return replace(
-        report,
+    return FidelityReport(
+        environment=environment,
+        fit_seeds=plan.fit_seeds,
+        score_seeds=plan.score_seeds,
         references=references,
         scores=scores,
         skipped=skipped,
@@ -141,39 +133,49 @@ def run_fidelity(
     )
 
 
-def record_truth(plan: FidelityPlan, scene: str, target: str) -> tuple[Truth, Reference]:
-    """The true recordings of one scene, with floor and null.
+def record_truths(plan: FidelityPlan, scene: str) -> list[tuple[Truth, Reference]]:
+    """The true recordings of one scene by each kind of pixels, with floor and null.
 
     Args:
-        plan: which seeds and metrics.
+        plan: which pixels, seeds and metrics.
         scene: name of the scene.
-        target: "noisy" or "ideal".
     """
-    model = TARGETS[target]
+    # All at once, since drawing a scene 4,800 times a second takes longer than its pixels do.
+    sensors = {
+        (target, seed): (TARGETS[target], seed)
+        for target in plan.targets
+        for seed in (REFERENCE_SEED, FLOOR_SEED)
+    }
     recordings = {
-        seed: record(
-            oracle_scene(scene, seed),
-            {"reference": (model, REFERENCE_SEED), "second": (model, FLOOR_SEED)},
-        )
+        seed: record(oracle_scene(scene, seed), sensors)
         for seed in (*plan.fit_seeds, *plan.score_seeds)
     }
-    truth = Truth(
-        scene=scene,
-        target=target,
-        references={seed: both["reference"] for seed, both in recordings.items()},
-        seconds={seed: both["second"] for seed, both in recordings.items()},
-    )
+    found = []
+    for target in plan.targets:
+        references, seconds = (
+            {texture: all_of[target, noise] for texture, all_of in recordings.items()}
+            for noise in (REFERENCE_SEED, FLOOR_SEED)
+        )
+        truth = Truth(scene=scene, target=target, references=references)
+        found.append((truth, _measure_bounds(plan, truth, seconds)))
+    return found
+
+
+def _measure_bounds(
+    plan: FidelityPlan, truth: Truth, seconds: Mapping[int, EventStream]
+) -> Reference:
+    """What second recordings and shuffled ones score against the truth."""
     scored = [truth.references[seed] for seed in plan.score_seeds]
-    floors = [truth.seconds[seed] for seed in plan.score_seeds]
+    floors = [seconds[seed] for seed in plan.score_seeds]
     nulls = [perturb(events, NULL) for events in scored]
-    reference = Reference(
-        scene=scene,
-        target=target,
+    return Reference(
+        scene=truth.scene,
+        target=truth.target,
         events=[len(events) for events in scored],
         floor=_compare_all(floors, scored, plan.metrics),
         null=_compare_all(nulls, scored, plan.metrics),
+        details=describe(floors, scored, known_flow(truth.scene)),
     )
-    return truth, reference
 
 
 def score_entry(plan: FidelityPlan, truth: Truth, entry: Entry) -> Score | tuple[str, str]:
@@ -192,6 +194,7 @@ def score_entry(plan: FidelityPlan, truth: Truth, entry: Entry) -> Score | tuple
             )
         return counts[threshold]
 
+    references = [truth.references[seed] for seed in plan.score_seeds]
     target = sum(len(truth.references[seed]) for seed in plan.fit_seeds)
     default = entry.default_threshold
     try:
@@ -202,6 +205,7 @@ def score_entry(plan: FidelityPlan, truth: Truth, entry: Entry) -> Score | tuple
             entry.simulate(scenes[seed], seed, match.threshold if match else None)
             for seed in plan.score_seeds
         ]
+        seconds = (time.perf_counter() - start) / len(simulated)
     except TexventError as error:
         return entry.name, str(error)
     return Score(
@@ -212,10 +216,9 @@ def score_entry(plan: FidelityPlan, truth: Truth, entry: Entry) -> Score | tuple
         threshold=match.threshold if match else None,
         is_matched=bool(match and match.is_matched),
         default_ratio=default_count / target if target else float("nan"),
-        seconds=(time.perf_counter() - start) / len(simulated),
-        values=_compare_all(
-            simulated, [truth.references[seed] for seed in plan.score_seeds], plan.metrics
-        ),
+        seconds=seconds,
+        values=_compare_all(simulated, references, plan.metrics),
+        details=describe(simulated, references, known_flow(truth.scene)),
     )
 
 
@@ -231,21 +234,3 @@ def _compare_all(
     """Metric → value per pair."""
     rows = [compare(one, other, metrics) for one, other in zip(predicted, references, strict=True)]
     return {metric: [row[metric] for row in rows] for metric in metrics}
-
-
-def _run_jobs(
-    function: Callable[..., Any], arguments: Sequence[tuple[Any, ...]], jobs: int
-) -> Iterator[Any]:
-    """Results in the order of the arguments, computed here or in other processes."""
-    if jobs == 1:
-        yield from itertools.starmap(function, arguments)
-        return
-    # Spawned, because compiled kernels and OpenCV keep threads that a fork would break.
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(jobs, mp_context=context) as pool:
-        futures = [pool.submit(function, *one) for one in arguments]
-        try:
-            for future in futures:
-                yield future.result()
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)

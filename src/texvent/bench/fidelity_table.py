@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from texvent.bench.details import Details
 from texvent.bench.results import FidelityReport, Reference, Score
 from texvent.metrics.summary import normalise, summarise
 
@@ -39,6 +40,32 @@ def fidelity_tables(report: FidelityReport, *, baseline: str = BASELINE) -> str:
     return "\n".join(parts)
 
 
+def motion_table(report: FidelityReport) -> str:
+    """Sharpness along the known flow and error of the estimated flow, scenes that have one."""
+    moving = [one for one in report.references if summarise(one.details.sharpness).defined]
+    names = [f"{one.scene}, {one.target}" for one in moving]
+    titles = [f"{name}: {what}" for name in names for what in ("sharpness ↑", "flow error px/s")]
+    lines = [_row(["entry", *titles]), _row(["---"] * (len(titles) + 1))]
+    lines.append(_row(["floor: second recording", *_motion_cells([o.details for o in moving])]))
+    for entry in dict.fromkeys(score.entry for score in report.scores):
+        details = [
+            score.details
+            for reference in moving
+            for score in report.ranked(reference.scene, reference.target)
+            if score.entry == entry
+        ]
+        lines.append(_row([entry, *_motion_cells(details)]))
+    return "\n".join(lines) + "\n"
+
+
+def _motion_cells(details: Sequence[Details]) -> list[str]:
+    return [
+        _mean_and_error(values, digits)
+        for one in details
+        for values, digits in ((one.sharpness, 3), (one.flow_error, 0))
+    ]
+
+
 def _overview(report: FidelityReport) -> str:
     """S* of STPP per scene, and its mean: 0 is the null, 1 a second recording."""
     lines = [
@@ -50,7 +77,7 @@ def _overview(report: FidelityReport) -> str:
         normalised = [
             score.normalised("stpp", reference)
             for reference in report.references
-            for score in _scores_of(report, reference)
+            for score in report.ranked(reference.scene, reference.target)
             if score.entry == entry
         ]
         ranked.append((summarise(normalised).mean, entry, normalised))
@@ -73,7 +100,7 @@ def _scene_table(report: FidelityReport, reference: Reference, baseline: str) ->
         _row(["---"] * (len(metrics) + 5)),
         _bound_row("floor: second recording", reference, metrics, is_floor=True),
     ]
-    scores = sorted(_scores_of(report, reference), key=_stpp, reverse=True)
+    scores = report.ranked(reference.scene, reference.target)
     compared = next((score for score in scores if score.entry == baseline), None)
     for score in scores:
         is_lost = score.threshold is not None and not score.is_matched and any(reference.events)
@@ -85,19 +112,6 @@ def _scene_table(report: FidelityReport, reference: Reference, baseline: str) ->
         lines.append(_row(cells))
     lines.append(_bound_row("null: times shuffled", reference, metrics, is_floor=False))
     return "\n".join(lines) + "\n"
-
-
-def _scores_of(report: FidelityReport, reference: Reference) -> list[Score]:
-    return [
-        score
-        for score in report.scores
-        if (score.scene, score.target) == (reference.scene, reference.target)
-    ]
-
-
-def _stpp(score: Score) -> float:
-    mean = score.summary("stpp").mean
-    return -math.inf if math.isnan(mean) else mean
 
 
 def _bound_row(name: str, reference: Reference, metrics: Sequence[str], *, is_floor: bool) -> str:
@@ -117,13 +131,13 @@ def _paired(score: Score, baseline: Score | None) -> str:
     return f"{difference.mean:+.3f} ± {error}" if difference.defined else "undefined"
 
 
-def _mean_and_error(values: Sequence[float]) -> str:
+def _mean_and_error(values: Sequence[float], digits: int = 3) -> str:
     summary = summarise(values)
     if not summary.defined:
         return "undefined"
     if math.isnan(summary.standard_error):
-        return f"{summary.mean:.3f}"
-    return f"{summary.mean:.3f} ± {summary.standard_error:.3f}"
+        return f"{summary.mean:.{digits}f}"
+    return f"{summary.mean:.{digits}f} ± {summary.standard_error:.{digits}f}"
 
 
 def _number(value: float | None, digits: int) -> str:

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.bench.camera import film_level
 from texvent.bench.oracle_pixel import PixelArray, PixelModel
 from texvent.bench.scenes import Scene, build_scene
 from texvent.events import EventStream
@@ -22,13 +23,8 @@ FRAMES = 13
 """Frames filmed: 12 intervals of 1/24 s are half a second."""
 STEP_RATE = Fraction(4800)
 """How often the pixels see the scene, per second."""
-EXPOSURE = 0.9
-GAMMA = 2.2
-
-
-def film_level(radiance: NDArray[np.float64]) -> NDArray[np.float64]:
-    """What a camera makes of radiance: exposed, clipped, gamma-coded, 0..255, not rounded."""
-    return np.asarray(255.0 * np.clip(EXPOSURE * radiance, 0.0, 1.0) ** (1 / GAMMA))
+Name = TypeVar("Name")
+"""What tells one recording from another."""
 
 
 def film(scene: Scene) -> Video:
@@ -70,8 +66,8 @@ class TrueFrames:
 
 
 def record(
-    scene: Scene, recordings: Mapping[str, tuple[PixelModel, int]], size: SensorSize = SIZE
-) -> dict[str, EventStream]:
+    scene: Scene, recordings: Mapping[Name, tuple[PixelModel, int]], size: SensorSize = SIZE
+) -> dict[Name, EventStream]:
     """Events of half a second of a scene, as several sensors see it at once.
 
     Args:

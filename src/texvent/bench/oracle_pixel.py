@@ -7,6 +7,7 @@ that no simulator is its own judge.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -56,6 +57,10 @@ NOISY = PixelModel(
     shot_hz=1.5,
     has_random_phase=True,
 )
+TARGETS: Mapping[str, PixelModel] = {"noisy": NOISY, "ideal": IDEAL}
+"""Kinds of pixels whose events count as true."""
+REFERENCE_SEED, FLOOR_SEED = 1, 2
+"""Noise seeds of the reference and of the second recording."""
 PATTERN_DECADES = 0.25
 """Fixed pattern of leak and shot rates: sd of their log10 between pixels."""
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from texvent.bench.camera import film_level
 from texvent.bench.entries import Entry
-from texvent.bench.oracle import film_level, oracle_scene, record
-from texvent.bench.oracle_pixel import NOISY
-from texvent.bench.results import FidelityReport, Score
+from texvent.bench.oracle import oracle_scene, record
+from texvent.bench.oracle_pixel import FLOOR_SEED, REFERENCE_SEED, TARGETS
+from texvent.bench.results import FidelityReport
 from texvent.events import EventStream
 from texvent.represent.event_frame import event_frame
 from texvent.video import MICROSECONDS
@@ -22,23 +23,23 @@ COLUMNS = 4
 TEXT_PX, MARGIN_PX = 10, 6
 
 
-def picture_grid(report: FidelityReport, scene: str, entries: list[Entry]) -> bytes:
+def picture_grid(report: FidelityReport, scene: str) -> bytes:
     """A PNG file: the film, the truth, a second recording, and each entry at its fitted δ.
 
     Args:
-        report: a run that scored the scene with noisy pixels.
-        scene: which scene to show, on the first scoring seed.
-        entries: which entries to show, if the run scored them; the best first.
+        report: a run that scored the scene.
+        scene: which scene to show, on the first scoring seed, with the best entry first.
     """
     seed = report.score_seeds[0]
     shown = oracle_scene(scene, seed)
-    truth = record(shown, {"truth": (NOISY, 1), "second": (NOISY, 2)})
-    streams = {"truth": truth["truth"], "second recording": truth["second"]}
-    by_name = {entry.name: entry for entry in entries}
-    scores = [one for one in report.scores if one.scene == scene and one.entry in by_name]
-    for score in sorted(scores, key=_stpp, reverse=True):
-        title = f"{score.entry}  {_stpp(score):.2f}"
-        streams[title] = by_name[score.entry].simulate(shown, seed, score.threshold)
+    target = next(one.target for one in report.references if one.scene == scene)
+    model = TARGETS[target]
+    streams = record(
+        shown, {"truth": (model, REFERENCE_SEED), "second recording": (model, FLOOR_SEED)}
+    )
+    for score in report.ranked(scene, target):
+        title = f"{score.entry}  {score.summary('stpp').mean:.2f}"
+        streams[title] = Entry.parse(score.entry).simulate(shown, seed, score.threshold)
     level = film_level(shown(START_US / MICROSECONDS))
     grey = np.repeat(np.rint(level).astype(np.uint8)[..., None], 3, axis=2)
     ceiling = count_ceiling(event_frame(_cut(streams["truth"]), "count"))
@@ -47,10 +48,6 @@ def picture_grid(report: FidelityReport, scene: str, entries: list[Entry]) -> by
         counts = event_frame(_cut(events), "count")
         panels.append(_panel(title, draw_events(counts, get_palette("paper"), ceiling=ceiling)))
     return png_bytes(_arrange(panels))
-
-
-def _stpp(score: Score) -> float:
-    return float(np.nan_to_num(score.summary("stpp").mean, nan=-1.0))
 
 
 def _cut(events: EventStream) -> EventStream:

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import math
-import os
-import platform
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
-import numpy as np
-
-from texvent._version import __version__
+from texvent.bench.details import Details
+from texvent.errors import FileFormatError
 from texvent.metrics.compare import load_metric
 from texvent.metrics.summary import Summary, normalise, summarise
 
-SCHEMA = "texvent-fidelity-1"
+SCHEMA = "texvent-fidelity-2"
 """Name of the document's layout; docs/benchmark.md describes it."""
 
 
@@ -31,6 +28,8 @@ class Reference:
     """Metric → values of a second recording."""
     null: Mapping[str, list[float]]
     """Metric → values of the reference with its times shuffled."""
+    details: Details
+    """Of the second recording."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,6 +50,7 @@ class Score:
     """Metric → value per scoring seed."""
     seconds: float
     """Time of one simulation."""
+    details: Details
 
     def summary(self, metric: str) -> Summary:
         """Mean ± standard error over the scoring seeds."""
@@ -75,6 +75,8 @@ class Score:
 class FidelityReport:
     """Everything a run found."""
 
+    environment: Mapping[str, Any]
+    """What it ran on: `environment.describe_environment`."""
     fit_seeds: Sequence[int]
     score_seeds: Sequence[int]
     references: Sequence[Reference]
@@ -87,6 +89,11 @@ class FidelityReport:
         """Floor and null of a scene."""
         return next(one for one in self.references if one.scene == scene and one.target == target)
 
+    def ranked(self, scene: str, target: str) -> list[Score]:
+        """Scores on a scene, best STPP first, undefined ones last."""
+        scores = [one for one in self.scores if (one.scene, one.target) == (scene, target)]
+        return sorted(scores, key=_undefined_last)
+
     def document(self) -> dict[str, Any]:
         """Plain values, ready for JSON; undefined ones are None."""
         scores = []
@@ -96,10 +103,7 @@ class FidelityReport:
             scores.append({**asdict(score), "normalised": normalised})
         document = {
             "schema": SCHEMA,
-            "texvent_version": __version__,
-            "python": platform.python_version(),
-            "numpy": np.__version__,
-            "machine": f"{platform.machine()}, {os.cpu_count()} cores",
+            "environment": dict(self.environment),
             "fit_seeds": list(self.fit_seeds),
             "score_seeds": list(self.score_seeds),
             "seconds": round(self.seconds, 1),
@@ -107,15 +111,74 @@ class FidelityReport:
             "scores": scores,
             "skipped": dict(self.skipped),
         }
-        plain: dict[str, Any] = _without_nan(document)
+        plain: dict[str, Any] = without_nan(document)
         return plain
 
 
-def _without_nan(value: Any) -> Any:
+def _undefined_last(score: Score) -> float:
+    mean = score.summary("stpp").mean
+    return math.inf if math.isnan(mean) else -mean
+
+
+def read_report(document: Mapping[str, Any]) -> FidelityReport:
+    """The report that a document states.
+
+    Args:
+        document: as `FidelityReport.document` gives it, read back from JSON.
+
+    Raises:
+        FileFormatError: it is another kind of document, or lacks a part.
+    """
+    if document.get("schema") != SCHEMA:
+        raise FileFormatError(
+            f"the document's schema is {document.get('schema')!r}, not {SCHEMA!r}; "
+            "run texvent bench fidelity --out again"
+        )
+    try:
+        return FidelityReport(
+            environment=document["environment"],
+            fit_seeds=document["fit_seeds"],
+            score_seeds=document["score_seeds"],
+            references=[Reference(**_with_nan(one)) for one in document["references"]],
+            scores=[
+                Score(**{name: value for name, value in _with_nan(one).items() if name in _SCORE})
+                for one in document["scores"]
+            ],
+            skipped=document["skipped"],
+            seconds=document["seconds"],
+        )
+    except (KeyError, TypeError, AttributeError) as error:
+        raise FileFormatError(f"the document is damaged: {error!r}") from error
+
+
+_SCORE = {field.name for field in fields(Score)}
+
+
+def _with_nan(part: Mapping[str, Any]) -> dict[str, Any]:
+    """A reference or score with NaN for undefined values; a threshold may be None."""
+    restored = {name: part[name] for name in part if name not in ("details",)}
+    for name in ("values", "floor", "null"):
+        if name in restored:
+            restored[name] = {key: _numbers(values) for key, values in restored[name].items()}
+    if restored.get("default_ratio", 0.0) is None:
+        restored["default_ratio"] = math.nan
+    details = {name: _numbers(values) for name, values in part["details"].items()}
+    return {**restored, "details": Details(**details)}
+
+
+def _numbers(values: list[Any]) -> list[Any]:
+    return [
+        _numbers(one) if isinstance(one, list) else math.nan if one is None else one
+        for one in values
+    ]
+
+
+def without_nan(value: Any) -> Any:
+    """Plain values for JSON: what is undefined becomes None."""
     if isinstance(value, Mapping):
-        return {key: _without_nan(item) for key, item in value.items()}
+        return {key: without_nan(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_without_nan(item) for item in value]
+        return [without_nan(item) for item in value]
     if isinstance(value, float):
         return float(value) if math.isfinite(value) else None
     return value

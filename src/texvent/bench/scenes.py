@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent._registry import suggest
+from texvent.bench.prompt_scenes import PROMPTS, build_prompt_scene
 from texvent.bench.value_noise import ValueNoise
 from texvent.errors import ConfigError
 from texvent.sensor import SensorSize
@@ -29,16 +30,32 @@ def build_scene(name: str, seed: int, size: SensorSize) -> Scene:
     """The scene called `name`.
 
     Args:
-        name: a key of `SCENES`.
-        seed: which texture.
+        name: one of `scene_names()`.
+        seed: which texture, or which scene of a prompt.
         size: width and height, px.
 
     Raises:
         ConfigError: no scene has that name.
     """
-    if name not in SCENES:
-        raise ConfigError(f"unknown scene {name!r}; {suggest(name, tuple(SCENES))}")
+    check_scene(name)
+    if name in PROMPTS:
+        return build_prompt_scene(PROMPTS[name], seed, size)
     return partial(SCENES[name], ValueNoise(seed), size)
+
+
+def scene_names() -> tuple[str, ...]:
+    """All scenes: those drawn here, and prompts of the embedded generator."""
+    return (*SCENES, *PROMPTS)
+
+
+def check_scene(name: str) -> None:
+    """Refuse a scene that does not exist.
+
+    Raises:
+        ConfigError: no scene has that name.
+    """
+    if name not in scene_names():
+        raise ConfigError(f"unknown scene {name!r}; {suggest(name, scene_names())}")
 
 
 def known_flow(name: str) -> tuple[float, float] | None:

@@ -1,0 +1,75 @@
+"""A result of the oracle benchmark as a Markdown page with its pictures beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from texvent.bench.bar_chart import bar_chart
+from texvent.bench.detail_charts import level_chart, time_chart
+from texvent.bench.fidelity_table import fidelity_tables, motion_table
+from texvent.bench.picture_grid import picture_grid
+from texvent.bench.results import FidelityReport
+
+
+def page_files(report: FidelityReport, name: str) -> dict[str, bytes]:
+    """The page and its pictures.
+
+    Args:
+        report: a run that measured STPP.
+        name: name of the page without its extension; pictures begin with it.
+
+    Returns:
+        File name → content: `NAME.md`, `NAME-bars.svg`, `NAME-levels.svg`, `NAME-times.svg` and
+        `NAME-events.png`, which simulates the entries of the first scene again.
+    """
+    first = report.references[0]
+    where = (first.scene, first.target)
+    shown = f"`{first.scene}`, {first.target} pixels"
+    pictures = {
+        f"{name}-bars.svg": bar_chart(report).encode(),
+        f"{name}-levels.svg": level_chart(report, *where).encode(),
+        f"{name}-times.svg": time_chart(report, *where).encode(),
+        f"{name}-events.png": picture_grid(report, first.scene),
+    }
+    parts = [
+        "# Simulators against exact events: the tables",
+        f"Written by `texvent bench page {name}.json`; [benchmark.md](../benchmark.md) says how "
+        "to read it and what follows from it.",
+        _facts(report),
+        f"![STPP of every entry with standard errors]({name}-bars.svg)",
+        f"## The same 10 ms of {shown}",
+        f"![True and simulated events side by side]({name}-events.png)",
+        f"## Levels of {shown}",
+        "STPP per level of the pyramid: shorter time cells downwards, smaller space cells (share "
+        "of the sensor's side) to the right.",
+        f"![STPP per level]({name}-levels.svg)",
+        f"## Time errors in {shown}",
+        "For every true event, how much later the nearest simulated event of its pixel and "
+        "polarity comes.",
+        f"![Histograms of time errors]({name}-times.svg)",
+        "## Motion",
+        "Sharpness: variance of the picture of events moved along the known flow, over that of "
+        "unmoved ones, in windows of 60 ms. Flow error: between the known flow and the one that "
+        "contrast maximisation finds in the events, px/s.",
+        motion_table(report),
+        "## Scores",
+        fidelity_tables(report),
+    ]
+    return {f"{name}.md": ("\n\n".join(parts).rstrip() + "\n").encode(), **pictures}
+
+
+def _facts(report: FidelityReport) -> str:
+    facts = {
+        **{name.replace("_", " "): value for name, value in report.environment.items()},
+        "textures for δ": report.fit_seeds,
+        "textures scored": report.score_seeds,
+        "seconds": f"{report.seconds:.0f}",
+    }
+    lines = []
+    for name, value in facts.items():
+        if isinstance(value, Mapping):
+            value = ", ".join(f"{key} {one}" for key, one in value.items())
+        elif isinstance(value, (list, tuple)):
+            value = ", ".join(map(str, value))
+        lines.append(f"- {name}: {value}")
+    return "\n".join(lines)
