@@ -34,3 +34,14 @@ def test_luma_of_grey_is_grey():
     grey = np.full((2, 2, 3), 77.25, np.float32)
     assert luma_bt601(grey) == pytest.approx(77.25)
     assert luma_bt601(grey).dtype == np.float32
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32, np.float64])
+@pytest.mark.parametrize("height", [1, 16, 37])
+def test_luma_by_bands_equals_luma_of_the_whole(dtype, height):
+    rgb = np.random.default_rng(1).integers(0, 256, (height, 5, 3)).astype(dtype)
+    red, green, blue = np.float32(0.299), np.float32(0.587), np.float32(0.114)
+    whole = rgb[..., 0] * red
+    whole += rgb[..., 1] * green
+    whole += rgb[..., 2] * blue
+    np.testing.assert_array_equal(luma_bt601(rgb), whole.astype(np.float32))

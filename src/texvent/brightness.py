@@ -16,6 +16,8 @@ from texvent.errors import ConfigError
 
 LUMA_WEIGHTS = (0.299, 0.587, 0.114)
 """Red, green, blue weights of ITU-R BT.601: what OpenCV, v2e and ESIM use for grey input."""
+LUMA_ROWS = 16
+"""Rows that are converted at a time: what they need stays in the processor's cache."""
 
 Float64Array: TypeAlias = NDArray[np.float64]
 
@@ -32,10 +34,14 @@ def luma_bt601(rgb: NDArray[Any]) -> NDArray[np.float32]:
     Source: ITU-R BT.601, Y' = 0.299 R' + 0.587 G' + 0.114 B'.
     """
     red, green, blue = (np.float32(weight) for weight in LUMA_WEIGHTS)
-    luma = rgb[..., 0] * red
-    luma += rgb[..., 1] * green
-    luma += rgb[..., 2] * blue
-    return np.asarray(luma, dtype=np.float32)
+    result = np.empty(rgb.shape[:-1], np.float32)
+    for top in range(0, len(rgb), LUMA_ROWS):
+        band = rgb[top : top + LUMA_ROWS]
+        luma = band[..., 0] * red
+        luma += band[..., 1] * green
+        luma += band[..., 2] * blue
+        result[top : top + LUMA_ROWS] = luma
+    return result
 
 
 def balanced_log(intensity: NDArray[Any], balance: float) -> Float64Array:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 
 import numpy as np
@@ -93,6 +94,18 @@ def test_bad_input_is_refused_with_the_value():
 
 
 luma = hnp.arrays(np.uint8, (3, 4))
+
+
+@given(
+    hnp.arrays(np.float32, (2, 3), elements=st.floats(0, 1e6, width=32)),
+    hnp.arrays(np.float32, (2, 3), elements=st.floats(0, 1e6, width=32)),
+    st.floats(0.5, 100),
+    st.sampled_from([0.2, 0.01, 1.0, 1e-4]),
+)
+def test_eq4_equals_its_definition_in_float64(first, second, balance, threshold):
+    change = np.abs(balanced_log(first, balance) - balanced_log(second, balance)).max()
+    expected = math.floor(change / threshold)
+    assert count(first, second, balance=balance, threshold=threshold, cap=10**9) == expected
 
 
 @given(luma, luma, st.floats(1.0, 100.0), st.floats(0.01, 2.0))

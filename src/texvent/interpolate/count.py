@@ -12,6 +12,9 @@ from texvent.video import MICROSECONDS, Frame, PixelArray
 
 DEFAULT_CAP = 64
 """Most intermediate frames per pair, unless the caller says otherwise."""
+FLOAT32_ERROR = 1e-6
+"""By how much a difference of logarithms may be off when it is taken from a float32 ratio: four
+roundings of 6e-8 each."""
 STEPS_PER_BEAT = 12
 """Frames that show one period of flickering light. From one to the next, the embedded generator's
 beat then changes brightness by at most 0.18 (white; α = 30): below the paper preset's δ."""
@@ -66,6 +69,11 @@ def count_intermediate(
             f"the frames are {list(earlier.shape)} and {list(later.shape)} (height, width); "
             "both must have one size"
         )
+    if percentile == 100.0 and balance >= 1.0:
+        low, high = _bound_largest_change(earlier, later, balance)
+        count = math.floor(low / contrast_threshold)
+        if count == math.floor(high / contrast_threshold):
+            return min(count, cap)
     change = np.abs(balanced_log(earlier, balance) - balanced_log(later, balance))
     statistic = change.max() if percentile == 100.0 else np.percentile(change, percentile)
     return min(math.floor(float(statistic) / contrast_threshold), cap)
@@ -133,6 +141,17 @@ def intermediate_times_us(first_us: int, second_us: int, count: int) -> list[int
     parts = min(count, interval - 1) + 1
     # Whole numbers only: a float would lose microseconds in long recordings.
     return [first_us + (2 * interval * k + parts) // (2 * parts) for k in range(1, parts)]
+
+
+def _bound_largest_change(
+    earlier: PixelArray, later: PixelArray, balance: float
+) -> tuple[float, float]:
+    """What the largest |ΔL| lies between: float32 and two logarithms, not two per pixel."""
+    shift = np.float32(balance)
+    ratio = np.add(later, shift, dtype=np.float32)
+    ratio /= np.add(earlier, shift, dtype=np.float32)
+    largest = max(math.log(float(ratio.max())), -math.log(float(ratio.min())))
+    return largest - FLOAT32_ERROR, largest + FLOAT32_ERROR
 
 
 def _luma(frame: Frame | PixelArray) -> PixelArray:

@@ -168,8 +168,10 @@ def _thumbnail(frame: Frame) -> _Thumbnail:
     # A long strip keeps at least one block across.
     cell = min(cell, min(height, width) // BLOCK_CELLS)
     rows, columns = height // cell, width // cell
-    cells = luma[: rows * cell, : columns * cell].reshape(rows, cell, columns, cell)
-    levels = cells.mean(axis=(1, 3), dtype=np.float64)
+    # Rows first: whole rows add up faster than the cells of a row.
+    strips = luma[: rows * cell, : columns * cell].reshape(rows, cell, columns * cell)
+    sums = strips.sum(axis=1, dtype=np.float64).reshape(rows, columns, cell).sum(axis=2)
+    levels = sums / cell**2
     return _Thumbnail(levels, balanced_log(levels, LOG_BALANCE))
 
 
