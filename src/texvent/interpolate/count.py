@@ -15,6 +15,8 @@ DEFAULT_CAP = 64
 FLOAT32_ERROR = 1e-6
 """By how much a difference of logarithms may be off when it is taken from a float32 ratio: four
 roundings of 6e-8 each."""
+BAND_ROWS = 16
+"""Rows that are compared at a time: what they need stays in the processor's cache."""
 STEPS_PER_BEAT = 12
 """Frames that show one period of flickering light. From one to the next, the embedded generator's
 beat then changes brightness by at most 0.18 (white; α = 30): below the paper preset's δ."""
@@ -147,10 +149,12 @@ def _bound_largest_change(
     earlier: PixelArray, later: PixelArray, balance: float
 ) -> tuple[float, float]:
     """What the largest |ΔL| lies between: float32 and two logarithms, not two per pixel."""
-    shift = np.float32(balance)
-    ratio = np.add(later, shift, dtype=np.float32)
-    ratio /= np.add(earlier, shift, dtype=np.float32)
-    largest = max(math.log(float(ratio.max())), -math.log(float(ratio.min())))
+    shift, lowest, highest = np.float32(balance), math.inf, 0.0
+    for top in range(0, len(later), BAND_ROWS):
+        ratio = np.add(later[top : top + BAND_ROWS], shift, dtype=np.float32)
+        ratio /= np.add(earlier[top : top + BAND_ROWS], shift, dtype=np.float32)
+        lowest, highest = min(lowest, float(ratio.min())), max(highest, float(ratio.max()))
+    largest = max(math.log(highest), -math.log(lowest))
     return largest - FLOAT32_ERROR, largest + FLOAT32_ERROR
 
 
