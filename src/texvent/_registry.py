@@ -187,7 +187,26 @@ REPRESENTATIONS = Registry(
         "histogram-3d": "texvent.represent.histogram:histogram_3d",
     },
 )
+RECONSTRUCTORS = Registry(
+    "reconstructor",
+    {
+        "e2vid": "texvent.reconstruct.networks:E2VID",
+        "e2vid+": "texvent.reconstruct.networks:E2VID_PLUS",
+        "firenet": "texvent.reconstruct.networks:FIRENET",
+        "firenet+": "texvent.reconstruct.networks:FIRENET_PLUS",
+        "hypere2vid": "texvent.reconstruct.networks:HYPER_E2VID",
+        "et-net": "texvent.reconstruct.networks:ET_NET",
+    },
+)
 REGISTRIES = {
     registry.kind: registry
-    for registry in (GENERATORS, INTERPOLATORS, SIMULATORS, CODECS, METRICS, REPRESENTATIONS)
+    for registry in (
+        GENERATORS,
+        INTERPOLATORS,
+        SIMULATORS,
+        CODECS,
+        METRICS,
+        REPRESENTATIONS,
+        RECONSTRUCTORS,
+    )
 }
