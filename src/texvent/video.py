@@ -213,6 +213,18 @@ class StreamChecker:
             InputError: another size than before, a time that does not increase, or a pixel that
                 is NaN, infinite or negative.
         """
+        check_intensity(frame.pixels, self.check_order(frame))
+        return self.accept(frame)
+
+    def check_order(self, frame: Frame) -> str:
+        """The same without a look at the pixels; nothing is remembered of the frame yet.
+
+        Returns:
+            Which frame it is, for messages about its pixels.
+
+        Raises:
+            InputError: another size than before, or a time that does not increase.
+        """
         where = f"frame {self._index} (t = {frame.t_us} µs)"
         if self._size is not None and frame.size != self._size:
             raise InputError(f"{where} is {frame.size}, the frames before it are {self._size}")
@@ -221,7 +233,10 @@ class StreamChecker:
                 f"{where} does not come after the frame before it (t = {self._last_us} µs); "
                 "frame times must strictly increase"
             )
-        check_intensity(frame.pixels, where)
+        return where
+
+    def accept(self, frame: Frame) -> Frame:
+        """Remember a frame that was checked: the next one is compared with it."""
         self._size, self._last_us = frame.size, frame.t_us
         self._index += 1
         return frame

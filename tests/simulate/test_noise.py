@@ -6,7 +6,6 @@ import pytest
 from texvent.events import SIGNAL, EventStream
 from texvent.simulate.draws import frame_key
 from texvent.simulate.firings import Interval
-from texvent.simulate.kernels import reference
 from texvent.simulate.noise import (
     draw_noise,
     draw_voltage_noise,
@@ -139,8 +138,12 @@ def test_gaussian_noise_of_rate_zero_changes_nothing():
 
 def test_mask_is_dark_and_at_rest():
     luma = np.array([[79, 80, 81], [0, 10, 20]], np.uint8)
-    mask = low_light_background(luma, np.array([4]), intensity=80.0)
-    assert mask.tolist() == [[True, False, False], [True, False, True]]
+    mask = low_light_background(luma, np.arange(6), np.array([4]), intensity=80.0)
+    assert mask.tolist() == [True, False, False, True, False, True]
+    two_in_one_pixel = low_light_background(
+        luma, np.array([3, 3, 4]), np.array([4]), intensity=80.0
+    )
+    assert two_in_one_pixel.tolist() == [True, True, False]
 
 
 def test_gaussian_noise_is_labelled_where_only_the_noise_fired():
@@ -166,17 +169,42 @@ def test_poisson_table_has_the_mean_and_variance_of_its_distribution(mean):
     assert ((k - mean) ** 2 * mass).sum() == pytest.approx(mean, rel=1e-6)
 
 
-def test_noise_counts_are_poisson_numbers():
-    mask = np.ones((200, 200), np.bool_)
+@pytest.mark.parametrize("mean", [0.01, 0.7, 3.0])
+def test_noise_counts_are_poisson_numbers_of_every_pixel(mean, backend):
+    """Although they are drawn per block of pixels; the last block is a partial one."""
+    pixels = 40_000
     span = Interval(1000, 2000, frame_key(0, 0))
-    noise = draw_noise(reference, mask, span, mean=0.7, on_fraction=0.5)
-    per_pixel = np.bincount(noise.pixel, minlength=mask.size)
-    counts = np.bincount(per_pixel, minlength=8)[:6]
-    mass = np.diff(poisson_cumulative(0.7), prepend=0.0)[:6]
-    expected = mass * mask.size
-    assert float(((counts - expected) ** 2 / expected).sum()) < 6 + 5 * np.sqrt(12)
+    noise = draw_noise(pixels, span, mean=mean, on_fraction=0.5, backend=backend)
+    per_pixel = np.bincount(noise.pixel, minlength=pixels)
+    assert len(per_pixel) == pixels
+    mass = np.diff(poisson_cumulative(mean), prepend=0.0)
+    expected = mass[mass * pixels > 5] * pixels
+    counts = np.bincount(per_pixel, minlength=len(expected))[: len(expected)]
+    freedom = len(expected)
+    deviation = ((counts - expected) ** 2 / expected).sum()
+    assert float(deviation) < freedom + 5 * np.sqrt(2 * freedom)
     assert noise.t.min() >= 1000
     assert noise.t.max() < 2000
+
+
+def test_noise_is_independent_between_places_times_and_polarities():
+    span = Interval(0, SECOND, frame_key(7, 3))
+    noise = draw_noise(64 * 4096, span, mean=0.2, on_fraction=0.5)
+    columns = [noise.pixel % 4096, noise.pixel // 4096, noise.t, noise.p]
+    correlation = np.corrcoef(np.array(columns, np.float64))
+    assert np.abs(correlation - np.eye(4)).max() < 5 / np.sqrt(len(noise.t))
+
+
+def test_blocks_draw_the_same_noise_whatever_the_size_of_the_frame(backend):
+    """So bands of a frame can be simulated apart."""
+    span = Interval(0, 1000, frame_key(1, 1))
+    small, large = (
+        draw_noise(pixels, span, mean=0.1, on_fraction=0.3, backend=backend)
+        for pixels in (5000, 20_000)
+    )
+    inside = large.where(large.pixel < 5000)
+    assert len(small.pixel) > 300
+    assert all(np.array_equal(one, two) for one, two in zip(small, inside, strict=True))
 
 
 @pytest.mark.parametrize("mean", [1e-5, 0.01, 0.3, 0.99])

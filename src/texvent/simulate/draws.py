@@ -48,6 +48,7 @@ class Purpose(IntEnum):
     READOUT = 12
     RATE_LIMIT = 13
     VOXEL = 14
+    NOISE_PLACE = 15
 
     def draw(self, order: Any = 0) -> Any:
         """Number of this purpose's draw `order` (0..2²⁸−1, one or an array), for `draw_words`."""
@@ -67,6 +68,13 @@ def frame_key(seed: int, frame: int) -> np.uint64:
     """
     start = _mix_integer(int(seed) + GOLDEN)
     return np.uint64(_mix_integer(start + (int(frame) & MASK_64) * GOLDEN))
+
+
+def frame_keys(seed: int, frames: ArrayLike) -> Uint64Array:
+    """`frame_key` of many frames of a seed, of the shape of `frames`, int64."""
+    start = np.uint64(_mix_integer(int(seed) + GOLDEN))
+    steps = np.asarray(frames, np.int64).view(np.uint64) * np.uint64(GOLDEN)
+    return np.asarray(_mix(start + steps))
 
 
 def draw_words(key: np.uint64, y: ArrayLike, x: ArrayLike, draw: ArrayLike) -> Uint64Array:

@@ -73,6 +73,11 @@ class Firings(NamedTuple):
             np.concatenate([self.label, other.label]),
         )
 
+    def where(self, is_kept: NDArray[np.bool_]) -> Firings:
+        """Those of the events for which a mask [n] is true."""
+        pixel, t, p, label = self
+        return Firings(pixel[is_kept], t[is_kept], p[is_kept], label[is_kept])
+
     def packet(self, interval: Interval, size: SensorSize, backend: str = AUTO) -> EventStream:
         """The events in the order every packet has: by (t, y, x, p), labels included."""
         span_us = (interval.start_us, interval.stop_us)

@@ -16,10 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import InputError
-from texvent.simulate.draws import UNIT, Purpose, draw_normals, draw_uniforms
+from texvent.simulate.draws import UNIT, Purpose, draw_normals
 from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.interval import place_in
-from texvent.simulate.kernels.interface import Kernels
+from texvent.simulate.kernels.noise import Block, load_place_noise
+from texvent.simulate.kernels.select import AUTO
+from texvent.simulate.kernels.texvent import NOISE_BLOCK
 
 NoiseKind = Literal["adaptive", "gaussian", "random", "none"]
 BoolArray = NDArray[np.bool_]
@@ -29,64 +31,57 @@ Float64Array = NDArray[np.float64]
 _CERTAIN = 1.0 - UNIT
 
 
+def draw_noise(
+    pixels: int, span: Interval, *, mean: float, on_fraction: float, backend: str = AUTO
+) -> Firings:
+    """Poisson events at every pixel, uniform in time: what `low_light_background` then selects of.
+
+    Args:
+        pixels: number of pixels of the frame.
+        span: when, and the key of the draws.
+        mean: λ1 · λ2, expected events per pixel in this sub-interval.
+        on_fraction: probability of ON.
+        backend: which kernels draw; all draw the same.
+
+    Returns:
+        The noise events, ordered by pixel and polarity.
+
+    Equation: (6), section 3.2.2: Poisson(λ1 λ2); drawn per block of pixels, see `kernels.texvent`.
+    Deviation: the paper gives noise no polarity and no time. Eq. 7 would put all of it at the end,
+        because its change is below δ; real background activity is uniform in time.
+    """
+    noise = Block(span.key, poisson_cumulative(mean * NOISE_BLOCK), float(on_fraction))
+    places = load_place_noise(backend)(noise, pixels)
+    return Firings.noise(places.pixel, place_in(span, places.fraction), places.p)
+
+
 def low_light_background(
-    luma: NDArray[Any], fired: NDArray[np.int64], *, intensity: float
+    luma: NDArray[Any], pixel: NDArray[np.int64], fired: NDArray[np.int64], *, intensity: float
 ) -> BoolArray:
-    """Where noise is added: the mask M of Eq. 6.
+    """Whether noise may fire at a pixel: the mask M of Eq. 6.
 
     Args:
         luma: intensity of the current frame, [H, W], 0..255 scale.
+        pixel: flat index of the pixels asked about, [n].
         fired: flat index of the pixels with |change| ≥ δ; all others are background.
         intensity: σ: darker pixels are low-light.
 
     Returns:
-        M = (I^j < σ) · (Δ < δ), [H, W].
+        M = (I^j < σ) · (Δ < δ) at these pixels, [n].
 
     Equation: (6), section 3.2.2.
     Deviation: the paper names source frames here and sub-frames in Eq. 5; this uses sub-frames.
     """
-    mask = np.ascontiguousarray(luma < intensity)
-    mask.reshape(-1)[fired] = False
-    return mask
-
-
-def draw_noise(
-    kernels: Kernels, mask: BoolArray, span: Interval, *, mean: float, on_fraction: float
-) -> Firings:
-    """Poisson events at the masked pixels, uniform in time.
-
-    Args:
-        kernels: the backend that scans the pixels.
-        mask: where noise is allowed, [H, W].
-        span: when, and the key of the draws.
-        mean: λ1 · λ2, expected events per pixel in this sub-interval.
-        on_fraction: probability of ON.
-
-    Returns:
-        The noise events, ordered by pixel.
-
-    Equation: (6), section 3.2.2: M · Poisson(λ1 λ2).
-    Deviation: the paper gives noise no polarity and no time. Eq. 7 would put all of it at the end,
-        because its change is below δ; real background activity is uniform in time.
-    """
-    cumulative, key = poisson_cumulative(mean), span.key
-    pixel = kernels.find_noisy_pixels(mask, key, Purpose.NOISE_COUNT.draw(), float(cumulative[0]))
-    y, x = np.divmod(pixel, mask.shape[1])
-    chance = draw_uniforms(key, y, x, Purpose.NOISE_COUNT.draw())
-    count = np.searchsorted(cumulative, chance, side="right")
-    order = np.arange(int(count.sum())) - np.repeat(np.cumsum(count) - count, count)
-    y, x = np.repeat(y, count), np.repeat(x, count)
-    is_on = draw_uniforms(key, y, x, Purpose.NOISE_POLARITY.draw(order)) < on_fraction
-    fraction = draw_uniforms(key, y, x, Purpose.NOISE_TIME.draw(order))
-    return Firings.noise(np.repeat(pixel, count), place_in(span, fraction), is_on.astype(np.uint8))
+    is_dark = luma.reshape(-1)[pixel] < intensity
+    return np.asarray(is_dark & ~np.isin(pixel, fired))
 
 
 @functools.lru_cache(maxsize=64)
 def poisson_cumulative(mean: float) -> Float64Array:
     """P(count ≤ k) for k = 0, 1, ... until what is left is below the spacing of the uniforms.
 
-    A uniform u then draws the count `number of entries ≤ u` (inversion): one table per frame
-    interval, only comparisons per pixel.
+    A uniform u then draws the count `number of entries ≤ u` (inversion): one table per length of
+    the sub-intervals, only comparisons per block of pixels.
 
     Args:
         mean: of the Poisson distribution, at least 0.
