@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from texvent.bench.controls import CONTROLS
 from texvent.cli.app import main
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
@@ -12,6 +13,7 @@ from texvent.sensor import SensorSize
 @pytest.fixture
 def pair(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "empty"))
     size = SensorSize(16, 12)
     truth = EventStream([1, 2, 3, 4], [0, 0, 5, 6], [100, 200, 40_000, 900_000], [1, 0, 1, 1], size)
     truth.save("truth.npz")
@@ -37,6 +39,27 @@ def test_compare_judges_the_first_file_by_the_second(pair, capsys):
     assert len(document["stpp_levels"]) == 5
 
 
+def test_compare_shows_a_similarity_beside_its_controls(pair, capsys):
+    assert main(["compare", "guess.npz", "truth.npz", "--json", "--metrics", "lfs"]) == 0
+    controls = json.loads(capsys.readouterr().out)["controls"]["lfs"]
+    assert controls["identity"] == 1.0
+    assert set(controls) == set(CONTROLS)
+    assert main(["compare", "guess.npz", "truth.npz", "--metrics", "lfs,stpp"]) == 0
+    shown = capsys.readouterr().out
+    assert "lfs, controls" in shown
+    assert "split half" in shown
+    assert "stpp, controls" not in shown
+
+
+def test_compare_says_which_metrics_it_left_out_and_why(pair, capsys):
+    assert main(["compare", "guess.npz", "truth.npz", "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert set(document["left_out"]) == {"ef_lpips", "eqs"}
+    assert not set(document["left_out"]) & set(document["scores"])
+    assert main(["compare", "guess.npz", "truth.npz"]) == 0
+    assert "texvent weights pull lpips" in " ".join(capsys.readouterr().out.split())
+
+
 def test_compare_cuts_to_the_span(pair, capsys):
     words = ["compare", "guess.npz", "truth.npz", "--json", "--stop", "0.01"]
     assert main([*words, "--metrics", "stpp"]) == 0
@@ -50,6 +73,18 @@ def test_compare_cuts_to_the_span(pair, capsys):
         (["compare", "nothing.npz", "truth.npz"], "no such file: nothing.npz"),
         (["compare", "guess.npz", "truth.npz", "--metrics", "spp"], "did you mean 'stpp'"),
         (["compare", "guess.npz", "truth.npz", "--start", "2", "--stop", "1"], "after start"),
+        (
+            ["compare", "guess.npz", "truth.npz", "--metrics", "ef_lpips"],
+            "texvent weights pull lpips",
+        ),
+        (
+            ["compare", "guess.npz", "truth.npz", "--metrics", "eqs"],
+            "metric eqs cannot be computed: it needs RVT's weights",
+        ),
+        (
+            ["compare", "guess.npz", "truth.npz", "--rvt-weights", "none.ckpt"],
+            "no weights file none.ckpt",
+        ),
         (["bench", "selftst"], "did you mean 'selftest'"),
         (["bench", "selftest", "--metrics", "spp"], "did you mean 'stpp'"),
         (["bench", "selftest", "-o", "truth.npz"], "exists already"),

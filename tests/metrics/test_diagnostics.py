@@ -9,8 +9,8 @@ import pytest
 from texvent.events import EventStream
 from texvent.metrics.batching import BatchingDifference, same_timestamp_share
 from texvent.metrics.cadence import CadenceDifference, cadence_energy
-from texvent.metrics.flow_warp import flow_warp_sharpness
-from texvent.metrics.structural_ratio import structural_ratio
+from texvent.metrics.flow_warp import FlowWarpRatio, flow_warp_sharpness
+from texvent.metrics.structural_ratio import StructuralRatioQuotient, structural_ratio
 from texvent.sensor import SensorSize
 
 from .recordings import SMALL, one_event, random_events
@@ -96,3 +96,32 @@ def test_structural_ratio_needs_a_complete_packet():
     assert math.isnan(structural_ratio(random_events(1, 29_999)))
     repeated = structural_ratio(random_events(1, 400), packet_events=100, reference_events=60)
     assert repeated > 0
+
+
+def test_blurred_events_are_less_sharp_than_the_reference_along_its_own_motion():
+    events = moving_dots(200.0)
+    rng = np.random.default_rng(0)
+    spread = np.clip(events.x + rng.integers(-3, 4, len(events)), 0, events.size.width - 1)
+    blurred = EventStream(spread, events.y, events.t, events.p, events.size)
+    assert FlowWarpRatio()(events, events) == 1.0
+    assert FlowWarpRatio()(blurred, events) < 0.5
+    # Motion is sought in the reference: events that do not move along it lose.
+    other_way = EventStream(63 - events.x, events.y, events.t, events.p, events.size)
+    assert FlowWarpRatio()(other_way, events) < 0.5
+
+
+def test_sharpness_of_streams_that_are_never_busy_together_is_undefined():
+    events = moving_dots(200.0)
+    assert math.isnan(FlowWarpRatio()(events, events[:100]))
+
+
+def test_structural_ratios_are_compared_at_one_length():
+    # N = 3, M = 2. Judged: all on one pixel, 1 of 1 pairs and 1 - (1/3)^3 pixels; true: 2 and 1.
+    judged = EventStream([0, 0, 0], [0] * 3, [1, 2, 3], [1] * 3, SMALL)
+    true = EventStream([0, 0, 1, 5], [0] * 4, [1, 2, 3, 4], [1] * 4, SMALL)
+    above = 1 - (1 / 3) ** 3
+    below = 2 / 6 * (2 - (1 / 3) ** 2 - 1 / 3)
+    assert StructuralRatioQuotient()(judged, true) == pytest.approx(math.sqrt(above / below))
+    alone = EventStream([0, 1, 2], [0] * 3, [1, 2, 3], [1] * 3, SMALL)
+    assert math.isnan(StructuralRatioQuotient()(judged, alone))
+    assert math.isnan(StructuralRatioQuotient()(judged, judged[:1]))

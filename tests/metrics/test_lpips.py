@@ -10,7 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.errors import FileFormatError, InputError
+from texvent.events import EventStream
 from texvent.metrics import lpips, lpips_weights
+from texvent.metrics.event_frames import EventFrameLpips
 from texvent.metrics.lpips import lpips_distance
 from texvent.metrics.lpips_layout import ALEX, VGG
 from texvent.metrics.lpips_weights import (
@@ -18,8 +20,11 @@ from texvent.metrics.lpips_weights import (
     read_lpips_weights,
     write_lpips_weights,
 )
+from texvent.represent.event_frame import event_frame
+from texvent.sensor import SensorSize
 
 from .lpips_files import NARROW, narrow_weights, published, slow_distance, write_published
+from .recordings import random_events
 
 WEIGHTS = narrow_weights()
 
@@ -140,3 +145,24 @@ def test_weights_that_were_not_pulled_are_named_with_the_command(tmp_path, monke
         find_lpips_weights()
     with pytest.raises(InputError, match=r"texvent weights pull lpips-vgg$"):
         find_lpips_weights("vgg")
+
+
+def test_event_frames_are_compared_as_grey_pictures(tmp_path):
+    write_lpips_weights(WEIGHTS, tmp_path / "narrow.npz")
+    metric = EventFrameLpips(weights=tmp_path / "narrow.npz")
+    size = SensorSize(40, 33)
+    a, b = random_events(1, 600, size, 40_000), random_events(2, 600, size, 40_000)
+    frames = [event_frame(one, "polarity").astype(np.float64) for one in (a, b)]
+    assert metric(a, b) == pytest.approx(lpips_distance(*frames, WEIGHTS))
+    assert metric(a, a) == 0.0
+    assert metric.lack() is None
+    # A second frame that is empty in both counts 0.
+    later = EventStream([0], [0], [90_000], [1], size)
+    both = [EventStream.concat([one, later]) for one in (a, b)]
+    assert metric(*both) == pytest.approx(metric(a, b) / 3)
+
+
+def test_event_frames_of_a_small_sensor_have_no_lpips(tmp_path):
+    write_lpips_weights(WEIGHTS, tmp_path / "narrow.npz")
+    small = random_events(1)
+    assert math.isnan(EventFrameLpips(weights=tmp_path / "narrow.npz")(small, small))

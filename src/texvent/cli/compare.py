@@ -13,12 +13,14 @@ from typing import Any, ClassVar
 from rich.console import Console
 from rich.table import Table
 
-from texvent._registry import METRICS
+from texvent.bench.controls import CONTROLLED, run_controls
 from texvent.cli.options import REQUIRED, parse_options
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.io.files import load
-from texvent.metrics.compare import compare, describe_metrics
+from texvent.metrics.compare import compare, describe_metrics, load_metric
+from texvent.metrics.eqs import EventQualityScore, load_eqs
+from texvent.metrics.protocol import Metric, find_lack
 from texvent.metrics.stpp import SPACE_CELLS, TIME_CELLS, Stpp
 from texvent.video import MICROSECONDS
 
@@ -37,11 +39,13 @@ class CompareOptions:
     reference: Path = REQUIRED
     """Event file with the truth, or another recording of the same scene."""
     metrics: str | None = None
-    """Names of metrics, separated by commas; default: all of them."""
+    """Names of metrics, separated by commas; default: all whose weights are here."""
     start: float | None = None
     """Compare from this time on, in seconds."""
     stop: float | None = None
     """Compare up to this time, in seconds."""
+    rvt_weights: Path | None = None
+    """RVT's published checkpoint (rvt-t.ckpt, rvt-s.ckpt or rvt-b.ckpt): adds the metric eqs."""
     levels: bool = False
     """Show the level matrix of STPP too: how far apart in time and space the events are."""
     json: bool = False
@@ -54,29 +58,80 @@ def run(arguments: Sequence[str]) -> int:
         arguments, {"input": CompareOptions()}, prog="texvent compare", description=DESCRIPTION
     )
     options = CompareOptions(**values)
-    names = options.metrics.split(",") if options.metrics else list(METRICS.names())
-    for name in names:
-        METRICS.load(name)
+    metrics, left_out = _choose_metrics(options)
     span_us = _span(options)
     predicted, reference = (_load(path) for path in (options.predicted, options.reference))
-    scores = compare(predicted, reference, names, span_us=span_us)
-    levels = None
-    if options.levels:
-        cut = [one.between(*span_us) if span_us else one for one in (predicted, reference)]
-        levels = Stpp().levels(*cut).tolist()
+    scores = compare(predicted, reference, metrics, span_us=span_us)
+    if span_us is not None:
+        predicted, reference = (one.between(*span_us) for one in (predicted, reference))
+    findings = Findings(
+        scores,
+        {one.name: run_controls(one, reference) for one in metrics if one.name in CONTROLLED},
+        Stpp().levels(predicted, reference).tolist() if options.levels else None,
+        left_out,
+    )
     if options.json:
-        document: dict[str, Any] = {
-            "predicted": {"path": str(options.predicted), "events": len(predicted)},
-            "reference": {"path": str(options.reference), "events": len(reference)},
-            "span_us": span_us,
-            "scores": {name: _plain(value) for name, value in scores.items()},
-        }
-        if levels is not None:
-            document["stpp_levels"] = levels
+        events = {"predicted": len(predicted), "reference": len(reference)}
+        document = _document(options, events, span_us, findings)
         sys.stdout.write(json.dumps(document, indent=2, ensure_ascii=False) + "\n")
     else:
-        _show(scores, levels)
+        _show(metrics, findings)
     return 0
+
+
+@dataclass(frozen=True)
+class Findings:
+    """Everything that is shown of a comparison."""
+
+    scores: Mapping[str, float]
+    controls: Mapping[str, Mapping[str, float]]
+    """Metric → control → value, of the metrics that are not shown without."""
+    levels: list[list[float]] | None
+    """Of STPP, [time cells, space cells]."""
+    left_out: Mapping[str, str]
+    """Metric → what it lacks."""
+
+
+def _choose_metrics(options: CompareOptions) -> tuple[list[Metric], dict[str, str]]:
+    """The metrics asked for, or all; and what those lack that are left out, by name."""
+    known = dict(describe_metrics())
+    if options.rvt_weights is not None:
+        known[EventQualityScore.name] = load_eqs(options.rvt_weights)
+    names = options.metrics.split(",") if options.metrics else list(known)
+    chosen, left_out = [], {}
+    for name in names:
+        metric = known[name] if name in known else load_metric(name)  # refuses what is not known
+        lack = find_lack(metric)
+        if lack is None:
+            chosen.append(metric)
+        elif options.metrics:
+            raise ConfigError(f"metric {name} cannot be computed: {lack}")
+        else:
+            left_out[name] = lack
+    return chosen, left_out
+
+
+def _document(
+    options: CompareOptions,
+    events: Mapping[str, int],
+    span_us: tuple[int, int] | None,
+    findings: Findings,
+) -> dict[str, Any]:
+    """What `--json` prints."""
+    document: dict[str, Any] = {
+        "predicted": {"path": str(options.predicted), "events": events["predicted"]},
+        "reference": {"path": str(options.reference), "events": events["reference"]},
+        "span_us": span_us,
+        "scores": {name: _plain(value) for name, value in findings.scores.items()},
+        "controls": {
+            metric: {name: _plain(value) for name, value in values.items()}
+            for metric, values in findings.controls.items()
+        },
+        "left_out": dict(findings.left_out),
+    }
+    if findings.levels is not None:
+        document["stpp_levels"] = findings.levels
+    return document
 
 
 def _load(path: Path) -> EventStream:
@@ -97,27 +152,41 @@ def _span(options: CompareOptions) -> tuple[int, int] | None:
     return start, stop
 
 
-def _show(scores: Mapping[str, float], levels: list[list[float]] | None) -> None:
+def _show(metrics: Sequence[Metric], findings: Findings) -> None:
     console = Console(highlight=False)
-    table = Table(box=None, pad_edge=False, header_style="bold")
-    for title in ("metric", "value", "unit", "good", "does not see"):
-        table.add_column(title, justify="right" if title == "value" else "left")
+    table = _table(("metric", "value", "unit", "good", "does not see"))
     good = {"lower": "low", "higher": "high", "one": "near 1"}
-    described = describe_metrics()
-    for name, value in scores.items():
-        metric = described[name]
-        shown = "undefined" if math.isnan(value) else f"{value:.4f}"
-        table.add_row(name, shown, metric.unit, good[metric.better], metric.blind_to)
+    for metric in metrics:
+        shown = _number(findings.scores[metric.name])
+        table.add_row(metric.name, shown, metric.unit, good[metric.better], metric.blind_to)
     console.print(table)
-    if levels is None:
-        return
-    matrix = Table(box=None, pad_edge=False, header_style="bold", title="STPP levels")
-    matrix.add_column("cells in time \\ space")
-    for cells in SPACE_CELLS:
-        matrix.add_column(str(cells), justify="right")
-    for cells, row in zip(TIME_CELLS, levels, strict=True):
-        matrix.add_row(str(cells), *(f"{value:.3f}" for value in row))
-    console.print(matrix)
+    for name, values in findings.controls.items():
+        console.print()
+        controls = _table(("of the reference", "value"), title=f"{name}, controls")
+        for control, value in values.items():
+            controls.add_row(control, _number(value))
+        console.print(controls)
+    if findings.levels is not None:
+        console.print()
+        cells = ("cells in time \\ space", *map(str, SPACE_CELLS))
+        matrix = _table(cells, title="STPP levels")
+        for count, row in zip(TIME_CELLS, findings.levels, strict=True):
+            matrix.add_row(str(count), *(f"{value:.3f}" for value in row))
+        console.print(matrix)
+    for name, lack in findings.left_out.items():
+        console.print(f"\n{name} was left out: {lack}", style="dim", markup=False)
+
+
+def _table(titles: Sequence[str], *, title: str | None = None) -> Table:
+    """A table without lines; columns of numbers are flush right."""
+    table = Table(box=None, pad_edge=False, header_style="bold", title=title, title_justify="left")
+    for one in titles:
+        table.add_column(one, justify="right" if one == "value" or one.isdigit() else "left")
+    return table
+
+
+def _number(value: float) -> str:
+    return "undefined" if math.isnan(value) else f"{value:.4f}"
 
 
 def _plain(value: float) -> float | None:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from texvent._registry import METRICS
 from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.metrics.protocol import Metric, check_pair
+from texvent.metrics.protocol import Metric, check_pair, find_lack
 
 
 def compare(
@@ -22,15 +22,15 @@ def compare(
     Args:
         predicted: the stream to judge.
         reference: the true stream, or another recording of the same scene.
-        metrics: names from the registry, or metrics with parameters of their own; default: every
-            registered metric with its defaults.
+        metrics: names from the registry, or metrics with parameters of their own; default: see
+            `default_metrics`.
         span_us: compare only events with `start <= t < stop`, µs; default: all.
 
     Returns:
         Name → value, NaN where a metric is undefined for these streams.
 
     Raises:
-        InputError: the sensors differ in size.
+        InputError: the sensors differ in size, or a metric's weights are not here.
         ConfigError: an unknown metric, or a span that is not longer than 0.
 
     Example:
@@ -44,7 +44,7 @@ def compare(
         if not span_us[0] < span_us[1]:
             raise ConfigError(f"span is {span_us} µs; its stop must come after its start")
         predicted, reference = predicted.between(*span_us), reference.between(*span_us)
-    chosen = METRICS.names() if metrics is None else metrics
+    chosen: Iterable[str | Metric] = default_metrics() if metrics is None else metrics
     built = [load_metric(metric) if isinstance(metric, str) else metric for metric in chosen]
     return {metric.name: metric(predicted, reference) for metric in built}
 
@@ -62,3 +62,8 @@ def load_metric(name: str) -> Metric:
 def describe_metrics() -> Mapping[str, Metric]:
     """Name → metric with its defaults, for every registered metric."""
     return {name: load_metric(name) for name in METRICS.names()}
+
+
+def default_metrics() -> list[Metric]:
+    """Every registered metric with its defaults, without those that lack something here."""
+    return [metric for metric in describe_metrics().values() if find_lack(metric) is None]

@@ -1,4 +1,4 @@
-"""EF-MSE, EF-PSNR, EF-SSIM: event frames at the frame rate, compared as pictures."""
+"""EF-MSE, EF-PSNR, EF-SSIM, EF-LPIPS: event frames at the frame rate, compared as pictures."""
 
 from __future__ import annotations
 
@@ -6,12 +6,16 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from pathlib import Path
 from typing import ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.errors import InputError
 from texvent.events import EventStream
+from texvent.metrics.lpips import lpips_distance
+from texvent.metrics.lpips_weights import find_lpips_weights, read_lpips_weights
 from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
 from texvent.metrics.structural_similarity import structural_similarity
 from texvent.metrics.windows import count_windows, occupied_windows
@@ -83,6 +87,52 @@ class EventFrameSsim:
     def __call__(self, predicted: EventStream, reference: EventStream) -> float:
         """Mean over frames; see `metrics.protocol.Metric`."""
         return _mean_over_frames(predicted, reference, self.fps, structural_similarity, empty=1.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class EventFrameLpips:
+    """LPIPS of the frames, as grey pictures; NaN for sensors with a side below 31 px.
+
+    Deviation: the network was trained on photographs; frames of three values are none, so the
+        number compares simulators with each other, not with figures for photographs.
+    """
+
+    name: ClassVar[str] = "ef_lpips"
+    unit: ClassVar[str] = ""
+    better: ClassVar[Better] = "lower"
+    needs: ClassVar[Needs] = "same scene"
+    range: ClassVar[tuple[float, float]] = (0.0, float("inf"))
+    blind_to: ClassVar[str] = INSIDE
+
+    fps: Fraction = Fraction(24)
+    """Event frames per second."""
+    weights: Path | None = None
+    """File of LPIPS's weights; default: those that `texvent weights pull lpips` fetched."""
+
+    def lack(self) -> str | None:
+        """What is missing for a score, if anything."""
+        try:
+            self._weights_file()
+        except InputError as error:
+            return str(error)
+        return None
+
+    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
+        """Mean over frames; see `metrics.protocol.Metric`.
+
+        Raises:
+            InputError: there are no weights.
+            FileFormatError: the file does not hold LPIPS's weights.
+        """
+        weights = read_lpips_weights(self._weights_file())
+
+        def distance(a: Float64Array, b: Float64Array) -> float:
+            return lpips_distance(a, b, weights)
+
+        return _mean_over_frames(predicted, reference, self.fps, distance, empty=0.0)
+
+    def _weights_file(self) -> Path:
+        return self.weights or find_lpips_weights()
 
 
 def _mean_over_frames(

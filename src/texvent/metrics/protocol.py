@@ -20,7 +20,9 @@ UNDEFINED = float("nan")
 class Metric(Protocol):
     """Compares two event streams of one sensor; built without arguments it has its defaults.
 
-    Metrics are frozen dataclasses: their parameters are fields, their facts class attributes.
+    Metrics are frozen dataclasses: their parameters are fields, their facts class attributes. One
+    that cannot work without a file which may not be here also has a method `lack() -> str | None`;
+    see `find_lack`.
     """
 
     name: ClassVar[str]
@@ -48,6 +50,16 @@ class Metric(Protocol):
             InputError: the sensors differ in size.
         """
         ...
+
+
+def find_lack(metric: Metric) -> str | None:
+    """What a metric needs and has not got here, such as network weights; None if nothing.
+
+    Such a metric is left out of `compare` unless it is asked for by name.
+    """
+    ask = getattr(metric, "lack", None)
+    said: str | None = ask() if ask is not None else None
+    return said
 
 
 def check_pair(predicted: EventStream, reference: EventStream) -> None:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED
+from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
 from texvent.represent.event_frame import event_frame
 
 PACKET_EVENTS = 30_000
@@ -46,3 +48,37 @@ def structural_ratio(
         active = counts.size - float((left_out**counts).sum())
         ratios.append(math.sqrt(pairs * active))
     return float(np.mean(ratios)) if ratios else UNDEFINED
+
+
+@dataclass(frozen=True, kw_only=True)
+class StructuralRatioQuotient:
+    """Event structural ratio of the predicted stream over that of the reference.
+
+    NaN if a stream has fewer than two events, or the reference never two on one pixel.
+
+    Deviation: where a stream has fewer than 30,000 events, packets of both are as long as it is,
+        and M shrinks with them; a quotient of two ratios does not depend on the length as they do.
+    """
+
+    name: ClassVar[str] = "esr"
+    unit: ClassVar[str] = ""
+    better: ClassVar[Better] = "one"
+    needs: ClassVar[Needs] = "same scene"
+    range: ClassVar[tuple[float, float]] = (0.0, float("inf"))
+    blind_to: ClassVar[str] = "polarity, where the events are, times inside a packet"
+
+    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
+        """Predicted over reference; see `metrics.protocol.Metric`."""
+        check_pair(predicted, reference)
+        length = min(PACKET_EVENTS, len(predicted), len(reference))
+        if length < 2:
+            return UNDEFINED
+        judged, true = (
+            structural_ratio(
+                events,
+                packet_events=length,
+                reference_events=length * REFERENCE_EVENTS // PACKET_EVENTS,
+            )
+            for events in (predicted, reference)
+        )
+        return judged / true if true > 0 else UNDEFINED
