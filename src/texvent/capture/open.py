@@ -14,6 +14,8 @@ import numpy as np
 from texvent._registry import load_object
 from texvent.capture.aedat4_frames import Aedat4Frames, is_aedat4
 from texvent.capture.arrays import ArrayFrames
+from texvent.capture.dsec_layout import is_dsec
+from texvent.capture.evreal_frames import EvrealFrames, is_evreal
 from texvent.capture.prepare import PreparedFrames
 from texvent.capture.times import FrameTimes, listed_times
 from texvent.capture.timestamps import read_timestamps
@@ -25,6 +27,7 @@ from texvent.video import FrameStream
 # By name, so that PyAV and OpenCV load only when a source needs them.
 VIDEO_FILE = "texvent.capture.video_file:VideoFile"
 IMAGE_FOLDER = "texvent.capture.image_folder:ImageFolder"
+DSEC_FRAMES = "texvent.capture.dsec_frames:DsecFrames"
 LIVE = "texvent.capture.live:LiveFrames"
 
 
@@ -34,10 +37,10 @@ def open_frames(
     """Frames of a video file, an image folder, an array, a camera or a network stream.
 
     Args:
-        source: a path of a video file, an image folder, a .npy file or an AEDAT4 recording with
-            frames; a device such as /dev/video0, an address such as rtsp://..., a named pipe, or
-            "-" for standard input; an array [N, H, W] or [N, H, W, 3] (RGB) or an iterable of such
-            pictures; or a FrameStream.
+        source: a path of a video file, an image folder, an EVREAL folder, a DSEC sequence, a .npy
+            file or an AEDAT4 recording with frames; a device such as /dev/video0, an address such
+            as rtsp://..., a named pipe, or "-" for standard input; an array [N, H, W] or
+            [N, H, W, 3] (RGB) or an iterable of such pictures; or a FrameStream.
         config: frame rate, times, start, stop, fit and white level.
         size: sensor size to fit the frames to, or None to keep theirs.
         t_us: [N] frame times, integer µs.
@@ -88,6 +91,11 @@ def _open_address(
     if _is_live(address, path):
         live: FrameStream = load_object(LIVE)(address, _file_times(config, given))
         return PreparedFrames(live, config, size=size)
+    if is_evreal(path):
+        return PreparedFrames(EvrealFrames(path, _file_times(config, given)), config, size=size)
+    if is_dsec(path) and given is None and config.timestamps is None:
+        sequence: FrameStream = load_object(DSEC_FRAMES).open(path)
+        return PreparedFrames(sequence, config, size=size)
     if path.is_dir():
         folder: FrameStream = load_object(IMAGE_FOLDER)(
             path, given, timestamps=config.timestamps, unit=config.timestamps_unit
