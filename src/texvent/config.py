@@ -50,6 +50,10 @@ class RunConfig:
     """Sensor to imitate: a name such as davis346, WIDTHxHEIGHT, or a file that texvent calibrate
     wrote. Frames are fitted to its size, and a simulator that knows its measured constants uses
     them. Without it, a video keeps its own size and a generated scene is davis346."""
+    engine: Literal["frames", "continuous"] = "frames"
+    """Simulate the pictures that stand at Eq. 4's instants (frames), or follow each pixel along
+    the flow and solve for its threshold crossings (continuous: esim, and texvent's preset
+    accurate)."""
     seed: int = 0
     """Seed of everything random. The same seed and options give the same events, on any machine
     and with any number of threads."""

@@ -20,12 +20,12 @@ from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS
 from texvent._version import __version__
 from texvent.capture.prepare import PreparedFrames
 from texvent.config import CaptureConfig, RunConfig
+from texvent.engine.select import advance, check_engine
 from texvent.events import NOISE, SIGNAL, EventPackets, EventStream
 from texvent.generate.protocol import Watch
-from texvent.interpolate.densify import OnCut, Pair, dense_frames, pair_up
+from texvent.interpolate.densify import OnCut, Pair, pair_up
 from texvent.interpolate.policy import CountPolicy
 from texvent.settings import Settings
-from texvent.simulate.look_ahead import step_through
 from texvent.simulate.protocol import Simulator
 from texvent.simulate.training import draw_training_config
 from texvent.video import Frame, FrameStream
@@ -41,7 +41,9 @@ def text_to_events(prompt: str, settings: Settings, *, watch: Watch | None = Non
 
     Raises:
         InputError: the prompt is empty, or the model cannot be had.
+        ConfigError: the engine cannot run the simulator.
     """
+    check_engine(settings)
     return video_to_events(text_to_video(prompt, settings, watch=watch), settings, prompt=prompt)
 
 
@@ -59,7 +61,12 @@ def text_to_video(prompt: str, settings: Settings, *, watch: Watch | None = None
 def video_to_events(
     video: FrameStream, settings: Settings, *, prompt: str | None = None
 ) -> Simulation:
-    """Events for a video; nothing is computed before the result is iterated."""
+    """Events for a video; nothing is computed before the result is iterated.
+
+    Raises:
+        ConfigError: the engine cannot run the simulator.
+    """
+    check_engine(settings)
     recipe = settings.run.randomize
     if recipe != "none":
         drawn = draw_training_config(settings.simulate, recipe, seed=settings.run.seed)
@@ -78,6 +85,9 @@ class Simulation:
     def steps(self, on_cut: OnCut | None = None) -> Iterator[tuple[Frame, EventStream]]:
         """Every dense frame with the packet of events that ends at it.
 
+        With engine "continuous", every source frame. Intermediate frames may be drawn only when
+        their pixels are looked at.
+
         Args:
             on_cut: told of every scene cut and flash that was not smeared.
         """
@@ -86,8 +96,8 @@ class Simulation:
             settings.simulate, seed=settings.run.seed
         )
         with ExitStack() as threads:
-            dense = dense_frames(self._pairs(simulator, threads), on_cut)
-            for frame, packet in step_through(simulator, dense):
+            pairs = self._pairs(simulator, threads)
+            for frame, packet in advance(pairs, simulator, settings, on_cut):
                 yield frame, select(packet, settings.run)
 
     def _pairs(self, simulator: Simulator, threads: ExitStack) -> Iterator[Pair]:

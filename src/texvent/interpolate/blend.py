@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-
-import numpy as np
+from collections.abc import Sequence
 
 from texvent.config import InterpolateConfig
-from texvent.interpolate.position import check_between, float_luma, position
+from texvent.interpolate.paths import Paths
 from texvent.video import Frame, FrameStream
 
 
@@ -17,7 +15,7 @@ class BlendInterpolator:
     def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
         del config, stream  # every interpolator is built alike; this one needs neither
 
-    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
+    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Paths:
         """Frames `I_1 + τ (I_2 − I_1)`, τ = (t − t_1) / (t_2 − t_1).
 
         Args:
@@ -25,15 +23,10 @@ class BlendInterpolator:
             second: the later source frame.
             times_us: times of the intermediate frames, µs.
 
-        Yields:
+        Returns:
             One frame per time, [H, W] float32 luma, 0..255 scale.
 
         Raises:
             InputError: the frames differ in size, or a time is not between theirs.
         """
-        check_between(first, second, times_us)
-        earlier, later = float_luma(first), float_luma(second)
-        change = later - earlier
-        for t_us in times_us:
-            weight = np.float32(position(first, second, t_us))
-            yield Frame(earlier + weight * change, t_us, is_source=False)
+        return Paths.between(first, second, times_us, None)

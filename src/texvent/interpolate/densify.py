@@ -10,6 +10,7 @@ from texvent.config import InterpolateConfig
 from texvent.interpolate.count import intermediate_times_us
 from texvent.interpolate.cuts import Jump, detect_jump
 from texvent.interpolate.gain_jumps import steady_frames
+from texvent.interpolate.paths import Paths
 from texvent.interpolate.policy import CountPolicy
 from texvent.interpolate.position import float_luma
 from texvent.interpolate.protocol import Interpolator
@@ -37,8 +38,9 @@ class Pair:
     """Whether a cut or a flash lies between the two."""
     times_us: Sequence[int]
     """Times of the intermediate frames, µs; none at a jump."""
-    between: Iterator[Frame]
-    """The frames between the two, made when they are asked for."""
+    between: Iterable[Frame]
+    """The frames between the two, made when they are asked for: `Paths` where they are frames
+    moved or blended, empty where there are none."""
 
     @property
     def frames(self) -> Iterator[Frame]:
@@ -111,7 +113,7 @@ def pair_up(
     for frame in steady_frames(checked) if config.flicker_guard else checked:
         jump = Jump.NONE if previous is None else _jump(previous, frame, config)
         times_us: Sequence[int] = ()
-        between: Iterator[Frame] = iter(())
+        between: Iterable[Frame] = ()
         if previous is not None and jump is not Jump.NONE:
             between = hold(previous, frame)
         elif previous is not None:
@@ -126,21 +128,26 @@ def pair_up(
 def dense_frames(pairs: Iterable[Pair], on_cut: OnCut | None = None) -> Iterator[Frame]:
     """The frames of all pairs; `on_cut` is told of each jump before the frames that show it."""
     for pair in pairs:
-        if pair.jump is not Jump.NONE and on_cut is not None:
-            on_cut(pair.jump, pair.second.t_us)
+        tell_jump(pair, on_cut)
         yield from pair.frames
 
 
-def hold(first: Frame, second: Frame) -> Iterator[Frame]:
+def tell_jump(pair: Pair, on_cut: OnCut | None) -> None:
+    """Tell of the jump in a pair, if there is one."""
+    if pair.jump is not Jump.NONE and on_cut is not None:
+        on_cut(pair.jump, pair.second.t_us)
+
+
+def hold(first: Frame, second: Frame) -> Paths:
     """The earlier picture once more, just before the later one.
 
-    Yields:
+    Returns:
         One frame with the luma of `first`, `JUMP_DURATION_US` (or half the interval, if that is
         less) before `second`; nothing where there is no whole microsecond between the two.
     """
     wait_us = min(JUMP_DURATION_US, (second.t_us - first.t_us) // 2)
-    if wait_us > 0:
-        yield Frame(float_luma(first), second.t_us - wait_us, is_source=False)
+    times_us = (second.t_us - wait_us,) if wait_us > 0 else ()
+    return Paths(float_luma(first), float_luma(second), None, times_us, (0.0,) * len(times_us))
 
 
 def _jump(first: Frame, second: Frame, config: InterpolateConfig) -> Jump:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from texvent.config import InterpolateConfig
-from texvent.interpolate.kernels.cpu import warp_between
 from texvent.interpolate.pair_flow import PairFlow
-from texvent.interpolate.position import check_between, float_luma, position
+from texvent.interpolate.paths import Paths
+from texvent.interpolate.position import check_between
 from texvent.video import Frame, FrameStream
 
 
@@ -26,7 +26,7 @@ class FlowInterpolator:
         self.pair_flow = PairFlow()
         """The flow of the last pair, for whoever counts by motion."""
 
-    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
+    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Paths:
         """Frames with every point moved along its path from `first` to `second`.
 
         Args:
@@ -42,12 +42,6 @@ class FlowInterpolator:
             InputError: the frames differ in size, or a time is not between theirs.
         """
         check_between(first, second, times_us)
-        earlier, later = float_luma(first), float_luma(second)
         # Now, not when the first frame is asked for: a thread may be running ahead here.
-        forward, backward = self.pair_flow.both_ways(first, second)
-
-        def moved(t_us: int) -> Frame:
-            picture = warp_between(earlier, later, forward, backward, position(first, second, t_us))
-            return Frame(picture, t_us, is_source=False)
-
-        return map(moved, times_us)
+        flows = self.pair_flow.both_ways(first, second)
+        return Paths.between(first, second, times_us, flows)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Protocol
 
 from texvent.video import Frame
@@ -11,7 +11,7 @@ from texvent.video import Frame
 class Interpolator(Protocol):
     """Makes the frames between two source frames."""
 
-    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
+    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterable[Frame]:
         """Intermediate luma frames at `times_us`, all strictly inside (first, second).
 
         Args:
@@ -19,8 +19,8 @@ class Interpolator(Protocol):
             second: the later source frame.
             times_us: times of the intermediate frames, µs, strictly increasing.
 
-        Yields:
-            One frame per time: [H, W] float32 on the 0..255 scale, never rounded to whole levels,
-            with `is_source` False.
+        Returns:
+            One frame per time, to be read once: [H, W] float32 on the 0..255 scale, never rounded
+            to whole levels, with `is_source` False.
         """
         ...

@@ -43,12 +43,14 @@ def warp_between(
     result = np.empty((height, width), np.float32)
     for row in numba.prange(height):
         for column in range(width):
-            result[row, column] = _pixel(first, second, forward, backward, position, row, column)
+            result[row, column] = warp_pixel(
+                first, second, forward, backward, position, row, column
+            )
     return result
 
 
 @numba.njit(inline="always")
-def _pixel(
+def warp_pixel(
     first: NDArray[np.float32],
     second: NDArray[np.float32],
     forward: NDArray[np.float32],
@@ -57,6 +59,7 @@ def _pixel(
     row: int,
     column: int,
 ) -> float:
+    """One pixel of `warp_between` before it is rounded to float32, for other compiled kernels."""
     height, width = first.shape
     rest = 1.0 - position
     ahead_x, ahead_y = np.float64(forward[row, column, 0]), np.float64(forward[row, column, 1])
@@ -70,19 +73,66 @@ def _pixel(
 
     x1, y1 = column + to_first_x, row + to_first_y
     x2, y2 = column + to_second_x, row + to_second_y
-    error_x = _sample(forward[:, :, 0], x1, y1) - path_x
-    error_y = _sample(forward[:, :, 1], x1, y1) - path_y
+    top, left, bottom, right, fx, fy = _corners(x1, y1, height, width)
+    error_x = (
+        _bilinear(
+            forward[top, left, 0],
+            forward[top, right, 0],
+            forward[bottom, left, 0],
+            forward[bottom, right, 0],
+            fx,
+            fy,
+        )
+        - path_x
+    )
+    error_y = (
+        _bilinear(
+            forward[top, left, 1],
+            forward[top, right, 1],
+            forward[bottom, left, 1],
+            forward[bottom, right, 1],
+            fx,
+            fy,
+        )
+        - path_y
+    )
     error_first = error_x * error_x + error_y * error_y
-    error_x = _sample(backward[:, :, 0], x2, y2) + path_x
-    error_y = _sample(backward[:, :, 1], x2, y2) + path_y
+    a = _bilinear(
+        first[top, left], first[top, right], first[bottom, left], first[bottom, right], fx, fy
+    )
+    top, left, bottom, right, fx, fy = _corners(x2, y2, height, width)
+    error_x = (
+        _bilinear(
+            backward[top, left, 0],
+            backward[top, right, 0],
+            backward[bottom, left, 0],
+            backward[bottom, right, 0],
+            fx,
+            fy,
+        )
+        + path_x
+    )
+    error_y = (
+        _bilinear(
+            backward[top, left, 1],
+            backward[top, right, 1],
+            backward[bottom, left, 1],
+            backward[bottom, right, 1],
+            fx,
+            fy,
+        )
+        + path_y
+    )
     error_second = error_x * error_x + error_y * error_y
+    b = _bilinear(
+        second[top, left], second[top, right], second[bottom, left], second[bottom, right], fx, fy
+    )
 
     visible = VISIBLE_RELATIVE * length2 + VISIBLE_PX2
     seen_first = _trust(error_first, visible) if _inside(x1, y1, height, width) else 0.0
     seen_second = _trust(error_second, visible) if _inside(x2, y2, height, width) else 0.0
     weight_first = rest * (seen_first + UNSEEN_WEIGHT)
     weight_second = position * (seen_second + UNSEEN_WEIGHT)
-    a, b = _sample(first, x1, y1), _sample(second, x2, y2)
     warped = a + (b - a) * (weight_second / (weight_first + weight_second))
 
     lost = LOST_RELATIVE * length2 + LOST_PX2
@@ -104,15 +154,24 @@ def _inside(x: float, y: float, height: int, width: int) -> bool:
 
 
 @numba.njit(inline="always")
-def _sample(picture: NDArray[np.float32], x: float, y: float) -> float:
-    height, width = picture.shape
+def _corners(
+    x: float, y: float, height: int, width: int
+) -> tuple[np.uint64, np.uint64, np.uint64, np.uint64, float, float]:
+    """The four pixels around a point, and how far it lies between them."""
     x = min(max(x, 0.0), width - 1.0)
     y = min(max(y, 0.0), height - 1.0)
     left, top = int(x), int(y)
     right, bottom = min(left + 1, width - 1), min(top + 1, height - 1)
     fx, fy = x - left, y - top
-    p00, p01 = np.float64(picture[top, left]), np.float64(picture[top, right])
-    p10, p11 = np.float64(picture[bottom, left]), np.float64(picture[bottom, right])
-    upper = p00 + (p01 - p00) * fx
-    lower = p10 + (p11 - p10) * fx
+    # Unsigned, or Numba allows for indices that count from the end.
+    return np.uint64(top), np.uint64(left), np.uint64(bottom), np.uint64(right), fx, fy
+
+
+@numba.njit(inline="always")
+def _bilinear(
+    p00: np.float32, p01: np.float32, p10: np.float32, p11: np.float32, fx: float, fy: float
+) -> float:
+    start, stop = np.float64(p00), np.float64(p10)
+    upper = start + (np.float64(p01) - start) * fx
+    lower = stop + (np.float64(p11) - stop) * fx
     return upper + (lower - upper) * fy

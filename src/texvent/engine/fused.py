@@ -1,0 +1,107 @@
+"""The frame engine without its frames: a pair costs one flow and one pass over its pixels.
+
+The events are those of the readable path (`densify`, then `Simulator.step`), bit for bit; it stays
+for simulators and interpolators that cannot be fused, and as the definition of this one.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable, Iterator, Sequence
+from functools import cached_property
+from typing import Any, Protocol
+
+import numpy as np
+
+from texvent.engine.candidates import CandidateFinder
+from texvent.events import EventStream
+from texvent.interpolate.densify import OnCut, Pair, tell_jump
+from texvent.interpolate.paths import Paths
+from texvent.sensor import SensorSize
+from texvent.simulate.firings import Firings, Interval
+from texvent.video import Frame
+
+
+class FusedPixels(Protocol):
+    """A pixel model that works on candidates."""
+
+    def begin(self, frame: Frame) -> None:
+        """Take the first frame."""
+        ...
+
+    def fire(
+        self, finder: CandidateFinder, paths: Paths, edges_us: Sequence[int]
+    ) -> Iterator[Firings]:
+        """Events between two source frames.
+
+        Args:
+            finder: looks for the candidates.
+            paths: what the pixels see.
+            edges_us: times of both source frames and of the pictures between them, µs.
+
+        Yields:
+            The events of each sub-interval, as many as there are edges less one.
+        """
+        ...
+
+
+def step_fused(
+    pairs: Iterable[Pair], pixels: FusedPixels, on_cut: OnCut | None = None
+) -> Iterator[tuple[Frame, EventStream]]:
+    """Every dense frame with the packet of events that ends at it.
+
+    Args:
+        pairs: source frames; what lies between two of them are `Paths`, or nothing.
+        pixels: the pixel model.
+        on_cut: told of every jump.
+
+    Yields:
+        As `simulate.look_ahead.step_through` on the dense frames. Intermediate frames are drawn
+        when somebody looks at their pixels.
+    """
+    with CandidateFinder() as finder:
+        for pair in pairs:
+            tell_jump(pair, on_cut)
+            if pair.first is None:
+                pixels.begin(pair.second)
+                nothing = Interval(pair.second.t_us, pair.second.t_us, np.uint64(0))
+                yield pair.second, Firings.none().packet(nothing, pair.second.size)
+                continue
+            paths = paths_of(pair)
+            edges_us = (pair.first.t_us, *paths.times_us, pair.second.t_us)
+            frames = [*(UndrawnFrame(paths, k) for k in range(len(paths))), pair.second]
+            fired = pixels.fire(finder, paths, edges_us)
+            for frame, events, span in zip(
+                frames, fired, itertools.pairwise(edges_us), strict=True
+            ):
+                yield frame, events.packet(Interval(*span, np.uint64(0)), frame.size)
+
+
+def paths_of(pair: Pair) -> Paths:
+    """What lies between the two frames of a pair; without pictures if there are none."""
+    if isinstance(pair.between, Paths):
+        return pair.between
+    if pair.first is None:
+        raise ValueError("the first frame of a stream has nothing before it")
+    return Paths.between(pair.first, pair.second, (), None)
+
+
+class UndrawnFrame(Frame):
+    """An intermediate frame that is drawn when its pixels are asked for."""
+
+    def __init__(self, paths: Paths, index: int) -> None:
+        vars(self).update(t_us=paths.times_us[index], is_source=False, _undrawn=(paths, index))
+        height, width = paths.earlier.shape
+        vars(self)["_size"] = SensorSize(width, height)
+
+    @cached_property
+    def pixels(self) -> Any:
+        """[H, W] float32 luma; the source frames are let go."""
+        paths, index = vars(self).pop("_undrawn")
+        return paths.picture(index)
+
+    @property
+    def size(self) -> SensorSize:
+        """Width and height, pixels."""
+        size: SensorSize = vars(self)["_size"]
+        return size

@@ -1,0 +1,1 @@
+"""Candidates and crossings: definitions in NumPy, and compiled kernels."""

@@ -1,0 +1,129 @@
+"""Pixels that fire wherever brightness, in straight pieces, crosses a threshold; ESIM's are."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.engine.candidates import CandidateFinder, one_grid
+from texvent.engine.kernels.interface import STEPS, Float64Array, Grids, Int64Array, Levels
+from texvent.engine.kernels.pieces import LineCrossings, LineRules, LineState, Pieces
+from texvent.engine.kernels.pieces_cpu import cross_pieces
+from texvent.interpolate.paths import Paths
+from texvent.simulate.esim import WHITE, EsimConfig, log_intensity
+from texvent.simulate.firings import Firings
+from texvent.simulate.pixel_maps import LONG_AGO_US
+from texvent.video import Frame
+
+
+class LinePixels:
+    """All pixels of a sensor; see `kernels.pieces_reference.cross_pieces`."""
+
+    def __init__(
+        self,
+        rules: LineRules,
+        brightness_of: Callable[[NDArray[Any]], Float64Array],
+        *,
+        balance: float,
+        unit: float = 1.0,
+    ) -> None:
+        """Pixels that have seen no frame.
+
+        Args:
+            rules: when they fire.
+            brightness_of: luma → brightness, `ln((balance + I) / unit)`.
+            balance: α on the 0..255 scale.
+            unit: the balanced level whose brightness is 0.
+        """
+        self._rules = rules
+        self._brightness_of = brightness_of
+        self._balance, self._unit = balance, unit
+
+    def begin(self, frame: Frame) -> None:
+        """Set every reference to the first frame."""
+        reference = self._brightness_of(frame.luma)
+        self._fired_us = np.full(reference.size, LONG_AGO_US, np.int64)
+        self.adopt(reference)
+
+    def adopt(self, reference: Float64Array) -> None:
+        """Use these references from now on; call again when somebody else has changed them.
+
+        Args:
+            reference: brightness, [H, W], log units; events move it.
+        """
+        self._state = LineState(reference.reshape(-1), self._fired_us)
+        self._level = self._unit * np.exp(reference)
+
+    def cross(
+        self, finder: CandidateFinder, paths: Paths, grids: Grids, edges_us: Int64Array
+    ) -> LineCrossings:
+        """What fires between two source frames.
+
+        Args:
+            finder: looks for the pieces on which a pixel may fire.
+            paths: what the pixels see.
+            grids: the pieces.
+            edges_us: [G, P + 1] where the pieces of each grid begin and end, µs.
+        """
+        rules = self._rules
+        levels = Levels(
+            self._level,
+            self._balance,
+            math.exp(rules.threshold_on),
+            math.exp(-rules.threshold_off),
+            STEPS,
+        )
+        pixel, grid, piece, before, now = finder.find(paths, grids, levels)
+        pieces = Pieces(
+            pixel,
+            edges_us[grid, piece],
+            edges_us[grid, piece + 1],
+            self._brightness_of(before),
+            self._brightness_of(now),
+        )
+        crossings = cross_pieces(pieces, rules, self._state)
+        moved = np.exp(self._state.reference[pixel])
+        self._level.reshape(-1)[pixel] = self._unit * moved
+        return crossings
+
+
+def esim_pixels(config: EsimConfig) -> LinePixels:
+    """The pixels of `simulate.esim`, whose thresholds are all alike."""
+    rules = LineRules(
+        config.contrast_threshold_on, config.contrast_threshold_off, config.refractory_period_us
+    )
+    return LinePixels(
+        rules,
+        lambda luma: log_intensity(luma, config.log_eps),
+        balance=WHITE * config.log_eps,
+        unit=WHITE,
+    )
+
+
+class FusedEsim:
+    """ESIM on the pictures of the frame engine; see `fused.FusedPixels`."""
+
+    def __init__(self, config: EsimConfig, seed: int) -> None:
+        del seed  # with thresholds all alike, nothing is random
+        self._pixels = esim_pixels(config)
+
+    def begin(self, frame: Frame) -> None:
+        """Take the first frame."""
+        self._pixels.begin(frame)
+
+    def fire(
+        self, finder: CandidateFinder, paths: Paths, edges_us: Sequence[int]
+    ) -> Iterator[Firings]:
+        """Events of each sub-interval."""
+        edges = np.array(edges_us)
+        found = self._pixels.cross(finder, paths, one_grid(paths.positions), edges[np.newaxis])
+        order = np.argsort(found.t, kind="stable")
+        pixel, t, p = found.pixel[order], found.t[order], found.p[order]
+        cuts = np.searchsorted(t, edges)
+        for start, stop in itertools.pairwise(cuts.tolist()):
+            yield Firings.signal(pixel[start:stop], t[start:stop], p[start:stop])

@@ -1,0 +1,72 @@
+"""The pictures between two frames as one rule per pixel, for whoever does not want them whole."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent._registry import load_object
+from texvent.interpolate.position import check_between, float_luma, position
+from texvent.video import Frame
+
+FloatPicture = NDArray[np.float32]
+Flows = tuple[NDArray[np.float32], NDArray[np.float32]]
+
+WARP = "texvent.interpolate.kernels.cpu:warp_between"
+
+
+@dataclass(frozen=True, eq=False)
+class Paths:
+    """Intermediate frames of one pair; iterate for the frames, each made when it is asked for.
+
+    Every pixel of every picture depends on the two source frames and their flow alone. So a
+    simulator that wants the brightness of some pixels can compute just these, with the functions
+    of `interpolate.kernels`, and gets the bits that the frames would have had.
+    """
+
+    earlier: FloatPicture
+    """Luma of the earlier source frame, [H, W], 0..255 scale."""
+    later: FloatPicture
+    """Luma of the later source frame, [H, W]."""
+    flows: Flows | None
+    """Optical flow from earlier to later and back, [H, W, 2] float32 as (x, y), px. None: nothing
+    moves, the frames are blended in place."""
+    times_us: Sequence[int]
+    """Times of the pictures, µs, strictly increasing."""
+    positions: Sequence[float]
+    """τ of each picture, 0 = earlier, 1 = later."""
+
+    @classmethod
+    def between(
+        cls, first: Frame, second: Frame, times_us: Sequence[int], flows: Flows | None
+    ) -> Paths:
+        """Pictures at some times between two source frames.
+
+        Raises:
+            InputError: the frames differ in size, or a time is not between theirs.
+        """
+        check_between(first, second, times_us)
+        places = [position(first, second, t_us) for t_us in times_us]
+        return cls(float_luma(first), float_luma(second), flows, tuple(times_us), places)
+
+    def __len__(self) -> int:
+        return len(self.times_us)
+
+    def __iter__(self) -> Iterator[Frame]:
+        for index, t_us in enumerate(self.times_us):
+            yield Frame(self.picture(index), t_us, is_source=False)
+
+    def picture(self, index: int) -> FloatPicture:
+        """One picture, [H, W] float32 luma.
+
+        Without flow it is `I_1 + τ (I_2 − I_1)` in float32.
+        """
+        place = self.positions[index]
+        if self.flows is None:
+            return self.earlier + np.float32(place) * (self.later - self.earlier)
+        # By name: whoever blends needs neither Numba nor its start-up time.
+        warped: FloatPicture = load_object(WARP)(self.earlier, self.later, *self.flows, place)
+        return warped
