@@ -21,6 +21,22 @@ class ConfigEntry(Entry):
     """Whether the contrast threshold is fitted to the number of true events, as the benchmark
     does, or stays as the file has it, as in the paper."""
 
+    @classmethod
+    def read(cls, path: Path, *, is_rate_matched: bool = False) -> ConfigEntry:
+        """The row of a config file.
+
+        Raises:
+            InputError: the file cannot be read.
+            ConfigError: it is wrong.
+        """
+        settings = resolve("simulate", {}, config=path)
+        return cls(
+            simulator=settings.run.simulator,
+            interpolate=settings.interpolate.interpolate,
+            path=path,
+            is_rate_matched=is_rate_matched,
+        )
+
     @property
     def name(self) -> str:
         """The file's name without its extension."""
@@ -53,18 +69,7 @@ def read_ablations(folder: Path, *, is_rate_matched: bool = False) -> list[Confi
             f"no config file in {folder}; give the folder configs/paper of the source "
             "distribution, or one with TOML files of your own"
         )
-    entries = []
-    for path in paths:
-        settings = resolve("simulate", {}, config=path)
-        entries.append(
-            ConfigEntry(
-                simulator=settings.run.simulator,
-                interpolate=settings.interpolate.interpolate,
-                path=path,
-                is_rate_matched=is_rate_matched,
-            )
-        )
-    return entries
+    return [ConfigEntry.read(path, is_rate_matched=is_rate_matched) for path in paths]
 
 
 def _by_number(path: Path) -> tuple[str, int, str]:

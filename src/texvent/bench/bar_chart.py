@@ -42,7 +42,7 @@ def _panel(report: FidelityReport, reference: Reference) -> str:
     bottom = HEAD_PX + len(scores) * ROW_PX
     parts = [
         f"<text x='{LABEL_PX}' y='16' font-weight='bold'>"
-        f"{escape(f'{reference.scene}, {reference.target} pixels: STPP')}</text>"
+        f"{escape(f'{reference.title}: STPP')}</text>"
     ]
     bounds = (("null", "end", reference.null), ("floor", "start", reference.floor))
     for name, anchor, values in bounds:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 from texvent.bench.details import BIN_US, BINS, CAP_US, Details
 from texvent.bench.results import FidelityReport, Score
@@ -10,12 +11,10 @@ from texvent.bench.svg import COLOURS, placed, svg_document, svg_text
 from texvent.metrics.stpp import SPACE_CELLS, TIME_CELLS
 
 COLUMNS = 4
-PANEL_WIDTH, PANEL_HEIGHT = 220, 150
-HEAD_PX, LEFT_PX = 24, 34
+PANEL_WIDTH, PANEL_HEIGHT = 224, 150
+HEAD_PX, LEFT_PX = 24, 38
 CELL_WIDTH, CELL_HEIGHT = 28, 18
 TIME_WIDTH, TIME_HEIGHT = 170, 80
-MOST_SHARE = 0.25
-"""Share of true events in one bin that fills the height of a histogram."""
 SMALL = "font-size='9'"
 
 
@@ -38,14 +37,17 @@ def time_chart(report: FidelityReport, scene: str, target: str) -> str:
         scene: which scene.
         target: kind of pixels, "noisy" or "ideal".
     """
-    return _chart(report, scene, target, _time_panel)
+    shown = [report.reference(scene, target).details]
+    shown += [score.details for score in report.ranked(scene, target)]
+    highest = max(share for details in shown for share in details.time_error)
+    return _chart(report, scene, target, partial(_time_panel, highest=highest or 1.0))
 
 
 def _chart(
     report: FidelityReport, scene: str, target: str, draw: Callable[[Details, str], str]
 ) -> str:
     reference = report.reference(scene, target)
-    panels = [_panel("floor: second recording", draw(reference.details, "#8c8c96"))]
+    panels = [_panel(f"floor: {report.floor_name}", draw(reference.details, "#8c8c96"))]
     panels += [
         _panel(f"{score.entry}  {score.summary('stpp').mean:.3f}", _drawn(score, draw))
         for score in report.ranked(scene, target)
@@ -88,14 +90,14 @@ def _level_panel(details: Details, colour: str) -> str:
     return "".join(parts)
 
 
-def _time_panel(details: Details, colour: str) -> str:
+def _time_panel(details: Details, colour: str, *, highest: float) -> str:
     left, bottom = 14, HEAD_PX + TIME_HEIGHT
     width = TIME_WIDTH / BINS
     bars = [
         f"<rect x='{left + number * width:.2f}' y='{bottom - height:.2f}' width='{width:.2f}' "
         f"height='{height:.2f}' fill='{colour}'/>"
         for number, share in enumerate(details.time_error)
-        for height in [TIME_HEIGHT * min(share / MOST_SHARE, 1.0)]
+        for height in [TIME_HEIGHT * share / highest]
     ]
     middle = left + TIME_WIDTH / 2
     near = 1_000 // BIN_US

@@ -17,8 +17,9 @@ from texvent.settings import Settings, resolve
 from texvent.simulate.thresholds import contrast_threshold_of, with_contrast_threshold
 from texvent.video import FrameStream
 
-Track: TypeAlias = Literal["frames", "true frames"]
-"""What a simulator is given: 24 frames per second in 8 bits, or the scene at any instant."""
+Track: TypeAlias = Literal["frames", "true frames", "recorded"]
+"""What a simulator is given: frames as a camera films them, or the scene at any instant. Events
+that a sensor recorded are no simulator's."""
 
 INTERPOLATIONS = ("none", "blend", "flow", "exact")
 """Interpolators that are compared; "exact" gets the true frames, all others the film."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -172,8 +173,8 @@ def _measure_bounds(
         scene=truth.scene,
         target=truth.target,
         events=[len(events) for events in scored],
-        floor=_compare_all(floors, scored, plan.metrics),
-        null=_compare_all(nulls, scored, plan.metrics),
+        floor=compare_all(floors, scored, plan.metrics),
+        null=compare_all(nulls, scored, plan.metrics),
         details=describe(floors, scored, known_flow(truth.scene)),
     )
 
@@ -185,21 +186,14 @@ def score_entry(plan: FidelityPlan, truth: Truth, entry: Entry) -> Score | tuple
         The score, or (name of the entry, why it cannot run).
     """
     scenes = {seed: oracle_scene(truth.scene, seed) for seed in truth.references}
-    counts: dict[float | None, int] = {}
 
     def count_events(threshold: float | None) -> int:
-        if threshold not in counts:
-            counts[threshold] = sum(
-                len(entry.simulate(scenes[seed], seed, threshold)) for seed in plan.fit_seeds
-            )
-        return counts[threshold]
+        return sum(len(entry.simulate(scenes[seed], seed, threshold)) for seed in plan.fit_seeds)
 
     references = [truth.references[seed] for seed in plan.score_seeds]
     target = sum(len(truth.references[seed]) for seed in plan.fit_seeds)
-    default = entry.default_threshold
     try:
-        default_count = count_events(default)
-        match = _fit(count_events, target, default)
+        match, default_ratio = fit_threshold(count_events, target, entry.default_threshold)
         start = time.perf_counter()
         simulated = [
             entry.simulate(scenes[seed], seed, match.threshold if match else None)
@@ -215,22 +209,40 @@ def score_entry(plan: FidelityPlan, truth: Truth, entry: Entry) -> Score | tuple
         track=entry.track,
         threshold=match.threshold if match else None,
         is_matched=bool(match and match.is_matched),
-        default_ratio=default_count / target if target else float("nan"),
+        default_ratio=default_ratio,
         seconds=seconds,
-        values=_compare_all(simulated, references, plan.metrics),
+        values=compare_all(simulated, references, plan.metrics),
         details=describe(simulated, references, known_flow(truth.scene)),
     )
 
 
-def _fit(
+def fit_threshold(
     count_events: Callable[[float | None], int], target: int, default: float | None
-) -> Match | None:
-    return None if default is None else match_rate(count_events, target, start=default)
+) -> tuple[Match | None, float]:
+    """The threshold at which a simulator makes as many events as there truly were.
+
+    Args:
+        count_events: threshold, or None for the preset's own → number of events.
+        target: true events.
+        default: where the search starts, log units; None for a simulator without a threshold.
+
+    Returns:
+        What was found, None without a threshold; events per true event before the search.
+    """
+    counts: dict[float | None, int] = {}
+
+    def count(threshold: float | None) -> int:
+        if threshold not in counts:
+            counts[threshold] = count_events(threshold)
+        return counts[threshold]
+
+    ratio = count(default) / target if target else math.nan
+    return None if default is None else match_rate(count, target, start=default), ratio
 
 
-def _compare_all(
+def compare_all(
     predicted: Iterable[EventStream], references: Iterable[EventStream], metrics: Sequence[str]
 ) -> dict[str, list[float]]:
-    """Metric → value per pair."""
+    """Metric → value per pair of a simulated and a true stream."""
     rows = [compare(one, other, metrics) for one, other in zip(predicted, references, strict=True)]
     return {metric: [row[metric] for row in rows] for metric in metrics}

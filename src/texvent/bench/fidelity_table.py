@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from texvent.bench.details import Details
 from texvent.bench.results import FidelityReport, Reference, Score
 from texvent.metrics.summary import normalise, summarise
 
@@ -13,12 +12,17 @@ BASELINE = "texvent, blend"
 """The paper's own method: what the others are compared with, pair by pair."""
 COLUMNS = {
     "ef_mse": "EF MSE",
+    "ef_ssim": "EF SSIM ↑",
     "isi": "ISI",
     "nearest": "NN ms",
     "van_rossum": "vR",
     "stpp": "STPP ↑",
 }
 """Metric → title; those that were not measured are left out."""
+
+
+MOTION = (("sharpness", "sharpness ↑", 3), ("flow_error", "flow error px/s", 0))
+"""Field of the details, title, digits."""
 
 
 def fidelity_tables(report: FidelityReport, *, baseline: str = BASELINE) -> str:
@@ -41,29 +45,31 @@ def fidelity_tables(report: FidelityReport, *, baseline: str = BASELINE) -> str:
 
 
 def motion_table(report: FidelityReport) -> str:
-    """Sharpness along the known flow and error of the estimated flow, scenes that have one."""
-    moving = [one for one in report.references if summarise(one.details.sharpness).defined]
-    names = [f"{one.scene}, {one.target}" for one in moving]
-    titles = [f"{name}: {what}" for name in names for what in ("sharpness ↑", "flow error px/s")]
+    """Sharpness along the known flow and error of the estimated flow, where they are defined."""
+    columns = [
+        (reference, name, title, digits)
+        for reference in report.references
+        for name, title, digits in MOTION
+        if summarise(getattr(reference.details, name)).defined
+    ]
+    titles = [f"{one.scene}, {one.target}: {title}" for one, _, title, _ in columns]
+    rows = {f"floor: {report.floor_name}": {_place(one): one.details for one in report.references}}
+    for score in report.scores:
+        rows.setdefault(score.entry, {})[_place(score)] = score.details
     lines = [_row(["entry", *titles]), _row(["---"] * (len(titles) + 1))]
-    lines.append(_row(["floor: second recording", *_motion_cells([o.details for o in moving])]))
-    for entry in dict.fromkeys(score.entry for score in report.scores):
-        details = [
-            score.details
-            for reference in moving
-            for score in report.ranked(reference.scene, reference.target)
-            if score.entry == entry
+    for entry, details in rows.items():
+        cells = [
+            _mean_and_error(getattr(details[_place(one)], name), digits)
+            if _place(one) in details
+            else "–"
+            for one, name, _, digits in columns
         ]
-        lines.append(_row([entry, *_motion_cells(details)]))
+        lines.append(_row([entry, *cells]))
     return "\n".join(lines) + "\n"
 
 
-def _motion_cells(details: Sequence[Details]) -> list[str]:
-    return [
-        _mean_and_error(values, digits)
-        for one in details
-        for values, digits in ((one.sharpness, 3), (one.flow_error, 0))
-    ]
+def _place(part: Reference | Score) -> tuple[str, str]:
+    return part.scene, part.target
 
 
 def _overview(report: FidelityReport) -> str:
@@ -89,7 +95,7 @@ def _overview(report: FidelityReport) -> str:
 
 def _scene_heading(reference: Reference) -> str:
     mean = sum(reference.events) / len(reference.events)
-    return f"### {reference.scene}, {reference.target} pixels ({mean:,.0f} true events)\n"
+    return f"### {reference.title} ({mean:,.0f} true events)\n"
 
 
 def _scene_table(report: FidelityReport, reference: Reference, baseline: str) -> str:
@@ -98,7 +104,7 @@ def _scene_table(report: FidelityReport, reference: Reference, baseline: str) ->
     lines = [
         _row(["entry", "δ", "n at default δ", *titles, "S*", f"STPP − {baseline}"]),
         _row(["---"] * (len(metrics) + 5)),
-        _bound_row("floor: second recording", reference, metrics, is_floor=True),
+        _bound_row(f"floor: {report.floor_name}", reference, metrics, is_floor=True),
     ]
     scores = report.ranked(reference.scene, reference.target)
     compared = next((score for score in scores if score.entry == baseline), None)

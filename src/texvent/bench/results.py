@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
 from texvent.bench.details import Details
+from texvent.bench.oracle_pixel import TARGETS
 from texvent.errors import FileFormatError
 from texvent.metrics.compare import load_metric
 from texvent.metrics.summary import Summary, normalise, summarise
@@ -22,14 +23,19 @@ class Reference:
 
     scene: str
     target: str
-    """Pixels of the reference: "noisy" or "ideal"."""
+    """Pixels of the reference, "noisy" or "ideal", or "recorded"."""
     events: list[int]
     floor: Mapping[str, list[float]]
     """Metric → values of a second recording."""
     null: Mapping[str, list[float]]
     """Metric → values of the reference with its times shuffled."""
     details: Details
-    """Of the second recording."""
+    """Of the floor."""
+
+    @property
+    def title(self) -> str:
+        """What tables and charts call it."""
+        return f"{self.scene}, {self.target}{' pixels' if self.target in TARGETS else ''}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,13 +83,18 @@ class FidelityReport:
 
     environment: Mapping[str, Any]
     """What it ran on: `environment.describe_environment`."""
-    fit_seeds: Sequence[int]
-    score_seeds: Sequence[int]
     references: Sequence[Reference]
     scores: Sequence[Score]
+    fit_seeds: Sequence[int] = ()
+    """Textures on which δ was fitted; none for recordings."""
+    score_seeds: Sequence[int] = ()
     skipped: Mapping[str, str] = field(default_factory=dict)
     """Entry → why it did not run."""
     seconds: float = 0.0
+    floor_name: str = "second recording"
+    """What the floor compares with the truth."""
+    protocol: Mapping[str, Any] = field(default_factory=dict)
+    """Recording → what was used of it, for real ones."""
 
     def reference(self, scene: str, target: str) -> Reference:
         """Floor and null of a scene."""
@@ -107,6 +118,8 @@ class FidelityReport:
             "fit_seeds": list(self.fit_seeds),
             "score_seeds": list(self.score_seeds),
             "seconds": round(self.seconds, 1),
+            "floor_name": self.floor_name,
+            "protocol": dict(self.protocol),
             "references": [asdict(one) for one in self.references],
             "scores": scores,
             "skipped": dict(self.skipped),
@@ -146,6 +159,8 @@ def read_report(document: Mapping[str, Any]) -> FidelityReport:
             ],
             skipped=document["skipped"],
             seconds=document["seconds"],
+            floor_name=document["floor_name"],
+            protocol=document["protocol"],
         )
     except (KeyError, TypeError, AttributeError) as error:
         raise FileFormatError(f"the document is damaged: {error!r}") from error

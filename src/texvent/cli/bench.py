@@ -21,6 +21,10 @@ BENCHMARKS: Mapping[str, tuple[str, str]] = {
         "texvent.cli.bench_paper:run",
         "the paper's tables, its ablations E1-E12, or any folder of config files",
     ),
+    "real": (
+        "texvent.cli.bench_real:run",
+        "which simulator comes closest to what a real sensor recorded?",
+    ),
     "selftest": (
         "texvent.cli.bench_selftest:run",
         "20 perturbations of a recording: which of them does each metric see?",
