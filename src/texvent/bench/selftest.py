@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import itertools
-import math
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from texvent._registry import METRICS
 from texvent.bench.oracle import oracle_scene, record
 from texvent.bench.oracle_pixel import NOISY
 from texvent.bench.perturbations import PERTURBATIONS, SERIES, perturb
+from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.metrics.compare import load_metric
-from texvent.metrics.protocol import Metric
+from texvent.metrics.compare import default_metrics, load_metric
+from texvent.metrics.protocol import Metric, find_lack
 from texvent.metrics.summary import badness
 
 SCENE, TEXTURE_SEED = "mixed", 7
@@ -63,22 +61,31 @@ def run_selftest(
     """Run the self-test on the oracle's `mixed` scene with noisy pixels.
 
     Args:
-        metrics: names; default: all registered metrics.
+        metrics: names; default: all whose weights are here.
         announce: told of every step.
 
     Raises:
-        ConfigError: no metric has one of the names.
+        ConfigError: no metric has one of the names, or it lacks its weights.
     """
-    chosen = [load_metric(name) for name in (METRICS.names() if metrics is None else metrics)]
+    chosen = default_metrics() if metrics is None else [load_metric(name) for name in metrics]
+    for metric in chosen:
+        lack = find_lack(metric)
+        if lack is not None:
+            raise ConfigError(f"metric {metric.name} cannot be computed: {lack}")
     announce(f"recording {SCENE} with {len(RECORDING_SEEDS)} seeds")
-    models = {str(seed): (NOISY, seed) for seed in RECORDING_SEEDS}
-    recordings = list(record(oracle_scene(SCENE, TEXTURE_SEED), models).values())
+    recordings = record_scene()
     spoiled = {name: perturb(recordings[1], name) for name in PERTURBATIONS}
     rows = []
     for metric in chosen:
         announce(metric.name)
         rows.append(judge_metric(metric, recordings, spoiled))
     return rows
+
+
+def record_scene(seeds: Sequence[int] = RECORDING_SEEDS) -> list[EventStream]:
+    """Recordings of the self-test's scene, alike but for their noise."""
+    models = {str(seed): (NOISY, seed) for seed in seeds}
+    return list(record(oracle_scene(SCENE, TEXTURE_SEED), models).values())
 
 
 def judge_metric(
@@ -111,43 +118,5 @@ def judge_metric(
     )
 
 
-def selftest_table(rows: Sequence[SelftestRow]) -> str:
-    """The result as a Markdown table, best metrics first."""
-    lines = [
-        f"| metric | floor | found /{len(PERTURBATIONS)} | monotone /{len(SERIES)} | missed |",
-        "|---|---|---|---|---|",
-    ]
-    ranked = sorted(rows, key=lambda row: (-len(row.found), -sum(row.monotone.values())))
-    for row in ranked:
-        missed = row.missed if len(row.missed) <= 8 else (*row.missed[:7], "...")
-        lines.append(
-            f"| {row.metric} | {row.floor:.4g} ± {row.floor_sd:.1g} | {len(row.found)} "
-            f"| {sum(row.monotone.values())} | {', '.join(missed) or '–'} |"
-        )
-    return "\n".join(lines) + "\n"
-
-
-def selftest_document(rows: Sequence[SelftestRow]) -> list[dict[str, Any]]:
-    """The result as plain values, ready for JSON; NaN becomes None."""
-    return [
-        {
-            "metric": row.metric,
-            "better": row.better,
-            "floor": _finite(row.floor),
-            "floor_sd": _finite(row.floor_sd),
-            "values": {name: _finite(value) for name, value in row.values.items()},
-            "z": {name: _finite(value) for name, value in row.z.items()},
-            "found": len(row.found),
-            "monotone": dict(row.monotone),
-            "seconds": round(row.seconds, 4),
-        }
-        for row in rows
-    ]
-
-
 def _is_monotone(z: Sequence[float]) -> bool:
     return all(later > earlier for earlier, later in itertools.pairwise(z))
-
-
-def _finite(value: float) -> float | None:
-    return float(value) if math.isfinite(value) else None

@@ -11,7 +11,8 @@ from typing import ClassVar
 from rich.console import Console
 
 from texvent.bench.document import write_document
-from texvent.bench.selftest import run_selftest, selftest_document, selftest_table
+from texvent.bench.selftest import run_selftest
+from texvent.bench.selftest_table import read_selftest, selftest_document, selftest_table
 from texvent.cli.options import parse_options
 from texvent.io.atomic import check_output
 
@@ -23,7 +24,9 @@ class SelftestOptions:
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
 
     metrics: str | None = None
-    """Names of metrics, separated by commas; default: all of them."""
+    """Names of metrics, separated by commas; default: all whose weights are here."""
+    result: Path | None = None
+    """Show the table of this JSON file, which --out wrote, instead of testing."""
     out: Path | None = None
     """JSON file with every value and z-score."""
     overwrite: bool = False
@@ -42,6 +45,9 @@ def run(arguments: Sequence[str]) -> None:
         "docs/metrics.md explains the table.",
     )
     options = SelftestOptions(**values)
+    if options.result is not None:
+        sys.stdout.write(selftest_table(read_selftest(options.result)))
+        return
     console = Console(stderr=True, quiet=options.quiet, highlight=False)
     if options.out is not None:
         check_output(options.out, overwrite=options.overwrite)
