@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Literal, TypeAlias
 
@@ -16,6 +17,7 @@ from texvent.events import EventStream
 from texvent.reconstruct.checkpoint import Checkpoint, find_weights, read_checkpoint
 from texvent.reconstruct.layers import EXTRA
 from texvent.reconstruct.protocol import PublishedNetwork, RecurrentNetwork
+from texvent.reconstruct.slices_between import slice_between
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
 
@@ -62,7 +64,9 @@ class Reconstructor:
     Source of the protocol: B. Ercan et al., "EVREAL", CVPRW 2023, section 3, and its program.
     Deviations: events that all have one time fall in the first bin of the voxel grid (the program
         spreads them over all bins); a picture whose percentiles coincide is not stretched (the
-        program divides by zero).
+        program divides by zero); the first picture is at the second frame (the program first shows
+        the network an empty grid, for the first frame); an event at a frame's own time belongs to
+        the slice after it (the program also moves the last event before it there).
     """
 
     def __init__(
@@ -126,6 +130,26 @@ class Reconstructor:
         if published.is_stretched:
             picture = stretch(picture)
         return np.clip(picture, 0.0, 1.0)
+
+    def film(
+        self, packets: Iterable[EventStream], times_us: Iterable[int], *, size: SensorSize
+    ) -> Iterator[tuple[int, Intensity]]:
+        """Pictures of a recording at given instants, from the events between them.
+
+        Args:
+            packets: events in time order.
+            times_us: instants, µs, strictly increasing, such as those of frames.
+            size: sensor size, pixels.
+
+        Yields:
+            (instant, picture) for every instant but the first.
+
+        Raises:
+            InputError: the instants do not increase; see also `reconstruct`.
+        """
+        self.reset()
+        for t_us, events in slice_between(packets, times_us, size=size):
+            yield t_us, self.reconstruct(events)
 
     def _run(self, grid: Intensity) -> Intensity:
         """The network's output for a voxel grid, [H, W]."""
