@@ -60,8 +60,7 @@ def balanced_log(intensity: NDArray[Any], balance: float) -> Float64Array:
     Equation: (5), section 3.2.2; supplement 9.1.
     """
     if intensity.dtype == np.uint8:
-        if balance <= 0 and not intensity.all():
-            _refuse_zero(balance)
+        check_balance(intensity, balance)
         with np.errstate(divide="ignore"):
             table = np.log(balance + np.arange(256, dtype=np.float64))
         return np.asarray(table[intensity])
@@ -69,6 +68,16 @@ def balanced_log(intensity: NDArray[Any], balance: float) -> Float64Array:
     if balance <= 0 and not shifted.all():
         _refuse_zero(balance)
     return np.asarray(np.log(shifted, dtype=np.float64))
+
+
+def check_balance(intensity: NDArray[Any], balance: float) -> None:
+    """Refuse black pixels where nothing is added to them.
+
+    Raises:
+        ConfigError: the balance is 0 and an intensity is, too.
+    """
+    if balance <= 0 and not intensity.all():
+        _refuse_zero(balance)
 
 
 def _refuse_zero(balance: float) -> None:

@@ -251,10 +251,14 @@ def check_intensity(pixels: PixelArray, where: str) -> None:
     if pixels.dtype.kind != "f":
         return
     low, high = float(pixels.min()), float(pixels.max())
-    if low >= 0.0 and high < float("inf"):
-        return
+    if not (low >= 0.0 and high < float("inf")):
+        raise bad_intensity(pixels, where)
+
+
+def bad_intensity(pixels: PixelArray, where: str) -> InputError:
+    """The error for a frame of which a pixel is NaN, infinite or negative."""
     bad = pixels[~(np.isfinite(pixels) & (pixels >= 0))]
-    raise InputError(
+    return InputError(
         f"{where} has {bad.size} pixel(s) that are NaN, infinite or negative (first: {bad[0]:g}); "
         "intensities must be finite and at least 0"
     )

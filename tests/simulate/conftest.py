@@ -3,6 +3,6 @@
 import pytest
 
 
-@pytest.fixture(params=["reference", "cpu"])
+@pytest.fixture(params=["reference", "numpy", "cpu"])
 def backend(request) -> str:
     return request.param

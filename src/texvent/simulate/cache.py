@@ -22,7 +22,41 @@ from texvent.simulate.event_frame import EventFrame
 
 CachePolicy = Literal["local", "global", "none", "leaky"]
 ResetRule = Literal["current", "step"]
+Renewal = Literal["keep", "leak", "renew"]
 Float64Array = NDArray[np.float64]
+
+
+class CacheSchedule:
+    """When references are renewed: the policy, counted along the frames."""
+
+    def __init__(self, policy: CachePolicy, reset_pairs: int = 0) -> None:
+        """Begin before the first frame; arguments as for `BrightnessCache`."""
+        self._policy = policy
+        self._reset_pairs = reset_pairs
+        self._pairs_seen = 0
+
+    def renewal_after(self, *, is_source: bool) -> Renewal:
+        """What happens to the references of all pixels once the next frame was compared with them.
+
+        Args:
+            is_source: whether it is a source frame, so that a pair begins with it.
+
+        Equation: (5), section 3.2.2; local and global: supplement, Table 4; reset: Fig. 2.
+        """
+        if self._policy == "none" or (is_source and self._forgets()):
+            return "renew"
+        return "leak" if is_source and self._policy == "leaky" else "keep"
+
+    def pass_frame(self, *, is_source: bool) -> Renewal:
+        """The same, and count the frame."""
+        renewal = self.renewal_after(is_source=is_source)
+        self._pairs_seen += is_source
+        return renewal
+
+    def _forgets(self) -> bool:
+        if self._policy == "local":
+            return True
+        return self._reset_pairs > 0 and self._pairs_seen % self._reset_pairs == 0
 
 
 class BrightnessCache:
@@ -46,10 +80,8 @@ class BrightnessCache:
                 source frames; 0 = never.
         """
         self._reference = first.copy()
-        self._policy = policy
         self._leak = leak
-        self._reset_pairs = reset_pairs
-        self._pairs_seen = 0
+        self._schedule = CacheSchedule(policy, reset_pairs)
 
     def calibrate(self, previous: Float64Array, *, is_source: bool) -> Float64Array:
         """The calibrated frame `κ ⋄ I^{j−1}`: what the next frame is compared with.
@@ -61,24 +93,14 @@ class BrightnessCache:
         Returns:
             [H, W], log units: the cache's own array, changed by `update`.
 
-        Equation: (5), section 3.2.2; local and global: supplement, Table 4; reset: Fig. 2.
+        Equation: (5), section 3.2.2; see `CacheSchedule`.
         """
-        if is_source:
-            self._pairs_seen += 1
-        if self._forgets(is_source):
+        renewal = self._schedule.pass_frame(is_source=is_source)
+        if renewal == "renew":
             self._reference[...] = previous
-        elif is_source and self._policy == "leaky":
+        elif renewal == "leak":
             self._reference += self._leak * (previous - self._reference)
         return self._reference
-
-    def _forgets(self, is_source: bool) -> bool:
-        if self._policy == "none":
-            return True
-        if not is_source:
-            return False
-        if self._policy == "local":
-            return True
-        return self._reset_pairs > 0 and (self._pairs_seen - 1) % self._reset_pairs == 0
 
     def update(self, fired: EventFrame, brightness: Float64Array, *, step: float | None) -> None:
         """Renew the reference at the pixels that fired, and only there.

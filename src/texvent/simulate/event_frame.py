@@ -58,11 +58,16 @@ def generate_event_frame(
         how many events a change of several δ makes: one, unless `multi_event` is set.
     """
     pixel, change = kernels.find_crossings(brightness, reference, threshold)
+    return EventFrame(pixel, change, count_events(change, threshold, multi_event=multi_event))
+
+
+def count_events(
+    change: NDArray[np.float64], threshold: float, *, multi_event: bool
+) -> NDArray[np.int64]:
+    """How many events each change of a threshold or more makes: floor(|change| / δ), or one."""
     if multi_event:
-        number = np.floor(np.abs(change) / threshold).astype(np.int64)
-    else:
-        number = np.ones(pixel.size, np.int64)
-    return EventFrame(pixel, change, number)
+        return np.floor(np.abs(change) / threshold).astype(np.int64)
+    return np.ones(change.size, np.int64)
 
 
 def list_activations(frame: EventFrame) -> Activations:

@@ -13,6 +13,7 @@ from texvent.simulate.draws import frame_key
 from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.kernels.select import check_backend
 from texvent.simulate.texvent_config import TexventConfig
+from texvent.simulate.texvent_pixels import SparsePixels
 from texvent.simulate.texvent_reference import DensePixels
 from texvent.video import Frame, StreamChecker
 
@@ -74,7 +75,7 @@ class TexventSimulator:
     def reset(self) -> None:
         """Forget all frames: the next one is the first."""
         self._checker = StreamChecker()
-        self._pixels: DensePixels | None = None
+        self._pixels: DensePixels | SparsePixels | None = None
         self._last_us = 0
 
     def step(self, frame: Frame) -> EventStream:
@@ -87,7 +88,9 @@ class TexventSimulator:
         """
         where = self._checker.check_order(frame)
         if self._pixels is None:
-            self._pixels = DensePixels(self.config, self._backend, frame, where)
+            is_dense = self._backend == "reference" or self.config.noise == "gaussian"
+            pixels_type = DensePixels if is_dense else SparsePixels
+            self._pixels = pixels_type(self.config, self._backend, frame, where)
             span = Interval(frame.t_us, frame.t_us, np.uint64(0))
             packet = Firings.none().packet(span, frame.size, self._backend)
         else:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from texvent.simulate.draws import Purpose, draw_uniforms
 from texvent.simulate.event_frame import Activations
-from texvent.simulate.interval import SubInterval, place_in
+from texvent.simulate.interval import FiredPixels, place_in
 
 StampRule = Literal["eq7", "random", "linear", "hyperbolic", "even", "end"]
 Float64Array = NDArray[np.float64]
@@ -21,7 +21,7 @@ Float64Array = NDArray[np.float64]
 
 def reconstruct_timestamps(
     activations: Activations,
-    interval: SubInterval,
+    interval: FiredPixels,
     *,
     stamp: StampRule,
     threshold: float,
@@ -70,14 +70,14 @@ def larger_change_earlier(change: Float64Array) -> Float64Array:
     return np.asarray(1.0 - (size - smallest) / (largest - smallest))
 
 
-def random_time(activations: Activations, interval: SubInterval, threshold: float) -> Float64Array:
+def random_time(activations: Activations, interval: FiredPixels, threshold: float) -> Float64Array:
     """Uniform in the sub-interval: the paper's ablation E12."""
-    y, x = np.divmod(activations.pixel, interval.brightness.shape[1])
+    y, x = np.divmod(activations.pixel, interval.width)
     return draw_uniforms(interval.span.key, y, x, Purpose.TIMESTAMP.draw(activations.order))
 
 
 def linear_crossing(
-    activations: Activations, interval: SubInterval, threshold: float
+    activations: Activations, interval: FiredPixels, threshold: float
 ) -> Float64Array:
     """When a straight line from the previous brightness to this one crosses the k-th threshold.
 
@@ -86,10 +86,7 @@ def linear_crossing(
 
     Source: ESIM (Rebecq, Gehrig and Scaramuzza, CoRL 2018).
     """
-    start, stop, reference = (
-        image.reshape(-1)[activations.pixel]
-        for image in (interval.previous, interval.brightness, interval.reference)
-    )
+    start, stop, reference = interval.at(activations.pixel)
     sign = np.sign(activations.change)
     level = reference + sign * (activations.order * threshold)
     is_over = sign * (start - level) >= 0
@@ -100,23 +97,23 @@ def linear_crossing(
 
 
 def hyperbolic_crossing(
-    activations: Activations, interval: SubInterval, threshold: float
+    activations: Activations, interval: FiredPixels, threshold: float
 ) -> Float64Array:
     """When a ramp that starts at the reference crosses the k-th threshold: kδ / Δ."""
     return np.minimum(activations.order * threshold / np.abs(activations.change), 1.0)
 
 
-def even_spacing(activations: Activations, interval: SubInterval, threshold: float) -> Float64Array:
+def even_spacing(activations: Activations, interval: FiredPixels, threshold: float) -> Float64Array:
     """The k-th of n events of a pixel at k / n."""
     return np.asarray(activations.order / activations.number)
 
 
-def interval_end(activations: Activations, interval: SubInterval, threshold: float) -> Float64Array:
+def interval_end(activations: Activations, interval: FiredPixels, threshold: float) -> Float64Array:
     """All events at the end, as an event frame has them."""
     return np.ones(activations.pixel.shape)
 
 
-_RULES: Mapping[str, Callable[[Activations, SubInterval, float], Float64Array]] = {
+_RULES: Mapping[str, Callable[[Activations, FiredPixels, float], Float64Array]] = {
     "random": random_time,
     "linear": linear_crossing,
     "hyperbolic": hyperbolic_crossing,

@@ -12,7 +12,8 @@ from texvent.simulate.draws import Purpose
 from texvent.simulate.kernels.cpu_draws import draw_uniform, draw_word
 from texvent.simulate.kernels.noise import Block, NoisePlaces
 from texvent.simulate.kernels.noise_reference import TIME_UNIT
-from texvent.simulate.kernels.order_cpu import read_only, sort_keys
+from texvent.simulate.kernels.order import read_only
+from texvent.simulate.kernels.order_cpu import sort_keys
 from texvent.simulate.kernels.texvent import NOISE_BLOCK, NOISE_PLACE_SHIFT
 
 _COUNT, _PLACE, _POLARITY = (

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple, TypeAlias, cast
+from typing import Any, NamedTuple, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,3 +46,10 @@ def load_order_events(backend: str = AUTO) -> OrderEvents:
         MissingDependencyError: what the backend needs is not installed.
     """
     return cast("OrderEvents", load_kernel_when_ready("order", "order_events", backend))
+
+
+def read_only(array: NDArray[Any]) -> NDArray[Any]:
+    """A flat view that cannot be written, so that Numba compiles for one kind of array only."""
+    view = np.ascontiguousarray(array).reshape(-1).view()
+    view.flags.writeable = False
+    return view

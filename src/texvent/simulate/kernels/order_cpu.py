@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.simulate.kernels import order_reference
-from texvent.simulate.kernels.order import Columns, Unordered
+from texvent.simulate.kernels.order import Columns, Unordered, read_only
 
 Uint64Array = NDArray[np.uint64]
 
@@ -34,13 +34,6 @@ def order_events(events: Unordered, span_us: tuple[int, int], shape: tuple[int, 
     pixel, t, p, label = (read_only(column) for column in events)
     ordered = _order_events(pixel, t, p, label, span_us[0], shape[1], low, low + high)
     return Columns(*ordered)
-
-
-def read_only(array: NDArray[Any]) -> NDArray[Any]:
-    """A flat view that cannot be written, so that Numba compiles for one kind of array only."""
-    view = np.ascontiguousarray(array).reshape(-1).view()
-    view.flags.writeable = False
-    return view
 
 
 def key_bits(pixels: int) -> int:

@@ -46,9 +46,115 @@ threads, chunks and GPUs draw the same noise.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NamedTuple, TypeAlias, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.simulate.kernels.select import load_kernel_when_ready
+
+Float64Array: TypeAlias = NDArray[np.float64]
+Intensity: TypeAlias = NDArray[Any]
+"""[n] flat: uint8 or float32 luma on the 0..255 scale, or uint16 on the 0..65535 scale."""
+
 NOISE_BLOCK = 4096
 """Pixels per noise block; also what a scan works on at a time."""
 NOISE_PLACE_SHIFT = 52
 """By how many bits a place word is shifted to give the pixel in its block."""
 SCAN_MARGIN = 1e-6
 """Relative distance by which the scan's levels are brought together: over four roundings."""
+SCAN_FLOOR = 1e-37
+"""The same as a number, for intensities so small that float32 has no relative precision."""
+
+
+class Levels(NamedTuple):
+    """How a scan finds candidates: `b + I ≥ (r + R)·up − floor` or `b + I ≤ (r + R)·down + floor`.
+
+    All float32, in units of the frame's intensity.
+    """
+
+    balance: np.float32
+    """b: what is added to the frame."""
+    reference_balance: np.float32
+    """r: what is added to the reference; 0 where references are balanced already."""
+    up: np.float32
+    """e^δ, less the margin."""
+    down: np.float32
+    """e^−δ, and the margin."""
+    floor: np.float32
+    """`SCAN_FLOOR` where the balance is 0, else 0."""
+    least: np.uint8
+    """Smallest difference of two uint8 intensities that may fire."""
+
+
+class FireRule(NamedTuple):
+    """What firing is, and what it does to a reference (Eq. 5)."""
+
+    threshold: float
+    """δ, log units."""
+    balance: float
+    """α, 0..255 scale."""
+    multi_event: bool
+    """Whether a pixel fires floor(Δ / δ) times."""
+    is_step: bool
+    """Whether an event moves the level by δ; else to the frame's brightness."""
+    is_renewed: bool
+    """Whether the cache forgets all references after this frame: the frame becomes them."""
+    has_line: bool
+    """Whether the times of events need to know where brightness came from."""
+
+
+class Fired(NamedTuple):
+    """The pixels that fired in one sub-interval, in row-major order."""
+
+    pixel: NDArray[np.int64]
+    """[n] flat index y · W + x, ascending."""
+    change: Float64Array
+    """[n] brightness minus reference brightness, log units."""
+    start: Float64Array
+    """[n] brightness at the start of the sub-interval; [0] unless `FireRule.has_line`."""
+    stop: Float64Array
+    """[n] brightness at its end; [0] likewise."""
+    reference: Float64Array
+    """[n] reference brightness; [0] likewise."""
+
+    def first(self, number: int) -> Fired:
+        """Views of the first so many rows."""
+        pixel, change, start, stop, reference = self
+        lines = (line[:number] for line in (start, stop, reference))
+        return Fired(pixel[:number], change[:number], *lines)
+
+
+@dataclass(eq=False)
+class Memory:
+    """What a sensor's pixels remember between frames; flat arrays, changed by the kernels."""
+
+    reference: Intensity
+    """[n] intensity that each pixel compares with, of the frames' type; beside `level` float32,
+    exp(level)."""
+    renewed: Intensity
+    """[n] where a kernel writes the next references if all are renewed; else not looked at."""
+    previous: Intensity
+    """[n] intensity of the frame before, or [0] where times do not depend on it."""
+    level: Float64Array
+    """[n] reference brightness, or [0] where `reference` says it all."""
+    table: Float64Array
+    """Brightness of every intensity that an integer type has, or [0] for float32."""
+    work: Fired | None = None
+    """Room that a backend keeps for its results; overwritten by each frame."""
+
+
+FindFired: TypeAlias = Callable[[Intensity, Memory, Levels, FireRule], "Fired | None"]
+"""`find_fired(frame, memory, levels, rule)`, see `texvent_numpy.find_fired`."""
+
+
+def load_find_fired(backend: str, dtype: str) -> FindFired:
+    """The function of a backend for one type of frames. All return equal bits.
+
+    Raises:
+        ConfigError: no backend has that name.
+        MissingDependencyError: what the backend needs is not installed.
+    """
+    return cast("FindFired", load_kernel_when_ready("texvent", "find_fired", backend, dtype))

@@ -1,0 +1,202 @@
+"""Fired pixels and noise into a packet, compiled.
+
+Signal and noise both come by pixel, so they are merged into one list of keys in that order, and
+sorting by time (`order_cpu`) is all that is left. The arithmetic of every rule is that of
+`texvent.simulate.timestamps`, operation by operation.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.events import NOISE
+from texvent.simulate.draws import Purpose
+from texvent.simulate.firings import Interval
+from texvent.simulate.kernels import stamp_numpy
+from texvent.simulate.kernels.cpu_draws import draw_uniform
+from texvent.simulate.kernels.noise import NoisePlaces
+from texvent.simulate.kernels.order import Columns
+from texvent.simulate.kernels.order_cpu import key_bits, sort_keys, unpack_keys
+from texvent.simulate.kernels.stamp import Timing
+from texvent.simulate.kernels.texvent import Fired
+
+Float64Array = NDArray[np.float64]
+Uint64Array = NDArray[np.uint64]
+
+_STAMPS = ("eq7", "random", "linear", "hyperbolic", "even", "end")
+_EQ7, _RANDOM, _LINEAR, _HYPERBOLIC, _EVEN, _END = range(len(_STAMPS))
+_DRAW = int(Purpose.TIMESTAMP.draw())
+_NOISE = np.uint64(NOISE)
+_1, _2 = np.uint64(1), np.uint64(2)
+
+
+class _Rule(NamedTuple):
+    """`Timing` and the interval, in numbers."""
+
+    stamp: int
+    scale: float
+    threshold: float
+    multi_event: bool
+    noise_at_rest: bool
+    key: np.uint64
+    duration_us: int
+    width: int
+    low: int
+    """Bits of a key below its time."""
+
+
+def stamp_events(
+    fired: Fired, noise: NoisePlaces, timing: Timing, span: Interval, shape: tuple[int, int]
+) -> Columns:
+    """See `stamp_numpy.stamp_events`."""
+    low = key_bits(shape[0] * shape[1])
+    bits = low + span.duration_us.bit_length()
+    if bits > 64:
+        return stamp_numpy.stamp_events(fired, noise, timing, span, shape)
+    rule = _Rule(
+        _STAMPS.index(timing.stamp), *timing[1:], span.key, span.duration_us, shape[1], low
+    )
+    # With NUMBA_DISABLE_JIT=1 the hash runs in NumPy, which would warn of its wrap-around.
+    with np.errstate(over="ignore"):
+        return Columns(*_stamp_events(fired, noise, rule, span.start_us, bits))
+
+
+def warm_up() -> None:
+    """Compile, or load what was compiled before."""
+    index, real = np.zeros(1, np.int64), np.ones(1)
+    fired = Fired(index, real, real, real, real)
+    noise = NoisePlaces(index, real, np.zeros(1, np.uint8))
+    timing = Timing("eq7", 1.0, 1.0, multi_event=False, noise_at_rest=True)
+    stamp_events(fired, noise, timing, Interval(0, 1, np.uint64(0)), (1, 1))
+
+
+@numba.njit(cache=True, nogil=True)
+def _stamp_events(fired: Fired, noise: NoisePlaces, rule: _Rule, start_us: int, bits: int) -> Any:
+    signal = np.empty(_count_events(fired.change, rule), np.uint64)
+    _list_signal(fired, rule, signal)
+    keys = signal
+    if noise.pixel.size:
+        keys = _merge(signal, _list_noise(noise, rule), rule)
+    return unpack_keys(sort_keys(keys, rule.low, bits), start_us, rule.width, rule.low)
+
+
+@numba.njit(cache=True, nogil=True)
+def _count_events(changes: Float64Array, rule: _Rule) -> int:
+    if not rule.multi_event:
+        return changes.size
+    total = 0
+    for change in changes:
+        total += _number_of(change, rule)
+    return total
+
+
+@numba.njit(cache=True, nogil=True, inline="always")
+def _number_of(change: float, rule: _Rule) -> Any:
+    return np.int64(math.floor(abs(change) / rule.threshold)) if rule.multi_event else 1
+
+
+@numba.njit(cache=True, nogil=True)
+def _list_signal(fired: Fired, rule: _Rule, keys: Uint64Array) -> None:
+    """Keys of the events that fired, by pixel."""
+    # Arrays are taken out of their tuple once: counting references to them in the loop is slow.
+    pixel, change, start, stop, reference = fired
+    smallest, largest = _range_of(change)
+    found = 0
+    for i in range(pixel.size):
+        sign = 1.0 if change[i] > 0 else -1.0
+        place = np.uint64(pixel[i]) << _2 | np.uint64(change[i] > 0) << _1
+        number = _number_of(change[i], rule)
+        for order in range(1, number + 1):
+            if rule.stamp == _EQ7:
+                size = abs(change[i])
+                fraction = rule.scale * _larger_change_earlier(size, smallest, largest)
+            elif rule.stamp == _LINEAR:
+                level = reference[i] + sign * (order * rule.threshold)
+                fraction = _linear_crossing(start[i], stop[i], level, sign)
+            else:
+                fraction = _fraction(pixel[i], abs(change[i]), order, number, rule)
+            keys[found] = _key(place, fraction, rule)
+            found += 1
+
+
+@numba.njit(cache=True, nogil=True)
+def _list_noise(noise: NoisePlaces, rule: _Rule) -> Uint64Array:
+    """Keys of noise events, by pixel and polarity."""
+    pixel, fraction, p = noise
+    keys = np.empty(pixel.size, np.uint64)
+    for i in range(pixel.size):
+        place = np.uint64(pixel[i]) << _2 | np.uint64(p[i]) << _1 | _NOISE
+        keys[i] = _key(place, fraction[i], rule)
+    return keys
+
+
+@numba.njit(cache=True, nogil=True)
+def _merge(signal: Uint64Array, noise: Uint64Array, rule: _Rule) -> Uint64Array:
+    """Both by pixel, p and label; noise of pixels that fired is left out if it must be at rest."""
+    mask = (_1 << np.uint64(rule.low)) - _1
+    # What noise is compared by: its pixel alone, so that it meets all events of the pixel.
+    of_pixel = ~np.uint64(3) if rule.noise_at_rest else ~np.uint64(0)
+    keys, found, waiting = np.empty(signal.size + noise.size, np.uint64), 0, 0
+    for i in range(signal.size):
+        own = signal[i] & mask & of_pixel
+        while waiting < noise.size and (noise[waiting] & mask & of_pixel) <= own:
+            if not rule.noise_at_rest or (noise[waiting] & mask & of_pixel) < own:
+                keys[found] = noise[waiting]
+                found += 1
+            waiting += 1
+        keys[found] = signal[i]
+        found += 1
+    for i in range(waiting, noise.size):
+        keys[found] = noise[i]
+        found += 1
+    return keys[:found]
+
+
+@numba.njit(cache=True, nogil=True)
+def _range_of(changes: Float64Array) -> tuple[float, float]:
+    """Smallest and largest |ΔL| of the sub-interval."""
+    smallest, largest = np.inf, 0.0
+    for change in changes:
+        smallest, largest = min(smallest, abs(change)), max(largest, abs(change))
+    return smallest, largest
+
+
+@numba.njit(cache=True, nogil=True, inline="always")
+def _key(place: np.uint64, fraction: float, rule: _Rule) -> Any:
+    """Time, as `interval.place_in` rounds it, above the place."""
+    offset = np.int64(math.floor(fraction * rule.duration_us))
+    return np.uint64(min(offset, np.int64(rule.duration_us - 1))) << np.uint64(rule.low) | place
+
+
+@numba.njit(cache=True, nogil=True, inline="always")
+def _larger_change_earlier(size: float, smallest: float, largest: float) -> float:
+    if largest == smallest:
+        return 0.5
+    return 1.0 - (size - smallest) / (largest - smallest)
+
+
+@numba.njit(cache=True, nogil=True, inline="always")
+def _linear_crossing(start: float, stop: float, level: float, sign: float) -> float:
+    if sign * (start - level) >= 0:
+        return 0.0
+    if stop == start:
+        return 1.0
+    return min(max((level - start) / (stop - start), 0.0), 1.0)
+
+
+@numba.njit(cache=True, nogil=True, inline="always")
+def _fraction(pixel: int, size: float, order: int, number: int, rule: _Rule) -> float:
+    """Time of an event as a fraction of the sub-interval; see `timestamps`."""
+    if rule.stamp == _HYPERBOLIC:
+        return min(order * rule.threshold / size, 1.0)
+    if rule.stamp == _EVEN:
+        return order / number
+    if rule.stamp == _RANDOM:
+        y = pixel // rule.width
+        return draw_uniform(rule.key, y, pixel - y * rule.width, _DRAW + order)
+    return 1.0

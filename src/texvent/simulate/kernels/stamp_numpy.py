@@ -1,0 +1,43 @@
+"""Fired pixels and noise into a packet, in NumPy, by the functions of the definition."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from texvent.simulate.event_frame import EventFrame, count_events, list_activations
+from texvent.simulate.firings import Firings, Interval
+from texvent.simulate.interval import SparseInterval, place_in
+from texvent.simulate.kernels.noise import NoisePlaces
+from texvent.simulate.kernels.order import Columns, Unordered
+from texvent.simulate.kernels.order_reference import order_events
+from texvent.simulate.kernels.stamp import Timing
+from texvent.simulate.kernels.texvent import Fired
+from texvent.simulate.timestamps import reconstruct_timestamps
+
+
+def stamp_events(
+    fired: Fired, noise: NoisePlaces, timing: Timing, span: Interval, shape: tuple[int, int]
+) -> Columns:
+    """Give every event its time (Eq. 7) and put signal and noise in the order of a packet.
+
+    Args:
+        fired: the pixels that fired.
+        noise: the noise events in dark pixels.
+        timing: the rules.
+        span: the sub-interval.
+        shape: (height, width).
+    """
+    number = count_events(fired.change, timing.threshold, multi_event=timing.multi_event)
+    activations = list_activations(EventFrame(fired.pixel, fired.change, number))
+    t = reconstruct_timestamps(
+        activations,
+        SparseInterval(span, shape[1], fired.pixel, (fired.start, fired.stop, fired.reference)),
+        stamp=timing.stamp,
+        threshold=timing.threshold,
+        scale=timing.scale,
+    )
+    signal = Firings.signal(activations.pixel, t, activations.polarity)
+    added = Firings.noise(noise.pixel, place_in(span, noise.fraction), noise.p)
+    if timing.noise_at_rest:
+        added = added.where(~np.isin(noise.pixel, fired.pixel))
+    return order_events(Unordered(*signal.joined(added)), (span.start_us, span.stop_us), shape)
