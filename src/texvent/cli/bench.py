@@ -9,6 +9,10 @@ from texvent._registry import load_object, suggest
 from texvent.errors import ConfigError
 
 BENCHMARKS: Mapping[str, tuple[str, str]] = {
+    "classify": (
+        "texvent.cli.bench_classify:run",
+        "how many event streams does N-ImageNet's published classifier recognise?",
+    ),
     "fidelity": (
         "texvent.cli.bench_fidelity:run",
         "which simulator comes closest to the true events of exact scenes?",
