@@ -62,6 +62,12 @@ class _Marks(NamedTuple):
 
 def find_fired(frame: Intensity, memory: Memory, levels: Levels, rule: FireRule) -> Fired | None:
     """See `texvent_numpy.find_fired`."""
+    # With NUMBA_DISABLE_JIT=1 words are multiplied in NumPy, which would warn of their wrap-around.
+    with np.errstate(over="ignore"):
+        return _find_fired(frame, memory, levels, rule)
+
+
+def _find_fired(frame: Intensity, memory: Memory, levels: Levels, rule: FireRule) -> Fired | None:
     renewed = memory.renewed if rule.is_renewed else memory.renewed[:0]
     pictures = _Pictures(frame, memory.reference, renewed, memory.previous)
     work = _workspace(memory)

@@ -1,0 +1,224 @@
+"""The fast pixels fire exactly as the definition does: every backend, type of frames and option."""
+
+import copy
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.errors import ConfigError, InputError
+from texvent.events import EventStream
+from texvent.simulate.kernels import readiness, select
+from texvent.simulate.texvent import TexventConfig, TexventSimulator
+from texvent.simulate.texvent_memory import brightness_table, least_difference
+from texvent.video import Frame
+
+FAST = ("numpy", "cpu")
+TYPES = (np.uint8, np.uint16, np.float32, np.float64)
+OPTIONS = [
+    {"cache": cache, "cache_reset_pairs": pairs, "reset": reset, "stamp": stamp}
+    | {"multi_event": multi_event}
+    for cache, pairs, reset, stamp, multi_event in itertools.product(
+        ("local", "global", "none", "leaky"),
+        (0, 2),
+        ("current", "step"),
+        ("eq7", "random", "linear", "hyperbolic", "even", "end"),
+        (False, True),
+    )
+    if not (pairs and cache in ("local", "none")) and not (multi_event and stamp == "eq7")
+]
+# Fewer pixels than a run of 64, whole runs and a rest, more than one tile of 4096; odd widths.
+SHAPES = ((1, 1), (3, 7), (8, 8), (5, 37), (64, 2), (65, 63), (71, 129))
+
+
+def frame(levels, dtype, t_us, *, is_source=True) -> Frame:
+    scaled = levels * 257 if dtype == np.uint16 else levels
+    return Frame(scaled.astype(dtype), t_us, is_source)
+
+
+@st.composite
+def clips(draw):
+    """Clips of which a stated share of the pixels moves; types of frames mixed in some."""
+    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
+    shape, count = draw(st.sampled_from(SHAPES)), draw(st.integers(2, 6))
+    share, size = draw(st.sampled_from([0.002, 0.1, 1.0])), draw(st.sampled_from([4, 15, 60]))
+    types = draw(st.one_of(st.just(TYPES), st.sampled_from(TYPES).map(lambda one: (one,))))
+    levels, frames, t_us = rng.integers(0, 256, shape).astype(np.float64), [], -500
+    for _ in range(count):
+        moves = (rng.random(shape) < share) * rng.normal(0, size, shape)
+        levels = np.clip(levels + moves, 0, 255)
+        t_us += int(rng.integers(1, 40_000))
+        is_source = not frames or bool(rng.random() < 0.4)
+        frames.append(frame(levels, rng.choice(types), t_us, is_source=is_source))
+    return frames
+
+
+def simulate(frames, *, backend, seed=0, **options) -> EventStream:
+    simulator = TexventSimulator(TexventConfig(**options), seed=seed, backend=backend)
+    return EventStream.concat([simulator.step(one) for one in frames])
+
+
+def assert_backends_agree(frames, **options) -> EventStream:
+    expected = simulate(frames, backend="reference", **options)
+    for backend in FAST:
+        assert simulate(frames, backend=backend, **options).equals(expected), backend
+    return expected
+
+
+@settings(max_examples=150, deadline=None)
+@given(
+    clips(),
+    st.sampled_from(OPTIONS),
+    st.sampled_from(["adaptive", "random", "none"]),
+    st.sampled_from([0.01, 0.2, 2.0]),
+    st.integers(0, 2**63 - 1),
+)
+def test_fast_backends_equal_the_reference(frames, options, noise, threshold, seed):
+    noisy = {"noise": noise, "noise_rate_hz": 20.0, "noise_intensity": 150.0}
+    assert_backends_agree(frames, contrast_threshold=threshold, seed=seed, **noisy, **options)
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])
+@pytest.mark.parametrize(("low", "high"), [(0, 7), (70, 90), (100, 101), (3, 255)])
+def test_pixels_at_the_threshold_itself_fire_on_every_backend(low, high, dtype):
+    """δ is the change of one pair of levels, then the next float64 above and below it."""
+    first, second = (frame(np.full((9, 9), float(level)), dtype, level) for level in (low, high))
+    change = float(np.log(30.0 + high) - np.log(30.0 + low))
+    counts = [
+        len(assert_backends_agree([first, second], contrast_threshold=threshold, noise="none"))
+        for threshold in (np.nextafter(change, 0), change, np.nextafter(change, 10))
+    ]
+    assert counts == [81, 81, 0]
+
+
+@settings(max_examples=100, deadline=None)
+@given(
+    st.floats(0, 2.0**100, width=32),
+    st.sampled_from([1e-4, 0.2, 10.0]),
+    st.sampled_from([0.0, 1e-30, 30.0, 1e6]),
+    st.booleans(),
+)
+def test_the_scan_misses_no_float_beside_a_trigger_level(intensity, threshold, balance, is_on):
+    """The 201 float32 numbers around the level at which a pixel fires, ON and OFF."""
+    factor = np.exp(threshold if is_on else -threshold)
+    level = (balance + float(intensity)) * factor - balance
+    near = np.float32(np.clip(level, 1e-38, 3e38))
+    bits = near.view(np.int32) + np.arange(-100, 101, dtype=np.int32)
+    around = np.abs(bits.view(np.float32))
+    around[~np.isfinite(around)] = 1.0
+    if balance == 0:
+        intensity, around = max(intensity, 1e-38), np.maximum(around, np.float32(1e-45))
+    before = Frame(np.full((1, around.size), intensity, np.float32), 0)
+    after = Frame(around[None], 1000)
+    assert_backends_agree(
+        [before, after], contrast_threshold=threshold, balance=balance, noise="none"
+    )
+
+
+@pytest.mark.parametrize("balance", [0.0, 30.0, 1e6])
+@pytest.mark.parametrize("threshold", [1e-4, 0.2, 1.0, 10.0])
+def test_no_bytes_closer_than_the_least_difference_fire(threshold, balance):
+    table = brightness_table("uint8", balance)
+    table = table[1:] if balance == 0 else table
+    least = int(least_difference(threshold, balance))
+    size = np.abs(table[:, None] - table[None, :])
+    distance = np.abs(np.subtract.outer(np.arange(len(table)), np.arange(len(table))))
+    assert not np.any((size >= threshold) & (distance < least))
+    assert np.any((size >= threshold) & (distance == least)) or least == 255
+
+
+@pytest.mark.parametrize("backend", FAST)
+@pytest.mark.parametrize("dtype", TYPES)
+def test_black_without_a_balance_is_refused_at_any_frame(dtype, backend):
+    levels = np.full((8, 9), 50.0)
+    simulator = TexventSimulator(TexventConfig(balance=0.0), backend=backend)
+    simulator.step(frame(levels, dtype, 0))
+    black = levels.copy()
+    black[3, 4] = 0
+    with pytest.raises(ConfigError, match="use a balance above 0"):
+        simulator.step(frame(black, dtype, 1000))
+    assert len(simulator.step(frame(levels * 2, dtype, 2000))) == 72
+
+
+@pytest.mark.parametrize("backend", FAST)
+@pytest.mark.parametrize("place", [0, 63, 64, 4100, 4222])
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -1.0])
+def test_an_impossible_intensity_is_found_wherever_it_is(bad, place, backend):
+    """In a whole run, in the rest after it, and in the last tile; the frame is then forgotten."""
+    rng = np.random.default_rng(0)
+    good = [Frame(rng.uniform(0, 255, (41, 103)).astype(np.float32), t) for t in (0, 10, 30)]
+    broken = good[1].pixels.copy()
+    broken.reshape(-1)[place] = bad
+    simulator = TexventSimulator(backend=backend)
+    packets = [simulator.step(one) for one in good[:2]]
+    with pytest.raises(InputError, match=r"1 pixel.s. that are NaN, infinite or negative"):
+        simulator.step(Frame(broken, 20))
+    packets.append(simulator.step(good[2]))
+    assert EventStream.concat(packets).equals(simulate(good, backend="reference"))
+
+
+def test_backends_can_change_in_the_middle_of_a_stream(monkeypatch):
+    """As "auto" does when kernels get ready."""
+    rng = np.random.default_rng(3)
+    frames = [frame(rng.uniform(0, 255, (20, 30)), np.float32, 100 * k) for k in range(9)]
+    options = {"cache": "leaky", "reset": "step", "noise_rate_hz": 1e4}
+    expected = simulate(frames, backend="reference", **options)
+    is_ready = {"now": False}
+    monkeypatch.setattr(select, "is_ready", lambda *module: is_ready["now"])
+    simulator = TexventSimulator(TexventConfig(**options), backend="auto")
+    packets = []
+    for k, one in enumerate(frames):
+        is_ready["now"] = k in (3, 4, 7)
+        packets.append(simulator.step(one))
+    assert EventStream.concat(packets).equals(expected)
+
+
+def test_auto_prepares_the_kernels_of_the_frames_it_gets():
+    simulator = TexventSimulator(backend="auto")
+    simulator.step(frame(np.zeros((2, 2)), np.uint8, 0))
+    simulator.step(frame(np.zeros((2, 2)), np.uint8, 1))
+    folder = "texvent.simulate.kernels"
+    readiness.wait_until_ready(f"{folder}.texvent_cpu", "uint8")
+    assert readiness.is_ready(f"{folder}.texvent_cpu", "uint8")
+
+
+@pytest.mark.parametrize("backend", FAST)
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])
+def test_frames_belong_to_the_caller(dtype, backend):
+    """A decoder may reuse its buffer; and nothing writes to it."""
+    rng = np.random.default_rng(1)
+    pictures = [rng.integers(0, 256, (30, 40)).astype(np.float64) for _ in range(4)]
+    frames = [frame(one, dtype, 10 * k, is_source=k == 0) for k, one in enumerate(pictures)]
+    expected = simulate(frames, backend="reference", stamp="linear")
+    simulator = TexventSimulator(TexventConfig(stamp="linear"), backend=backend)
+    buffer, packets = np.empty((30, 40), dtype), []
+    for one in frames:
+        buffer[:] = one.pixels
+        packets.append(simulator.step(Frame(buffer, one.t_us, one.is_source)))
+        assert np.array_equal(buffer, one.pixels)
+        buffer[:] = 0
+    assert EventStream.concat(packets).equals(expected)
+
+
+@pytest.mark.parametrize("backend", FAST)
+def test_frames_need_not_be_contiguous_or_writable(backend):
+    wide = np.random.default_rng(2).integers(0, 256, (3, 20, 80)).astype(np.uint8)
+    wide.flags.writeable = False
+    cut = [Frame(one[::2, 5:66:3], 10 * k) for k, one in enumerate(wide)]
+    whole = [Frame(one.pixels.copy(), one.t_us) for one in cut]
+    assert simulate(cut, backend=backend).equals(simulate(whole, backend="reference"))
+
+
+@pytest.mark.parametrize("backend", FAST)
+def test_packets_stay_as_they_were_when_the_next_frame_comes(backend):
+    rng = np.random.default_rng(4)
+    frames = [frame(rng.uniform(0, 255, (40, 40)), np.uint8, 10 * k) for k in range(3)]
+    simulator = TexventSimulator(backend=backend)
+    simulator.step(frames[0])
+    packet = simulator.step(frames[1])
+    kept = copy.deepcopy(packet.columns())
+    simulator.step(frames[2])
+    assert all(np.array_equal(kept[name], column) for name, column in packet.columns().items())
+    assert not any(column.flags.writeable for column in packet.columns().values())
