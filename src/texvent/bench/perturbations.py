@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
+from texvent.sensor import SensorSize
 
 Generator: TypeAlias = np.random.Generator
 Perturbation: TypeAlias = Callable[[EventStream, Generator], EventStream]
@@ -76,13 +77,42 @@ def drop(events: EventStream, rng: Generator, *, share: float) -> EventStream:
 def add_noise(events: EventStream, rng: Generator, *, share: float) -> EventStream:
     """Uniform random events, as a share of those there are."""
     count = round(share * len(events))
-    first, stop = events.time_range or (0, 1)
-    highs = {"x": events.size.width, "y": events.size.height, "t": stop, "p": 2}
-    noise = {
-        name: rng.integers(first if name == "t" else 0, high, count) for name, high in highs.items()
-    }
+    return _with_more(events, _draw_columns(rng, count, events.size, events.time_range or (0, 1)))
+
+
+def add_background(
+    events: EventStream, rng: Generator, *, rate_hz: float, span_us: tuple[int, int]
+) -> EventStream:
+    """Background activity: a Poisson process of that rate at every pixel, `[start, stop)`."""
+    pixels = events.size.width * events.size.height
+    mean = rate_hz * pixels * (span_us[1] - span_us[0]) / 1_000_000
+    return _with_more(events, _draw_columns(rng, int(rng.poisson(mean)), events.size, span_us))
+
+
+def scatter(events: EventStream, rng: Generator, *, share: float) -> EventStream:
+    """A random share of the events moved to random pixels, times and polarities."""
+    is_moved = rng.random(len(events)) < share
     columns = _columns(events)
-    return _stream({name: np.concatenate([columns[name], noise[name]]) for name in "xytp"}, events)
+    moved = _draw_columns(rng, int(is_moved.sum()), events.size, events.time_range or (0, 1))
+    for name, values in moved.items():
+        columns[name][is_moved] = values
+    return _stream(columns, events)
+
+
+def _draw_columns(
+    rng: Generator, count: int, size: SensorSize, span_us: tuple[int, int]
+) -> Columns:
+    """Events uniform over pixels, times `[start, stop)` and polarities."""
+    highs = {"x": size.width, "y": size.height, "t": span_us[1], "p": 2}
+    return {
+        name: rng.integers(span_us[0] if name == "t" else 0, high, count)
+        for name, high in highs.items()
+    }
+
+
+def _with_more(events: EventStream, more: Columns) -> EventStream:
+    columns = _columns(events)
+    return _stream({name: np.concatenate([columns[name], more[name]]) for name in "xytp"}, events)
 
 
 def flip(events: EventStream, rng: Generator, *, share: float) -> EventStream:

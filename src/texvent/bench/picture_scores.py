@@ -61,7 +61,7 @@ class PictureScores:
 
 
 def load_measures() -> Measures:
-    """All measures of this page; LPIPS only where its weights were pulled.
+    """All measures; LPIPS only where its weights were pulled.
 
     Source: EVREAL (Ercan et al., CVPRW 2023) reports MSE, SSIM and LPIPS (AlexNet); the paper adds
         PSNR in its Table 3.
@@ -90,46 +90,83 @@ def peak_signal_to_noise(a: Float64Array, b: Float64Array) -> float:
     return math.inf if mse == 0 else -10.0 * math.log10(mse)
 
 
+class ScoreSheet:
+    """Collects the values of one source of pictures, frame by frame."""
+
+    def __init__(
+        self, measures: Measures, *, span_us: tuple[int, int] | None = None, skip: int = 0
+    ) -> None:
+        """An empty sheet.
+
+        Args:
+            measures: what to compute.
+            span_us: first and last time that counts, µs, both included; None counts all.
+            skip: how many pictures at the start do not count.
+        """
+        self._measures = measures.chosen
+        self._span_us = span_us
+        self._skip = skip
+        self._seen = 0
+        self._times: list[int] = []
+        self._values: dict[str, list[float]] = {one.name: [] for one in measures.chosen}
+
+    def add(self, t_us: int, picture: Picture, true: Picture) -> None:
+        """Compare a picture with the true one, both 0..1, if it counts.
+
+        Raises:
+            InputError: their sizes differ.
+        """
+        self._seen += 1
+        is_outside = self._span_us is not None and not (
+            self._span_us[0] <= t_us <= self._span_us[1]
+        )
+        if self._seen <= self._skip or is_outside:
+            return
+        if picture.shape != true.shape:
+            raise InputError(
+                f"the picture at {t_us} µs is {picture.shape[1]}x{picture.shape[0]}, the frame "
+                f"{true.shape[1]}x{true.shape[0]}"
+            )
+        self._times.append(t_us)
+        a, b = (np.clip(one.astype(np.float64), 0.0, 1.0) for one in (picture, true))
+        for measure in self._measures:
+            self._values[measure.name].append(measure.compare(a, b))
+
+    def scores(self) -> PictureScores:
+        """What was collected.
+
+        Raises:
+            InputError: nothing counted.
+        """
+        if not self._times:
+            raise InputError(
+                "no reconstructed picture counts: none has a frame within 1 ms in the part that is "
+                "scored; choose another part, or check that frames and events share a clock"
+            )
+        return PictureScores(t_us=self._times, values=self._values)
+
+
 def score_pictures(
-    pictures: Iterable[tuple[int, Picture]],
-    frames: Iterable[Frame],
-    measures: Measures,
-    *,
-    span_us: tuple[int, int] | None = None,
-    skip: int = 0,
+    pictures: Iterable[tuple[int, Picture]], frames: Iterable[Frame], sheet: ScoreSheet
 ) -> PictureScores:
     """Compare pictures with the frames of the same time.
 
     Args:
         pictures: (time in µs, picture) in time order.
         frames: the true frames in time order.
-        measures: what to compute.
-        span_us: first and last time that counts, µs, both included; None counts all.
-        skip: how many pictures at the start do not count.
+        sheet: an empty one, which says what counts.
 
     Raises:
         InputError: the sizes differ, or no picture counts that has a frame.
     """
-    times: list[int] = []
-    values: dict[str, list[float]] = {one.name: [] for one in measures.chosen}
-    for number, (t_us, picture, true) in enumerate(_pair(pictures, frames)):
-        is_outside = span_us is not None and not span_us[0] <= t_us <= span_us[1]
-        if number < skip or is_outside:
-            continue
-        if picture.shape != true.shape:
-            raise InputError(
-                f"the picture at {t_us} µs is {picture.shape[1]}x{picture.shape[0]}, the frame "
-                f"{true.shape[1]}x{true.shape[0]}"
-            )
-        times.append(t_us)
-        for measure in measures.chosen:
-            values[measure.name].append(measure.compare(picture, true))
-    if not times:
-        raise InputError(
-            "no reconstructed picture has a frame within 1 ms in the part that is scored; choose "
-            "another part, or check that frames and events share a clock"
-        )
-    return PictureScores(t_us=times, values=values)
+    for t_us, picture, true in _pair(pictures, frames):
+        sheet.add(t_us, picture, true)
+    return sheet.scores()
+
+
+def true_picture(frame: Frame) -> Picture:
+    """A frame as pictures are compared: luma, 0..1, [H, W] float64."""
+    return frame.luma.astype(np.float64) / WHITE
 
 
 def pool_scores(parts: Iterable[PictureScores]) -> PictureScores:
@@ -146,8 +183,8 @@ def pool_scores(parts: Iterable[PictureScores]) -> PictureScores:
 
 def _pair(
     pictures: Iterable[tuple[int, Picture]], frames: Iterable[Frame]
-) -> Iterator[tuple[int, Float64Array, Float64Array]]:
-    """Each picture that has a frame within the tolerance, with that frame, both 0..1."""
+) -> Iterator[tuple[int, Picture, Picture]]:
+    """Each picture that has a frame within the tolerance, with that frame."""
     later = iter(frames)
     frame = next(later, None)
     for t_us, picture in pictures:
@@ -156,5 +193,4 @@ def _pair(
         if frame is None:
             return
         if frame.t_us <= t_us + TOLERANCE_US:
-            true = np.clip(frame.luma.astype(np.float64) / WHITE, 0.0, 1.0)
-            yield t_us, np.clip(picture.astype(np.float64), 0.0, 1.0), true
+            yield t_us, picture, true_picture(frame)

@@ -88,7 +88,7 @@ def open_scene(source: str, part: Part = WHOLE) -> RealScene:
             is too short.
         FileFormatError: a file is damaged.
     """
-    path, offset_us = _locate(source)
+    path, offset_us = locate_source(source)
     recording = open_recording(path)
     offset_us = offset_us if part.offset_us is None else part.offset_us
     gamma = DISPLAY_GAMMA if is_dsec(path) else LINEAR_GAMMA
@@ -109,7 +109,7 @@ def open_scene(source: str, part: Part = WHOLE) -> RealScene:
     )
 
 
-def _locate(source: str) -> tuple[Path, int]:
+def locate_source(source: str) -> tuple[Path, int]:
     """Where a recording lies, and the frozen offset of its frames, µs."""
     if source not in DATA_SETS:
         return Path(source).expanduser(), 0

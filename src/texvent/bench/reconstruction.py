@@ -16,7 +16,7 @@ from typing import Any, TypeAlias
 
 from texvent.bench.entries import Entry
 from texvent.bench.frame_recording import FrameRecording
-from texvent.bench.picture_scores import Measures, PictureScores, score_pictures
+from texvent.bench.picture_scores import Measures, PictureScores, ScoreSheet, score_pictures
 from texvent.calibrate.rate import match_rate
 from texvent.config import check_range, option_names
 from texvent.errors import ConfigError, InputError, TexventError
@@ -152,11 +152,8 @@ class ReconstructionJudge:
         """
         start = time.perf_counter()
         counted = _Counter()
-        span_us, skip = self.plan.scored_part(recording)
         pictures = self._pictures(recording, counted.pass_on(packets), source)
-        scores = score_pictures(
-            pictures, recording.frames, self.measures, span_us=span_us, skip=skip
-        )
+        scores = score_pictures(pictures, recording.frames, self.empty_sheet(recording))
         return ReconstructionRow(
             recording=recording.name,
             source=source,
@@ -164,6 +161,11 @@ class ReconstructionJudge:
             events=counted.events,
             seconds=time.perf_counter() - start,
         )
+
+    def empty_sheet(self, recording: FrameRecording) -> ScoreSheet:
+        """A sheet for the part of a recording that counts."""
+        span_us, skip = self.plan.scored_part(recording)
+        return ScoreSheet(self.measures, span_us=span_us, skip=skip)
 
     def _pictures(
         self, recording: FrameRecording, packets: Iterable[EventStream], source: str

@@ -29,6 +29,10 @@ BENCHMARKS: Mapping[str, tuple[str, str]] = {
         "texvent.cli.bench_real:run",
         "which simulator comes closest to what a real sensor recorded?",
     ),
+    "reconstruction": (
+        "texvent.cli.bench_reconstruction:run",
+        "from whose events does a network make the best pictures?",
+    ),
     "selftest": (
         "texvent.cli.bench_selftest:run",
         "20 perturbations of a recording: which of them does each metric see?",

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Literal, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,13 +16,13 @@ from texvent._require import require
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.reconstruct.checkpoint import Checkpoint, find_weights, read_checkpoint
+from texvent.reconstruct.config import Device
 from texvent.reconstruct.layers import EXTRA
 from texvent.reconstruct.protocol import PublishedNetwork, RecurrentNetwork
 from texvent.reconstruct.slices_between import slice_between
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
 
-Device: TypeAlias = Literal["auto", "cpu", "cuda"]
 Intensity: TypeAlias = NDArray[np.float32]
 """A picture, [H, W] float32, 0..1."""
 
@@ -94,6 +95,13 @@ class Reconstructor:
     def name(self) -> str:
         """Name of the network."""
         return self._published.name
+
+    def twin(self) -> Reconstructor:
+        """The same network, having seen nothing; both share their weights."""
+        twin = copy.copy(self)
+        twin._network = copy.copy(self._network)
+        twin.reset()
+        return twin
 
     def reset(self) -> None:
         """Forget everything seen, as before another recording."""

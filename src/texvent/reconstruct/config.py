@@ -1,0 +1,27 @@
+"""Which network reconstructs, and where it runs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any, Literal, Self, TypeAlias
+
+Device: TypeAlias = Literal["auto", "cpu", "cuda"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReconstructConfig:
+    """Which network turns events into pictures."""
+
+    network: str = "e2vid"
+    """Network: e2vid, e2vid+, firenet, firenet+, hypere2vid or et-net."""
+    weights: Path | None = None
+    """File with its published weights, which texvent neither carries nor downloads; default: its
+    place in the weights folder."""
+    device: Device = "auto"
+    """Where it runs: cpu, cuda (an NVIDIA GPU), or auto for a GPU if there is one."""
+
+    @classmethod
+    def take(cls, values: dict[str, Any]) -> Self:
+        """A config from a command's values, which are removed from them."""
+        return cls(**{field.name: values.pop(field.name) for field in fields(cls)})
