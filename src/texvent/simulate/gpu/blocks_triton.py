@@ -1,0 +1,91 @@
+"""What the GPU kernels of all pixel models share: reading frames, writing events down."""
+
+from __future__ import annotations
+
+import triton
+import triton.language as tl
+
+
+@triton.jit
+def read(pointer: tl.tensor, inside: tl.tensor) -> tl.tensor:
+    """Numbers in the type that they are compared in: bytes as int32, others as they are."""
+    value = tl.load(pointer, mask=inside, other=0)
+    return value.to(tl.int32) if value.dtype == tl.uint8 else value
+
+
+@triton.jit
+def read_now(
+    frames: tl.tuple, segment: tl.tensor, pixel: tl.tensor, inside: tl.tensor
+) -> tl.tensor:
+    """Intensities of single pixels in the frame that ends a segment."""
+    clip = segment // frames.intervals
+    interval = segment % frames.intervals
+    frame = clip * frames.clip_stride + interval * frames.frame_stride
+    return read(frames.pixels + frame + pixel, inside)
+
+
+@triton.jit
+def read_before(
+    frames: tl.tuple, segment: tl.tensor, pixel: tl.tensor, inside: tl.tensor
+) -> tl.tensor:
+    """Intensities of single pixels in the frame that a segment starts at."""
+    clip = segment // frames.intervals
+    is_first = segment % frames.intervals == 0
+    earlier = read_now(frames, segment - 1, pixel, inside & (not is_first))
+    kept = read(frames.previous + clip * frames.area + pixel, inside & is_first)
+    return tl.where(is_first, kept, earlier)
+
+
+@triton.jit
+def count_bad(intensity: tl.tensor, inside: tl.tensor) -> tl.tensor:
+    """1 where an intensity is NaN, infinite or negative, int32."""
+    if intensity.dtype == tl.int32:
+        bad = tl.zeros(intensity.shape, tl.int32)
+    else:
+        is_good = (intensity >= 0) & (intensity < float("inf"))
+        bad = (inside & (is_good == 0)).to(tl.int32)
+    return bad
+
+
+@triton.jit
+def mark_fired(
+    tally: tl.tuple,
+    segment: tl.tensor,
+    area: tl.tensor,
+    fired: tl.tensor,
+    BLOCK: tl.constexpr,
+) -> None:
+    """Keep a bit for every pixel that fired, where anybody asks for it (`Tally.fired`)."""
+    if tally.fired is not None:
+        size = (area + 7) // 8
+        bits = fired.to(tl.int32) << (tl.arange(0, BLOCK) % 8)
+        byte = tl.sum(tl.reshape(bits, [BLOCK // 8, 8]), axis=1)
+        at = tl.program_id(0) * (BLOCK // 8) + tl.arange(0, BLOCK // 8)
+        tl.store(tally.fired + segment * size + at, byte.to(tl.uint8), mask=at < size)
+
+
+@triton.jit
+def write_events(records: tl.tuple, first: tl.tensor, fires: tl.tensor, event: tl.tuple) -> None:
+    """Write (pixel, order, reference) of the pixels that fire, one after the other."""
+    number = fires.to(tl.int32)
+    place = first + tl.cumsum(number, 0) - number
+    tl.store(records.pixel + place, event[0], mask=fires)
+    tl.store(records.order + place, event[1], mask=fires)
+    tl.store(records.reference + place, event[2], mask=fires)
+
+
+@triton.jit
+def place_in(intervals: tl.tuple, segment: tl.tensor, fraction: tl.tensor) -> tl.tensor:
+    """Times at fractions 0..1 of an interval, on the common axis; see `interval.place_in`."""
+    duration = tl.load(intervals.duration_us + segment)
+    start = tl.load(intervals.start_us + segment) + tl.load(intervals.origin_us + segment)
+    offset = tl.floor(fraction * duration.to(tl.float64)).to(tl.int64)
+    return start + tl.minimum(offset, duration - 1)
+
+
+@triton.jit
+def pack_event(
+    t: tl.tensor, pixel: tl.tensor, is_on: tl.tensor, label: tl.tensor, area: tl.tensor
+) -> tl.tensor:
+    """An event as one int64 that sorts by (t, y, x, p, label); `ordering` takes it apart."""
+    return ((t * area + pixel) * 2 + is_on) * 2 + label

@@ -1,0 +1,108 @@
+"""What the GPU kernels take: tensors by name, in groups.
+
+A group is one argument of a kernel. Tensors lie on one device; an item that a model does not need
+is None, and the kernel is then compiled without it. S is the number of segments, the intervals of
+all clips, one clip after the other: clip · T + interval.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple, TypeAlias
+
+Tensor: TypeAlias = Any
+"""torch.Tensor; inside a kernel a Triton pointer."""
+
+
+class Frames(NamedTuple):
+    """The frames of one call: T intervals per clip, each ending at a frame of `pixels`."""
+
+    pixels: Tensor
+    """[B, T, area] intensity, uint8 or float32; only the last axis must be contiguous."""
+    previous: Tensor
+    """[B, area] the frame before the first of them, same type."""
+    clip_stride: int
+    """Pixels from one clip to the next."""
+    frame_stride: int
+    """Pixels from one frame to the next."""
+    intervals: int
+    """T."""
+    area: int
+    """Pixels of a frame."""
+    width: int
+    """Pixels of a row."""
+
+
+class Intervals(NamedTuple):
+    """What the host knows of every interval; all [S] int64."""
+
+    start_us: Tensor
+    """Time of the frame before."""
+    duration_us: Tensor
+    """Time until the next frame, at least 1."""
+    key: Tensor
+    """The bits of `draws.frame_key`."""
+    policy: Tensor
+    """What the reference does before the interval: `KEEP`, `FORGET` or `LEAK`."""
+    origin_us: Tensor
+    """Added to a time it gives the time on an axis that puts the clips one after the other."""
+    table: Tensor
+    """Which row of the Poisson tables the interval draws its noise from."""
+
+
+class NoiseRules(NamedTuple):
+    """Eq. 6 as numbers."""
+
+    numbers: Tensor
+    """[2] float64."""
+    cumulative: Tensor
+    """[tables, length] float64: P(events of a block ≤ k), filled up with 2."""
+    length: int
+    """Entries of a table."""
+
+
+class Tally(NamedTuple):
+    """What the first pass over the frames counts, and the second one knows."""
+
+    events: Tensor
+    """[S, blocks] int32, first pass: events of a block in an interval. Second pass: int64, where
+    the block's events begin among all records."""
+    fired: Tensor
+    """[S, area / 8 rounded up] uint8, or None: a bit per pixel that fired, lowest bit first."""
+    bad: Tensor
+    """[1] int32: intensities that are NaN, infinite or negative."""
+
+
+class Records(NamedTuple):
+    """Signal events before they have a time; those of a segment follow each other; [n] each."""
+
+    pixel: Tensor
+    """Flat index y · W + x, int32."""
+    order: Tensor
+    """Which of its pixel's events in this interval it is: 1, 2, ...; int32."""
+    reference: Tensor
+    """What the pixel compared with: an intensity, in the frames' type, or a brightness, float64."""
+
+
+KEEP, FORGET, LEAK = range(3)
+"""Values of `Intervals.policy`."""
+ON_FRACTION, DARK_BELOW = range(2)
+"""Where each number lies in `NoiseRules.numbers`."""
+
+
+class Call(NamedTuple):
+    """One call of the engine, as every kernel sees it."""
+
+    frames: Frames
+    intervals: Intervals
+    align: int
+    """Largest power of two, up to 16, that divides the distance of any two frames, pixels."""
+
+    @property
+    def clips(self) -> int:
+        """B."""
+        return len(self.frames.previous)
+
+    @property
+    def segments(self) -> int:
+        """S."""
+        return len(self.intervals.start_us)

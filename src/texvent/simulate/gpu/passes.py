@@ -1,0 +1,106 @@
+"""The two passes over the frames of a call: count, then write down; and what lies between them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent._require import require
+from texvent.errors import InputError
+from texvent.simulate.gpu.device import EXTRA
+from texvent.simulate.gpu.esim_pixels import EsimPixels
+from texvent.simulate.gpu.kernel_types import Call, NoiseRules, Tally, Tensor
+from texvent.simulate.gpu.noise import NoiseDraw
+from texvent.simulate.gpu.texvent_pixels import TexventPixels
+
+GpuPixels = TexventPixels | EsimPixels
+
+
+@dataclass(frozen=True, eq=False)
+class Words:
+    """The events of a call, not in order."""
+
+    words: Tensor
+    """[n] int64, see `blocks_triton.pack_event`."""
+    ends: Tensor
+    """[S + 1] int64, on the device: events before each segment, and n."""
+    host_ends: NDArray[np.int64]
+    """The same on the host."""
+
+
+def run_passes(
+    pixels: GpuPixels, call: Call, noise: NoiseRules | None, *, on_resting: bool
+) -> Words:
+    """Find the events of a call and move the pixels' state along.
+
+    Args:
+        pixels: the model.
+        call: frames and intervals.
+        noise: how noise is drawn; None for none.
+        on_resting: whether noise falls on dark, resting pixels only.
+
+    Raises:
+        InputError: an intensity is NaN, infinite or negative; the state is then as before.
+    """
+    torch = require("torch", extra=EXTRA)
+    device, area = call.frames.pixels.device, call.frames.area
+    blocks = math.ceil(area / pixels.block)
+    tally = Tally(
+        torch.empty(call.segments * blocks, dtype=torch.int32, device=device),
+        torch.empty(call.segments, -(-area // 8), dtype=torch.uint8, device=device)
+        if noise is not None and on_resting
+        else None,
+        torch.zeros(1, dtype=torch.int32, device=device),
+    )
+    pixels.walk(call, tally, None)
+    starts, ends = scan_counts(tally.events, call.segments)
+    drawn = NoiseDraw(call, noise, tally.fired) if noise is not None else None
+    noise_starts, noise_ends = starts, torch.zeros_like(ends)
+    if drawn is not None:
+        noise_starts, noise_ends = scan_counts(drawn.per_block, call.segments)
+    # The only place where the host waits for the device.
+    counts = torch.cat((tally.bad.long(), ends, noise_ends)).cpu().numpy()
+    _refuse_bad(int(counts[0]))
+    host_ends, host_noise_ends = np.split(counts[1:], 2)
+    signal = int(host_ends[-1])
+    words = torch.empty(signal + int(host_noise_ends[-1]), dtype=torch.int64, device=device)
+    records = pixels.records(signal)
+    pixels.walk(call, tally._replace(events=starts), records)
+    if signal:
+        pixels.stamp(call, records, ends, words)
+    if drawn is not None and len(words) > signal:
+        drawn.write(noise_starts + signal, words)
+    return Words(words, ends + noise_ends, host_ends + host_noise_ends)
+
+
+def scan_counts(counts: Tensor, segments: int) -> tuple[Tensor, Tensor]:
+    """Where the events of each block and of each segment begin.
+
+    Args:
+        counts: [S · blocks] int32.
+        segments: S.
+
+    Returns:
+        [S · blocks] int64: events before each block; [S + 1] int64: before each segment, and all.
+
+    Example:
+        >>> torch = require("torch")  # doctest: +SKIP
+        >>> scan_counts(torch.tensor([1, 0, 2, 3]), 2)  # doctest: +SKIP
+        (tensor([0, 1, 1, 3]), tensor([0, 1, 6]))
+    """
+    torch = require("torch", extra=EXTRA)
+    passed = torch.cumsum(counts, 0, dtype=torch.int64)
+    ends = torch.zeros(segments + 1, dtype=torch.int64, device=counts.device)
+    ends[1:] = passed.view(segments, -1)[:, -1]
+    return passed - counts, ends
+
+
+def _refuse_bad(bad: int) -> None:
+    if bad:
+        raise InputError(
+            f"the frames have {bad} pixel(s) that are NaN, infinite or negative; intensities must "
+            "be finite and at least 0"
+        )
