@@ -235,7 +235,7 @@ def _list_marks(marks: _Marks, place: Int64Array) -> int:
             for i in range(of_run.size):
                 # Written always, kept if marked: without a branch that cannot be foreseen.
                 place[found] = run * RUN + i
-                found += of_run[i]
+                found += np.int64(of_run[i])
     return found
 
 
