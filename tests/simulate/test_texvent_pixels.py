@@ -180,8 +180,8 @@ def test_auto_prepares_the_kernels_of_the_frames_it_gets():
     simulator.step(frame(np.zeros((2, 2)), np.uint8, 0))
     simulator.step(frame(np.zeros((2, 2)), np.uint8, 1))
     folder = "texvent.simulate.kernels"
-    readiness.wait_until_ready(f"{folder}.texvent_cpu", "uint8")
-    assert readiness.is_ready(f"{folder}.texvent_cpu", "uint8")
+    readiness.wait_until_ready(f"{folder}.texvent_cpu", "|u1")
+    assert readiness.is_ready(f"{folder}.texvent_cpu", "|u1")
 
 
 @pytest.mark.parametrize("backend", FAST)

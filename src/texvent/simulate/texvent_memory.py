@@ -40,7 +40,7 @@ def remember(first: Intensity, config: TexventConfig) -> Memory:
         renewed=np.empty(0 if has_levels or not may_renew(config) else first.size, first.dtype),
         previous=np.empty(0, first.dtype) if config.stamp != "linear" else first.copy(),
         level=np.empty(first.size if has_levels else 0),
-        table=_NOTHING if has_levels else brightness_table(first.dtype.name, config.balance),
+        table=_NOTHING if has_levels else brightness_table(first.dtype.str, config.balance),
     )
     if has_levels:
         renew_levels(memory, first, config)
@@ -105,7 +105,7 @@ def brightness_table(dtype: str, balance: float) -> Float64Array:
     Returns:
         [256] or [65536], −∞ for black without a balance; read-only.
     """
-    if dtype == "float32":
+    if np.dtype(dtype).kind == "f":
         return _NOTHING
     luma = as_luma(np.arange(np.iinfo(dtype).max + 1).astype(dtype))
     lit = luma[1:] if balance == 0 else luma

@@ -68,7 +68,7 @@ class SparsePixels:
         rule = self._rule
         if renewal == "renew" and not has_levels:
             rule = rule._replace(is_renewed=True)
-        find_fired = load_find_fired(self._backend, intensity.dtype.name)
+        find_fired = load_find_fired(self._backend, intensity.dtype.str)
         fired = find_fired(intensity, self._memory, self._levels, rule)
         if fired is None:
             raise bad_intensity(frame.pixels, where)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from texvent.errors import ConfigError, MissingDependencyError
 from texvent.simulate.draws import frame_key
-from texvent.simulate.kernels import cpu, reference
+from texvent.simulate.kernels import cpu, reference, select
 from texvent.simulate.kernels.select import load_kernels
 
 
@@ -64,10 +64,12 @@ def test_noise_certain_and_impossible(backend):
 
 @pytest.fixture
 def without_numba(monkeypatch):
-    load_kernels.cache_clear()
+    for cached in (load_kernels, select._load):
+        cached.cache_clear()
     monkeypatch.setitem(sys.modules, "numba", None)
     yield
-    load_kernels.cache_clear()
+    for cached in (load_kernels, select._load):
+        cached.cache_clear()
 
 
 def test_auto_is_cpu():

@@ -13,9 +13,11 @@ from texvent.simulate.kernels.select import load_kernel_when_ready
 
 @pytest.fixture(autouse=True)
 def _fresh():
-    readiness._prepare.cache_clear()
+    for forget in (readiness._prepare.cache_clear, readiness._ready.clear):
+        forget()
     yield
-    readiness._prepare.cache_clear()
+    for forget in (readiness._prepare.cache_clear, readiness._ready.clear):
+        forget()
 
 
 @pytest.fixture

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
+from typing import Any
+
 import numba
 import numpy as np
 
@@ -12,6 +17,13 @@ _GOLDEN = np.uint64(draws.GOLDEN)
 _MULTIPLIER_1 = np.uint64(draws.MULTIPLIER_1)
 _MULTIPLIER_2 = np.uint64(draws.MULTIPLIER_2)
 _UNIT = draws.UNIT
+allow_wrap_around: Callable[[], AbstractContextManager[Any]] = (
+    functools.partial(np.errstate, over="ignore")
+    if vars(numba.config)["DISABLE_JIT"]
+    else nullcontext
+)
+"""Context to call a kernel in that hashes: with NUMBA_DISABLE_JIT=1 it runs in NumPy, which would
+warn of hashes that wrap around."""
 _11, _16, _27, _30, _31, _32 = (np.uint64(bits) for bits in (11, 16, 27, 30, 31, 32))
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.simulate.draws import Purpose
-from texvent.simulate.kernels.cpu_draws import draw_uniform, draw_word
+from texvent.simulate.kernels.cpu_draws import allow_wrap_around, draw_uniform, draw_word
 from texvent.simulate.kernels.noise import Block, NoisePlaces
 from texvent.simulate.kernels.noise_reference import TIME_UNIT
 from texvent.simulate.kernels.order import read_only
@@ -27,8 +27,7 @@ _INDEX = np.uint64((1 << 31) - 1)
 
 def place_noise(noise: Block, pixels: int) -> NoisePlaces:
     """See `noise_reference.place_noise`."""
-    # With NUMBA_DISABLE_JIT=1 the hash runs in NumPy, which would warn of its wrap-around.
-    with np.errstate(over="ignore"):
+    with allow_wrap_around():
         places = _place_noise(noise.key, read_only(noise.cumulative), noise.on_fraction, pixels)
     return NoisePlaces(*places)
 

@@ -17,6 +17,7 @@ from texvent._require import require
 from texvent.errors import MissingDependencyError
 
 _logger = logging.getLogger(__name__)
+_ready: set[tuple[str, tuple[str, ...]]] = set()
 
 
 def is_ready(module: str, *variant: str) -> bool:
@@ -29,13 +30,22 @@ def is_ready(module: str, *variant: str) -> bool:
     Returns:
         False while it is being prepared, and for good where it cannot be.
     """
+    if (module, variant) in _ready:
+        return True
     work = _prepare(module, variant)
-    return work.done() and work.exception() is None
+    if work.done() and work.exception() is None:
+        _ready.add((module, variant))
+    return (module, variant) in _ready
 
 
 def wait_until_ready(module: str, *variant: str) -> None:
     """Return when the module is compiled, or cannot be."""
     _prepare(module, variant).exception()
+
+
+def wait_until_idle() -> None:
+    """Return when nothing is being prepared any more: what is measured from here on is compiled."""
+    _compiler().submit(int).result()
 
 
 def _warm_up(module: str, variant: tuple[str, ...]) -> None:

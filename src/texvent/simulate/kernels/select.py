@@ -72,6 +72,11 @@ def load_kernel(model: str, function: str, backend: str) -> object:
         except MissingDependencyError:
             # Not an error: the reference gives the same events, only later.
             return load_kernel(model, function, "reference")
+    return _load(model, function, backend)
+
+
+@functools.cache
+def _load(model: str, function: str, backend: str) -> object:
     if backend in _PACKAGES:
         require(_PACKAGES[backend])
     module = f"{_FOLDER}.{model}_{backend}"
@@ -95,4 +100,4 @@ def load_kernel_when_ready(model: str, function: str, backend: str, *variant: st
     """
     if check_backend(backend) == AUTO:
         backend = "cpu" if is_ready(f"{_FOLDER}.{model}_cpu", *variant) else "numpy"
-    return load_kernel(model, function, backend)
+    return _load(model, function, backend)

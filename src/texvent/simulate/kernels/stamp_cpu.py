@@ -18,7 +18,7 @@ from texvent.events import NOISE
 from texvent.simulate.draws import Purpose
 from texvent.simulate.firings import Interval
 from texvent.simulate.kernels import stamp_numpy
-from texvent.simulate.kernels.cpu_draws import draw_uniform
+from texvent.simulate.kernels.cpu_draws import allow_wrap_around, draw_uniform
 from texvent.simulate.kernels.noise import NoisePlaces
 from texvent.simulate.kernels.order import Columns
 from texvent.simulate.kernels.order_cpu import key_bits, sort_keys, unpack_keys
@@ -61,8 +61,7 @@ def stamp_events(
     rule = _Rule(
         _STAMPS.index(timing.stamp), *timing[1:], span.key, span.duration_us, shape[1], low
     )
-    # With NUMBA_DISABLE_JIT=1 the hash runs in NumPy, which would warn of its wrap-around.
-    with np.errstate(over="ignore"):
+    with allow_wrap_around():
         return Columns(*_stamp_events(fired, noise, rule, span.start_us, bits))
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.simulate.kernels import texvent_numpy
+from texvent.simulate.kernels.cpu_draws import allow_wrap_around
 from texvent.simulate.kernels.order import read_only
 from texvent.simulate.kernels.texvent import (
     NOISE_BLOCK,
@@ -62,8 +63,7 @@ class _Marks(NamedTuple):
 
 def find_fired(frame: Intensity, memory: Memory, levels: Levels, rule: FireRule) -> Fired | None:
     """See `texvent_numpy.find_fired`."""
-    # With NUMBA_DISABLE_JIT=1 words are multiplied in NumPy, which would warn of their wrap-around.
-    with np.errstate(over="ignore"):
+    with allow_wrap_around():
         return _find_fired(frame, memory, levels, rule)
 
 
@@ -87,7 +87,7 @@ def _find_fired(frame: Intensity, memory: Memory, levels: Levels, rule: FireRule
 def warm_up(dtype: str) -> None:
     """Compile for one type of frames, or load what was compiled before."""
     picture, number, byte = np.ones(1, dtype), np.float32(1.0), np.uint8(1)
-    table = np.zeros(0 if dtype == "float32" else np.iinfo(dtype).max + 1)
+    table = np.zeros(0 if picture.dtype.kind == "f" else np.iinfo(dtype).max + 1)
     memory = Memory(picture, picture.copy(), picture[:0].copy(), np.empty(0), table)
     levels = Levels(number, number, number, number, number, byte)
     rule = FireRule(1.0, 1.0, False, False, True, False)
@@ -235,7 +235,7 @@ def _list_marks(marks: _Marks, place: Int64Array) -> int:
             for i in range(of_run.size):
                 # Written always, kept if marked: without a branch that cannot be foreseen.
                 place[found] = run * RUN + i
-                found += np.int64(of_run[i])
+                found += int(of_run[i])
     return found
 
 
