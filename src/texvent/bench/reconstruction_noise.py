@@ -14,7 +14,7 @@ from texvent.bench.picture_scores import Picture, PictureScores, true_picture
 from texvent.bench.reconstruction import ReconstructionJudge
 from texvent.config import check_range
 from texvent.events import EventStream
-from texvent.reconstruct.slices_between import slice_between
+from texvent.reconstruct.packet_slices import slice_between
 
 NoiseKind: TypeAlias = Literal["scattered", "background"]
 """A share of the events moved to random places, or background activity at a rate per pixel."""

@@ -24,6 +24,7 @@ COMMANDS = {
     "convert": "Another event format, a region, a time range, several files in one.",
     "validate": "Can this event file be trusted? A verdict and an exit code.",
     "compare": "How close an event file is to the true one, by many metrics.",
+    "reconstruct": "Pictures from events alone, by a published network whose weights are yours.",
     "bench": "Benchmarks: which metrics can be trusted, which simulator is closest.",
     "calibrate": "Fit the physical model to a recording of frames and events.",
     "data": "Recordings and clips to try things on: list them, fetch them.",

@@ -18,8 +18,8 @@ from texvent.events import EventStream
 from texvent.reconstruct.checkpoint import Checkpoint, find_weights, read_checkpoint
 from texvent.reconstruct.config import Device
 from texvent.reconstruct.layers import EXTRA
+from texvent.reconstruct.packet_slices import slice_between
 from texvent.reconstruct.protocol import PublishedNetwork, RecurrentNetwork
-from texvent.reconstruct.slices_between import slice_between
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
 

@@ -98,12 +98,15 @@ def fit_text(text: str, height: int, width: int) -> str:
 
 
 def png_bytes(picture: Picture) -> bytes:
-    """The picture as a PNG file in memory.
+    """The picture, RGB or grey [H, W], as a PNG file in memory.
 
     Raises:
         OutputError: OpenCV refuses the picture.
     """
-    done, data = cv2.imencode(".png", cv2.cvtColor(picture, cv2.COLOR_RGB2BGR))
+    is_grey = picture.ndim == 2
+    done, data = cv2.imencode(
+        ".png", picture if is_grey else cv2.cvtColor(picture, cv2.COLOR_RGB2BGR)
+    )
     if not done:
         raise OutputError(f"a picture of shape {picture.shape} cannot be written as PNG")
     encoded: Any = data
