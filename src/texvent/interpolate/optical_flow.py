@@ -20,6 +20,8 @@ LEAST_SIDE_PX = 32
 LEAST_RANGE = 16.0
 """The flow sees this many intensity levels or more stretched over 8 bits, so that the noise of a
 flat frame does not look like texture."""
+BAND_ROWS = 16
+"""Rows that are converted at a time: what they need stays in the processor's cache."""
 
 
 class DisFlow:
@@ -58,9 +60,13 @@ class DisFlow:
     def _flow(self, earlier: ByteArray, later: ByteArray) -> FlowArray:
         height, width = earlier.shape
         flow = self._dis.calc(_pad(earlier), _pad(later), None)  # type: ignore[call-overload]
-        # A pixel without a finite flow is taken as still; the consistency check judges it.
-        finite = np.nan_to_num(flow[:height, :width], nan=0.0, posinf=0.0, neginf=0.0)
-        return np.asarray(finite, dtype=np.float32)
+        flow = np.asarray(flow[:height, :width], dtype=np.float32)
+        with np.errstate(invalid="ignore"):
+            is_finite = bool(np.isfinite(flow.sum()))
+        if not is_finite:
+            # A pixel without a finite flow is taken as still; the consistency check judges it.
+            flow = np.nan_to_num(flow, nan=0.0, posinf=0.0, neginf=0.0)
+        return np.asarray(flow, dtype=np.float32)
 
 
 def stretch_to_bytes(
@@ -70,10 +76,15 @@ def stretch_to_bytes(
     low = float(min(first.min(), second.min()))
     high = float(max(first.max(), second.max()))
     gain = np.float32(255.0 / max(high - low, LEAST_RANGE))
-    earlier, later = (
-        np.rint((frame - np.float32(low)) * gain).astype(np.uint8) for frame in (first, second)
-    )
-    return earlier, later
+    return _to_bytes(first, low, gain), _to_bytes(second, low, gain)
+
+
+def _to_bytes(frame: NDArray[np.float32], low: float, gain: np.float32) -> ByteArray:
+    levels = np.empty(frame.shape, np.uint8)
+    for top in range(0, len(frame), BAND_ROWS):
+        band = slice(top, top + BAND_ROWS)
+        levels[band] = np.rint((frame[band] - np.float32(low)) * gain)
+    return levels
 
 
 def _enlarge(picture: ByteArray, scale: int) -> ByteArray:
