@@ -2,11 +2,13 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from texvent.events import NOISE
 from texvent.simulate.draws import frame_key
 from texvent.simulate.firings import Interval
-from texvent.simulate.rate_noise import draw_rate_noise
+from texvent.simulate.rate_noise import NoiseRates
 
 
 def interval(seconds: float, frame: int = 1) -> Interval:
@@ -14,7 +16,7 @@ def interval(seconds: float, frame: int = 1) -> Interval:
 
 
 def counts(rate_hz, seconds, **options):
-    events = draw_rate_noise(rate_hz, interval(seconds), **options)
+    events = NoiseRates(rate_hz).draw(interval(seconds), **options)
     found = np.zeros(rate_hz.size, int)
     np.add.at(found, events.pixel, 1)
     return found.reshape(rate_hz.shape)
@@ -42,9 +44,8 @@ def test_each_pixel_has_its_own_rate(backend):
 
 def test_times_are_uniform_and_polarity_has_its_share(backend):
     on_fraction = np.repeat([[0.1, 0.9]], 3000, axis=0)
-    events = draw_rate_noise(
-        np.full((3000, 2), 3.0), interval(1.0), on_fraction=on_fraction, backend=backend
-    )
+    rates = NoiseRates(np.full((3000, 2), 3.0))
+    events = rates.draw(interval(1.0), on_fraction=on_fraction, backend=backend)
     assert events.t.min() >= 1000
     assert events.t.max() < 1_001_000
     histogram = np.histogram(events.t, bins=10, range=(1000, 1_001_000))[0]
@@ -55,9 +56,41 @@ def test_times_are_uniform_and_polarity_has_its_share(backend):
     assert (events.label == NOISE).all()
 
 
-def test_backends_find_the_same_events():
-    rate_hz = np.random.default_rng(0).uniform(0, 5, (30, 40))
+def test_a_share_of_the_rate_keeps_that_share_of_the_events(backend):
+    rates = NoiseRates(np.full((2000, 3), 4.0))
+    share = np.array([0.0, 0.25, 1.0])
+    events = rates.draw(interval(1.0), share=lambda pixel: share[pixel % 3], backend=backend)
+    found = np.bincount(events.pixel % 3, minlength=3)
+    assert found[0] == 0
+    assert found[1:] == pytest.approx([2000, 8000], abs=4 * math.sqrt(8000))
+
+
+def test_events_come_by_pixel_and_then_in_time(backend):
+    events = NoiseRates(np.full((7, 9), 6.0)).draw(interval(1.0), backend=backend)
+    order = np.lexsort((events.t, events.pixel))
+    assert (order == np.arange(len(order))).all()
+
+
+def test_two_streams_of_one_sensor_are_independent():
+    rate_hz = np.full((50, 60), 2.0)
+    first, second = (NoiseRates(rate_hz, stream=s).draw(interval(1.0)) for s in (0, 1))
+    maps = [np.bincount(events.pixel, minlength=3000) for events in (first, second)]
+    assert abs(np.corrcoef(*maps)[0, 1]) < 4 / math.sqrt(3000)
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    st.integers(0, 2**63 - 1),
+    st.tuples(st.integers(1, 9), st.integers(1, 9)),
+    st.sampled_from([0.0, 1e-3, 2.0, 500.0]),
+    st.sampled_from([1e-6, 0.01, 1.0]),
+)
+def test_backends_find_the_same_events(seed, shape, highest_hz, seconds):
+    rate_hz = np.random.default_rng(seed).uniform(0, 1, shape).round(1) * highest_hz
     first, second = (
-        draw_rate_noise(rate_hz, interval(1.0), backend=backend) for backend in ("reference", "cpu")
+        NoiseRates(rate_hz).draw(interval(seconds, seed), backend=backend)
+        for backend in ("reference", "cpu")
     )
     assert all(np.array_equal(a, b) for a, b in zip(first, second, strict=True))
+    assert rate_hz.reshape(-1)[first.pixel].all()
+    assert ((first.t >= 1000) & (first.t < 1000 + round(seconds * 1e6))).all()

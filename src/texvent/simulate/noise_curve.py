@@ -24,6 +24,11 @@ class NoiseCurve(NamedTuple):
     rates_hz: NDArray[np.float64]
     """[n] events per pixel and second, above 0."""
 
+    @property
+    def highest_hz(self) -> float:
+        """The highest rate at any intensity, events per pixel and second."""
+        return float(self.rates_hz.max())
+
     def rate_at(self, intensity: NDArray[np.float64]) -> NDArray[np.float64]:
         """Events per pixel and second at a linear intensity, of the same shape."""
         return np.asarray(np.exp(np.interp(intensity, self.levels, np.log(self.rates_hz))))

@@ -21,30 +21,35 @@ from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.simulate.draws import Purpose, draw_uniforms
 from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.kernels.circuit import (
-    Arrivals,
+    WHITE,
+    Light,
+    NoiseEvents,
     Pixels,
-    PixelState,
     ResetRules,
     load_advance_pixels,
+    new_state,
 )
 from texvent.simulate.noise_curve import parse_noise_curve
-from texvent.simulate.photoreceptor import WHITE, drive_photoreceptors, see
+from texvent.simulate.photoreceptor import Sight
 from texvent.simulate.physical_config import PRESETS, PhysicalConfig
 from texvent.simulate.pixel_maps import (
-    Float64Array,
     draw_chosen,
     draw_rate_factors,
     draw_threshold_pair,
     sensor_key,
 )
-from texvent.simulate.rate_noise import draw_rate_noise
+from texvent.simulate.rate_noise import Float64Array, NoiseRates
 from texvent.simulate.readout import Readout
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 from texvent.video import MICROSECONDS
+
+HOT = 1
+"""The stream of noise of hot pixels."""
 
 
 class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
@@ -80,33 +85,26 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
 
     def _begin(self, intensity: IntensityArray) -> None:
         config, shape = self.config, intensity.shape
-        self._noise_curve = parse_noise_curve(config.noise_curve)
         self._draw_sensor(shape)
         self._readout = Readout(config.readout, first_us=self._last_us, width=shape[1])
-        self._look_at(intensity)
-        change = np.zeros(shape)
+        self._sight = Sight(
+            intensity, gamma=config.gamma, balance=config.balance, cutoff_hz=config.cutoff_hz
+        )
+        output = self._sight.brightness()
+        level = output.copy()
         if config.initial_phase == "random":
             y, x = np.ogrid[: shape[0], : shape[1]]
-            phase = draw_uniforms(sensor_key(self._seed), y, x, Purpose.PHASE.draw())
-            on, off = (one.reshape(shape) for one in self._pixels[:2])
-            change = phase * (on + off) - off
-        self._state = PixelState(
-            lag=np.zeros(change.size),
-            change=change.reshape(-1),
-            leaked=np.zeros(change.size),
-            release_us=np.full(change.size, self._last_us),
-        )
+            phase = draw_uniforms(sensor_key(self._seed), y, x, Purpose.PHASE.draw()).reshape(-1)
+            on, off = self._pixels[:2]
+            level -= phase * (on + off) - off
+        self._state = new_state(output, level, self._last_us)
 
     def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
-        light, noise_hz = self._light, self._noise_hz
-        self._look_at(intensity)
-        drive = drive_photoreceptors(
-            light, self._light, self.config.cutoff_hz, interval.duration_us
-        )
-        noise = self._draw_noise((noise_hz + self._noise_hz) / 2, interval)
+        light = self._sight.towards(intensity)
+        noise = self._draw_noise(light, interval)
         rules = ResetRules(self.config.refractory_period_us, self.config.noise_resets)
         fired = load_advance_pixels(self._backend)(
-            drive, self._pixels, self._state, noise, rules, (interval.start_us, interval.stop_us)
+            light, self._pixels, self._state, noise, rules, (interval.start_us, interval.stop_us)
         )
         self._forget(interval)
         return self._readout.read(fired, interval)
@@ -120,35 +118,43 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
             shape, key, Purpose.LEAK_RATE, config.leak_rate_decades
         )
         leak_per_us = leak * on / MICROSECONDS
-        self._pixels = Pixels(on.reshape(-1), off.reshape(-1), leak_per_us.reshape(-1))
-        self._noise_factor = config.noise_scale * _factors_of_mean_1(
-            shape, key, Purpose.NOISE_RATE, config.noise_decades
+        self._pixels = Pixels(
+            *(column.reshape(-1).astype(np.float32) for column in (on, off, leak_per_us))
         )
+        self._noise_curve = parse_noise_curve(config.noise_curve)
+        factor = _factors_of_mean_1(shape, key, Purpose.NOISE_RATE, config.noise_decades)
+        self._noise = NoiseRates(config.noise_scale * self._noise_curve.highest_hz * factor)
         hot = draw_chosen(shape, key, Purpose.HOT_PIXEL, fraction=config.hot_pixel_fraction)
-        self._hot_hz = config.hot_pixel_rate_hz * hot
+        self._hot_noise = NoiseRates(config.hot_pixel_rate_hz * hot, stream=HOT)
 
-    def _look_at(self, luma: IntensityArray) -> None:
-        """Keep what the next interval needs of a frame."""
-        config = self.config
-        self._light = see(luma, gamma=config.gamma, balance=config.balance)
-        self._noise_hz = self._hot_hz
-        if config.noise_scale > 0:
-            curve = self._noise_curve.rate_at(self._light.intensity)
-            self._noise_hz = self._hot_hz + self._noise_factor * curve
+    def _draw_noise(self, light: Light, interval: Interval) -> NoiseEvents:
+        curve, sight = self._noise_curve, self._sight
 
-    def _draw_noise(self, rate_hz: Float64Array, interval: Interval) -> Arrivals:
-        if not rate_hz.any():
-            return Arrivals(np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0, np.uint8))
-        noise = draw_rate_noise(rate_hz, interval, on_fraction=self.config.noise_on_fraction)
+        def share(pixel: NDArray[np.int64]) -> Float64Array:
+            """The noise curve at the pixels, the mean over both frames, relative to its top."""
+            start, stop = (
+                curve.rate_at(sight.intensity(luma[pixel])) for luma in (light.before, light.now)
+            )
+            return np.asarray((start + stop) / (2.0 * curve.highest_hz))
+
+        on_fraction, backend = self.config.noise_on_fraction, self._backend
+        noise = self._noise.draw(interval, share=share, on_fraction=on_fraction, backend=backend)
+        if not self._hot_noise.is_silent:
+            hot = self._hot_noise.draw(interval, on_fraction=on_fraction, backend=backend)
+            noise = noise.joined(hot)
         order = np.lexsort((noise.p, noise.t, noise.pixel))
-        return Arrivals(noise.pixel[order], noise.t[order], noise.p[order])
+        return NoiseEvents(noise.pixel[order], noise.t[order], noise.p[order])
 
     def _forget(self, interval: Interval) -> None:
-        """Let change that has not fired decay."""
+        """Let change that has not fired decay, what leaked and what light made alike."""
         if self.config.residual_decay_hz > 0:
             kept = math.exp(-self.config.residual_decay_hz * interval.duration_s)
-            self._state.change[:] *= kept
-            self._state.leaked[:] *= kept
+            state, stop_us = self._state, interval.stop_us
+            state.level[:] += (1.0 - kept) * (state.output - state.level)
+            age = np.rint(kept * (stop_us - state.since_us)).astype(np.int64)
+            is_free = state.since_us <= stop_us
+            state.since_us[is_free] = stop_us - age[is_free]
+            state.calm_until_us[:] = stop_us
 
 
 def _factors_of_mean_1(

@@ -2,59 +2,84 @@
 
 from __future__ import annotations
 
-import math
+from collections.abc import Callable
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from texvent.simulate.draws import Purpose, draw_uniforms
 from texvent.simulate.firings import Firings, Interval
-from texvent.simulate.kernels.select import AUTO, load_kernels
+from texvent.simulate.kernels.arrivals import load_draw_arrivals
+from texvent.simulate.kernels.select import AUTO
+
+Float64Array: TypeAlias = NDArray[np.float64]
+Share: TypeAlias = Callable[[NDArray[np.int64]], Float64Array]
+"""Given flat pixel indices [n], by how much each pixel's rate is lowered just now, 0..1, [n]."""
 
 
-def draw_rate_noise(
-    rate_hz: NDArray[np.float64],
-    interval: Interval,
-    *,
-    on_fraction: ArrayLike = 0.5,
-    backend: str = AUTO,
-) -> Firings:
-    """Noise events of one interval, by exponential gaps between them.
+class NoiseRates:
+    """How often every pixel of a sensor makes noise, at most."""
 
-    Their number per second does not depend on how time is cut into frames.
+    def __init__(self, rate_hz: NDArray[np.floating[Any]], *, stream: int = 0) -> None:
+        """Add up the rates along each row, once for all intervals.
 
-    Args:
-        rate_hz: events per second of each pixel, both polarities together, [H, W].
-        interval: where in time; its key decides the draws.
-        on_fraction: probability of ON, one number or [H, W].
-        backend: which kernels scan the pixels; all find the same.
+        Args:
+            rate_hz: events per second of each pixel, both polarities together, [H, W].
+            stream: 0..65535: another one for each further process of the same sensor.
+        """
+        self._cumulative_hz: Float64Array = np.cumsum(rate_hz, axis=1, dtype=np.float64)
+        self._stream = stream
 
-    Returns:
-        Events labelled as noise: Poisson in number, uniform in time.
-    """
-    width = rate_hz.shape[1]
-    mean = rate_hz * interval.duration_s
-    # The first gap −ln(u) / mean ends in the interval where u > e^{−mean}: a compiled scan for the
-    # largest mean leaves few pixels to take logarithms of.
-    quiet = math.exp(-float(mean.max()))
-    pixel = load_kernels(backend).find_noisy_pixels(
-        np.ones(rate_hz.shape, np.bool_), interval.key, Purpose.NOISE_TIME.draw(), quiet
-    )
-    elapsed = np.zeros(len(pixel))
-    pixels, fractions, polarities = [pixel[:0]], [elapsed[:0]], [np.empty(0, np.bool_)]
-    order = 0
-    while len(pixel):
-        y, x = np.divmod(pixel, width)
-        chance = draw_uniforms(interval.key, y, x, Purpose.NOISE_TIME.draw(order))
-        with np.errstate(divide="ignore"):
-            elapsed = elapsed - np.log(chance) / mean[y, x]
-        inside = elapsed < 1.0
-        pixel, elapsed, y, x = pixel[inside], elapsed[inside], y[inside], x[inside]
-        polarity = draw_uniforms(interval.key, y, x, Purpose.NOISE_POLARITY.draw(order))
-        pixels.append(pixel)
-        fractions.append(elapsed)
-        polarities.append(polarity < np.broadcast_to(on_fraction, rate_hz.shape)[y, x])
-        order += 1
-    offset = np.floor(np.concatenate(fractions) * interval.duration_us).astype(np.int64)
-    is_on = np.concatenate(polarities).astype(np.uint8)
-    return Firings.noise(np.concatenate(pixels), interval.start_us + offset, is_on)
+    @property
+    def is_silent(self) -> bool:
+        """Whether no pixel ever makes noise."""
+        return not self._cumulative_hz[:, -1].any()
+
+    def draw(
+        self,
+        interval: Interval,
+        *,
+        share: Share | None = None,
+        on_fraction: ArrayLike = 0.5,
+        backend: str = AUTO,
+    ) -> Firings:
+        """Noise events of one interval, by exponential gaps between them.
+
+        Their number per second does not depend on how time is cut into frames. The cost is that of
+        the events, not of the pixels.
+
+        Args:
+            interval: where in time; its key decides the draws.
+            share: what part of its rate each pixel has in this interval; all of it by default.
+            on_fraction: probability of ON, one number or [H, W].
+            backend: which kernels draw; all draw the same.
+
+        Returns:
+            Events labelled as noise, by pixel and then by time: Poisson in number, uniform in time.
+        """
+        if self.is_silent:
+            return Firings.none()
+        pixel, fraction, order = load_draw_arrivals(backend)(
+            self._cumulative_hz, interval.duration_s, interval.key, self._stream
+        )
+        row = pixel // self._cumulative_hz.shape[1]
+        if share is not None:
+            # Thinning: a Poisson process of which a part is kept at random is one again.
+            chance = self._draw(interval, row, order, Purpose.NOISE_COUNT)
+            kept = chance < share(pixel)
+            pixel, fraction, order, row = pixel[kept], fraction[kept], order[kept], row[kept]
+        if np.ndim(on_fraction):
+            on_fraction = np.asarray(on_fraction).reshape(-1)[pixel]
+        is_on = self._draw(interval, row, order, Purpose.NOISE_POLARITY) < on_fraction
+        offset = np.floor(fraction * interval.duration_us).astype(np.int64)
+        return Firings.noise(pixel, interval.start_us + offset, is_on.astype(np.uint8))
+
+    def _draw(
+        self,
+        interval: Interval,
+        row: NDArray[np.int64],
+        order: NDArray[np.int64],
+        purpose: Purpose,
+    ) -> Float64Array:
+        return draw_uniforms(interval.key, row, self._stream, purpose.draw(order))

@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.simulate.draws import Purpose
@@ -28,7 +27,7 @@ from texvent.simulate.pixel_maps import (
     draw_threshold_pair,
     sensor_key,
 )
-from texvent.simulate.rate_noise import draw_rate_noise
+from texvent.simulate.rate_noise import NoiseRates
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 
 WHITE = 255.0
@@ -122,6 +121,7 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         self._threshold_on, self._threshold_off = draw_threshold_pair(shape, key, config)
         is_hot = draw_chosen(shape, key, Purpose.HOT_PIXEL, fraction=config.hot_fraction)
         self._rate_hz = np.where(is_hot, config.hot_rate_hz, config.noise_rate_hz)
+        self._noise = NoiseRates(self._rate_hz)
         lowest = min(self._threshold_on.min(), self._threshold_off.min())
         self._lowest_threshold = float(lowest)
         self._reference = np.log(photons(intensity, config.well_capacity))
@@ -155,17 +155,15 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         return Firings.signal(pixel, np.full(len(pixel), t_us), is_on.astype(np.uint8))
 
     def _draw_noise(self, electrons: Float64Array, interval: Interval) -> Firings:
-        rate_hz = self._rate_hz
-        on_fraction: float | NDArray[np.float64] = 0.5
-        if self.config.shot_noise:
-            on, off = (
-                shot_noise_rate_hz(electrons, threshold, self.config)
-                for threshold in (self._threshold_on, self._threshold_off)
-            )
-            total = rate_hz + on + off
-            on_fraction = (rate_hz / 2 + on) / np.maximum(total, np.finfo(np.float64).tiny)
-            rate_hz = total
-        return draw_rate_noise(rate_hz, interval, on_fraction=on_fraction, backend=self._backend)
+        if not self.config.shot_noise:
+            return self._noise.draw(interval, backend=self._backend)
+        on, off = (
+            shot_noise_rate_hz(electrons, threshold, self.config)
+            for threshold in (self._threshold_on, self._threshold_off)
+        )
+        total = self._rate_hz + on + off
+        on_fraction = (self._rate_hz / 2 + on) / np.maximum(total, np.finfo(np.float64).tiny)
+        return NoiseRates(total).draw(interval, on_fraction=on_fraction, backend=self._backend)
 
 
 def photons(intensity: IntensityArray, well_capacity: float) -> Float64Array:

@@ -28,7 +28,7 @@ from texvent.simulate.pixel_maps import (
     draw_threshold_pair,
     sensor_key,
 )
-from texvent.simulate.rate_noise import draw_rate_noise
+from texvent.simulate.rate_noise import NoiseRates
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 
 DARK_OFFSET, WHITE_LEVEL = 20.0, 275.0
@@ -145,6 +145,10 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
         self._leak_hz = config.leak_rate_hz * draw_rate_factors(
             shape, key, Purpose.LEAK_RATE, decades=config.leak_rate_decades
         )
+        on = config.contrast_threshold_on / self._threshold_on
+        off = config.contrast_threshold_off / self._threshold_off
+        self._on_fraction = on / (on + off)
+        self._noise = NoiseRates(config.shot_noise_rate_hz / 2 * (on + off))
         self._brightness = lin_log(intensity, config.linear_below)
         self._reference = self._brightness.copy()
         self._voltage_noise = np.zeros(shape)
@@ -206,12 +210,14 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
         config = self.config
         if config.shot_noise_rate_hz == 0 or config.photoreceptor_noise:
             return Firings.none()
-        dimming = 1.0 - (1.0 - BRIGHT_SHOT_SHARE) * relative_intensity(intensity)
-        on = config.contrast_threshold_on / self._threshold_on
-        off = config.contrast_threshold_off / self._threshold_off
-        rate_hz = config.shot_noise_rate_hz / 2 * dimming * (on + off)
-        noise = draw_rate_noise(
-            rate_hz, interval, on_fraction=on / (on + off), backend=self._backend
+        flat = intensity.reshape(-1)
+        noise = self._noise.draw(
+            interval,
+            share=lambda pixel: (
+                1.0 - (1.0 - BRIGHT_SHOT_SHARE) * np.minimum(relative_intensity(flat[pixel]), 1.0)
+            ),
+            on_fraction=self._on_fraction,
+            backend=self._backend,
         )
         self._reference.reshape(-1)[noise.pixel] = self._brightness.reshape(-1)[noise.pixel]
         self._noise_since_event.reshape(-1)[noise.pixel] = 0.0

@@ -1,87 +1,89 @@
 """What a kernel of the `physical` model gets and gives: all pixel circuits over one interval.
 
-Pixels are numbered y · W + x, every array is flat, and times are µs. A pixel keeps the change of
-its photoreceptor's output since it was last reset; an event, of whatever cause, sets it to zero.
+Pixels are numbered y · W + x, every array is flat, and times are µs. A pixel keeps the output of
+its photoreceptor and what it was when the pixel was last reset; an event, of whatever cause, resets
+it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple, TypeAlias, cast
+from typing import Any, NamedTuple, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.simulate.firings import Firings
+from texvent.simulate.kernels.elementary import exponential, natural_log
 from texvent.simulate.kernels.select import AUTO, load_kernel
 
 Float64Array: TypeAlias = NDArray[np.float64]
+Float32Array: TypeAlias = NDArray[np.float32]
 Int64Array: TypeAlias = NDArray[np.int64]
+Luma: TypeAlias = NDArray[Any]
+"""[n] 0..255 scale, uint8 or float32."""
+
+WHITE = 255.0
+DARK_OFFSET = 20.0
+"""Intensity, linear levels, that stands for what flows in the dark; v2e's value."""
+ALMOST_BLACK = 1e-25
+"""Added to the luma before the logarithm that makes it linear; any other luma swallows it."""
+BLOCK = 256
+"""Pixels that a fast kernel looks at together, and skips together if nothing happens to them."""
 
 
-class Drive(NamedTuple):
-    """Brightness between two frames, a straight line, and how photoreceptors follow it.
+class Optics(NamedTuple):
+    """How luma becomes brightness and bandwidth."""
 
-    Over a time h the lag of a first-order low-pass with corner ω behind a line that rises by ΔL
-    becomes `lag · e^(−a) + ΔL · (1 − e^(−a)) / a` with a = ωh: `decay` and `gain`. The corner
-    changes with intensity, and the output is curved, so a pixel that may fire goes through the
-    interval in `pieces`: brightness is a straight line, so α + I grows by one factor per piece.
-    """
-
-    rise: Float64Array
-    """[n] change of brightness ln(α + I) over the interval."""
-    pieces: Int64Array
-    """[n] number of equal pieces, at least 1."""
-    glow: Float64Array
-    """[n] α + I in the middle of the first piece, linear levels."""
-    growth: Float64Array
-    """[n] factor on it from one piece to the next."""
-    decay: Float64Array
-    """[n] of the whole interval."""
-    gain: Float64Array
-    """[n] of the whole interval."""
+    gamma: float
+    """Exponent that makes the luma linear; 1 if it is already."""
+    balance: float
+    """α, linear levels, above 0."""
     corner_per_level: float
-    """ω per linear level, 1/µs; 0 stands for an unlimited bandwidth."""
-    corner_level: float
-    """What to add to α + I to have the levels that ω is proportional to."""
+    """Corner frequency ω of a photoreceptor per linear level, 1/µs; 0 is unlimited."""
+
+
+class Light(NamedTuple):
+    """What every pixel sees over an interval; brightness is a straight line in time."""
+
+    before: Luma
+    """[n] luma at the start; a kernel turns it into that at the end."""
+    now: Luma
+    """[n] luma at the end, of the same type."""
+    optics: Optics
+    table: tuple[Float64Array, Float64Array] | None
+    """For 8-bit luma `light_of` of all 256 levels, so that kernels need no logarithm."""
 
 
 class Pixels(NamedTuple):
     """What differs from pixel to pixel and never changes."""
 
-    threshold_on: Float64Array
+    threshold_on: Float32Array
     """[n] log units, above 0."""
-    threshold_off: Float64Array
+    threshold_off: Float32Array
     """[n] log units, above 0."""
-    leak: Float64Array
-    """[n] log units per µs by which the change grows on its own."""
+    leak: Float32Array
+    """[n] log units per µs by which the change grows on its own, at least 0."""
 
 
 class PixelState(NamedTuple):
-    """What a pixel remembers; a kernel changes it in place."""
+    """What a pixel remembers; a kernel changes it in place.
 
-    lag: Float64Array
-    """[n] brightness minus photoreceptor output, log units."""
-    change: Float64Array
-    """[n] photoreceptor output minus its value at the last reset, leak included, log units."""
-    leaked: Float64Array
-    """[n] the part of the change that leakage made, log units."""
-    release_us: Int64Array
-    """[n] when the pixel leaves reset after its last event, µs."""
+    The change that fires a pixel is `output − level + leak · (t − since)`.
+    """
 
-    def copied(self) -> PixelState:
-        """A state of its own, equal to this one."""
-        return PixelState(
-            self.lag.copy(), self.change.copy(), self.leaked.copy(), self.release_us.copy()
-        )
-
-    def take(self, other: PixelState) -> None:
-        """Become equal to another state, in place."""
-        for mine, theirs in zip(self, other, strict=True):
-            mine[:] = theirs
+    output: Float64Array
+    """[n] output of the photoreceptor, which follows the brightness, log units."""
+    level: Float64Array
+    """[n] that output when the pixel was last reset; NaN while the pixel is held in reset."""
+    since_us: Int64Array
+    """[n] when the pixel was last reset, or will be released if it is held, µs."""
+    calm_until_us: Int64Array
+    """[blocks] time up to which no pixel of a block fires if its light stays as it is; a note of
+    the fast kernel for itself."""
 
 
-class Arrivals(NamedTuple):
+class NoiseEvents(NamedTuple):
     """Noise of one interval, by pixel and then by time."""
 
     pixel: Int64Array
@@ -93,7 +95,7 @@ class Arrivals(NamedTuple):
 
 
 class ResetRules(NamedTuple):
-    """What an event does to its pixel besides setting the change to zero."""
+    """What an event does to its pixel besides resetting it."""
 
     refractory_us: int
     """How long the pixel is held in reset, so that what happens meanwhile is lost; 0 is none."""
@@ -102,9 +104,9 @@ class ResetRules(NamedTuple):
 
 
 AdvancePixels: TypeAlias = Callable[
-    [Drive, Pixels, PixelState, Arrivals, ResetRules, tuple[int, int]], Firings
+    [Light, Pixels, PixelState, NoiseEvents, ResetRules, tuple[int, int]], Firings
 ]
-"""`advance_pixels(drive, pixels, state, noise, rules, (start_us, stop_us))`, see
+"""`advance_pixels(light, pixels, state, noise, rules, (start_us, stop_us))`, see
 `circuit_reference.advance_pixels`."""
 
 
@@ -118,34 +120,52 @@ def load_advance_pixels(backend: str = AUTO) -> AdvancePixels:
     return cast("AdvancePixels", load_kernel("circuit", "advance_pixels", backend))
 
 
-def bounds_of_change(
-    drive: Drive, pixels: Pixels, state: PixelState, duration_us: int
-) -> tuple[Float64Array, Float64Array]:
-    """Lowest and highest change that each pixel can reach in an interval without an event.
-
-    A first-order low-pass never leaves the range of its present output and its input, so a pixel
-    whose bounds lie between its thresholds cannot fire.
+def light_of(luma: Float64Array, optics: Optics) -> tuple[Float64Array, Float64Array]:
+    """Brightness and corner frequency of the photoreceptor.
 
     Args:
-        drive: brightness over the interval.
-        pixels: leak rates.
-        state: at the start of the interval.
-        duration_us: its length, µs.
+        luma: 0..255 scale, any shape.
+        optics: the constants.
 
     Returns:
-        Two arrays [n], log units.
+        `L = ln(α + I)`, log units, and `ω = corner_per_level · (I + 20)`, 1/µs, with the linear
+        intensity `I = 255 · (luma / 255)^gamma`.
     """
-    end = state.lag + drive.rise
-    low = state.change + np.minimum(np.minimum(state.lag, end), 0.0)
-    high = state.change + np.maximum(np.maximum(state.lag, end), 0.0)
-    return low, high + pixels.leak * duration_us
+    intensity = linearize(luma, optics.gamma)
+    return (
+        natural_log(optics.balance + intensity),
+        optics.corner_per_level * (intensity + DARK_OFFSET),
+    )
 
 
-def advance_quietly(
-    drive: Drive, pixels: Pixels, state: PixelState, duration_us: int
-) -> PixelState:
-    """State at the end of an interval of pixels that do not fire in it, in closed form."""
-    lag = drive.decay * state.lag + drive.gain * drive.rise
-    leak = pixels.leak * duration_us
-    change = state.change + (drive.rise - (lag - state.lag)) + leak
-    return PixelState(lag, change, state.leaked + leak, state.release_us)
+def linearize(luma: Float64Array, gamma: float) -> Float64Array:
+    """Linear intensity of gamma-coded luma.
+
+    Args:
+        luma: 0..255 scale, any shape.
+        gamma: exponent; 1 leaves the luma as it is.
+
+    Returns:
+        `255 · (luma / 255)^gamma`.
+
+    Example:
+        >>> linearize(np.array([0.0, 128.0, 255.0]), 2.2).round(2).tolist()
+        [0.0, 55.98, 255.0]
+    """
+    if gamma == 1.0:
+        return luma
+    exponent = gamma * natural_log((luma + ALMOST_BLACK) / WHITE)
+    return np.asarray(WHITE * exponential(exponent))
+
+
+def new_state(output: Float64Array, level: Float64Array, first_us: int) -> PixelState:
+    """The state of pixels that were all reset, or might have been, at the first frame.
+
+    Args:
+        output: of the photoreceptors, [n], log units.
+        level: at the last reset, [n], log units.
+        first_us: time of the frame, µs.
+    """
+    blocks = -(-output.size // BLOCK)
+    since = np.full(output.size, first_us, np.int64)
+    return PixelState(output, level, since, np.full(blocks, first_us, np.int64))

@@ -1,8 +1,14 @@
-"""The pixel circuits, compiled by Numba: the reference's bits."""
+"""The pixel circuits, compiled by Numba: the reference's bits, block of pixels by block.
+
+A block in which no light changed and no pixel can fire is skipped. Otherwise all its pixels are
+advanced as if they were calm, which fills whole vector registers, and those that may not be calm
+then walk through the interval one by one.
+"""
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numba
 import numpy as np
@@ -10,191 +16,440 @@ from numpy.typing import NDArray
 
 from texvent.events import NOISE, SIGNAL
 from texvent.simulate.firings import Firings
-from texvent.simulate.kernels.circuit import Arrivals, Drive, Pixels, PixelState, ResetRules
-from texvent.simulate.kernels.circuit_reference import LEAK_SHARE, NEVER, answer_to_line
+from texvent.simulate.kernels.circuit import (
+    ALMOST_BLACK,
+    BLOCK,
+    DARK_OFFSET,
+    WHITE,
+    Float64Array,
+    Light,
+    Luma,
+    NoiseEvents,
+    Optics,
+    Pixels,
+    PixelState,
+    ResetRules,
+)
+from texvent.simulate.kernels.circuit_reference import (
+    LEAK_SHARE,
+    PIECES_PER_ANGLE,
+    PIECES_PER_LOG,
+    SETTLED,
+)
+from texvent.simulate.kernels.crossing_time import NEGLIGIBLE, NEVER
+from texvent.simulate.kernels.crossing_time_cpu import time_to_threshold
+from texvent.simulate.kernels.elementary_cpu import decay_and_gain, exponential, natural_log
 
-# Numba's cache looks at this file only: whoever changes answer_to_line must touch this one as well.
-_answer_to_line = numba.njit(cache=True, nogil=True, inline="always")(answer_to_line)
+Events = NDArray[np.int64]
+"""[3, room] pixel, time in µs, and p + 2 · label. One array, for Numba counts the references to
+each array of a tuple whenever it is passed on, and that costs more than most pixels do."""
+SLACK = 1e-9
+"""Log units by which bounds are widened, for what is rounded."""
+NOT_CALM = -(2**62)
+FOREVER = 2**62
 
-Events = tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.uint8], NDArray[np.uint8]]
+
+class _Block(NamedTuple):
+    """What is known of the pixels of one block, [BLOCK] each."""
+
+    bright: Float64Array
+    corner: Float64Array
+    bright_now: Float64Array
+    corner_now: Float64Array
+    output: Float64Array
+    """At the end of the interval, if the pixel is calm."""
+    low: Float64Array
+    """The outputs stay above it."""
+    high: Float64Array
+    """The outputs stay below it."""
+    decay: Float64Array
+    gain: Float64Array
+    is_calm: NDArray[np.bool_]
+    restless: NDArray[np.int64]
 
 
 def advance_pixels(
-    drive: Drive,
+    light: Light,
     pixels: Pixels,
     state: PixelState,
-    noise: Arrivals,
+    noise: NoiseEvents,
     rules: ResetRules,
     span_us: tuple[int, int],
 ) -> Firings:
     """Every event between two frames; see `circuit_reference.advance_pixels`."""
-    active = np.empty(drive.rise.size, np.bool_)
-    room = _find_active(drive, pixels, state, noise, span_us, active)
-    events = (
-        np.empty(room, np.int64),
-        np.empty(room, np.int64),
-        np.empty(room, np.uint8),
-        np.empty(room, np.uint8),
-    )
-    found = _advance_all(drive, pixels, state, noise, rules, span_us, active, events)
-    pixel, t, p, label = events
-    return Firings(pixel[:found], t[:found], p[:found], label[:found])
-
-
-@numba.njit(cache=True, nogil=True)
-def _find_active(
-    drive: Drive,
-    pixels: Pixels,
-    state: PixelState,
-    noise: Arrivals,
-    span_us: tuple[int, int],
-    active: NDArray[np.bool_],
-) -> int:
-    """Mark the pixels that may fire; return how many events there can be at most."""
-    start_us, stop_us = span_us
-    duration = stop_us - start_us
-    room = noise.pixel.size
-    active[:] = False
-    for k in range(noise.pixel.size):
-        active[noise.pixel[k]] = True
-    for i in range(active.size):
-        lag, end = state.lag[i], state.lag[i] + drive.rise[i]
-        low = state.change[i] + min(min(lag, end), 0.0)
-        high = state.change[i] + max(max(lag, end), 0.0)
-        leak = pixels.leak[i] * duration
-        high += leak
-        on, off = pixels.threshold_on[i], pixels.threshold_off[i]
-        if high >= on or -low >= off or state.release_us[i] > start_us:
-            active[i] = True
-        if active[i]:
-            # The output turns round at most once, so it travels at most twice its range; with
-            # what it had travelled before, each threshold of travel is one event at most.
-            travel = 2.0 * (high - low) + leak + abs(state.change[i])
-            room += int(travel / min(on, off)) + 2
-    return room
-
-
-@numba.njit(cache=True, nogil=True)
-def _advance_all(
-    drive: Drive,
-    pixels: Pixels,
-    state: PixelState,
-    noise: Arrivals,
-    rules: ResetRules,
-    span_us: tuple[int, int],
-    active: NDArray[np.bool_],
-    events: Events,
-) -> int:
-    """Fill in the events and bring every pixel to the end; return how many events there are."""
-    start_us, stop_us = span_us
-    duration = stop_us - start_us
-    found, first_noise = 0, 0
-    for i in range(active.size):
-        if not active[i]:
-            lag = drive.decay[i] * state.lag[i] + drive.gain[i] * drive.rise[i]
-            leak = pixels.leak[i] * duration
-            change = state.change[i] + (drive.rise[i] - (lag - state.lag[i])) + leak
-            state.lag[i], state.change[i] = lag, change
-            state.leaked[i] += leak
-            continue
-        last_noise = first_noise
-        while last_noise < noise.pixel.size and noise.pixel[last_noise] == i:
-            last_noise += 1
-        found = _advance_one(
-            i,
-            (drive, pixels, state),
-            (noise, first_noise, last_noise),
+    table = None if light.table is None else np.stack(light.table)
+    room = len(noise.pixel) + light.now.size // 16 + 64
+    noise_times = (noise.t - span_us[0]) * 2 + noise.p
+    # With NUMBA_DISABLE_JIT=1 this runs in NumPy, which would warn where extremes overflow.
+    with np.errstate(all="ignore"):
+        pixel, t, kind = _advance_blocks(
+            (light.before, light.now, table, light.optics),
+            pixels,
+            state,
+            (noise.pixel, noise_times),
             rules,
             span_us,
+            room,
+        )
+    return Firings(pixel, t, (kind & 1).astype(np.uint8), (kind >> 1).astype(np.uint8))
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _advance_blocks(
+    light: tuple[Luma, Luma, Float64Array | None, Optics],
+    pixels: Pixels,
+    state: PixelState,
+    noise: tuple[NDArray[np.int64], NDArray[np.int64]],
+    rules: ResetRules,
+    span_us: tuple[int, int],
+    room: int,
+) -> Events:
+    before, now, table, optics = light
+    start_us, stop_us = span_us
+    duration = float(stop_us - start_us)
+    events = np.empty((3, room), np.int64)
+    noise_pixel, noise_times = noise
+    found, noise_done = 0, 0
+    block = _Block(
+        np.empty(BLOCK),
+        np.empty(BLOCK),
+        np.empty(BLOCK),
+        np.empty(BLOCK),
+        np.empty(BLOCK),
+        np.empty(BLOCK),
+        np.empty(BLOCK),
+        np.empty(BLOCK),
+        np.empty(BLOCK),
+        np.empty(BLOCK, np.bool_),
+        np.empty(BLOCK, np.int64),
+    )
+    for first in range(0, now.size, BLOCK):
+        last = min(first + BLOCK, now.size)
+        noise_first = noise_done
+        while noise_done < noise_pixel.size and noise_pixel[noise_done] < last:
+            noise_done += 1
+        is_still = _is_equal(before[first:last], now[first:last])
+        is_left_alone = is_still and noise_first == noise_done
+        if is_left_alone and stop_us <= state.calm_until_us[first // BLOCK]:
+            continue
+        _see(before[first:last], table, optics, block.bright, block.corner)
+        _see(now[first:last], table, optics, block.bright_now, block.corner_now)
+        before[first:last] = now[first:last]
+        own = (
+            Pixels(
+                pixels.threshold_on[first:last],
+                pixels.threshold_off[first:last],
+                pixels.leak[first:last],
+            ),
+            PixelState(
+                state.output[first:last],
+                state.level[first:last],
+                state.since_us[first:last],
+                state.calm_until_us,
+            ),
+        )
+        _advance_calmly(block, own[1].output, duration, optics.corner_per_level > 0)
+        restless = _find_restless(block, own, stop_us, noise_pixel[noise_first:noise_done] - first)
+        calm_until = NOT_CALM
+        if is_left_alone and restless == 0:
+            calm_until = _calm_until(block, own, stop_us)
+        state.calm_until_us[first // BLOCK] = calm_until
+        k = noise_first
+        for number in range(restless):
+            j = block.restless[number]
+            next_k = k
+            while next_k < noise_done and noise_pixel[next_k] == first + j:
+                next_k += 1
+            sight = block.bright[j], block.bright_now[j], block.corner[j], block.corner_now[j]
+            circuit = (
+                optics.corner_per_level,
+                DARK_OFFSET - optics.balance,
+                np.float64(own[0].threshold_on[j]),
+                np.float64(own[0].threshold_off[j]),
+                np.float64(own[0].leak[j]),
+            )
+            held = own[1].output[j], own[1].level[j], float(own[1].since_us[j] - start_us)
+            while True:
+                filled, output, level, since = _walk(
+                    (first + j, start_us, stop_us, rules.refractory_us, rules.by_noise),
+                    circuit,
+                    sight,
+                    held,
+                    (k, next_k),
+                    noise_times,
+                    events,
+                    found,
+                )
+                if filled >= 0:
+                    break
+                events = _grown(events)
+            found, k = filled, next_k
+            block.output[j] = output
+            own[1].level[j] = np.nan if since > duration else level
+            own[1].since_us[j] = start_us + int(since)
+        own[1].output[:] = block.output[: last - first]
+    return events[:, :found]
+
+
+@numba.njit(cache=True, nogil=True)
+def _is_equal(one: Luma, two: Luma) -> bool:
+    different = 0
+    for j in range(one.size):
+        different |= one[j] != two[j]
+    return different == 0
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _see(
+    luma: Luma,
+    table: Float64Array | None,
+    optics: Optics,
+    bright: Float64Array,
+    corner: Float64Array,
+) -> None:
+    """Fill in brightness and corner frequency; see `circuit.light_of`."""
+    if table is not None:
+        for j in range(luma.size):
+            bright[j], corner[j] = table[0, luma[j]], table[1, luma[j]]
+    else:
+        for j in range(luma.size):
+            level: float = np.float64(luma[j])
+            if optics.gamma != 1.0:
+                exponent = optics.gamma * natural_log((level + ALMOST_BLACK) / WHITE)
+                level = WHITE * exponential(exponent)
+            bright[j] = natural_log(optics.balance + level)
+            corner[j] = optics.corner_per_level * (level + DARK_OFFSET)
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _advance_calmly(block: _Block, output: Float64Array, duration: float, is_limited: bool) -> None:
+    """Where the outputs go if nothing fires, and between which bounds.
+
+    Short loops over few arrays each: Numba fills vector registers in no others.
+    """
+    size = output.size
+    for j in range(size):
+        block.low[j] = min(output[j], min(block.bright[j], block.bright_now[j]))
+        block.high[j] = max(output[j], max(block.bright[j], block.bright_now[j]))
+    if not is_limited:
+        block.output[:size] = block.bright_now[:size]
+        return
+    for j in range(size):
+        angle = (block.corner[j] + block.corner_now[j]) * 0.5 * duration
+        block.decay[j], block.gain[j] = decay_and_gain(angle)
+    for j in range(size):
+        begin, end = block.bright[j], block.bright_now[j]
+        lag = block.decay[j] * (begin - output[j]) + block.gain[j] * (end - begin)
+        block.output[j] = end - (0.0 if abs(lag) < SETTLED else lag)
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _find_restless(
+    block: _Block, own: tuple[Pixels, PixelState], stop_us: int, noisy: NDArray[np.int64]
+) -> int:
+    """List the pixels that may fire, those with noise among them; return how many."""
+    pixels, state = own
+    size = state.level.size
+    for j in range(size):
+        drift = np.float64(pixels.leak[j]) * np.float64(stop_us - state.since_us[j])
+        # Written so that NaN, the level of a pixel that is held, is not calm.
+        block.is_calm[j] = block.high[j] - state.level[j] + drift < pixels.threshold_on[j]
+    calm = 0
+    for j in range(size):
+        is_calm = block.is_calm[j] & (state.level[j] - block.low[j] < pixels.threshold_off[j])
+        block.is_calm[j] = is_calm
+        calm += is_calm
+    if calm == size and noisy.size == 0:
+        return 0
+    for k in range(noisy.size):
+        block.is_calm[noisy[k]] = False
+    restless = 0
+    for j in range(size):
+        block.restless[restless] = j
+        restless += not block.is_calm[j]
+    return restless
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _calm_until(block: _Block, own: tuple[Pixels, PixelState], stop_us: int) -> int:
+    """The time up to which no pixel of a block at rest fires by its leak; at once if in motion."""
+    pixels, state = own
+    soonest, moving = np.inf, 0
+    for j in range(state.output.size):
+        moving |= block.output[j] != block.bright[j]
+        left = pixels.threshold_on[j] - (block.output[j] - state.level[j])
+        after = left / np.float64(pixels.leak[j]) + np.float64(state.since_us[j])
+        soonest = min(soonest, float(after))
+    # A microsecond for what is rounded here.
+    return stop_us if moving else int(min(soonest, float(FOREVER))) - 1
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _walk(
+    where: tuple[int, int, int, int, bool],
+    circuit: tuple[float, float, float, float, float],
+    sight: tuple[float, float, float, float],
+    held: tuple[float, float, float],
+    own_noise: tuple[int, int],
+    noise_times: NDArray[np.int64],
+    events: Events,
+    found: int,
+) -> tuple[int, float, float, float]:
+    """Send one pixel through the pieces of the interval.
+
+    Returns:
+        How many events there are now, −1 if there was no room for them; and output, level and the
+        time since the last reset at the end.
+    """
+    corner_per_level, corner_offset, on, off, leak = circuit
+    bright, bright_now, corner, corner_now = sight
+    output, level, since = held
+    duration = float(where[2] - where[1])
+    rise = bright_now - bright
+    fine = max(corner, corner_now) * duration * PIECES_PER_ANGLE
+    pieces = max(math.ceil(min(abs(rise) * PIECES_PER_LOG, fine)), 1.0)
+    length, slope = duration / pieces, rise / duration
+    lag, steady, transient = bright - output, 0.0, 0.0
+    corner = (corner + corner_now) * 0.5
+    glow, growth, kept = 0.0, 1.0, 1.0
+    if pieces > 1.0:
+        glow, growth = exponential(bright + rise * (0.5 / pieces)), exponential(rise / pieces)
+    k, last_k = own_noise
+    for piece in range(int(pieces)):
+        end = duration if piece == pieces - 1.0 else (piece + 1.0) * length
+        if corner_per_level > 0:
+            if pieces > 1.0:
+                corner = corner_per_level * (glow + corner_offset)
+                glow *= growth
+            steady = slope / corner
+            transient = lag - steady
+            kept = exponential(-corner * (end - piece * length))
+        transient, level, since, k, found = _run_piece(
+            where,
+            (bright, slope, steady, transient, corner, kept, piece * length, end),
+            (on, off, leak),
+            (level, since),
+            (k, last_k),
+            noise_times,
             events,
             found,
         )
-        first_noise = last_noise
-    return found
+        if found < 0:
+            break
+        lag = steady + transient
+    lag = 0.0 if abs(lag) < SETTLED else lag
+    return found, bright_now - lag, level, since
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
-def _advance_one(
-    i: int,
-    circuit: tuple[Drive, Pixels, PixelState],
-    own_noise: tuple[Arrivals, int, int],
-    rules: ResetRules,
-    span_us: tuple[int, int],
+@numba.njit(cache=True, nogil=True, inline="always", error_model="numpy")
+def _run_piece(
+    where: tuple[int, int, int, int, bool],
+    course: tuple[float, float, float, float, float, float, float, float],
+    limits: tuple[float, float, float],
+    reset: tuple[float, float],
+    own_noise: tuple[int, int],
+    noise_times: NDArray[np.int64],
     events: Events,
     found: int,
-) -> int:
-    """Send one pixel through the pieces of the interval."""
-    drive, pixels, state = circuit
-    noise, k, last_noise = own_noise
-    start_us, stop_us = span_us
-    duration = stop_us - start_us
-    on, off, leak = pixels.threshold_on[i], pixels.threshold_off[i], pixels.leak[i]
-    lag, change, leaked = state.lag[i], state.change[i], state.leaked[i]
-    release = float(state.release_us[i] - start_us)
-    pieces = drive.pieces[i]
-    length = duration / pieces
-    rise, glow, growth = drive.rise[i] / pieces, drive.glow[i], drive.growth[i]
-    for piece in range(pieces):
-        decay, gain = _answer_to_line(drive.corner_per_level * (glow + drive.corner_level) * length)
-        glow *= growth
-        new_lag = decay * lag + gain * rise
-        slope = (rise - (new_lag - lag)) / length + leak
-        now = piece * length
-        end = float(duration) if piece == pieces - 1 else (piece + 1) * length
-        while True:
-            if release > now:
-                change, leaked = 0.0, 0.0
-                k = _skip_until(start_us + release, noise.t, k, last_noise)
-                if release > end:
-                    break
-                now = release
-            wait, p = _time_to_threshold(change, slope, on, off)
-            crossing = now + wait
-            arrival = float(noise.t[k] - start_us) if k < last_noise else NEVER
-            event = min(crossing, arrival)
-            elapsed = min(event, end) - now
-            change += slope * elapsed
-            leaked += leak * elapsed
-            if event > end:
+) -> tuple[float, float, float, int, int]:
+    """Fire what there is to fire on a piece on which the corner frequency is constant."""
+    i, start_us, stop_us, refractory_us, resets_by_noise = where
+    bright, slope, steady, transient, corner, kept, now, end = course
+    on, off, leak = limits
+    level, since = reset
+    k, last_k = own_noise
+    while True:
+        if since > now:
+            k = _skip_until(since, noise_times, k, last_k)
+            if since > end:
                 break
-            now = event
-            label, resets = SIGNAL, True
-            if arrival <= crossing:
-                p, label, resets = int(noise.p[k]), NOISE, rules.by_noise
-                k += 1
-            elif p == 1 and leaked >= LEAK_SHARE * on:
-                label = NOISE
-            offset = math.floor(now)
-            events[0][found], events[1][found] = i, min(start_us + offset, stop_us - 1)
-            events[2][found], events[3][found] = p, label
-            found += 1
-            if resets:
-                change, leaked = 0.0, 0.0
-                if rules.refractory_us > 0:
-                    release = float(offset + rules.refractory_us)
-        lag = new_lag
-    state.lag[i], state.change[i], state.leaked[i] = lag, change, leaked
-    state.release_us[i] = start_us + int(release)
-    return found
+            transient, kept = _decay(transient, corner, kept, since - now, since == end)
+            now = since
+            level = bright + slope * now - steady - transient
+        if abs(transient) <= NEGLIGIBLE * min(on, off):
+            transient = 0.0
+        line = bright + slope * now, slope, bright + slope * end
+        crossing, p = _next_crossing(
+            line, (steady, transient, corner, kept), (now, end), limits, (level, since)
+        )
+        arrival = float(noise_times[k] >> 1) if k < last_k else NEVER
+        event = min(crossing, arrival)
+        if event > end:
+            break
+        transient, kept = _decay(transient, corner, kept, event - now, event == end)
+        now = event
+        label, resets = SIGNAL, True
+        if arrival <= crossing:
+            p, label, resets = int(noise_times[k] & 1), NOISE, resets_by_noise
+            k += 1
+        elif p == 1 and leak * (now - since) >= LEAK_SHARE * on:
+            label = NOISE
+        if found == events.shape[1]:
+            return transient, level, since, k, -1
+        after = math.floor(now)
+        events[0, found] = i
+        events[1, found] = min(start_us + int(after), stop_us - 1)
+        events[2, found] = p + 2 * label
+        found += 1
+        if resets:
+            level = bright + slope * now - steady - transient
+            since = float(after + refractory_us)
+    return transient * kept, level, since, k, found
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
-def _skip_until(time_us: float, t: NDArray[np.int64], k: int, last: int) -> int:
-    """The first of the noise events k, k + 1, ..., last − 1 that is not before a time."""
-    while k < last and t[k] < time_us:
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _decay(
+    transient: float, corner: float, kept: float, elapsed: float, is_end: bool
+) -> tuple[float, float]:
+    """The transient after a time, and what share of it will be left at the end of the piece."""
+    if is_end:
+        return transient * kept, 1.0
+    if transient == 0:
+        return transient, kept
+    now = exponential(-corner * elapsed)
+    return transient * now, kept / now
+
+
+@numba.njit(cache=True, nogil=True)
+def _skip_until(time_us: float, noise_times: NDArray[np.int64], k: int, last_k: int) -> int:
+    """The first of the noise events k, k + 1, ..., last_k − 1 that is not before a time."""
+    while k < last_k and noise_times[k] >> 1 < time_us:
         k += 1
     return k
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
-def _time_to_threshold(change: float, slope: float, on: float, off: float) -> tuple[float, int]:
-    """See `circuit_reference`."""
-    if change >= on:
-        return 0.0, 1
-    if -change >= off:
-        return 0.0, 0
-    if slope > 0:
-        return (on - change) / slope, 1
-    if slope < 0:
-        return (-off - change) / slope, 0
-    return NEVER, 0
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _next_crossing(
+    line: tuple[float, float, float],
+    lag: tuple[float, float, float, float],
+    span: tuple[float, float],
+    limits: tuple[float, float, float],
+    reset: tuple[float, float],
+) -> tuple[float, int]:
+    """When the change next reaches a threshold, and its polarity."""
+    (bright, slope, bright_end), (steady, transient, corner, kept) = line, lag
+    (now, end), (on, off, leak), (level, since) = span, limits, reset
+    output = bright - steady - transient
+    way = output - level, bright - level, bright_end - level
+    if not _may_fire(way, leak * (end - since), on, off):
+        return NEVER, 0
+    change = output - level + leak * (now - since)
+    course = change, slope + leak, transient, corner, end - now, kept
+    wait, p = time_to_threshold(course, on, off)
+    return now + wait, p
+
+
+@numba.njit(cache=True, nogil=True)
+def _may_fire(way: tuple[float, float, float], leaked: float, on: float, off: float) -> bool:
+    """Whether a low-pass can get to a threshold, given how far it and its input are from reset."""
+    output, begin, end = way
+    high, low = max(output, max(begin, end)), min(output, min(begin, end))
+    return high + leaked >= on - SLACK or -low >= off - SLACK
+
+
+@numba.njit(cache=True, nogil=True)
+def _grown(events: Events) -> Events:
+    """The same events with room for as many again."""
+    larger = np.empty((3, 2 * events.shape[1]), np.int64)
+    larger[:, : events.shape[1]] = events
+    return larger

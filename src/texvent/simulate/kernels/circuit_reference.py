@@ -1,48 +1,61 @@
-"""The definition of the pixel circuit, one pixel at a time, in float64."""
+"""The definition of the pixel circuit, in NumPy float64: all pixels that may fire, move by move."""
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, fields
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.events import NOISE, SIGNAL
 from texvent.simulate.firings import Firings
 from texvent.simulate.kernels.circuit import (
-    Arrivals,
-    Drive,
+    DARK_OFFSET,
+    Float64Array,
+    Int64Array,
+    Light,
+    NoiseEvents,
     Pixels,
     PixelState,
     ResetRules,
-    advance_quietly,
-    bounds_of_change,
+    light_of,
 )
+from texvent.simulate.kernels.crossing_time import (
+    NEGLIGIBLE,
+    NEVER,
+    BoolArray,
+    Course,
+    time_to_threshold,
+)
+from texvent.simulate.kernels.elementary import decay_and_gain, exponential
 
-NEVER = math.inf
-LONGEST_ANGLE = 0.5
-"""Up to here the approximant of `answer_to_line` is used as it is."""
 LEAK_SHARE = 0.5
 """An ON event is noise if leakage made at least this share of its change."""
+SETTLED = 2.0**-40
+"""A lag below this, log units, is none, so that a pixel at rest is at rest."""
+PIECES_PER_LOG = 16.0
+"""The corner frequency is constant on a piece of an interval: it is right to 3 %."""
+PIECES_PER_ANGLE = 4.0
+"""No piece need be shorter than a quarter of a time constant, which is straight enough."""
 
 
 def advance_pixels(
-    drive: Drive,
+    light: Light,
     pixels: Pixels,
     state: PixelState,
-    noise: Arrivals,
+    noise: NoiseEvents,
     rules: ResetRules,
     span_us: tuple[int, int],
 ) -> Firings:
     """Every event between two frames; moves the state to the end of the interval.
 
-    The change grows with the photoreceptor's output and with the leak. Where it reaches the ON
-    threshold or falls to minus the OFF threshold, the pixel fires and the change starts again from
-    zero. A noise event fires at its own time. A pixel that fired is held in reset for the
-    refractory period: its change is zero until it is released.
+    The output of a photoreceptor is a first-order low-pass of the brightness. The change since the
+    last reset grows with it and with the leak. Where it reaches the ON threshold or falls to minus
+    the OFF threshold, the pixel fires and is reset. A noise event fires at its own time. A pixel
+    that fired is held in reset for the refractory period: its change is zero until its release.
 
     Args:
-        drive: brightness and photoreceptors over the interval.
+        light: over the interval; `before` becomes `now`.
         pixels: thresholds and leak rates.
         state: at the start; changed in place.
         noise: noise events, by pixel and then by time.
@@ -52,135 +65,243 @@ def advance_pixels(
     Returns:
         The events by pixel, then in time; times rounded down, never the stop itself.
     """
-    start_us, stop_us = span_us
-    duration = stop_us - start_us
-    low, high = bounds_of_change(drive, pixels, state, duration)
-    active = (high >= pixels.threshold_on) | (-low >= pixels.threshold_off)
-    active |= state.release_us > start_us
-    active[noise.pixel] = True
-    before = state.copied()
-    state.take(advance_quietly(drive, pixels, state, duration))
-    fired: list[tuple[int, float, int, int]] = []
-    for i in np.flatnonzero(active).tolist():
-        own = slice(*np.searchsorted(noise.pixel, [i, i + 1]))
-        circuit = _Circuit(
-            threshold_on=float(pixels.threshold_on[i]),
-            threshold_off=float(pixels.threshold_off[i]),
-            leak=float(pixels.leak[i]),
-            rules=rules,
-            change=float(before.change[i]),
-            leaked=float(before.leaked[i]),
-            release=float(before.release_us[i] - start_us),
-            noise=list(zip((noise.t[own] - start_us).tolist(), noise.p[own].tolist(), strict=True)),
-        )
-        state.lag[i] = _run(circuit, drive, i, float(before.lag[i]), duration)
-        state.change[i], state.leaked[i] = circuit.change, circuit.leaked
-        state.release_us[i] = start_us + int(circuit.release)
-        fired += [(i, *event) for event in circuit.fired]
-    pixel, offset, p, label = np.array(fired, np.float64).reshape(-1, 4).T
-    t = np.minimum(start_us + np.floor(offset).astype(np.int64), stop_us - 1)
-    return Firings(pixel.astype(np.int64), t, p.astype(np.uint8), label.astype(np.uint8))
+    (bright, corner), (_, corner_now) = ends = tuple(
+        light_of(luma.astype(np.float64), light.optics) for luma in (light.before, light.now)
+    )
+    rise = ends[1][0] - bright
+    light.before[:] = light.now
+    calm = _is_calm(ends[0][0], ends[1][0], pixels, state, span_us[1])
+    calm[noise.pixel] = False
+    pixel = np.flatnonzero(~calm)
+    duration = float(span_us[1] - span_us[0])
+    walk = _Walk.begin(pixel, (bright, rise, corner, corner_now), pixels, state, span_us)
+    walk.k, walk.last_k = np.searchsorted(noise.pixel, [pixel, pixel + 1])
+
+    lag = bright - state.output
+    if light.optics.corner_per_level > 0:
+        decay, gain = decay_and_gain((corner + corner_now) * 0.5 * duration)
+        lag = decay * lag + gain * rise
+    else:
+        lag[:] = 0.0
+    fired = _Fired(noise, rules, span_us)
+    finished = fired.run(walk, light)
+    lag[finished.pixel] = finished.lag
+    lag[np.abs(lag) < SETTLED] = 0.0
+    state.output[:] = ends[1][0] - lag
+    is_held = finished.since > duration
+    state.level[finished.pixel] = np.where(is_held, np.nan, finished.level)
+    state.since_us[finished.pixel] = span_us[0] + finished.since.astype(np.int64)
+    return fired.events()
 
 
-def _run(circuit: _Circuit, drive: Drive, i: int, lag: float, duration: int) -> float:
-    """Send the pixel through the pieces of the interval; returns the lag at its end."""
-    pieces = int(drive.pieces[i])
-    length = duration / pieces
-    rise = float(drive.rise[i]) / pieces
-    glow, growth = float(drive.glow[i]), float(drive.growth[i])
-    for piece in range(pieces):
-        angle = drive.corner_per_level * (glow + drive.corner_level) * length
-        glow *= growth
-        decay, gain = answer_to_line(angle)
-        new_lag = decay * lag + gain * rise
-        slope = (rise - (new_lag - lag)) / length + circuit.leak
-        end = duration if piece == pieces - 1 else (piece + 1) * length
-        circuit.run_piece(piece * length, end, slope)
-        lag = new_lag
-    return lag
+def _is_calm(
+    before: Float64Array, now: Float64Array, pixels: Pixels, state: PixelState, stop_us: int
+) -> BoolArray:
+    """Pixels that cannot fire, [n]; a low-pass never leaves the range of its output and its input.
 
-
-def answer_to_line(angle: float) -> tuple[float, float]:
-    """`e^(−a)` and `(1 − e^(−a)) / a`; (0, 0), no lag, if nothing limits the bandwidth.
-
-    By the Padé approximant [2/2] of e^(−a), whose error is below a⁵ / 720, so 1.4e-6 for a = 1/4:
-    it needs no exponential, whose last bit differs between libraries. Above a = 1/2, by squaring
-    that of a / 2ⁿ, which is 1/8 at most.
+    A pixel that is held in reset is not among them: its level is NaN.
     """
-    if angle == 0:
-        return 0.0, 0.0
-    short, squarings = angle, 0
-    if angle > LONGEST_ANGLE:
-        while short > LONGEST_ANGLE / 4:
-            short *= 0.5
-            squarings += 1
-    even, odd = 1.0 + short * short / 12.0, short / 2.0
-    decay = (even - odd) / (even + odd)
-    if squarings == 0:
-        return decay, 1.0 / (even + odd)
-    for _ in range(squarings):
-        decay *= decay
-    return decay, (1.0 - decay) / angle
+    low = np.minimum(state.output, np.minimum(before, now))
+    high = np.maximum(state.output, np.maximum(before, now))
+    drift = pixels.leak.astype(np.float64) * (stop_us - state.since_us)
+    rises = high - state.level + drift >= pixels.threshold_on
+    falls = state.level - low >= pixels.threshold_off
+    return ~(rises | falls | np.isnan(state.level))
 
 
 @dataclass
-class _Circuit:
-    """One pixel; times are µs since the start of the interval."""
+class _Walk:
+    """Pixels on their way through the interval, [n] each; times are µs since its start."""
 
-    threshold_on: float
-    threshold_off: float
-    leak: float
-    rules: ResetRules
-    change: float
-    leaked: float
-    release: float
-    noise: list[tuple[int, int]]
-    fired: list[tuple[float, int, int]] = field(default_factory=list)
+    pixel: Int64Array
+    on: Float64Array
+    off: Float64Array
+    leak: Float64Array
+    bright: Float64Array
+    """Brightness at the start of the interval."""
+    rise: Float64Array
+    corner: Float64Array
+    """ω on this piece."""
+    glow: Float64Array
+    """α + I in the middle of the next piece: it grows by one factor per piece."""
+    pieces: Float64Array
+    piece: Float64Array
+    """Number of this piece."""
+    end: Float64Array
+    """Of this piece."""
+    now: Float64Array
+    lag: Float64Array
+    """At the end of the piece before."""
+    steady: Float64Array
+    """Lag on this piece once the transient has died."""
+    transient: Float64Array
+    kept: Float64Array
+    """What will be left of the transient at the end of the piece, as a share."""
+    level: Float64Array
+    since: Float64Array
+    k: Int64Array
+    """Its next noise event."""
+    last_k: Int64Array
+    """Where those of the next pixel begin."""
 
-    def run_piece(self, now: float, end: float, slope: float) -> None:
-        """Fire what there is to fire from `now` to `end` while the change grows by `slope`/µs."""
-        while True:
-            if self.release > now:
-                self.change = self.leaked = 0.0
-                while self.noise and self.noise[0][0] < self.release:
-                    self.noise.pop(0)
-                if self.release > end:
-                    return
-                now = self.release
-            wait, p = self._time_to_threshold(slope)
-            crossing = now + wait
-            arrival = self.noise[0][0] if self.noise else NEVER
-            event = min(crossing, arrival)
-            if event > end:
-                self._move(end - now, slope)
-                return
-            self._move(event - now, slope)
-            now = event
-            if arrival <= crossing:
-                self._fire(now, self.noise.pop(0)[1], NOISE, resets=self.rules.by_noise)
-            else:
-                is_leak = p == 1 and self.leaked >= LEAK_SHARE * self.threshold_on
-                self._fire(now, p, NOISE if is_leak else SIGNAL, resets=True)
+    @classmethod
+    def begin(
+        cls,
+        pixel: Int64Array,
+        sight: tuple[Float64Array, Float64Array, Float64Array, Float64Array],
+        pixels: Pixels,
+        state: PixelState,
+        span_us: tuple[int, int],
+    ) -> _Walk:
+        """Some pixels at the start of the interval."""
+        bright, rise, corner, corner_now = (column[pixel] for column in sight)
+        duration = float(span_us[1] - span_us[0])
+        fine = np.maximum(corner, corner_now) * duration * PIECES_PER_ANGLE
+        pieces = np.maximum(np.ceil(np.minimum(np.abs(rise) * PIECES_PER_LOG, fine)), 1.0)
+        nothing, none = np.zeros(len(pixel)), np.zeros(len(pixel), np.int64)
+        return cls(
+            pixel=pixel,
+            on=pixels.threshold_on[pixel].astype(np.float64),
+            off=pixels.threshold_off[pixel].astype(np.float64),
+            leak=pixels.leak[pixel].astype(np.float64),
+            bright=bright,
+            rise=rise,
+            corner=(corner + corner_now) * 0.5,
+            glow=exponential(bright + rise * (0.5 / pieces)),
+            pieces=pieces,
+            piece=nothing - 1.0,
+            end=nothing.copy(),
+            now=nothing.copy(),
+            lag=bright - state.output[pixel],
+            steady=nothing.copy(),
+            transient=nothing.copy(),
+            kept=nothing + 1.0,
+            level=state.level[pixel].copy(),
+            since=(state.since_us[pixel] - span_us[0]).astype(np.float64),
+            k=none,
+            last_k=none,
+        )
 
-    def _time_to_threshold(self, slope: float) -> tuple[float, int]:
-        """Time until the change reaches a threshold at this slope, µs, and the polarity."""
-        if self.change >= self.threshold_on:
-            return 0.0, 1
-        if -self.change >= self.threshold_off:
-            return 0.0, 0
-        if slope > 0:
-            return (self.threshold_on - self.change) / slope, 1
-        if slope < 0:
-            return (-self.threshold_off - self.change) / slope, 0
-        return NEVER, 0
+    def only(self, chosen: BoolArray) -> _Walk:
+        """Some of the pixels."""
+        return _Walk(*(getattr(self, field.name)[chosen] for field in fields(self)))
 
-    def _move(self, elapsed: float, slope: float) -> None:
-        self.change += slope * elapsed
-        self.leaked += self.leak * elapsed
+    def put(self, chosen: BoolArray, other: _Walk) -> None:
+        """Take over the state of some pixels."""
+        for field in fields(self):
+            getattr(self, field.name)[chosen] = getattr(other, field.name)
 
-    def _fire(self, now: float, p: int, label: int, *, resets: bool) -> None:
-        self.fired.append((now, p, label))
-        if resets:
-            self.change = self.leaked = 0.0
-            if self.rules.refractory_us > 0:
-                self.release = float(math.floor(now) + self.rules.refractory_us)
+    def enter_piece(self, light: Light, duration: float) -> None:
+        """Begin the next piece."""
+        self.piece = self.piece + 1.0
+        length = duration / self.pieces
+        is_last = self.piece == self.pieces - 1.0
+        self.now = self.piece * length
+        self.end = np.where(is_last, duration, (self.piece + 1.0) * length)
+        if light.optics.corner_per_level > 0:
+            offset = DARK_OFFSET - light.optics.balance
+            corner = light.optics.corner_per_level * (self.glow + offset)
+            self.glow = self.glow * exponential(self.rise / self.pieces)
+            self.corner = np.where(self.pieces == 1.0, self.corner, corner)
+            self.steady = self.rise / duration / self.corner
+            self.transient = self.lag - self.steady
+            self.kept = exponential(-self.corner * (self.end - self.now))
+
+    def output(self, duration: float) -> Float64Array:
+        """Of the photoreceptors, now."""
+        return self.bright + self.rise / duration * self.now - self.steady - self.transient
+
+    def move(self, to: Float64Array) -> None:
+        """Go on to a later time of this piece."""
+        kept = np.where(to == self.end, self.kept, exponential(-self.corner * (to - self.now)))
+        self.transient = self.transient * kept
+        self.kept = np.where(to == self.end, 1.0, self.kept / kept)
+        self.now = to
+
+
+class _Fired:
+    """Sends pixels through an interval and collects their events."""
+
+    def __init__(self, noise: NoiseEvents, rules: ResetRules, span_us: tuple[int, int]) -> None:
+        self._noise_after = np.append((noise.t - span_us[0]).astype(np.float64), NEVER)
+        self._noise_p = np.append(noise.p, np.uint8(0))
+        self._rules = rules
+        self._span_us = span_us
+        self._found: list[tuple[NDArray[np.int64], ...]] = []
+
+    def events(self) -> Firings:
+        """What was found, by pixel, then in time."""
+        nothing = np.empty(0, np.int64)
+        columns = [np.concatenate([nothing, *parts]) for parts in zip(*self._found, strict=True)]
+        if not columns:
+            return Firings.none()
+        pixel, t, p, label = columns
+        # Stable, so a pixel's events keep their order.
+        order = np.argsort(pixel, kind="stable")
+        kinds = p.astype(np.uint8), label.astype(np.uint8)
+        return Firings(pixel[order], t[order], kinds[0][order], kinds[1][order])
+
+    def run(self, walk: _Walk, light: Light) -> _Walk:
+        """Move every pixel on by one piece, event or release at a time, until all are done."""
+        duration = float(self._span_us[1] - self._span_us[0])
+        walk.enter_piece(light, duration)
+        moving = np.ones(len(walk.pixel), np.bool_)
+        while moving.any():
+            step = walk.only(moving)
+            reaches_end = self._move(step, duration)
+            step.lag = np.where(reaches_end, step.steady + step.transient, step.lag)
+            goes_on = reaches_end & (step.piece < step.pieces - 1.0)
+            into = step.only(goes_on)
+            into.enter_piece(light, duration)
+            step.put(goes_on, into)
+            walk.put(moving, step)
+            moving[moving] = ~reaches_end | goes_on
+        return walk
+
+    def _move(self, walk: _Walk, duration: float) -> BoolArray:
+        """Up to the next event, or the end of the piece; returns who has reached it."""
+        held = walk.since > walk.now
+        while (passed := held & (self._next_noise(walk) < walk.since)).any():
+            walk.k = walk.k + passed
+        released = held & (walk.since <= walk.end)
+        walk.move(np.where(held, np.minimum(walk.since, walk.end), walk.now))
+        walk.level = np.where(released, walk.output(duration), walk.level)
+        waits = held & ~released
+
+        is_dead = np.abs(walk.transient) <= NEGLIGIBLE * np.minimum(walk.on, walk.off)
+        walk.transient = np.where(is_dead & ~waits, 0.0, walk.transient)
+        slope = walk.rise / duration
+        change = walk.output(duration) - walk.level + walk.leak * (walk.now - walk.since)
+        change = np.where(waits, 0.0, change)
+        room = walk.end - walk.now
+        course = Course(change, slope + walk.leak, walk.transient, walk.corner, room, walk.kept)
+        wait, p = time_to_threshold(course, walk.on, walk.off)
+        crossing, arrival = walk.now + wait, self._next_noise(walk)
+        event = np.minimum(crossing, arrival)
+        fires = (event <= walk.end) & ~waits
+        walk.move(np.where(fires, event, walk.end))
+        self._fire(walk, fires, fires & (arrival <= crossing), p, duration)
+        return ~fires
+
+    def _next_noise(self, walk: _Walk) -> Float64Array:
+        return np.where(walk.k < walk.last_k, self._noise_after[walk.k], NEVER)
+
+    def _fire(
+        self,
+        walk: _Walk,
+        fires: BoolArray,
+        by_noise: BoolArray,
+        p: NDArray[np.uint8],
+        duration: float,
+    ) -> None:
+        start_us, stop_us = self._span_us
+        p = np.where(by_noise, self._noise_p[walk.k], p)
+        by_leak = (p == 1) & (walk.leak * (walk.now - walk.since) >= LEAK_SHARE * walk.on)
+        label = np.where(by_noise | by_leak, NOISE, SIGNAL)
+        after = np.floor(walk.now)
+        t = np.minimum(start_us + after.astype(np.int64), stop_us - 1)
+        self._found.append((walk.pixel[fires], t[fires], p[fires].astype(np.int64), label[fires]))
+        walk.k = walk.k + by_noise
+        resets = fires & (~by_noise | self._rules.by_noise)
+        walk.level = np.where(resets, walk.output(duration), walk.level)
+        walk.since = np.where(resets, after + self._rules.refractory_us, walk.since)

@@ -1,0 +1,82 @@
+"""When a decaying change meets a threshold: against a fine search, and equal bits compiled."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.simulate.kernels import crossing_time, crossing_time_cpu
+from texvent.simulate.kernels.crossing_time import Course
+from texvent.simulate.kernels.elementary import exponential
+
+
+def course_of(change, slope, transient, corner, room) -> Course:
+    columns = [np.atleast_1d(np.float64(x)) for x in (change, slope, transient, corner, room)]
+    return Course(*columns, kept=exponential(-columns[3] * columns[4]))
+
+
+def first_crossing(course: Course, on: float, off: float) -> float:
+    """By looking everywhere."""
+    u = np.linspace(0, 1, 200_001) * course.room
+    change = course.after(u, np.exp(-course.corner * u))
+    hits = np.flatnonzero((change >= on) | (-change >= off))
+    return float(u[hits[0]]) if len(hits) else np.inf
+
+
+def time_of(course: Course, on=0.2, off=0.2) -> tuple[float, int]:
+    wait, p = crossing_time.time_to_threshold(course, np.array([on]), np.array([off]))
+    return float(wait[0]), int(p[0])
+
+
+def test_a_straight_line_crosses_where_it_should():
+    assert time_of(course_of(0.05, 1e-4, 0.0, 1e-3, 4000.0)) == (pytest.approx(1500.0), 1)
+    assert time_of(course_of(0.05, -1e-4, 0.0, 1e-3, 4000.0)) == (pytest.approx(2500.0), 0)
+    assert time_of(course_of(0.05, 1e-4, 0.0, 1e-3, 1400.0))[0] == np.inf
+    assert time_of(course_of(0.05, 0.0, 0.0, 1e-3, 1400.0))[0] == np.inf
+
+
+def test_a_transient_alone_crosses_where_it_should():
+    # 0.4 (1 - e^(-u / 1000)) = 0.2 after ln 2 time constants, however long it may take.
+    for room in (1000.0, 1e6, 1e9):
+        assert time_of(course_of(0.0, 0.0, 0.4, 1e-3, room)) == (pytest.approx(693.147), 1)
+
+
+def test_a_curve_that_turns_may_meet_the_other_threshold():
+    # Up by 0.15 at most, then down.
+    wait, p = time_of(course_of(0.0, -2e-5, 0.18, 1e-3, 30_000.0))
+    assert p == 0
+    assert wait == pytest.approx(0.38 / 2e-5, rel=1e-6)
+
+
+def test_what_is_past_a_threshold_already_fires_at_once():
+    assert time_of(course_of(0.2, -1.0, 0.3, 1e-3, 10.0)) == (0.0, 1)
+    assert time_of(course_of(-0.25, 1.0, 0.3, 1e-3, 10.0)) == (0.0, 0)
+
+
+COURSES = st.builds(
+    course_of,
+    st.floats(-0.19, 0.19),
+    st.sampled_from([0.0, 1e-9, 1e-6, -3e-5, 2e-4, -1e-2]),
+    st.sampled_from([0.0, 1e-8, -1e-3, 0.05, -0.3, 1.7]),
+    st.sampled_from([1e-6, 1e-4, 3e-3, 0.05]),
+    st.sampled_from([1.0, 700.0, 41_667.0, 1e6]),
+)
+
+
+@settings(max_examples=200, deadline=None)
+@given(COURSES, st.floats(0.05, 0.6))
+def test_backends_agree_and_find_the_first_crossing(course, on):
+    wait, p = time_of(course, on)
+    compiled = crossing_time_cpu.time_to_threshold(tuple(float(x[0]) for x in course), on, 0.2)
+    assert compiled[0] == wait
+    expected = first_crossing(course, on, 0.2)
+    # On the edge of the interval either may be right.
+    if wait == 0:
+        assert expected == 0
+    elif np.isfinite(wait) and np.isfinite(expected):
+        assert compiled[1] == p
+        change = course.after(np.array([wait]), np.exp(-course.corner * wait))
+        assert abs(change[0] - (on if p else -0.2)) < 1e-4
+        assert wait <= expected + 1e-5 * course.room[0]
+    else:
+        assert min(wait, expected) == np.inf or min(wait, expected) > 0.999 * course.room[0]
