@@ -82,9 +82,9 @@ def run_selftest(
     return rows
 
 
-def record_scene(seeds: Sequence[int] = RECORDING_SEEDS) -> list[EventStream]:
-    """Recordings of the self-test's scene, alike but for their noise."""
-    models = {str(seed): (NOISY, seed) for seed in seeds}
+def record_scene() -> list[EventStream]:
+    """Four recordings of the self-test's scene, alike but for their noise."""
+    models = {str(seed): (NOISY, seed) for seed in RECORDING_SEEDS}
     return list(record(oracle_scene(SCENE, TEXTURE_SEED), models).values())
 
 
