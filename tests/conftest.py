@@ -1,13 +1,18 @@
-"""A real browser for the tests that need one."""
+"""A real browser for the tests that need one; Triton's interpreter where there is no GPU."""
 
 from __future__ import annotations
 
 import json
+import os
 import shutil
 from collections.abc import Iterator
 from typing import Any
 
 import pytest
+
+if shutil.which("nvidia-smi") is None:
+    # Triton looks when it is first imported, and other packages may import it first.
+    os.environ.setdefault("TRITON_INTERPRET", "1")
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 DRIVER = shutil.which("chromedriver")

@@ -70,8 +70,19 @@ def write_events(records: tl.tuple, first: tl.tensor, fires: tl.tensor, event: t
     number = fires.to(tl.int32)
     place = first + tl.cumsum(number, 0) - number
     tl.store(records.pixel + place, event[0], mask=fires)
-    tl.store(records.order + place, event[1], mask=fires)
+    if records.order is not None:
+        tl.store(records.order + place, event[1], mask=fires)
     tl.store(records.reference + place, event[2], mask=fires)
+
+
+@triton.jit
+def read_order(records: tl.tuple, at: tl.tensor, inside: tl.tensor) -> tl.tensor:
+    """Which of its pixel's events a record is."""
+    if records.order is not None:
+        order = tl.load(records.order + at, mask=inside, other=1)
+    else:
+        order = tl.full(at.shape, 1, tl.int32)
+    return order
 
 
 @triton.jit

@@ -13,17 +13,22 @@ from texvent.simulate.gpu import esim_rules, esim_triton
 from texvent.simulate.gpu.device import EXTRA, LAUNCH
 from texvent.simulate.gpu.intervals import Int64Array, Span
 from texvent.simulate.gpu.kernel_types import FORGET, KEEP, Call, Records, Tally, Tensor
-from texvent.simulate.gpu.launch import make_records, segment_grid, to_device, walk_grid
+from texvent.simulate.gpu.launch import (
+    Walk,
+    choose_walk,
+    make_records,
+    segment_grid,
+    to_device,
+    walk_grid,
+)
 from texvent.simulate.pixel_maps import LONG_AGO_US, draw_threshold_pair, sensor_key
 
 _BLOCK = 512
+RAMP_WALK = Walk(512, 4)
 
 
 class EsimPixels:
     """The pixels of a batch of clips under ESIM."""
-
-    block = 512
-    """Pixels that a program walks."""
 
     def __init__(self, config: EsimConfig, seeds: Sequence[int]) -> None:
         """Pixels that have seen no frame.
@@ -38,6 +43,12 @@ class EsimPixels:
         check_options(config)
         self.config = config
         self._seeds = tuple(seeds)
+        self._walk = choose_walk(RAMP_WALK)
+
+    @property
+    def block(self) -> int:
+        """Pixels that a program walks."""
+        return self._walk.block
 
     def begin(self, frames: Tensor) -> None:
         """Make room for the state and put the options on the device of `frames`, [B, H, W]."""
@@ -93,12 +104,13 @@ class EsimPixels:
             records,
             ALIGN=call.align,
             BLOCK=self.block,
+            num_warps=self._walk.warps,
             **LAUNCH,
         )
 
     def records(self, count: int) -> Records:
         """Room for `count` events."""
-        return make_records(count, self._state.level)
+        return make_records(count, self._state.level, has_order=True)
 
     def stamp(self, call: Call, records: Records, ends: Tensor, words: Tensor) -> None:
         """Give every record its time; see `esim_triton.stamp_crossings`."""

@@ -78,7 +78,8 @@ class Records(NamedTuple):
     pixel: Tensor
     """Flat index y · W + x, int32."""
     order: Tensor
-    """Which of its pixel's events in this interval it is: 1, 2, ...; int32."""
+    """Which of its pixel's events in this interval it is: 1, 2, ...; int32; None where a pixel has
+    one at most."""
     reference: Tensor
     """What the pixel compared with: an intensity, in the frames' type, or a brightness, float64."""
 

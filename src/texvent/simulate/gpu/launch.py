@@ -3,16 +3,30 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent._require import require
-from texvent.simulate.gpu.device import EXTRA
+from texvent.simulate.gpu.device import EXTRA, is_interpreted
 from texvent.simulate.gpu.kernel_types import Call, Records, Tensor
 
 _MOST_ALIGNED = 16
+
+
+class Walk(NamedTuple):
+    """How a kernel walks over the pixels."""
+
+    block: int
+    """Pixels of a program, at least 8."""
+    warps: int
+    """Threads of a program, in groups of 32."""
+
+
+def choose_walk(compiled: Walk) -> Walk:
+    """How to walk: as is best on a GPU, or with few programs in the interpreter's loop."""
+    return Walk(256, 1) if is_interpreted() else compiled
 
 
 def walk_grid(call: Call, block: int) -> tuple[int, int]:
@@ -39,11 +53,18 @@ def alignment(*strides: int) -> int:
     return math.gcd(_MOST_ALIGNED, *strides)
 
 
-def make_records(count: int, reference: Tensor) -> Records:
-    """Room for `count` events whose references are of the type, and on the device, of another."""
+def make_records(count: int, reference: Tensor, *, has_order: bool) -> Records:
+    """Room for `count` events.
+
+    Args:
+        count: n.
+        reference: a tensor of the type that their references have, and on their device.
+        has_order: whether a pixel may have several events in an interval.
+    """
     torch = require("torch", extra=EXTRA)
-    dtypes = torch.int32, torch.int32, reference.dtype
-    return Records(*(torch.empty(count, dtype=one, device=reference.device) for one in dtypes))
+    pixel = torch.empty(count, dtype=torch.int32, device=reference.device)
+    order = torch.empty_like(pixel) if has_order else None
+    return Records(pixel, order, torch.empty(count, dtype=reference.dtype, device=pixel.device))
 
 
 def to_device(array: NDArray[Any], device: Any) -> Tensor:

@@ -72,8 +72,8 @@ def draw_noise(
         number = falls.to(tl.int32)
         if words is not None:
             share = (word & _TIME_MASK).to(tl.float64) * _TIME_UNIT
-            chance = to_uniform(draw_word(key, y, x, k + _POLARITY_DRAW))
-            is_on = (chance < tl.load(rules.numbers + _ON_FRACTION)).to(tl.int64)
+            coin = to_uniform(draw_word(key, y, x, k + _POLARITY_DRAW))
+            is_on = (coin < tl.load(rules.numbers + _ON_FRACTION)).to(tl.int64)
             t = place_in(intervals, segment, share)
             at = place[:, None] + tl.cumsum(number, 1) - number
             tl.store(words + at, pack_event(t, pixel, is_on, 1, frames.area), mask=falls)

@@ -85,11 +85,6 @@ def scan_counts(counts: Tensor, segments: int) -> tuple[Tensor, Tensor]:
 
     Returns:
         [S · blocks] int64: events before each block; [S + 1] int64: before each segment, and all.
-
-    Example:
-        >>> torch = require("torch")  # doctest: +SKIP
-        >>> scan_counts(torch.tensor([1, 0, 2, 3]), 2)  # doctest: +SKIP
-        (tensor([0, 1, 1, 3]), tensor([0, 1, 6]))
     """
     torch = require("torch", extra=EXTRA)
     passed = torch.cumsum(counts, 0, dtype=torch.int64)

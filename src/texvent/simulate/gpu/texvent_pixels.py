@@ -21,17 +21,24 @@ from texvent.simulate.gpu.kernel_types import (
     Tally,
     Tensor,
 )
-from texvent.simulate.gpu.launch import make_records, segment_grid, to_device, walk_grid
+from texvent.simulate.gpu.launch import (
+    Walk,
+    choose_walk,
+    make_records,
+    segment_grid,
+    to_device,
+    walk_grid,
+)
 from texvent.simulate.texvent_config import TexventConfig
 
 _BLOCK = 512
+LEVELS_WALK = Walk(128, 1)
+"""One warp: nothing waits at a barrier, and a quiet one has little to do."""
+BRIGHTNESS_WALK = Walk(512, 4)
 
 
 class TexventPixels:
     """The pixels of a batch of clips under Eqs. 5 and 7."""
-
-    block = 1024
-    """Pixels that a program walks."""
 
     def __init__(self, config: TexventConfig, seeds: Sequence[int]) -> None:
         """Pixels that have seen no frame.
@@ -48,6 +55,12 @@ class TexventPixels:
         self._seeds = tuple(seeds)
         self._pairs_seen = np.zeros((len(seeds), 1), np.int64)
         self._tracks_intensity = texvent_rules.tracks_intensity(config)
+        self._walk = choose_walk(LEVELS_WALK if self._tracks_intensity else BRIGHTNESS_WALK)
+
+    @property
+    def block(self) -> int:
+        """Pixels that a program walks."""
+        return self._walk.block
 
     def begin(self, frames: Tensor) -> None:
         """Make room for the state and put the options on the device of `frames`, [B, H, W]."""
@@ -110,12 +123,13 @@ class TexventPixels:
             records,
             ALIGN=call.align,
             BLOCK=self.block,
+            num_warps=self._walk.warps,
             **LAUNCH,
         )
 
     def records(self, count: int) -> Records:
         """Room for `count` events."""
-        return make_records(count, self._reference)
+        return make_records(count, self._reference, has_order=self.config.multi_event)
 
     def stamp(self, call: Call, records: Records, ends: Tensor, words: Tensor) -> None:
         """Give every record its time; see `texvent_triton.stamp_events`."""

@@ -19,6 +19,7 @@ from texvent.simulate.gpu.blocks_triton import (
     read,
     read_before,
     read_now,
+    read_order,
     write_events,
 )
 from texvent.simulate.gpu.draws_triton import draw_word, to_uniform
@@ -74,7 +75,8 @@ def walk_levels(
     home = tl.multiple_of(clip * area, ALIGN)
     before = read(frames.previous + home + at, inside)
     level = read(reference + home + at, inside)
-    low, high = _move_levels(level, inside, level, level, rules)
+    # Pixels past the last one keep levels that nothing reaches.
+    low, high = _move_levels(level, inside, level * 0 - 1, level * 0 + 32767, rules)
     pixels = frames.pixels + tl.multiple_of(clip * frames.clip_stride, ALIGN) + at
     now = read(pixels, inside & (frames.intervals > 0))
     bad = count_bad(before, inside)
@@ -86,7 +88,7 @@ def walk_levels(
         if tl.load(intervals.policy + segment) == _FORGET:
             level = before
             low, high = _move_levels(before, inside, low, high, rules)
-        fired = inside & ((now <= low) | (now >= high))
+        fired = (now <= low) | (now >= high)
         total = tl.sum(fired.to(tl.int32))
         cell = tally.events + segment * tl.num_programs(0) + tl.program_id(0)
         if records is None:
@@ -94,7 +96,7 @@ def walk_levels(
             mark_fired(tally, segment, area, fired, BLOCK)
             bad += count_bad(now, inside)
         elif total > 0:
-            write_events(records, tl.load(cell), fired, (at, 1, level))
+            write_events(records, tl.load(cell), fired, (at, None, level))
         if total > 0:
             low, high = _move_levels(now, fired, low, high, rules)
             level = tl.where(fired, now, level)
@@ -306,7 +308,7 @@ def stamp_events(
         at = start + tl.arange(0, BLOCK)
         inside = at < stop
         pixel = tl.load(records.pixel + at, mask=inside, other=0)
-        order = tl.load(records.order + at, mask=inside, other=1)
+        order = read_order(records, at, inside)
         reference = _reference_of(records, at, inside, rules)
         now = brightness_of(read_now(frames, segment, pixel, inside), rules)
         if STAMP == _EQ7:

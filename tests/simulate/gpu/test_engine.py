@@ -1,0 +1,238 @@
+"""The GPU backend gives the CPU's events: every option, frame type, chunk size."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any
+
+import numpy as np
+import pytest
+
+from texvent.errors import ConfigError, InputError
+from texvent.represent.voxel_grid import voxel_zhu
+from texvent.simulate.esim import EsimConfig, EsimSimulator
+from texvent.simulate.physical import PhysicalConfig
+from texvent.simulate.texvent import TexventConfig, TexventSimulator
+
+from .clips import (
+    CLIPS,
+    SEED,
+    TWO_PAIRS,
+    on_cpu,
+    on_gpu,
+    random_clips,
+    random_times,
+    rows,
+)
+
+pytestmark = pytest.mark.torch
+torch = pytest.importorskip("torch")
+pytest.importorskip("triton")
+
+from texvent.simulate.gpu import GpuSimulator  # noqa: E402
+
+TEXVENT = {
+    "paper": {"noise_rate_hz": 5.0},
+    "other noise": {"noise": "random", "noise_rate_hz": 9.0, "noise_on_fraction": 0.3},
+    "dark": {"noise_rate_hz": 9.0, "noise_intensity": 120.5, "stamp_scale": 0.6},
+    "no cache": {"noise": "none", "cache": "none", "stamp": "random"},
+    "periodic": {"cache": "global", "cache_reset_pairs": 2, "stamp": "hyperbolic"},
+    "accurate": {
+        "noise": "none", "cache": "leaky", "reset": "step", "multi_event": True, "stamp": "linear",
+    },
+    "even": {"cache": "global", "multi_event": True, "stamp": "even", "noise_rate_hz": 5.0},
+    "steps": {"noise": "none", "cache": "global", "reset": "step", "stamp": "eq7"},
+    "end": {"noise": "none", "balance": 5.0, "contrast_threshold": 0.3, "stamp": "end"},
+}  # fmt: skip
+FEW: dict[str, Any] = {"log_eps": 0.1, "threshold_redraw": "never"}
+"""Few crossings per pixel, each of which costs the interpreter time."""
+ESIM = {
+    "default": {},
+    "thresholds": {"contrast_threshold_on": 0.3, "threshold_sigma": 0.05},
+    "rest": {"refractory_period_us": 400, "contrast_threshold_off": 0.4},
+}
+
+
+MODELS = [
+    *(
+        pytest.param(TexventSimulator, TexventConfig(**one), id=name)
+        for name, one in TEXVENT.items()
+    ),
+    *(
+        pytest.param(EsimSimulator, EsimConfig(**FEW, **one), id=f"esim {name}")
+        for name, one in ESIM.items()
+    ),
+]
+
+
+@pytest.mark.parametrize(("model", "config"), MODELS)
+@pytest.mark.parametrize("dtype", [np.uint8, np.float32])
+def test_the_events_are_those_of_the_cpu(model, config, dtype, device):
+    clips, times_us = random_clips(dtype), random_times()
+    found = on_gpu(
+        torch, GpuSimulator(config, seed=SEED), clips, times_us, TWO_PAIRS, device=device,
+        chunks=(3, 2),
+    )  # fmt: skip
+    for clip in range(CLIPS):
+        simulator = model(config, seed=SEED + clip, backend="reference")
+        expected = rows(on_cpu(simulator, clips[clip], times_us[clip], TWO_PAIRS))
+        assert len(expected) > 200
+        if dtype == np.uint8 or device == "cpu":
+            assert np.array_equal(rows(found[clip]), expected)
+        else:
+            assert_equal_but_beside_the_threshold(rows(found[clip]), expected)
+
+
+def assert_equal_but_beside_the_threshold(found, expected):
+    """A GPU's float64 logarithm may differ in its last bit from the CPU's: no more than that."""
+    places = [{tuple(event[[1, 2, 3, 4]]) for event in one} for one in (found, expected)]
+    assert len(places[0] ^ places[1]) <= 1e-3 * len(expected)
+    if len(found) == len(expected):
+        assert np.abs(found[:, 0] - expected[:, 0]).max() <= 1
+
+
+@pytest.mark.parametrize("chunks", [(1, 4), (2, 1, 2)])
+@pytest.mark.parametrize(
+    "config", [TexventConfig(noise_rate_hz=5.0), EsimConfig(**FEW, refractory_period_us=900)]
+)
+def test_chunks_change_nothing(config, chunks, device):
+    clips, times_us = random_clips(np.uint8), random_times()
+    runs = [
+        on_gpu(torch, GpuSimulator(config), clips, times_us, TWO_PAIRS, device=device, chunks=cut)
+        for cut in ((5,), chunks)
+    ]
+    for one, other in zip(*runs, strict=True):
+        assert len(one) > 200
+        assert one.equals(other)
+
+
+def test_bytes_followed_by_floats_keep_their_references(device):
+    clips, times_us = random_clips(np.uint8), random_times()
+    config = TexventConfig(noise="none", cache="global")
+    simulator = GpuSimulator(config)
+    bytes_, floats = (
+        torch.from_numpy(clips[:, part]).to(device) for part in (slice(2), slice(2, 5))
+    )
+    simulator.step(bytes_, times_us[:, :2])
+    events = simulator.step(floats.float(), times_us[:, 2:])
+    expected = on_cpu(TexventSimulator(config, backend="reference"), clips[0], times_us[0])
+    assert np.array_equal(rows(events.stream(0)), rows(expected[expected.t >= times_us[0, 1]]))
+
+
+def test_a_batch_lies_in_one_piece_clip_by_clip_in_order(device):
+    clips, times_us = random_clips(np.uint8), random_times()
+    events = GpuSimulator(TexventConfig(noise_rate_hz=5.0)).step(
+        torch.from_numpy(clips).to(device), times_us
+    )
+    assert {str(column.device.type) for column in (events.x, events.t, events.label)} == {device}
+    offsets = events.clip_offsets.cpu().numpy()
+    assert offsets.tolist() == [0, *events.frame_ends[:, -1].tolist()]
+    for clip in range(events.clips):
+        table = rows(events.stream(clip))
+        assert np.array_equal(np.lexsort(table.T[::-1]), np.arange(len(table)))
+        for interval, (first, last) in enumerate(itertools.pairwise(events.frame_ends[clip])):
+            inside = events.t[first:last].cpu().numpy()
+            assert (inside >= times_us[clip, interval]).all()
+            assert (inside < times_us[clip, interval + 1]).all()
+
+
+def test_voxel_grids_of_a_clip_can_be_trained_on(device):
+    clips, times_us = random_clips(np.uint8), random_times()
+    events = GpuSimulator(TexventConfig(noise="none")).step(
+        torch.from_numpy(clips).to(device), times_us
+    )
+    grid = voxel_zhu(events.clip(1), bins=4)
+    assert grid.device.type == device
+    expected = voxel_zhu(events.stream(1), bins=4)
+    assert np.allclose(grid.cpu().numpy(), expected, atol=1e-5)
+    weight = torch.ones((), device=device, requires_grad=True)
+    (grid * weight).square().sum().backward()
+    assert float(weight.grad) > 0
+
+
+def test_no_clip_hears_of_another(device):
+    clips, times_us = random_clips(np.uint8), random_times()
+    config = TexventConfig(noise_rate_hz=5.0)
+    together = on_gpu(torch, GpuSimulator(config, seed=[3, 11]), clips, times_us, device=device)
+    for clip, seed in enumerate((3, 11)):
+        alone = on_gpu(
+            torch, GpuSimulator(config, seed=[seed]), clips[clip:clip + 1],
+            times_us[clip:clip + 1], device=device,
+        )[0]  # fmt: skip
+        assert alone.equals(together[clip])
+
+
+def test_frames_at_rest_give_nothing_and_the_first_frame_neither(device):
+    frames = torch.full((1, 3, 4, 4), 60.0, device=device)
+    simulator = GpuSimulator(TexventConfig(noise="none"))
+    assert len(simulator.step(frames[:, :1], [0])) == 0
+    assert len(simulator.step(frames[:, 1:], [10, 20])) == 0
+
+
+def test_after_a_reset_the_next_frame_is_the_first(device):
+    clips, times_us = random_clips(np.uint8), random_times()
+    frames = torch.from_numpy(clips).to(device)
+    simulator = GpuSimulator()
+    first = simulator.step(frames, times_us).stream(0)
+    simulator.reset()
+    assert simulator.step(frames, times_us).stream(0).equals(first)
+
+
+def test_a_bad_intensity_is_refused_and_changes_nothing(device):
+    clips, times_us = random_clips(np.float32), random_times()
+    frames = torch.from_numpy(clips).to(device)
+    simulator = GpuSimulator()
+    simulator.step(frames[:, :2], times_us[:, :2])
+    for value in (float("nan"), -1.0, float("inf")):
+        bad = frames[:, 2:].clone()
+        bad[1, 1, 3, 3] = value
+        with pytest.raises(InputError, match="have 1 pixel"):
+            simulator.step(bad, times_us[:, 2:])
+    again = simulator.step(frames[:, 2:], times_us[:, 2:])
+    whole = GpuSimulator().step(frames, times_us)
+    late = whole.stream(1)
+    assert again.stream(1).equals(late[late.t >= times_us[1, 1]])
+
+
+@pytest.mark.parametrize(
+    ("frames", "times_us", "message"),
+    [
+        (np.zeros((1, 2, 3, 4), np.uint8), [0, 1], "must be a torch tensor"),
+        (torch.zeros(2, 3, 4), [0, 1], r"\[B, T, H, W\]"),
+        (torch.zeros(1, 2, 3, 4, dtype=torch.float64), [0, 1], "uint8 or float32"),
+        (torch.zeros(1, 2, 3, 4), [0, 0], "strictly increase"),
+        (torch.zeros(1, 2, 3, 4), [0], r"must be \[2\] or \[1, 2\]"),
+        (torch.zeros(1, 2, 3, 4), [0.0, 0.5], "whole microseconds"),
+    ],
+)
+def test_frames_and_times_that_cannot_be_used_are_refused(frames, times_us, message):
+    with pytest.raises(InputError, match=message):
+        GpuSimulator().step(frames, times_us)
+
+
+def test_clips_of_another_size_need_a_reset(device):
+    simulator = GpuSimulator()
+    simulator.step(torch.zeros(1, 1, 4, 4, device=device), [0])
+    with pytest.raises(InputError, match="call reset"):
+        simulator.step(torch.zeros(1, 1, 4, 5, device=device), [1])
+
+
+@pytest.mark.parametrize(
+    ("config", "message"),
+    [
+        (TexventConfig(noise="gaussian"), "noise 'gaussian'"),
+        (TexventConfig(balance=0.0), "balance is 0"),
+        (EsimConfig(threshold_sigma=0.1), "threshold_redraw 'frame'"),
+        (PhysicalConfig(), "'physical' has no backend gpu"),
+    ],
+)
+def test_what_only_the_cpu_does_is_refused_by_name(config, message):
+    with pytest.raises(ConfigError, match=message):
+        GpuSimulator(config)
+
+
+def test_seeds_must_be_one_per_clip(device):
+    with pytest.raises(ConfigError, match="2 seeds for 1 clips"):
+        GpuSimulator(seed=[1, 2]).step(torch.zeros(1, 1, 4, 4, device=device), [0])
+    with pytest.raises(ConfigError, match="seed"):
+        GpuSimulator(seed=-1)
