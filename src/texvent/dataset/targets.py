@@ -58,17 +58,23 @@ def film(simulation: Simulation, slice_us: int | None) -> Clip:
             end_us = start_us + (slice_us or 0)
         # A frame at the very end of a window still belongs to it.
         while slice_us and latest is not None and frame.t_us > end_us:
-            frames[end_us] = latest
+            frames[end_us] = _drawn(latest)
             end_us += slice_us
         latest, last_us = frame, frame.t_us
     if latest is not None and start_us < last_us >= end_us:
-        frames[end_us if slice_us else last_us] = latest
+        frames[end_us if slice_us else last_us] = _drawn(latest)
     if not frames:
         raise InputError(
             f"the clip lasts {last_us - start_us} µs, less than one slice of {slice_us or 1} µs; "
             "make it longer, or slice_us shorter"
         )
     return Clip(simulation.video, EventStream.concat(packets), frames, start_us)
+
+
+def _drawn(frame: Frame) -> Frame:
+    """The frame, its picture made: until then an intermediate frame holds what it is made of."""
+    frame.pixels  # noqa: B018
+    return frame
 
 
 def target_of(clip: Clip, target: Target, window: Window) -> NDArray[Any]:

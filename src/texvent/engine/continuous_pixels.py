@@ -17,7 +17,7 @@ from texvent.simulate.draws import frame_key
 from texvent.simulate.esim import EsimConfig
 from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.noise import draw_noise, low_light_background
-from texvent.simulate.texvent import TexventConfig
+from texvent.simulate.texvent_config import TexventConfig
 from texvent.video import Frame
 
 
@@ -36,7 +36,7 @@ class ContinuousEsim:
         self, finder: CandidateFinder, paths: Paths, grids: Grids, edges_us: Int64Array
     ) -> Firings:
         """Events between two source frames."""
-        return Firings.signal(*self._pixels.cross(finder, paths, grids, edges_us))
+        return self._pixels.cross(finder, paths, grids, edges_us)[0]
 
 
 class ContinuousTexvent:
@@ -72,8 +72,7 @@ class ContinuousTexvent:
     ) -> Firings:
         """Events between two source frames, noise included."""
         self._calibrate(paths)
-        crossings = self._pixels.cross(finder, paths, grids, edges_us)
-        fired = Firings.signal(*crossings)
+        fired, _ = self._pixels.cross(finder, paths, grids, edges_us)
         return fired.joined(self._draw_noise(paths, fired, edges_us))
 
     def _calibrate(self, paths: Paths) -> None:

@@ -6,7 +6,6 @@ for simulators and interpolators that cannot be fused, and as the definition of 
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
 from typing import Any, Protocol
@@ -31,7 +30,7 @@ class FusedPixels(Protocol):
 
     def fire(
         self, finder: CandidateFinder, paths: Paths, edges_us: Sequence[int]
-    ) -> Iterator[Firings]:
+    ) -> Iterator[EventStream]:
         """Events between two source frames.
 
         Args:
@@ -40,7 +39,7 @@ class FusedPixels(Protocol):
             edges_us: times of both source frames and of the pictures between them, µs.
 
         Yields:
-            The events of each sub-interval, as many as there are edges less one.
+            The packet of each sub-interval, as many as there are edges less one.
         """
         ...
 
@@ -70,11 +69,7 @@ def step_fused(
             paths = paths_of(pair)
             edges_us = (pair.first.t_us, *paths.times_us, pair.second.t_us)
             frames = [*(UndrawnFrame(paths, k) for k in range(len(paths))), pair.second]
-            fired = pixels.fire(finder, paths, edges_us)
-            for frame, events, span in zip(
-                frames, fired, itertools.pairwise(edges_us), strict=True
-            ):
-                yield frame, events.packet(Interval(*span, np.uint64(0)), frame.size)
+            yield from zip(frames, pixels.fire(finder, paths, edges_us), strict=True)
 
 
 def paths_of(pair: Pair) -> Paths:
@@ -90,13 +85,13 @@ class UndrawnFrame(Frame):
     """An intermediate frame that is drawn when its pixels are asked for."""
 
     def __init__(self, paths: Paths, index: int) -> None:
-        vars(self).update(t_us=paths.times_us[index], is_source=False, _undrawn=(paths, index))
-        height, width = paths.earlier.shape
-        vars(self)["_size"] = SensorSize(width, height)
+        # A frozen dataclass takes no assignments.
+        vars(self).update(t_us=paths.times_us[index], is_source=False)
+        vars(self).update(_size=paths.size, _undrawn=(paths, index))
 
     @cached_property
     def pixels(self) -> Any:
-        """[H, W] float32 luma; the source frames are let go."""
+        """[H, W] float32 luma. Drawing it lets the source frames go."""
         paths, index = vars(self).pop("_undrawn")
         return paths.picture(index)
 

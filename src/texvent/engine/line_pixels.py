@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 
 from texvent.engine.candidates import CandidateFinder, one_grid
 from texvent.engine.kernels.interface import STEPS, Float64Array, Grids, Int64Array, Levels
-from texvent.engine.kernels.pieces import LineCrossings, LineRules, LineState, Pieces
+from texvent.engine.kernels.pieces import LineRules, LineState, Pieces
 from texvent.engine.kernels.pieces_cpu import cross_pieces
+from texvent.events import EventStream
 from texvent.interpolate.paths import Paths
 from texvent.simulate.esim import WHITE, EsimConfig, log_intensity
-from texvent.simulate.firings import Firings
+from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.pixel_maps import LONG_AGO_US
 from texvent.video import Frame
 
@@ -61,7 +62,7 @@ class LinePixels:
 
     def cross(
         self, finder: CandidateFinder, paths: Paths, grids: Grids, edges_us: Int64Array
-    ) -> LineCrossings:
+    ) -> tuple[Firings, NDArray[np.int16]]:
         """What fires between two source frames.
 
         Args:
@@ -69,6 +70,9 @@ class LinePixels:
             paths: what the pixels see.
             grids: the pieces.
             edges_us: [G, P + 1] where the pieces of each grid begin and end, µs.
+
+        Returns:
+            The events by pixel, then in time; and the piece, from 0, that each lies on.
         """
         rules = self._rules
         levels = Levels(
@@ -89,7 +93,8 @@ class LinePixels:
         crossings = cross_pieces(pieces, rules, self._state)
         moved = np.exp(self._state.reference[pixel])
         self._level.reshape(-1)[pixel] = self._unit * moved
-        return crossings
+        fired = Firings.signal(pixel[crossings.row], crossings.t, crossings.p)
+        return fired, piece[crossings.row]
 
 
 def esim_pixels(config: EsimConfig) -> LinePixels:
@@ -118,12 +123,13 @@ class FusedEsim:
 
     def fire(
         self, finder: CandidateFinder, paths: Paths, edges_us: Sequence[int]
-    ) -> Iterator[Firings]:
+    ) -> Iterator[EventStream]:
         """Events of each sub-interval."""
-        edges = np.array(edges_us)
-        found = self._pixels.cross(finder, paths, one_grid(paths.positions), edges[np.newaxis])
-        order = np.argsort(found.t, kind="stable")
-        pixel, t, p = found.pixel[order], found.t[order], found.p[order]
-        cuts = np.searchsorted(t, edges)
-        for start, stop in itertools.pairwise(cuts.tolist()):
-            yield Firings.signal(pixel[start:stop], t[start:stop], p[start:stop])
+        edges = np.array(edges_us)[np.newaxis]
+        found, piece_of = self._pixels.cross(finder, paths, one_grid(paths.positions), edges)
+        order = np.argsort(piece_of, kind="stable")
+        cuts = np.searchsorted(piece_of[order], np.arange(len(edges_us)))
+        for piece, span_us in enumerate(itertools.pairwise(edges_us)):
+            rows = order[cuts[piece] : cuts[piece + 1]]
+            fired = Firings.signal(found.pixel[rows], found.t[rows], found.p[rows])
+            yield fired.packet(Interval(*span_us, np.uint64(0)), paths.size)

@@ -69,14 +69,15 @@ def advance(
         Every dense frame (engine "frames"), or every source frame (engine "continuous").
     """
     check_engine(settings)
-    name, seed = settings.run.simulator, settings.run.seed
     if settings.run.engine == "continuous":
-        step = load_object("texvent.engine.continuous:step_continuously")
-        return step(pairs, load_object(CONTINUOUS[name])(settings.simulate, seed), on_cut)
-    if is_fusable(settings):
-        step = load_object("texvent.engine.fused:step_fused")
-        return step(pairs, load_object(FUSED[name])(settings.simulate, seed), on_cut)
-    return step_through(simulator, dense_frames(pairs, on_cut))
+        name, models = "texvent.engine.continuous:step_continuously", CONTINUOUS
+    elif is_fusable(settings):
+        name, models = "texvent.engine.fused:step_fused", FUSED
+    else:
+        return step_through(simulator, dense_frames(pairs, on_cut))
+    pixels = load_object(models[settings.run.simulator])(settings.simulate, settings.run.seed)
+    steps: Iterator[tuple[Frame, EventStream]] = load_object(name)(pairs, pixels, on_cut)
+    return steps
 
 
 def is_fusable(settings: Settings) -> bool:

@@ -21,16 +21,20 @@ from texvent.engine.kernels.interface import (
     Float64Array,
     Levels,
 )
+from texvent.events import EventStream
 from texvent.interpolate.paths import Paths
 from texvent.simulate.cache import BrightnessCache
 from texvent.simulate.draws import frame_key
-from texvent.simulate.event_frame import EventFrame, list_activations
-from texvent.simulate.firings import Firings, Interval
-from texvent.simulate.interval import SubInterval
-from texvent.simulate.noise import draw_noise
-from texvent.simulate.texvent import TexventConfig
-from texvent.simulate.timestamps import reconstruct_timestamps
+from texvent.simulate.firings import Interval
+from texvent.simulate.kernels.noise import Block, NoisePlaces, load_place_noise
+from texvent.simulate.kernels.select import AUTO
+from texvent.simulate.kernels.stamp import Timing, load_stamp_events
+from texvent.simulate.kernels.texvent import NOISE_BLOCK, Fired
+from texvent.simulate.noise import poisson_cumulative
+from texvent.simulate.texvent_config import TexventConfig
 from texvent.video import Frame
+
+_QUIET = NoisePlaces(np.empty(0, np.int64), np.empty(0), np.empty(0, np.uint8))
 
 
 class FusedTexvent:
@@ -42,47 +46,53 @@ class FusedTexvent:
 
     def __init__(self, config: TexventConfig, seed: int) -> None:
         self._config, self._seed = config, seed
+        self._is_kept = config.cache in ("global", "leaky")
+        self._timing = Timing(
+            config.stamp,
+            config.stamp_scale,
+            config.contrast_threshold,
+            config.multi_event,
+            config.noise == "adaptive",
+        )
 
     def begin(self, frame: Frame) -> None:
         """Take the first frame."""
         config = self._config
-        self._is_kept = config.cache in ("global", "leaky")
         self._cache = BrightnessCache(
-            balanced_log(frame.luma, config.balance),
+            self._brightness_of(frame.luma),
             policy=config.cache if self._is_kept else "global",
             leak=config.cache_leak,
             reset_pairs=config.cache_reset_pairs if self._is_kept else 0,
         )
-        # Only candidates are ever written to these, and only they are read.
-        self._previous, self._brightness = np.zeros((2, *frame.size.shape))
 
     def fire(
         self, finder: CandidateFinder, paths: Paths, edges_us: Sequence[int]
-    ) -> Iterator[Firings]:
+    ) -> Iterator[EventStream]:
         """Events of each sub-interval, noise included."""
         reference = self._calibrate(paths)
         levels = self._levels(np.exp(reference) if self._is_kept else np.empty((0, 0)))
         found = finder.find(paths, one_grid(paths.positions), levels)
+        reference = reference.reshape(-1)
         if not self._is_kept:
+            # This pair begins at its own first frame; other pixels' references are not looked at.
             own = paths.earlier.reshape(-1)[found.pixel]
-            reference.reshape(-1)[found.pixel] = self._brightness_of(own)
+            reference[found.pixel] = self._brightness_of(own)
+        stamp_events, size = load_stamp_events(AUTO), paths.size
         by_piece = np.argsort(found.piece, kind="stable")
         cuts = np.searchsorted(found.piece[by_piece], np.arange(len(edges_us)))
         for piece, (start_us, stop_us) in enumerate(itertools.pairwise(edges_us)):
             rows = by_piece[cuts[piece] : cuts[piece + 1]]
             span = Interval(start_us, stop_us, frame_key(self._seed, stop_us))
-            interval = SubInterval(span, self._previous, self._brightness, reference)
-            fired = self._generate_event_frame(found.take(rows), interval)
-            timed = self._reconstruct_timestamps(fired, interval)
-            self._cache.update(fired, self._brightness, step=self._config.reset_step)
-            yield timed.joined(self._draw_noise(paths, piece, fired.pixel, span))
+            fired = self._settle(found.take(rows), reference)
+            noise = self._draw_noise(paths, piece, span)
+            x, y, t, p, label = stamp_events(fired, noise, self._timing, span, size.shape)
+            yield EventStream.unchecked(x, y, t, p, size=size, label=label)
 
     def _calibrate(self, paths: Paths) -> Float64Array:
-        """The references that a pair starts with; not for a cache that forgets at every pair."""
+        """The references that a pair starts with, [H, W], log units: the cache's own array."""
         if not self._is_kept:
-            return self._cache.calibrate(self._brightness, is_source=False)
-        brightness = balanced_log(paths.earlier, self._config.balance)
-        return self._cache.calibrate(brightness, is_source=True)
+            return self._cache.calibrate(np.empty((0, 0)), is_source=False)
+        return self._cache.calibrate(self._brightness_of(paths.earlier), is_source=True)
 
     def _levels(self, reference: Float64Array) -> Levels:
         """What `kernels.interface` calls levels, for balanced levels [H, W] or the frame's own."""
@@ -96,53 +106,39 @@ class FusedTexvent:
         up, down = math.exp(config.contrast_threshold), math.exp(-config.contrast_threshold)
         return Levels(reference, config.balance, up, down, rule)
 
-    def _generate_event_frame(self, found: Candidates, interval: SubInterval) -> EventFrame:
-        """Eq. 5, for the pixels that may fire."""
+    def _settle(self, found: Candidates, reference: Float64Array) -> Fired:
+        """Eq. 5: which of the candidates of a sub-interval fire; moves their references."""
         config, pixel = self._config, found.pixel
-        before, now = self._brightness_of(found.before), self._brightness_of(found.now)
-        interval.previous.reshape(-1)[pixel] = before
-        interval.brightness.reshape(-1)[pixel] = now
-        reference = interval.reference.reshape(-1)
-        if config.cache == "none":
-            reference[pixel] = before
-        change = now - reference[pixel]
-        number = np.floor(np.abs(change) / config.contrast_threshold).astype(np.int64)
+        start, stop = self._brightness_of(found.before), self._brightness_of(found.now)
+        then = start if config.cache == "none" else reference[pixel]
+        change = stop - then
         fires = np.abs(change) >= config.contrast_threshold
-        if not config.multi_event:
-            number = np.ones_like(number)
-        return EventFrame(pixel[fires], change[fires], number[fires])
+        if not fires.all():
+            pixel, change = pixel[fires], change[fires]
+            start, stop, then = start[fires], stop[fires], then[fires]
+        reference[pixel] = stop
+        if config.reset == "step":
+            threshold = config.contrast_threshold
+            number = np.floor(np.abs(change) / threshold) if config.multi_event else 1.0
+            reference[pixel] = then + np.sign(change) * (number * threshold)
+        return Fired(pixel, change, start, stop, then)
 
-    def _reconstruct_timestamps(self, fired: EventFrame, interval: SubInterval) -> Firings:
-        """Eq. 7."""
-        config, activations = self._config, list_activations(fired)
-        t = reconstruct_timestamps(
-            activations,
-            interval,
-            stamp=config.stamp,
-            threshold=config.contrast_threshold,
-            scale=config.stamp_scale,
-        )
-        return Firings.signal(activations.pixel, t, activations.polarity)
-
-    def _draw_noise(
-        self, paths: Paths, piece: int, fired: NDArray[np.int64], span: Interval
-    ) -> Firings:
-        """Eq. 6: drawn for all pixels, kept where its mask lets noise be."""
+    def _draw_noise(self, paths: Paths, piece: int, span: Interval) -> NoisePlaces:
+        """Noise of Eq. 6 where pixels are dark, or, as ablation E11, anywhere."""
         config = self._config
-        mean = config.noise_rate_hz * (config.noise_scale * span.duration_s)
-        if config.noise == "none" or mean == 0:
-            return Firings.none()
-        noise = draw_noise(
-            paths.earlier.size, span, mean=mean, on_fraction=config.noise_on_fraction
-        )
-        if config.noise == "random":
+        if not config.has_added_noise:
+            return _QUIET
+        cumulative = poisson_cumulative(config.expected_noise(span.duration_s) * NOISE_BLOCK)
+        block = Block(span.key, cumulative, config.noise_on_fraction)
+        noise = load_place_noise(AUTO)(block, paths.later.size)
+        if config.noise == "random" or not len(noise.pixel):
             return noise
         if piece < len(paths):
             luma = show_pixels(pictures_of(paths), paths.positions[piece], noise.pixel)
         else:
             luma = paths.later.reshape(-1)[noise.pixel]
-        kept = (luma < config.noise_intensity) & ~np.isin(noise.pixel, fired)
-        return noise.where(kept)
+        is_dark = luma < config.noise_intensity
+        return NoisePlaces(noise.pixel[is_dark], noise.fraction[is_dark], noise.p[is_dark])
 
     def _brightness_of(self, luma: NDArray[np.float32]) -> Float64Array:
         return balanced_log(luma, self._config.balance)

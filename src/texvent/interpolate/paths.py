@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from texvent._registry import load_object
 from texvent.interpolate.position import check_between, float_luma, position
+from texvent.sensor import SensorSize
 from texvent.video import Frame
 
 FloatPicture = NDArray[np.float32]
@@ -51,6 +52,12 @@ class Paths:
         check_between(first, second, times_us)
         places = [position(first, second, t_us) for t_us in times_us]
         return cls(float_luma(first), float_luma(second), flows, tuple(times_us), places)
+
+    @property
+    def size(self) -> SensorSize:
+        """Width and height, pixels."""
+        height, width = self.earlier.shape
+        return SensorSize(width, height)
 
     def __len__(self) -> int:
         return len(self.times_us)

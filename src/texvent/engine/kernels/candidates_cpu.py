@@ -28,8 +28,8 @@ from texvent.interpolate.kernels.cpu import warp_pixel
 
 Columns = tuple[
     NDArray[np.int64],
-    NDArray[np.int64],
-    NDArray[np.int64],
+    NDArray[np.int16],
+    NDArray[np.int16],
     NDArray[np.float32],
     NDArray[np.float32],
 ]
@@ -232,8 +232,8 @@ def _move(
 def _columns(size: int) -> Columns:
     return (
         np.empty(size, np.int64),
-        np.empty(size, np.int64),
-        np.empty(size, np.int64),
+        np.empty(size, np.int16),
+        np.empty(size, np.int16),
         np.empty(size, np.float32),
         np.empty(size, np.float32),
     )

@@ -31,7 +31,7 @@ def find_candidates(pictures: Pictures, grids: Grids, levels: Levels) -> Candida
         The candidates by pixel, then by piece.
     """
     chosen = choose_grids(pictures, grids, levels.balance)
-    found = [Candidates(*(np.empty(0, kind) for kind in (int, int, int, "f4", "f4")))]
+    found = [Candidates(*(np.empty(0, kind) for kind in ("i8", "i2", "i2", "f4", "f4")))]
     for grid in range(len(grids.parts)):
         pixel = np.flatnonzero(chosen.reshape(-1) == grid)
         if pixel.size:
@@ -79,8 +79,8 @@ def _follow(
         found.append(
             Candidates(
                 pixel[listed],
-                np.full(number, grid),
-                np.full(number, piece),
+                np.full(number, grid, np.int16),
+                np.full(number, piece, np.int16),
                 before[listed],
                 now[listed],
             )

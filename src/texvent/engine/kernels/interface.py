@@ -79,9 +79,9 @@ class Candidates(NamedTuple):
 
     pixel: Int64Array
     """[n] flat index y · W + x."""
-    grid: Int64Array
+    grid: NDArray[np.int16]
     """[n] the pixel's grid."""
-    piece: Int64Array
+    piece: NDArray[np.int16]
     """[n] which piece of it, from 0."""
     before: Float32Array
     """[n] luma at the start of the piece."""

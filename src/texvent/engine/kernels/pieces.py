@@ -52,8 +52,8 @@ class LineState(NamedTuple):
 class LineCrossings(NamedTuple):
     """Events, by pixel and then in time."""
 
-    pixel: Int64Array
-    """[n] flat index."""
+    row: Int64Array
+    """[n] number of the piece that the event lies on."""
     t: Int64Array
     """[n] µs."""
     p: NDArray[np.uint8]

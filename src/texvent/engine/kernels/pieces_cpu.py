@@ -15,15 +15,17 @@ Events = tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.uint8]]
 
 def cross_pieces(pieces: Pieces, rules: LineRules, state: LineState) -> LineCrossings:
     """Every threshold that brightness crosses; see `pieces_reference.cross_pieces`."""
-    found, (pixel, t, p) = _cross(pieces, rules, state)
-    return LineCrossings(pixel[:found], t[:found], p[:found])
+    found, (row, t, p) = _cross(pieces, rules, state)
+    return LineCrossings(row[:found], t[:found], p[:found])
 
 
 @numba.njit(cache=True, nogil=True)
 def _cross(pieces: Pieces, rules: LineRules, state: LineState) -> tuple[int, Events]:
+    # Unpacked once: Numba counts references to every array that it takes out of a tuple.
     pixel, starts, stops, befores, nows = pieces
     reference, fired_us = state
-    found, events = 0, _events(pixel.size)
+    rows, times, polarities = _events(2 * pixel.size)
+    found = 0
     for k in range(pixel.size):
         i, start_us, stop_us = pixel[k], starts[k], stops[k]
         first, last = befores[k] - reference[i], nows[k] - reference[i]
@@ -33,17 +35,18 @@ def _cross(pieces: Pieces, rules: LineRules, state: LineState) -> tuple[int, Eve
         passed = 0
         while last >= (passed + 1) * threshold:
             passed += 1
-            level = passed * threshold
+        if found + passed > rows.size:
+            rows, times, polarities = _grown((rows, times, polarities), passed)
+        for number in range(1, passed + 1):
+            level = number * threshold
             fraction = (level - first) / (last - first) if first < level else 0.0
             t = min(start_us + math.floor(fraction * (stop_us - start_us)), stop_us - 1)
             if t - fired_us[i] >= rules.refractory_us:
                 fired_us[i] = t
-                if found == events[0].size:
-                    events = _grown(events)
-                events[0][found], events[1][found], events[2][found] = i, t, sign > 0
+                rows[found], times[found], polarities[found] = k, t, sign > 0
                 found += 1
         reference[i] += sign * passed * threshold
-    return found, events
+    return found, (rows, times, polarities)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -52,10 +55,10 @@ def _events(size: int) -> Events:
 
 
 @numba.njit(cache=True, nogil=True)
-def _grown(events: Events) -> Events:
-    """The same events with room for as many again."""
+def _grown(events: Events, least: int) -> Events:
+    """The same events with more room."""
     size = events[0].size
-    larger = _events(2 * size + 16)
+    larger = _events(2 * size + least)
     larger[0][:size] = events[0]
     larger[1][:size] = events[1]
     larger[2][:size] = events[2]

@@ -29,7 +29,8 @@ def cross_pieces(pieces: Pieces, rules: LineRules, state: LineState) -> LineCros
         section 3.1, where samples are taken as often as the scene needs, at each pixel.
     """
     events = []
-    for i, start_us, stop_us, before, now in zip(*(one.tolist() for one in pieces), strict=True):
+    for row, piece in enumerate(zip(*(one.tolist() for one in pieces), strict=True)):
+        i, start_us, stop_us, before, now = piece
         first, last = before - float(state.reference[i]), now - float(state.reference[i])
         sign = 1 if last > 0 else -1
         threshold = rules.threshold_on if sign > 0 else rules.threshold_off
@@ -42,7 +43,7 @@ def cross_pieces(pieces: Pieces, rules: LineRules, state: LineState) -> LineCros
             t = min(start_us + math.floor(fraction * (stop_us - start_us)), stop_us - 1)
             if t - int(state.fired_us[i]) >= rules.refractory_us:
                 state.fired_us[i] = t
-                events.append((i, t, sign > 0))
+                events.append((row, t, sign > 0))
         state.reference[i] += sign * k * threshold
-    pixel, t, p = np.array(events, np.int64).reshape(-1, 3).T
-    return LineCrossings(pixel, t, p.astype(np.uint8))
+    row_of, t_of, p_of = np.array(events, np.int64).reshape(-1, 3).T
+    return LineCrossings(row_of, t_of, p_of.astype(np.uint8))
