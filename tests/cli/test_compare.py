@@ -79,7 +79,7 @@ def test_compare_cuts_to_the_span(pair, capsys):
         ),
         (
             ["compare", "guess.npz", "truth.npz", "--metrics", "eqs"],
-            "metric eqs cannot be computed: it needs RVT's weights",
+            "metric eqs cannot be computed: it needs RVT's weights, pass --rvt-weights FILE",
         ),
         (
             ["compare", "guess.npz", "truth.npz", "--rvt-weights", "none.ckpt"],

@@ -42,7 +42,7 @@ class EventQualityScore:
         """What is missing for a score, if anything."""
         if self.backbone is not None:
             return None
-        return f"it needs RVT's weights: pass --rvt-weights FILE; {WHERE_FROM}"
+        return f"it needs RVT's weights, pass --rvt-weights FILE; {WHERE_FROM}"
 
     def __call__(self, predicted: EventStream, reference: EventStream) -> float:
         """Mean cosine; see `metrics.protocol.Metric`.

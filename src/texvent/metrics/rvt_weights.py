@@ -18,7 +18,7 @@ PREFIX = "mdl.backbone."
 FIRST_TENSOR = "stages.0.downsample_cf2cl.conv.weight"
 WHERE_FROM = (
     "the published files are rvt-t.ckpt, rvt-s.ckpt and rvt-b.ckpt, to which the project "
-    "uzh-rpg/RVT on GitHub links; the authors of EQS do not say which they used"
+    "uzh-rpg/RVT on GitHub links"
 )
 
 
@@ -47,7 +47,7 @@ def read_rvt_weights(path: Path) -> RvtWeights:
         raise InputError(f"there is no weights file {path}; {WHERE_FROM}")
     state = read_mapping(path, WHERE_FROM, extra=EXTRA).get("state_dict")
     if not isinstance(state, Mapping):
-        raise FileFormatError(f"{path} holds no state_dict; it is not RVT's. {WHERE_FROM}")
+        raise FileFormatError(f"{path} holds no state_dict; it is not RVT's: {WHERE_FROM}")
     tensors = {
         name.removeprefix(PREFIX): tensor
         for name, tensor in named_tensors(state, extra=EXTRA).items()
@@ -62,7 +62,7 @@ def read_rvt_weights(path: Path) -> RvtWeights:
 def _recognise_layout(tensors: Mapping[str, Tensor], path: Path) -> RvtLayout:
     if FIRST_TENSOR not in tensors:
         raise FileFormatError(
-            f"{path} has no tensor {PREFIX}{FIRST_TENSOR}; it is not RVT's. {WHERE_FROM}"
+            f"{path} has no tensor {PREFIX}{FIRST_TENSOR}; it is not RVT's: {WHERE_FROM}"
         )
     width = tensors[FIRST_TENSOR].shape[0]
     for layout in rvt_layout.LAYOUTS:
