@@ -1,0 +1,69 @@
+"""A recording with frames that is known exactly, and a stand-in for a network."""
+
+import itertools
+
+import numpy as np
+
+from texvent.bench.frame_recording import FrameRecording
+from texvent.events import EventPackets, EventStream
+from texvent.sensor import SensorSize
+from texvent.video import Video
+
+SIZE = SensorSize(16, 12)
+STEP_US = 40_000
+FRAMES = 15
+
+
+class StandInReconstructor:
+    """Adds a fiftieth for every ON event and takes one off for every OFF event, from mid-grey."""
+
+    name = "stand-in"
+    sha256 = "0" * 64
+    is_published = False
+
+    def __init__(self):
+        self.reset()
+
+    def reset(self):
+        self.picture = np.full(SIZE.shape, 0.5, np.float32)
+
+    def twin(self):
+        return StandInReconstructor()
+
+    def reconstruct(self, events):
+        np.add.at(self.picture, (events.y, events.x), events.polarity / np.float32(50))
+        return np.clip(self.picture, 0, 1)
+
+    def film(self, packets, times_us, *, size):
+        assert size == SIZE
+        self.reset()
+        events = EventStream.concat(list(packets))
+        for before, t_us in itertools.pairwise(times_us):
+            yield t_us, self.reconstruct(events.between(before, t_us))
+
+
+def level(number):
+    """The frame of that number: a bright bar that moves a pixel per frame, on grey."""
+    picture = np.full(SIZE.shape, 127.5, np.float32)
+    picture[:, number : number + 2] = 178.5
+    return picture
+
+
+def moving_bar(name="bar", frames=FRAMES):
+    """Frames of the bar, and the events from which the stand-in makes exactly these frames."""
+    video = Video(
+        np.stack([level(number) for number in range(frames)]),
+        [number * STEP_US for number in range(frames)],
+    )
+    rows = []
+    known = np.full(SIZE.shape, 127.5)
+    for number in range(1, frames):
+        steps = np.rint((level(number) - known) / 5.1).astype(int)
+        known = level(number)
+        for y, x in np.argwhere(steps):
+            count = abs(int(steps[y, x]))
+            rows += [(number * STEP_US - 1 - k, y, x, int(steps[y, x] > 0)) for k in range(count)]
+    rows.sort()
+    t, y, x, p = (np.array(column) for column in zip(*rows, strict=True))
+    events = EventStream.from_columns(x, y, t, p, size=SIZE)
+    return FrameRecording(name=name, frames=video, events=EventPackets((events,), SIZE))

@@ -1,0 +1,84 @@
+"""Pictures into films and folders: complete or not at all, and read back as they were."""
+
+import json
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from texvent.capture.open import open_frames
+from texvent.config import CaptureConfig
+from texvent.errors import InputError, OutputError
+from texvent.sensor import SensorSize
+from texvent.view.picture_sink import check_pictures, open_pictures
+
+SIZE = SensorSize(15, 11)
+
+
+def pictures():
+    return [(1_000_003 + 40_000 * n, np.full(SIZE.shape, n / 10, np.float32)) for n in range(4)]
+
+
+def write(path, *, overwrite=False, some=None):
+    opened = open_pictures(
+        path, size=SIZE, fps=Fraction(25), facts={"network": "firenet"}, overwrite=overwrite
+    )
+    with opened as sink:
+        for t_us, picture in pictures() if some is None else some:
+            sink.add(t_us, picture)
+
+
+def test_a_folder_is_read_again_with_its_times(tmp_path):
+    write(tmp_path / "frames")
+    frames = list(open_frames(str(tmp_path / "frames"), CaptureConfig()))
+    assert [frame.t_us for frame in frames] == [t_us for t_us, _ in pictures()]
+    for frame, (_, picture) in zip(frames, pictures(), strict=True):
+        assert frame.pixels.dtype == np.uint8
+        assert frame.pixels.shape == SIZE.shape
+        np.testing.assert_array_equal(frame.pixels, np.rint(picture * 255))
+    facts = json.loads((tmp_path / "frames" / "texvent.json").read_text())
+    assert facts == {"network": "firenet"}
+
+
+def test_a_film_has_even_sides_and_the_times_of_the_pictures(tmp_path):
+    write(tmp_path / "film.mp4")
+    frames = list(open_frames(str(tmp_path / "film.mp4"), CaptureConfig()))
+    assert frames[0].size == SensorSize(16, 12)
+    assert [frame.t_us for frame in frames] == [0, 40_000, 80_000, 120_000]
+    assert float(frames[3].luma.mean()) == pytest.approx(0.3 * 255, abs=3)
+
+
+def test_only_a_folder_of_such_pictures_is_replaced(tmp_path):
+    folder = tmp_path / "frames"
+    write(folder)
+    with pytest.raises(OutputError, match="exists already"):
+        check_pictures(folder, overwrite=False)
+    write(folder, overwrite=True, some=pictures()[:2])
+    assert len(list(folder.glob("*.png"))) == 2
+    (folder / "notes.txt").write_text("mine")
+    with pytest.raises(OutputError, match=r"notes\.txt"):
+        check_pictures(folder, overwrite=True)
+
+
+@pytest.mark.parametrize("name", ["frames", "film.mp4"])
+def test_without_a_picture_nothing_is_left(name, tmp_path):
+    with pytest.raises(InputError, match="picture"):
+        write(tmp_path / name, some=[])
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_error_half_way_leaves_nothing(tmp_path):
+    def broken():
+        yield pictures()[0]
+        raise RuntimeError("stop")
+
+    with pytest.raises(RuntimeError):
+        write(tmp_path / "frames", some=broken())
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_times_before_zero_are_written_with_their_sign(tmp_path):
+    some = [(-1_500_000, np.zeros(SIZE.shape)), (-1, np.zeros(SIZE.shape))]
+    write(tmp_path / "frames", some=some)
+    lines = (tmp_path / "frames" / "timestamps.txt").read_text().splitlines()
+    assert [line.split()[0] for line in lines] == ["-1.500000", "-0.000001"]
