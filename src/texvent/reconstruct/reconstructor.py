@@ -189,7 +189,7 @@ def stretch(picture: Intensity) -> Intensity:
     Source: robust normalisation of EVREAL; rpg_e2vid does the same.
 
     Example:
-        >>> stretch(np.linspace(0.2, 0.4, 101, dtype=np.float32))[[1, 50, 99]].tolist()
+        >>> stretch(np.linspace(0, 100, 101, dtype=np.float32))[[1, 50, 99]].tolist()
         [0.0, 0.5, 1.0]
     """
     low, high = np.percentile(picture, (LOWEST, HIGHEST))
