@@ -40,10 +40,11 @@ def default_device() -> str:
         ConfigError: torch finds no GPU, and Triton's interpreter is off.
         MissingDependencyError: torch or Triton is not installed.
     """
+    can_interpret = is_interpreted()
     torch = require("torch", extra=EXTRA)
     if torch.cuda.is_available():
         return "cuda"
-    if is_interpreted():
+    if can_interpret:
         return "cpu"
     raise ConfigError(
         "backend gpu needs a GPU, and torch finds none here; use backend cpu, or, to try the GPU "
