@@ -92,9 +92,7 @@ class Simulation:
             on_cut: told of every scene cut and flash that was not smeared.
         """
         settings = self.settings
-        simulator = SIMULATORS.load(settings.run.simulator)(
-            settings.simulate, seed=settings.run.seed
-        )
+        simulator = _build_simulator(settings)
         with ExitStack() as threads:
             pairs = self._pairs(simulator, threads)
             for frame, packet in advance(pairs, simulator, settings, on_cut):
@@ -141,6 +139,15 @@ class Simulation:
             "settings": self.settings.as_tables(),
             "texvent_version": __version__,
         }
+
+
+def _build_simulator(settings: Settings) -> Simulator:
+    """The simulator of a run; a backend is named only to those that may know one."""
+    run = settings.run
+    build = SIMULATORS.load(run.simulator)
+    options = {} if run.backend == "auto" else {"backend": run.backend}
+    simulator: Simulator = build(settings.simulate, seed=run.seed, **options)
+    return simulator
 
 
 def _with_luma(frames: Iterable[Frame]) -> Iterator[Frame]:

@@ -39,6 +39,8 @@ def check_engine(settings: Settings) -> None:
     if settings.run.engine != "continuous":
         return
     simulator, interpolate = settings.run.simulator, settings.interpolate.interpolate
+    if settings.run.backend == "gpu":
+        raise ConfigError("engine 'continuous' has no backend gpu; use engine 'frames'")
     if simulator not in CONTINUOUS:
         raise ConfigError(
             f"engine 'continuous' cannot run simulator {simulator!r}; it runs esim, and texvent "
@@ -84,6 +86,7 @@ def is_fusable(settings: Settings) -> bool:
     """Whether `fused.step_fused` can run it; the events are the same either way."""
     return (
         settings.run.simulator in FUSED
+        and settings.run.backend in ("auto", "cpu")
         and settings.interpolate.interpolate in WITH_PATHS
         and getattr(settings.simulate, "noise", "none") != "gaussian"
         and getattr(settings.simulate, "threshold_sigma", 0.0) == 0.0

@@ -9,14 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
+from texvent._registry import load_object
 from texvent.config import check_range
 from texvent.errors import ConfigError
+from texvent.events import EventStream
 from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.kernels.ramp import Ramp, Rest, load_cross_ramp
+from texvent.simulate.kernels.select import GPU
 from texvent.simulate.pixel_maps import (
     LONG_AGO_US,
     LOWEST_THRESHOLD,
@@ -25,6 +28,7 @@ from texvent.simulate.pixel_maps import (
     sensor_key,
 )
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
+from texvent.video import Frame
 
 WHITE = 255.0
 
@@ -82,6 +86,24 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         "default": EsimConfig(),
         "peer-common": EsimConfig(),
     }
+
+    has_gpu: ClassVar[bool] = True
+
+    def reset(self) -> None:
+        """Forget all frames: the next one is the first."""
+        super().reset()
+        self._on_gpu: Any = None
+        if self._backend == GPU:
+            steps = load_object("texvent.simulate.gpu.frame_steps:FrameSteps")
+            self._on_gpu = steps(self.config, self._seed)
+
+    def step(self, frame: Frame) -> EventStream:
+        """Events in `[t of the frame before, t of this frame)`; see `StreamingSimulator.step`."""
+        if self._on_gpu is None:
+            return super().step(frame)
+        self._enter(frame)
+        packet: EventStream = self._on_gpu.step(frame)
+        return packet
 
     @property
     def contrast_threshold(self) -> float:

@@ -31,6 +31,8 @@ class StreamingSimulator(abc.ABC, Generic[Config]):
 
     config_type: ClassVar[type]
     presets: ClassVar[Mapping[str, Any]]
+    has_gpu: ClassVar[bool] = False
+    """Whether the model also runs in `texvent.simulate.gpu`."""
 
     def __init__(self, config: Config | None = None, *, seed: int = 0, backend: str = AUTO) -> None:
         """Prepare a simulator that has seen no frame.
@@ -47,7 +49,7 @@ class StreamingSimulator(abc.ABC, Generic[Config]):
         check_range("seed", seed, 0, 2**63 - 1)
         self.config: Config = config if config is not None else next(iter(self.presets.values()))
         self._seed = int(seed)
-        self._backend = check_backend(backend)
+        self._backend = check_backend(backend, has_gpu=self.has_gpu)
         self.reset()
 
     def reset(self) -> None:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
+from texvent._registry import load_object
 from texvent.config import check_range
 from texvent.events import EventStream
 from texvent.simulate.draws import frame_key
 from texvent.simulate.firings import Firings, Interval
-from texvent.simulate.kernels.select import check_backend
+from texvent.simulate.kernels.select import GPU, check_backend
 from texvent.simulate.texvent_config import TexventConfig
 from texvent.simulate.texvent_pixels import SparsePixels
 from texvent.simulate.texvent_reference import DensePixels
@@ -50,16 +51,18 @@ class TexventSimulator:
         Args:
             config: options; default: the preset "paper".
             seed: of noise and random times, 0..2⁶³−1.
-            backend: "auto", "cpu" or "reference": which kernels scan the pixels. All give the same
-                events.
+            backend: "auto", "cpu", "numpy", "reference" or "gpu": which kernels scan the pixels.
+                All give the same events; `texvent.simulate.gpu` says how nearly.
 
         Raises:
-            ConfigError: the seed is out of range or the backend unknown.
+            ConfigError: the seed is out of range, the backend unknown, or it is "gpu" and there is
+                none, or an option that only the CPU has.
+            MissingDependencyError: what the backend needs is not installed.
         """
         check_range("seed", seed, 0, 2**63 - 1)
         self.config = config or TexventConfig()
         self._seed = int(seed)
-        self._backend = check_backend(backend)
+        self._backend = check_backend(backend, has_gpu=True)
         self.reset()
 
     @property
@@ -77,6 +80,10 @@ class TexventSimulator:
         self._checker = StreamChecker()
         self._pixels: DensePixels | SparsePixels | None = None
         self._last_us = 0
+        self._on_gpu: Any = None
+        if self._backend == GPU:
+            steps = load_object("texvent.simulate.gpu.frame_steps:FrameSteps")
+            self._on_gpu = steps(self.config, self._seed)
 
     def step(self, frame: Frame) -> EventStream:
         """Events in `[t of the frame before, t of this frame)`, sorted; none for the first frame.
@@ -87,7 +94,9 @@ class TexventSimulator:
             ConfigError: the balance is 0 and a pixel is black.
         """
         where = self._checker.check_order(frame)
-        if self._pixels is None:
+        if self._on_gpu is not None:
+            packet: EventStream = self._on_gpu.step(frame)
+        elif self._pixels is None:
             is_dense = self._backend == "reference" or self.config.noise == "gaussian"
             pixels_type = DensePixels if is_dense else SparsePixels
             self._pixels = pixels_type(self.config, self._backend, frame, where)

@@ -25,14 +25,23 @@ BACKENDS = (AUTO, *_MODULES)
 """Names that `load_kernels` takes; "auto" is the first of the others that can be imported."""
 
 
-def check_backend(backend: str) -> str:
-    """Return `backend` if it is one of `BACKENDS`.
+GPU = "gpu"
+"""Runs whole models instead of kernels, those that have it; see `texvent.simulate.gpu`."""
+
+
+def check_backend(backend: str, *, has_gpu: bool = False) -> str:
+    """Return `backend` if it is one of `BACKENDS`, or "gpu" of a model that has that.
 
     Raises:
         ConfigError: it is not.
     """
-    if backend not in BACKENDS:
-        raise ConfigError(f"unknown backend {backend!r}; {suggest(backend, BACKENDS)}")
+    if backend == GPU and not has_gpu:
+        raise ConfigError(
+            "this simulator has no backend gpu; use simulator texvent or esim, or backend cpu"
+        )
+    allowed = (*BACKENDS, GPU)
+    if backend not in allowed:
+        raise ConfigError(f"unknown backend {backend!r}; {suggest(backend, allowed)}")
     return backend
 
 
