@@ -178,7 +178,7 @@ class TestWithTorch:
             ({"state_dictFC": {}}, "state_dictFC lacks conv1.bias"),
             (
                 {"state_dictAT": "swapped"},
-                r"state_dictAT has shape \[2, 6, 7, 7\] for conv1\.weight",
+                r"state_dictAT has conv1\.weight of shape \[2, 6, 7, 7\]",
             ),
         ],
     )

@@ -93,7 +93,8 @@ def test_a_checkpoint_is_read_strictly_and_the_detector_left_out(published):
     assert all(str(tensor.dtype) == "torch.float32" for tensor in weights.tensors.values())
 
 
-GAMMA = "mdl.backbone.stages.3.att_blocks.0.att_grid.ls2.gamma"
+GAMMA_HERE = "stages.3.att_blocks.0.att_grid.ls2.gamma"
+GAMMA = f"mdl.backbone.{GAMMA_HERE}"
 
 
 @pytest.mark.torch
@@ -102,14 +103,14 @@ GAMMA = "mdl.backbone.stages.3.att_blocks.0.att_grid.ls2.gamma"
     [
         (lambda c: c.pop("state_dict"), "holds no state_dict"),
         (lambda c: c["state_dict"].clear(), "has no tensor mdl.backbone.stages.0"),
-        (lambda c: c["state_dict"].pop(GAMMA), f"lacks {GAMMA}"),
+        (lambda c: c["state_dict"].pop(GAMMA), f"is not rvt-t: mdl.backbone lacks {GAMMA_HERE}"),
         (
             lambda c: c["state_dict"].update({GAMMA: c["state_dict"][GAMMA][:5]}),
-            rf"has shape \[5\] for {GAMMA}; it must be \[256\] in rvt-t",
+            rf"has {GAMMA_HERE} of shape \[5\] instead of \[256\]",
         ),
         (
             lambda c: c["state_dict"].update({"mdl.backbone.extra": c["state_dict"][GAMMA]}),
-            r"mdl\.backbone\.extra; it is unknown in rvt-t",
+            "has the unknown extra",
         ),
         (lambda c: c["state_dict"][GAMMA].fill_(math.nan), "ls2.gamma holds values that are NaN"),
     ],

@@ -12,7 +12,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias
 
-from texvent._network_files import Tensor, check_finite, named_tensors, read_mapping
+from texvent._network_files import (
+    Tensor,
+    check_finite,
+    describe_mismatch,
+    named_tensors,
+    read_mapping,
+    shapes_of,
+)
 from texvent.errors import FileFormatError, InputError
 
 Shape: TypeAlias = tuple[int, ...]
@@ -64,7 +71,7 @@ def read_resnet_weights(path: Path) -> ResNetWeights:
         raise FileFormatError(f"{path}: its state_dict holds no named tensors; {WHERE_FROM}")
     named = named_tensors(state, extra=EXTRA)
     tensors = {name: one for name, one in named.items() if not name.endswith(BATCH_COUNTER)}
-    shapes = {name: tuple(one.shape) for name, one in tensors.items()}
+    shapes = shapes_of(tensors)
     blocks = _count_blocks(shapes, path)
     _check_shapes(shapes, blocks, path)
     check_finite(tensors, path)
@@ -119,13 +126,6 @@ def _count_blocks(shapes: Mapping[str, Shape], path: Path) -> tuple[int, ...]:
 def _check_shapes(shapes: Mapping[str, Shape], blocks: tuple[int, ...], path: Path) -> None:
     width, classes = shapes["conv1.weight"][0], shapes["fc.weight"][0]
     expected = tensor_shapes(width, blocks, classes)
-    for name in sorted(expected.keys() | shapes.keys()):
-        if name not in shapes:
-            raise FileFormatError(f"{path} lacks {name}; {WHERE_FROM}")
-        if name not in expected:
-            raise FileFormatError(f"{path} has the unknown {name}; {WHERE_FROM}")
-        if shapes[name] != expected[name]:
-            raise FileFormatError(
-                f"{path} has {name} of shape {list(shapes[name])} instead of "
-                f"{list(expected[name])}; {WHERE_FROM}"
-            )
+    problem = describe_mismatch(shapes, expected)
+    if problem is not None:
+        raise FileFormatError(f"{path} {problem}; {WHERE_FROM}")

@@ -6,7 +6,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from texvent._network_files import Tensor, check_finite, named_tensors, read_mapping
+from texvent._network_files import (
+    Tensor,
+    check_finite,
+    describe_mismatch,
+    named_tensors,
+    read_mapping,
+    shapes_of,
+)
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.interpolate.network_files import EXTRA
 from texvent.interpolate.super_slomo_layout import FLOW_NET, REFINE_NET, UNetLayout
@@ -55,11 +62,8 @@ def _read_network(content: Mapping[str, Any], net: UNetLayout, path: Path) -> di
     tensors = named_tensors(state, extra=EXTRA)
     width = getattr(tensors.get(FIRST_TENSOR), "shape", (0,))[0]
     expected = net.tensor_shapes(width)
-    for name in sorted(expected.keys() | tensors.keys()):
-        found = tuple(tensors[name].shape) if name in tensors else None
-        if found != expected.get(name):
-            problem = "lacks" if found is None else f"has shape {list(found)} for"
-            wanted = f"it must be {list(expected[name])}" if name in expected else "it is unknown"
-            raise FileFormatError(f"{path}: {net.key} {problem} {name}; {wanted}. {WHERE_FROM}")
+    problem = describe_mismatch(shapes_of(tensors), expected)
+    if problem is not None:
+        raise FileFormatError(f"{path}: {net.key} {problem}; {WHERE_FROM}")
     check_finite(tensors, path)
     return tensors

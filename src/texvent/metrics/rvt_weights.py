@@ -6,7 +6,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from texvent._network_files import Tensor, check_finite, named_tensors, read_mapping
+from texvent._network_files import (
+    Tensor,
+    check_finite,
+    describe_mismatch,
+    named_tensors,
+    read_mapping,
+    shapes_of,
+)
 from texvent.errors import FileFormatError, InputError
 from texvent.metrics import rvt_layout
 from texvent.metrics.rvt_layout import RvtLayout
@@ -54,7 +61,9 @@ def read_rvt_weights(path: Path) -> RvtWeights:
         if name.startswith(PREFIX)
     }
     layout = _recognise_layout(tensors, path)
-    _check_shapes(tensors, layout, path)
+    problem = describe_mismatch(shapes_of(tensors), layout.tensor_shapes())
+    if problem is not None:
+        raise FileFormatError(f"{path} is not {layout.name}: {PREFIX[:-1]} {problem}; {WHERE_FROM}")
     check_finite(tensors, path)
     return RvtWeights(layout, tensors)
 
@@ -73,15 +82,3 @@ def _recognise_layout(tensors: Mapping[str, Tensor], path: Path) -> RvtLayout:
         f"{path} is of a backbone with {width} channels in its first stage; known are {sizes}. "
         f"{WHERE_FROM}"
     )
-
-
-def _check_shapes(tensors: Mapping[str, Tensor], layout: RvtLayout, path: Path) -> None:
-    expected = layout.tensor_shapes()
-    for name in sorted(expected.keys() | tensors.keys()):
-        found = tuple(tensors[name].shape) if name in tensors else None
-        if found != expected.get(name):
-            problem = "lacks" if found is None else f"has shape {list(found)} for"
-            wanted = f"it must be {list(expected[name])}" if name in expected else "it is unknown"
-            raise FileFormatError(
-                f"{path} {problem} {PREFIX}{name}; {wanted} in {layout.name}. {WHERE_FROM}"
-            )

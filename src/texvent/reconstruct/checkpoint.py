@@ -9,7 +9,15 @@ from pathlib import Path
 from typing import Any
 
 from texvent._cache import cache_folder
-from texvent._network_files import StandIn, Tensor, check_finite, named_tensors, read_mapping
+from texvent._network_files import (
+    StandIn,
+    Tensor,
+    check_finite,
+    describe_mismatch,
+    named_tensors,
+    read_mapping,
+    shapes_of,
+)
 from texvent._registry import RECONSTRUCTORS, load_object
 from texvent.errors import FileFormatError, InputError
 from texvent.reconstruct.layers import EXTRA
@@ -87,7 +95,7 @@ def read_checkpoint(published: PublishedNetwork, path: Path) -> Checkpoint:
 
 def _check_layout(published: PublishedNetwork, tensors: Mapping[str, Tensor], path: Path) -> None:
     """Refuse a tensor that is missing, unknown or of another shape."""
-    found = {name: tuple(tensor.shape) for name, tensor in tensors.items()}
+    found = shapes_of(tensors)
     problem = _describe_mismatch(published, found)
     if problem is None:
         return
@@ -107,14 +115,7 @@ def _describe_mismatch(published: PublishedNetwork, found: Mapping[str, Shape]) 
         expected = network.tensor_shapes(found)
     except ValueError:  # the shape that tells the width has not four numbers
         return "has a first layer of another kind"
-    for name in sorted(expected.keys() | found.keys()):
-        if name not in found:
-            return f"lacks {name}"
-        if name not in expected:
-            return f"has the unknown {name}"
-        if found[name] != expected[name]:
-            return f"has {name} of shape {list(found[name])} instead of {list(expected[name])}"
-    return None
+    return describe_mismatch(found, expected)
 
 
 def _refuse_another_published(published: PublishedNetwork, path: Path, digest: str) -> None:
