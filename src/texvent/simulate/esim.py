@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent._registry import load_object
 from texvent.config import check_range
@@ -25,9 +26,11 @@ from texvent.simulate.pixel_maps import (
     LOWEST_THRESHOLD,
     Float64Array,
     draw_threshold_pair,
+    draw_threshold_pair_at,
     sensor_key,
 )
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
+from texvent.simulate.trigger_levels import TriggerLevels
 from texvent.video import Frame
 
 WHITE = 255.0
@@ -116,20 +119,27 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         return WHITE * self.config.log_eps
 
     def _begin(self, intensity: IntensityArray) -> None:
-        self._brightness = log_intensity(intensity, self.config.log_eps)
-        self._reference = self._brightness.copy()
-        self._fired_us = np.full(self._brightness.shape, LONG_AGO_US)
-        self._thresholds = draw_threshold_pair(intensity.shape, sensor_key(self._seed), self.config)
+        config = self.config
+        self._reference = log_intensity(intensity, config.log_eps).reshape(-1)
+        self._fired_us = np.full(self._reference.shape, LONG_AGO_US)
+        self._shape = intensity.shape
+        self._is_redrawn = config.threshold_sigma > 0 and config.threshold_redraw == "frame"
+        pair = draw_threshold_pair(intensity.shape, sensor_key(self._seed), config)
+        self._map = pair[0].reshape(-1), pair[1].reshape(-1)
+        self._levels = TriggerLevels(
+            intensity, scale=WHITE, offset=-WHITE * config.log_eps, backend=self._backend
+        )
+        self._set_levels(np.arange(intensity.size))
 
     def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
-        brightness = log_intensity(intensity, self.config.log_eps)
-        if self.config.threshold_sigma > 0 and self.config.threshold_redraw == "frame":
-            self._thresholds = draw_threshold_pair(intensity.shape, interval.key, self.config)
-        threshold_on, threshold_off = self._thresholds
+        pixel, before, now = self._levels.find_outside(intensity)
+        reference = self._reference[pixel]
+        threshold_on, threshold_off = self._thresholds(pixel, interval.key)
         crossings = load_cross_ramp(self._backend)(
             Ramp(
-                self._brightness - self._reference,
-                brightness - self._reference,
+                pixel,
+                log_intensity(before, self.config.log_eps) - reference,
+                log_intensity(now, self.config.log_eps) - reference,
                 threshold_on,
                 threshold_off,
             ),
@@ -138,20 +148,44 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
             Rest(self.config.refractory_period_us, is_level_lost=True),
         )
         steps = crossings.steps
-        self._reference += steps * np.where(steps > 0, threshold_on, threshold_off)
-        self._brightness = brightness
+        moved = np.where(steps > 0, threshold_on, threshold_off) * steps
+        self._reference[pixel] = reference + moved
+        self._set_levels(pixel)
         return Firings.signal(crossings.pixel, crossings.t, crossings.p)
+
+    def _thresholds(
+        self, pixel: NDArray[np.int64], key: np.uint64
+    ) -> tuple[Float64Array, Float64Array]:
+        """ON and OFF thresholds of some pixels in this interval."""
+        config = self.config
+        if config.threshold_sigma == 0:
+            on, off = config.contrast_threshold_on, config.contrast_threshold_off
+            return np.full(len(pixel), float(on)), np.full(len(pixel), float(off))
+        if not self._is_redrawn:
+            return self._map[0][pixel], self._map[1][pixel]
+        y, x = np.divmod(pixel, self._shape[1])
+        return draw_threshold_pair_at(y, x, key, config)
+
+    def _set_levels(self, pixel: NDArray[np.int64]) -> None:
+        """Where some pixels fire: reference ± θ."""
+        if self._is_redrawn:
+            # Any threshold may come, but none below the floor.
+            on = off = np.full(len(pixel), LOWEST_THRESHOLD)
+        else:
+            on, off = self._thresholds(pixel, np.uint64(0))
+        reference = self._reference[pixel]
+        self._levels.set(pixel, reference - off, reference + on)
 
 
 def log_intensity(intensity: IntensityArray, log_eps: float) -> Float64Array:
     """Log intensity `ln(I / 255 + ε)` that ESIM compares.
 
     Args:
-        intensity: 0..255 scale, [H, W], uint8 or float.
+        intensity: 0..255 scale, any shape, uint8 or float.
         log_eps: ε, above 0.
 
     Returns:
-        [H, W] float64.
+        Of the same shape, float64.
     """
     if intensity.dtype == np.uint8:
         table = np.log(np.arange(256) / WHITE + log_eps)

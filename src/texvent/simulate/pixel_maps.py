@@ -36,11 +36,21 @@ def draw_thresholds(
     Returns:
         [H, W] float64, at least `LOWEST_THRESHOLD`.
     """
-    if sigma == 0:
-        return np.full(shape, float(mean))
     y, x = np.ogrid[: shape[0], : shape[1]]
-    drawn = mean + sigma * draw_normals(key, y, x, purpose.draw())
-    return np.maximum(drawn, LOWEST_THRESHOLD)
+    return np.broadcast_to(_thresholds_at(y, x, key, purpose, (mean, sigma)), shape).copy()
+
+
+def _thresholds_at(
+    y: NDArray[np.int64],
+    x: NDArray[np.int64],
+    key: np.uint64,
+    purpose: Purpose,
+    normal: tuple[float, float],
+) -> Float64Array:
+    mean, sigma = normal
+    if sigma == 0:
+        return np.full(np.broadcast_shapes(y.shape, x.shape), float(mean))
+    return np.maximum(mean + sigma * draw_normals(key, y, x, purpose.draw()), LOWEST_THRESHOLD)
 
 
 class NominalThresholds(Protocol):
@@ -71,6 +81,28 @@ def draw_threshold_pair(
     return (
         draw_thresholds(shape, key, Purpose.THRESHOLD_ON, mean=on, sigma=sigma),
         draw_thresholds(shape, key, Purpose.THRESHOLD_OFF, mean=off, sigma=sigma),
+    )
+
+
+def draw_threshold_pair_at(
+    y: NDArray[np.int64], x: NDArray[np.int64], key: np.uint64, nominal: NominalThresholds
+) -> tuple[Float64Array, Float64Array]:
+    """What `draw_threshold_pair` has at some pixels.
+
+    Args:
+        y: rows, [n].
+        x: columns, [n].
+        key: as there.
+        nominal: as there.
+
+    Returns:
+        ON and OFF thresholds, [n] each.
+    """
+    on, off = nominal.contrast_threshold_on, nominal.contrast_threshold_off
+    sigma = nominal.threshold_sigma
+    return (
+        _thresholds_at(y, x, key, Purpose.THRESHOLD_ON, (on, sigma)),
+        _thresholds_at(y, x, key, Purpose.THRESHOLD_OFF, (off, sigma)),
     )
 
 

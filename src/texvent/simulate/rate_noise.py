@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from texvent.simulate.draws import Purpose, draw_uniforms
 from texvent.simulate.firings import Firings, Interval
@@ -41,7 +41,7 @@ class NoiseRates:
         interval: Interval,
         *,
         share: Share | None = None,
-        on_fraction: ArrayLike = 0.5,
+        on_fraction: float | Float64Array = 0.5,
         backend: str = AUTO,
     ) -> Firings:
         """Noise events of one interval, by exponential gaps between them.
@@ -69,8 +69,8 @@ class NoiseRates:
             chance = self._draw(interval, row, order, Purpose.NOISE_COUNT)
             kept = chance < share(pixel)
             pixel, fraction, order, row = pixel[kept], fraction[kept], order[kept], row[kept]
-        if np.ndim(on_fraction):
-            on_fraction = np.asarray(on_fraction).reshape(-1)[pixel]
+        if not isinstance(on_fraction, float):
+            on_fraction = on_fraction.reshape(-1)[pixel]
         is_on = self._draw(interval, row, order, Purpose.NOISE_POLARITY) < on_fraction
         offset = np.floor(fraction * interval.duration_us).astype(np.int64)
         return Firings.noise(pixel, interval.start_us + offset, is_on.astype(np.uint8))

@@ -14,11 +14,11 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.simulate.draws import Purpose
 from texvent.simulate.firings import Firings, Interval
-from texvent.simulate.kernels.select import load_kernels
 from texvent.simulate.pixel_maps import (
     LONG_AGO_US,
     LOWEST_THRESHOLD,
@@ -29,10 +29,13 @@ from texvent.simulate.pixel_maps import (
 )
 from texvent.simulate.rate_noise import NoiseRates
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
+from texvent.simulate.trigger_levels import TriggerLevels
 
 WHITE = 255.0
 DARKEST = 1.0
 """Intensity below which all pixels count as equally dark, levels of 0..255."""
+SLACK = 1e-9
+"""Log units by which a level must be out of reach, for what is rounded."""
 FULL_SCALE = 0.9616
 """SENPI's threshold of 0.1 in its unit of ln(15000): 0.96158 in natural-log units."""
 
@@ -118,47 +121,57 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
     def _begin(self, intensity: IntensityArray) -> None:
         config = self.config
         key, shape = sensor_key(self._seed), intensity.shape
-        self._threshold_on, self._threshold_off = draw_threshold_pair(shape, key, config)
+        pair = draw_threshold_pair(shape, key, config)
+        self._threshold_on, self._threshold_off = (one.reshape(-1) for one in pair)
         is_hot = draw_chosen(shape, key, Purpose.HOT_PIXEL, fraction=config.hot_fraction)
         self._rate_hz = np.where(is_hot, config.hot_rate_hz, config.noise_rate_hz)
         self._noise = NoiseRates(self._rate_hz)
-        lowest = min(self._threshold_on.min(), self._threshold_off.min())
-        self._lowest_threshold = float(lowest)
-        self._reference = np.log(photons(intensity, config.well_capacity))
-        self._fired_us = np.full(shape, LONG_AGO_US)
+        self._reference = np.log(photons(intensity, config.well_capacity)).reshape(-1)
+        self._fired_us = np.full(intensity.size, LONG_AGO_US)
+        self._levels = TriggerLevels(
+            intensity, scale=WHITE / config.well_capacity, offset=0.0, backend=self._backend
+        )
+        self._set_levels(np.arange(intensity.size))
 
     def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
-        electrons = photons(intensity, self.config.well_capacity)
-        voltage = np.log(electrons)
-        fired = self._compare(voltage, interval)
-        noise = self._draw_noise(electrons, interval)
+        fired = self._compare(intensity, interval)
+        noise = self._draw_noise(intensity, interval)
         # What fired memorises the present voltage, whatever the reason.
+        pixel = np.concatenate([fired.pixel, noise.pixel])
+        self._reference[pixel] = self._voltage(intensity.reshape(-1)[pixel])
         for events in (fired, noise):
-            self._reference.reshape(-1)[events.pixel] = voltage.reshape(-1)[events.pixel]
-            np.maximum.at(self._fired_us.reshape(-1), events.pixel, events.t)
+            np.maximum.at(self._fired_us, events.pixel, events.t)
+        self._set_levels(pixel)
         return fired.joined(noise)
 
-    def _compare(self, voltage: Float64Array, interval: Interval) -> Firings:
+    def _compare(self, intensity: IntensityArray, interval: Interval) -> Firings:
         """At most one event per pixel, in the interval's last microsecond."""
         t_us = interval.stop_us - 1
-        pixel, change = load_kernels(self._backend).find_crossings(
-            voltage, self._reference, self._lowest_threshold
-        )
-        threshold = np.where(
-            change > 0,
-            self._threshold_on.reshape(-1)[pixel],
-            self._threshold_off.reshape(-1)[pixel],
-        )
-        is_rested = t_us - self._fired_us.reshape(-1)[pixel] >= self.config.refractory_period_us
+        pixel, _, now = self._levels.find_outside(intensity)
+        change = self._voltage(now) - self._reference[pixel]
+        threshold = np.where(change > 0, self._threshold_on[pixel], self._threshold_off[pixel])
+        is_rested = t_us - self._fired_us[pixel] >= self.config.refractory_period_us
         fires = (np.abs(change) >= threshold) & is_rested
         pixel, is_on = pixel[fires], change[fires] > 0
         return Firings.signal(pixel, np.full(len(pixel), t_us), is_on.astype(np.uint8))
 
-    def _draw_noise(self, electrons: Float64Array, interval: Interval) -> Firings:
+    def _voltage(self, intensity: IntensityArray) -> Float64Array:
+        return np.asarray(np.log(photons(intensity, self.config.well_capacity)))
+
+    def _set_levels(self, pixel: NDArray[np.int64]) -> None:
+        """Where some pixels fire: reference ± θ."""
+        reference = self._reference[pixel]
+        low, high = reference - self._threshold_off[pixel], reference + self._threshold_on[pixel]
+        # Below the darkest level all voltages are equal, so one that is lower is never reached.
+        darkest = math.log(DARKEST / WHITE * self.config.well_capacity)
+        self._levels.set(pixel, np.where(low < darkest - SLACK, -np.inf, low), high)
+
+    def _draw_noise(self, intensity: IntensityArray, interval: Interval) -> Firings:
         if not self.config.shot_noise:
             return self._noise.draw(interval, backend=self._backend)
+        electrons = photons(intensity, self.config.well_capacity)
         on, off = (
-            shot_noise_rate_hz(electrons, threshold, self.config)
+            shot_noise_rate_hz(electrons, threshold.reshape(electrons.shape), self.config)
             for threshold in (self._threshold_on, self._threshold_off)
         )
         total = self._rate_hz + on + off
@@ -167,7 +180,7 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
 
 
 def photons(intensity: IntensityArray, well_capacity: float) -> Float64Array:
-    """Photons that a pixel receives, `max(I, 1) / 255 · well capacity`, [H, W] float64.
+    """Photons that pixels receive, `max(I, 1) / 255 · well capacity`, float64.
 
     Example:
         >>> photons(np.array([[0, 1, 255]], np.uint8), 15_000.0).round(2).tolist()

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.errors import ConfigError
@@ -160,13 +161,16 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
         self._follow_light(intensity, interval)
         self._leak(interval)
         stop = self._brightness + self._voltage_noise - self._reference
+        may_fire = (stop >= self._threshold_on) | (-stop >= self._threshold_off)
+        pixel = np.flatnonzero(may_fire)
+        columns = (start, stop, self._threshold_on, self._threshold_off)
         crossings = load_cross_ramp(self._backend)(
-            Ramp(start, stop, self._threshold_on, self._threshold_off),
-            self._fired_us,
+            Ramp(pixel, *(column.reshape(-1)[pixel] for column in columns)),
+            self._fired_us.reshape(-1),
             (interval.start_us, interval.stop_us),
             Rest(self.config.refractory_period_us, is_level_lost=False),
         )
-        fired = self._label(crossings)
+        fired = self._label(pixel, crossings)
         return fired.joined(self._add_shot_noise(intensity, interval))
 
     def _follow_light(self, intensity: IntensityArray, interval: Interval) -> None:
@@ -195,15 +199,17 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
             self._reference -= leaked
             self._noise_since_event += leaked
 
-    def _label(self, crossings: RampCrossings) -> Firings:
+    def _label(self, pixel: NDArray[np.int64], crossings: RampCrossings) -> Firings:
         """Move the references, and tell the events that noise and leak made from the others."""
         steps = crossings.steps
-        moved = steps * np.where(steps > 0, self._threshold_on, self._threshold_off)
-        self._reference += moved
-        is_noise = self._noise_since_event * np.sign(steps) >= 0.5 * np.abs(moved)
-        self._noise_since_event[steps != 0] = 0.0
-        label = np.where(is_noise.reshape(-1)[crossings.pixel], NOISE, SIGNAL).astype(np.uint8)
-        return Firings(crossings.pixel, crossings.t, crossings.p, label)
+        on, off = (one.reshape(-1)[pixel] for one in (self._threshold_on, self._threshold_off))
+        moved = steps * np.where(steps > 0, on, off)
+        self._reference.reshape(-1)[pixel] += moved
+        since_event = self._noise_since_event.reshape(-1)
+        is_noise = since_event[pixel] * np.sign(steps) >= 0.5 * np.abs(moved)
+        since_event[pixel[steps != 0]] = 0.0
+        label = np.where(is_noise, NOISE, SIGNAL)[np.searchsorted(pixel, crossings.pixel)]
+        return Firings(crossings.pixel, crossings.t, crossings.p, label.astype(np.uint8))
 
     def _add_shot_noise(self, intensity: IntensityArray, interval: Interval) -> Firings:
         """Independent noise events; each makes its pixel memorise the present brightness."""

@@ -12,22 +12,24 @@ from typing import NamedTuple, TypeAlias, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.kernels.select import AUTO, load_kernel
+from texvent.simulate.kernels.select import AUTO, load_kernel_when_ready
 
 Float64Array: TypeAlias = NDArray[np.float64]
 
 
 class Ramp(NamedTuple):
-    """Every pixel's change against its reference, a straight line in time, log units."""
+    """Change of some pixels against their references, a straight line in time, log units."""
 
+    pixel: NDArray[np.int64]
+    """[n] flat index y · W + x, ascending: all pixels that may fire."""
     start: Float64Array
-    """[H, W] change at the start of the interval."""
+    """[n] change at the start of the interval."""
     stop: Float64Array
-    """[H, W] change at its end."""
+    """[n] change at its end."""
     threshold_on: Float64Array
-    """[H, W] above 0."""
+    """[n] above 0."""
     threshold_off: Float64Array
-    """[H, W] above 0."""
+    """[n] above 0."""
 
 
 class Rest(NamedTuple):
@@ -44,13 +46,14 @@ class RampCrossings(NamedTuple):
     """Events of one interval, by pixel in row-major order, then in time."""
 
     pixel: NDArray[np.int64]
-    """[n] flat index y · W + x."""
+    """[m] flat index."""
     t: NDArray[np.int64]
-    """[n] times, µs."""
+    """[m] times, µs."""
     p: NDArray[np.uint8]
-    """[n] 1 = ON, 0 = OFF."""
+    """[m] 1 = ON, 0 = OFF."""
     steps: NDArray[np.int64]
-    """[H, W] by how many thresholds each reference moves: up (ON) above 0, down (OFF) below."""
+    """[n] by how many thresholds the reference of each pixel of the ramp moves: up (ON) above 0,
+    down (OFF) below."""
 
 
 CrossRamp: TypeAlias = Callable[[Ramp, NDArray[np.int64], tuple[int, int], Rest], RampCrossings]
@@ -58,10 +61,10 @@ CrossRamp: TypeAlias = Callable[[Ramp, NDArray[np.int64], tuple[int, int], Rest]
 
 
 def load_cross_ramp(backend: str = AUTO) -> CrossRamp:
-    """The function of a backend. All return equal bits.
+    """The function of a backend; "auto" is NumPy until the compiled one is ready.
 
     Raises:
         ConfigError: no backend has that name.
         MissingDependencyError: what the backend needs is not installed.
     """
-    return cast("CrossRamp", load_kernel("ramp", "cross_ramp", backend))
+    return cast("CrossRamp", load_kernel_when_ready("ramp", "cross_ramp", backend))

@@ -20,7 +20,7 @@ def cross_ramp(
 
     Args:
         ramp: where the lines run, and the thresholds.
-        fired_us: time of each pixel's last event, µs, [H, W]; brought up to date here.
+        fired_us: time of each pixel's last event, µs, [H · W]; brought up to date here.
         span_us: start (included) and stop (excluded) of the interval, µs.
         rest: the refractory period.
 
@@ -35,20 +35,24 @@ def cross_ramp(
     pixels, times, polarities = [], [], []
     for sign, threshold in ((1, ramp.threshold_on), (-1, ramp.threshold_off)):
         first, last = sign * ramp.start, sign * ramp.stop
+        own = np.flatnonzero(last >= threshold)
         k = 1
-        while (reached := last >= k * threshold).any():
-            level = k * threshold
+        while len(own):
+            level = k * threshold[own]
+            begin = first[own]
             fraction = np.zeros_like(level)
-            np.divide(level - first, last - first, out=fraction, where=reached & (first < level))
+            np.divide(level - begin, last[own] - begin, out=fraction, where=begin < level)
             offset = np.floor(fraction * (stop_us - start_us)).astype(np.int64)
             t = np.minimum(start_us + offset, stop_us - 1)
-            fires = reached & (t - fired_us >= rest.period_us)
-            fired_us[fires] = t[fires]
-            steps += sign * (reached if rest.is_level_lost else fires)
-            pixels.append(np.flatnonzero(fires))
+            fires = t - fired_us[ramp.pixel[own]] >= rest.period_us
+            fired = ramp.pixel[own[fires]]
+            fired_us[fired] = t[fires]
+            steps[own] += sign * (1 if rest.is_level_lost else fires)
+            pixels.append(fired)
             times.append(t[fires])
-            polarities.append(np.full(len(times[-1]), sign > 0, np.uint8))
+            polarities.append(np.full(len(fired), sign > 0, np.uint8))
             k += 1
+            own = own[last[own] >= k * threshold[own]]
     pixel = np.concatenate([np.empty(0, np.int64), *pixels])
     # Stable, so a pixel's events keep their order k = 1, 2, ...
     order = np.argsort(pixel, kind="stable")
