@@ -72,6 +72,7 @@ def turn_to_float(memory: Memory) -> None:
     memory.previous = as_luma(memory.previous)
     memory.renewed = np.empty(memory.renewed.size, np.float32)
     memory.table = _NOTHING
+    memory.work = None
 
 
 def renew_levels(memory: Memory, luma: Intensity, config: TexventConfig) -> None:
@@ -117,14 +118,16 @@ def scan_levels(config: TexventConfig, memory: Memory) -> Levels:
     """How the scan compares this memory with frames."""
     is_full_scale = memory.reference.dtype == np.uint16
     balance = config.balance * (UINT16_PER_LEVEL if is_full_scale else 1.0)
-    threshold = config.contrast_threshold
+    in_reference = 0.0 if memory.level.size else balance
+    up = math.exp(config.contrast_threshold) * (1 - SCAN_MARGIN)
+    down = math.exp(-config.contrast_threshold) * (1 + SCAN_MARGIN)
+    room = balance * SCAN_MARGIN + SCAN_FLOOR
     return Levels(
-        balance=np.float32(balance),
-        reference_balance=np.float32(0.0 if memory.level.size else balance),
-        up=np.float32(math.exp(threshold) * (1 - SCAN_MARGIN)),
-        down=np.float32(math.exp(-threshold) * (1 + SCAN_MARGIN)),
-        floor=np.float32(0.0 if config.balance > 0 else SCAN_FLOOR),
-        least=least_difference(threshold, config.balance),
+        up=np.float32(up),
+        up_offset=np.float32(in_reference * up - balance - room),
+        down=np.float32(down),
+        down_offset=np.float32(in_reference * down - balance + room),
+        least=least_difference(config.contrast_threshold, config.balance),
     )
 
 

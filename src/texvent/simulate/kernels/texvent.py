@@ -64,27 +64,22 @@ NOISE_BLOCK = 4096
 NOISE_PLACE_SHIFT = 52
 """By how many bits a place word is shifted to give the pixel in its block."""
 SCAN_MARGIN = 1e-6
-"""Relative distance by which the scan's levels are brought together: over four roundings."""
+"""Distance by which the scan's levels are brought together, relative to the level and to the
+balance: over four roundings of each."""
 SCAN_FLOOR = 1e-37
 """The same as a number, for intensities so small that float32 has no relative precision."""
 
 
 class Levels(NamedTuple):
-    """How a scan finds candidates: `b + I ≥ (r + R)·up − floor` or `b + I ≤ (r + R)·down + floor`.
+    """How a scan finds candidates: `I ≥ R·up + up_offset` or `I ≤ R·down + down_offset`, float32.
 
-    All float32, in units of the frame's intensity.
+    The trigger levels of above, `(α + R)·e^±δ − α`, moved towards each other by the margin.
     """
 
-    balance: np.float32
-    """b: what is added to the frame."""
-    reference_balance: np.float32
-    """r: what is added to the reference; 0 where references are balanced already."""
     up: np.float32
-    """e^δ, less the margin."""
+    up_offset: np.float32
     down: np.float32
-    """e^−δ, and the margin."""
-    floor: np.float32
-    """`SCAN_FLOOR` where the balance is 0, else 0."""
+    down_offset: np.float32
     least: np.uint8
     """Smallest difference of two uint8 intensities that may fire."""
 
@@ -142,7 +137,7 @@ class Memory:
     """[n] reference brightness, or [0] where `reference` says it all."""
     table: Float64Array
     """Brightness of every intensity that an integer type has, or [0] for float32."""
-    work: Fired | None = None
+    work: Any = None
     """Room that a backend keeps for its results; overwritten by each frame."""
 
 

@@ -106,8 +106,5 @@ def _may_fire(now: Intensity, reference: Intensity, levels: Levels) -> NDArray[n
     """Pixels at or beyond their trigger levels."""
     if now.dtype == np.uint8:
         return np.asarray(np.maximum(now, reference) - np.minimum(now, reference) >= levels.least)
-    value = now.astype(np.float32)
-    value += levels.balance
-    level = reference + levels.reference_balance
-    is_on = value + levels.floor >= level * levels.up
-    return np.asarray(is_on | (value <= level * levels.down + levels.floor))
+    is_on = now >= reference * levels.up + levels.up_offset
+    return np.asarray(is_on | (now <= reference * levels.down + levels.down_offset))
