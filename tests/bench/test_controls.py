@@ -1,5 +1,7 @@
 """The controls that a similarity score is reported with."""
 
+import math
+
 import pytest
 
 from texvent.bench.controls import CONTROLLED, CONTROLS, run_controls
@@ -46,3 +48,8 @@ def test_identity_scores_best_of_all_controls_of_lfs(events):
 
 def test_controlled_metrics_are_registered():
     assert [load_metric(name).name for name in CONTROLLED] == list(CONTROLLED)
+
+
+def test_controls_of_an_empty_stream_are_undefined():
+    nothing = EventStream.empty(SensorSize(12, 9))
+    assert all(math.isnan(value) for value in run_controls(LatentSimilarity(), nothing).values())

@@ -24,6 +24,14 @@ def _columns(events: EventStream) -> Columns:
 
 
 def _stream(columns: Columns, like: EventStream) -> EventStream:
+    """The columns in order of time; times that left the recording are reflected at its ends.
+
+    A recording does not grow by being spoiled: metrics that average over its length would count
+    nearly empty frames, and reward the damage.
+    """
+    if len(like):
+        first, last = like.t[0], like.t[-1]
+        columns["t"] = last - np.abs(last - first - np.abs(columns["t"] - first))
     order = np.lexsort(tuple(columns[name] for name in "pxyt"))
     x, y, t, p = (columns[name][order] for name in "xytp")
     return EventStream.from_columns(x, y, t, p, size=like.size)

@@ -118,5 +118,10 @@ def judge_metric(
     )
 
 
+def ranked_rows(rows: Iterable[SelftestRow]) -> list[SelftestRow]:
+    """Rows with those first that found most, and among equals those with most monotone series."""
+    return sorted(rows, key=lambda row: (-len(row.found), -sum(row.monotone.values())))
+
+
 def _is_monotone(z: Sequence[float]) -> bool:
     return all(later > earlier for earlier, later in itertools.pairwise(z))

@@ -11,7 +11,13 @@ from typing import Any
 from texvent.bench.document import read_document
 from texvent.bench.environment import describe_environment
 from texvent.bench.perturbations import PERTURBATIONS, SERIES
-from texvent.bench.selftest import RECORDING_SEEDS, SCENE, TEXTURE_SEED, SelftestRow
+from texvent.bench.selftest import (
+    RECORDING_SEEDS,
+    SCENE,
+    TEXTURE_SEED,
+    SelftestRow,
+    ranked_rows,
+)
 from texvent.errors import FileFormatError
 
 SCHEMA = "texvent-selftest-1"
@@ -26,8 +32,7 @@ def selftest_table(rows: Sequence[SelftestRow]) -> str:
         f"| metric | floor | found /{len(PERTURBATIONS)} | monotone /{len(SERIES)} | missed |",
         "|---|---|---|---|---|",
     ]
-    ranked = sorted(rows, key=lambda row: (-len(row.found), -sum(row.monotone.values())))
-    for row in ranked:
+    for row in ranked_rows(rows):
         missed = row.missed
         if len(missed) > MOST_NAMES:
             missed = (*missed[: MOST_NAMES - 1], "...")
