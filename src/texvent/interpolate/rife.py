@@ -7,11 +7,18 @@ from pathlib import Path
 
 from texvent._require import require
 from texvent.config import InterpolateConfig
-from texvent.errors import FileFormatError
-from texvent.interpolate.network_device import Placement, explain_failures, luma_tensor, place
+from texvent.errors import FileFormatError, InputError
+from texvent.interpolate.network_device import (
+    WHITE,
+    Placement,
+    explain_failures,
+    luma_tensor,
+    picture_of,
+    place,
+)
 from texvent.interpolate.network_files import EXTRA, Tensor
 from texvent.interpolate.position import check_between, position
-from texvent.interpolate.rife_estimator import RifeEstimator
+from texvent.interpolate.rife_estimator import PreparedPair, RifeEstimator
 from texvent.interpolate.rife_network import Motion
 from texvent.interpolate.rife_shared import MIDDLE, move_motion
 from texvent.interpolate.rife_weights import find_rife_weights, read_rife_weights
@@ -75,25 +82,70 @@ class RifeInterpolator:
             lumas = luma_tensor(first, device), luma_tensor(second, device)
             positions = [position(first, second, t_us) for t_us in times_us]
             pair = self._estimator.prepare(first, second)
-            middle = self._estimator.estimate(pair, MIDDLE) if self._is_shared else None
-        for t_us, at in zip(times_us, positions, strict=True):
+        moved = self._move(pair, lumas, positions)
+        for t_us, picture in zip(times_us, moved, strict=True):
+            if not bool(picture.isfinite().all()):
+                raise FileFormatError(
+                    f"{self._path}: the network's output is NaN or infinite; with float16 try "
+                    "bfloat16 or float32"
+                )
+            yield Frame(picture.cpu().numpy(), t_us, is_source=False)
+
+    def between_tensors(
+        self, first: Tensor, second: Tensor, positions: Sequence[float]
+    ) -> Iterator[Tensor]:
+        """As `between`, for pictures that may lie on the device already; results stay on it.
+
+        Nothing waits for the device, so the output is not looked at: the simulator of
+        `texvent.simulate.gpu` refuses NaN and infinite intensities when it counts events.
+
+        Args:
+            first: the earlier picture, [H, W] luma or [3, H, W] RGB, 0..255 scale, uint8 or float.
+            second: the later picture, alike.
+            positions: where between them, 0..1, both excluded.
+
+        Yields:
+            One picture per position, [H, W] float32 luma, 0..255 scale.
+
+        Raises:
+            InputError: the pictures differ in shape, have another one than allowed, or do not fit
+                into the device's memory.
+        """
+        if first.shape != second.shape:
+            raise InputError(
+                f"the pictures are {list(first.shape)} and {list(second.shape)}; both must have "
+                "one shape"
+            )
+        torch = require("torch", extra=EXTRA)
+        device = self._placement.device
+        with torch.inference_mode():
+            shown, lumas = zip(*(picture_of(one, device) for one in (first, second)), strict=True)
+            # Scaled down together, so that a bright pair stays in the range the network knows.
+            scale = 1.0 / torch.stack([one.amax() for one in shown]).amax().clamp(min=WHITE)
+            pair = self._estimator.prepare_pictures(*(one * scale for one in shown))
+        yield from self._move(pair, lumas, positions)
+
+    def _move(
+        self, pair: PreparedPair, lumas: tuple[Tensor, ...], positions: Sequence[float]
+    ) -> Iterator[Tensor]:
+        """Both lumas moved and mixed at every position, [H, W] each, on the device."""
+        torch = require("torch", extra=EXTRA)
+        middle = None
+        for at in positions:
             # Not around the yield: the caller must not inherit the mode.
-            with torch.inference_mode(), explain_failures(device):
+            with torch.inference_mode(), explain_failures(self._placement.device):
+                if self._is_shared and middle is None:
+                    middle = self._estimator.estimate(pair, MIDDLE)
                 if middle is None:
                     motion = self._estimator.estimate(pair, at)
                 else:
                     motion = move_motion(middle, at)
-                picture = self._mix(lumas, motion)
-            yield Frame(picture, t_us, is_source=False)
+                picture = _mix(lumas, motion)
+            yield picture
 
-    def _mix(self, lumas: tuple[Tensor, Tensor], motion: Motion) -> Tensor:
-        torch = require("torch", extra=EXTRA)
-        weight = torch.sigmoid(motion.mask)
-        first, second = warp(lumas[0], motion.flow[:, :2]), warp(lumas[1], motion.flow[:, 2:])
-        mixed = (second + (first - second) * weight)[0, 0]
-        if not bool(mixed.isfinite().all()):
-            raise FileFormatError(
-                f"{self._path}: the network's output is NaN or infinite; with float16 try "
-                "bfloat16 or float32"
-            )
-        return mixed.cpu().numpy()
+
+def _mix(lumas: tuple[Tensor, ...], motion: Motion) -> Tensor:
+    torch = require("torch", extra=EXTRA)
+    weight = torch.sigmoid(motion.mask)
+    first, second = warp(lumas[0], motion.flow[:, :2]), warp(lumas[1], motion.flow[:, 2:])
+    return (second + (first - second) * weight)[0, 0]

@@ -65,11 +65,18 @@ class RifeEstimator:
         Raises:
             InputError: the frames do not fit into the device's memory.
         """
-        pictures = picture_tensors(first, second)
-        size = first.size
+        return self.prepare_pictures(*picture_tensors(first, second))
+
+    def prepare_pictures(self, *pictures: Tensor) -> PreparedPair:
+        """As `prepare`, for two pictures [1, 3, H, W], 0..1, of any device.
+
+        Raises:
+            InputError: the pictures do not fit into the device's memory.
+        """
+        height, width = pictures[0].shape[-2:]
         tiles = []
         with self._running():
-            for tile in cut_tiles(size.height, size.width, self._tile):
+            for tile in cut_tiles(height, width, self._tile):
                 parts = (
                     pad_to_multiple(picture[..., tile.rows, tile.columns], self._layout.pad_to).to(
                         self._placement.device, self._placement.dtype
@@ -77,7 +84,7 @@ class RifeEstimator:
                     for picture in pictures
                 )
                 tiles.append((tile, self._network.encode(*parts)))
-        return PreparedPair(size.height, size.width, tuple(tiles))
+        return PreparedPair(height, width, tuple(tiles))
 
     def estimate(self, pair: PreparedPair, position: float) -> Motion:
         """The motion at τ = `position`, of the frames' size.

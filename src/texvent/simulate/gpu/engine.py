@@ -66,8 +66,18 @@ class GpuSimulator:
         """
         self.config = config if config is not None else TexventConfig()
         self._seed = seed
-        _make_pixels(self.config, _seeds_of(seed, None))
+        self._model = _make_pixels(self.config, _seeds_of(seed, None))
         self.reset()
+
+    @property
+    def contrast_threshold(self) -> float:
+        """δ that Eq. 4 should count with, log units; as `protocol.Simulator` has it."""
+        return self._model.contrast_threshold
+
+    @property
+    def balance(self) -> float:
+        """α that Eq. 4 should count with, on the 0..255 scale; as `protocol.Simulator` has it."""
+        return self._model.balance
 
     def reset(self) -> None:
         """Forget all frames: the next ones begin new clips."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from texvent._require import require
 from texvent.errors import ConfigError
-from texvent.simulate.esim import EsimConfig, log_intensity
+from texvent.simulate.esim import WHITE, EsimConfig, log_intensity
 from texvent.simulate.gpu import esim_rules, esim_triton
 from texvent.simulate.gpu.device import EXTRA, LAUNCH
 from texvent.simulate.gpu.intervals import Int64Array, Span
@@ -44,6 +44,16 @@ class EsimPixels:
         self.config = config
         self._seeds = tuple(seeds)
         self._walk = choose_walk(RAMP_WALK)
+
+    @property
+    def contrast_threshold(self) -> float:
+        """The smallest contrast threshold, log units."""
+        return min(self.config.contrast_threshold_on, self.config.contrast_threshold_off)
+
+    @property
+    def balance(self) -> float:
+        """`255 · log_eps`: with it, Eq. 4's logarithm is the model's own."""
+        return WHITE * self.config.log_eps
 
     @property
     def block(self) -> int:

@@ -58,6 +58,16 @@ class TexventPixels:
         self._walk = choose_walk(LEVELS_WALK if self._tracks_intensity else BRIGHTNESS_WALK)
 
     @property
+    def contrast_threshold(self) -> float:
+        """The smallest contrast threshold, log units."""
+        return self.config.contrast_threshold
+
+    @property
+    def balance(self) -> float:
+        """α, on the 0..255 scale."""
+        return self.config.balance
+
+    @property
     def block(self) -> int:
         """Pixels that a program walks."""
         return self._walk.block
