@@ -243,16 +243,18 @@ class StreamChecker:
 
 
 def check_intensity(pixels: PixelArray, where: str) -> None:
-    """Refuse NaN, infinite and negative intensities; integer pixels cannot hold any.
+    """Refuse NaN, infinite and negative intensities.
 
     Raises:
         InputError: a pixel is NaN, infinite or negative; the message counts them.
     """
-    if pixels.dtype.kind != "f":
-        return
-    low, high = float(pixels.min()), float(pixels.max())
-    if not (low >= 0.0 and high < float("inf")):
+    if not is_intensity(pixels):
         raise bad_intensity(pixels, where)
+
+
+def is_intensity(pixels: PixelArray) -> bool:
+    """Whether no pixel is NaN, infinite or negative; integer pixels cannot be."""
+    return pixels.dtype.kind != "f" or bool(pixels.min() >= 0 and pixels.max() < np.inf)
 
 
 def bad_intensity(pixels: PixelArray, where: str) -> InputError:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import copy
+import itertools
+from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
 import numpy as np
@@ -108,3 +110,32 @@ class TexventSimulator:
         self._checker.accept(frame)
         self._last_us = frame.t_us
         return packet
+
+    def step_batch(self, frames: Sequence[Frame]) -> list[EventStream]:
+        """Packets of several frames at once: the same as `step` gives one after the other, sooner.
+
+        Threads share out the work (`kernels.threads`), which does not pay for single frames.
+
+        Raises:
+            InputError, ConfigError: as `step`; then none of the frames was simulated, apart from
+                the first frame of a stream, and, on the backend "reference" and with Gaussian
+                noise, those before the bad one.
+        """
+        packets: list[EventStream] = []
+        while len(packets) < len(frames) and not isinstance(self._pixels, SparsePixels):
+            packets.append(self.step(frames[len(packets)]))
+        frames = frames[len(packets) :]
+        if not frames or not isinstance(self._pixels, SparsePixels):
+            return packets
+        checker, where = copy.copy(self._checker), []
+        for frame in frames:
+            where.append(checker.check_order(frame))
+            checker.accept(frame)
+        times = [self._last_us, *(frame.t_us for frame in frames)]
+        spans = [
+            Interval(start_us, stop_us, frame_key(self._seed, stop_us))
+            for start_us, stop_us in itertools.pairwise(times)
+        ]
+        packets += self._pixels.advance_batch(frames, spans, where)
+        self._checker, self._last_us = checker, times[-1]
+        return packets

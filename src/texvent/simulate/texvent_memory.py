@@ -8,6 +8,7 @@ import math
 import numpy as np
 
 from texvent.brightness import Float64Array, balanced_log
+from texvent.simulate.cache import Renewal
 from texvent.simulate.kernels.order import read_only
 from texvent.simulate.kernels.texvent import (
     SCAN_FLOOR,
@@ -43,7 +44,7 @@ def remember(first: Intensity, config: TexventConfig) -> Memory:
         table=_NOTHING if has_levels else brightness_table(first.dtype.str, config.balance),
     )
     if has_levels:
-        renew_levels(memory, first, config)
+        move_levels(memory, first, config, "renew")
     return memory
 
 
@@ -75,27 +76,23 @@ def turn_to_float(memory: Memory) -> None:
     memory.work = None
 
 
-def renew_levels(memory: Memory, luma: Intensity, config: TexventConfig) -> None:
-    """Let every pixel's reference become the brightness of a frame, [n] luma."""
-    _move_levels(memory, luma, config, share=None)
+def move_levels(memory: Memory, luma: Intensity, config: TexventConfig, renewal: Renewal) -> None:
+    """Let every pixel's reference become the brightness of a frame, or leak towards it.
 
-
-def leak_levels(memory: Memory, luma: Intensity, config: TexventConfig) -> None:
-    """Let every pixel's reference move towards the brightness of a frame by the cache leak."""
-    _move_levels(memory, luma, config, share=config.cache_leak)
-
-
-def _move_levels(
-    memory: Memory, luma: Intensity, config: TexventConfig, *, share: float | None
-) -> None:
+    Args:
+        memory: of pixels whose references lie between intensities.
+        luma: of the frame, [n] float32.
+        config: options.
+        renewal: "renew" or "leak".
+    """
     for first in range(0, luma.size, _CHUNK):
         part = slice(first, first + _CHUNK)
         brightness = balanced_log(luma[part], config.balance)
         level = memory.level[part]
-        if share is None:
+        if renewal == "renew":
             level[:] = brightness
         else:
-            level += share * (brightness - level)
+            level += config.cache_leak * (brightness - level)
         memory.reference[part] = np.exp(level)
 
 

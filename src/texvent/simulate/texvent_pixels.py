@@ -7,27 +7,39 @@ colour or more than one type.
 
 from __future__ import annotations
 
+import copy
+from collections.abc import Sequence
+
 import numpy as np
 
 from texvent.brightness import check_balance
 from texvent.events import EventStream
-from texvent.simulate.cache import CacheSchedule
+from texvent.sensor import SensorSize
+from texvent.simulate.cache import CacheSchedule, Renewal
 from texvent.simulate.firings import Interval
 from texvent.simulate.kernels.noise import Block, NoisePlaces, load_place_noise
 from texvent.simulate.kernels.order import read_only
 from texvent.simulate.kernels.stamp import Timing, load_stamp_events
-from texvent.simulate.kernels.texvent import NOISE_BLOCK, FireRule, Intensity, load_find_fired
+from texvent.simulate.kernels.texvent import (
+    NOISE_BLOCK,
+    Fired,
+    FireRule,
+    Intensity,
+    Memory,
+    join_fired,
+    load_find_fired,
+)
+from texvent.simulate.kernels.threads import count_threads, run_parts, split
 from texvent.simulate.noise import poisson_cumulative
 from texvent.simulate.texvent_config import TexventConfig
 from texvent.simulate.texvent_memory import (
     as_luma,
-    leak_levels,
+    move_levels,
     remember,
-    renew_levels,
     scan_levels,
     turn_to_float,
 )
-from texvent.video import Frame, bad_intensity, check_intensity
+from texvent.video import Frame, bad_intensity, check_intensity, is_intensity
 
 _QUIET = NoisePlaces(np.empty(0, np.int64), np.empty(0), np.empty(0, np.uint8))
 
@@ -63,24 +75,97 @@ class SparsePixels:
     def advance(self, frame: Frame, span: Interval, where: str) -> EventStream:
         """What fires until this frame; see `texvent.TexventPixels.advance`."""
         intensity = self._read(frame, where)
-        has_levels = self._memory.level.size > 0
         renewal = self._schedule.renewal_after(is_source=frame.is_source)
+        fired = self._fire(self._memory, intensity, renewal)
+        if fired is None:
+            raise bad_intensity(frame.pixels, where)
+        self._schedule.pass_frame(is_source=frame.is_source)
+        return self._stamp(fired, intensity, span, frame.size)
+
+    def advance_batch(
+        self, frames: Sequence[Frame], spans: Sequence[Interval], where: Sequence[str]
+    ) -> list[EventStream]:
+        """The same for several frames at once, shared out among threads; all of them or none.
+
+        A pixel's references depend on no other pixel. So each thread takes a band of rows through
+        all frames, and then, for some of the frames, times and order of the events.
+        """
+        named = list(zip(frames, where, strict=True))
+        intensities = [self._read(*one) for one in named]
+        if any(one.dtype != self._memory.reference.dtype for one in intensities):
+            # A frame of another type has changed that of the memory.
+            intensities = [self._read(*one) for one in named]
+        schedule = copy.copy(self._schedule)
+        renewals = [schedule.pass_frame(is_source=frame.is_source) for frame in frames]
+        fired = self._fire_bands(intensities, renewals)
+        if fired is None:
+            raise next(
+                bad_intensity(frame.pixels, place)
+                for frame, place in named
+                if not is_intensity(frame.pixels)
+            )
+        self._schedule = schedule
+
+        rows = list(zip(fired, intensities, spans, strict=True))
+
+        def stamp(part: slice) -> list[EventStream]:
+            return [self._stamp(*row, frames[0].size) for row in rows[part]]
+
+        packets = run_parts(stamp, split(len(frames), count_threads()))
+        return [packet for part in packets for packet in part]
+
+    def _fire_bands(
+        self, intensities: Sequence[Intensity], renewals: Sequence[Renewal]
+    ) -> list[Fired] | None:
+        """Eq. 5 for several frames, a band of rows per thread.
+
+        Returns:
+            What fired, a row per frame; None, and nothing has changed, where an intensity is
+            impossible.
+        """
+        memory = self._memory
+        parts = split(memory.reference.size, count_threads(), unit=NOISE_BLOCK)
+        bands = [memory.band(part) for part in parts]
+        kept = [one.copy() for one in (memory.reference, memory.previous, memory.level)]
+
+        def fire(number: int) -> list[Fired]:
+            part, rows = parts[number], []
+            for intensity, renewal in zip(intensities, renewals, strict=True):
+                fired = self._fire(bands[number], intensity[part], renewal)
+                if fired is None:
+                    break
+                rows.append(fired.moved(part.start))
+            return rows
+
+        fired = run_parts(fire, range(len(parts)))
+        if any(len(rows) < len(renewals) for rows in fired):
+            memory.reference[:], memory.previous[:], memory.level[:] = kept
+            return None
+        if not memory.level.size and renewals.count("renew") % 2:
+            # As every band did; an even number of times leaves them as they were.
+            memory.reference, memory.renewed = memory.renewed, memory.reference
+        return [join_fired(rows) for rows in zip(*fired, strict=True)]
+
+    def _fire(self, memory: Memory, intensity: Intensity, renewal: Renewal) -> Fired | None:
+        """Eq. 5 for the pixels of a memory; None where an intensity is impossible."""
+        has_levels = memory.level.size > 0
         rule = self._rule
         if renewal == "renew" and not has_levels:
             rule = rule._replace(is_renewed=True)
         find_fired = load_find_fired(self._backend, intensity.dtype.str)
-        fired = find_fired(intensity, self._memory, self._levels, rule)
-        if fired is None:
-            raise bad_intensity(frame.pixels, where)
-        self._schedule.pass_frame(is_source=frame.is_source)
-        if has_levels and renewal == "renew":
-            renew_levels(self._memory, intensity, self._config)
-        elif has_levels and renewal == "leak":
-            leak_levels(self._memory, intensity, self._config)
+        fired = find_fired(intensity, memory, self._levels, rule)
+        if has_levels and renewal != "keep" and fired is not None:
+            move_levels(memory, intensity, self._config, renewal)
+        return fired
+
+    def _stamp(
+        self, fired: Fired, intensity: Intensity, span: Interval, size: SensorSize
+    ) -> EventStream:
+        """Eqs. 6 and 7: the packet of one sub-interval."""
         noise = self._draw_noise(intensity, span)
         stamp_events = load_stamp_events(self._backend)
-        x, y, t, p, label = stamp_events(fired, noise, self._timing, span, frame.size.shape)
-        return EventStream.unchecked(x, y, t, p, size=frame.size, label=label)
+        x, y, t, p, label = stamp_events(fired, noise, self._timing, span, size.shape)
+        return EventStream.unchecked(x, y, t, p, size=size, label=label)
 
     def _read(self, frame: Frame, where: str) -> Intensity:
         """The intensity of a frame in the type of the memory, [n] read-only."""

@@ -46,7 +46,7 @@ threads, chunks and GPUs draw the same noise.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeAlias, cast
 
@@ -121,6 +121,19 @@ class Fired(NamedTuple):
         lines = (line[:number] for line in (start, stop, reference))
         return Fired(pixel[:number], change[:number], *lines)
 
+    def moved(self, first: int) -> Fired:
+        """A copy for pixels that are counted from pixel `first`."""
+        pixel, *columns = self
+        return Fired(pixel + first, *(np.array(column) for column in columns))
+
+
+def join_fired(bands: Sequence[Fired]) -> Fired:
+    """What fired in bands that follow each other."""
+    if len(bands) == 1:
+        return bands[0]
+    pixel, *columns = (np.concatenate(column) for column in zip(*bands, strict=True))
+    return Fired(pixel, *columns)
+
 
 @dataclass(eq=False)
 class Memory:
@@ -139,6 +152,12 @@ class Memory:
     """Brightness of every intensity that an integer type has, or [0] for float32."""
     work: Any = None
     """Room that a backend keeps for its results; overwritten by each frame."""
+
+    def band(self, part: slice) -> Memory:
+        """Some of the pixels, as views with room of their own."""
+        arrays = (self.reference, self.renewed, self.previous, self.level)
+        reference, renewed, previous, level = (one[part] for one in arrays)
+        return Memory(reference, renewed, previous, level, self.table)
 
 
 FindFired: TypeAlias = Callable[[Intensity, Memory, Levels, FireRule], "Fired | None"]

@@ -1,0 +1,85 @@
+"""Work shared out among threads: how many there are, and how a frame is cut for them.
+
+Compiled kernels and NumPy release the interpreter lock, so threads do the work of processes.
+Handing a piece of work to a thread and waiting for it takes about 20 µs, so it pays for pieces of
+several hundred µs: several frames at once, or a model that computes much per pixel. Clips that run
+at the same time, a thread each, need none of this.
+"""
+
+from __future__ import annotations
+
+import functools
+import os
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import TypeVar
+
+from texvent.errors import ConfigError
+
+Part = TypeVar("Part")
+Result = TypeVar("Result")
+
+_VARIABLES = ("TEXVENT_NUM_THREADS", "NUMBA_NUM_THREADS")
+
+
+def count_threads() -> int:
+    """How many threads may work: $TEXVENT_NUM_THREADS, $NUMBA_NUM_THREADS, or one per core.
+
+    Raises:
+        ConfigError: a variable is not a number of at least 1.
+    """
+    for name in _VARIABLES:
+        value = os.environ.get(name)
+        if value:
+            if not value.isdecimal() or int(value) < 1:
+                raise ConfigError(f"${name} is {value!r}; it must be a whole number, at least 1")
+            return int(value)
+    return _count_cores()
+
+
+def split(size: int, parts: int, *, unit: int = 1) -> list[slice]:
+    """At most `parts` slices of about equal length that make up `size`.
+
+    Args:
+        size: how many items there are.
+        parts: how many slices are wanted, at least 1.
+        unit: all slices but the last are a multiple of it long.
+
+    Example:
+        >>> split(10, 2, unit=4)
+        [slice(0, 8, None), slice(8, 10, None)]
+    """
+    units = -(-size // unit)
+    length = max(1, -(-units // parts)) * unit
+    return [slice(first, min(first + length, size)) for first in range(0, size, length)]
+
+
+def run_parts(work: Callable[[Part], Result], parts: Sequence[Part]) -> list[Result]:
+    """What `work` returns for each part, in order; all but the first run in threads of their own.
+
+    Returns when all are done, also if one raises. Results must not depend on who comes first.
+    """
+    others = [_crew().submit(work, part) for part in parts[1:]]
+    try:
+        first = [work(part) for part in parts[:1]]
+    finally:
+        for one in others:
+            one.exception()
+    return first + [one.result() for one in others]
+
+
+def _count_cores() -> int:
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+@functools.cache
+def _crew() -> ThreadPoolExecutor:
+    # Threads start when there is work for them, and wait for more at no cost.
+    return ThreadPoolExecutor(max(1, count_threads() - 1), "texvent-kernels")
+
+
+if hasattr(os, "register_at_fork"):
+    # A forked child has none of its parent's threads.
+    os.register_at_fork(after_in_child=_crew.cache_clear)

@@ -1,0 +1,72 @@
+"""How work is shared out among threads."""
+
+import threading
+import time
+
+import pytest
+
+from texvent.errors import ConfigError
+from texvent.simulate.kernels import threads
+from texvent.simulate.kernels.threads import count_threads, run_parts, split
+
+VARIABLES = ("TEXVENT_NUM_THREADS", "NUMBA_NUM_THREADS")
+
+
+@pytest.fixture(autouse=True)
+def _unset(monkeypatch):
+    for name in VARIABLES:
+        monkeypatch.delenv(name, raising=False)
+
+
+@pytest.mark.parametrize(
+    ("size", "parts", "unit"), [(0, 2, 1), (1, 4, 4096), (10, 3, 1), (9, 2, 4)]
+)
+def test_slices_make_up_the_whole(size, parts, unit):
+    slices = split(size, parts, unit=unit)
+    assert [i for one in slices for i in range(one.start, one.stop)] == list(range(size))
+    assert len(slices) <= parts
+    assert all((one.stop - one.start) % unit == 0 for one in slices[:-1])
+
+
+def test_results_come_in_the_order_of_the_parts_and_threads_work_at_once():
+    waiting = threading.Barrier(2, timeout=10)
+
+    def work(part):
+        waiting.wait()
+        return part, threading.get_ident()
+
+    (one, here), (two, there) = run_parts(work, [10, 20])
+    assert (one, two) == (10, 20)
+    assert here == threading.get_ident() != there
+
+
+def test_an_error_is_raised_when_all_parts_are_done():
+    done = []
+
+    def work(part):
+        if part == 0:
+            raise ValueError("part 0")
+        time.sleep(0.05)
+        done.append(part)
+
+    with pytest.raises(ValueError, match="part 0"):
+        run_parts(work, [0, 1])
+    assert done == [1]
+
+
+def test_the_number_of_threads_is_a_setting(monkeypatch):
+    assert count_threads() >= 1
+    monkeypatch.setenv("NUMBA_NUM_THREADS", "3")
+    assert count_threads() == 3
+    monkeypatch.setenv("TEXVENT_NUM_THREADS", "2")
+    assert count_threads() == 2
+    for wrong in ("0", "-1", "two"):
+        monkeypatch.setenv("TEXVENT_NUM_THREADS", wrong)
+        with pytest.raises(ConfigError, match=r"TEXVENT_NUM_THREADS is .* at least 1"):
+            count_threads()
+
+
+def test_systems_without_affinity_count_their_cores(monkeypatch):
+    monkeypatch.delattr(threads.os, "sched_getaffinity", raising=False)
+    monkeypatch.setattr(threads.os, "cpu_count", lambda: None)
+    assert count_threads() == 1
