@@ -1,6 +1,7 @@
 """The perturbations, and the row that every metric must keep."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ from texvent.bench import selftest
 from texvent.bench.document import write_document
 from texvent.bench.perturbations import PERTURBATIONS, SERIES, perturb
 from texvent.bench.selftest import DETECTED, SelftestRow, judge_metric, run_selftest
+from texvent.bench.selftest_chart import FOUND, REWARDED, selftest_chart
 from texvent.bench.selftest_table import read_selftest, selftest_document, selftest_table
 from texvent.errors import FileFormatError
 from texvent.events import EventStream
@@ -43,6 +45,9 @@ def test_every_perturbation_changes_the_stream_and_is_repeatable(events, name):
     assert not spoiled.equals(events)
     assert spoiled.equals(perturb(events, name))
     assert (np.diff(spoiled.t) >= 0).all()
+    # A longer recording would have more frames, nearly empty ones, to be averaged over.
+    assert spoiled.t[0] >= events.t[0]
+    assert spoiled.t[-1] <= events.t[-1]
 
 
 @pytest.mark.parametrize(
@@ -156,9 +161,24 @@ def test_every_metric_has_a_published_row_but_the_one_whose_weights_cannot_be_ha
     assert set(METRICS.names()) - set(PUBLISHED) == {"eqs"}
 
 
-def test_the_published_table_is_that_of_the_published_result():
+def test_the_published_table_and_picture_are_those_of_the_published_result():
+    rows = list(PUBLISHED.values())
     page = (ROOT / "docs/metrics.md").read_text(encoding="utf-8")
-    assert selftest_table(list(PUBLISHED.values())) in page
+    assert selftest_table(rows) in page
+    picture = (ROOT / "docs/images/selftest.svg").read_text(encoding="utf-8")
+    assert selftest_chart(rows) == picture
+
+
+def test_the_picture_tells_found_missed_and_rewarded_apart():
+    row = PUBLISHED["stpp"]
+    changed = {**row.z, "drop 10 %": -50.0, "noise 10 %": math.nan, "flip 5 %": 2.0}
+    for z, colours in ((row.z, (20, 0, 0)), (changed, (17, 1, 2))):
+        picture = selftest_chart([replace(row, z=z)])
+        found = tuple(picture.count(f"fill='{one}'") for one in (FOUND, REWARDED, "#ffffff"))
+        # One white rectangle is the paper.
+        assert found == (*colours[:2], colours[2] + 1)
+    assert ">−50</text>" in picture
+    assert ">–</text>" in picture
 
 
 @pytest.mark.parametrize("name", PUBLISHED)
