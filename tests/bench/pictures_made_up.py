@@ -1,7 +1,5 @@
 """A recording with frames that is known exactly, and a stand-in for a network."""
 
-import itertools
-
 import numpy as np
 
 from texvent.bench.frame_recording import FrameRecording
@@ -34,12 +32,10 @@ class StandInReconstructor:
         np.add.at(self.picture, (events.y, events.x), events.polarity / np.float32(50))
         return np.clip(self.picture, 0, 1)
 
-    def film(self, packets, times_us, *, size):
-        assert size == SIZE
+    def film(self, slices):
         self.reset()
-        events = EventStream.concat(list(packets))
-        for before, t_us in itertools.pairwise(times_us):
-            yield t_us, self.reconstruct(events.between(before, t_us))
+        for t_us, events in slices:
+            yield t_us, self.reconstruct(events)
 
 
 def level(number):

@@ -1,5 +1,6 @@
 """Events judged by the pictures made of them, on a recording whose events explain its frames."""
 
+import dataclasses
 import json
 import math
 
@@ -83,6 +84,17 @@ def test_by_default_the_part_that_evreal_names_counts_else_all_but_the_first_pic
     chosen = ReconstructionPlan(span_us=(5, 6))
     assert chosen.scored_part(moving_bar("slider_depth")) == ((5, 6), 0)
     assert ReconstructionPlan(skip=3).scored_part(moving_bar("slider_depth")) == (None, 3)
+
+
+def test_nothing_is_reconstructed_after_the_part_that_counts():
+    seen = []
+    end_us = 5 * STEP_US
+    one = judge(span_us=(2 * STEP_US, end_us))
+    watched = dataclasses.replace(one, watch=lambda *told: seen.append(told[2]))
+    row = watched.score(moving_bar(), moving_bar().events)
+    assert row.scores.t_us == [number * STEP_US for number in range(2, 6)]
+    assert seen == [number * STEP_US for number in range(1, 6)]
+    assert row.events == len(moving_bar().events.collect().between(0, end_us))
 
 
 def test_a_fitted_threshold_gives_about_the_recorded_number_of_events():

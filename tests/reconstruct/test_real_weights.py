@@ -7,6 +7,7 @@ import pytest
 
 from texvent.bench.frame_recording import open_recording
 from texvent.data.pull import find_pulled
+from texvent.reconstruct.packet_slices import slice_between
 from texvent.reconstruct.reconstructor import load_reconstructor
 
 pytestmark = pytest.mark.torch
@@ -45,10 +46,9 @@ def test_slider_depth_is_reconstructed_as_measured_before(name, file, is_publish
     reconstructor = load_reconstructor(name, path, device="cpu")
     assert reconstructor.is_published == is_published
     frames = list(recording.frames)
-    film = reconstructor.film(
-        recording.events, [frame.t_us for frame in frames], size=recording.frames.size
-    )
-    pictures = [picture.astype(np.float64) for _, picture in film]
+    times_us = [frame.t_us for frame in frames]
+    slices = slice_between(recording.events, times_us, size=recording.frames.size)
+    pictures = [picture.astype(np.float64) for _, picture in reconstructor.film(slices)]
     truth = [frame.pixels / 255.0 for frame in frames[1:]]
     pairs = list(zip(pictures, truth, strict=True))[SKIPPED:]
     assert np.mean([((a - b) ** 2).mean() for a, b in pairs]) == pytest.approx(mse, abs=6e-5)

@@ -107,17 +107,16 @@ def test_a_slice_without_events_is_reconstructed_too(folder):
     assert picture.shape == SIZE.shape
 
 
-def test_a_film_has_a_picture_per_instant_but_the_first(folder):
+def test_a_film_begins_anew_and_has_a_picture_per_slice(folder):
     reconstructor = load(folder, "firenet")
     events = noise(1000)
-    instants = [0, 2_000, 5_000, 9_000]
-    film = list(reconstructor.film([events[:300], events[300:]], instants, size=SIZE))
-    assert [t_us for t_us, _ in film] == instants[1:]
+    slices = [(5_000, events[:300]), (9_000, events[300:])]
+    film = list(reconstructor.film(slices))
+    assert [t_us for t_us, _ in film] == [5_000, 9_000]
     reconstructor.reset()
-    for (_, picture), start, stop in zip(film, instants[:-1], instants[1:], strict=True):
-        np.testing.assert_array_equal(
-            picture, reconstructor.reconstruct(events.between(start, stop))
-        )
+    for (_, picture), (_, part) in zip(film, slices, strict=True):
+        np.testing.assert_array_equal(picture, reconstructor.reconstruct(part))
+    np.testing.assert_array_equal(next(reconstructor.film(slices))[1], film[0][1])
 
 
 def test_events_of_another_sensor_are_refused_until_the_reset(folder):

@@ -9,6 +9,7 @@ the frames; all are compared with the frames themselves.
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -22,6 +23,7 @@ from texvent.config import check_range, option_names
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.events import EventStream
 from texvent.pipeline import Simulation, video_to_events
+from texvent.reconstruct.packet_slices import slice_between
 from texvent.reconstruct.reconstructor import Intensity, Reconstructor
 from texvent.simulate.thresholds import contrast_threshold_of
 from texvent.video import MICROSECONDS
@@ -79,6 +81,12 @@ class ReconstructionPlan:
         for entry in self.entries:
             entry.settings(self.seed)
 
+    def frame_times_us(self, recording: FrameRecording) -> list[int]:
+        """Times of the frames of a recording up to the last one that counts, µs."""
+        span, _ = self.scored_part(recording)
+        times = (frame.t_us for frame in recording.frames)
+        return list(times if span is None else itertools.takewhile(lambda t: t <= span[1], times))
+
     def scored_part(self, recording: FrameRecording) -> tuple[tuple[int, int] | None, int]:
         """First and last µs that count, and how many pictures at the start do not."""
         span = self.span_us or (recording.evreal_span_us if self.skip is None else None)
@@ -95,7 +103,7 @@ class ReconstructionRow:
     """`RECORDED`, or the name of the entry."""
     scores: PictureScores
     events: int
-    """How many there were up to the last frame."""
+    """From the first frame to the last one that counts."""
     threshold: float | None = None
     """δ of a simulator that has one, log units."""
     seconds: float = 0.0
@@ -151,8 +159,10 @@ class ReconstructionJudge:
             InputError: the events have another size than the frames, or no picture counts.
         """
         start = time.perf_counter()
+        times_us = self.plan.frame_times_us(recording)
         counted = _Counter()
-        pictures = self._pictures(recording, counted.pass_on(packets), source)
+        slices = counted.pass_on(slice_between(packets, times_us, size=recording.frames.size))
+        pictures = self._watched(self.reconstructor.film(slices), recording, source)
         scores = score_pictures(pictures, recording.frames, self.empty_sheet(recording))
         return ReconstructionRow(
             recording=recording.name,
@@ -167,12 +177,10 @@ class ReconstructionJudge:
         span_us, skip = self.plan.scored_part(recording)
         return ScoreSheet(self.measures, span_us=span_us, skip=skip)
 
-    def _pictures(
-        self, recording: FrameRecording, packets: Iterable[EventStream], source: str
+    def _watched(
+        self, film: Iterable[tuple[int, Intensity]], recording: FrameRecording, source: str
     ) -> Iterator[tuple[int, Intensity]]:
-        """(time, picture) at every frame but the first."""
-        times_us = [frame.t_us for frame in recording.frames]
-        for t_us, picture in self.reconstructor.film(packets, times_us, size=recording.frames.size):
+        for t_us, picture in film:
             self.watch(recording.name, source, t_us, picture)
             yield t_us, picture
 
@@ -280,11 +288,13 @@ def _threshold_of(simulation: Simulation) -> float | None:
 
 @dataclass
 class _Counter:
-    """Counts events that pass by."""
+    """Counts the events of slices that pass by."""
 
     events: int = 0
 
-    def pass_on(self, packets: Iterable[EventStream]) -> Iterator[EventStream]:
-        for packet in packets:
-            self.events += len(packet)
-            yield packet
+    def pass_on(
+        self, slices: Iterable[tuple[int, EventStream]]
+    ) -> Iterator[tuple[int, EventStream]]:
+        for t_us, events in slices:
+            self.events += len(events)
+            yield t_us, events

@@ -11,7 +11,7 @@ import numpy as np
 from texvent.bench.frame_recording import FrameRecording
 from texvent.bench.perturbations import add_background, scatter
 from texvent.bench.picture_scores import Picture, PictureScores, true_picture
-from texvent.bench.reconstruction import ReconstructionJudge
+from texvent.bench.reconstruction import ReconstructionJudge, ReconstructionPlan
 from texvent.config import check_range
 from texvent.events import EventStream
 from texvent.reconstruct.packet_slices import slice_between
@@ -96,7 +96,7 @@ def noise_curve(
     """
     clean = judge.reconstructor.twin()
     points = [_Point(level, judge, recording) for level in levels]
-    for start_us, stop_us, events, true in _slices(recording):
+    for start_us, stop_us, events, true in _slices(recording, judge.plan):
         picture = clean.reconstruct(events)
         for point in points:
             spoilt = point.level.spoil(events, start_us, stop_us, seed=judge.plan.seed)
@@ -114,12 +114,14 @@ def noise_curve(
     ]
 
 
-def _slices(recording: FrameRecording) -> Iterator[tuple[int, int, EventStream, Picture]]:
+def _slices(
+    recording: FrameRecording, plan: ReconstructionPlan
+) -> Iterator[tuple[int, int, EventStream, Picture]]:
     """(time of the frame before, of the frame, events between them, the frame) of every frame."""
     frames = iter(recording.frames)
     start_us = next(frames).t_us
-    times_us = [frame.t_us for frame in recording.frames]
+    times_us = plan.frame_times_us(recording)
     slices = slice_between(recording.events, times_us, size=recording.frames.size)
-    for frame, (stop_us, events) in zip(frames, slices, strict=True):
+    for (stop_us, events), frame in zip(slices, frames, strict=False):
         yield start_us, stop_us, events, true_picture(frame)
         start_us = stop_us

@@ -21,7 +21,7 @@ from texvent.events import EventPackets, EventStream
 from texvent.io.files import open_events
 from texvent.reconstruct.config import ReconstructConfig
 from texvent.reconstruct.packet_slices import slice_by_count, slice_regularly
-from texvent.reconstruct.reconstructor import Intensity, Reconstructor, load_reconstructor
+from texvent.reconstruct.reconstructor import Reconstructor, load_reconstructor
 from texvent.sensor import parse_sensor
 from texvent.video import MICROSECONDS
 from texvent.view.picture_sink import check_pictures, open_pictures
@@ -100,7 +100,7 @@ def run(arguments: Sequence[str]) -> int:
     )
     reconstructor = load_reconstructor(network.network, network.weights, device=network.device)
     console = Console(stderr=True, quiet=options.quiet, highlight=False)
-    pictures = _reconstruct(reconstructor, options.slices(events))
+    pictures = reconstructor.film(options.slices(events))
     facts = _provenance(reconstructor, options, events)
     with _progress(console) as counted:
         opened = open_pictures(
@@ -112,13 +112,6 @@ def run(arguments: Sequence[str]) -> int:
     if not options.quiet:
         sys.stdout.write(f"{options.out}\n")
     return 0
-
-
-def _reconstruct(
-    reconstructor: Reconstructor, slices: Iterable[tuple[int, EventStream]]
-) -> Iterator[tuple[int, Intensity]]:
-    for t_us, events in slices:
-        yield t_us, reconstructor.reconstruct(events)
 
 
 def _provenance(

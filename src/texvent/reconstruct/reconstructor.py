@@ -18,7 +18,6 @@ from texvent.events import EventStream
 from texvent.reconstruct.checkpoint import Checkpoint, find_weights, read_checkpoint
 from texvent.reconstruct.config import Device
 from texvent.reconstruct.layers import EXTRA
-from texvent.reconstruct.packet_slices import slice_between
 from texvent.reconstruct.protocol import PublishedNetwork, RecurrentNetwork
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
@@ -139,24 +138,21 @@ class Reconstructor:
             picture = stretch(picture)
         return np.clip(picture, 0.0, 1.0)
 
-    def film(
-        self, packets: Iterable[EventStream], times_us: Iterable[int], *, size: SensorSize
-    ) -> Iterator[tuple[int, Intensity]]:
-        """Pictures of a recording at given instants, from the events between them.
+    def film(self, slices: Iterable[tuple[int, EventStream]]) -> Iterator[tuple[int, Intensity]]:
+        """The pictures of a whole recording.
 
         Args:
-            packets: events in time order.
-            times_us: instants, µs, strictly increasing, such as those of frames.
-            size: sensor size, pixels.
+            slices: (instant in µs, the events up to it) in time order, as `packet_slices` cuts
+                them.
 
         Yields:
-            (instant, picture) for every instant but the first.
+            (instant, picture), one per slice.
 
         Raises:
-            InputError: the instants do not increase; see also `reconstruct`.
+            InputError, FileFormatError: as `reconstruct`.
         """
         self.reset()
-        for t_us, events in slice_between(packets, times_us, size=size):
+        for t_us, events in slices:
             yield t_us, self.reconstruct(events)
 
     def _run(self, grid: Intensity) -> Intensity:
