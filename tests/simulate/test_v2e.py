@@ -6,10 +6,10 @@ import pytest
 
 from texvent.errors import ConfigError
 from texvent.events import NOISE, SIGNAL
+from texvent.simulate.kernels.follow_reference import lin_log
 from texvent.simulate.v2e import (
     V2eConfig,
     V2eSimulator,
-    lin_log,
     photoreceptor_noise_rms,
     relative_intensity,
 )
@@ -25,10 +25,9 @@ def with_only(**options) -> V2eConfig:
 
 
 def test_brightness_is_linear_below_20_and_logarithmic_above():
-    levels = np.array([[0, 10, 20, 21, 255]], np.uint8)
-    expected = [[0, math.log(20) / 2, math.log(20), math.log(21), math.log(255)]]
-    assert lin_log(levels, 20.0) == pytest.approx(np.array(expected), abs=1e-15)
-    assert lin_log(levels.astype(np.float32), 20.0) == pytest.approx(np.array(expected), abs=1e-15)
+    levels = np.array([0.0, 10.0, 20.0, 21.0, 255.0])
+    expected = [0, math.log(20) / 2, math.log(20), math.log(21), math.log(255)]
+    assert lin_log(levels, 20.0) == pytest.approx(expected, rel=1e-15)
 
 
 def test_a_ramp_of_the_logarithm_fires_at_each_threshold(backend):
@@ -102,7 +101,7 @@ def test_pixels_with_a_low_threshold_have_more_shot_noise():
     events = run(simulator, static(60.0, fps=24, seconds=1.0, shape=(60, 80)))
     counts = np.zeros((60, 80))
     np.add.at(counts, (events.y, events.x), 1)
-    thresholds = simulator._threshold_on + simulator._threshold_off
+    thresholds = simulator._pixels.threshold_on + simulator._pixels.threshold_off
     assert np.corrcoef(counts.reshape(-1), 1 / thresholds.reshape(-1))[0, 1] > 0.2
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,15 @@ from texvent.errors import ConfigError
 from texvent.events import NOISE, SIGNAL
 from texvent.simulate.draws import Purpose, draw_normals
 from texvent.simulate.firings import Firings, Interval
+from texvent.simulate.kernels.follow import (
+    DARK_OFFSET,
+    WHITE_LEVEL,
+    Light,
+    Pixels,
+    PixelState,
+    load_follow_light,
+)
+from texvent.simulate.kernels.follow_reference import lin_log
 from texvent.simulate.kernels.ramp import Ramp, RampCrossings, Rest, load_cross_ramp
 from texvent.simulate.pixel_maps import (
     LONG_AGO_US,
@@ -31,9 +40,8 @@ from texvent.simulate.pixel_maps import (
 )
 from texvent.simulate.rate_noise import NoiseRates
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
+from texvent.video import MICROSECONDS
 
-DARK_OFFSET, WHITE_LEVEL = 20.0, 275.0
-"""Bandwidth and shot noise depend on (I + 20) / 275, which is never 0."""
 BRIGHT_SHOT_SHARE = 0.25
 """Shot noise at white, as a share of the noise in the dark."""
 NOISE_FIT = (-0.0026, -0.036, -0.1949, 0.321)
@@ -142,118 +150,114 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
     def _begin(self, intensity: IntensityArray) -> None:
         config = self.config
         key, shape = sensor_key(self._seed), intensity.shape
-        self._threshold_on, self._threshold_off = draw_threshold_pair(shape, key, config)
-        self._leak_hz = config.leak_rate_hz * draw_rate_factors(
-            shape, key, Purpose.LEAK_RATE, decades=config.leak_rate_decades
-        )
-        on = config.contrast_threshold_on / self._threshold_on
-        off = config.contrast_threshold_off / self._threshold_off
-        self._on_fraction = on / (on + off)
-        self._noise = NoiseRates(config.shot_noise_rate_hz / 2 * (on + off))
-        self._brightness = lin_log(intensity, config.linear_below)
-        self._reference = self._brightness.copy()
-        self._voltage_noise = np.zeros(shape)
-        self._noise_since_event = np.zeros(shape)
-        self._fired_us = np.full(shape, LONG_AGO_US)
+        on, off = (one.reshape(-1) for one in draw_threshold_pair(shape, key, config))
+        self._pixels = Pixels(on, off, self._draw_leak(shape, key, on))
+        more_on, more_off = config.contrast_threshold_on / on, config.contrast_threshold_off / off
+        self._on_fraction = more_on / (more_on + more_off)
+        rate_hz = config.shot_noise_rate_hz / 2 * (more_on + more_off)
+        self._noise = NoiseRates(rate_hz.reshape(shape))
+        levels = np.arange(256.0)
+        self._table = np.stack([lin_log(levels, config.linear_below), relative_intensity(levels)])
+        flat = intensity.reshape(-1).astype(np.float64)
+        brightness = lin_log(flat, config.linear_below)
+        self._state = PixelState(brightness, brightness.copy(), None)
+        if config.photoreceptor_noise:
+            self._state = self._state._replace(voltage=(np.zeros(flat.size), np.zeros(flat.size)))
+            self._voltage_at_event = np.zeros(flat.size)
+        self._start_us = self._last_us
+        self._event_us = np.full(flat.size, self._start_us)
+        self._fired_us = np.full(flat.size, LONG_AGO_US)
+
+    def _draw_leak(
+        self, shape: tuple[int, ...], key: np.uint64, threshold_on: Float64Array
+    ) -> Float64Array | None:
+        """By how much references sink, log units per µs."""
+        config = self.config
+        if config.leak_rate_hz == 0:
+            return None
+        factor = draw_rate_factors(shape, key, Purpose.LEAK_RATE, decades=config.leak_rate_decades)
+        return factor.reshape(-1) * (config.leak_rate_hz / MICROSECONDS) * threshold_on
 
     def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
-        start = self._brightness + self._voltage_noise - self._reference
-        self._follow_light(intensity, interval)
-        self._leak(interval)
-        stop = self._brightness + self._voltage_noise - self._reference
-        may_fire = (stop >= self._threshold_on) | (-stop >= self._threshold_off)
-        pixel = np.flatnonzero(may_fire)
-        columns = (start, stop, self._threshold_on, self._threshold_off)
+        if self.config.photoreceptor_noise:
+            self._shake(intensity.shape, interval)
+        luma = intensity.reshape(-1)
+        angle = 2 * math.pi * self.config.cutoff_hz * interval.duration_s or math.inf
+        table = self._table if luma.dtype == np.uint8 else None
+        restless = load_follow_light(luma.dtype, self._backend)(
+            Light(luma, table, self.config.linear_below, angle),
+            self._pixels,
+            self._state,
+            (float(interval.start_us - self._start_us), float(interval.stop_us - self._start_us)),
+        )
+        pixel = restless.pixel
+        on, off = self._pixels.threshold_on[pixel], self._pixels.threshold_off[pixel]
+        ramp = Ramp(pixel, restless.start, restless.stop, on, off)
         crossings = load_cross_ramp(self._backend)(
-            Ramp(pixel, *(column.reshape(-1)[pixel] for column in columns)),
-            self._fired_us.reshape(-1),
+            ramp,
+            self._fired_us,
             (interval.start_us, interval.stop_us),
             Rest(self.config.refractory_period_us, is_level_lost=False),
         )
-        fired = self._label(pixel, crossings)
-        return fired.joined(self._add_shot_noise(intensity, interval))
+        fired = self._label(ramp, crossings, interval.stop_us)
+        return fired.joined(self._add_shot_noise(luma, interval))
 
-    def _follow_light(self, intensity: IntensityArray, interval: Interval) -> None:
-        """Move the photoreceptor, and its noise if it has any, to the end of the interval."""
+    def _shake(self, shape: tuple[int, ...], interval: Interval) -> None:
+        """Move the noise of the photoreceptors, if they have any, to the end of the interval."""
         config = self.config
-        brightness = lin_log(intensity, config.linear_below)
-        if config.cutoff_hz > 0:
-            angle = 2 * math.pi * config.cutoff_hz * interval.duration_s
-            weight = np.minimum(relative_intensity(intensity) * angle, 1.0)
-            brightness = self._brightness + weight * (brightness - self._brightness)
-        self._brightness = brightness
-        if config.photoreceptor_noise:
-            y, x = np.ogrid[: intensity.shape[0], : intensity.shape[1]]
-            fresh = draw_normals(interval.key, y, x, Purpose.VOLTAGE.draw())
-            kept = math.exp(-2 * math.pi * config.cutoff_hz * interval.duration_s)
-            rms = photoreceptor_noise_rms(
-                config.shot_noise_rate_hz, config.cutoff_hz, self.contrast_threshold
-            )
-            noise = kept * self._voltage_noise + rms * math.sqrt(1 - kept * kept) * fresh
-            self._noise_since_event += noise - self._voltage_noise
-            self._voltage_noise = noise
+        _, voltage = self._state.voltage or (np.empty(0), np.empty(0))
+        y, x = np.ogrid[: shape[0], : shape[1]]
+        fresh = draw_normals(interval.key, y, x, Purpose.VOLTAGE.draw()).reshape(-1)
+        kept = math.exp(-2 * math.pi * config.cutoff_hz * interval.duration_s)
+        rms = photoreceptor_noise_rms(
+            config.shot_noise_rate_hz, config.cutoff_hz, self.contrast_threshold
+        )
+        now = kept * voltage + rms * math.sqrt(1 - kept * kept) * fresh
+        self._state = self._state._replace(voltage=(voltage, now))
 
-    def _leak(self, interval: Interval) -> None:
-        if self.config.leak_rate_hz > 0:
-            leaked = self._leak_hz * interval.duration_s * self._threshold_on
-            self._reference -= leaked
-            self._noise_since_event += leaked
+    def _leaked(self, pixel: NDArray[np.int64], us: NDArray[np.int64] | int) -> Float64Array:
+        """What the references of some pixels leak in a time."""
+        leak = self._pixels.leak
+        return np.zeros(len(pixel)) if leak is None else leak[pixel] * us
 
-    def _label(self, pixel: NDArray[np.int64], crossings: RampCrossings) -> Firings:
+    def _label(self, ramp: Ramp, crossings: RampCrossings, stop_us: int) -> Firings:
         """Move the references, and tell the events that noise and leak made from the others."""
-        steps = crossings.steps
-        on, off = (one.reshape(-1)[pixel] for one in (self._threshold_on, self._threshold_off))
-        moved = steps * np.where(steps > 0, on, off)
-        self._reference.reshape(-1)[pixel] += moved
-        since_event = self._noise_since_event.reshape(-1)
-        is_noise = since_event[pixel] * np.sign(steps) >= 0.5 * np.abs(moved)
-        since_event[pixel[steps != 0]] = 0.0
+        pixel, steps = ramp.pixel, crossings.steps
+        moved = steps * np.where(steps > 0, ramp.threshold_on, ramp.threshold_off)
+        self._state.reference[pixel] += moved
+        by_noise = self._leaked(pixel, stop_us - self._event_us[pixel])
+        fired = pixel[steps != 0]
+        if self._state.voltage is not None:
+            voltage = self._state.voltage[1]
+            by_noise += voltage[pixel] - self._voltage_at_event[pixel]
+            self._voltage_at_event[fired] = voltage[fired]
+        is_noise = by_noise * np.sign(steps) >= 0.5 * np.abs(moved)
+        self._event_us[fired] = stop_us
         label = np.where(is_noise, NOISE, SIGNAL)[np.searchsorted(pixel, crossings.pixel)]
         return Firings(crossings.pixel, crossings.t, crossings.p, label.astype(np.uint8))
 
-    def _add_shot_noise(self, intensity: IntensityArray, interval: Interval) -> Firings:
+    def _add_shot_noise(self, luma: IntensityArray, interval: Interval) -> Firings:
         """Independent noise events; each makes its pixel memorise the present brightness."""
         config = self.config
         if config.shot_noise_rate_hz == 0 or config.photoreceptor_noise:
             return Firings.none()
-        flat = intensity.reshape(-1)
         noise = self._noise.draw(
             interval,
             share=lambda pixel: (
-                1.0 - (1.0 - BRIGHT_SHOT_SHARE) * np.minimum(relative_intensity(flat[pixel]), 1.0)
+                1.0 - (1.0 - BRIGHT_SHOT_SHARE) * np.minimum(relative_intensity(luma[pixel]), 1.0)
             ),
             on_fraction=self._on_fraction,
             backend=self._backend,
         )
-        self._reference.reshape(-1)[noise.pixel] = self._brightness.reshape(-1)[noise.pixel]
-        self._noise_since_event.reshape(-1)[noise.pixel] = 0.0
+        pixel, stop_us = noise.pixel, interval.stop_us
+        leaked = self._leaked(pixel, stop_us - self._start_us)
+        self._state.reference[pixel] = self._state.brightness[pixel] + leaked
+        self._event_us[pixel] = stop_us
         return noise
 
 
-def lin_log(intensity: IntensityArray, linear_below: float) -> Float64Array:
-    """Brightness, linear in the dark and logarithmic above.
-
-    Args:
-        intensity: 0..255 scale, [H, W], uint8 or float.
-        linear_below: intensity I₀ where the straight line from 0 meets the logarithm.
-
-    Returns:
-        `I · ln(I₀) / I₀` up to I₀ and `ln(I)` above, [H, W] float64, log units.
-
-    Example:
-        >>> lin_log(np.array([[0, 10, 20, 40]], np.uint8), 20.0).round(4).tolist()
-        [[0.0, 1.4979, 2.9957, 3.6889]]
-    """
-    if intensity.dtype == np.uint8:
-        table = lin_log(np.arange(256, dtype=np.float64), linear_below)
-        return np.asarray(table[intensity])
-    exact = intensity.astype(np.float64, copy=False)
-    slope = math.log(linear_below) / linear_below
-    return np.where(exact <= linear_below, exact * slope, np.log(np.maximum(exact, linear_below)))
-
-
-def relative_intensity(intensity: IntensityArray) -> Float64Array:
-    """`(I + 20) / 275`, [H, W] float64: what bandwidth and shot noise depend on."""
+def relative_intensity(intensity: NDArray[Any]) -> Float64Array:
+    """`(I + 20) / 275`, float64: what bandwidth and shot noise depend on."""
     return np.asarray((intensity + DARK_OFFSET) / WHITE_LEVEL, np.float64)
 
 
