@@ -132,6 +132,12 @@ def test_other_arrays_are_refused(tmp_path):
     with pytest.raises(FileFormatError, match="does not hold the arrays of LPIPS's network"):
         read_lpips_weights(path)
     content = published(narrow_weights())
+    content["AlexNet_0"]["Conv_2"]["bias"] = "text"
+    path = tmp_path / "text.ckpt"
+    path.write_bytes(pickle.dumps(content))
+    with pytest.raises(FileFormatError, match=r"text\.ckpt cannot be read as LPIPS's weights"):
+        read_lpips_weights(path)
+    content = published(narrow_weights())
     content["NetLinLayer_1"]["Conv_0"]["kernel"][0, 0, 0, 0] = np.nan
     path = tmp_path / "nan.ckpt"
     path.write_bytes(pickle.dumps(content))

@@ -66,13 +66,14 @@ def read_lpips_weights(path: Path) -> LpipsWeights:
     """
     try:
         arrays = _read_archive(path) if path.suffix == ARCHIVE_SUFFIX else _read_published(path)
+        shapes = {name: array.shape for name, array in arrays.items()}
     except (*DAMAGE, zlib.error, MemoryError) as error:
         reason = f"{type(error).__name__}: {error}".splitlines()[0][:120]
         raise FileFormatError(
             f"{path} cannot be read as LPIPS's weights, it is damaged or of another kind "
             f"({reason}); {where_from('alex')}"
         ) from error
-    layout = _recognise_layout({name: array.shape for name, array in arrays.items()})
+    layout = _recognise_layout(shapes)
     if layout is None:
         raise FileFormatError(
             f"{path} does not hold the arrays of LPIPS's network "
