@@ -65,13 +65,16 @@ class PublishedNetwork:
     """As in tables and options."""
     network: str
     """`"module:Class"` of the `RecurrentNetwork`."""
-    is_normalised: bool
-    """Whether the non-zero voxels are brought to mean 0 and deviation 1."""
-    is_stretched: bool
-    """Whether the picture is stretched so that its 1st and 99th percentile become 0 and 1."""
-    file_name: str
-    """Under which the weights are looked for in the weights folder."""
     where_from: str
-    """Where they were published."""
+    """Where the weights were published."""
+    is_normalised: bool = False
+    """Whether the non-zero voxels are brought to mean 0 and deviation 1."""
+    is_stretched: bool = False
+    """Whether the picture is stretched so that its 1st and 99th percentile become 0 and 1."""
     sha256: tuple[str, ...] = ()
     """Of the published files, where known."""
+
+    @property
+    def file_name(self) -> str:
+        """Under which the weights are looked for in the weights folder."""
+        return f"{self.name}.pth"
