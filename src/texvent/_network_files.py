@@ -34,6 +34,11 @@ class StandIn:
         """Anything may be passed; nothing is done with it."""
         del arguments
 
+    def __setstate__(self, state: object) -> None:
+        """Keep named attributes; of state in another form nothing."""
+        if isinstance(state, Mapping):
+            vars(self).update(state)
+
 
 def read_mapping(
     path: Path, where_from: str, *, extra: str, stand_ins: Sequence[str] = ()

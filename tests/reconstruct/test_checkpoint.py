@@ -54,6 +54,14 @@ def test_what_each_program_says_about_its_network_is_found(name, tmp_path):
     assert dict(read(name, path).settings) == settings
 
 
+def test_what_training_left_beside_the_weights_does_no_harm(tmp_path):
+    config = config_parser({"arch": {"args": {"kwargs": {"final_activation": "sigmoid"}}}})
+    config.resume = tmp_path / "before.pth"
+    left = {"config": config, "monitor_best": np.float64(0.25), "saved": np.arange(3)[1]}
+    path = save_published(torch, "e2vid+", tmp_path / "model.pth", **left)
+    assert dict(read("e2vid+", path).settings) == {"final_activation": "sigmoid"}
+
+
 def test_arguments_of_the_network_itself_are_found_too(tmp_path):
     config = config_parser({"arch": {"type": "FireNet", "args": {"num_bins": 5}}})
     path = save_published(torch, "firenet+", tmp_path / "model.pth", config=config)
