@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from functools import partial
 from types import TracebackType
-from typing import Self
+from typing import Self, TypeVar
 
 import numba
 import numpy as np
@@ -15,8 +14,10 @@ from texvent.engine.kernels.candidates_cpu import find_cells, find_in_rows
 from texvent.engine.kernels.interface import Candidates, Float64Array, Grids, Levels, Pictures
 from texvent.interpolate.paths import Paths
 
-BAND_ROWS = 64
-"""Rows that a thread takes at a time."""
+BAND_PIXELS = 1 << 14
+"""About how many pixels a thread takes at a time."""
+
+Settled = TypeVar("Settled")
 
 
 class CandidateFinder:
@@ -44,14 +45,31 @@ class CandidateFinder:
 
     def find(self, paths: Paths, grids: Grids, levels: Levels) -> Candidates:
         """Every place where a pixel may fire; see `kernels.candidates_reference`."""
+        found = list(self.map(lambda band: band, paths, grids, levels))
+        return Candidates(*(np.concatenate(column) for column in zip(*found, strict=True)))
+
+    def map(
+        self, settle: Callable[[Candidates], Settled], paths: Paths, grids: Grids, levels: Levels
+    ) -> Iterator[Settled]:
+        """What a function makes of the candidates of each band of rows, from the top.
+
+        Args:
+            settle: called in the threads, so it must touch the pixels of its candidates only.
+            paths: the pair.
+            grids: when pixels are looked at.
+            levels: what they compare with.
+        """
         pictures = pictures_of(paths)
         cells = find_cells(pictures)
-        height = len(pictures.earlier)
-        bands = [(start, min(start + BAND_ROWS, height)) for start in range(0, height, BAND_ROWS)]
-        find_in_band = partial(find_in_rows, pictures, grids, levels, cells)
+
+        def settle_band(rows: tuple[int, int]) -> Settled:
+            return settle(find_in_rows(pictures, grids, levels, cells, rows))
+
+        height, width = pictures.earlier.shape
+        step = max(1, BAND_PIXELS // width)
+        bands = [(start, min(start + step, height)) for start in range(0, height, step)]
         run = map if self._threads is None else self._threads.map
-        found = list(run(find_in_band, bands))
-        return Candidates(*(np.concatenate(column) for column in zip(*found, strict=True)))
+        return run(settle_band, bands)
 
 
 def pictures_of(paths: Paths) -> Pictures:

@@ -28,8 +28,8 @@ from texvent.interpolate.paths import Paths
 from texvent.simulate.firings import Firings, Interval
 from texvent.video import Frame
 
-PIECE_PX = 1.0
-"""Longest way of the flow within one piece, px: texture of a few pixels stays straight on it."""
+PIECE_PX = 0.5
+"""Longest way of the flow within one piece, px; docs/engine.md has the figures for others."""
 PIECE_RATIO = 1.5
 """Largest factor by which α + I changes within one piece where a pixel stands: two thresholds of
 0.2. Frames that are mixed change in intensity, not in its logarithm."""

@@ -11,7 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.engine.candidates import CandidateFinder, one_grid
-from texvent.engine.kernels.interface import STEPS, Float64Array, Grids, Int64Array, Levels
+from texvent.engine.kernels.interface import (
+    STEPS,
+    Candidates,
+    Float64Array,
+    Grids,
+    Int64Array,
+    Levels,
+)
 from texvent.engine.kernels.pieces import LineRules, LineState, Pieces
 from texvent.engine.kernels.pieces_cpu import cross_pieces
 from texvent.events import EventStream
@@ -82,7 +89,18 @@ class LinePixels:
             math.exp(-rules.threshold_off),
             STEPS,
         )
-        pixel, grid, piece, before, now = finder.find(paths, grids, levels)
+
+        def settle(found: Candidates) -> tuple[Firings, NDArray[np.int16]]:
+            return self._settle(found, edges_us)
+
+        bands = list(finder.map(settle, paths, grids, levels))
+        fired, piece = zip(*bands, strict=True)
+        columns = (np.concatenate(column) for column in zip(*fired, strict=True))
+        return Firings(*columns), np.concatenate(piece)
+
+    def _settle(self, found: Candidates, edges_us: Int64Array) -> tuple[Firings, NDArray[np.int16]]:
+        """What the candidates of a band fire; moves their references."""
+        pixel, grid, piece, before, now = found
         pieces = Pieces(
             pixel,
             edges_us[grid, piece],
@@ -90,9 +108,10 @@ class LinePixels:
             self._brightness_of(before),
             self._brightness_of(now),
         )
-        crossings = cross_pieces(pieces, rules, self._state)
-        moved = np.exp(self._state.reference[pixel])
-        self._level.reshape(-1)[pixel] = self._unit * moved
+        crossings = cross_pieces(pieces, self._rules, self._state)
+        # Candidates come by pixel: the last one of each says where it is now.
+        moved = pixel[np.flatnonzero(np.diff(pixel, append=-1))]
+        self._level.reshape(-1)[moved] = self._unit * np.exp(self._state.reference[moved])
         fired = Firings.signal(pixel[crossings.row], crossings.t, crossings.p)
         return fired, piece[crossings.row]
 

@@ -17,8 +17,8 @@ from texvent.engine.kernels.interface import (
     STEPS,
     STEPS_ONCE,
     TAKES,
-    Candidates,
     Float64Array,
+    Int64Array,
     Levels,
 )
 from texvent.events import EventStream
@@ -47,6 +47,7 @@ class FusedTexvent:
     def __init__(self, config: TexventConfig, seed: int) -> None:
         self._config, self._seed = config, seed
         self._is_kept = config.cache in ("global", "leaky")
+        self._has_line = config.stamp == "linear" or config.cache == "none"
         self._timing = Timing(
             config.stamp,
             config.stamp_scale,
@@ -77,13 +78,15 @@ class FusedTexvent:
             # This pair begins at its own first frame; other pixels' references are not looked at.
             own = paths.earlier.reshape(-1)[found.pixel]
             reference[found.pixel] = self._brightness_of(own)
+        found = found.take(np.argsort(found.piece, kind="stable"))
+        cuts = np.searchsorted(found.piece, np.arange(len(edges_us))).tolist()
+        stop = self._brightness_of(found.now)
+        start = self._brightness_of(found.before) if self._has_line else stop[:0]
         stamp_events, size = load_stamp_events(AUTO), paths.size
-        by_piece = np.argsort(found.piece, kind="stable")
-        cuts = np.searchsorted(found.piece[by_piece], np.arange(len(edges_us)))
-        for piece, (start_us, stop_us) in enumerate(itertools.pairwise(edges_us)):
-            rows = by_piece[cuts[piece] : cuts[piece + 1]]
-            span = Interval(start_us, stop_us, frame_key(self._seed, stop_us))
-            fired = self._settle(found.take(rows), reference)
+        for piece, span_us in enumerate(itertools.pairwise(edges_us)):
+            rows = slice(cuts[piece], cuts[piece + 1])
+            span = Interval(*span_us, frame_key(self._seed, span_us[1]))
+            fired = self._settle(found.pixel[rows], start[rows], stop[rows], reference)
             noise = self._draw_noise(paths, piece, span)
             x, y, t, p, label = stamp_events(fired, noise, self._timing, span, size.shape)
             yield EventStream.unchecked(x, y, t, p, size=size, label=label)
@@ -106,16 +109,24 @@ class FusedTexvent:
         up, down = math.exp(config.contrast_threshold), math.exp(-config.contrast_threshold)
         return Levels(reference, config.balance, up, down, rule)
 
-    def _settle(self, found: Candidates, reference: Float64Array) -> Fired:
-        """Eq. 5: which of the candidates of a sub-interval fire; moves their references."""
-        config, pixel = self._config, found.pixel
-        start, stop = self._brightness_of(found.before), self._brightness_of(found.now)
+    def _settle(
+        self, pixel: Int64Array, start: Float64Array, stop: Float64Array, reference: Float64Array
+    ) -> Fired:
+        """Eq. 5: which of the candidates of a sub-interval fire; moves their references.
+
+        Args:
+            pixel: the candidates, [n].
+            start: their brightness at the start, [n], or [0] where nobody wants to know.
+            stop: their brightness at the end, [n].
+            reference: reference brightness of all pixels, flat.
+        """
+        config = self._config
         then = start if config.cache == "none" else reference[pixel]
         change = stop - then
         fires = np.abs(change) >= config.contrast_threshold
         if not fires.all():
-            pixel, change = pixel[fires], change[fires]
-            start, stop, then = start[fires], stop[fires], then[fires]
+            pixel, change, then = pixel[fires], change[fires], then[fires]
+            start, stop = start[fires] if start.size else start, stop[fires]
         reference[pixel] = stop
         if config.reset == "step":
             threshold = config.contrast_threshold

@@ -88,7 +88,7 @@ def test_where_it_is_open_whether_a_pixel_fires_all_its_later_pictures_are_liste
 
 @kernels
 def test_a_pixel_takes_the_first_grid_that_is_fine_enough(find):
-    # Grids of 1, 2, 4, ... pieces, each for 1 px of flow and a factor of 1.5.
+    # Grids of 1, 2, 4, ... pieces, each for half a pixel of flow and a factor of 1.5.
     shape = (1, 4)
     flow = np.zeros((*shape, 2), np.float32)
     flow[0, 1, 0], flow[0, 2, 1] = 1.5, 5.0
@@ -100,7 +100,7 @@ def test_a_pixel_takes_the_first_grid_that_is_fine_enough(find):
         Levels(np.full(shape, 1.0), 200.0, UP, 1 / UP, FOLLOWS),
     )
     grid_of = dict(zip(found.pixel.tolist(), found.grid.tolist(), strict=True))
-    assert grid_of == {0: 0, 1: 1, 2: 3, 3: 0}
+    assert grid_of == {0: 0, 1: 2, 2: 4, 3: 0}
 
 
 @pytest.mark.parametrize("shape", [(1, 1), (3, 40), (35, 41)])
