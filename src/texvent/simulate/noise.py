@@ -63,7 +63,7 @@ def low_light_background(
     Args:
         luma: intensity of the current frame, [H, W], 0..255 scale.
         pixel: flat index of the pixels asked about, [n].
-        fired: flat index of the pixels with |change| ≥ δ; all others are background.
+        fired: flat index of the pixels with |change| ≥ δ, ascending; all others are background.
         intensity: σ: darker pixels are low-light.
 
     Returns:
@@ -73,7 +73,14 @@ def low_light_background(
     Deviation: the paper names source frames here and sub-frames in Eq. 5; this uses sub-frames.
     """
     is_dark = luma.reshape(-1)[pixel] < intensity
-    return np.asarray(is_dark & ~np.isin(pixel, fired))
+    return np.asarray(is_dark & is_background(pixel, fired))
+
+
+def is_background(pixel: NDArray[np.int64], fired: NDArray[np.int64]) -> BoolArray:
+    """Whether a pixel is not among those that fired, [n]; `fired` must ascend."""
+    place = np.searchsorted(fired, pixel)
+    # Beyond the last one lies what no pixel equals.
+    return np.asarray(np.append(fired, -1)[place] != pixel)
 
 
 @functools.lru_cache(maxsize=64)

@@ -16,7 +16,12 @@ from texvent.simulate.event_frame import EventFrame, generate_event_frame, list_
 from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.interval import SubInterval
 from texvent.simulate.kernels.select import load_kernels
-from texvent.simulate.noise import draw_noise, draw_voltage_noise, low_light_background
+from texvent.simulate.noise import (
+    draw_noise,
+    draw_voltage_noise,
+    is_background,
+    low_light_background,
+)
 from texvent.simulate.texvent_config import TexventConfig
 from texvent.simulate.timestamps import reconstruct_timestamps
 from texvent.video import Frame, check_intensity
@@ -115,5 +120,5 @@ class DensePixels:
         )
         fired = Firings.signal(activations.pixel, t, activations.polarity)
         if signal is not events:
-            fired.label[~np.isin(activations.pixel, signal.pixel)] = NOISE
+            fired.label[is_background(activations.pixel, signal.pixel)] = NOISE
         return fired

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from texvent.simulate.event_frame import EventFrame, count_events, list_activations
 from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.interval import SparseInterval, place_in
@@ -12,6 +10,7 @@ from texvent.simulate.kernels.order import Columns, Unordered
 from texvent.simulate.kernels.order_reference import order_events
 from texvent.simulate.kernels.stamp import Timing
 from texvent.simulate.kernels.texvent import Fired
+from texvent.simulate.noise import is_background
 from texvent.simulate.timestamps import reconstruct_timestamps
 
 
@@ -39,5 +38,5 @@ def stamp_events(
     signal = Firings.signal(activations.pixel, t, activations.polarity)
     added = Firings.noise(noise.pixel, place_in(span, noise.fraction), noise.p)
     if timing.noise_at_rest:
-        added = added.where(~np.isin(noise.pixel, fired.pixel))
+        added = added.where(is_background(noise.pixel, fired.pixel))
     return order_events(Unordered(*signal.joined(added)), (span.start_us, span.stop_us), shape)
