@@ -1,0 +1,122 @@
+"""Simulators alone: time per frame by model, size, density and threads, beside the floor."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Any
+
+from benchmarks.speed.floor import Bandwidth
+from benchmarks.speed.scenes import Bytes, jumping_pixels, to_and_fro
+from benchmarks.speed.timing import Quartiles, rounded, seconds
+from texvent._registry import SIMULATORS
+from texvent.sensor import SensorSize
+from texvent.simulate.kernels.readiness import wait_until_idle
+from texvent.video import Frame
+
+SIZES = (SensorSize(346, 260), SensorSize(1280, 720))
+DENSITIES = (0.001, 0.01, 0.05, 0.2)
+MODELS = ("texvent", "esim")
+"""One event per pixel and frame (the paper preset), and several."""
+WARM_UP_FRAMES = 3
+
+
+@dataclass(frozen=True)
+class Plan:
+    """How much is measured."""
+
+    frames: int
+    """Frames that differ: together more than the caches hold, so that each comes from DRAM."""
+    steps: int
+    """Steps that are timed."""
+
+
+QUICK = Plan(frames=16, steps=24)
+FULL = Plan(frames=48, steps=96)
+
+
+class Run:
+    """One simulator on one endless clip."""
+
+    def __init__(self, model: str, frames: Bytes) -> None:
+        self._simulator: Any = SIMULATORS.load(model)()
+        self._frames: Iterator[Frame] = to_and_fro(frames)
+        self.events = 0
+
+    def step(self) -> float:
+        """Simulate the next frame; returns the seconds it took."""
+        frame = next(self._frames)
+        packet: list[Any] = []
+        taken = seconds(lambda: packet.append(self._simulator.step(frame)))
+        self.events += len(packet[0])
+        return taken
+
+    def warm_up(self) -> Run:
+        """Let everything compile, and forget what was counted until then."""
+        self.steps(WARM_UP_FRAMES)
+        wait_until_idle()
+        self.steps(1)
+        self.events = 0
+        return self
+
+    def steps(self, count: int) -> list[float]:
+        """Seconds of each of the next frames."""
+        return [self.step() for _ in range(count)]
+
+
+def measure_kernels(plan: Plan, bandwidths: dict[int, Bandwidth]) -> list[dict[str, Any]]:
+    """A row per model, size, density and number of threads.
+
+    With two threads, each simulates a clip of its own: the figures are those of both together.
+    """
+    rows = []
+    for size, density in itertools.product(SIZES, DENSITIES):
+        frames = jumping_pixels(size, density, plan.frames)
+        for model in MODELS:
+            one = Run(model, frames).warm_up()
+            alone = Quartiles.of(one.steps(plan.steps), scale=1e3)
+            events = one.events / plan.steps
+            together = _in_two_threads(model, frames, plan.steps)
+            for threads, time_ms in ((1, alone), (2, together)):
+                floor_ms = bandwidths[threads].floor_s(size, events) * 1e3
+                rows.append(_row(model, size, density, threads, events, time_ms, floor_ms))
+    return rows
+
+
+def _in_two_threads(model: str, frames: Bytes, steps: int) -> Quartiles:
+    """Milliseconds per frame of two clips at once: elapsed time over frames of both."""
+    runs = [Run(model, frames).warm_up() for _ in range(2)]
+    chunks, per_chunk = 6, max(1, steps // 6)
+    with ThreadPoolExecutor(len(runs)) as pool:
+
+        def both() -> None:
+            list(pool.map(lambda run: run.steps(per_chunk), runs))
+
+        times = [seconds(both) / (per_chunk * len(runs)) for _ in range(chunks)]
+    return Quartiles.of(times, scale=1e3)
+
+
+def _row(
+    model: str,
+    size: SensorSize,
+    density: float,
+    threads: int,
+    events: float,
+    time_ms: Quartiles,
+    floor_ms: float,
+) -> dict[str, Any]:
+    per_second = 1e3 / time_ms.median
+    return {
+        "model": model,
+        "size": str(size),
+        "density": density,
+        "threads": threads,
+        "events_per_frame": rounded(float(events)),
+        "ms_per_frame": time_ms.as_json(),
+        "mpixel_per_s": rounded(size.width * size.height * per_second / 1e6),
+        "mevents_per_s": rounded(events * per_second / 1e6),
+        "floor_ms": rounded(floor_ms),
+        "times_floor": rounded(time_ms.median / floor_ms),
+    }

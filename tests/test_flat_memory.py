@@ -1,0 +1,56 @@
+"""Memory does not grow with the clip: frames, packets and what is being written are let go of."""
+
+import subprocess
+import sys
+
+import pytest
+
+FRAMES = 800
+ALLOWED = 1.05
+"""Peak of twice the clip over peak of the clip. One clip's frames alone would add a quarter."""
+
+SCRIPT = """
+import resource, sys
+from fractions import Fraction
+import numpy as np
+from texvent.io.files import save
+from texvent.pipeline import video_to_events
+from texvent.sensor import SensorSize
+from texvent.settings import resolve
+from texvent.video import Frame, frame_time_us
+
+class Long:
+    size, fps, is_live, metadata = SensorSize(256, 192), Fraction(25), False, {}
+    def __init__(self, count):
+        self.frame_count = count
+    def __iter__(self):
+        rng = np.random.default_rng(0)
+        pictures = rng.integers(90, 130, (16, 192, 256), np.uint8)
+        for index in range(self.frame_count):
+            yield Frame(pictures[index % 16].copy(), frame_time_us(index, self.fps))
+
+path, count, interpolate = sys.argv[1], int(sys.argv[2]), sys.argv[3]
+settings = resolve("simulate", {"interpolate": interpolate, "fixed_count": 1, "count": "fixed"})
+save(path, video_to_events(Long(count), settings).packets)
+print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+"""
+
+
+def peak(path, count, interpolate):
+    """Highest resident memory of a process that simulates so many frames into a file."""
+    done = subprocess.run(
+        [sys.executable, "-c", SCRIPT, str(path), str(count), interpolate],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=300,
+    )
+    return int(done.stdout)
+
+
+@pytest.mark.parametrize(("extension", "interpolate"), [(".h5", "none"), (".raw", "blend")])
+def test_twice_the_clip_takes_no_more_memory(tmp_path, extension, interpolate):
+    once = peak(tmp_path / f"once{extension}", FRAMES, interpolate)
+    twice = peak(tmp_path / f"twice{extension}", 2 * FRAMES, interpolate)
+    assert (tmp_path / f"twice{extension}").stat().st_size > 1_000_000
+    assert twice <= ALLOWED * once
