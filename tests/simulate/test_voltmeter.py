@@ -6,8 +6,9 @@ import pytest
 
 from texvent.errors import ConfigError
 from texvent.events import NOISE, SIGNAL
-from texvent.simulate.kernels.passage_reference import chance_along, passage_time
-from texvent.simulate.voltmeter import VoltmeterConfig, VoltmeterSimulator, voltage_motion
+from texvent.simulate.kernels.passage import Constants
+from texvent.simulate.kernels.passage_reference import chance_along, motion_of, passage_time
+from texvent.simulate.voltmeter import VoltmeterConfig, VoltmeterSimulator
 from texvent.video import Frame
 
 from .published import curve, frames_of, run, static
@@ -46,11 +47,11 @@ def distance_to(cdf, sample) -> float:
 
 
 def test_drift_and_diffusion_are_equations_10_and_11():
-    config = VoltmeterConfig(k1=5.0, k2=20.0, k3=1e-4, k4=1e-7, k5=5e-9, k6=1e-5)
-    motion = voltage_motion(column(90.0), column(110.0), 1000, config)
-    assert motion.signal == pytest.approx(5.0 * 20 / 1000 / 120)
-    assert motion.drift == pytest.approx(5.0 * 20 / 1000 / 120 + 1e-7 + 5e-7)
-    assert motion.sigma == pytest.approx(1e-4 * 10 / 120 + 1e-5)
+    constants = Constants(k1=5.0, k2=20.0, k3=1e-4, k4=1e-7, k5=5e-9, k6=1e-5)
+    signal, drift, sigma = motion_of(column(90.0), column(110.0), 1000, constants)
+    assert signal == pytest.approx(5.0 * 20 / 1000 / 120)
+    assert drift == pytest.approx(5.0 * 20 / 1000 / 120 + 1e-7 + 5e-7)
+    assert sigma == pytest.approx(1e-4 * 10 / 120 + 1e-5)
 
 
 @pytest.mark.parametrize("sign", [1, -1])

@@ -233,8 +233,9 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
             self._voltage_at_event[fired] = voltage[fired]
         is_noise = by_noise * np.sign(steps) >= 0.5 * np.abs(moved)
         self._event_us[fired] = stop_us
-        label = np.where(is_noise, NOISE, SIGNAL)[np.searchsorted(pixel, crossings.pixel)]
-        return Firings(crossings.pixel, crossings.t, crossings.p, label.astype(np.uint8))
+        # A step is an event here, and events come by pixel.
+        label = np.repeat(np.where(is_noise, NOISE, SIGNAL).astype(np.uint8), np.abs(steps))
+        return Firings(crossings.pixel, crossings.t, crossings.p, label)
 
     def _add_shot_noise(self, luma: IntensityArray, interval: Interval) -> Firings:
         """Independent noise events; each makes its pixel memorise the present brightness."""

@@ -17,8 +17,13 @@ from texvent.errors import ConfigError
 from texvent.events import NOISE, SIGNAL
 from texvent.simulate.draws import Purpose, draw_uniforms
 from texvent.simulate.firings import Firings, Interval
-from texvent.simulate.kernels.passage import Motion, Voltage, load_find_passages
-from texvent.simulate.pixel_maps import Float64Array, sensor_key
+from texvent.simulate.kernels.passage import (
+    Constants,
+    Light,
+    Voltage,
+    load_find_passages_in_light,
+)
+from texvent.simulate.pixel_maps import sensor_key
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 
 
@@ -91,45 +96,31 @@ class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
         return self.config.k2
 
     def _begin(self, intensity: IntensityArray) -> None:
-        self._light = intensity.astype(np.float64)
+        config = self.config
+        self._seen = intensity.copy()
+        self._constants = Constants(
+            config.k1, config.k2, config.k3, config.k4, config.k5, config.k6
+        )
         residual = np.zeros(intensity.shape)
-        if self.config.start_voltage == "random":
-            leak = self.config.k4 + self.config.k5 * self._light
+        if config.start_voltage == "random":
+            leak = config.k4 + config.k5 * intensity.astype(np.float64)
             y, x = np.ogrid[: intensity.shape[0], : intensity.shape[1]]
             chance = draw_uniforms(sensor_key(self._seed), y, x, Purpose.PHASE.draw())
             residual = np.sign(leak) * chance
         self._voltage = Voltage(residual, np.zeros(intensity.shape))
 
     def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
-        light = intensity.astype(np.float64)
-        motion = voltage_motion(self._light, light, interval.duration_us, self.config)
-        passages = load_find_passages(self._backend)(
-            motion, self._voltage, interval.key, interval.duration_us
+        if intensity.dtype != self._seen.dtype:
+            # Frames of two types: from now on all are float32, which holds 8-bit levels exactly.
+            self._seen = self._seen.astype(np.float32, copy=False)
+            intensity = intensity.astype(np.float32, copy=False)
+        passages = load_find_passages_in_light(intensity.dtype, self._backend)(
+            Light(self._seen, intensity, self._constants),
+            self._voltage,
+            interval.key,
+            interval.duration_us,
         )
-        self._light = light
+        self._seen[:] = intensity
         offset = np.floor(passages.after_us).astype(np.int64)
         label = np.where(passages.is_noise, NOISE, SIGNAL).astype(np.uint8)
         return Firings(passages.pixel, interval.start_us + offset, passages.p, label)
-
-
-def voltage_motion(
-    before: Float64Array, after: Float64Array, duration_us: int, config: VoltmeterConfig
-) -> Motion:
-    """Drift and diffusion of every pixel's voltage between two frames.
-
-    Args:
-        before: light at the start, 0..255 scale, [H, W].
-        after: light at the end, [H, W].
-        duration_us: time between them, µs.
-        config: the constants.
-
-    Returns:
-        μ = k1 ΔL / Δt / (L + k2) + k4 + k5 L and σ = k3 √L / (L + k2) + k6, L the mean of both.
-
-    Equation: (10) and (11) of the publication.
-    """
-    mean = (before + after) / 2
-    gain = 1 / (mean + config.k2)
-    signal = config.k1 * (after - before) / duration_us * gain
-    drift = signal + config.k4 + config.k5 * mean
-    return Motion(signal, drift, config.k3 * np.sqrt(mean) * gain + config.k6)

@@ -14,6 +14,7 @@ from texvent.simulate.kernels.circuit import (
     Float64Array,
     Int64Array,
     Light,
+    Luma,
     NoiseEvents,
     Pixels,
     PixelState,
@@ -65,12 +66,10 @@ def advance_pixels(
     Returns:
         The events by pixel, then in time; times rounded down, never the stop itself.
     """
-    (bright, corner), (_, corner_now) = ends = tuple(
-        light_of(luma.astype(np.float64), light.optics) for luma in (light.before, light.now)
-    )
-    rise = ends[1][0] - bright
+    (bright, corner), (bright_now, corner_now) = _see(light.before, light), _see(light.now, light)
+    rise = bright_now - bright
     light.before[:] = light.now
-    calm = _is_calm(ends[0][0], ends[1][0], pixels, state, span_us[1])
+    calm = _is_calm(bright, bright_now, pixels, state, span_us[1])
     calm[noise.pixel] = False
     pixel = np.flatnonzero(~calm)
     duration = float(span_us[1] - span_us[0])
@@ -87,11 +86,18 @@ def advance_pixels(
     finished = fired.run(walk, light)
     lag[finished.pixel] = finished.lag
     lag[np.abs(lag) < SETTLED] = 0.0
-    state.output[:] = ends[1][0] - lag
+    state.output[:] = bright_now - lag
     is_held = finished.since > duration
     state.level[finished.pixel] = np.where(is_held, np.nan, finished.level)
     state.since_us[finished.pixel] = span_us[0] + finished.since.astype(np.int64)
     return fired.events()
+
+
+def _see(luma: Luma, light: Light) -> tuple[Float64Array, Float64Array]:
+    """Brightness and corner frequency, from the table where there is one."""
+    if light.table is not None:
+        return light.table[0][luma], light.table[1][luma]
+    return light_of(luma.astype(np.float64), light.optics)
 
 
 def _is_calm(

@@ -21,7 +21,8 @@ from texvent.simulate.kernels.follow import (
 )
 from texvent.simulate.kernels.order import read_only
 
-BLOCK = 512
+BLOCK, RUN = 512, 32
+"""Pixels that are moved together, and pixels that are passed over together."""
 
 
 def follow_light(
@@ -77,11 +78,13 @@ def _follow_light(
             _add(start, voltage[0][first:last], 1.0)
             _add(stop, voltage[1][first:last], 1.0)
         on, off = thresholds[0][first:last], thresholds[1][first:last]
-        if not _is_any_restless(stop, on, off):
-            continue
-        for j in range(last - first):
-            pixel[found], change[0, found], change[1, found] = first + j, start[j], stop[j]
-            found += (stop[j] >= on[j]) | (-stop[j] >= off[j])
+        for run in range(0, last - first, RUN):
+            end = min(run + RUN, last - first)
+            if not _is_any_restless(stop, on, off, run, end):
+                continue
+            for j in range(run, end):
+                pixel[found], change[0, found], change[1, found] = first + j, start[j], stop[j]
+                found += (stop[j] >= on[j]) | (-stop[j] >= off[j])
     return pixel[:found], change[0, :found], change[1, :found]
 
 
@@ -135,9 +138,11 @@ def _add(target: Float64Array, term: Float64Array, factor: float) -> None:
 
 
 @numba.njit(cache=True, nogil=True)
-def _is_any_restless(stop: Float64Array, on: Float64Array, off: Float64Array) -> bool:
+def _is_any_restless(
+    stop: Float64Array, on: Float64Array, off: Float64Array, first: int, last: int
+) -> bool:
     restless = 0
-    for j in range(on.size):
+    for j in range(first, last):
         restless |= (stop[j] >= on[j]) | (-stop[j] >= off[j])
     return restless != 0
 

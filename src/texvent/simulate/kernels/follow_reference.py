@@ -34,9 +34,12 @@ def follow_light(
 
     Source: v2e (Hu, Liu and Delbruck, CVPRW 2021), section 4.2.
     """
-    luma = light.luma.astype(np.float64)
-    before, now = state.brightness.copy(), lin_log(luma, light.linear_below)
-    weight = np.minimum((luma + DARK_OFFSET) / WHITE_LEVEL * light.angle, 1.0)
+    if light.table is None:
+        luma = light.luma.astype(np.float64)
+        now, relative = lin_log(luma, light.linear_below), (luma + DARK_OFFSET) / WHITE_LEVEL
+    else:
+        now, relative = light.table[0][light.luma], light.table[1][light.luma]
+    before, weight = state.brightness.copy(), np.minimum(relative * light.angle, 1.0)
     state.brightness[:] = np.where(weight < 1.0, before + weight * (now - before), now)
     start, stop = before - state.reference, state.brightness - state.reference
     if pixels.leak is not None:

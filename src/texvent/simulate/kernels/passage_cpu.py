@@ -3,65 +3,249 @@
 from __future__ import annotations
 
 import math
+from typing import Any, NamedTuple
 
 import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.simulate.kernels.cpu_draws import draw_uniform
+from texvent.simulate.kernels.elementary_cpu import cosine_of_turns, natural_log
+from texvent.simulate.kernels.order import read_only
 from texvent.simulate.kernels.passage import (
+    CERTAIN,
     DRAWS_PER_EVENT,
     FIRST_DRAW,
     MOST_RESIDUAL,
+    Constants,
     Float64Array,
+    Light,
     Motion,
     Passages,
     Voltage,
 )
+from texvent.simulate.kernels.passage_reference import motion_of
 
-Columns = tuple[NDArray[np.int64], Float64Array, NDArray[np.uint8], NDArray[np.bool_]]
+# Numba's cache looks at this file only: whoever changes `motion_of` must touch this one as well.
+_motion_of = numba.njit(cache=True, nogil=True, error_model="numpy")(motion_of)
+
+Found = Float64Array
+"""[3, room] pixel, time after the start in µs, and p + 2 · is noise. One array, for Numba counts
+the references to each array of a tuple whenever it is passed on."""
+BLOCK = 256
+
+
+class _Block(NamedTuple):
+    """What is known of the pixels of one block, [BLOCK] each."""
+
+    signal: Float64Array
+    drift: Float64Array
+    sigma: Float64Array
+    distance: Float64Array
+    """To the threshold in the direction of the drift."""
+    normal: Float64Array
+    chance: Float64Array
+    gap: Float64Array
+    """Time until it is reached, µs."""
+    is_calm: NDArray[np.bool_]
 
 
 def find_passages(motion: Motion, voltage: Voltage, key: np.uint64, duration_us: float) -> Passages:
     """Alternate between polarity and time; see `passage_reference.find_passages`."""
+    return _find(motion, None, voltage, key, duration_us, 0)
+
+
+def find_passages_in_light(
+    light: Light, voltage: Voltage, key: np.uint64, duration_us: float
+) -> Passages:
+    """See `passage_reference.find_passages_in_light`."""
+    ends = read_only(light.before), read_only(light.now), light.constants
+    return _find(None, ends, voltage, key, duration_us, light.first_row)
+
+
+def warm_up(dtype: str) -> None:
+    """Compile for one type of frames, or load what was compiled before."""
+    luma, voltage = np.zeros((1, 1), dtype), Voltage(np.zeros((1, 1)), np.zeros((1, 1)))
+    light = Light(luma, luma, Constants(1.0, 1.0, 0.0, 0.0, 0.0, 0.0))
+    find_passages_in_light(light, voltage, np.uint64(0), 1.0)
+
+
+def _find(
+    motion: Motion | None,
+    ends: tuple[NDArray[Any], NDArray[Any], Constants] | None,
+    voltage: Voltage,
+    key: np.uint64,
+    duration_us: float,
+    first_row: int,
+) -> Passages:
+    width = voltage.residual.shape[1]
+    flat = None
+    if motion is not None:
+        flat = motion.signal.reshape(-1), motion.drift.reshape(-1), motion.sigma.reshape(-1)
+    volts = voltage.residual.reshape(-1), voltage.signal.reshape(-1)
+    place = first_row * width, width
     # With NUMBA_DISABLE_JIT=1 this runs in NumPy, which would warn where the hash wraps around and
     # where extremes overflow.
     with np.errstate(all="ignore"):
-        return Passages(*_find_passages(motion, voltage, key, float(duration_us)))
+        pixel, after, kind = _find_passages(flat, ends, volts, place, key, float(duration_us))
+    kinds = kind.astype(np.uint8)
+    return Passages(pixel.astype(np.int64), after, kinds & 1, (kinds >> 1).astype(np.bool_))
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def _find_passages(motion: Motion, voltage: Voltage, key: np.uint64, duration_us: float) -> Columns:
-    height, width = motion.drift.shape
-    columns = _columns(height * width)
-    found = 0
-    for y in range(height):
-        for x in range(width):
-            now, order = 0.0, FIRST_DRAW
-            signal, speed = motion.signal[y, x], abs(motion.drift[y, x])
-            forward = 1.0 if motion.drift[y, x] >= 0 else -1.0
-            way, driven = voltage.residual[y, x], voltage.signal[y, x]
+def _find_passages(
+    motion: tuple[Float64Array, Float64Array, Float64Array] | None,
+    ends: tuple[NDArray[Any], NDArray[Any], Constants] | None,
+    volts: tuple[Float64Array, Float64Array],
+    place: tuple[int, int],
+    key: np.uint64,
+    duration_us: float,
+) -> Found:
+    residual, driven = volts
+    events, found = np.empty((3, residual.size // 4 + 64)), 0
+    block = _Block(
+        np.empty(BLOCK),
+        np.empty(BLOCK),
+        np.empty(BLOCK),
+        np.empty(BLOCK),
+        np.empty(BLOCK),
+        np.empty(BLOCK),
+        np.empty(BLOCK),
+        np.empty(BLOCK, np.bool_),
+    )
+    for first in range(0, residual.size, BLOCK):
+        last = min(first + BLOCK, residual.size)
+        if motion is not None:
+            size = last - first
+            block.signal[:size] = motion[0][first:last]
+            block.drift[:size] = motion[1][first:last]
+            block.sigma[:size] = motion[2][first:last]
+        if ends is not None:
+            before, now, constants = ends
+            _see(before[first:last], now[first:last], constants, duration_us, block)
+        way, gone = residual[first:last], driven[first:last]
+        _draw(block, place[0] + first, place[1], key, way.size)
+        if _drift(block, way, gone, duration_us) == way.size:
+            continue
+        for j in range(way.size):
+            if block.is_calm[j]:
+                continue
+            pace = block.signal[j], block.drift[j], block.sigma[j]
             while True:
-                sign, distance, gap = _sample(
-                    (speed, motion.sigma[y, x]), forward, way, (key, y, x, order)
+                filled, left, part = _walk(
+                    place[0] + first + j,
+                    place[1],
+                    key,
+                    pace,
+                    (way[j], gone[j]),
+                    duration_us,
+                    events,
+                    found,
                 )
-                if not now + gap < duration_us:
+                if filled >= 0:
                     break
-                if found == columns[0].size:
-                    columns = _grown(columns)
-                columns[0][found] = y * width + x
-                columns[1][found] = now + gap
-                columns[2][found] = sign > 0
-                columns[3][found] = sign * (driven + signal * gap) < 0.5
-                found += 1
-                now += gap
-                way = driven = 0.0
-                order += DRAWS_PER_EVENT
-            left = duration_us - now
-            gone = way + sign * distance * (left / gap)
-            voltage.residual[y, x] = min(max(gone, -MOST_RESIDUAL), MOST_RESIDUAL)
-            voltage.signal[y, x] = driven + signal * left
-    return columns[0][:found], columns[1][:found], columns[2][:found], columns[3][:found]
+                events = _grown(events)
+            found, way[j], gone[j] = filled, left, part
+    return events[:, :found]
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _see(
+    before: NDArray[Any],
+    now: NDArray[Any],
+    constants: Constants,
+    duration_us: float,
+    block: _Block,
+) -> None:
+    for j in range(now.size):
+        block.signal[j], block.drift[j], block.sigma[j] = _motion_of(
+            np.float64(before[j]), np.float64(now[j]), duration_us, constants
+        )
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _draw(block: _Block, first: int, width: int, key: np.uint64, size: int) -> None:
+    """The random numbers of each pixel's first passage, the polarity's apart."""
+    for j in range(size):
+        y = (first + j) // width
+        x = first + j - y * width
+        block.normal[j] = 1.0 - draw_uniform(key, y, x, FIRST_DRAW + 1)
+        block.gap[j] = draw_uniform(key, y, x, FIRST_DRAW + 2)
+        block.chance[j] = draw_uniform(key, y, x, FIRST_DRAW + 3)
+    for j in range(size):
+        block.normal[j] = math.sqrt(-2.0 * natural_log(block.normal[j])) * cosine_of_turns(
+            block.gap[j]
+        )
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _drift(block: _Block, way: Float64Array, driven: Float64Array, duration_us: float) -> int:
+    """Move the pixels that go with the drift for sure and do not arrive; return how many."""
+    for j in range(way.size):
+        speed, sigma = abs(block.drift[j]), block.sigma[j]
+        forward = 1.0 if block.drift[j] >= 0 else -1.0
+        against = 1.0 + forward * way[j]
+        block.distance[j] = 1.0 - forward * way[j]
+        # Not so where there is no diffusion or no drift, which is NaN or 0.
+        block.is_calm[j] = 2.0 * speed / (sigma * sigma) * against > CERTAIN
+    for j in range(way.size):
+        speed = abs(block.drift[j])
+        block.gap[j] = _passage_time(
+            block.distance[j], speed, block.sigma[j], block.normal[j], block.chance[j]
+        )
+    calm = 0
+    for j in range(way.size):
+        is_calm = block.is_calm[j] & (block.gap[j] >= duration_us)
+        block.is_calm[j] = is_calm
+        calm += is_calm
+    for j in range(way.size):
+        forward = 1.0 if block.drift[j] >= 0 else -1.0
+        gone = way[j] + forward * block.distance[j] * (duration_us / block.gap[j])
+        gone = min(max(gone, -MOST_RESIDUAL), MOST_RESIDUAL)
+        way[j] = gone if block.is_calm[j] else way[j]
+    for j in range(way.size):
+        driven[j] += block.signal[j] * duration_us if block.is_calm[j] else 0.0
+    return calm
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _walk(
+    i: int,
+    width: int,
+    key: np.uint64,
+    pace: tuple[float, float, float],
+    volts: tuple[float, float],
+    duration_us: float,
+    events: Found,
+    found: int,
+) -> tuple[int, float, float]:
+    """One pixel, passage after passage.
+
+    Returns:
+        How many events there are now, −1 if there was no room for them; and where the voltage is.
+    """
+    y = i // width
+    x = i - y * width
+    now, order = 0.0, FIRST_DRAW
+    signal, drift, sigma = pace
+    forward = 1.0 if drift >= 0 else -1.0
+    way, driven = volts
+    while True:
+        sign, distance, gap = _sample((abs(drift), sigma), forward, way, (key, y, x, order))
+        if not now + gap < duration_us:
+            break
+        if found == events.shape[1]:
+            return -1, way, driven
+        is_noise = sign * (driven + signal * gap) < 0.5
+        events[0, found], events[1, found] = i, now + gap
+        events[2, found] = (1 if sign > 0 else 0) + (2 if is_noise else 0)
+        found += 1
+        now += gap
+        way = driven = 0.0
+        order += DRAWS_PER_EVENT
+    left = duration_us - now
+    gone = way + sign * distance * (left / gap)
+    return found, min(max(gone, -MOST_RESIDUAL), MOST_RESIDUAL), driven + signal * left
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
@@ -75,8 +259,8 @@ def _sample(
     is_along = draw_uniform(key, y, x, order) < _chance_along(speed, sigma, along, against)
     sign = forward if is_along else -forward
     distance = along if is_along else against
-    normal = math.sqrt(-2.0 * math.log(1.0 - draw_uniform(key, y, x, order + 1)))
-    normal = normal * math.cos(2.0 * math.pi * draw_uniform(key, y, x, order + 2))
+    normal = math.sqrt(-2.0 * natural_log(1.0 - draw_uniform(key, y, x, order + 1)))
+    normal = normal * cosine_of_turns(draw_uniform(key, y, x, order + 2))
     chance = draw_uniform(key, y, x, order + 3)
     return sign, distance, _passage_time(distance, speed, sigma, normal, chance)
 
@@ -84,6 +268,8 @@ def _sample(
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def _chance_along(speed: float, sigma: float, along: float, against: float) -> float:
     steer = 0.0 if speed == 0 else 2.0 * speed / (sigma * sigma)
+    if steer * against > CERTAIN:
+        return 1.0
     whole = math.expm1(-steer * (along + against))
     if whole == 0:
         return against / (along + against)
@@ -95,37 +281,20 @@ def _passage_time(
     distance: float, speed: float, sigma: float, normal: float, chance: float
 ) -> float:
     spread, pull = sigma * sigma * normal * normal, 2.0 * speed * distance
-    if spread == 0 and speed == 0:
-        return math.inf
     mean = distance / speed
-    if spread < pull:
-        w = spread / pull
-        short = mean / (1.0 + w + math.sqrt(w * (w + 2.0)))
-    else:
-        q = pull / spread
-        short = 2.0 * distance * distance / spread / (1.0 + q + math.sqrt(1.0 + 2.0 * q))
-    if speed == 0 or chance * (mean + short) <= mean:
-        return short
-    return mean * mean / short
+    w, q = spread / pull, pull / spread
+    # Both roots, then one of them: without branches this fills vector registers.
+    with_drift = mean / (1.0 + w + math.sqrt(w * (w + 2.0)))
+    with_noise = 2.0 * distance * distance / spread / (1.0 + q + math.sqrt(1.0 + 2.0 * q))
+    short = with_drift if spread < pull else with_noise
+    long = mean * mean / short
+    time = short if (speed == 0) | (chance * (mean + short) <= mean) else long
+    return math.inf if (spread == 0) & (speed == 0) else time
 
 
 @numba.njit(cache=True, nogil=True)
-def _columns(size: int) -> Columns:
-    return (
-        np.empty(size, np.int64),
-        np.empty(size, np.float64),
-        np.empty(size, np.uint8),
-        np.empty(size, np.bool_),
-    )
-
-
-@numba.njit(cache=True, nogil=True)
-def _grown(columns: Columns) -> Columns:
-    """The same columns with room for as many events again."""
-    size = columns[0].size
-    larger = _columns(2 * size)
-    larger[0][:size] = columns[0]
-    larger[1][:size] = columns[1]
-    larger[2][:size] = columns[2]
-    larger[3][:size] = columns[3]
+def _grown(events: Found) -> Found:
+    """The same events with room for as many again."""
+    larger = np.empty((3, 2 * events.shape[1]))
+    larger[:, : events.shape[1]] = events
     return larger

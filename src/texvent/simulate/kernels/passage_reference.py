@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
 from texvent.simulate.draws import draw_uniforms
+from texvent.simulate.kernels.elementary import cosine_of_turns, natural_log
 from texvent.simulate.kernels.passage import (
+    CERTAIN,
     DRAWS_PER_EVENT,
     FIRST_DRAW,
     MOST_RESIDUAL,
+    Constants,
     Float64Array,
+    Light,
     Motion,
     Passages,
     Voltage,
@@ -34,6 +38,44 @@ def find_passages(motion: Motion, voltage: Voltage, key: np.uint64, duration_us:
     Source: Lin et al., "DVS-Voltmeter: stochastic process-based event simulator for dynamic
         vision sensors", ECCV 2022, Algorithm 1.
     """
+    return _find(motion, voltage, key, duration_us, 0)
+
+
+def find_passages_in_light(
+    light: Light, voltage: Voltage, key: np.uint64, duration_us: float
+) -> Passages:
+    """The same for the motion that light makes; see `motion_of`."""
+    before, now = (luma.astype(np.float64) for luma in (light.before, light.now))
+    motion = Motion(*motion_of(before, now, duration_us, light.constants))
+    return _find(motion, voltage, key, duration_us, light.first_row)
+
+
+def motion_of(
+    before: Any, after: Any, duration_us: float, constants: Constants
+) -> tuple[Any, Any, Any]:
+    """Drift and diffusion of voltages between two frames; also compiled, for single pixels.
+
+    Args:
+        before: light at the start, 0..255 scale, float64, any shape.
+        after: light at the end.
+        duration_us: time between them, µs.
+        constants: k1 to k6.
+
+    Returns:
+        k1 ΔL / Δt / (L + k2); that and k4 + k5 L; σ = k3 √L / (L + k2) + k6; L the mean of both.
+
+    Equation: (10) and (11) of the publication.
+    """
+    mean = (before + after) * 0.5
+    gain = 1.0 / (mean + constants.k2)
+    signal = constants.k1 * (after - before) / duration_us * gain
+    drift = signal + constants.k4 + constants.k5 * mean
+    return signal, drift, constants.k3 * np.sqrt(mean) * gain + constants.k6
+
+
+def _find(
+    motion: Motion, voltage: Voltage, key: np.uint64, duration_us: float, first_row: int
+) -> Passages:
     height, width = motion.drift.shape
     pixel = np.arange(height * width)
     signal, drift, sigma = (array.reshape(-1) for array in motion)
@@ -42,7 +84,7 @@ def find_passages(motion: Motion, voltage: Voltage, key: np.uint64, duration_us:
     found = []
     order = FIRST_DRAW
     while pixel.size:
-        y, x = np.divmod(pixel, width)
+        y, x = np.divmod(pixel + first_row * width, width)
         chances = [draw_uniforms(key, y, x, order + i) for i in range(DRAWS_PER_EVENT)]
         way, speed = residual[pixel], np.abs(drift[pixel])
         forward = np.where(drift[pixel] >= 0, 1.0, -1.0)
@@ -50,8 +92,7 @@ def find_passages(motion: Motion, voltage: Voltage, key: np.uint64, duration_us:
         is_along = chances[0] < chance_along(speed, sigma[pixel], along, against)
         sign = np.where(is_along, forward, -forward)
         distance = np.where(is_along, along, against)
-        normal = np.sqrt(-2.0 * _exactly(math.log, 1.0 - chances[1]))
-        normal = normal * _exactly(math.cos, 2.0 * math.pi * chances[2])
+        normal = np.sqrt(-2.0 * natural_log(1.0 - chances[1])) * cosine_of_turns(chances[2])
         gap = passage_time(distance, speed, sigma[pixel], normal, chances[3])
         fires = now + gap < duration_us
 
@@ -70,7 +111,7 @@ def find_passages(motion: Motion, voltage: Voltage, key: np.uint64, duration_us:
     # Stable, so a pixel's events keep their order.
     by_pixel = np.argsort(pixels, kind="stable")
     return Passages(
-        pixels[by_pixel],
+        pixels[by_pixel] + first_row * width,
         np.concatenate([events.after_us for events in found])[by_pixel],
         np.concatenate([events.p for events in found])[by_pixel],
         np.concatenate([events.is_noise for events in found])[by_pixel],
@@ -95,9 +136,13 @@ def chance_along(
         steer = 2.0 * speed / (sigma * sigma)
         # Without diffusion the drift decides; `inf` below would be 0 · ∞ where there is neither.
         steer = np.where(speed == 0, 0.0, steer)
-        whole = _exactly(math.expm1, -steer * (along + against))
-        part = _exactly(math.expm1, -steer * against)
-        return np.where(whole == 0, against / (along + against), part / whole)
+        chance = np.ones(steer.shape)
+        open_ = ~(steer * against > CERTAIN)
+        whole = _expm1(-steer[open_] * (along + against)[open_])
+        part = _expm1(-steer[open_] * against[open_])
+        drawn = against[open_] / (along + against)[open_]
+        chance[open_] = np.where(whole == 0, drawn, part / whole)
+        return chance
 
 
 def passage_time(
@@ -135,6 +180,6 @@ def passage_time(
         return np.where((spread == 0) & (speed == 0), np.inf, time)
 
 
-def _exactly(function: Callable[[float], float], x: Float64Array) -> Float64Array:
-    """A function of the C library, as the compiled twin calls it: NumPy's may round otherwise."""
-    return np.asarray(np.frompyfunc(function, 1, 1)(x), np.float64)
+def _expm1(x: Float64Array) -> Float64Array:
+    """e^x − 1 of the C library, as the compiled twin calls it: NumPy's may round otherwise."""
+    return np.asarray(np.frompyfunc(math.expm1, 1, 1)(x), np.float64)
