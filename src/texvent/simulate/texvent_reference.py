@@ -7,8 +7,6 @@ every pixel, runs here on every backend.
 
 from __future__ import annotations
 
-import numpy as np
-
 from texvent.brightness import Float64Array, balanced_log
 from texvent.events import NOISE, EventStream
 from texvent.simulate.cache import BrightnessCache
