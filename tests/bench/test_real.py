@@ -3,7 +3,6 @@
 import json
 import shutil
 
-import cv2
 import numpy as np
 import pytest
 
@@ -14,18 +13,12 @@ from texvent.bench.fidelity_table import fidelity_tables, motion_table
 from texvent.bench.real import HALVES, RealPlan, adapt_settings, real_entries, run_real
 from texvent.bench.real_scene import Part, open_scene
 from texvent.bench.results import read_report
-from texvent.bench.value_noise import ValueNoise
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.pipeline import video_to_events
 from texvent.sensor import SensorSize
-from texvent.settings import resolve
-from texvent.video import Video
 
 from ..capture.dsec_sequence import write_sequence
 
-SIZE = SensorSize(64, 48)
-FRAMES, STEP_US = 28, 40_000
 PLAN = RealPlan(
     metrics=("stpp", "count_ratio"),
     entries=(
@@ -36,40 +29,13 @@ PLAN = RealPlan(
 )
 
 
-def pan(t_us):
-    y, x = np.arange(SIZE.height, dtype=float), np.arange(SIZE.width, dtype=float)
-    return 20 + 200 * ValueNoise(3).sample(x - 150e-6 * t_us, y)
-
-
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    """A recording in the layout of the Event-Camera Dataset: a pan, seen 500 times a second."""
-    folder = tmp_path_factory.mktemp("pan")
-    (folder / "images").mkdir()
-    fine = np.arange(0, FRAMES * STEP_US, 2_000)
-    dense = Video(np.stack([pan(t_us) for t_us in fine]).astype(np.float32), fine.tolist())
-    options = {"simulator": "esim", "interpolate": "none"}
-    events = video_to_events(dense, resolve("simulate", options)).packets.collect()
-    rows = zip(events.t, events.x, events.y, events.p, strict=True)
-    lines = (f"{t / 1e6:.6f} {x} {y} {p}" for t, x, y, p in rows)
-    (folder / "events.txt").write_text("\n".join(lines) + "\n")
-    listing = []
-    for number in range(FRAMES):
-        name = f"images/frame_{number:08d}.png"
-        cv2.imwrite(str(folder / name), np.rint(pan(number * STEP_US)).astype(np.uint8))
-        # Stamped 5 ms early, as a camera that names the start of its exposure.
-        listing.append(f"{number * STEP_US / 1e6 - 0.005:.6f} {name}")
-    (folder / "images.txt").write_text("\n".join(listing[1:]) + "\n")
-    return folder
+def report(pan_folder):
+    return run_real([open_scene(str(pan_folder), Part(offset_us=5_000))], PLAN)
 
 
-@pytest.fixture(scope="module")
-def report(folder):
-    return run_real([open_scene(str(folder), Part(offset_us=5_000))], PLAN)
-
-
-def test_the_first_half_is_fitted_and_whole_segments_of_the_second_are_scored(folder):
-    scene = open_scene(str(folder), Part(offset_us=5_000))
+def test_the_first_half_is_fitted_and_whole_segments_of_the_second_are_scored(pan_folder):
+    scene = open_scene(str(pan_folder), Part(offset_us=5_000))
     assert scene.fit.stop_us <= scene.scored[0].start_us
     assert [span.stop_us - span.start_us for span in scene.scored] == [200_000] * 2
     assert scene.video.times_us[0] == 40_000
@@ -77,7 +43,7 @@ def test_the_first_half_is_fitted_and_whole_segments_of_the_second_are_scored(fo
     film = scene.film(scene.scored[0])
     assert film.times_us[0] <= scene.scored[0].start_us - 100_000
     assert film.times_us[-1] >= scene.scored[0].stop_us
-    later = open_scene(str(folder), Part(start_s=0.2, offset_us=0))
+    later = open_scene(str(pan_folder), Part(start_s=0.2, offset_us=0))
     assert later.video.times_us[0] == 235_000
 
 
@@ -94,8 +60,8 @@ def test_motion_compensation_comes_closest_and_the_bounds_bound_it(report):
     assert np.nanmean(flow.details.flow_error) < 40
 
 
-def test_an_offset_that_is_wrong_scores_lower(folder, report):
-    wrong = run_real([open_scene(str(folder), Part(offset_us=20_000))], PLAN)
+def test_an_offset_that_is_wrong_scores_lower(pan_folder, report):
+    wrong = run_real([open_scene(str(pan_folder), Part(offset_us=20_000))], PLAN)
     assert wrong.scores[1].summary("stpp").mean < report.scores[1].summary("stpp").mean - 0.02
 
 
@@ -114,8 +80,8 @@ def test_the_document_states_what_was_used_and_gives_the_page_again(report):
     assert "flow error px/s" in motion_table(report)
 
 
-def test_frames_of_a_davis_are_linear_to_models_that_ask(folder):
-    scene = open_scene(str(folder))
+def test_frames_of_a_davis_are_linear_to_models_that_ask(pan_folder):
+    scene = open_scene(str(pan_folder))
     physical = adapt_settings(Entry(simulator="physical", interpolate="flow").settings(0), scene)
     assert physical.simulate.gamma == 1.0
     assert physical.interpolate.max_intermediate == 16
@@ -123,28 +89,28 @@ def test_frames_of_a_davis_are_linear_to_models_that_ask(folder):
     assert adapt_settings(esim, scene).simulate == esim.simulate
 
 
-def test_a_config_file_is_a_row_with_its_own_threshold(folder, tmp_path):
+def test_a_config_file_is_a_row_with_its_own_threshold(pan_folder, tmp_path):
     (tmp_path / "mine.toml").write_text('simulator = "esim"\ninterpolate = "blend"\n')
     entry = ConfigEntry.read(tmp_path / "mine.toml")
     plan = RealPlan(metrics=("stpp",), entries=(entry,))
-    score = run_real([open_scene(str(folder))], plan).scores[1]
+    score = run_real([open_scene(str(pan_folder))], plan).scores[1]
     assert (score.entry, score.threshold) == ("mine", None)
 
 
-def test_true_frames_are_refused_for_recordings(folder):
+def test_true_frames_are_refused_for_recordings(pan_folder):
     plan = RealPlan(entries=(Entry(simulator="esim", interpolate="exact"),))
     with pytest.raises(ConfigError, match="true frames"):
-        run_real([open_scene(str(folder))], plan)
+        run_real([open_scene(str(pan_folder))], plan)
     assert all(entry.track == "frames" for entry in real_entries())
 
 
-def test_recordings_that_are_missing_or_too_short_are_refused(folder, tmp_path, monkeypatch):
+def test_recordings_that_are_missing_or_too_short_are_refused(pan_folder, tmp_path, monkeypatch):
     with pytest.raises(InputError, match=r"share 0\.300 s in the part"):
-        open_scene(str(folder), Part(seconds=0.4))
+        open_scene(str(pan_folder), Part(seconds=0.4))
     monkeypatch.setenv("TEXVENT_DATA", str(tmp_path))
     with pytest.raises(InputError, match="texvent data pull slider_depth"):
         open_scene("slider_depth")
-    copy = shutil.copytree(folder, tmp_path / "other")
+    copy = shutil.copytree(pan_folder, tmp_path / "other")
     (copy / "events.txt").write_text("".join(f"{9 + i / 1e3:.6f} 1 1 1\n" for i in range(9)))
     with pytest.raises(InputError, match="same clock"):
         open_scene(str(copy))

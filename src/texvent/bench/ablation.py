@@ -17,9 +17,6 @@ class ConfigEntry(Entry):
 
     path: Path
     """TOML or YAML file."""
-    is_rate_matched: bool = False
-    """Whether the contrast threshold is fitted to the number of true events, as the benchmark
-    does, or stays as the file has it, as in the paper."""
 
     @classmethod
     def read(cls, path: Path, *, is_rate_matched: bool = False) -> ConfigEntry:
@@ -41,11 +38,6 @@ class ConfigEntry(Entry):
     def name(self) -> str:
         """The file's name without its extension."""
         return self.path.stem
-
-    @property
-    def default_threshold(self) -> float | None:
-        """Where the fit of the threshold starts; None leaves the threshold as it is."""
-        return super().default_threshold if self.is_rate_matched else None
 
     def settings(self, seed: int) -> Settings:
         """Resolved options of a run.

@@ -33,6 +33,8 @@ class Entry:
     interpolate: str
     preset: str | None = None
     """Name of the options; default: the simulator's first preset."""
+    is_rate_matched: bool = True
+    """Whether the contrast threshold is fitted to the number of true events, or kept."""
 
     @property
     def name(self) -> str:
@@ -68,7 +70,12 @@ class Entry:
 
     @property
     def default_threshold(self) -> float | None:
-        """Contrast threshold of the preset, log units; None for a simulator that has none."""
+        """Contrast threshold from which the fit starts, log units.
+
+        None for a simulator that has none, or whose threshold is kept.
+        """
+        if not self.is_rate_matched:
+            return None
         try:
             return contrast_threshold_of(self.settings(0).simulate)
         except ConfigError:

@@ -22,6 +22,7 @@ from texvent.bench.scenes import check_scene, known_flow, scene_names
 from texvent.errors import ConfigError, TexventError
 from texvent.events import EventStream
 from texvent.metrics.compare import compare, load_metric
+from texvent.metrics.protocol import Metric
 
 NULL = "shuffle all times"
 
@@ -241,8 +242,10 @@ def fit_threshold(
 
 
 def compare_all(
-    predicted: Iterable[EventStream], references: Iterable[EventStream], metrics: Sequence[str]
+    predicted: Iterable[EventStream],
+    references: Iterable[EventStream],
+    metrics: Sequence[str | Metric],
 ) -> dict[str, list[float]]:
-    """Metric → value per pair of a simulated and a true stream."""
+    """Name of the metric → value per pair of a simulated and a true stream."""
     rows = [compare(one, other, metrics) for one, other in zip(predicted, references, strict=True)]
-    return {metric: [row[metric] for row in rows] for metric in metrics}
+    return {name: [row[name] for row in rows] for name in (rows[0] if rows else ())}

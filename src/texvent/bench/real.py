@@ -24,6 +24,7 @@ from texvent.errors import ConfigError, TexventError
 from texvent.events import EventStream
 from texvent.metrics.compare import load_metric
 from texvent.metrics.contrast_maximisation import estimate_patch_flow
+from texvent.metrics.protocol import Metric
 from texvent.settings import Settings, apply_options
 
 Announce: TypeAlias = Callable[[str], None]
@@ -48,7 +49,7 @@ class RealPlan:
         ConfigError: an unknown metric.
     """
 
-    metrics: Sequence[str] = (
+    metrics: Sequence[str | Metric] = (
         "stpp",
         "van_rossum",
         "nearest",
@@ -63,7 +64,8 @@ class RealPlan:
 
     def __post_init__(self) -> None:
         for metric in self.metrics:
-            load_metric(metric)
+            if isinstance(metric, str):
+                load_metric(metric)
 
 
 def real_entries() -> list[Entry]:

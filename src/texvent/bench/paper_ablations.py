@@ -1,0 +1,39 @@
+"""The paper's Tables 4 and 5 on scenes with true events and on recordings, by STPP."""
+
+from __future__ import annotations
+
+from texvent.bench.paper_tables import TABLES, OurFigures
+from texvent.bench.results import FidelityReport
+
+BASELINE = "Texvent"
+EQS_NEED = (
+    "EQS itself: it needs RVT's weights, and streams of N-ImageNet beside streams simulated from "
+    "their captions, which no one publishes"
+)
+
+
+def ablation_figures(number: int, report: FidelityReport) -> OurFigures:
+    """STPP of the rows of Table 4 or 5, and its paired difference to the paper's own setting.
+
+    Args:
+        number: 4 or 5.
+        report: a run of the files in configs/paper, on scenes, on recordings, or both.
+    """
+    figures: dict[str, dict[str, str]] = {}
+    for reference in report.references:
+        scores = {one.entry: one for one in report.ranked(reference.scene, reference.target)}
+        baseline = scores.get(BASELINE)
+        stpp: dict[str, str] = {}
+        difference: dict[str, str] = {}
+        for column in TABLES[number].columns:
+            if column not in scores:
+                continue
+            score = scores[column]
+            lost = " (count not reached)" if score.threshold and not score.is_matched else ""
+            stpp[column] = f"{score.summary('stpp').mean:.3f}{lost}"
+            if baseline is not None and column != BASELINE:
+                found = score.difference("stpp", baseline)
+                difference[column] = f"{found.mean:+.3f} ± {found.standard_error:.3f}"
+        figures[f"STPP ↑, {reference.title}"] = stpp
+        figures[f"− {BASELINE}, {reference.title}"] = difference
+    return OurFigures(figures, needs=[EQS_NEED])
