@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import datetime
+import functools
+import hashlib
 import pickle
 import re
 import zipfile
@@ -72,6 +74,20 @@ def read_mapping(
             f"{path} holds {type(content).__name__}, not named tensors; {where_from}"
         )
     return content
+
+
+def describe_file(path: Path) -> dict[str, str]:
+    """What identifies a weights file in the provenance of events: its name and its sha256."""
+    state = path.stat()
+    return {"file": path.name, "sha256": _digest(path, state.st_size, state.st_mtime_ns)}
+
+
+@functools.cache
+def _digest(path: Path, size: int, changed_ns: int) -> str:
+    """Digest of a file; size and time of change are there so that another file is read again."""
+    del size, changed_ns
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def named_tensors(mapping: Mapping[str, Any], *, extra: str) -> dict[str, Tensor]:

@@ -138,6 +138,7 @@ class Simulation:
             "seed": self.settings.run.seed,
             "settings": self.settings.as_tables(),
             "texvent_version": __version__,
+            **_weight_files(self.settings),
         }
 
 
@@ -148,6 +149,23 @@ def _build_simulator(settings: Settings) -> Simulator:
     options = {} if run.backend == "auto" else {"backend": run.backend}
     simulator: Simulator = build(settings.simulate, seed=run.seed, **options)
     return simulator
+
+
+def _weight_files(settings: Settings) -> dict[str, Any]:
+    """Which weight files the networks of a run read, under "weights"; nothing where it has none."""
+    parts = {
+        "interpolator": (
+            INTERPOLATORS.load(settings.interpolate.interpolate),
+            settings.interpolate,
+        ),
+        "simulator": (SIMULATORS.load(settings.run.simulator), settings.simulate),
+    }
+    files = {
+        role: part.provenance(config)
+        for role, (part, config) in parts.items()
+        if hasattr(part, "provenance")
+    }
+    return {"weights": files} if files else {}
 
 
 def _with_luma(frames: Iterable[Frame]) -> Iterator[Frame]:

@@ -1,6 +1,7 @@
 """RIFE from a published file to frames: any size, pixel type, device option; refusals by name."""
 
 import copy
+import hashlib
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,6 +17,8 @@ from texvent.interpolate.rife import RifeInterpolator
 from texvent.interpolate.rife_layouts import LAYOUTS, RIFE_4_0
 from texvent.interpolate.rife_network import Motion
 from texvent.interpolate.rife_weights import read_rife_weights, write_rife_weights
+from texvent.pipeline import video_to_events
+from texvent.settings import resolve
 from texvent.video import Frame, Video
 
 from .rife_files import random_tensors, save_published
@@ -265,7 +268,7 @@ def not_a_number(path):
         (nothing, "cannot be read as network weights"),
         (other_network, "has no tensor of RIFE's network"),
         (no_mapping, "holds list, not named tensors"),
-        (code, "cannot be read as network weights"),
+        (code, "an object of class .*whose code would have to be run"),
         (another_version, r"has block1\.conv0\.0\.0\.weight of shape \[4, 20, 3, 3\].*4\.6"),
         (a_layer_less, r"lacks block3\.lastconv\.0\.bias"),
         (one_more, r"has the unknown block4\.conv"),
@@ -338,3 +341,19 @@ def test_a_video_is_densified_with_rife(build):
     config = InterpolateConfig(interpolate="rife", count="fixed", fixed_count=2, detect_cuts=False)
     frames = list(densify(video, build(), config, balance=30.0, contrast_threshold=0.2))
     assert [frame.is_source for frame in frames] == [True, False, False, True]
+
+
+def test_events_store_which_weights_made_them(files, tmp_path):
+    path = tmp_path / "mine.pkl"
+    video = Video(noise(), [0, 40_000])
+    settings = resolve(
+        "simulate", {"interpolate": "rife", "interpolator_weights": str(path), "fixed_count": 1}
+    )
+    for layout in ("4.0", "4.6"):  # one path, another file: it is looked at again
+        path.write_bytes(files[layout].read_bytes())
+        sha256 = hashlib.sha256(path.read_bytes()).hexdigest()
+        expected = {"file": "mine.pkl", "sha256": sha256, "layout": layout}
+        metadata = video_to_events(video, settings).packets.collect().metadata
+        assert metadata["weights"] == {"interpolator": expected}
+    plain = video_to_events(video, resolve("simulate", {"interpolate": "blend"}))
+    assert "weights" not in plain.provenance

@@ -1,6 +1,7 @@
 """Super SloMo from a checkpoint in the published format, against a reference in NumPy."""
 
 import datetime
+import hashlib
 import sys
 
 import numpy as np
@@ -196,6 +197,14 @@ class TestWithTorch:
         path.write_bytes(path.read_bytes()[:5000])
         with pytest.raises(FileFormatError, match=r"SuperSloMo\.ckpt cannot be read"):
             read_checkpoint(path)
+
+    def test_the_checkpoint_is_named_in_the_provenance(self, torch, tmp_path):
+        path = save(torch, tmp_path / "SuperSloMo.ckpt")
+        config = InterpolateConfig(interpolator_weights=path)
+        assert INTERPOLATORS.load("super-slomo").provenance(config) == {
+            "file": "SuperSloMo.ckpt",
+            "sha256": hashlib.sha256(path.read_bytes()).hexdigest(),
+        }
 
     def test_missing_weights_say_where_they_come_from(self, torch, stream, tmp_path):
         build = INTERPOLATORS.load("super-slomo")

@@ -1,6 +1,7 @@
 """V2CE's sequences, options and errors; the network itself is in test_v2ce_network."""
 
 import copy
+import hashlib
 import itertools
 import re
 import sys
@@ -230,6 +231,10 @@ def test_a_run_uses_whole_sequences(model, weights):
     expected = answers(model(sequence_length=4), frames)
     assert simulation.packets.collect().equals(expected.without_label())
     assert simulation.provenance["settings"]["simulate"]["weights"] == str(weights)
+    sha256 = hashlib.sha256(weights.read_bytes()).hexdigest()
+    assert simulation.provenance["weights"] == {
+        "simulator": {"file": weights.name, "sha256": sha256}
+    }
     found = texvent.simulate(video, simulator="v2ce", weights=weights, sequence_length=4)
     assert found.equals(expected.without_label())
 

@@ -9,7 +9,11 @@ from texvent.video import Frame
 
 
 class Interpolator(Protocol):
-    """Makes the frames between two source frames."""
+    """Makes the frames between two source frames.
+
+    A class whose weights are a file of the user's may offer `provenance(config)`: facts about that
+    file, to be stored with the events.
+    """
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterable[Frame]:
         """Intermediate luma frames at `times_us`, all strictly inside (first, second).

@@ -21,7 +21,11 @@ from texvent.interpolate.position import check_between, position
 from texvent.interpolate.rife_estimator import PreparedPair, RifeEstimator
 from texvent.interpolate.rife_network import Motion
 from texvent.interpolate.rife_shared import MIDDLE, move_motion
-from texvent.interpolate.rife_weights import find_rife_weights, read_rife_weights
+from texvent.interpolate.rife_weights import (
+    describe_rife_weights,
+    find_rife_weights,
+    read_rife_weights,
+)
 from texvent.interpolate.torch_warp import warp
 from texvent.video import Frame, FrameStream
 
@@ -58,6 +62,16 @@ class RifeInterpolator:
         weights = read_rife_weights(self._path)
         self._estimator = RifeEstimator(weights, self._placement, config)
         self._is_shared = config.rife_flow == "shared"
+
+    @staticmethod
+    def provenance(config: InterpolateConfig) -> dict[str, str]:
+        """Name, sha256 and layout of the weights file; stored with the events.
+
+        Raises:
+            MissingDependencyError, InputError, FileFormatError: as when it is built.
+        """
+        require("torch", extra=EXTRA)
+        return describe_rife_weights(find_rife_weights(config.interpolator_weights))
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
         """Frames with every point moved along its path from `first` to `second`.

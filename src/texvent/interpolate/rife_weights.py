@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
 from pathlib import Path
 
 from texvent._cache import cache_folder
-from texvent._network_files import Tensor, check_finite, named_tensors, read_mapping
+from texvent._network_files import (
+    Tensor,
+    check_finite,
+    describe_file,
+    named_tensors,
+    read_mapping,
+)
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError
 from texvent.interpolate.network_files import EXTRA
@@ -65,6 +72,22 @@ def read_rife_weights(path: Path) -> RifeWeights:
         raise FileFormatError(f"{path} {_describe_mismatch(inner)}; {WHERE_FROM}")
     check_finite(inner, path)
     return RifeWeights(layout, inner)
+
+
+def describe_rife_weights(path: Path) -> dict[str, str]:
+    """Name, sha256 and layout of a weights file, for the provenance of events.
+
+    Raises:
+        FileFormatError, MissingDependencyError: as `read_rife_weights`.
+    """
+    facts = describe_file(path)
+    return {**facts, "layout": _layout_name(path, facts["sha256"])}
+
+
+@functools.cache
+def _layout_name(path: Path, sha256: str) -> str:
+    del sha256  # only so that another file under that path is read again
+    return read_rife_weights(path).layout.name
 
 
 def write_rife_weights(weights: RifeWeights, path: Path) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from texvent._network_files import describe_file
 from texvent._require import require
 from texvent.config import InterpolateConfig
 from texvent.errors import FileFormatError
@@ -57,6 +58,16 @@ class SuperSlomoInterpolator:
         networks = read_checkpoint(self._path)
         self._flow_net = self._load(networks[FLOW_NET.key])
         self._refine_net = self._load(networks[REFINE_NET.key])
+
+    @staticmethod
+    def provenance(config: InterpolateConfig) -> dict[str, str]:
+        """Name and sha256 of the checkpoint; stored with the events.
+
+        Raises:
+            MissingDependencyError, ConfigError, InputError: as when it is built.
+        """
+        require("torch", extra=EXTRA)
+        return describe_file(check_checkpoint_path(config.interpolator_weights))
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
         """Frames with every point moved along its path from `first` to `second`.

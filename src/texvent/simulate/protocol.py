@@ -16,7 +16,8 @@ class Simulator(Protocol):
     keyed by (seed, frame, y, x), so neither threads nor chunk sizes nor backend change an event.
 
     A model may also declare `default_interpolate`, the interpolation it was made for, and one that
-    must see later frames offers `steps`; see `look_ahead`.
+    must see later frames offers `steps`; see `look_ahead`. One whose weights are a file of the
+    user's may offer `provenance(config)`: facts about that file, to be stored with the events.
     """
 
     config_type: ClassVar[type]

@@ -14,6 +14,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from texvent._network_files import describe_file
 from texvent.config import check_range
 from texvent.events import EventStream
 from texvent.simulate import ldati, ldati_reference
@@ -84,6 +85,16 @@ class V2ceSimulator(StreamingSimulator[V2ceConfig]):
         super().__init__(config, seed=seed, backend=backend)
         path = check_weights_path(self.config.weights)
         self._network = load_network(path, self.config.device)
+
+    @staticmethod
+    def provenance(config: V2ceConfig) -> dict[str, str]:
+        """Name and sha256 of the weights file; stored with the events.
+
+        Raises:
+            ConfigError: no file was named.
+            InputError: there is no such file.
+        """
+        return describe_file(check_weights_path(config.weights))
 
     @property
     def contrast_threshold(self) -> float:
