@@ -82,8 +82,9 @@ def test_where_it_is_open_whether_a_pixel_fires_all_its_later_pictures_are_liste
     levels = own_levels(TAKES, up=60 / 50)
     pictures = Pictures(np.float32([[20]]), np.float32([[30]]), STILL, STILL)
     assert find(pictures, one_grid([0.99999]), levels).piece.tolist() == [1]
-    late = find(blended(20, 30), one_grid([1.0, 1.0, 1.0]), levels)
-    assert late.piece.tolist() == [0, 1, 2, 3]
+    for rule in (TAKES, STEPS_ONCE, STEPS):
+        late = find(blended(20, 30), one_grid([1.0, 0.5, 0.3]), own_levels(rule, up=60 / 50))
+        assert late.piece.tolist() == [0, 1, 2, 3]
 
 
 @kernels

@@ -34,6 +34,9 @@ Columns = tuple[
     NDArray[np.float32],
 ]
 FIRST_ROOM = 1024
+BUSY, PROBE = 0.9, 8
+"""After a row of which a larger share than `BUSY` is active, all pixels are followed, up to the
+next row whose number is a multiple of `PROBE`."""
 
 
 def find_candidates(pictures: Pictures, grids: Grids, levels: Levels) -> Candidates:
@@ -80,8 +83,13 @@ def _find(
     found, columns = 0, _columns(FIRST_ROOM)
     active, chosen = np.empty(width, np.int64), np.empty(width, np.int64)
     shown = np.empty(FIRST_ROOM, np.float32)
+    number = 0
     for row in range(rows[0], rows[1]):
-        number = list_active(pictures, levels, cells, row, active)
+        # Where nearly all pixels may fire, looking for the others is not worth while.
+        if number <= BUSY * width or row % PROBE == 0:
+            number = list_active(pictures, levels, cells, row, active)
+        else:
+            number = _list_all(active)
         room = _choose_grids(pictures, grids, levels.balance, row, active[:number], chosen)
         if room > shown.size:
             shown = np.empty(2 * room, np.float32)
@@ -92,6 +100,13 @@ def _find(
             pictures, grids, levels, row, (active[:number], chosen), shown, (columns, found)
         )
     return found, columns
+
+
+@numba.njit(cache=True, nogil=True)
+def _list_all(active: NDArray[np.int64]) -> int:
+    for column in range(active.size):
+        active[column] = column
+    return active.size
 
 
 @numba.njit(cache=True, nogil=True)
@@ -177,21 +192,26 @@ def _follow(
         column = active[k]
         before = earlier[row, column]
         level = reference[row, column] if reference.size else np.float64(before) + balance
+        above, below = level * (up * (1.0 - MARGIN)), level * (down * (1.0 + MARGIN))
         is_open: bool | np.bool_ = False
         for j in range(parts[chosen[k]]):
             now = shown[filled + j]
             shifted = np.float64(now) + balance
-            is_up = shifted >= level * (up * (1.0 - MARGIN))
-            is_down = shifted <= level * (down * (1.0 + MARGIN))
-            if is_open or is_up or is_down:
+            is_up, is_down = shifted >= above, shifted <= below
+            if is_up | is_down:
                 pixel[found] = row * earlier.shape[1] + column
                 grid[found], piece[found] = chosen[k], j
                 befores[found], nows[found] = before, now
                 found += 1
                 level, is_unclear = _move(level, shifted, is_up, is_down, (up, down, rule))
-                is_open = is_open or is_unclear
+                above, below = level * (up * (1.0 - MARGIN)), level * (down * (1.0 + MARGIN))
+                is_open |= is_unclear
+                if is_open:
+                    # From here on every picture is listed.
+                    above = -np.inf
             if rule == FOLLOWS:
                 level = shifted
+                above, below = level * (up * (1.0 - MARGIN)), level * (down * (1.0 + MARGIN))
             before = now
         filled += parts[chosen[k]]
     return found

@@ -50,14 +50,8 @@ def find_reachable(
     reach = np.empty((down, across, 2), np.int64)
     for i in range(down):
         rows = slice(i * CELL, min((i + 1) * CELL, height))
-        for j in range(across):
-            columns = slice(j * CELL, min((j + 1) * CELL, width))
-            first, second = earlier[rows, columns], later[rows, columns]
-            own[i, j, 0] = min(first.min(), second.min())
-            own[i, j, 1] = max(first.max(), second.max())
-            for axis in range(2):
-                ahead, back = forward[rows, columns, axis], backward[rows, columns, axis]
-                reach[i, j, axis] = _cells_reached(ahead, back)
+        flows = forward[rows], backward[rows]
+        _look_at_cells(earlier[rows], later[rows], flows, own[i], reach[i])
     for i in range(down):
         for j in range(across):
             aside, above = reach[i, j]
@@ -70,16 +64,34 @@ def find_reachable(
 
 
 @numba.njit(cache=True, nogil=True)
-def _cells_reached(ahead: NDArray[np.float32], back: NDArray[np.float32]) -> int:
-    """How many cells away a cell's flow leads along one axis, `FARTHEST` + 1 if further."""
-    longest = np.float32(0)
-    for y in range(ahead.shape[0]):
-        for x in range(ahead.shape[1]):
-            longest = max(longest, max(abs(ahead[y, x]), abs(back[y, x])))
-    if longest > CELL * FARTHEST:
-        return FARTHEST + 1
-    # A bilinear sample touches the pixel behind its position too.
-    return (math.ceil(longest) + CELL) // CELL
+def _look_at_cells(
+    earlier: NDArray[np.float32],
+    later: NDArray[np.float32],
+    flows: tuple[NDArray[np.float32], NDArray[np.float32]],
+    own: NDArray[np.float32],
+    reach: NDArray[np.int64],
+) -> None:
+    """Extremes of one row of cells, and how many cells away their flow leads along x and y."""
+    forward, backward = flows
+    height, width = earlier.shape
+    low, high = np.minimum(earlier[0], later[0]), np.maximum(earlier[0], later[0])
+    farthest = np.zeros(2 * width, np.float32)
+    for y in range(height):
+        first, second = earlier[y], later[y]
+        for x in range(width):
+            low[x] = min(low[x], min(first[x], second[x]))
+            high[x] = max(high[x], max(first[x], second[x]))
+        ahead, back = forward[y].reshape(-1), backward[y].reshape(-1)
+        for x in range(2 * width):
+            farthest[x] = max(farthest[x], max(abs(ahead[x]), abs(back[x])))
+    for j in range(len(own)):
+        columns = slice(j * CELL, min((j + 1) * CELL, width))
+        own[j, 0], own[j, 1] = low[columns].min(), high[columns].max()
+        for axis in range(2):
+            longest = farthest[2 * columns.start + axis : 2 * columns.stop : 2].max()
+            # A bilinear sample touches the pixel behind its position too.
+            far = longest > CELL * FARTHEST
+            reach[j, axis] = FARTHEST + 1 if far else (math.ceil(longest) + CELL) // CELL
 
 
 @numba.njit(cache=True, nogil=True)
