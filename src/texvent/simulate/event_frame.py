@@ -7,8 +7,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.kernels.interface import Kernels
-
 
 class EventFrame(NamedTuple):
     """What fired in one sub-interval, a row per pixel, in row-major order."""
@@ -36,8 +34,35 @@ class Activations(NamedTuple):
         return (self.change > 0).astype(np.uint8)
 
 
+class Crossings(NamedTuple):
+    """The pixels that fired in one sub-interval, in row-major order."""
+
+    pixel: NDArray[np.int64]
+    """[n] flat index y · W + x, ascending."""
+    change: NDArray[np.float64]
+    """[n] brightness minus reference brightness, log units; its sign is the polarity."""
+
+
+def find_crossings(
+    brightness: NDArray[np.float64], reference: NDArray[np.float64], threshold: float
+) -> Crossings:
+    """Pixels whose brightness lies `threshold` or more from their reference.
+
+    Args:
+        brightness: L(α + I^j), [H, W], log units.
+        reference: reference brightness of each pixel, [H, W], log units.
+        threshold: δ, log units, above 0.
+
+    Equation: (1) for a pixel, (5), section 3.2.2.
+    Deviation: Eq. 5 fires above δ, Eq. 1 from δ on, and Eq. 6 calls everything below δ background;
+        `≥` makes events and background exact complements.
+    """
+    change = brightness - reference
+    fired = np.abs(change) >= threshold
+    return Crossings(np.flatnonzero(fired), change[fired])
+
+
 def generate_event_frame(
-    kernels: Kernels,
     brightness: NDArray[np.float64],
     reference: NDArray[np.float64],
     *,
@@ -47,17 +72,16 @@ def generate_event_frame(
     """Compare brightness with the reference and let pixels fire.
 
     Args:
-        kernels: the backend that scans the pixels.
         brightness: L(α + I^j), [H, W], log units.
         reference: L(α + κ ⋄ I^{j−1}), [H, W], log units.
         threshold: δ, log units.
         multi_event: floor(|change| / δ) events per pixel instead of one.
 
     Equation: (5), section 3.2.2; and (1) for a pixel.
-    Deviation: fires at δ itself (see `kernels.reference.find_crossings`); the paper does not say
-        how many events a change of several δ makes: one, unless `multi_event` is set.
+    Deviation: fires at δ itself (see `find_crossings`); the paper does not say how many events a
+        change of several δ makes: one, unless `multi_event` is set.
     """
-    pixel, change = kernels.find_crossings(brightness, reference, threshold)
+    pixel, change = find_crossings(brightness, reference, threshold)
     return EventFrame(pixel, change, count_events(change, threshold, multi_event=multi_event))
 
 

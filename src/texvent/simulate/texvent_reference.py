@@ -13,7 +13,6 @@ from texvent.simulate.cache import BrightnessCache
 from texvent.simulate.event_frame import EventFrame, generate_event_frame, list_activations
 from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.interval import SubInterval
-from texvent.simulate.kernels.select import load_kernels
 from texvent.simulate.noise import (
     draw_noise,
     draw_voltage_noise,
@@ -69,7 +68,6 @@ class DensePixels:
     def _generate_event_frame(self, brightness: Float64Array, interval: SubInterval) -> EventFrame:
         """Eq. 5."""
         return generate_event_frame(
-            load_kernels(self._backend),
             brightness,
             interval.reference,
             threshold=self._config.contrast_threshold,

@@ -5,26 +5,17 @@ from __future__ import annotations
 import functools
 import importlib
 import importlib.util
-from typing import cast
 
 from texvent._registry import suggest
 from texvent._require import require
 from texvent.errors import ConfigError, MissingDependencyError
-from texvent.simulate.kernels.interface import Kernels
 from texvent.simulate.kernels.readiness import is_ready
 
 AUTO = "auto"
 _FOLDER = "texvent.simulate.kernels"
-_MODULES = {
-    "cpu": f"{_FOLDER}.cpu",
-    "numpy": f"{_FOLDER}.reference",
-    "reference": f"{_FOLDER}.reference",
-}
 _PACKAGES = {"cpu": "numba"}
-BACKENDS = (AUTO, *_MODULES)
-"""Names that `load_kernels` takes; "auto" is the first of the others that can be imported."""
-
-
+BACKENDS = (AUTO, "cpu", "numpy", "reference")
+"""Names of backends; "auto" is the first of the others that is ready."""
 GPU = "gpu"
 """Runs whole models instead of kernels, those that have it; see `texvent.simulate.gpu`."""
 
@@ -43,27 +34,6 @@ def check_backend(backend: str, *, has_gpu: bool = False) -> str:
     if backend not in allowed:
         raise ConfigError(f"unknown backend {backend!r}; {suggest(backend, allowed)}")
     return backend
-
-
-@functools.cache
-def load_kernels(backend: str = AUTO) -> Kernels:
-    """The kernels of a backend. "auto" is "cpu", or "reference" where Numba is missing.
-
-    Raises:
-        ConfigError: no backend has that name.
-        MissingDependencyError: what the backend needs is not installed.
-    """
-    check_backend(backend)
-    if backend != AUTO:
-        if backend in _PACKAGES:
-            require(_PACKAGES[backend])
-        # A module satisfies the protocol by its functions.
-        return cast("Kernels", importlib.import_module(_MODULES[backend]))
-    try:
-        return load_kernels("cpu")
-    except MissingDependencyError:
-        # Not an error: the reference gives the same events, only later.
-        return load_kernels("reference")
 
 
 def load_kernel(model: str, function: str, backend: str) -> object:
