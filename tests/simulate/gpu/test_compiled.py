@@ -25,7 +25,19 @@ def test_every_kernel_compiles_for_hopper_without_spilling_registers(tmp_path):
     )
     assert done.returncode == 0, done.stderr
     usage = json.loads(done.stdout)
-    assert len(usage) == 26
+    kernels = {name.split(",")[0] for name in usage}
+    assert kernels == {
+        "draw_noise",
+        "find_extremes",
+        "stamp_crossings",
+        "stamp_events",
+        "unpack_events",
+        "walk_brightness",
+        "walk_levels",
+        "walk_ramp",
+    }
     for name, used in usage.items():
         assert 0 < used["REG"] <= MOST_REGISTERS, (name, used)
-        assert used["STACK"] == used["LOCAL"] == 0, (name, used)
+        assert used["LOCAL"] == 0, (name, used)
+        # A division in float64 may call a routine, which keeps 8 bytes.
+        assert used["STACK"] <= 8, (name, used)

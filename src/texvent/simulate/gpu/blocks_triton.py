@@ -5,6 +5,10 @@ from __future__ import annotations
 import triton
 import triton.language as tl
 
+from texvent.simulate.gpu import kernel_types
+
+_PER_MARK = tl.constexpr(kernel_types.PIXELS_PER_MARK)
+
 
 @triton.jit
 def read(pointer: tl.tensor, inside: tl.tensor) -> tl.tensor:
@@ -57,10 +61,10 @@ def mark_fired(
 ) -> None:
     """Keep a bit for every pixel that fired, where anybody asks for it (`Tally.fired`)."""
     if tally.fired is not None:
-        size = (area + 7) // 8
-        bits = fired.to(tl.int32) << (tl.arange(0, BLOCK) % 8)
-        byte = tl.sum(tl.reshape(bits, [BLOCK // 8, 8]), axis=1)
-        at = tl.program_id(0) * (BLOCK // 8) + tl.arange(0, BLOCK // 8)
+        size = (area + _PER_MARK - 1) // _PER_MARK
+        bits = fired.to(tl.int32) << (tl.arange(0, BLOCK) % _PER_MARK)
+        byte = tl.sum(tl.reshape(bits, [BLOCK // _PER_MARK, _PER_MARK]), axis=1)
+        at = tl.program_id(0) * (BLOCK // _PER_MARK) + tl.arange(0, BLOCK // _PER_MARK)
         tl.store(tally.fired + segment * size + at, byte.to(tl.uint8), mask=at < size)
 
 
@@ -68,11 +72,12 @@ def mark_fired(
 def write_events(records: tl.tuple, first: tl.tensor, fires: tl.tensor, event: tl.tuple) -> None:
     """Write (pixel, order, reference) of the pixels that fire, one after the other."""
     number = fires.to(tl.int32)
-    place = first + tl.cumsum(number, 0) - number
-    tl.store(records.pixel + place, event[0], mask=fires)
+    # Apart from `first`, which is wide, so that every lane adds 32 bits only.
+    rank = tl.cumsum(number, 0) - number
+    tl.store(records.pixel + first + rank, event[0], mask=fires)
     if records.order is not None:
-        tl.store(records.order + place, event[1], mask=fires)
-    tl.store(records.reference + place, event[2], mask=fires)
+        tl.store(records.order + first + rank, event[1], mask=fires)
+    tl.store(records.reference + first + rank, event[2], mask=fires)
 
 
 @triton.jit

@@ -67,7 +67,7 @@ class Tally(NamedTuple):
     """[S, blocks] int32, first pass: events of a block in an interval. Second pass: int64, where
     the block's events begin among all records."""
     fired: Tensor
-    """[S, area / 8 rounded up] uint8, or None: a bit per pixel that fired, lowest bit first."""
+    """[S, area / 4 rounded up] uint8, or None: a bit per pixel that fired, lowest bit first."""
     bad: Tensor
     """[1] int32: intensities that are NaN, infinite or negative."""
 
@@ -84,6 +84,8 @@ class Records(NamedTuple):
     """What the pixel compared with: an intensity, in the frames' type, or a brightness, float64."""
 
 
+PIXELS_PER_MARK = 4
+"""Pixels in a byte of `Tally.fired`: those of one thread, so that no thread waits for another."""
 KEEP, FORGET, LEAK = range(3)
 """Values of `Intervals.policy`."""
 ON_FRACTION, DARK_BELOW = range(2)

@@ -18,6 +18,7 @@ _TIME_UNIT = tl.constexpr(2.0**-texvent.NOISE_PLACE_SHIFT)
 _COUNT_DRAW = tl.constexpr(Purpose.NOISE_COUNT.draw())
 _PLACE_DRAW = tl.constexpr(Purpose.NOISE_PLACE.draw())
 _POLARITY_DRAW = tl.constexpr(Purpose.NOISE_POLARITY.draw())
+_PER_MARK = tl.constexpr(kernel_types.PIXELS_PER_MARK)
 _ON_FRACTION = tl.constexpr(kernel_types.ON_FRACTION)
 _DARK_BELOW = tl.constexpr(kernel_types.DARK_BELOW)
 
@@ -106,6 +107,7 @@ def _is_resting(
     """The mask M of Eq. 6 at single pixels: darker than σ, and not fired."""
     fired, rules = mask
     intensity = read_now(frames, segment, pixel, where).to(tl.float64)
-    byte = tl.load(fired + segment * ((frames.area + 7) // 8) + pixel // 8, mask=where, other=0)
-    bit = (byte.to(tl.int32) >> (pixel % 8)) & 1
+    marks = fired + segment * ((frames.area + _PER_MARK - 1) // _PER_MARK)
+    byte = tl.load(marks + pixel // _PER_MARK, mask=where, other=0)
+    bit = (byte.to(tl.int32) >> (pixel % _PER_MARK)) & 1
     return (intensity < tl.load(rules.numbers + _DARK_BELOW)) & (bit == 0)

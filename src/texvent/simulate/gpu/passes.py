@@ -12,7 +12,7 @@ from texvent._require import require
 from texvent.errors import InputError
 from texvent.simulate.gpu.device import EXTRA
 from texvent.simulate.gpu.esim_pixels import EsimPixels
-from texvent.simulate.gpu.kernel_types import Call, NoiseRules, Tally, Tensor
+from texvent.simulate.gpu.kernel_types import PIXELS_PER_MARK, Call, NoiseRules, Tally, Tensor
 from texvent.simulate.gpu.noise import NoiseDraw
 from texvent.simulate.gpu.texvent_pixels import TexventPixels
 
@@ -50,7 +50,9 @@ def run_passes(
     blocks = math.ceil(area / pixels.block)
     tally = Tally(
         torch.empty(call.segments * blocks, dtype=torch.int32, device=device),
-        torch.empty(call.segments, -(-area // 8), dtype=torch.uint8, device=device)
+        torch.empty(
+            call.segments, math.ceil(area / PIXELS_PER_MARK), dtype=torch.uint8, device=device
+        )
         if noise is not None and on_resting
         else None,
         torch.zeros(1, dtype=torch.int32, device=device),
