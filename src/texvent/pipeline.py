@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from texvent._ahead import read_ahead
+from texvent._heap import release_freed_memory
 from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS
 from texvent._version import __version__
 from texvent.capture.prepare import PreparedFrames
@@ -29,6 +30,9 @@ from texvent.settings import Settings
 from texvent.simulate.protocol import Simulator
 from texvent.simulate.training import draw_training_config
 from texvent.video import Frame, FrameStream
+
+RELEASE_EVERY_PAIRS = 256
+"""Pairs of source frames after which freed memory goes back to the system: some ten seconds."""
 
 
 def text_to_events(prompt: str, settings: Settings, *, watch: Watch | None = None) -> Simulation:
@@ -94,7 +98,7 @@ class Simulation:
         settings = self.settings
         simulator = _build_simulator(settings)
         with ExitStack() as threads:
-            pairs = self._pairs(simulator, threads)
+            pairs = _release_memory(self._pairs(simulator, threads))
             for frame, packet in advance(pairs, simulator, settings, on_cut):
                 yield frame, select(packet, settings.run)
 
@@ -173,6 +177,14 @@ def _with_luma(frames: Iterable[Frame]) -> Iterator[Frame]:
     for frame in frames:
         frame.luma  # noqa: B018  (a cached property)
         yield frame
+
+
+def _release_memory(pairs: Iterator[Pair]) -> Iterator[Pair]:
+    """The pairs; now and then, what earlier ones have freed goes back to the system."""
+    for number, pair in enumerate(pairs, start=1):
+        yield pair
+        if number % RELEASE_EVERY_PAIRS == 0:
+            release_freed_memory()
 
 
 def select(packet: EventStream, run: RunConfig) -> EventStream:
