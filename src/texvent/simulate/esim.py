@@ -19,7 +19,7 @@ from texvent.config import check_range
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.simulate.firings import Firings, Interval
-from texvent.simulate.kernels.ramp import Ramp, Rest, load_cross_ramp
+from texvent.simulate.kernels.ramp import Candidates, Levels, Rest, load_cross_levels
 from texvent.simulate.kernels.select import GPU
 from texvent.simulate.pixel_maps import (
     LONG_AGO_US,
@@ -120,61 +120,53 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
 
     def _begin(self, intensity: IntensityArray) -> None:
         config = self.config
-        self._reference = log_intensity(intensity, config.log_eps).reshape(-1)
-        self._fired_us = np.full(self._reference.shape, LONG_AGO_US)
+        reference = log_intensity(intensity, config.log_eps).reshape(-1)
+        self._levels = Levels(reference, np.full(reference.shape, LONG_AGO_US))
+        self._table = log_intensity(np.arange(256, dtype=np.uint8), config.log_eps)
         self._shape = intensity.shape
         self._is_redrawn = config.threshold_sigma > 0 and config.threshold_redraw == "frame"
         pair = draw_threshold_pair(intensity.shape, sensor_key(self._seed), config)
         self._map = pair[0].reshape(-1), pair[1].reshape(-1)
-        self._levels = TriggerLevels(
+        self._triggers = TriggerLevels(
             intensity, scale=WHITE, offset=-WHITE * config.log_eps, backend=self._backend
         )
-        self._set_levels(np.arange(intensity.size))
+        self._set_triggers(np.arange(intensity.size))
 
     def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
-        pixel, before, now = self._levels.find_outside(intensity)
-        reference = self._reference[pixel]
-        threshold_on, threshold_off = self._thresholds(pixel, interval.key)
-        crossings = load_cross_ramp(self._backend)(
-            Ramp(
-                pixel,
-                log_intensity(before, self.config.log_eps) - reference,
-                log_intensity(now, self.config.log_eps) - reference,
-                threshold_on,
-                threshold_off,
-            ),
-            self._fired_us,
+        pixel, before, now = self._triggers.find_outside(intensity)
+        table = self._table if now.dtype == np.uint8 else None
+        if table is None:
+            before, now = (log_intensity(one, self.config.log_eps) for one in (before, now))
+        crossings = load_cross_levels(now.dtype, self._backend)(
+            Candidates(pixel, before, now, table, *self._thresholds(pixel, interval.key)),
+            self._levels,
             (interval.start_us, interval.stop_us),
             Rest(self.config.refractory_period_us, is_level_lost=True),
         )
-        steps = crossings.steps
-        moved = np.where(steps > 0, threshold_on, threshold_off) * steps
-        self._reference[pixel] = reference + moved
-        self._set_levels(pixel)
+        self._set_triggers(pixel)
         return Firings.signal(crossings.pixel, crossings.t, crossings.p)
 
     def _thresholds(
         self, pixel: NDArray[np.int64], key: np.uint64
     ) -> tuple[Float64Array, Float64Array]:
-        """ON and OFF thresholds of some pixels in this interval."""
+        """ON and OFF thresholds of some pixels in this interval; [1] each if all have the same."""
         config = self.config
         if config.threshold_sigma == 0:
             on, off = config.contrast_threshold_on, config.contrast_threshold_off
-            return np.full(len(pixel), float(on)), np.full(len(pixel), float(off))
+            return np.array([float(on)]), np.array([float(off)])
         if not self._is_redrawn:
             return self._map[0][pixel], self._map[1][pixel]
         y, x = np.divmod(pixel, self._shape[1])
         return draw_threshold_pair_at(y, x, key, config)
 
-    def _set_levels(self, pixel: NDArray[np.int64]) -> None:
+    def _set_triggers(self, pixel: NDArray[np.int64]) -> None:
         """Where some pixels fire: reference ± θ."""
-        if self._is_redrawn:
-            # Any threshold may come, but none below the floor.
-            on = off = np.full(len(pixel), LOWEST_THRESHOLD)
-        else:
+        # Any threshold may be drawn, but none below the floor.
+        on = off = np.array([LOWEST_THRESHOLD])
+        if not self._is_redrawn:
             on, off = self._thresholds(pixel, np.uint64(0))
-        reference = self._reference[pixel]
-        self._levels.set(pixel, reference - off, reference + on)
+        reference = self._levels.reference[pixel]
+        self._triggers.set(pixel, reference - off, reference + on)
 
 
 def log_intensity(intensity: IntensityArray, log_eps: float) -> Float64Array:

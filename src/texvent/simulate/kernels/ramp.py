@@ -7,7 +7,7 @@ threshold crossed, and let the reference follow in steps.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple, TypeAlias, cast
+from typing import Any, NamedTuple, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -68,3 +68,44 @@ def load_cross_ramp(backend: str = AUTO) -> CrossRamp:
         MissingDependencyError: what the backend needs is not installed.
     """
     return cast("CrossRamp", load_kernel_when_ready("ramp", "cross_ramp", backend))
+
+
+class Candidates(NamedTuple):
+    """Pixels that may fire, whose brightness is a logarithm of their luma; [n] each."""
+
+    pixel: NDArray[np.int64]
+    """Flat index, ascending."""
+    before: NDArray[Any]
+    """At the start: luma if there is a table, else brightness."""
+    now: NDArray[Any]
+    """At the end, likewise."""
+    table: Float64Array | None
+    """[256] brightness of 8-bit luma, or None."""
+    threshold_on: Float64Array
+    """[n], or [1] where all pixels have the same, log units."""
+    threshold_off: Float64Array
+    """[n] or [1]."""
+
+
+class Levels(NamedTuple):
+    """What pixels compare with; a kernel moves both."""
+
+    reference: Float64Array
+    """[H · W] brightness at the last event, log units."""
+    fired_us: NDArray[np.int64]
+    """[H · W] time of the last event, µs."""
+
+
+CrossLevels: TypeAlias = Callable[[Candidates, Levels, tuple[int, int], Rest], RampCrossings]
+"""`cross_levels(candidates, levels, (start_us, stop_us), rest)`, see
+`ramp_reference.cross_levels`."""
+
+
+def load_cross_levels(dtype: np.dtype[Any], backend: str = AUTO) -> CrossLevels:
+    """The function of a backend; "auto" is NumPy until the compiled one is ready.
+
+    Raises:
+        ConfigError: no backend has that name.
+        MissingDependencyError: what the backend needs is not installed.
+    """
+    return cast("CrossLevels", load_kernel_when_ready("ramp", "cross_levels", backend, dtype.name))

@@ -3,12 +3,20 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.kernels.ramp import Ramp, RampCrossings, Rest
+from texvent.simulate.kernels.ramp import (
+    Candidates,
+    Float64Array,
+    Levels,
+    Ramp,
+    RampCrossings,
+    Rest,
+)
 
 
 def cross_ramp(
@@ -24,11 +32,60 @@ def cross_ramp(
     return RampCrossings(pixel[:found], t[:found], p[:found], steps)
 
 
-def warm_up() -> None:
-    """Compile, or load what was compiled before."""
-    one = np.ones(1)
-    ramp = Ramp(np.zeros(1, np.int64), one, one, one, one)
-    cross_ramp(ramp, np.zeros(1, np.int64), (0, 1), Rest(0, False))
+def cross_levels(
+    candidates: Candidates, levels: Levels, span_us: tuple[int, int], rest: Rest
+) -> RampCrossings:
+    """See `ramp_reference.cross_levels`."""
+    # Numba leaves out branches for arguments that are None, but not for their fields.
+    pixel, before, now, table, on, off = candidates
+    start, stop = np.empty(len(pixel)), np.empty(len(pixel))
+    _compare((pixel, before, now), table, levels.reference, start, stop)
+    on, off = (np.broadcast_to(one, pixel.shape) for one in (on, off))
+    crossings = cross_ramp(Ramp(pixel, start, stop, on, off), levels.fired_us, span_us, rest)
+    _step(pixel, crossings.steps, (on, off), levels.reference)
+    return crossings
+
+
+def warm_up(*dtypes: str) -> None:
+    """Compile, for these types of frames, or load what was compiled before."""
+    one, pixel = np.ones(1), np.zeros(1, np.int64)
+    cross_ramp(Ramp(pixel, one, one, one, one), pixel.copy(), (0, 1), Rest(0, False))
+    for dtype in dtypes:
+        is_byte = dtype == "uint8"
+        end, table = (np.zeros(1, dtype), np.ones(256)) if is_byte else (one, None)
+        candidates = Candidates(pixel, end, end, table, one, one)
+        cross_levels(candidates, Levels(one.copy(), pixel.copy()), (0, 1), Rest(0, False))
+
+
+@numba.njit(cache=True, nogil=True)
+def _compare(
+    candidates: tuple[NDArray[np.int64], NDArray[Any], NDArray[Any]],
+    table: Float64Array | None,
+    reference: Float64Array,
+    start: Float64Array,
+    stop: Float64Array,
+) -> None:
+    """Fill in the changes against the references."""
+    pixel, before, now = candidates
+    for n in range(pixel.size):
+        level = reference[pixel[n]]
+        if table is not None:
+            start[n], stop[n] = table[before[n]] - level, table[now[n]] - level
+        else:
+            start[n], stop[n] = before[n] - level, now[n] - level
+
+
+@numba.njit(cache=True, nogil=True)
+def _step(
+    pixel: NDArray[np.int64],
+    steps: NDArray[np.int64],
+    thresholds: tuple[Float64Array, Float64Array],
+    reference: Float64Array,
+) -> None:
+    """Let the references make their steps."""
+    on, off = thresholds
+    for n in range(pixel.size):
+        reference[pixel[n]] += steps[n] * (on[n] if steps[n] > 0 else off[n])
 
 
 @numba.njit(cache=True, nogil=True)

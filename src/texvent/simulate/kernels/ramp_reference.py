@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.kernels.ramp import Ramp, RampCrossings, Rest
+from texvent.simulate.kernels.ramp import Candidates, Levels, Ramp, RampCrossings, Rest
 
 
 def cross_ramp(
@@ -59,3 +59,29 @@ def cross_ramp(
     t = np.concatenate([np.empty(0, np.int64), *times])
     p = np.concatenate([np.empty(0, np.uint8), *polarities])
     return RampCrossings(pixel[order], t[order], p[order], steps)
+
+
+def cross_levels(
+    candidates: Candidates, levels: Levels, span_us: tuple[int, int], rest: Rest
+) -> RampCrossings:
+    """As `cross_ramp`, for the brightness of candidates; the references make their steps.
+
+    Args:
+        candidates: pixels that may fire, and their brightness at both ends.
+        levels: what they compare with; changed in place.
+        span_us: as for `cross_ramp`.
+        rest: as for `cross_ramp`.
+
+    Returns:
+        As `cross_ramp`.
+    """
+    pixel, before, now, table, on, off = candidates
+    if table is not None:
+        before, now = table[before], table[now]
+    reference = levels.reference[pixel]
+    on, off = (np.broadcast_to(one, pixel.shape) for one in (on, off))
+    ramp = Ramp(pixel, before - reference, now - reference, on, off)
+    crossings = cross_ramp(ramp, levels.fired_us, span_us, rest)
+    steps = crossings.steps
+    levels.reference[pixel] = reference + steps * np.where(steps > 0, on, off)
+    return crossings
