@@ -2,6 +2,7 @@
 
 import copy
 import itertools
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -260,3 +261,23 @@ def test_a_batch_with_a_bad_frame_is_refused_as_a_whole(options, backend):
     if backend != "reference":
         packets += simulator.step_batch(frames[2:])
         assert EventStream.concat(packets).equals(simulate(frames, backend=backend, **options))
+
+
+@pytest.mark.parametrize("backend", FAST)
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])
+def test_no_array_as_large_as_a_frame_is_made_after_the_first(dtype, backend):
+    """Where little fires. NumPy works on 131,072 pixels at a time, so the frame is larger."""
+    still = np.full((900, 1000), 100.0)
+    moved = still.copy()
+    moved[::90, ::100] = 160
+    simulator = TexventSimulator(TexventConfig(noise="none"), backend=backend)
+    for k in range(3):
+        simulator.step(frame(moved if k % 2 else still, dtype, 10 * k))
+    last = frame(moved, dtype, 100)
+    tracemalloc.start()
+    try:
+        assert len(simulator.step(last)) == 100
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak < (100_000 if backend == "cpu" else last.pixels.nbytes)

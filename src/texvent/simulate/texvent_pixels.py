@@ -45,10 +45,10 @@ _QUIET = NoisePlaces(np.empty(0, np.int64), np.empty(0), np.empty(0, np.uint8))
 
 
 class SparsePixels:
-    """All pixels of a sensor, by their trigger levels; see `texvent.TexventPixels`."""
+    """All pixels of a sensor, by their trigger levels; takes and gives what `DensePixels` does."""
 
     def __init__(self, config: TexventConfig, backend: str, frame: Frame, where: str) -> None:
-        """Begin with the first frame; arguments as for `advance`."""
+        """Begin with the first frame; see `texvent_reference.DensePixels`."""
         check_intensity(frame.pixels, where)
         check_balance(frame.luma, config.balance)
         self._config, self._backend = config, backend
@@ -73,7 +73,7 @@ class SparsePixels:
         )
 
     def advance(self, frame: Frame, span: Interval, where: str) -> EventStream:
-        """What fires until this frame; see `texvent.TexventPixels.advance`."""
+        """What fires until this frame; see `texvent_reference.DensePixels.advance`."""
         intensity = self._read(frame, where)
         renewal = self._schedule.renewal_after(is_source=frame.is_source)
         fired = self._fire(self._memory, intensity, renewal)

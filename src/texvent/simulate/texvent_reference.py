@@ -25,10 +25,17 @@ from texvent.video import Frame, check_intensity
 
 
 class DensePixels:
-    """All pixels of a sensor, as whole frames; see `texvent.TexventPixels`."""
+    """All pixels of a sensor, as whole frames of brightness."""
 
     def __init__(self, config: TexventConfig, backend: str, frame: Frame, where: str) -> None:
-        """Begin with the first frame; arguments as for `advance`."""
+        """Begin with the first frame.
+
+        Args:
+            config: options.
+            backend: which kernels draw noise and sort; the rest is NumPy.
+            frame: the first frame.
+            where: which frame that is, for messages.
+        """
         check_intensity(frame.pixels, where)
         self._config, self._backend = config, backend
         self._brightness = balanced_log(frame.luma, config.balance)
@@ -41,7 +48,18 @@ class DensePixels:
         )
 
     def advance(self, frame: Frame, span: Interval, where: str) -> EventStream:
-        """What fires until this frame; see `texvent.TexventPixels.advance`."""
+        """What fires until this frame.
+
+        Args:
+            frame: the next frame, of the same size.
+            span: time since the frame before, and the key of its random draws.
+            where: which frame it is, for messages.
+
+        Raises:
+            InputError: an intensity is NaN, infinite or negative, or Gaussian noise would fire
+                every time; the pixels are then as they were.
+            ConfigError: the balance is 0 and a pixel is black; the same.
+        """
         check_intensity(frame.pixels, where)
         brightness = balanced_log(frame.luma, self._config.balance)
         interval = self._compare_with_cache(brightness, span)  # κ ⋄ I^{j−1}
