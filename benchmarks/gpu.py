@@ -3,8 +3,9 @@
     python -m benchmarks.gpu [--json FILE]
 
 Whole calls as a user makes them: frames on the device → events on the device, in order, the one
-wait for their number included. RIFE has random weights: its time does not depend on them. Warm-up
-calls, which compile the kernels, are not timed. It ends within four minutes.
+wait for their number included. A few calls follow each other without another wait, as in a loop
+over batches. RIFE has random weights: its time does not depend on them. Warm-up calls, which
+compile the kernels, are not timed. It ends within four minutes.
 """
 
 from __future__ import annotations
@@ -53,9 +54,11 @@ class Plan:
     size: SensorSize = HD
     densities: tuple[float, ...] = (0.001, 0.01, 0.05, 0.2)
     batches: tuple[int, ...] = (1, 2, 4, 8, 16, 32)
-    frames: int = 32
+    frames: int = 64
     """Frames of every clip in a call."""
     repeats: int = 15
+    calls: int = 4
+    """Calls of the simulator that are timed together."""
     rife_sizes: tuple[SensorSize, ...] = (VGA, HD)
     precisions: tuple[Precision, ...] = ("float32", "float16")
     between: int = 10
@@ -113,7 +116,7 @@ def measure_simulation(plan: Plan, device: str, copy: float) -> Iterator[dict[st
     for model, pixels, density, batch in cases:
         frames = make_clips(plan, density, batch, pixels, device)
         clips = _Clips(_config(model), frames, plan)
-        times = _times(clips.run, plan.repeats, device)
+        times = _times(clips.run, plan.repeats, device, calls=plan.calls)
         count = batch * plan.frames
         per_frame = Quartiles.of([one / count for one in times], scale=1e6)
         rate = frames.element_size() * frames.numel() / 1e9 / (per_frame.median * count * 1e-6)
@@ -249,18 +252,19 @@ def check_targets(rows: list[dict[str, Any]], pairs: list[dict[str, Any]]) -> li
     ]
 
 
-def _times(call: Callable[[], Any], repeats: int, device: str) -> list[float]:
-    """Seconds of each call after two that are not timed; the device is idle before and after."""
+def _times(call: Callable[[], Any], repeats: int, device: str, *, calls: int = 1) -> list[float]:
+    """Seconds per call in each repeat after two untimed ones; the device is idle in between."""
     torch = require("torch", extra=EXTRA)
     wait = torch.cuda.synchronize if device == "cuda" else _nothing
     times = []
     for index in range(repeats + 2):
         wait()
         start = time.perf_counter()
-        call()
+        for _ in range(calls):
+            call()
         wait()
         if index >= 2:
-            times.append(time.perf_counter() - start)
+            times.append((time.perf_counter() - start) / calls)
     return times
 
 

@@ -22,8 +22,8 @@ def test_every_figure_is_measured_and_stored(monkeypatch):
     for module in (rife_layouts, rife_weights):
         monkeypatch.setattr(module, "LAYOUTS", (narrow,))
     plan = gpu.Plan(
-        size=TINY, densities=(0.2,), batches=(1, 2), frames=2, repeats=1, rife_sizes=(TINY,),
-        precisions=("float32",), between=1, copy_bytes=2**20, layout=narrow,
+        size=TINY, densities=(0.2,), batches=(1, 2), frames=2, repeats=1, calls=1,
+        rife_sizes=(TINY,), precisions=("float32",), between=1, copy_bytes=2**20, layout=narrow,
     )  # fmt: skip
     document = json.loads(
         json.dumps(gpu.measure(plan, "cuda" if torch.cuda.is_available() else "cpu"))

@@ -91,6 +91,22 @@ def assert_equal_but_beside_the_threshold(found, expected):
         assert np.abs(found[:, 0] - expected[:, 0]).max() <= 1
 
 
+def test_floats_differ_from_the_cpu_at_most_within_rounding_of_the_threshold(device):
+    reference, balance = np.float32(100.0), 30.0
+    tie = np.log(np.float64(130.0) + balance) - np.log(np.float64(100.0) + balance)
+    steps = np.arange(-240, 240, dtype=np.int32)
+    # Every float32 around the intensity that lies exactly on the threshold.
+    around = (np.float32(130.0).view(np.int32) + steps).view(np.float32).reshape(20, 24)
+    clip = np.stack([np.full((20, 24), reference), around])[None]
+    config = TexventConfig(noise="none", contrast_threshold=float(tie), stamp="end")
+    found = on_gpu(torch, GpuSimulator(config), clip, np.array([[0, 9]]), [True] * 2, device=device)
+    expected = on_cpu(TexventSimulator(config, backend="reference"), clip[0], [0, 9], [True] * 2)
+    pixels = [set((one.y.astype(int) * 24 + one.x).tolist()) for one in (found[0], expected)]
+    on_threshold = {int(np.flatnonzero(steps == 0)[0])}
+    assert pixels[0] ^ pixels[1] <= on_threshold
+    assert pixels[0] - on_threshold == set(np.flatnonzero(steps > 0).tolist())
+
+
 @pytest.mark.parametrize("chunks", [(1, 4), (2, 1, 2)])
 @pytest.mark.parametrize(
     "config", [TexventConfig(noise_rate_hz=5.0), EsimConfig(**FEW, refractory_period_us=900)]

@@ -1,0 +1,101 @@
+"""What the host works out for the GPU kernels: byte tables, times, when references are renewed."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.errors import InputError
+from texvent.simulate.cache import BrightnessCache
+from texvent.simulate.gpu.intervals import Clock
+from texvent.simulate.gpu.kernel_types import FORGET, LEAK
+from texvent.simulate.gpu.launch import alignment
+from texvent.simulate.gpu.texvent_rules import byte_brightness, byte_trigger_levels
+
+
+@given(
+    balance=st.floats(0.5, 300.0),
+    threshold=st.floats(1e-3, 3.0)
+    # Exactly the change between two bytes, where one bit decides.
+    | st.tuples(st.integers(0, 254), st.integers(1, 255)),
+)
+def test_byte_levels_fire_where_the_float64_comparison_does(balance, threshold):
+    brightness = byte_brightness(balance)
+    if isinstance(threshold, tuple):
+        first, second = threshold
+        threshold = abs(brightness[second] - brightness[first]) or 0.2
+    pair = byte_trigger_levels(brightness, threshold)
+    low, high = pair >> 16, pair & 0xFFFF
+    byte = np.arange(256)
+    fires = (byte <= low[:, None]) | (byte >= high[:, None])
+    change = brightness[None, :] - brightness[:, None]  # Eq. 5, row: reference, column: intensity
+    assert np.array_equal(fires, np.abs(change) >= threshold)
+
+
+def test_spans_follow_each_other_over_calls_and_clips_lie_one_after_the_other():
+    clock = Clock(2)
+    first = clock.read(1, [5], None)
+    assert first.start_us.shape == (2, 0)
+    clock.advance()
+    span = clock.read(2, [[7, 9], [6, 10]], [False, True])
+    assert span.is_new
+    assert span.start_us.tolist() == [[5, 7], [5, 6]]
+    assert span.duration_us.tolist() == [[2, 2], [1, 4]]
+    assert span.from_source.tolist() == [[True, False], [True, False]]
+    assert span.axis_us == 9
+    on_axis = span.origins_us[:, None] + span.start_us
+    assert on_axis.tolist() == [[0, 2], [4, 5]]
+    clock.advance()
+    later = clock.read(1, [11], None)
+    assert not later.is_new
+    assert later.start_us.tolist() == [[9], [10]]
+    assert later.from_source.all()
+
+
+def test_a_time_that_does_not_increase_is_named_with_its_clip():
+    clock = Clock(2)
+    clock.read(1, [5], None)
+    clock.advance()
+    with pytest.raises(InputError, match="clip 1: 5 µs does not come after 5 µs"):
+        clock.read(1, [[6], [5]], None)
+
+
+@pytest.mark.torch
+@pytest.mark.parametrize("cache", ["none", "local", "leaky", "global"])
+@pytest.mark.parametrize("every", [0, 2])
+def test_references_are_renewed_as_the_brightness_cache_does(cache, every):
+    pytest.importorskip("triton")
+    from texvent.simulate.gpu.texvent_pixels import TexventPixels
+    from texvent.simulate.texvent import TexventConfig
+
+    reset_pairs = every if cache in ("leaky", "global") else 0
+    config = TexventConfig(cache=cache, cache_reset_pairs=reset_pairs)
+    flags = [True, False, True, True, False, True]
+    pixels, clock = TexventPixels(config, [0]), Clock(1)
+    policies = []
+    for part in (slice(0, 3), slice(3, 6)):
+        span = clock.read(3, np.arange(6)[part], flags[part])
+        policies += pixels.policy(span)[0].tolist()
+        pixels.advance(span)
+        clock.advance()
+    memory = BrightnessCache(
+        np.zeros((1, 1)), policy=cache, leak=config.cache_leak, reset_pairs=reset_pairs
+    )
+    for index, policy in enumerate(policies):
+        before = memory.calibrate(np.full((1, 1), 10.0 + index), is_source=flags[index]).copy()
+        if index == 0:
+            assert policy == FORGET
+        elif policy == FORGET:
+            assert before == 10.0 + index
+        else:
+            assert before != 10.0 + index
+            assert (policy == LEAK) == (cache == "leaky" and flags[index])
+        memory._reference[...] = -5.0  # far from any brightness, so that every renewal shows
+
+
+def test_alignment_is_what_all_strides_share():
+    assert alignment(1280 * 720, 32 * 1280 * 720) == 16
+    assert alignment(346 * 260) == 8
+    assert alignment(35, 70) == 1
