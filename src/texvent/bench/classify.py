@@ -88,7 +88,7 @@ def list_samples(folder: Path, class_count: int, *, classes: Path | None = None)
     if unknown:
         raise InputError(f"{folder} has a class {min(unknown)!r} that {classes} does not name")
     number = {name: index for index, name in enumerate(names)}
-    extensions = _event_extensions()
+    extensions = event_extensions()
     samples = [
         Sample(path, number[name])
         for name in found
@@ -151,12 +151,22 @@ def _batches(
         yield np.array([sample.label for sample in chosen]), np.stack(pictures)
 
 
-def _picture(path: Path, seed: int, index: int) -> NDArray[np.float32]:
+def load_stream(path: Path) -> EventStream:
+    """Events of a file; one that stores no sensor size is N-ImageNet's own."""
     try:
-        events = load(path)
-    except InputError:  # its own files store no size
-        events = load(path, size=SENSOR)
-    picture = binary_event_image(take_slice(events, seed, index), size=PICTURE)
+        return load(path)
+    except InputError:
+        return load(path, size=SENSOR)
+
+
+def event_extensions() -> set[str]:
+    """Extensions of all event formats, in lower case with the dot."""
+    codecs = (load_object(target) for target in CODECS.entries().values())
+    return {extension for codec in codecs for extension in codec.extensions}
+
+
+def _picture(path: Path, seed: int, index: int) -> NDArray[np.float32]:
+    picture = binary_event_image(take_slice(load_stream(path), seed, index), size=PICTURE)
     return np.asarray(picture, np.float32)
 
 
@@ -166,11 +176,6 @@ def _read_classes(path: Path) -> list[str]:
     except OSError as error:
         raise InputError(f"cannot read {path}: {error.strerror or error}") from error
     return [line[0] for line in words if line]
-
-
-def _event_extensions() -> set[str]:
-    codecs = (load_object(target) for target in CODECS.entries().values())
-    return {extension for codec in codecs for extension in codec.extensions}
 
 
 def _binomial_error(share: float, count: int) -> float:

@@ -37,6 +37,10 @@ BENCHMARKS: Mapping[str, tuple[str, str]] = {
         "texvent.cli.bench_selftest:run",
         "20 perturbations of a recording: which of them does each metric see?",
     ),
+    "unpaired": (
+        "texvent.cli.bench_unpaired:run",
+        "do simulated streams have the statistics of recorded ones of other scenes?",
+    ),
 }
 """Name → what runs it, by name so that only the chosen one loads; and what it answers."""
 

@@ -39,12 +39,26 @@ class FrechetStatistics:
     def __call__(self, predicted: EventStream, reference: EventStream) -> float:
         """Squared distance, in standard deviations of the reference; see `protocol.Metric`."""
         check_pair(predicted, reference)
-        a, b = patch_statistics(predicted), patch_statistics(reference)
-        if min(len(a), len(b)) <= len(FEATURES):
-            return UNDEFINED
-        centre, scale = b.mean(axis=0), b.std(axis=0)
-        scale[scale == 0] = 1.0
-        return frechet_distance(*(np.clip((one - centre) / scale, -CLIP, CLIP) for one in (a, b)))
+        return compare_statistics(patch_statistics(predicted), patch_statistics(reference))
+
+
+def compare_statistics(predicted: Float64Array, reference: Float64Array) -> float:
+    """Distance of patch statistics, of one stream or of many together.
+
+    Args:
+        predicted: [n, 14], see `patch_statistics`.
+        reference: [m, 14].
+
+    Returns:
+        Squared distance, in standard deviations of the reference; NaN if either has no more
+        patches than features.
+    """
+    if min(len(predicted), len(reference)) <= len(FEATURES):
+        return UNDEFINED
+    centre, scale = reference.mean(axis=0), reference.std(axis=0)
+    scale[scale == 0] = 1.0
+    clipped = (np.clip((one - centre) / scale, -CLIP, CLIP) for one in (predicted, reference))
+    return frechet_distance(*clipped)
 
 
 def frechet_distance(a: Float64Array, b: Float64Array) -> float:
