@@ -69,14 +69,11 @@ def test_backends_agree_and_find_the_first_crossing(course, on):
     wait, p = time_of(course, on)
     compiled = crossing_time_cpu.time_to_threshold(tuple(float(x[0]) for x in course), on, 0.2)
     assert compiled[0] == wait
-    expected = first_crossing(course, on, 0.2)
-    # On the edge of the interval either may be right.
-    if wait == 0:
-        assert expected == 0
-    elif np.isfinite(wait) and np.isfinite(expected):
+    # A curve may creep up to a threshold and touch it by rounding: between these bounds all is right.
+    early, late = (first_crossing(course, on + d, 0.2 + d) for d in (-1e-9, 1e-9))
+    assert early - 1e-5 * course.room[0] <= wait
+    assert wait <= late
+    if 0 < wait < np.inf:
         assert compiled[1] == p
         change = course.after(np.array([wait]), np.exp(-course.corner * wait))
         assert abs(change[0] - (on if p else -0.2)) < 1e-4
-        assert wait <= expected + 1e-5 * course.room[0]
-    else:
-        assert min(wait, expected) == np.inf or min(wait, expected) > 0.999 * course.room[0]

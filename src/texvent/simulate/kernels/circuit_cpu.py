@@ -39,12 +39,16 @@ from texvent.simulate.kernels.circuit_reference import (
 from texvent.simulate.kernels.crossing_time import NEGLIGIBLE, NEVER
 from texvent.simulate.kernels.crossing_time_cpu import time_to_threshold
 from texvent.simulate.kernels.elementary_cpu import decay_and_gain, exponential, natural_log
+from texvent.simulate.kernels.order import read_only
+from texvent.simulate.kernels.threads import count_threads, run_parts, split
 
 Events = NDArray[np.int64]
 """[3, room] pixel, time in µs, and p + 2 · label. One array, for Numba counts the references to
 each array of a tuple whenever it is passed on, and that costs more than most pixels do."""
 SLACK = 1e-9
 """Log units by which bounds are widened, for what is rounded."""
+SHARE = 64 * BLOCK
+"""Fewest pixels that are worth a thread of their own."""
 NOT_CALM = -(2**62)
 FOREVER = 2**62
 
@@ -78,19 +82,33 @@ def advance_pixels(
 ) -> Firings:
     """Every event between two frames; see `circuit_reference.advance_pixels`."""
     table = None if light.table is None else np.stack(light.table)
-    room = len(noise.pixel) + light.now.size // 16 + 64
-    noise_times = (noise.t - span_us[0]) * 2 + noise.p
-    # With NUMBA_DISABLE_JIT=1 this runs in NumPy, which would warn where extremes overflow.
-    with np.errstate(all="ignore"):
-        pixel, t, kind = _advance_blocks(
-            (light.before, light.now, table, light.optics),
-            pixels,
-            state,
-            (noise.pixel, noise_times),
-            rules,
-            span_us,
-            room,
-        )
+
+    def advance(part: slice) -> tuple[Events, int]:
+        first, last = part.start, part.stop
+        noisy = slice(*np.searchsorted(noise.pixel, [first, last]))
+        noise_times = (noise.t[noisy] - span_us[0]) * 2 + noise.p[noisy]
+        room = len(noise_times) + (last - first) // 16 + 64
+        # With NUMBA_DISABLE_JIT=1 this runs in NumPy, which would warn where extremes overflow.
+        with np.errstate(all="ignore"):
+            events = _advance_blocks(
+                (light.before[part], read_only(light.now[part]), table, light.optics),
+                Pixels(*(column[part] for column in pixels)),
+                PixelState(
+                    state.output[part],
+                    state.level[part],
+                    state.since_us[part],
+                    state.calm_until_us[first // BLOCK : -(-last // BLOCK)],
+                ),
+                (noise.pixel[noisy] - first, noise_times),
+                rules,
+                span_us,
+                room,
+            )
+        return events, first
+
+    parts = run_parts(advance, split(light.now.size, count_threads(), unit=SHARE))
+    pixel = np.concatenate([events[0] + first for events, first in parts])
+    t, kind = (np.concatenate([events[i] for events, _ in parts]) for i in (1, 2))
     return Firings(pixel, t, (kind & 1).astype(np.uint8), (kind >> 1).astype(np.uint8))
 
 

@@ -20,7 +20,10 @@ from texvent.simulate.kernels.follow import (
     Restless,
 )
 from texvent.simulate.kernels.order import read_only
+from texvent.simulate.kernels.threads import count_threads, run_parts, split
 
+SHARE = 1 << 18
+"""Fewest pixels that are worth a thread of their own."""
 BLOCK, RUN = 512, 32
 """Pixels that are moved together, and pixels that are passed over together."""
 
@@ -30,16 +33,23 @@ def follow_light(
 ) -> Restless:
     """See `follow_reference.follow_light`."""
     nothing = np.empty(0)
-    # Numba leaves out branches for arguments that are None, but not for their fields.
-    pixel, start, stop = _follow_light(
-        read_only(light.luma),
-        light.table,
-        (light.linear_below, light.angle),
-        (pixels.threshold_on, pixels.threshold_off),
-        (state.brightness, state.reference),
-        (nothing if pixels.leak is None else pixels.leak, *elapsed_us),
-        state.voltage or (nothing, nothing),
-    )
+    leak, voltage = pixels.leak, state.voltage or (nothing, nothing)
+
+    def follow(part: slice) -> tuple[NDArray[np.int64], Float64Array, Float64Array]:
+        # Numba leaves out branches for arguments that are None, but not for their fields.
+        pixel, start, stop = _follow_light(
+            read_only(light.luma[part]),
+            light.table,
+            (light.linear_below, light.angle),
+            (pixels.threshold_on[part], pixels.threshold_off[part]),
+            (state.brightness[part], state.reference[part]),
+            (nothing if leak is None else leak[part], *elapsed_us),
+            (voltage[0][part], voltage[1][part]),
+        )
+        return pixel + part.start, start, stop
+
+    parts = run_parts(follow, split(light.luma.size, count_threads(), unit=SHARE))
+    pixel, start, stop = (np.concatenate(columns) for columns in zip(*parts, strict=True))
     return Restless(pixel, start, stop)
 
 

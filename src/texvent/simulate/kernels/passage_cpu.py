@@ -25,6 +25,7 @@ from texvent.simulate.kernels.passage import (
     Voltage,
 )
 from texvent.simulate.kernels.passage_reference import motion_of
+from texvent.simulate.kernels.threads import count_threads, run_parts, split
 
 # Numba's cache looks at this file only: whoever changes `motion_of` must touch this one as well.
 _motion_of = numba.njit(cache=True, nogil=True, error_model="numpy")(motion_of)
@@ -33,6 +34,8 @@ Found = Float64Array
 """[3, room] pixel, time after the start in µs, and p + 2 · is noise. One array, for Numba counts
 the references to each array of a tuple whenever it is passed on."""
 BLOCK = 256
+SHARE = 32 * BLOCK
+"""Fewest pixels that are worth a thread of their own."""
 
 
 class _Block(NamedTuple):
@@ -59,8 +62,16 @@ def find_passages_in_light(
     light: Light, voltage: Voltage, key: np.uint64, duration_us: float
 ) -> Passages:
     """See `passage_reference.find_passages_in_light`."""
-    ends = read_only(light.before), read_only(light.now), light.constants
-    return _find(None, ends, voltage, key, duration_us, light.first_row)
+    height, width = light.now.shape
+
+    def find(rows: slice) -> Passages:
+        ends = read_only(light.before[rows]), read_only(light.now[rows]), light.constants
+        volts = Voltage(voltage.residual[rows], voltage.signal[rows])
+        return _find(None, ends, volts, key, duration_us, light.first_row + rows.start)
+
+    # A pixel of this model takes as long as several of others: small frames are worth sharing.
+    parts = run_parts(find, split(height, count_threads(), unit=max(1, SHARE // width)))
+    return Passages(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
 
 
 def warm_up(dtype: str) -> None:

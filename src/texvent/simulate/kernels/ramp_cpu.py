@@ -48,12 +48,13 @@ def cross_levels(
 
 def warm_up(*dtypes: str) -> None:
     """Compile, for these types of frames, or load what was compiled before."""
-    one, pixel = np.ones(1), np.zeros(1, np.int64)
+    # Two pixels with one threshold, for Numba compiles for arrays that repeat one number apart.
+    one, pixel = np.ones(2), np.zeros(2, np.int64)
     cross_ramp(Ramp(pixel, one, one, one, one), pixel.copy(), (0, 1), Rest(0, False))
     for dtype in dtypes:
         is_byte = dtype == "uint8"
-        end, table = (np.zeros(1, dtype), np.ones(256)) if is_byte else (one, None)
-        candidates = Candidates(pixel, end, end, table, one, one)
+        end, table = (np.zeros(2, dtype), np.ones(256)) if is_byte else (one, None)
+        candidates = Candidates(pixel, end, end, table, one[:1], one[:1])
         cross_levels(candidates, Levels(one.copy(), pixel.copy()), (0, 1), Rest(0, False))
 
 
