@@ -8,10 +8,12 @@ import numpy as np
 
 from texvent._registry import INTERPOLATORS, SIMULATORS, load_object
 from texvent.engine.fused import step_fused
+from texvent.engine.kernels.select import NAMES, find_compiled
 from texvent.engine.select import FUSED
 from texvent.interpolate.densify import dense_frames, pair_up
 from texvent.interpolate.policy import CountPolicy
 from texvent.settings import resolve
+from texvent.simulate.kernels.readiness import wait_until_ready
 from texvent.video import Video
 
 FRAME_US = 40_000
@@ -61,8 +63,15 @@ def readable(video: Video, options: dict[str, Any]) -> list[Any]:
     return [(frame, simulator.step(frame)) for frame in dense_frames(pairs())]
 
 
+def wait_for_kernels() -> None:
+    """Return when the engines use compiled kernels."""
+    for name in NAMES:
+        find_compiled(name)
+        wait_until_ready(f"texvent.engine.kernels.{name}_cpu")
+
+
 def fused(video: Video, options: dict[str, Any]) -> list[Any]:
-    """Frames and packets of the fused path."""
+    """Frames and packets of the fused path, with whatever kernels are ready."""
     settings, _, pairs = plan(video, options)
     model = load_object(FUSED[settings.run.simulator])
     return list(step_fused(pairs(), model(settings.simulate, settings.run.seed)))

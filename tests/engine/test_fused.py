@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.engine.fused import UndrawnFrame
+from texvent.engine.kernels import select as engine_kernels
 from texvent.interpolate.paths import Paths
 from texvent.video import Frame, Video
 
@@ -110,6 +111,14 @@ def test_any_frames_give_the_same_events(seed, simulator, spread):
     frames = np.clip(90 + np.cumsum(rng.normal(0, spread, (4, 5, 9)), axis=0), 0, 255)
     video = Video(frames.astype(np.float32), [0, 1000, 1007, 5000])
     assert_equal(video, simulator=simulator, seed=seed % 1000, max_intermediate=9)
+
+
+@pytest.mark.parametrize("interpolate", ["flow", "blend"])
+@pytest.mark.parametrize("simulator", ["texvent", "esim"])
+def test_until_kernels_are_compiled_the_events_are_the_same(simulator, interpolate, monkeypatch):
+    monkeypatch.setattr(engine_kernels, "is_ready", lambda module: False)
+    options = {"simulator": simulator, "interpolate": interpolate, "max_intermediate": 5}
+    assert assert_equal(panning(3), **options) > 200
 
 
 @pytest.mark.parametrize("simulator", ["texvent", "esim"])

@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from types import TracebackType
 from typing import Self, TypeVar
 
-import numba
 import numpy as np
 
-from texvent.engine.kernels.candidates_cpu import find_cells, find_in_rows
-from texvent.engine.kernels.interface import Candidates, Float64Array, Grids, Levels, Pictures
-from texvent.interpolate.paths import Paths
+from texvent.engine.kernels.candidates_reference import find_candidates
+from texvent.engine.kernels.interface import (
+    Candidates,
+    Float32Array,
+    Float64Array,
+    Grids,
+    Int64Array,
+    Levels,
+    Pictures,
+)
+from texvent.engine.kernels.select import find_compiled
+from texvent.interpolate.paths import Paths, load_warp
 
 BAND_PIXELS = 1 << 14
 """About how many pixels a thread takes at a time."""
@@ -24,12 +33,12 @@ class CandidateFinder:
     """Finds the candidates of one pair after another; to be closed, because it may keep threads.
 
     As many threads as Numba would use. Bands are joined in their order, so their number and that
-    of the threads change nothing.
+    of the threads change nothing. Until the kernels are compiled, pictures are drawn after all.
     """
 
     def __init__(self) -> None:
-        threads = numba.get_num_threads()
-        self._threads = ThreadPoolExecutor(threads) if threads > 1 else None
+        self._threads: ThreadPoolExecutor | None = None
+        find_compiled("candidates")  # begins to compile
 
     def __enter__(self) -> Self:
         return self
@@ -59,8 +68,10 @@ class CandidateFinder:
             grids: when pixels are looked at.
             levels: what they compare with.
         """
-        pictures = pictures_of(paths)
-        cells = find_cells(pictures)
+        pictures, kernels = pictures_of(paths), find_compiled("candidates")
+        if kernels is None:
+            return iter([settle(find_candidates(pictures, grids, levels, load_warp()))])
+        find_in_rows, cells = kernels.find_in_rows, kernels.find_cells(pictures)
 
         def settle_band(rows: tuple[int, int]) -> Settled:
             return settle(find_in_rows(pictures, grids, levels, cells, rows))
@@ -68,16 +79,35 @@ class CandidateFinder:
         height, width = pictures.earlier.shape
         step = max(1, BAND_PIXELS // width)
         bands = [(start, min(start + step, height)) for start in range(0, height, step)]
-        run = map if self._threads is None else self._threads.map
-        return run(settle_band, bands)
+        threads = importlib.import_module("numba").get_num_threads()
+        if threads == 1 or len(bands) == 1:
+            return map(settle_band, bands)
+        self._threads = self._threads or ThreadPoolExecutor(threads)
+        return self._threads.map(settle_band, bands)
+
+
+def show_pixels(paths: Paths, index: int, pixel: Int64Array) -> Float32Array:
+    """Luma of some pixels of a picture, [n], or of the later frame if it is past the last one.
+
+    Args:
+        paths: the pair.
+        index: number of the picture.
+        pixel: [n] flat indices.
+    """
+    if index == len(paths):
+        return paths.later.reshape(-1)[pixel]
+    kernels = find_compiled("candidates")
+    if kernels is None:
+        return paths.picture(index).reshape(-1)[pixel]
+    shown: Float32Array = kernels.show_pixels(pictures_of(paths), paths.positions[index], pixel)
+    return shown
 
 
 def pictures_of(paths: Paths) -> Pictures:
     """The arrays of a pair, as kernels take them."""
-    if paths.flows is None:
-        nothing = np.empty((0, 0, 2), np.float32)
-        return Pictures(paths.earlier, paths.later, nothing, nothing)
-    return Pictures(paths.earlier, paths.later, *paths.flows)
+    nothing = np.empty((0, 0, 2), np.float32)
+    flows = (nothing, nothing) if paths.flows is None else paths.flows
+    return Pictures(paths.earlier, paths.later, *flows)
 
 
 def one_grid(positions: Sequence[float]) -> Grids:

@@ -19,8 +19,8 @@ from texvent.engine.kernels.interface import (
     Int64Array,
     Levels,
 )
-from texvent.engine.kernels.pieces import LineRules, LineState, Pieces
-from texvent.engine.kernels.pieces_cpu import cross_pieces
+from texvent.engine.kernels.pieces import LineCrossings, LineRules, LineState, Pieces
+from texvent.engine.kernels.select import load_kernels
 from texvent.events import EventStream
 from texvent.interpolate.paths import Paths
 from texvent.simulate.esim import WHITE, EsimConfig, log_intensity
@@ -108,7 +108,8 @@ class LinePixels:
             self._brightness_of(before),
             self._brightness_of(now),
         )
-        crossings = cross_pieces(pieces, self._rules, self._state)
+        cross_pieces = load_kernels("pieces").cross_pieces
+        crossings: LineCrossings = cross_pieces(pieces, self._rules, self._state)
         # Candidates come by pixel: the last one of each says where it is now.
         moved = pixel[np.flatnonzero(np.diff(pixel, append=-1))]
         self._level.reshape(-1)[moved] = self._unit * np.exp(self._state.reference[moved])

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.brightness import balanced_log
-from texvent.engine.candidates import CandidateFinder, one_grid, pictures_of
-from texvent.engine.kernels.candidates_cpu import show_pixels
+from texvent.engine.candidates import CandidateFinder, one_grid, show_pixels
 from texvent.engine.kernels.interface import (
     FOLLOWS,
     STEPS,
@@ -144,11 +143,7 @@ class FusedTexvent:
         noise = load_place_noise(AUTO)(block, paths.later.size)
         if config.noise == "random" or not len(noise.pixel):
             return noise
-        if piece < len(paths):
-            luma = show_pixels(pictures_of(paths), paths.positions[piece], noise.pixel)
-        else:
-            luma = paths.later.reshape(-1)[noise.pixel]
-        is_dark = luma < config.noise_intensity
+        is_dark = show_pixels(paths, piece, noise.pixel) < config.noise_intensity
         return NoisePlaces(noise.pixel[is_dark], noise.fraction[is_dark], noise.p[is_dark])
 
     def _brightness_of(self, luma: NDArray[np.float32]) -> Float64Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -40,6 +40,13 @@ class Paths:
     positions: Sequence[float]
     """τ of each picture, 0 = earlier, 1 = later."""
 
+    def __post_init__(self) -> None:
+        # Numba compiles for arrays that can be written and for those that cannot: one is enough.
+        object.__setattr__(self, "earlier", frozen(self.earlier))
+        object.__setattr__(self, "later", frozen(self.later))
+        if self.flows is not None:
+            object.__setattr__(self, "flows", tuple(frozen(flow) for flow in self.flows))
+
     @classmethod
     def between(
         cls, first: Frame, second: Frame, times_us: Sequence[int], flows: Flows | None
@@ -74,6 +81,17 @@ class Paths:
         place = self.positions[index]
         if self.flows is None:
             return self.earlier + np.float32(place) * (self.later - self.earlier)
-        # By name: whoever blends needs neither Numba nor its start-up time.
-        warped: FloatPicture = load_object(WARP)(self.earlier, self.later, *self.flows, place)
-        return warped
+        return load_warp()(self.earlier, self.later, *self.flows, place)
+
+
+def frozen(picture: FloatPicture) -> FloatPicture:
+    """A view that cannot be written."""
+    view = picture.view()
+    view.flags.writeable = False
+    return view
+
+
+def load_warp() -> Callable[..., FloatPicture]:
+    """The compiled `warp_between`; by name, because whoever blends does without Numba."""
+    warp: Callable[..., FloatPicture] = load_object(WARP)
+    return warp

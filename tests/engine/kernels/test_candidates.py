@@ -156,12 +156,12 @@ def test_pixels_that_cannot_fire_are_not_followed():
 def test_some_pixels_of_a_picture_are_those_of_the_whole_picture():
     pictures = moving((20, 30), 3.0)
     pixel = np.array([0, 17, 311, 599])
-    whole = candidates_reference._picture(pictures, 0.3)
+    whole = candidates_reference.draw_picture(pictures, 0.3)
     np.testing.assert_array_equal(
         candidates_cpu.show_pixels(pictures, 0.3, pixel), whole.reshape(-1)[pixel]
     )
     still = pictures._replace(forward=STILL, backward=STILL)
-    whole = candidates_reference._picture(still, 0.3)
+    whole = candidates_reference.draw_picture(still, 0.3)
     np.testing.assert_array_equal(
         candidates_cpu.show_pixels(still, 0.3, pixel), whole.reshape(-1)[pixel]
     )

@@ -45,9 +45,19 @@ def find_candidates(pictures: Pictures, grids: Grids, levels: Levels) -> Candida
     return find_in_rows(pictures, grids, levels, cells, (0, pictures.earlier.shape[0]))
 
 
+def warm_up() -> None:
+    """Compile everything, or load what was compiled before."""
+    picture, flow = (np.zeros(shape, np.float32) for shape in ((1, 1), (1, 1, 2)))
+    endless = np.array([np.inf])
+    grids = Grids(np.ones((1, 1)), np.array([1]), endless, endless)
+    pictures = Pictures(picture, picture, flow, flow)
+    find_candidates(pictures, grids, Levels(np.empty((0, 0)), 1.0, 2.0, 0.5, TAKES))
+    show_pixels(pictures, 0.5, np.zeros(1, np.int64))
+
+
 def find_cells(pictures: Pictures) -> NDArray[np.float32]:
     """What `find_in_rows` wants to know of the pair as a whole."""
-    cells: NDArray[np.float32] = find_reachable(*pictures)
+    cells: NDArray[np.float32] = find_reachable(*pictures.frozen())
     return cells
 
 
@@ -67,7 +77,7 @@ def find_in_rows(
         cells: of `find_cells`.
         rows: first row, and the one after the last.
     """
-    found, columns = _find(pictures, grids, levels, cells, rows)
+    found, columns = _find(pictures.frozen(), grids, levels, cells, rows)
     return Candidates(*columns).take(slice(found))
 
 
@@ -272,7 +282,6 @@ def _grown(columns: Columns, least: int) -> Columns:
     return larger
 
 
-@numba.njit(cache=True, nogil=True)
 def show_pixels(
     pictures: Pictures, position: float, pixel: NDArray[np.int64]
 ) -> NDArray[np.float32]:
@@ -286,6 +295,14 @@ def show_pixels(
     Returns:
         [n] float32: the bits that the whole picture has there.
     """
+    shown: NDArray[np.float32] = _show_pixels(pictures.frozen(), position, pixel)
+    return shown
+
+
+@numba.njit(cache=True, nogil=True)
+def _show_pixels(
+    pictures: Pictures, position: float, pixel: NDArray[np.int64]
+) -> NDArray[np.float32]:
     earlier, later, forward, backward = pictures
     width = earlier.shape[1]
     shown = np.empty(pixel.size, np.float32)

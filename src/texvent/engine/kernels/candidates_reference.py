@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import TypeAlias
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,14 +21,20 @@ from texvent.engine.kernels.interface import (
 )
 from texvent.interpolate.kernels.reference import warp_between
 
+Warp: TypeAlias = Callable[..., NDArray[np.float32]]
+"""`interpolate.kernels.reference.warp_between`, or its compiled twin."""
 
-def find_candidates(pictures: Pictures, grids: Grids, levels: Levels) -> Candidates:
+
+def find_candidates(
+    pictures: Pictures, grids: Grids, levels: Levels, warp: Warp = warp_between
+) -> Candidates:
     """Every piece at whose end a pixel may fire; see `interface`.
 
     Args:
         pictures: the pair.
         grids: when pixels are looked at.
         levels: what they compare with.
+        warp: draws a picture between two frames.
 
     Returns:
         The candidates by pixel, then by piece.
@@ -35,7 +44,7 @@ def find_candidates(pictures: Pictures, grids: Grids, levels: Levels) -> Candida
     for grid in range(len(grids.parts)):
         pixel = np.flatnonzero(chosen.reshape(-1) == grid)
         if pixel.size:
-            found += _follow(pixel, grid, pictures, grids, levels)
+            found += _follow(pixel, grid, (pictures, warp), grids, levels)
     joined = Candidates(*(np.concatenate(column) for column in zip(*found, strict=True)))
     return joined.take(np.lexsort((joined.piece, joined.pixel)))
 
@@ -56,9 +65,14 @@ def choose_grids(pictures: Pictures, grids: Grids, balance: float) -> NDArray[np
 
 
 def _follow(
-    pixel: NDArray[np.int64], grid: int, pictures: Pictures, grids: Grids, levels: Levels
+    pixel: NDArray[np.int64],
+    grid: int,
+    drawing: tuple[Pictures, Warp],
+    grids: Grids,
+    levels: Levels,
 ) -> list[Candidates]:
     """The candidates among the pixels of one grid, piece by piece."""
+    pictures, warp = drawing
     before = pictures.earlier.reshape(-1)[pixel]
     level = (
         levels.reference.reshape(-1)[pixel]
@@ -69,8 +83,10 @@ def _follow(
     found = []
     parts = int(grids.parts[grid])
     for piece in range(parts):
-        picture = _picture(pictures, grids.positions[grid, piece]) if piece < parts - 1 else None
-        now = (pictures.later if picture is None else picture).reshape(-1)[pixel]
+        is_last = piece == parts - 1
+        place = float(grids.positions[grid, piece])
+        picture = pictures.later if is_last else draw_picture(pictures, place, warp)
+        now = picture.reshape(-1)[pixel]
         shifted = now.astype(np.float64) + levels.balance
         is_up = shifted >= level * (levels.up * (1.0 - MARGIN))
         is_down = shifted <= level * (levels.down * (1.0 + MARGIN))
@@ -91,9 +107,12 @@ def _follow(
     return found
 
 
-def _picture(pictures: Pictures, position: float) -> NDArray[np.float32]:
+def draw_picture(
+    pictures: Pictures, position: float, warp: Warp = warp_between
+) -> NDArray[np.float32]:
+    """The whole picture at a position between the frames, [H, W]."""
     if pictures.forward.size:
-        return warp_between(*pictures, position)
+        return warp(*pictures, position)
     change = pictures.later - pictures.earlier
     return pictures.earlier + np.float32(position) * change
 

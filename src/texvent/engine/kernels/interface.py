@@ -21,6 +21,8 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.interpolate.paths import frozen
+
 Float32Array: TypeAlias = NDArray[np.float32]
 Float64Array: TypeAlias = NDArray[np.float64]
 Int64Array: TypeAlias = NDArray[np.int64]
@@ -44,6 +46,10 @@ class Pictures(NamedTuple):
     """[H, W, 2] flow, px; [0, 0, 2] where the frames are blended in place."""
     backward: Float32Array
     """[H, W, 2] flow, px; [0, 0, 2] where the frames are blended in place."""
+
+    def frozen(self) -> Pictures:
+        """The same as views that cannot be written: kernels are compiled for these alone."""
+        return Pictures(*(frozen(one) for one in self))
 
 
 class Grids(NamedTuple):

@@ -19,6 +19,13 @@ def cross_pieces(pieces: Pieces, rules: LineRules, state: LineState) -> LineCros
     return LineCrossings(row[:found], t[:found], p[:found])
 
 
+def warm_up() -> None:
+    """Compile everything, or load what was compiled before."""
+    one, level = np.ones(1, np.int64), np.zeros(1)
+    state = LineState(level.copy(), one.copy())
+    cross_pieces(Pieces(one - 1, one, one + 1, level, level), LineRules(1.0, 1.0, 0), state)
+
+
 @numba.njit(cache=True, nogil=True)
 def _cross(pieces: Pieces, rules: LineRules, state: LineState) -> tuple[int, Events]:
     # Unpacked once: Numba counts references to every array that it takes out of a tuple.
