@@ -28,7 +28,6 @@ import texvent  # noqa: E402
 from texvent._registry import GENERATORS  # noqa: E402
 from texvent.errors import (  # noqa: E402
     ConfigError,
-    FileFormatError,
     InputError,
     MissingDependencyError,
     TexventError,
@@ -38,12 +37,8 @@ from texvent.generate.agreement import measure_agreement  # noqa: E402
 from texvent.generate.cache import made_folder  # noqa: E402
 from texvent.generate.models import MODELS  # noqa: E402
 from texvent.generate.pipeline_loading import (  # noqa: E402
-    LoadRequest,
     forget_pipeline,
-    load_pipeline,
-    place_pipeline,
 )
-from texvent.generate.placement import Placement  # noqa: E402
 from texvent.generate.stored_video import write_video  # noqa: E402
 from texvent.pipeline import text_to_events  # noqa: E402
 from texvent.settings import resolve  # noqa: E402
@@ -290,24 +285,6 @@ def test_what_a_pipeline_refuses_is_one_clear_error(models):
         build(models("wan"), generator_device="warp").generate(PROMPT)
 
 
-def test_weights_of_another_network_are_refused(models, tmp_path):
-    path = tmp_path / "mixed"
-    shutil.copytree(models("wan"), path)
-    config = path / "transformer" / "config.json"
-    config.write_text(config.read_text().replace('"ffn_dim": 32', '"ffn_dim": 48'))
-    with pytest.raises(FileFormatError, match=r"mixed cannot be loaded as WanPipeline"):
-        build(path).generate(PROMPT)
-
-
-def test_a_class_that_diffusers_lacks_is_named(models, tmp_path):
-    path = tmp_path / "future"
-    shutil.copytree(models("wan"), path)
-    index = path / "model_index.json"
-    index.write_text(index.read_text().replace("WanPipeline", "FuturePipeline"))
-    with pytest.raises(InputError, match="needs the diffusers class FuturePipeline"):
-        build(path).generate(PROMPT)
-
-
 def test_offline_the_missing_file_and_its_place_are_named_after_the_licence(capsys):
     watcher = Watcher()
     part = GENERATORS.load("wan-1.3b")
@@ -371,46 +348,3 @@ def test_a_plan_says_what_is_to_be_done_and_ends_when_the_video_is_there(models)
     part = GENERATORS.load("cosmos-7b")
     absent = part(part.config_type(), seed=0, size=None).plan(PROMPT)
     assert "it has to be fetched first; licence: NVIDIA Open Model License" in absent
-
-
-class FakePipeline:
-    """Notes how a pipeline is placed; a GPU is not at hand in the tests."""
-
-    def __init__(self):
-        self.calls = []
-        self.vae = self
-
-    def __getattr__(self, name):
-        return lambda *_, **options: self.calls.append((name, options))
-
-
-@pytest.mark.parametrize(
-    ("offload", "called"),
-    [
-        ("none", ["to"]),
-        ("model", ["enable_model_cpu_offload", "enable_tiling"]),
-        ("sequential", ["enable_sequential_cpu_offload", "enable_tiling"]),
-    ],
-)
-def test_parts_are_placed_as_the_placement_says(offload, called):
-    pipe = FakePipeline()
-    placement = Placement("cuda:0", "bfloat16", offload, tiles_decoder=offload != "none")
-    place_pipeline(pipe, placement)
-    assert [name for name, _ in pipe.calls] == called
-    assert all(options in ({}, {"device": "cuda:0"}) for _, options in pipe.calls)
-
-
-def test_quantised_weights_without_their_package_name_the_extra(models, monkeypatch):
-    monkeypatch.setitem(sys.modules, "bitsandbytes", None)
-    placement = Placement("cuda:0", "bfloat16", "none", tiles_decoder=False)
-    request = LoadRequest(
-        folder=models("wan"),
-        content="",
-        class_name=None,
-        placement=placement,
-        quantize="8bit",
-        decoder=None,
-        decoder_in_float32=False,
-    )
-    with pytest.raises(MissingDependencyError, match=r"texvent\[quantize\]"):
-        load_pipeline(request)

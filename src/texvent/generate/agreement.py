@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 
 from texvent._require import require
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import InputError
+from texvent.generate.loading import loading
 from texvent.generate.stored_video import StoredVideo
 from texvent.video import PixelArray
 
@@ -75,15 +76,11 @@ def check_clip_folder(folder: Path) -> None:
 def _load_clip(folder: Path) -> tuple[Any, Any]:
     check_clip_folder(folder)
     transformers = require("transformers", extra=EXTRA)
-    errors = require("safetensors", extra=EXTRA).SafetensorError
-    try:
+    with loading(folder, "a CLIP model"):
         model = transformers.CLIPModel.from_pretrained(
             str(folder), local_files_only=True, use_safetensors=True
         )
         tokenizer = transformers.AutoTokenizer.from_pretrained(str(folder), local_files_only=True)
-    except (OSError, ValueError, RuntimeError, errors) as error:
-        reason = " ".join(str(error).split())[:300]
-        raise FileFormatError(f"{folder} cannot be loaded as a CLIP model: {reason}") from error
     return model.eval(), tokenizer
 
 

@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from texvent._require import require
-from texvent.errors import FileFormatError, InputError, TexventError
+from texvent.errors import InputError, TexventError
+from texvent.generate.loading import loading
 from texvent.generate.pipeline_loading import resolve_device
 
 EXTRA = "generate"
@@ -123,15 +124,9 @@ def _find_folder(model: str) -> Path:
 def _load(folder: Path, dtype: str) -> tuple[Any, Any]:
     transformers = require("transformers", extra=EXTRA)
     torch = require("torch", extra=EXTRA)
-    damage = require("safetensors", extra=EXTRA).SafetensorError
-    try:
+    with loading(folder, "an image-and-text model"):
         processor = transformers.AutoProcessor.from_pretrained(str(folder), local_files_only=True)
         model = transformers.AutoModelForImageTextToText.from_pretrained(
             str(folder), dtype=getattr(torch, dtype), local_files_only=True, use_safetensors=True
         )
-    except (OSError, ValueError, RuntimeError, damage) as error:
-        reason = " ".join(str(error).split())[:300]
-        raise FileFormatError(
-            f"{folder} cannot be loaded as an image-and-text model: {reason}"
-        ) from error
     return processor, model.eval()

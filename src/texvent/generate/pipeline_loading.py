@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import contextlib
 import dataclasses
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from texvent._require import require
-from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.errors import ConfigError, InputError
 from texvent.generate.guardrail import PART, check_wiring, load_guardrail, needs_guardrail
+from texvent.generate.loading import loading, quiet_libraries
 from texvent.generate.placement import Placement
 from texvent.generate.streamed_decoding import LTX
 from texvent.generate.torchvision_stand_in import stand_in_for_torchvision
@@ -110,7 +109,8 @@ def _load(request: LoadRequest) -> Pipeline:
     index = read_pipeline_index(request.folder)
     name = request.class_name or str(index["_class_name"])
     # By the class itself: DiffusionPipeline.from_pretrained ignores optional parts given to it.
-    pipeline_class = getattr(require("diffusers", extra=EXTRA), name, None)
+    with quiet_libraries():
+        pipeline_class = getattr(require("diffusers", extra=EXTRA), name, None)
     if pipeline_class is None:
         raise InputError(
             f"{request.folder} needs the diffusers class {name}, which the installed diffusers "
@@ -129,8 +129,7 @@ def _load(request: LoadRequest) -> Pipeline:
         parts.update(_load_motion(request, request.motion_adapter))
     if request.quantize != "none":
         parts["quantization_config"] = _quantization(request)
-    with _without_bars():
-        pipe = _from_pretrained(pipeline_class, request, parts)
+    pipe = _from_pretrained(pipeline_class, request, parts)
     if PART in parts:
         check_wiring(pipe)
     place_pipeline(pipe, request.placement)
@@ -154,47 +153,21 @@ def _load_motion(request: LoadRequest, folder: Path) -> dict[str, Any]:
 def _load_network(folder: Path, dtype: str, role: str) -> Any:
     """A network of any class that diffusers knows."""
     torch = require("torch", extra=EXTRA)
-    try:
+    with loading(folder, role):
         return require("diffusers", extra=EXTRA).AutoModel.from_pretrained(
             str(folder), dtype=getattr(torch, dtype), local_files_only=True, use_safetensors=True
         )
-    except (OSError, ValueError, RuntimeError) as error:
-        reason = " ".join(str(error).split())[:300]
-        raise FileFormatError(f"{folder} cannot be loaded as {role}: {reason}") from error
 
 
 def _from_pretrained(pipeline_class: Any, request: LoadRequest, parts: dict[str, Any]) -> Pipeline:
     torch = require("torch", extra=EXTRA)
-    safetensors = require("safetensors", extra=EXTRA)
     dtype: Any = getattr(torch, request.placement.dtype)
     if request.decoder_in_float32 and dtype is not torch.float32:
         dtype = {"default": dtype, DECODER: torch.float32}
-    try:
+    with loading(request.folder, pipeline_class.__name__):
         return pipeline_class.from_pretrained(
             str(request.folder), dtype=dtype, local_files_only=True, use_safetensors=True, **parts
         )
-    except (OSError, ValueError, RuntimeError, safetensors.SafetensorError) as error:
-        reason = " ".join(str(error).split())[:300]
-        raise FileFormatError(
-            f"{request.folder} cannot be loaded as {pipeline_class.__name__}: {reason}"
-        ) from error
-
-
-@contextlib.contextmanager
-def _without_bars() -> Iterator[None]:
-    """Keep the libraries' progress bars out of the caller's terminal while loading."""
-    loggers = [
-        require(f"{package}.utils.logging", extra=EXTRA)
-        for package in ("diffusers", "transformers")
-    ]
-    shown = [one for one in loggers if one.is_progress_bar_enabled()]
-    for one in shown:
-        one.disable_progress_bar()
-    try:
-        yield
-    finally:
-        for one in shown:
-            one.enable_progress_bar()
 
 
 def _quantization(request: LoadRequest) -> Any:

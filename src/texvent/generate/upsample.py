@@ -16,8 +16,9 @@ from typing import Any
 import requests
 
 from texvent._require import require
-from texvent.errors import FileFormatError, InputError, TexventError
+from texvent.errors import InputError, TexventError
 from texvent.generate.cache import content_key, made_folder
+from texvent.generate.loading import loading
 from texvent.generate.upsample_config import UpsampleConfig
 from texvent.io.atomic import atomic_file
 
@@ -120,15 +121,11 @@ def _ask_local(prompt: str, config: UpsampleConfig) -> str:
         )
     torch = require("torch", extra=EXTRA)
     transformers = require("transformers", extra=EXTRA)
-    damage = require("safetensors", extra=EXTRA).SafetensorError
-    try:
+    with loading(folder, "a chat model"):
         tokenizer = transformers.AutoTokenizer.from_pretrained(str(folder), local_files_only=True)
         model = transformers.AutoModelForCausalLM.from_pretrained(
             str(folder), local_files_only=True, use_safetensors=True
         ).eval()
-    except (OSError, ValueError, RuntimeError, damage) as error:
-        reason = " ".join(str(error).split())[:300]
-        raise FileFormatError(f"{folder} cannot be loaded as a chat model: {reason}") from error
     if tokenizer.chat_template is None:
         raise InputError(f"the model in {folder} has no chat template; it is no chat model")
     asked = tokenizer.apply_chat_template(

@@ -1,0 +1,167 @@
+"""Loading pipelines: damaged, wrong and incomplete files by name; where parts go; what is heard."""
+
+import logging
+import os
+import shutil
+import sys
+
+import pytest
+
+pytestmark = [pytest.mark.torch, pytest.mark.usefixtures("model_cache")]
+os.environ["HF_HUB_OFFLINE"] = "1"
+torch = pytest.importorskip("torch")
+torch.set_num_threads(1)  # tiny arrays: more threads only wait for each other
+diffusers = pytest.importorskip("diffusers")
+
+from safetensors.torch import load_file, save_file  # noqa: E402
+
+from texvent.errors import FileFormatError, InputError, MissingDependencyError  # noqa: E402
+from texvent.generate.agreement import measure_agreement  # noqa: E402
+from texvent.generate.loading import quiet_libraries  # noqa: E402
+from texvent.generate.pipeline_loading import (  # noqa: E402
+    LoadRequest,
+    load_pipeline,
+    place_pipeline,
+)
+from texvent.generate.placement import Placement  # noqa: E402
+
+from . import tiny_pipelines  # noqa: E402
+from .tiny_models import PROMPT, build  # noqa: E402
+
+
+def change_weights(folder, change):
+    """Let `change` alter name → tensor of the one weights file in a folder; it stays readable."""
+    path = next(folder.glob("*.safetensors"))
+    tensors = load_file(path)
+    change(tensors)
+    save_file(tensors, path, metadata={"format": "pt"})
+
+
+@pytest.mark.parametrize(
+    ("part", "name"),
+    [
+        ("transformer", "blocks.0.attn1.to_k.weight"),
+        ("vae", "decoder.conv_in.weight"),
+        ("text_encoder", "encoder.block.0.layer.0.SelfAttention.k.weight"),
+    ],
+)
+@pytest.mark.parametrize("verbosity", [logging.WARNING, logging.ERROR])
+def test_weights_that_a_file_lacks_are_not_made_up(
+    part, name, verbosity, models, tmp_path, monkeypatch, capsys
+):
+    """The libraries fill them with random numbers and log it, where logging is not turned down."""
+    for library in ("diffusers", "transformers"):
+        monkeypatch.setattr(logging.getLogger(library), "level", verbosity)
+    path = tmp_path / "holey"
+    shutil.copytree(models("wan"), path)
+    change_weights(path / part, lambda tensors: tensors.pop(name))
+    capsys.readouterr()  # what saving the tiny model said
+    with pytest.raises(FileFormatError, match=rf"holey cannot be .*holey/{part} lacks {name}"):
+        build(path).generate(PROMPT)
+    assert capsys.readouterr() == ("", "")
+    assert logging.getLogger("diffusers").level == verbosity
+
+
+def test_weights_of_another_shape_are_named(models, tmp_path):
+    path = tmp_path / "bent"
+    shutil.copytree(models("wan"), path)
+    name = "encoder.block.0.layer.0.SelfAttention.k.weight"
+    change_weights(
+        path / "text_encoder", lambda tensors: tensors.update({name: tensors[name][:-1].clone()})
+    )
+    with pytest.raises(FileFormatError, match=rf"bent/text_encoder has {name} of another shape"):
+        build(path).generate(PROMPT)
+
+
+def test_a_model_of_transformers_that_lacks_weights_is_refused(models, tmp_path):
+    folder = tiny_pipelines.save_clip(tmp_path / "clip")
+    change_weights(folder, lambda tensors: tensors.pop("text_projection.weight"))
+    video = build(models("wan")).generate(PROMPT)
+    with pytest.raises(FileFormatError, match=r"a CLIP model: .*lacks text_projection\.weight"):
+        measure_agreement(video, PROMPT, folder)
+
+
+def test_a_decoder_of_another_family_is_refused(models):
+    wrong = models("cogvideox") / "vae"
+    with pytest.raises(FileFormatError, match="cannot be loaded as WanPipeline"):
+        build(models("wan"), decoder=wrong).generate(PROMPT)
+
+
+def test_noise_is_dropped_and_warnings_are_shown(capsys):
+    heard = []
+    listener = logging.Handler()
+    listener.emit = lambda record: heard.append(record.getMessage())
+    logger = logging.getLogger("diffusers")
+    logger.addHandler(listener)
+    try:
+        with quiet_libraries():
+            child = logging.getLogger("diffusers.models.modeling_utils")
+            child.warning("There are modules in X that should be kept in float32: []. Casting")
+            child.warning("`XImageProcessor` requires torchvision (not installed); falling back to")
+            child.warning("There are modules in X that should be kept in float32: ['norm']")
+            child.info("not wanted")
+    finally:
+        logger.removeHandler(listener)
+    assert heard == ["There are modules in X that should be kept in float32: ['norm']"]
+    assert listener not in logger.handlers
+
+
+def test_weights_of_another_network_are_refused(models, tmp_path):
+    path = tmp_path / "mixed"
+    shutil.copytree(models("wan"), path)
+    config = path / "transformer" / "config.json"
+    config.write_text(config.read_text().replace('"ffn_dim": 32', '"ffn_dim": 48'))
+    with pytest.raises(FileFormatError, match=r"mixed cannot be loaded as WanPipeline"):
+        build(path).generate(PROMPT)
+
+
+def test_a_class_that_diffusers_lacks_is_named(models, tmp_path):
+    path = tmp_path / "future"
+    shutil.copytree(models("wan"), path)
+    index = path / "model_index.json"
+    index.write_text(index.read_text().replace("WanPipeline", "FuturePipeline"))
+    with pytest.raises(InputError, match="needs the diffusers class FuturePipeline"):
+        build(path).generate(PROMPT)
+
+
+class FakePipeline:
+    """Notes how a pipeline is placed; a GPU is not at hand in the tests."""
+
+    def __init__(self):
+        self.calls = []
+        self.vae = self
+
+    def __getattr__(self, name):
+        return lambda *_, **options: self.calls.append((name, options))
+
+
+@pytest.mark.parametrize(
+    ("offload", "called"),
+    [
+        ("none", ["to"]),
+        ("model", ["enable_model_cpu_offload", "enable_tiling"]),
+        ("sequential", ["enable_sequential_cpu_offload", "enable_tiling"]),
+    ],
+)
+def test_parts_are_placed_as_the_placement_says(offload, called):
+    pipe = FakePipeline()
+    placement = Placement("cuda:0", "bfloat16", offload, tiles_decoder=offload != "none")
+    place_pipeline(pipe, placement)
+    assert [name for name, _ in pipe.calls] == called
+    assert all(options in ({}, {"device": "cuda:0"}) for _, options in pipe.calls)
+
+
+def test_quantised_weights_without_their_package_name_the_extra(models, monkeypatch):
+    monkeypatch.setitem(sys.modules, "bitsandbytes", None)
+    placement = Placement("cuda:0", "bfloat16", "none", tiles_decoder=False)
+    request = LoadRequest(
+        folder=models("wan"),
+        content="",
+        class_name=None,
+        placement=placement,
+        quantize="8bit",
+        decoder=None,
+        decoder_in_float32=False,
+    )
+    with pytest.raises(MissingDependencyError, match=r"texvent\[quantize\]"):
+        load_pipeline(request)
