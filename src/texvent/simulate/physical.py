@@ -103,7 +103,7 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
         light = self._sight.towards(intensity)
         noise = self._draw_noise(light, interval)
         rules = ResetRules(self.config.refractory_period_us, self.config.noise_resets)
-        fired = load_advance_pixels(self._backend)(
+        fired = load_advance_pixels(light.now.dtype, self._backend)(
             light, self._pixels, self._state, noise, rules, (interval.start_us, interval.stop_us)
         )
         self._forget(interval)

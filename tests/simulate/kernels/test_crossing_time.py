@@ -69,7 +69,7 @@ def test_backends_agree_and_find_the_first_crossing(course, on):
     wait, p = time_of(course, on)
     compiled = crossing_time_cpu.time_to_threshold(tuple(float(x[0]) for x in course), on, 0.2)
     assert compiled[0] == wait
-    # A curve may creep up to a threshold and touch it by rounding: between these bounds all is right.
+    # A curve may creep up to a threshold and touch it by rounding.
     early, late = (first_crossing(course, on + d, 0.2 + d) for d in (-1e-9, 1e-9))
     assert early - 1e-5 * course.room[0] <= wait
     assert wait <= late

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.simulate.draws import Purpose
-from texvent.simulate.kernels.select import AUTO, load_kernel
+from texvent.simulate.kernels.select import AUTO, load_kernel_when_ready
 
 FIRST_DRAW: int = Purpose.NOISE_TIME.draw()
 
@@ -31,10 +31,10 @@ DrawArrivals: TypeAlias = Callable[[NDArray[np.float64], float, np.uint64, int],
 
 
 def load_draw_arrivals(backend: str = AUTO) -> DrawArrivals:
-    """The function of a backend. All return equal bits.
+    """The function of a backend; "auto" is NumPy until the compiled one is ready.
 
     Raises:
         ConfigError: no backend has that name.
         MissingDependencyError: what the backend needs is not installed.
     """
-    return cast("DrawArrivals", load_kernel("arrivals", "draw_arrivals", backend))
+    return cast("DrawArrivals", load_kernel_when_ready("arrivals", "draw_arrivals", backend))

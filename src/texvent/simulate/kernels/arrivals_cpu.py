@@ -25,6 +25,11 @@ def draw_arrivals(
         return Arrivals(*_draw_arrivals(cumulative_hz, float(duration_s), key, int(stream), room))
 
 
+def warm_up() -> None:
+    """Compile, or load what was compiled before."""
+    draw_arrivals(np.zeros((1, 1)), 1.0, np.uint64(0), 0)
+
+
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def _draw_arrivals(
     cumulative_hz: NDArray[np.float64], duration_s: float, key: np.uint64, stream: int, room: int

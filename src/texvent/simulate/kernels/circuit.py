@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from texvent.simulate.firings import Firings
 from texvent.simulate.kernels.elementary import exponential, natural_log
-from texvent.simulate.kernels.select import AUTO, load_kernel
+from texvent.simulate.kernels.select import AUTO, load_kernel_when_ready
 
 Float64Array: TypeAlias = NDArray[np.float64]
 Float32Array: TypeAlias = NDArray[np.float32]
@@ -110,14 +110,15 @@ AdvancePixels: TypeAlias = Callable[
 `circuit_reference.advance_pixels`."""
 
 
-def load_advance_pixels(backend: str = AUTO) -> AdvancePixels:
-    """The function of a backend. All return equal bits.
+def load_advance_pixels(dtype: np.dtype[Any], backend: str = AUTO) -> AdvancePixels:
+    """The function of a backend; "auto" is NumPy until the compiled one is ready.
 
     Raises:
         ConfigError: no backend has that name.
         MissingDependencyError: what the backend needs is not installed.
     """
-    return cast("AdvancePixels", load_kernel("circuit", "advance_pixels", backend))
+    function = load_kernel_when_ready("circuit", "advance_pixels", backend, dtype.name)
+    return cast("AdvancePixels", function)
 
 
 def light_of(luma: Float64Array, optics: Optics) -> tuple[Float64Array, Float64Array]:

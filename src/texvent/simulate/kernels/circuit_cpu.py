@@ -29,6 +29,7 @@ from texvent.simulate.kernels.circuit import (
     Pixels,
     PixelState,
     ResetRules,
+    new_state,
 )
 from texvent.simulate.kernels.circuit_reference import (
     LEAK_SHARE,
@@ -110,6 +111,16 @@ def advance_pixels(
     pixel = np.concatenate([events[0] + first for events, first in parts])
     t, kind = (np.concatenate([events[i] for events, _ in parts]) for i in (1, 2))
     return Firings(pixel, t, (kind & 1).astype(np.uint8), (kind >> 1).astype(np.uint8))
+
+
+def warm_up(dtype: str) -> None:
+    """Compile for one type of frames, or load what was compiled before."""
+    luma, one, none = np.zeros(1, dtype), np.ones(1, np.float32), np.zeros(0, np.int64)
+    table = (np.ones(256), np.ones(256)) if dtype == "uint8" else None
+    light = Light(luma.copy(), luma, Optics(1.0, 1.0, 0.0), table)
+    state = new_state(np.zeros(1), np.zeros(1), 0)
+    noise = NoiseEvents(none, none, none.astype(np.uint8))
+    advance_pixels(light, Pixels(one, one, one), state, noise, ResetRules(0, True), (0, 1))
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")

@@ -1,0 +1,91 @@
+"""Frames of many blocks: skipped, shared among threads, of two types; the reference's events."""
+
+import dataclasses
+import importlib
+
+import numpy as np
+import pytest
+
+from texvent.simulate.physical import PhysicalSimulator
+from texvent.simulate.physical_config import PRESETS, PhysicalConfig
+from texvent.simulate.senpi import SenpiSimulator
+from texvent.simulate.v2e import V2eConfig, V2eSimulator
+from texvent.simulate.voltmeter import VoltmeterSimulator
+from texvent.video import Frame
+
+from .published import run
+
+SHAPE = (61, 83)
+"""Several blocks of pixels, the last one cut short."""
+
+
+def patches(dtypes, *, times_us=None, seed=0) -> list[Frame]:
+    """A still picture, in a corner of which something moves; parts of frames rest for long."""
+    random = np.random.default_rng(seed)
+    still = random.integers(0, 256, SHAPE)
+    times_us = times_us or [5000 * i for i in range(len(dtypes))]
+    frames = []
+    for dtype, t in zip(dtypes, times_us, strict=True):
+        pixels = still.copy()
+        pixels[:12, :20] = random.integers(0, 256, (12, 20))
+        frames.append(Frame(pixels.astype(dtype), t))
+    return frames
+
+
+def assert_equal_to_reference(simulator_class, config, frames, seed=3) -> int:
+    reference, compiled = (
+        run(simulator_class(config, seed=seed, backend=backend), frames)
+        for backend in ("reference", "cpu")
+    )
+    assert compiled.equals(reference)
+    assert np.array_equal(compiled.label, reference.label)
+    return len(compiled)
+
+
+MODELS = [
+    (PhysicalSimulator, PhysicalConfig()),
+    (PhysicalSimulator, PRESETS["clean"]),
+    # Leak fires pixels whose light rests, in blocks that would be skipped else.
+    (PhysicalSimulator, PhysicalConfig(leak_rate_hz=20.0, noise_scale=0.0, initial_phase="zero")),
+    (PhysicalSimulator, PhysicalConfig(residual_decay_hz=5.0, leak_rate_hz=20.0)),
+    (V2eSimulator, V2eConfig(leak_rate_hz=20.0, shot_noise_rate_hz=20.0)),
+    (V2eSimulator, V2eConfig(photoreceptor_noise=True, shot_noise_rate_hz=20.0)),
+    (SenpiSimulator, SenpiSimulator.presets["default"]),
+    (VoltmeterSimulator, VoltmeterSimulator.presets["davis240"]),
+]
+
+
+@pytest.mark.parametrize(("simulator_class", "config"), MODELS)
+@pytest.mark.parametrize(
+    "dtypes", [[np.uint8] * 8, [np.float32] * 8, [np.uint8, np.uint8, np.float32] * 3]
+)
+def test_blocks_of_any_type_fire_as_in_the_reference(simulator_class, config, dtypes):
+    assert assert_equal_to_reference(simulator_class, config, patches(dtypes)) > 100
+
+
+@pytest.mark.parametrize("leak_rate_hz", [0.0, 4.0])
+def test_a_scene_that_rests_for_long_still_leaks_in_time(leak_rate_hz):
+    config = dataclasses.replace(
+        PRESETS["clean"], cutoff_hz=100.0, leak_rate_hz=leak_rate_hz, leak_rate_decades=0.1
+    )
+    still = patches([np.uint8])[0].pixels
+    frames = [Frame(still, 10_000 * i) for i in range(100)]
+    count = assert_equal_to_reference(PhysicalSimulator, config, frames)
+    # 0.99 s at 4 per second are 3 whole events of every pixel, give or take its own rate.
+    assert count == pytest.approx(3.5 * still.size, rel=0.1) if leak_rate_hz else count == 0
+
+
+@pytest.mark.parametrize(
+    ("simulator_class", "module"),
+    [(PhysicalSimulator, "circuit"), (V2eSimulator, "follow"), (VoltmeterSimulator, "passage")],
+)
+def test_threads_do_not_change_an_event(simulator_class, module, monkeypatch):
+    frames = patches([np.uint8] * 5)
+    kernels = importlib.import_module(f"texvent.simulate.kernels.{module}_cpu")
+    monkeypatch.setattr(kernels, "SHARE", 512)
+    streams = []
+    for threads in ("1", "2", "5"):
+        monkeypatch.setenv("TEXVENT_NUM_THREADS", threads)
+        streams.append(run(simulator_class(seed=1, backend="cpu"), frames))
+    assert streams[0].equals(streams[1])
+    assert streams[0].equals(streams[2])
