@@ -104,13 +104,15 @@ def test_the_list_of_generators_names_size_rate_licence_and_the_extra(folder, ca
     assert "pip install 'texvent[generate]'" in shown
 
 
-def test_a_narrow_terminal_hides_no_name_of_the_list(folder, capsys, monkeypatch):
+def test_a_narrow_terminal_hides_nothing_of_the_list(folder, capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
     assert run("generators") == 0
     shown = capsys.readouterr().out
     starts = {line.split(" ")[0] for line in shown.splitlines()}
     assert {"procedural", "opensora", *MODELS} <= starts
     assert "\N{HORIZONTAL ELLIPSIS}" not in shown
+    words = {word for model in MODELS.values() for word in model.licence.split()}
+    assert words <= set(shown.split())
 
 
 def test_a_damaged_download_does_not_end_the_list(folder, capsys, monkeypatch):

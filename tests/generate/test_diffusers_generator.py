@@ -292,7 +292,10 @@ def test_offline_the_missing_file_and_its_place_are_named_after_the_licence(caps
     with pytest.raises(TexventError, match=r"model_index.json and .*put them into") as caught:
         generator.generate(PROMPT, watch=watcher)
     assert "--generator ./FOLDER" in str(caught.value)
-    assert "licence: Apache-2.0" in watcher.lines[0]
+    assert "licence: Apache-2.0 (from general knowledge" in watcher.lines[0]
+    with pytest.raises(TexventError):
+        build("hub:org/name").generate(PROMPT, watch=watcher)
+    assert watcher.lines[1].endswith("licence: not known to texvent; read the model's page")
     assert "stacktrace" not in str(caught.value)
     assert capsys.readouterr() == ("", "")
 

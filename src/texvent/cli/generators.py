@@ -16,6 +16,8 @@ from texvent.generate.models import MODELS, VideoModel
 HUB_PACKAGE = "huggingface_hub"
 PIPELINE_PACKAGE = "diffusers"
 MAKES_WIDTH = len("121 x 1280x704, 24 fps")
+ROOMY_WIDTH = 120
+"""Columns of a terminal in which sentences need not be narrow."""
 USAGE = """usage: texvent generators
 
 The text-to-video generators: what they make, under which licence, and whether they are here.
@@ -42,7 +44,8 @@ def run(arguments: Sequence[str]) -> int:
         table.add_column(
             title,
             no_wrap=title in ("name", "here", "GPU GB"),
-            min_width=MAKES_WIDTH if title == "makes" else None,
+            # A least width alone would let rich cut the last column by what it lacks.
+            width=MAKES_WIDTH if title == "makes" and console.width < ROOMY_WIDTH else None,
         )
     for name in GENERATORS.entries():
         table.add_row(name, *_describe_part(name))

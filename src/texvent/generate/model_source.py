@@ -83,7 +83,8 @@ def _find_cached(repo: str, revision: str | None, check: Callable[[Path], None])
 
 def describe_terms(model: VideoModel) -> str:
     """Licence and origin, for the user to read before the download."""
-    doubt = "" if model.is_licence_verified else " (from general knowledge: check the model's page)"
+    is_guessed = model.licence != VideoModel.licence and not model.is_licence_verified
+    doubt = " (from general knowledge: check the model's page)" if is_guessed else ""
     return f"fetching {model.source} from the model hub; licence: {model.licence}{doubt}"
 
 
