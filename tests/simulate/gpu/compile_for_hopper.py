@@ -40,10 +40,11 @@ CONFIGS: dict[str, Any] = {
 USUAL = (2, 4, 260, 346)
 ODD = (1, 2, 5, 7)
 """[B, T, H, W] with one interval, and rows that align with nothing."""
+ONE = (1, 3, 1, 1)
 CASES = [
     *((name, torch.uint8, USUAL) for name in CONFIGS),
     *((name, torch.float32, USUAL) for name in ("paper", "linear", "resting esim")),
-    *((name, torch.uint8, ODD) for name in ("paper", "linear", "esim")),
+    *((name, torch.uint8, shape) for name in ("paper", "linear", "esim") for shape in (ODD, ONE)),
 ]
 
 

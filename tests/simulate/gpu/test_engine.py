@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 from texvent.errors import ConfigError, InputError
+from texvent.events import NOISE
 from texvent.represent.voxel_grid import voxel_zhu
 from texvent.simulate.esim import EsimConfig, EsimSimulator
+from texvent.simulate.kernels.texvent import NOISE_BLOCK
 from texvent.simulate.physical import PhysicalConfig
 from texvent.simulate.texvent import TexventConfig, TexventSimulator
 
@@ -89,6 +91,22 @@ def assert_equal_but_beside_the_threshold(found, expected):
     assert len(places[0] ^ places[1]) <= 1e-3 * len(expected)
     if len(found) == len(expected):
         assert np.abs(found[:, 0] - expected[:, 0]).max() <= 1
+
+
+@pytest.mark.parametrize("noise", ["adaptive", "random"])
+def test_noise_of_several_blocks_is_that_of_the_cpu(noise, device):
+    clip = np.random.default_rng(2).integers(60, 100, (1, 3, 72, 80)).astype(np.uint8)
+    times_us = np.array([[0, 900, 2500]])
+    config = TexventConfig(noise=noise, noise_rate_hz=8.0, contrast_threshold=0.35)
+    flags = [True] * 3
+    found = on_gpu(torch, GpuSimulator(config), clip, times_us, flags, device=device, chunks=(3,))[
+        0
+    ]
+    expected = on_cpu(TexventSimulator(config, backend="reference"), clip[0], times_us[0], flags)
+    assert np.array_equal(rows(found), rows(expected))
+    noisy = found.label == NOISE
+    assert (found.y[noisy].astype(int) * 80 + found.x[noisy] >= NOISE_BLOCK).any()
+    assert 10 < noisy.sum() < len(found)
 
 
 def test_floats_differ_from_the_cpu_at_most_within_rounding_of_the_threshold(device):

@@ -11,6 +11,34 @@ _PER_MARK = tl.constexpr(kernel_types.PIXELS_PER_MARK)
 
 
 @triton.jit
+def own_pixels(frames: tl.tuple, ALIGN: tl.constexpr, BLOCK: tl.constexpr) -> tl.tuple:
+    """The pixels of a program of a walk.
+
+    Returns:
+        The clip; the pixels' flat index; whether they exist; their place in arrays [B, area]; and
+        the address of their intensities in the clip's first frame.
+    """
+    clip = tl.program_id(1).to(tl.int64)
+    area = tl.multiple_of(tl.cast(frames.area, tl.int32), ALIGN)
+    at = tl.program_id(0) * BLOCK + tl.arange(0, BLOCK)
+    home = tl.multiple_of(clip * area, ALIGN) + at
+    address = frames.pixels + tl.multiple_of(clip * frames.clip_stride, ALIGN) + at
+    return clip, at, at < area, home, address
+
+
+@triton.jit
+def skip_frames(frames: tl.tuple, count: tl.tensor, ALIGN: tl.constexpr) -> tl.tensor:
+    """How far behind the first frame of a clip another one lies, pixels."""
+    return tl.multiple_of(tl.cast(count, tl.int64) * frames.frame_stride, ALIGN)
+
+
+@triton.jit
+def find_cell(tally: tl.tuple, segment: tl.tensor) -> tl.tensor:
+    """Address of what `Tally.events` holds for a program in a segment."""
+    return tally.events + segment * tl.num_programs(0) + tl.program_id(0)
+
+
+@triton.jit
 def read(pointer: tl.tensor, inside: tl.tensor) -> tl.tensor:
     """Numbers in the type that they are compared in: bytes as int32, others as they are."""
     value = tl.load(pointer, mask=inside, other=0)

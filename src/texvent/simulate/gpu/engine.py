@@ -135,9 +135,8 @@ class GpuSimulator:
             return _no_events(clips, frames)
         first, frames = _of_one_type(first, frames)
         call, noise = self._call(clips, first, frames, span)
-        found = run_passes(
-            clips.pixels, call, noise, on_resting=getattr(self.config, "noise", "") == "adaptive"
-        )
+        is_adaptive = isinstance(self.config, TexventConfig) and self.config.noise == "adaptive"
+        found = run_passes(clips.pixels, call, noise, on_resting=is_adaptive)
         count, intervals = frames.shape[:2]
         clip_offsets = found.ends[::intervals]
         x, y, t, p, label = order_events(

@@ -12,11 +12,14 @@ import triton.language as tl
 from texvent.simulate.gpu import esim_rules, kernel_types
 from texvent.simulate.gpu.blocks_triton import (
     count_bad,
+    find_cell,
+    own_pixels,
     pack_event,
     place_in,
     read,
     read_before,
     read_now,
+    skip_frames,
     write_events,
 )
 
@@ -40,43 +43,30 @@ def walk_ramp(
 ) -> None:
     """Find every threshold that a straight line of log intensity crosses in every interval.
 
-    Args:
-        frames: `kernel_types.Frames`.
-        intervals: `kernel_types.Intervals`.
-        rules: `esim_rules.Rules`.
-        state: `esim_rules.State`; brought up to date in pass 2.
-        tally: `kernel_types.Tally`.
-        records: `kernel_types.Records`, or None for pass 1, which counts.
-        ALIGN: largest power of two, up to 16, that divides all addresses in bytes.
-        BLOCK: pixels of a program.
+    Arguments as for `texvent_triton.walk_levels`, but `rules` are `esim_rules.Rules`, and `state`,
+    an `esim_rules.State`, is brought up to date in pass 2.
 
     Source: as `kernels.ramp_reference.cross_ramp`, whose events these are.
     """
-    clip = tl.program_id(1).to(tl.int64)
-    area = tl.multiple_of(frames.area, ALIGN)
-    at = tl.program_id(0) * BLOCK + tl.arange(0, BLOCK)
-    inside = at < area
-    home = tl.multiple_of(clip * area, ALIGN)
-    threshold_on, threshold_off = _thresholds_of(rules, home + at, inside)
-    intensity = read(frames.previous + home + at, inside)
+    clip, at, inside, home, pixels = own_pixels(frames, ALIGN, BLOCK)
+    threshold_on, threshold_off = _thresholds_of(rules, home, inside)
+    intensity = read(frames.previous + home, inside)
     before = log_intensity(intensity, rules)
-    level = tl.load(state.level + home + at, mask=inside, other=0.0)
+    level = tl.load(state.level + home, mask=inside, other=0.0)
     fired_us = tl.zeros([BLOCK], tl.int64)
     if state.fired_us is not None:
-        fired_us = tl.load(state.fired_us + home + at, mask=inside, other=0)
-    pixels = frames.pixels + tl.multiple_of(clip * frames.clip_stride, ALIGN) + at
+        fired_us = tl.load(state.fired_us + home, mask=inside, other=0)
     bad = count_bad(intensity, inside)
     for interval in range(frames.intervals):
         segment = clip * frames.intervals + interval
-        step = tl.multiple_of(tl.cast(interval, tl.int64) * frames.frame_stride, ALIGN)
-        intensity = read(pixels + step, inside)
+        intensity = read(pixels + skip_frames(frames, interval, ALIGN), inside)
         now = log_intensity(intensity, rules)
         if tl.load(intervals.policy + segment) == _FORGET:
             level = before
         is_on = now > level
         threshold = tl.where(is_on, threshold_on, threshold_off)
         first, last = _towards(is_on, before - level, now - level)
-        cell = tally.events + segment * tl.num_programs(0) + tl.program_id(0)
+        cell = find_cell(tally, segment)
         place = tl.full([], 0, tl.int64)
         if records is not None:
             place = tl.load(cell)
@@ -93,9 +83,9 @@ def walk_ramp(
     if records is None:
         tl.atomic_add(tally.bad, tl.sum(bad))
     else:
-        tl.store(state.level + home + at, level, mask=inside)
+        tl.store(state.level + home, level, mask=inside)
         if state.fired_us is not None:
-            tl.store(state.fired_us + home + at, fired_us, mask=inside)
+            tl.store(state.fired_us + home, fired_us, mask=inside)
 
 
 @triton.jit

@@ -13,13 +13,16 @@ import triton.language as tl
 from texvent.simulate.gpu import kernel_types, texvent_rules
 from texvent.simulate.gpu.blocks_triton import (
     count_bad,
+    find_cell,
     mark_fired,
+    own_pixels,
     pack_event,
     place_in,
     read,
     read_before,
     read_now,
     read_order,
+    skip_frames,
     write_events,
 )
 from texvent.simulate.gpu.draws_triton import draw_word, to_uniform
@@ -63,37 +66,32 @@ def walk_levels(
         reference: [B, area] intensity each pixel compares with; brought up to date in pass 2.
         tally: `kernel_types.Tally`.
         records: `kernel_types.Records`, or None for pass 1, which counts.
-        ALIGN: largest power of two, up to 16, that divides all addresses in bytes.
+        ALIGN: see `kernel_types.Call`.
         BLOCK: pixels of a program.
 
     Equation: (5), section 3.2.2.
     """
-    clip = tl.program_id(1).to(tl.int64)
-    area = tl.multiple_of(frames.area, ALIGN)
-    at = tl.program_id(0) * BLOCK + tl.arange(0, BLOCK)
-    inside = at < area
-    home = tl.multiple_of(clip * area, ALIGN)
-    before = read(frames.previous + home + at, inside)
-    level = read(reference + home + at, inside)
+    clip, at, inside, home, pixels = own_pixels(frames, ALIGN, BLOCK)
+    before = read(frames.previous + home, inside)
+    level = read(reference + home, inside)
     # Pixels past the last one keep levels that nothing reaches.
     low, high = _move_levels(level, inside, level * 0 - 1, level * 0 + 32767, rules)
-    pixels = frames.pixels + tl.multiple_of(clip * frames.clip_stride, ALIGN) + at
-    now = read(pixels, inside & (frames.intervals > 0))
+    now = read(pixels, inside)
     bad = count_bad(before, inside)
     for interval in range(frames.intervals):
         # Asked for one interval ahead, so that memory answers while this one is compared.
-        step = tl.multiple_of(tl.cast(interval + 1, tl.int64) * frames.frame_stride, ALIGN)
-        ahead = read(pixels + step, inside & (interval + 1 < frames.intervals))
+        following = pixels + skip_frames(frames, interval + 1, ALIGN)
+        ahead = read(following, inside & (interval + 1 < frames.intervals))
         segment = clip * frames.intervals + interval
         if tl.load(intervals.policy + segment) == _FORGET:
             level = before
             low, high = _move_levels(before, inside, low, high, rules)
         fired = (now <= low) | (now >= high)
         total = tl.sum(fired.to(tl.int32))
-        cell = tally.events + segment * tl.num_programs(0) + tl.program_id(0)
+        cell = find_cell(tally, segment)
         if records is None:
             tl.store(cell, total)
-            mark_fired(tally, segment, area, fired, BLOCK)
+            mark_fired(tally, segment, frames.area, fired, BLOCK)
             bad += count_bad(now, inside)
         elif total > 0:
             write_events(records, tl.load(cell), fired, (at, None, level))
@@ -105,7 +103,7 @@ def walk_levels(
     if records is None:
         tl.atomic_add(tally.bad, tl.sum(bad))
     else:
-        tl.store(reference + home + at, level, mask=inside)
+        tl.store(reference + home, level, mask=inside)
 
 
 @triton.jit
@@ -160,21 +158,15 @@ def walk_brightness(
 
     Equation: (5), section 3.2.2.
     """
-    clip = tl.program_id(1).to(tl.int64)
-    area = tl.multiple_of(frames.area, ALIGN)
-    at = tl.program_id(0) * BLOCK + tl.arange(0, BLOCK)
-    inside = at < area
-    home = tl.multiple_of(clip * area, ALIGN)
+    clip, at, inside, home, pixels = own_pixels(frames, ALIGN, BLOCK)
     threshold = tl.load(rules.numbers + _THRESHOLD)
-    last = read(frames.previous + home + at, inside)
+    last = read(frames.previous + home, inside)
     before = brightness_of(last, rules)
-    level = tl.load(reference + home + at, mask=inside, other=0.0)
-    pixels = frames.pixels + tl.multiple_of(clip * frames.clip_stride, ALIGN) + at
+    level = tl.load(reference + home, mask=inside, other=0.0)
     bad = count_bad(last, inside)
     for interval in range(frames.intervals):
         segment = clip * frames.intervals + interval
-        step = tl.multiple_of(tl.cast(interval, tl.int64) * frames.frame_stride, ALIGN)
-        last = read(pixels + step, inside)
+        last = read(pixels + skip_frames(frames, interval, ALIGN), inside)
         now = brightness_of(last, rules)
         policy = tl.load(intervals.policy + segment)
         if policy == _FORGET:
@@ -185,10 +177,10 @@ def walk_brightness(
         fired = inside & (size >= threshold)
         number = tl.where(fired, count_events(size, threshold, rules), 0)
         total = tl.sum(number)
-        cell = tally.events + segment * tl.num_programs(0) + tl.program_id(0)
+        cell = find_cell(tally, segment)
         if records is None:
             tl.store(cell, total)
-            mark_fired(tally, segment, area, fired, BLOCK)
+            mark_fired(tally, segment, frames.area, fired, BLOCK)
             bad += count_bad(last, inside)
         elif total > 0:
             place = tl.load(cell)
@@ -205,7 +197,7 @@ def walk_brightness(
     if records is None:
         tl.atomic_add(tally.bad, tl.sum(bad))
     else:
-        tl.store(reference + home + at, level, mask=inside)
+        tl.store(reference + home, level, mask=inside)
 
 
 @triton.jit
