@@ -2,6 +2,7 @@
 
 import copy
 import itertools
+import pickle
 import tracemalloc
 
 import numpy as np
@@ -174,6 +175,20 @@ def test_backends_can_change_in_the_middle_of_a_stream(monkeypatch):
         is_ready["now"] = k in (3, 4, 7)
         packets.append(simulator.step(one))
     assert EventStream.concat(packets).equals(expected)
+
+
+@pytest.mark.parametrize("backend", FAST)
+@pytest.mark.parametrize("carry", [copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
+def test_a_simulator_can_be_copied_and_sent_to_another_process(carry, backend):
+    rng = np.random.default_rng(8)
+    frames = [frame(rng.uniform(0, 255, (40, 50)), np.uint8, 10 * k) for k in range(6)]
+    options = {"cache": "global", "stamp": "linear"}
+    simulator = TexventSimulator(TexventConfig(**options), backend=backend)
+    packets = [simulator.step(one) for one in frames[:3]]
+    twin = carry(simulator)
+    simulator.step(frame(np.zeros((40, 50)), np.uint8, 25))  # must not disturb the copy
+    packets += [twin.step(one) for one in frames[3:]]
+    assert EventStream.concat(packets).equals(simulate(frames, backend="reference", **options))
 
 
 def test_auto_prepares_the_kernels_of_the_frames_it_gets():

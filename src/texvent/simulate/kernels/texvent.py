@@ -153,6 +153,10 @@ class Memory:
     work: Any = None
     """Room that a backend keeps for its results; overwritten by each frame."""
 
+    def __getstate__(self) -> dict[str, Any]:
+        """What a copy takes along: not the room for results."""
+        return vars(self) | {"work": None}
+
     def band(self, part: slice) -> Memory:
         """Some of the pixels, as views with room of their own."""
         arrays = (self.reference, self.renewed, self.previous, self.level)
