@@ -58,6 +58,16 @@ def test_latents_come_with_scale_and_shift_and_are_decoded_one_after_another(mod
     assert np.abs(decoded / 65_535 - frames).max() < 1e-5
 
 
+@pytest.mark.parametrize("frames", [5, None])
+def test_latents_of_cogvideox_come_without_its_padding(frames, models):
+    """CogVideoX 1.5 pads 3 latent frames (9 frames, its own number) to 4, and 2 to 2."""
+    generator = build(models("cogvideox15"), frames=frames)
+    decoded = pixels(generator.generate(PROMPT))
+    ours = np.stack(list(generator.decode(generator.generate_latents(PROMPT))))
+    assert ours.shape == decoded.shape
+    assert np.abs(decoded / 65_535 - ours).max() < 1e-5
+
+
 def test_another_decoder_for_the_same_latents_gives_other_frames(models, tmp_path):
     own = models("wan") / "vae"
     with tiny_pipelines.random_weights(seed=5):

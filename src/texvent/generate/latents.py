@@ -55,7 +55,8 @@ def read_latents(pipe: Any, output: Any, frames: int | None, fps: Fraction) -> L
     Args:
         pipe: the pipeline, with one of `KNOWN_DECODERS`.
         output: its tensor: [1, C, T, h, w], or [1, T, C, h, w] for CogVideoX.
-        frames: number of frames asked for; CogVideoX 1.5 pads at the start, which is removed.
+        frames: number of frames asked for, None for the model's own; CogVideoX 1.5 pads at the
+            start, which is removed.
         fps: rate of the decoded frames.
 
     Raises:
@@ -70,8 +71,8 @@ def read_latents(pipe: Any, output: Any, frames: int | None, fps: Fraction) -> L
     values = output[0].float().cpu().numpy()
     if name == COGVIDEOX:
         frames_per_latent = int(pipe.vae_scale_factor_temporal)
-        if frames is not None:
-            values = values[-((frames - 1) // frames_per_latent + 1) :]
+        asked = frames or int(pipe.transformer.config.sample_frames)
+        values = values[-((asked - 1) // frames_per_latent + 1) :]
         values = np.ascontiguousarray(values.transpose(1, 0, 2, 3))
         scale = np.full(len(values), 1 / pipe.vae_scaling_factor_image, np.float32)
         shift = np.zeros(len(values), np.float32)
