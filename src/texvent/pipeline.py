@@ -10,29 +10,24 @@ and optical flow run a few frames ahead in threads of their own; the events are 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from contextlib import ExitStack, closing
+from collections.abc import Iterator
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from typing import Any
 
-from texvent._ahead import read_ahead
-from texvent._heap import release_freed_memory
 from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS
 from texvent._version import __version__
 from texvent.capture.prepare import PreparedFrames
 from texvent.config import CaptureConfig, RunConfig
+from texvent.engine.planning import plan_pairs
 from texvent.engine.select import advance, check_engine
 from texvent.events import NOISE, SIGNAL, EventPackets, EventStream
 from texvent.generate.protocol import Watch
-from texvent.interpolate.densify import OnCut, Pair, pair_up
-from texvent.interpolate.policy import CountPolicy
+from texvent.interpolate.densify import OnCut
 from texvent.settings import Settings
 from texvent.simulate.protocol import Simulator
 from texvent.simulate.training import draw_training_config
 from texvent.video import Frame, FrameStream
-
-RELEASE_EVERY_PAIRS = 256
-"""Pairs of source frames after which freed memory goes back to the system: some ten seconds."""
 
 
 def text_to_events(prompt: str, settings: Settings, *, watch: Watch | None = None) -> Simulation:
@@ -98,30 +93,9 @@ class Simulation:
         settings = self.settings
         simulator = _build_simulator(settings)
         with ExitStack() as threads:
-            pairs = _release_memory(self._pairs(simulator, threads))
+            pairs = plan_pairs(self.video, settings.interpolate, simulator, threads)
             for frame, packet in advance(pairs, simulator, settings, on_cut):
                 yield frame, select(packet, settings.run)
-
-    def _pairs(self, simulator: Simulator, threads: ExitStack) -> Iterator[Pair]:
-        """Pairs of source frames, decoded and planned ahead in threads that `threads` ends.
-
-        A live source is read only when its next frame is asked for: what it shows may depend on
-        the events, and nothing could interrupt a thread that waits for it.
-        """
-        config = self.settings.interpolate
-        interpolator = INTERPOLATORS.load(config.interpolate)(config, self.video)
-        policy = CountPolicy(
-            config,
-            self.video,
-            interpolator,
-            balance=simulator.balance,
-            contrast_threshold=simulator.contrast_threshold,
-        )
-        if self.video.is_live:
-            return pair_up(self.video, interpolator, config, policy)
-        frames = threads.enter_context(closing(read_ahead(_with_luma(self.video), depth=2)))
-        pairs = pair_up(frames, interpolator, config, policy)
-        return threads.enter_context(closing(read_ahead(pairs, depth=1)))
 
     @property
     def packets(self) -> EventPackets:
@@ -170,21 +144,6 @@ def _weight_files(settings: Settings) -> dict[str, Any]:
         if hasattr(part, "provenance")
     }
     return {"weights": files} if files else {}
-
-
-def _with_luma(frames: Iterable[Frame]) -> Iterator[Frame]:
-    """The frames, with their luma computed: it is kept, so it costs the reading thread only."""
-    for frame in frames:
-        frame.luma  # noqa: B018  (a cached property)
-        yield frame
-
-
-def _release_memory(pairs: Iterator[Pair]) -> Iterator[Pair]:
-    """The pairs; now and then, what earlier ones have freed goes back to the system."""
-    for number, pair in enumerate(pairs, start=1):
-        yield pair
-        if number % RELEASE_EVERY_PAIRS == 0:
-            release_freed_memory()
 
 
 def select(packet: EventStream, run: RunConfig) -> EventStream:
