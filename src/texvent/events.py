@@ -139,11 +139,10 @@ class EventStream:
         Checking costs more than a small packet. The arrays themselves become read-only.
         """
         stream = object.__new__(cls)
-        named = dict(zip("xytp", columns, strict=True), label=label)
-        for column in named.values():
-            if column is not None:
-                column.flags.writeable = False
-        vars(stream).update(named, size=size, metadata={})
+        x, y, t, p = columns
+        for column in columns if label is None else (*columns, label):
+            column.setflags(write=False)
+        vars(stream).update(x=x, y=y, t=t, p=p, size=size, metadata={}, label=label)
         return stream
 
     def __len__(self) -> int:

@@ -64,6 +64,7 @@ class SparsePixels:
             is_renewed=False,
             has_line=config.stamp == "linear",
         )
+        self._rule_that_renews = self._rule._replace(is_renewed=True)
         self._timing = Timing(
             config.stamp,
             config.stamp_scale,
@@ -149,9 +150,7 @@ class SparsePixels:
     def _fire(self, memory: Memory, intensity: Intensity, renewal: Renewal) -> Fired | None:
         """Eq. 5 for the pixels of a memory; None where an intensity is impossible."""
         has_levels = memory.level.size > 0
-        rule = self._rule
-        if renewal == "renew" and not has_levels:
-            rule = rule._replace(is_renewed=True)
+        rule = self._rule_that_renews if renewal == "renew" and not has_levels else self._rule
         find_fired = load_find_fired(self._backend, intensity.dtype.str)
         fired = find_fired(intensity, memory, self._levels, rule)
         if has_levels and renewal != "keep" and fired is not None:
@@ -195,8 +194,10 @@ class SparsePixels:
         luma = intensity[noise.pixel]
         if luma.dtype == np.uint16:
             luma = as_luma(luma)
-        is_dark = luma < config.noise_intensity
-        return NoisePlaces(noise.pixel[is_dark], noise.fraction[is_dark], noise.p[is_dark])
+        dark = np.flatnonzero(luma < config.noise_intensity)
+        if not len(dark):
+            return _QUIET
+        return NoisePlaces(noise.pixel[dark], noise.fraction[dark], noise.p[dark])
 
 
 def _native_intensity(frame: Frame) -> Intensity:

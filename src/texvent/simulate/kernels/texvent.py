@@ -117,8 +117,9 @@ class Fired(NamedTuple):
 
     def first(self, number: int) -> Fired:
         """Views of the first so many rows."""
-        pixel, change, start, stop, reference = self
-        lines = (line[:number] for line in (start, stop, reference))
+        pixel, change, *lines = self
+        if lines[0].size:
+            lines = [line[:number] for line in lines]
         return Fired(pixel[:number], change[:number], *lines)
 
     def moved(self, first: int) -> Fired:

@@ -69,8 +69,10 @@ def find_fired(frame: Intensity, memory: Memory, levels: Levels, rule: FireRule)
     if not memory.table.size:
         return _find_fired_floats(pictures, memory, levels, rule)
     fire = _fire_bytes if frame.dtype == np.uint8 else _fire_words
-    # A copied simulator has tables that can be written, which Numba would compile for again.
-    table, fired = read_only(memory.table), work.fired
+    table, fired = memory.table, work.fired
+    if table.flags.writeable:
+        # Of a copied simulator; Numba would compile for it again.
+        table = memory.table = read_only(table)
     with allow_wrap_around():
         found = fire(pictures, table, levels, rule.threshold, fired)
     if rule.is_renewed:
