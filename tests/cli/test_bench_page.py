@@ -1,0 +1,38 @@
+"""`texvent bench page` as a user meets it."""
+
+import xml.etree.ElementTree as ElementTree
+
+from texvent.cli.app import main
+
+
+def test_a_result_becomes_a_page_with_its_pictures(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    chosen = ["--scenes", "translate", "--simulators", "esim", "--interpolations", "none"]
+    assert main(["bench", "fidelity", *chosen, "-o", "r.json", "--jobs", "1", "-q"]) == 0
+    capsys.readouterr()
+    assert main(["bench", "page", "r.json"]) == 0
+    written = capsys.readouterr().out.split()
+    assert sorted(written) == ["r-bars.svg", "r-events.png", "r-levels.svg", "r-times.svg", "r.md"]
+    page = (tmp_path / "r.md").read_text()
+    assert "commit: " in page
+    assert "### translate, noisy pixels" in page
+    assert "| esim, none | " in page
+    for name in written:
+        if name.endswith(".svg"):
+            texts = ElementTree.fromstring((tmp_path / name).read_text()).iter()
+            assert any("esim, none" in (one.text or "") for one in texts)
+        if name != "r.md":
+            assert name in page
+    assert main(["bench", "page", "r.json"]) != 0
+    assert "exists already" in capsys.readouterr().err
+
+
+def test_a_page_needs_a_result_of_the_benchmark(tmp_path, capsys):
+    assert main(["bench", "page", str(tmp_path / "none.json")]) != 0
+    assert "there is no result" in capsys.readouterr().err
+    (tmp_path / "other.json").write_text('{"schema": "texvent-other-1"}')
+    assert main(["bench", "page", str(tmp_path / "other.json")]) != 0
+    assert "'texvent-other-1'" in capsys.readouterr().err
+    (tmp_path / "broken.json").write_text("{")
+    assert main(["bench", "page", str(tmp_path / "broken.json")]) != 0
+    assert "no JSON document" in capsys.readouterr().err
