@@ -21,6 +21,7 @@ from typing import Any
 
 from benchmarks.speed.peers import (
     ADAPTIVE,
+    AS_SHIPPED,
     OURS,
     OURS_WITH_FLOW,
     PEERS,
@@ -82,7 +83,10 @@ def ratio_to_fastest(ours_ms: float, peers_ms: Sequence[float]) -> float | None:
 def measure_duel(
     clip: Video, name: str, ours: Contender, peers: Sequence[Contender], *, rounds: int
 ) -> dict[str, Any]:
-    """One row: our model at its own threshold, each peer at the one that gives as many events."""
+    """One row: our model at its own threshold, each peer at the one that gives as many events.
+
+    A peer with a threshold of its own runs at that.
+    """
     pairs = len(clip) - 1
     own: Simulate = ours.prepare()
     own(clip, OWN_THRESHOLD)
@@ -121,7 +125,10 @@ def _match(
     if problem is not None:
         return {**row, "installed": False, "problem": problem}
     simulate = peer.prepare()
-    threshold, count = match_count(lambda tried: simulate(clip, tried), target)
+    if peer.own_threshold is None:
+        threshold, count = match_count(lambda tried: simulate(clip, tried), target)
+    else:
+        threshold, count = peer.own_threshold, simulate(clip, peer.own_threshold)
     calls[peer.name] = lambda: simulate(clip, threshold)
     pairs = len(clip) - 1
     return {
@@ -149,9 +156,11 @@ def measure_duels(*, quick: bool, heavy: Path | None, video: Path | None) -> lis
     for ours in OURS:
         rows.append(measure_duel(clip, "heavy", ours, PEERS, rounds=rounds))
         rows.append(measure_duel(dense, "real video, 200 fps", ours, PEERS, rounds=rounds))
-    rows.append(measure_duel(clip, "heavy", OURS_WITH_FLOW, (ADAPTIVE,), rounds=rounds))
-    files = {"heavy": shown, "real video, 200 fps": real.name}
-    return [{**row, "file": files[row["clip"]]} for row in rows]
+    for name, peer in (("heavy", ADAPTIVE), ("heavy, as shipped", AS_SHIPPED)):
+        rows.append(measure_duel(clip, name, OURS_WITH_FLOW, (peer,), rounds=rounds))
+    return [
+        {**row, "file": shown if row["clip"].startswith("heavy") else real.name} for row in rows
+    ]
 
 
 def run_on_one_core(words: Sequence[str]) -> list[dict[str, Any]]:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
+from benchmarks.model_kernels import threads_at_most
 from benchmarks.speed.floor import Bandwidth
 from benchmarks.speed.scenes import Bytes, jumping_pixels, to_and_fro
 from benchmarks.speed.timing import Quartiles, rounded, seconds
@@ -18,9 +20,9 @@ from texvent.video import Frame
 
 SIZES = (SensorSize(346, 260), SensorSize(1280, 720))
 DENSITIES = (0.001, 0.01, 0.05, 0.2)
-MODELS = ("texvent", "esim")
-"""One event per pixel and frame (the paper preset), and several."""
 WARM_UP_FRAMES = 3
+BATCH = 16
+"""Frames that a model is given at once."""
 
 
 @dataclass(frozen=True)
@@ -31,17 +33,21 @@ class Plan:
     """Frames that differ: together more than the caches hold, so that each comes from DRAM."""
     steps: int
     """Steps that are timed."""
+    models: tuple[str, ...] = ("texvent", "esim")
+    """One event per pixel and frame (the paper preset), and several."""
 
 
 QUICK = Plan(frames=16, steps=24)
-FULL = Plan(frames=48, steps=96)
+FULL = Plan(
+    frames=48, steps=96, models=("texvent", "esim", "v2e", "senpi", "voltmeter", "physical")
+)
 
 
 class Run:
     """One simulator on one endless clip."""
 
     def __init__(self, model: str, frames: Bytes) -> None:
-        self._simulator: Any = SIMULATORS.load(model)()
+        self.simulator: Any = SIMULATORS.load(model)()
         self._frames: Iterator[Frame] = to_and_fro(frames)
         self.events = 0
 
@@ -49,7 +55,7 @@ class Run:
         """Simulate the next frame; returns the seconds it took."""
         frame = next(self._frames)
         packet: list[Any] = []
-        taken = seconds(lambda: packet.append(self._simulator.step(frame)))
+        taken = seconds(lambda: packet.append(self.simulator.step(frame)))
         self.events += len(packet[0])
         return taken
 
@@ -65,24 +71,44 @@ class Run:
         """Seconds of each of the next frames."""
         return [self.step() for _ in range(count)]
 
+    def batches(self, count: int) -> list[float]:
+        """Seconds per frame of the next frames, `BATCH` at a time; the first batch is not timed."""
+        times = []
+        for _ in range(1 + -(-count // BATCH)):
+            batch = list(itertools.islice(self._frames, BATCH))
+            times.append(seconds(functools.partial(self.simulator.step_batch, batch)) / BATCH)
+        return times[1:]
+
 
 def measure_kernels(plan: Plan, bandwidths: dict[int, Bandwidth]) -> list[dict[str, Any]]:
-    """A row per model, size, density and number of threads.
+    """A row per model, size, density and way of working.
 
-    With two threads, each simulates a clip of its own: the figures are those of both together.
+    "clip" is one thread, frame by frame; "clips" two threads, each with a clip of its own;
+    "batch" two threads on one clip, for models that take several frames at once.
     """
     rows = []
     for size, density in itertools.product(SIZES, DENSITIES):
         frames = jumping_pixels(size, density, plan.frames)
-        for model in MODELS:
-            one = Run(model, frames).warm_up()
-            alone = Quartiles.of(one.steps(plan.steps), scale=1e3)
-            events = one.events / plan.steps
-            together = _in_two_threads(model, frames, plan.steps)
-            for threads, time_ms in ((1, alone), (2, together)):
-                floor_ms = bandwidths[threads].floor_s(size, events) * 1e3
-                rows.append(_row(model, size, density, threads, events, time_ms, floor_ms))
+        for model in plan.models:
+            ways, events = _measure_ways(model, frames, plan.steps)
+            for way, time_ms in ways.items():
+                floor_s = bandwidths[1 if way == "clip" else 2].floor_s(size, events)
+                row = {"model": model, "size": str(size), "density": density, "way": way}
+                rows.append({**row, **_figures(size, events, time_ms, floor_s * 1e3)})
     return rows
+
+
+def _measure_ways(model: str, frames: Bytes, steps: int) -> tuple[dict[str, Quartiles], float]:
+    """Milliseconds per frame by way of working, and events per frame."""
+    with threads_at_most(1):
+        one = Run(model, frames).warm_up()
+        ways = {"clip": Quartiles.of(one.steps(steps), scale=1e3)}
+        events = one.events / steps
+        ways["clips"] = _in_two_threads(model, frames, steps)
+    if hasattr(one.simulator, "step_batch"):
+        with threads_at_most(2):
+            ways["batch"] = Quartiles.of(one.batches(steps), scale=1e3)
+    return ways, events
 
 
 def _in_two_threads(model: str, frames: Bytes, steps: int) -> Quartiles:
@@ -98,21 +124,11 @@ def _in_two_threads(model: str, frames: Bytes, steps: int) -> Quartiles:
     return Quartiles.of(times, scale=1e3)
 
 
-def _row(
-    model: str,
-    size: SensorSize,
-    density: float,
-    threads: int,
-    events: float,
-    time_ms: Quartiles,
-    floor_ms: float,
+def _figures(
+    size: SensorSize, events: float, time_ms: Quartiles, floor_ms: float
 ) -> dict[str, Any]:
     per_second = 1e3 / time_ms.median
     return {
-        "model": model,
-        "size": str(size),
-        "density": density,
-        "threads": threads,
         "events_per_frame": rounded(float(events)),
         "ms_per_frame": time_ms.as_json(),
         "mpixel_per_s": rounded(size.width * size.height * per_second / 1e6),

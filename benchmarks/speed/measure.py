@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import importlib.util
 import os
 import tempfile
@@ -91,11 +92,14 @@ def _measure_pipelines(options: Options) -> list[dict[str, Any]]:
 
 def _measure_gpu(quick: bool) -> dict[str, Any]:
     """What `benchmarks.gpu` measures, or why it does not."""
-    for module in ("torch", GPU_BENCHMARK):
+    for module in ("torch", "triton", GPU_BENCHMARK):
         if importlib.util.find_spec(module) is None:
             return {"available": False, "note": f"no GPU: {module} is not installed"}
     torch: Any = importlib.import_module("torch")
     if not torch.cuda.is_available():
         return {"available": False, "note": "no GPU: torch finds no CUDA device"}
-    report: dict[str, Any] = importlib.import_module(GPU_BENCHMARK).measure(quick=quick)
-    return {"available": True, **report}
+    benchmark: Any = importlib.import_module(GPU_BENCHMARK)
+    plan = benchmark.Plan()
+    if quick:
+        plan = dataclasses.replace(plan, densities=(0.01,), batches=(8,), repeats=5)
+    return {"available": True, **benchmark.measure(plan, "cuda")}

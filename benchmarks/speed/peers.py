@@ -33,6 +33,8 @@ class Contender:
     """Modules without which it cannot run."""
     prepare: Callable[[], Simulate]
     """Import what it needs and return the simulator."""
+    own_threshold: float | None = None
+    """Where it is run as it comes, not at our event count."""
 
     @property
     def version(self) -> str | None:
@@ -69,6 +71,18 @@ def _prepare_eventcv(upsample: str) -> Simulate:
             upsample=upsample,
         )
         return len(events)
+
+    return simulate
+
+
+def _prepare_shipped_eventcv() -> Simulate:
+    eventcv: Any = importlib.import_module("eventcv")
+
+    def simulate(clip: Video, threshold: float) -> int:
+        shown = eventcv.simulate(
+            clip.pixels, fps=_fps(clip), pos_thres=threshold, neg_thres=threshold
+        )
+        return len(shown)
 
     return simulate
 
@@ -124,6 +138,13 @@ PEERS = (
 )
 ADAPTIVE = Contender(
     "eventcv, adaptive (its default)", "eventcv", ("eventcv",), lambda: _prepare_eventcv("adaptive")
+)
+AS_SHIPPED = Contender(
+    "eventcv, all defaults (adaptive, with its noise)",
+    "eventcv",
+    ("eventcv",),
+    lambda: _prepare_shipped_eventcv(),
+    own_threshold=0.2,
 )
 OURS = (
     Contender("texvent, paper preset", "texvent", (), lambda: _prepare_ours("texvent")),

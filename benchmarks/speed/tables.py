@@ -84,13 +84,13 @@ def _targets(document: Document) -> str:
 def _kernels(document: Document) -> str:
     rows = [
         (
-            row["model"], row["size"], f"{row['density']:.1%}", row["threads"],
+            row["model"], row["size"], f"{row['density']:.1%}", row["way"],
             f"{row['events_per_frame']:,.0f}", _spread(row["ms_per_frame"]),
             row["mpixel_per_s"], row["mevents_per_s"], row["floor_ms"], row["times_floor"],
         )
         for row in document["kernels"]
     ]  # fmt: skip
-    head = ("model", "size", "jumping", "threads", "events", "ms per frame", "Mpixel/s",
+    head = ("model", "size", "jumping", "way", "events", "ms per frame", "Mpixel/s",
             "Mevents/s", "floor, ms", "times floor")  # fmt: skip
     return "### Kernels\n\n" + _table(head, rows)
 
@@ -151,7 +151,21 @@ def _gpu(document: Document) -> str:
     gpu = document["gpu"]
     if not gpu["available"]:
         return f"### GPU\n\n{gpu['note']}."
-    return f"### GPU\n\n```json\n{json.dumps(gpu, indent=1)}\n```"
+    copy = f"Copy bandwidth {_spread(gpu['copy_gb_per_s'])} GB/s; {gpu['environment']['device']}."
+    kernels = [
+        (
+            row["model"], row["pixels"], f"{row['density']:.1%}", row["batch"],
+            f"{row['events_per_frame']:,.0f}", _spread(row["us_per_frame"]), row["share_of_copy"],
+        )
+        for row in gpu["simulation"]
+    ]  # fmt: skip
+    head = ("model", "pixels", "jumping", "clips", "events", "us per frame", "share of copy")
+    pairs = [
+        (row["size"], row["precision"], _spread(row["ms_per_pair"]), row["peak_mib"])
+        for row in gpu["rife_pairs"]
+    ]
+    rife = _table(("RIFE and simulation", "precision", "ms per pair", "peak, MiB"), pairs)
+    return "\n\n".join(("### GPU", copy, _table(head, kernels), rife))
 
 
 def main() -> None:
