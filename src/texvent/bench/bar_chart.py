@@ -10,7 +10,7 @@ from texvent.bench.results import FidelityReport, Reference, Score
 from texvent.bench.svg import COLOURS, placed, svg_document
 from texvent.metrics.summary import summarise
 
-LABEL_PX, BAR_PX, ROW_PX, HEAD_PX, GAP_PX = 130, 250, 16, 34, 24
+LABEL_PX, BAR_PX, ROW_PX, HEAD_PX, GAP_PX = 175, 250, 16, 34, 24
 """Widths of the labels and of an STPP of 1; heights of a row and of a panel's head."""
 PANELS_PER_ROW = 2
 
@@ -33,7 +33,7 @@ def bar_chart(report: FidelityReport) -> str:
         placed(panel, number % columns * width, number // columns * height)
         for number, panel in enumerate(panels)
     ]
-    parts.append(_legend(rows * height + GAP_PX // 2))
+    parts.append(_legend({score.track for score in report.scores}, rows * height + GAP_PX // 2))
     return svg_document(columns * width, rows * height + GAP_PX, parts)
 
 
@@ -73,11 +73,12 @@ def _bar(score: Score, top: float) -> str:
     )
 
 
-def _legend(y: float) -> str:
+def _legend(tracks: set[str], y: float) -> str:
+    shown = [(name, colour) for name, colour in COLOURS.items() if name in tracks]
     parts: Sequence[str] = [
         f"<rect x='{LABEL_PX + number * 130}' y='{y - 9}' width='10' height='10' fill='{colour}'/>"
         f"<text x='{LABEL_PX + number * 130 + 15}' y='{y}'>{name}</text>"
-        for number, (name, colour) in enumerate(COLOURS.items())
+        for number, (name, colour) in enumerate(shown)
     ]
     return "".join(parts)
 
