@@ -191,8 +191,10 @@ def test_a_picture_starts_the_video_where_the_pipeline_can(models, tmp_path):
     assert not np.array_equal(
         pixels(with_picture), pixels(build(models("cosmos25")).generate(PROMPT))
     )
+    watcher = Watcher()
     with pytest.raises(ConfigError, match="starts from text alone"):
-        build(models("wan"), image=tmp_path / "start.png").generate(PROMPT)
+        build(models("wan"), image=tmp_path / "start.png").generate(PROMPT, watch=watcher)
+    assert watcher.lines == [], "refused before anything was loaded"
     with pytest.raises(InputError, match="there is no picture"):
         build(models("cosmos25"), image=tmp_path / "none.png").generate(PROMPT)
     (tmp_path / "bad.png").write_bytes(b"no picture")

@@ -15,15 +15,22 @@ diffusers = pytest.importorskip("diffusers")
 
 from safetensors.torch import load_file, save_file  # noqa: E402
 
-from texvent.errors import FileFormatError, InputError, MissingDependencyError  # noqa: E402
+from texvent.errors import (  # noqa: E402
+    ConfigError,
+    FileFormatError,
+    InputError,
+    MissingDependencyError,
+)
 from texvent.generate.agreement import measure_agreement  # noqa: E402
 from texvent.generate.loading import quiet_libraries  # noqa: E402
+from texvent.generate.pipeline_call import check_options  # noqa: E402
 from texvent.generate.pipeline_loading import (  # noqa: E402
     LoadRequest,
     load_pipeline,
     place_pipeline,
 )
 from texvent.generate.placement import Placement  # noqa: E402
+from texvent.generate.video_config import DiffusersConfig  # noqa: E402
 
 from . import tiny_pipelines  # noqa: E402
 from .tiny_models import PROMPT, build  # noqa: E402
@@ -122,6 +129,18 @@ def test_a_class_that_diffusers_lacks_is_named(models, tmp_path):
     index.write_text(index.read_text().replace("WanPipeline", "FuturePipeline"))
     with pytest.raises(InputError, match="needs the diffusers class FuturePipeline"):
         build(path).generate(PROMPT)
+
+
+def test_options_are_compared_with_what_a_pipeline_takes():
+    class FromPictures:
+        def __call__(self, image, prompt=None, num_frames=8):
+            return image, prompt, num_frames
+
+    assert "num_frames" in check_options(FromPictures, DiffusersConfig(image="a.png", frames=9))
+    with pytest.raises(ConfigError, match="FromPictures starts from a picture; give --image PATH"):
+        check_options(FromPictures, DiffusersConfig())
+    with pytest.raises(ConfigError, match="steps is set, but FromPictures does not take it"):
+        check_options(FromPictures, DiffusersConfig(image="a.png", steps=5))
 
 
 class FakePipeline:

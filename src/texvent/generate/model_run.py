@@ -16,12 +16,13 @@ from texvent.generate.guardrail import PART, check_prompt, guardrail_version, ne
 from texvent.generate.latents import Latents, decode_frames, read_latents, stream_frames
 from texvent.generate.model_source import ModelFiles, find_files
 from texvent.generate.models import VideoModel
-from texvent.generate.pipeline_call import call_pipeline, default_guidance
+from texvent.generate.pipeline_call import call_pipeline, check_options, default_guidance
 from texvent.generate.pipeline_loading import (
     MOTION_PIPELINE,
     LoadRequest,
     Pipeline,
     find_kept,
+    find_pipeline_class,
     load_pipeline,
     resolve_device,
 )
@@ -158,6 +159,8 @@ class ModelRun:
         if self._pipe is None:
             request = self._request(has_text_encoder=known is None)
             if find_kept(request) is None:
+                # Before minutes of loading.
+                check_options(find_pipeline_class(request), self._config)
                 self.watch.announce(f"loading {self._model.source} ({self._describe_placement()})")
             self._pipe = load_pipeline(request)
         pipe = self._pipe

@@ -57,8 +57,8 @@ def call_pipeline(
         ConfigError: the pipeline does not take an option, or refuses its value.
         TexventError: the GPU's memory is too small.
     """
-    accepted = inspect.signature(pipe.__call__).parameters
-    arguments = {**_options(pipe, config, accepted), **prompt}
+    accepted = check_options(type(pipe), config)
+    arguments = {**_options(config, accepted), **prompt}
     if "prompt_embeds" in prompt:
         arguments.pop("negative_prompt", None)
     for name in RATE_ARGUMENTS:
@@ -67,13 +67,33 @@ def call_pipeline(
     if SOUND in accepted:
         arguments[SOUND] = False
     if "image" in accepted:
-        arguments.update(_image(pipe, config, accepted["image"]))
-    elif config.image is not None:
-        raise ConfigError(f"image is set, but {type(pipe).__name__} starts from text alone")
+        arguments.update(_image(config))
     if STEP_CALLBACK in accepted:
         arguments[STEP_CALLBACK] = _step_callback(watch)
     output = _run(pipe, {**arguments, "output_type": output_type}, seed)
     return output if output_type == "latent" else output[0]
+
+
+def check_options(pipeline_class: type, config: DiffusersConfig) -> Mapping[str, inspect.Parameter]:
+    """Refuse options that the pipeline does not take; nothing has to be loaded for that.
+
+    Returns:
+        Name → parameter of its call.
+
+    Raises:
+        ConfigError: an option is set that it does not take, or one is missing that it needs.
+    """
+    accepted = inspect.signature(pipeline_class.__call__).parameters
+    name = pipeline_class.__name__
+    for option, names in ARGUMENTS.items():
+        if getattr(config, option) is not None and not set(names) & set(accepted):
+            raise ConfigError(f"{option} is set, but {name} does not take it")
+    if config.image is not None and "image" not in accepted:
+        raise ConfigError(f"image is set, but {name} starts from text alone")
+    image = accepted.get("image")
+    if image is not None and image.default is inspect.Parameter.empty and config.image is None:
+        raise ConfigError(f"{name} starts from a picture; give --image PATH")
+    return accepted
 
 
 def _run(pipe: Any, arguments: Mapping[str, Any], seed: int) -> Any:
@@ -104,26 +124,19 @@ def default_guidance(pipe: Any, config: DiffusersConfig) -> float:
     return float(default)
 
 
-def _options(
-    pipe: Any, config: DiffusersConfig, accepted: Mapping[str, inspect.Parameter]
-) -> dict[str, Any]:
-    arguments: dict[str, Any] = {}
-    for option, names in ARGUMENTS.items():
-        value = getattr(config, option)
-        if value is None:
-            continue
-        name = next((one for one in names if one in accepted), None)
-        if name is None:
-            raise ConfigError(f"{option} is set, but {type(pipe).__name__} does not take it")
-        arguments[name] = value
-    return arguments
+def _options(config: DiffusersConfig, accepted: Mapping[str, inspect.Parameter]) -> dict[str, Any]:
+    """The options that are set, by the names that a call accepts."""
+    values = {option: getattr(config, option) for option in ARGUMENTS}
+    return {
+        next(name for name in ARGUMENTS[option] if name in accepted): value
+        for option, value in values.items()
+        if value is not None
+    }
 
 
-def _image(pipe: Any, config: DiffusersConfig, parameter: inspect.Parameter) -> dict[str, Any]:
+def _image(config: DiffusersConfig) -> dict[str, Any]:
     """The picture to start from, cut and resized to the video's size."""
     if config.image is None:
-        if parameter.default is inspect.Parameter.empty:
-            raise ConfigError(f"{type(pipe).__name__} starts from a picture; give --image PATH")
         return {}
     images, operations = (require(f"PIL.{name}", extra=EXTRA) for name in ("Image", "ImageOps"))
     return {"image": _fit_image(images, operations, config.image, config)}

@@ -105,10 +105,14 @@ def forget_pipeline() -> None:
     _KEPT.clear()
 
 
-def _load(request: LoadRequest) -> Pipeline:
-    index = read_pipeline_index(request.folder)
-    name = request.class_name or str(index["_class_name"])
-    # By the class itself: DiffusionPipeline.from_pretrained ignores optional parts given to it.
+def find_pipeline_class(request: LoadRequest) -> Any:
+    """The diffusers class that runs the model; nothing of the model is loaded.
+
+    Raises:
+        InputError: the installed diffusers has no such class.
+        MissingDependencyError: diffusers is not installed.
+    """
+    name = request.class_name or str(read_pipeline_index(request.folder)["_class_name"])
     with quiet_libraries():
         pipeline_class = getattr(require("diffusers", extra=EXTRA), name, None)
     if pipeline_class is None:
@@ -116,8 +120,14 @@ def _load(request: LoadRequest) -> Pipeline:
             f"{request.folder} needs the diffusers class {name}, which the installed diffusers "
             "does not have; install a newer one: pip install -U diffusers"
         )
+    return pipeline_class
+
+
+def _load(request: LoadRequest) -> Pipeline:
+    # By the class itself: DiffusionPipeline.from_pretrained ignores optional parts given to it.
+    pipeline_class = find_pipeline_class(request)
     parts: dict[str, Any] = {}
-    if needs_guardrail(index):
+    if needs_guardrail(read_pipeline_index(request.folder)):
         stand_in_for_torchvision()
         parts[PART] = load_guardrail()
     if not request.has_text_encoder:
