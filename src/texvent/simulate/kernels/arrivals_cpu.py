@@ -13,6 +13,9 @@ from texvent.simulate.kernels.elementary_cpu import natural_log
 
 Columns = tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]
 
+NEAR = 2
+"""How many pixels around a guess are looked at first."""
+
 
 def draw_arrivals(
     cumulative_hz: NDArray[np.float64], duration_s: float, key: np.uint64, stream: int
@@ -40,12 +43,14 @@ def _draw_arrivals(
     found = 0
     for y in range(height):
         place, order, x = 0.0, 0, 0
+        total = cumulative_hz[y, width - 1]
+        per_hz = width / total if total > 0 else 0.0
         while True:
             chance = draw_uniform(key, y, stream, FIRST_DRAW + order)
             place += -natural_log(1.0 - chance) * per_s
-            if place >= cumulative_hz[y, width - 1]:
+            if place >= total:
                 break
-            x = _first_above(cumulative_hz[y], place, x)
+            x = _first_above(cumulative_hz[y], place, x, int(place * per_hz))
             start = cumulative_hz[y, x - 1] if x > 0 else 0.0
             fraction = (place - start) / (cumulative_hz[y, x] - start)
             if found == columns[0].size:
@@ -59,9 +64,15 @@ def _draw_arrivals(
 
 
 @numba.njit(cache=True, nogil=True)
-def _first_above(ascending: NDArray[np.float64], value: float, first: int) -> int:
+def _first_above(ascending: NDArray[np.float64], value: float, first: int, guess: int) -> int:
     """The first index, from `first` on, whose entry is above a value; the last one's is."""
     last = ascending.size - 1
+    # Where all pixels have about the same rate, the guess is off by a few at most.
+    low, high = min(guess - NEAR, last), min(guess + NEAR, last)
+    if low >= first and ascending[low] <= value:
+        first = low + 1
+    if high >= first and ascending[high] > value:
+        last = high
     while first < last:
         middle = (first + last) // 2
         if ascending[middle] > value:
