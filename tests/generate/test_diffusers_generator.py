@@ -109,16 +109,20 @@ def test_a_seed_repeats_and_another_seed_prompt_or_negative_prompt_differs(name,
 
 @pytest.mark.parametrize(
     ("name", "asked", "made"),
-    [("wan", 4, 5), ("wan", 6, 5), ("wan", 8, 9), ("cosmos", 8, 5), ("cogvideox15", 5, 8)],
+    [
+        *(("wan", 4, 5), ("wan", 6, 5), ("wan", 8, 9), ("wan22", 6, 5)),
+        *(("cosmos", 8, 5), ("cosmos25", 6, 6), ("cogvideox", 6, 8), ("cogvideox15", 5, 8)),
+    ],
 )
 def test_the_real_frame_count_is_used_and_reported(name, asked, made, models):
     watcher = Watcher()
     video = build(models(name), frames=asked).generate(PROMPT, watch=watcher)
     assert video.frame_count == len(list(video)) == made
-    assert any(f"made {made} frames, not {asked}" in line for line in watcher.lines)
+    is_told = any(f"made {made} frames, not {asked}" in line for line in watcher.lines)
+    assert is_told == (made != asked)
 
 
-@pytest.mark.parametrize("name", ["wan", "cosmos", "cogvideox15"])
+@pytest.mark.parametrize("name", ALL)
 def test_cancelling_between_steps_leaves_nothing_and_the_next_run_works(name, models, model_cache):
     generator = build(models(name))
     with pytest.raises(KeyboardInterrupt):
@@ -267,15 +271,17 @@ def test_a_guardrail_whose_weights_are_missing_stops_everything(models, monkeypa
     assert guardrail.needs_guardrail({"_class_name": "Cosmos3OmniPipeline"})
 
 
-def test_a_failed_video_is_refused_or_tried_again_with_other_seeds(models):
+# Random weights of CogVideoX 1.5 move enough to pass: its videos are checked, not refused.
+@pytest.mark.parametrize("name", [name for name in ALL if name != "cogvideox15"])
+def test_a_failed_video_is_refused_or_tried_again_with_other_seeds(name, models):
     """Random weights give noise that stands still: exactly what the filter is for."""
     watcher = Watcher()
     with pytest.raises(TexventError, match="all 3 videos"):
-        build(models("wan"), on_failure="retry", retries=2).generate(PROMPT, watch=watcher)
+        build(models(name), on_failure="retry", retries=2).generate(PROMPT, watch=watcher)
     assert len({line for line in watcher.lines if "is refused" in line}) == 3
     with pytest.raises(TexventError, match="the video failed the check"):
-        build(models("wan"), on_failure="reject").generate(PROMPT)
-    warned = build(models("wan"), on_failure="warn").generate(PROMPT, watch=watcher)
+        build(models(name), on_failure="reject").generate(PROMPT)
+    warned = build(models(name), on_failure="warn").generate(PROMPT, watch=watcher)
     assert warned.metadata["check"]["problems"]
     assert "looks failed" in watcher.lines[-1]
 
