@@ -152,7 +152,7 @@ def test_render_makes_films_pictures_and_pages(folder, name, capsys):
 
 
 def test_doctor_knows_every_extra_that_a_user_can_install():
-    for_developers = {"dev", "readers"}
+    for_developers = {"dev", "readers", "peers"}
     same_as_another = {"torch"}
     project = tomllib.loads(PYPROJECT.read_text(encoding="utf-8"))["project"]
     assert set(EXTRAS) == set(project["optional-dependencies"]) - for_developers - same_as_another
@@ -291,7 +291,9 @@ def test_ctrl_c_midway_leaves_no_file(folder, command):
     assert process.poll() is None, process.stderr.read()
     process.send_signal(signal.SIGINT)
     _, said = process.communicate(timeout=60)
-    assert process.returncode == 130
+    # Shells show both as 130; the second is how CPython ends when the interrupt met a module that
+    # was still being imported and builds code from text, as namedtuple and Numba do.
+    assert process.returncode in (130, -signal.SIGINT)
     assert said.strip().splitlines()[-1].startswith("interrupted")
     assert "Traceback" not in said
     assert not list(folder.iterdir())
