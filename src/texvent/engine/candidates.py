@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import math
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from types import TracebackType
@@ -23,8 +24,8 @@ from texvent.engine.kernels.interface import (
 from texvent.engine.kernels.select import find_compiled
 from texvent.interpolate.paths import Paths, load_warp
 
-BAND_PIXELS = 1 << 14
-"""About how many pixels a thread takes at a time."""
+BAND_PIXELS = 1 << 16
+"""How many pixels a thread takes at a time, at most: candidates are held band by band."""
 
 Settled = TypeVar("Settled")
 
@@ -52,11 +53,6 @@ class CandidateFinder:
         if self._threads is not None:
             self._threads.shutdown(cancel_futures=True)
 
-    def find(self, paths: Paths, grids: Grids, levels: Levels) -> Candidates:
-        """Every place where a pixel may fire; see `kernels.candidates_reference`."""
-        found = list(self.map(lambda band: band, paths, grids, levels))
-        return Candidates(*(np.concatenate(column) for column in zip(*found, strict=True)))
-
     def map(
         self, settle: Callable[[Candidates], Settled], paths: Paths, grids: Grids, levels: Levels
     ) -> Iterator[Settled]:
@@ -76,10 +72,11 @@ class CandidateFinder:
         def settle_band(rows: tuple[int, int]) -> Settled:
             return settle(find_in_rows(pictures, grids, levels, cells, rows))
 
-        height, width = pictures.earlier.shape
-        step = max(1, BAND_PIXELS // width)
-        bands = [(start, min(start + step, height)) for start in range(0, height, step)]
         threads = importlib.import_module("numba").get_num_threads()
+        height = len(pictures.earlier)
+        number = max(threads, math.ceil(pictures.earlier.size / BAND_PIXELS))
+        step = math.ceil(height / number)
+        bands = [(start, min(start + step, height)) for start in range(0, height, step)]
         if threads == 1 or len(bands) == 1:
             return map(settle_band, bands)
         self._threads = self._threads or ThreadPoolExecutor(threads)

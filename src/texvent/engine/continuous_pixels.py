@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 from texvent.brightness import Float64Array, balanced_log
@@ -36,7 +38,7 @@ class ContinuousEsim:
         self, finder: CandidateFinder, paths: Paths, grids: Grids, edges_us: Int64Array
     ) -> Firings:
         """Events between two source frames."""
-        return self._pixels.cross(finder, paths, grids, edges_us)[0]
+        return _joined(self._pixels.cross(finder, paths, grids, edges_us))
 
 
 class ContinuousTexvent:
@@ -72,7 +74,7 @@ class ContinuousTexvent:
     ) -> Firings:
         """Events between two source frames, noise included."""
         self._calibrate(paths)
-        fired, _ = self._pixels.cross(finder, paths, grids, edges_us)
+        fired = _joined(self._pixels.cross(finder, paths, grids, edges_us))
         return fired.joined(self._draw_noise(paths, fired, edges_us))
 
     def _calibrate(self, paths: Paths) -> None:
@@ -99,3 +101,9 @@ class ContinuousTexvent:
 
     def _brightness_of(self, luma: NDArray[Any]) -> Float64Array:
         return balanced_log(luma, self._config.balance)
+
+
+def _joined(bands: Iterable[tuple[Firings, Any]]) -> Firings:
+    """The events of all bands."""
+    columns = zip(*(fired for fired, _ in bands), strict=True)
+    return Firings(*(np.concatenate(column) for column in columns))

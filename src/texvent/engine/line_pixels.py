@@ -69,8 +69,8 @@ class LinePixels:
 
     def cross(
         self, finder: CandidateFinder, paths: Paths, grids: Grids, edges_us: Int64Array
-    ) -> tuple[Firings, NDArray[np.int16]]:
-        """What fires between two source frames.
+    ) -> Iterator[tuple[Firings, NDArray[np.int16]]]:
+        """What fires between two source frames, in bands of rows from the top.
 
         Args:
             finder: looks for the pieces on which a pixel may fire.
@@ -78,8 +78,8 @@ class LinePixels:
             grids: the pieces.
             edges_us: [G, P + 1] where the pieces of each grid begin and end, µs.
 
-        Returns:
-            The events by pixel, then in time; and the piece, from 0, that each lies on.
+        Yields:
+            The events of a band by pixel, then in time; and the piece, from 0, that each lies on.
         """
         rules = self._rules
         levels = Levels(
@@ -93,10 +93,7 @@ class LinePixels:
         def settle(found: Candidates) -> tuple[Firings, NDArray[np.int16]]:
             return self._settle(found, edges_us)
 
-        bands = list(finder.map(settle, paths, grids, levels))
-        fired, piece = zip(*bands, strict=True)
-        columns = (np.concatenate(column) for column in zip(*fired, strict=True))
-        return Firings(*columns), np.concatenate(piece)
+        yield from finder.map(settle, paths, grids, levels)
 
     def _settle(self, found: Candidates, edges_us: Int64Array) -> tuple[Firings, NDArray[np.int16]]:
         """What the candidates of a band fire; moves their references."""
@@ -146,10 +143,18 @@ class FusedEsim:
     ) -> Iterator[EventStream]:
         """Events of each sub-interval."""
         edges = np.array(edges_us)[np.newaxis]
-        found, piece_of = self._pixels.cross(finder, paths, one_grid(paths.positions), edges)
-        order = np.argsort(piece_of, kind="stable")
-        cuts = np.searchsorted(piece_of[order], np.arange(len(edges_us)))
+        crossed = self._pixels.cross(finder, paths, one_grid(paths.positions), edges)
+        bands = [_cut_by_piece(*band, len(edges_us) - 1) for band in crossed]
         for piece, span_us in enumerate(itertools.pairwise(edges_us)):
-            rows = order[cuts[piece] : cuts[piece + 1]]
-            fired = Firings.signal(found.pixel[rows], found.t[rows], found.p[rows])
+            parts = zip(*(band[piece] for band in bands), strict=True)
+            fired = Firings(*(np.concatenate(column) for column in parts))
             yield fired.packet(Interval(*span_us, np.uint64(0)), paths.size)
+
+
+def _cut_by_piece(fired: Firings, piece_of: NDArray[np.int16], pieces: int) -> list[Firings]:
+    """The events of each piece."""
+    order = np.argsort(piece_of, kind="stable")
+    cuts = np.searchsorted(piece_of[order], np.arange(pieces + 1)).tolist()
+    pixel, t, p = fired.pixel[order], fired.t[order], fired.p[order]
+    rows = (slice(*cut) for cut in itertools.pairwise(cuts))
+    return [Firings.signal(pixel[part], t[part], p[part]) for part in rows]

@@ -16,6 +16,7 @@ from texvent.engine.kernels.interface import (
     STEPS,
     STEPS_ONCE,
     TAKES,
+    Candidates,
     Float64Array,
     Int64Array,
     Levels,
@@ -71,21 +72,21 @@ class FusedTexvent:
         """Events of each sub-interval, noise included."""
         reference = self._calibrate(paths)
         levels = self._levels(np.exp(reference) if self._is_kept else np.empty((0, 0)))
-        found = finder.find(paths, one_grid(paths.positions), levels)
-        reference = reference.reshape(-1)
-        if not self._is_kept:
-            # This pair begins at its own first frame; other pixels' references are not looked at.
-            own = paths.earlier.reshape(-1)[found.pixel]
-            reference[found.pixel] = self._brightness_of(own)
-        found = found.take(np.argsort(found.piece, kind="stable"))
-        cuts = np.searchsorted(found.piece, np.arange(len(edges_us))).tolist()
-        stop = self._brightness_of(found.now)
-        start = self._brightness_of(found.before) if self._has_line else stop[:0]
+        flat, first = reference.reshape(-1), paths.earlier.reshape(-1)
+        pieces = len(edges_us) - 1
+
+        def settle(found: Candidates) -> list[Fired]:
+            if not self._is_kept:
+                # The pair begins at its own first frame; other references are not looked at.
+                flat[found.pixel] = self._brightness_of(first[found.pixel])
+            return self._settle(found, flat, pieces)
+
+        bands = list(finder.map(settle, paths, one_grid(paths.positions), levels))
         stamp_events, size = load_stamp_events(AUTO), paths.size
         for piece, span_us in enumerate(itertools.pairwise(edges_us)):
-            rows = slice(cuts[piece], cuts[piece + 1])
+            parts = zip(*(band[piece] for band in bands), strict=True)
+            fired = Fired(*(np.concatenate(column) for column in parts))
             span = Interval(*span_us, frame_key(self._seed, span_us[1]))
-            fired = self._settle(found.pixel[rows], start[rows], stop[rows], reference)
             noise = self._draw_noise(paths, piece, span)
             x, y, t, p, label = stamp_events(fired, noise, self._timing, span, size.shape)
             yield EventStream.unchecked(x, y, t, p, size=size, label=label)
@@ -108,7 +109,19 @@ class FusedTexvent:
         up, down = math.exp(config.contrast_threshold), math.exp(-config.contrast_threshold)
         return Levels(reference, config.balance, up, down, rule)
 
-    def _settle(
+    def _settle(self, found: Candidates, reference: Float64Array, pieces: int) -> list[Fired]:
+        """Eq. 5 for the candidates of a band: what fires in each sub-interval."""
+        found = found.take(np.argsort(found.piece, kind="stable"))
+        cuts = np.searchsorted(found.piece, np.arange(pieces + 1)).tolist()
+        stop = self._brightness_of(found.now)
+        start = self._brightness_of(found.before) if self._has_line else stop[:0]
+        fired = []
+        for cut in itertools.pairwise(cuts):
+            rows = slice(*cut)
+            fired.append(self._settle_piece(found.pixel[rows], start[rows], stop[rows], reference))
+        return fired
+
+    def _settle_piece(
         self, pixel: Int64Array, start: Float64Array, stop: Float64Array, reference: Float64Array
     ) -> Fired:
         """Eq. 5: which of the candidates of a sub-interval fire; moves their references.
