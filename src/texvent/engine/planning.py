@@ -17,8 +17,8 @@ from texvent.video import Frame, FrameStream
 FRAMES_AHEAD = 2
 PAIRS_AHEAD = 1
 """What waits to be used; a pair holds two frames and their optical flow."""
-RELEASE_EVERY_PAIRS = 256
-"""Pairs after which freed memory goes back to the system: some ten seconds of video."""
+RELEASE_EVERY_PAIRS = 128
+"""Pairs after which freed memory goes back to the system: some five seconds of video."""
 
 
 def plan_pairs(
