@@ -12,8 +12,10 @@ from texvent.simulate.kernels.elementary_cpu import exponential
 from texvent.simulate.kernels.levels import MARGIN, Curve, Logs, Luma
 from texvent.simulate.kernels.order import read_only
 
-RUN = 128
-"""Pixels that are passed over together."""
+TILE, WORD = 4096, 8
+"""Pixels that are compared together, and pixels that are passed over together."""
+BLOCK = 128
+"""Pixels whose levels are set together."""
 
 
 def find_outside(luma: Luma, low: Luma, high: Luma) -> NDArray[np.int64]:
@@ -32,27 +34,37 @@ def warm_up(dtype: str) -> None:
 @numba.njit(cache=True, nogil=True)
 def _find_outside(luma: Luma, low: Luma, high: Luma) -> NDArray[np.int64]:
     size = luma.size
-    busy, runs = np.empty(-(-size // RUN), np.int64), 0
-    for first in range(0, size, RUN):
-        last = min(first + RUN, size)
-        busy[runs] = first
-        runs += _is_any_outside(luma[first:last], low[first:last], high[first:last])
-    # One more, for the last index is written before it is known whether it counts.
-    pixel = np.empty(runs * RUN + 1, np.int64)
-    found = 0
-    for first in busy[:runs]:
-        for i in range(first, min(first + RUN, size)):
-            pixel[found] = i
-            found += (luma[i] < low[i]) | (luma[i] > high[i])
+    words = np.zeros(TILE // WORD, np.uint64)
+    marks = words.view(np.uint8)
+    pixel, found = np.empty(size // 16 + TILE + 1, np.int64), 0
+    for first in range(0, size, TILE):
+        last = min(first + TILE, size)
+        if found + TILE >= pixel.size:
+            pixel = _grown(pixel)
+        _mark(luma[first:last], low[first:last], high[first:last], marks)
+        for word in range(-(-(last - first) // WORD)):
+            if words[word] == 0:
+                continue
+            for j in range(WORD * word, WORD * word + WORD):
+                pixel[found] = first + j
+                found += marks[j]
     return pixel[:found]
 
 
 @numba.njit(cache=True, nogil=True)
-def _is_any_outside(luma: Luma, low: Luma, high: Luma) -> bool:
-    outside = 0
+def _mark(luma: Luma, low: Luma, high: Luma, marks: NDArray[np.uint8]) -> None:
+    """1 where a pixel is outside, else 0, also beyond the last."""
     for i in range(luma.size):
-        outside |= (luma[i] < low[i]) | (luma[i] > high[i])
-    return outside != 0
+        marks[i] = (luma[i] < low[i]) | (luma[i] > high[i])
+    marks[luma.size :] = 0
+
+
+@numba.njit(cache=True, nogil=True)
+def _grown(pixel: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The same list with room for as many again."""
+    larger = np.empty(2 * pixel.size, np.int64)
+    larger[: pixel.size] = pixel
+    return larger
 
 
 def narrow(pixel: NDArray[np.int64], logs: Logs, curve: Curve, low: Luma, high: Luma) -> None:
@@ -73,9 +85,9 @@ def _narrow(
     high: Luma,
 ) -> None:
     is_byte = low.itemsize == 1
-    below, above = np.empty(RUN), np.empty(RUN)
-    for first in range(0, pixel.size, RUN):
-        size = min(RUN, pixel.size - first)
+    below, above = np.empty(BLOCK), np.empty(BLOCK)
+    for first in range(0, pixel.size, BLOCK):
+        size = min(BLOCK, pixel.size - first)
         for j in range(size):
             level = scale * exponential(low_log[first + j]) + offset
             below[j] = level + MARGIN * (1.0 + abs(level))

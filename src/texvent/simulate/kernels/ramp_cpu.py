@@ -117,7 +117,7 @@ def _fill(
     """Fill in the events of the pixels whose steps are not 0; return how many fired."""
     pixel, t, p, steps = out
     start_us, stop_us = span_us
-    duration = stop_us - start_us
+    duration, rests = stop_us - start_us, rest.period_us > 0
     found = 0
     for i in range(steps.size):
         count = abs(steps[i])
@@ -127,18 +127,20 @@ def _fill(
         sign = 1 if is_on else -1
         threshold = ramp.threshold_on[i] if is_on else ramp.threshold_off[i]
         first, last = sign * ramp.start[i], sign * ramp.stop[i]
-        fired, fired_at = 0, fired_us[ramp.pixel[i]]
+        # Far apart in memory, so not even looked at where it does not matter.
+        fired, fired_at = 0, fired_us[ramp.pixel[i]] if rests else start_us
         for k in range(1, count + 1):
             level = k * threshold
             fraction = (level - first) / (last - first) if first < level else 0.0
             time = min(start_us + math.floor(fraction * duration), stop_us - 1)
-            if time - fired_at < rest.period_us:
+            if rests and time - fired_at < rest.period_us:
                 continue
             fired_at = time
             pixel[found], t[found], p[found] = ramp.pixel[i], time, is_on
             found += 1
             fired += 1
-        fired_us[ramp.pixel[i]] = fired_at
+        if rests:
+            fired_us[ramp.pixel[i]] = fired_at
         if not rest.is_level_lost:
             steps[i] = sign * fired
     return found

@@ -20,7 +20,8 @@ def cross_ramp(
 
     Args:
         ramp: where the lines run, and the thresholds.
-        fired_us: time of each pixel's last event, µs, [H · W]; brought up to date here.
+        fired_us: time of each pixel's last event, µs, [H · W]; brought up to date here, but left
+            alone without a refractory period.
         span_us: start (included) and stop (excluded) of the interval, µs.
         rest: the refractory period.
 
@@ -46,7 +47,8 @@ def cross_ramp(
             t = np.minimum(start_us + offset, stop_us - 1)
             fires = t - fired_us[ramp.pixel[own]] >= rest.period_us
             fired = ramp.pixel[own[fires]]
-            fired_us[fired] = t[fires]
+            if rest.period_us > 0:
+                fired_us[fired] = t[fires]
             steps[own] += sign * (1 if rest.is_level_lost else fires)
             pixels.append(fired)
             times.append(t[fires])
