@@ -24,7 +24,7 @@ from texvent.simulate.kernels.threads import count_threads, run_parts, split
 
 SHARE = 1 << 18
 """Fewest pixels that are worth a thread of their own."""
-BLOCK, RUN = 512, 32
+BLOCK, WORD = 512, 8
 """Pixels that are moved together, and pixels that are passed over together."""
 
 
@@ -74,10 +74,11 @@ def _follow_light(
     leak, start_us, stop_us = leaking
     pixel, change = np.empty(size // 16 + BLOCK, np.int64), np.empty((2, size // 16 + BLOCK))
     start, stop, weight = np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK)
-    found = 0
+    words, found = np.zeros(BLOCK // WORD, np.uint64), 0
+    marks = words.view(np.uint8)
     for first in range(0, size, BLOCK):
         last = min(first + BLOCK, size)
-        if found + BLOCK > pixel.size:
+        if found + BLOCK >= pixel.size:
             pixel, change = _grown(pixel, change)
         _see(luma[first:last], table, curve, stop, weight)
         _move(state[0][first:last], state[1][first:last], weight, start, stop)
@@ -88,13 +89,13 @@ def _follow_light(
             _add(start, voltage[0][first:last], 1.0)
             _add(stop, voltage[1][first:last], 1.0)
         on, off = thresholds[0][first:last], thresholds[1][first:last]
-        for run in range(0, last - first, RUN):
-            end = min(run + RUN, last - first)
-            if not _is_any_restless(stop, on, off, run, end):
+        _mark(stop, on, off, marks)
+        for word in range(-(-(last - first) // WORD)):
+            if words[word] == 0:
                 continue
-            for j in range(run, end):
+            for j in range(WORD * word, WORD * word + WORD):
                 pixel[found], change[0, found], change[1, found] = first + j, start[j], stop[j]
-                found += (stop[j] >= on[j]) | (-stop[j] >= off[j])
+                found += marks[j]
     return pixel[:found], change[0, :found], change[1, :found]
 
 
@@ -148,13 +149,13 @@ def _add(target: Float64Array, term: Float64Array, factor: float) -> None:
 
 
 @numba.njit(cache=True, nogil=True)
-def _is_any_restless(
-    stop: Float64Array, on: Float64Array, off: Float64Array, first: int, last: int
-) -> bool:
-    restless = 0
-    for j in range(first, last):
-        restless |= (stop[j] >= on[j]) | (-stop[j] >= off[j])
-    return restless != 0
+def _mark(
+    stop: Float64Array, on: Float64Array, off: Float64Array, marks: NDArray[np.uint8]
+) -> None:
+    """1 where a pixel has reached a threshold, else 0, also beyond the last."""
+    for j in range(on.size):
+        marks[j] = (stop[j] >= on[j]) | (-stop[j] >= off[j])
+    marks[on.size :] = 0
 
 
 @numba.njit(cache=True, nogil=True)
