@@ -11,7 +11,7 @@ import numpy as np
 
 from texvent.bench.entries import Entry, simulate_video
 from texvent.bench.frame_recording import FrameRecording
-from texvent.bench.paper_tables import OurFigures
+from texvent.bench.paper_tables import PICTURE_ROWS, OurFigures
 from texvent.bench.picture_scores import load_measures, pool_scores
 from texvent.bench.real import RealPlan, run_real
 from texvent.bench.real_scene import RealScene
@@ -42,7 +42,6 @@ ENTRIES: Mapping[str, Entry] = {
 get motion compensation, as Texvent does; the others get the frames alone."""
 OWN_MODELS = "the other simulators are texvent's models of them; docs/simulators.md says how close"
 EVENT_FRAMES = {"MSE ↓": "ef_mse", "SSIM ↑": "ef_ssim", "LPIPS ↓": "ef_lpips"}
-PICTURES = {"MSE ↓": "mse", "SSIM ↑": "ssim", "LPIPS ↓": "lpips"}
 PROMPT = "a red car drives left past two trees at dusk"
 TIMED_PAIRS, REPEATS = 12, 3
 
@@ -139,7 +138,7 @@ def picture_figures(
     judge = ReconstructionJudge(reconstructor=reconstructor, measures=load_measures(), plan=plan)
     report = run_reconstruction(recordings, judge, announce=announce)
     figures: dict[str, dict[str, str]] = {}
-    for title, measure in PICTURES.items():
+    for title, measure in PICTURE_ROWS.items():
         if measure in report.absent:
             continue
         figures[f"{prefix}{title}"] = {

@@ -12,6 +12,9 @@ from typing import TypeAlias
 
 SIMULATORS = ("VID2E", "V2E", "V2CE", "DVS-Voltmeter", "SENPI", "Texvent")
 
+PICTURE_ROWS: Mapping[str, str] = {"MSE ↓": "mse", "SSIM ↑": "ssim", "LPIPS ↓": "lpips"}
+"""Row of reconstructed pictures → measure."""
+
 Figures: TypeAlias = Mapping[str, Mapping[str, str]]
 """Row → column → figure as text."""
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from texvent.bench.classify import classify, list_samples
 from texvent.bench.frame_recording import FrameRecording
-from texvent.bench.paper_tables import TABLES, OurFigures
+from texvent.bench.paper_tables import PICTURE_ROWS, TABLES, OurFigures
 from texvent.bench.picture_scores import PictureScores, load_measures, pool_scores
 from texvent.bench.reconstruction import ReconstructionJudge, ReconstructionPlan
 from texvent.bench.reconstruction_noise import PAPER_LEVELS, noise_curve
@@ -17,8 +17,6 @@ from texvent.errors import InputError
 from texvent.reconstruct.reconstructor import Reconstructor
 
 Announce = Callable[[str], None]
-
-MEASURES = {"MSE ↓": "mse", "SSIM ↑": "ssim", "LPIPS ↓": "lpips"}
 
 
 def noise_figures(
@@ -44,7 +42,7 @@ def noise_figures(
     pooled = {column: pool_scores(found) for column, found in parts.items()}
     figures = {
         title: {column: f"{one.mean(measure):.4f}" for column, one in pooled.items()}
-        for title, measure in MEASURES.items()
+        for title, measure in PICTURE_ROWS.items()
         if measure not in measures.absent
     }
     notes = [
