@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import itertools
 import weakref
 
 import numba
@@ -11,6 +12,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from texvent.engine import candidates
+from texvent.engine.candidates import CandidateFinder
 from texvent.engine.fused import UndrawnFrame
 from texvent.engine.kernels import select as engine_kernels
 from texvent.interpolate.paths import Paths
@@ -53,6 +56,57 @@ def assert_equal(video, **options):
 
 
 INTERPOLATE = ["flow", "blend", "none"]
+
+
+@pytest.fixture(autouse=True)
+def _busy_pairs_are_not_drawn(monkeypatch):
+    # Small test clips are all motion; what is chosen otherwise has tests of its own.
+    monkeypatch.setattr(candidates, "BUSY", 2.0)
+
+
+@pytest.mark.parametrize("interpolate", ["flow", "none"])
+@pytest.mark.parametrize("name", TEXVENT)
+def test_texvent_pairs_may_be_drawn_or_not_without_a_difference(name, interpolate, monkeypatch):
+    monkeypatch.setattr(CandidateFinder, "survey", _every_other(CandidateFinder.survey))
+    options = {**NOISY, "max_intermediate": 5, "interpolate": interpolate, **TEXVENT[name]}
+    assert assert_equal(panning(6), **options) > 300
+
+
+@pytest.mark.parametrize("name", ESIM)
+def test_esim_pairs_may_be_drawn_or_not_without_a_difference(name, monkeypatch):
+    monkeypatch.setattr(CandidateFinder, "survey", _every_other(CandidateFinder.survey))
+    options = {"simulator": "esim", "max_intermediate": 5, **ESIM[name]}
+    assert assert_equal(panning(6), **options) > 300
+
+
+def _every_other(survey):
+    """The survey for two pairs, then "draw it" for two, and so on."""
+    calls = itertools.count()
+
+    def survey_some(*arguments):
+        return survey(*arguments) if next(calls) // 2 % 2 == 0 else None
+
+    return survey_some
+
+
+@pytest.mark.parametrize(("covered", "is_drawn"), [(0.5, False), (1.0, True)])
+def test_a_pair_is_drawn_where_nearly_all_of_it_may_fire(covered, is_drawn, monkeypatch):
+    monkeypatch.undo()
+    moving = panning(2, size=(96, 96), step=3.0).pixels
+    moving[:, int(96 * covered) :] = 80
+    moving[:, :10, :20] = moving[0, 10, 0]
+    surveys = []
+    monkeypatch.setattr(CandidateFinder, "survey", _recorded(CandidateFinder.survey, surveys))
+    assert assert_equal(Video(moving, panning(2).times_us)) > 100
+    assert [found is None for found in surveys] == [is_drawn]
+
+
+def _recorded(survey, results):
+    def survey_and_keep(*arguments):
+        results.append(survey(*arguments))
+        return results[-1]
+
+    return survey_and_keep
 
 
 @pytest.mark.parametrize("name", TEXVENT)

@@ -41,8 +41,10 @@ def test_what_the_continuous_engine_cannot_do_is_refused_before_any_work(options
     ("options", "fused"),
     [
         ({}, True),
-        ({"interpolate": "blend"}, True),
-        ({"interpolate": "none", "simulator": "esim"}, True),
+        ({"preset": "accurate"}, True),
+        ({"simulator": "esim"}, True),
+        ({"interpolate": "blend"}, False),
+        ({"interpolate": "none", "simulator": "esim"}, False),
         ({"noise": "gaussian"}, False),
         ({"simulator": "esim", "threshold_sigma": 0.03}, False),
         ({"simulator": "physical"}, False),

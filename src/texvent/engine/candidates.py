@@ -14,6 +14,7 @@ import numpy as np
 from texvent.engine.kernels.candidates_reference import find_candidates
 from texvent.engine.kernels.interface import (
     Candidates,
+    Cells,
     Float32Array,
     Float64Array,
     Grids,
@@ -22,10 +23,16 @@ from texvent.engine.kernels.interface import (
     Pictures,
 )
 from texvent.engine.kernels.select import find_compiled
+from texvent.interpolate.densify import Pair
 from texvent.interpolate.paths import Paths, load_warp
 
 BAND_PIXELS = 1 << 16
 """How many pixels a thread takes at a time, at most: candidates are held band by band."""
+BUSY = 0.8
+"""From this share of active pixels on, drawing the pictures costs less: each pixel has to be moved
+in each picture either way, scanning whole pictures is faster than following pixels one by one, and
+no list of candidates has to be held. Measured (docs/engine.md): at a share of 0.64 the fused pass
+takes 0.8 of the time of drawing, at 0.99 1.1, at 1.0 and many events 1.3."""
 
 Settled = TypeVar("Settled")
 
@@ -53,8 +60,33 @@ class CandidateFinder:
         if self._threads is not None:
             self._threads.shutdown(cancel_futures=True)
 
+    def survey(self, pair: Pair, levels: Callable[[], Levels]) -> Cells | None:
+        """Whether a pair is worth looking for candidates.
+
+        Args:
+            pair: two frames.
+            levels: tells what the pixels compare with; not called where it makes no difference.
+
+        Returns:
+            What `map` wants to know of the pair; None where drawing its pictures costs less: a
+            share of `BUSY` or more of its pixels, estimated from a sample of its rows, may fire;
+            nothing moves, so that a picture costs next to nothing; or nothing is compiled yet.
+        """
+        kernels, paths = find_compiled("candidates"), pair.between
+        if kernels is None or not isinstance(paths, Paths) or paths.flows is None:
+            return None
+        pictures = pictures_of(paths)
+        cells: Cells = kernels.find_cells(pictures)
+        return cells if kernels.estimate_active(pictures, levels(), cells) < BUSY else None
+
     def map(
-        self, settle: Callable[[Candidates], Settled], paths: Paths, grids: Grids, levels: Levels
+        self,
+        settle: Callable[[Candidates], Settled],
+        paths: Paths,
+        *,
+        grids: Grids,
+        levels: Levels,
+        cells: Cells | None = None,
     ) -> Iterator[Settled]:
         """What a function makes of the candidates of each band of rows, from the top.
 
@@ -63,11 +95,13 @@ class CandidateFinder:
             paths: the pair.
             grids: when pixels are looked at.
             levels: what they compare with.
+            cells: of `survey`, if there was one.
         """
         pictures, kernels = pictures_of(paths), find_compiled("candidates")
         if kernels is None:
             return iter([settle(find_candidates(pictures, grids, levels, load_warp()))])
-        find_in_rows, cells = kernels.find_in_rows, kernels.find_cells(pictures)
+        find_in_rows = kernels.find_in_rows
+        cells = kernels.find_cells(pictures) if cells is None else cells
 
         def settle_band(rows: tuple[int, int]) -> Settled:
             return settle(find_in_rows(pictures, grids, levels, cells, rows))

@@ -1,18 +1,20 @@
 """The frame engine without its frames: a pair costs one flow and one pass over its pixels.
 
 The events are those of the readable path (`densify`, then `Simulator.step`), bit for bit; it stays
-for simulators and interpolators that cannot be fused, and as the definition of this one.
+for simulators and interpolators that cannot be fused, and as the definition of this one. Pairs that
+it would not make cheaper (`CandidateFinder.survey`) are drawn, and go through the simulator.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
 
 from texvent.engine.candidates import CandidateFinder
+from texvent.engine.kernels.interface import Int64Array
 from texvent.events import EventStream
 from texvent.interpolate.densify import OnCut, Pair, tell_jump
 from texvent.interpolate.paths import Paths
@@ -28,18 +30,15 @@ class FusedPixels(Protocol):
         """Take the first frame."""
         ...
 
-    def fire(
-        self, finder: CandidateFinder, paths: Paths, edges_us: Sequence[int]
-    ) -> Iterator[EventStream]:
+    def fire(self, finder: CandidateFinder, pair: Pair) -> Iterator[tuple[Frame, EventStream]]:
         """Events between two source frames.
 
         Args:
             finder: looks for the candidates.
-            paths: what the pixels see.
-            edges_us: times of both source frames and of the pictures between them, µs.
+            pair: not the first of a stream.
 
         Yields:
-            The packet of each sub-interval, as many as there are edges less one.
+            Each of `undrawn_frames(pair)`, and the packet of the sub-interval that ends at it.
         """
         ...
 
@@ -66,19 +65,34 @@ def step_fused(
                 nothing = Interval(pair.second.t_us, pair.second.t_us, np.uint64(0))
                 yield pair.second, Firings.none().packet(nothing, pair.second.size)
                 continue
-            paths = paths_of(pair)
-            edges_us = (pair.first.t_us, *paths.times_us, pair.second.t_us)
-            frames = [*(UndrawnFrame(paths, k) for k in range(len(paths))), pair.second]
-            yield from zip(frames, pixels.fire(finder, paths, edges_us), strict=True)
+            yield from pixels.fire(finder, pair)
 
 
 def paths_of(pair: Pair) -> Paths:
     """What lies between the two frames of a pair; without pictures if there are none."""
     if isinstance(pair.between, Paths):
         return pair.between
+    return Paths.between(earlier_of(pair), pair.second, (), None)
+
+
+def earlier_of(pair: Pair) -> Frame:
+    """The earlier frame of a pair that has one."""
     if pair.first is None:
         raise ValueError("the first frame of a stream has nothing before it")
-    return Paths.between(pair.first, pair.second, (), None)
+    return pair.first
+
+
+def undrawn_frames(pair: Pair) -> Iterator[Frame]:
+    """The frames between the two of a pair, then the later one; each is made when it is read."""
+    if isinstance(pair.between, Paths):
+        yield from (UndrawnFrame(pair.between, index) for index in range(len(pair.between)))
+    yield pair.second
+
+
+def edges_of(pair: Pair) -> Int64Array:
+    """Times of both source frames and of the pictures between them, [K + 2], µs."""
+    between_us = pair.between.times_us if isinstance(pair.between, Paths) else ()
+    return np.array([earlier_of(pair).t_us, *between_us, pair.second.t_us])
 
 
 class UndrawnFrame(Frame):

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.engine.candidates import CandidateFinder, one_grid
+from texvent.engine.fused import earlier_of, edges_of, paths_of, undrawn_frames
 from texvent.engine.kernels.interface import (
     STEPS,
     Candidates,
+    Cells,
     Float64Array,
     Grids,
     Int64Array,
@@ -22,8 +24,9 @@ from texvent.engine.kernels.interface import (
 from texvent.engine.kernels.pieces import LineCrossings, LineRules, LineState, Pieces
 from texvent.engine.kernels.select import load_kernels
 from texvent.events import EventStream
+from texvent.interpolate.densify import Pair
 from texvent.interpolate.paths import Paths
-from texvent.simulate.esim import WHITE, EsimConfig, log_intensity
+from texvent.simulate.esim import WHITE, EsimConfig, EsimSimulator, log_intensity
 from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.pixel_maps import LONG_AGO_US
 from texvent.video import Frame
@@ -51,6 +54,7 @@ class LinePixels:
         self._rules = rules
         self._brightness_of = brightness_of
         self._balance, self._unit = balance, unit
+        self._level: Float64Array | None = None
 
     def begin(self, frame: Frame) -> None:
         """Set every reference to the first frame."""
@@ -58,17 +62,36 @@ class LinePixels:
         self._fired_us = np.full(reference.size, LONG_AGO_US, np.int64)
         self.adopt(reference)
 
+    def hand_over(self) -> LineState:
+        """References and times, to somebody who will move them until `levels` is asked for."""
+        self._level = None
+        return self._state
+
     def adopt(self, reference: Float64Array) -> None:
         """Use these references from now on; call again when somebody else has changed them.
 
         Args:
             reference: brightness, [H, W], log units; events move it.
         """
-        self._state = LineState(reference.reshape(-1), self._fired_us)
-        self._level = self._unit * np.exp(reference)
+        self._state, self._shape = LineState(reference.reshape(-1), self._fired_us), reference.shape
+        self._level = None
+
+    def levels(self) -> Levels:
+        """What the pixels compare with now."""
+        rules = self._rules
+        up, down = math.exp(rules.threshold_on), math.exp(-rules.threshold_off)
+        if self._level is None:
+            self._level = self._unit * np.exp(self._state.reference.reshape(self._shape))
+        return Levels(self._level, self._balance, up, down, STEPS)
 
     def cross(
-        self, finder: CandidateFinder, paths: Paths, grids: Grids, edges_us: Int64Array
+        self,
+        finder: CandidateFinder,
+        paths: Paths,
+        grids: Grids,
+        edges_us: Int64Array,
+        *,
+        cells: Cells | None = None,
     ) -> Iterator[tuple[Firings, NDArray[np.int16]]]:
         """What fires between two source frames, in bands of rows from the top.
 
@@ -77,26 +100,22 @@ class LinePixels:
             paths: what the pixels see.
             grids: the pieces.
             edges_us: [G, P + 1] where the pieces of each grid begin and end, µs.
+            cells: of `CandidateFinder.survey`, if there was one.
 
         Yields:
             The events of a band by pixel, then in time; and the piece, from 0, that each lies on.
         """
-        rules = self._rules
-        levels = Levels(
-            self._level,
-            self._balance,
-            math.exp(rules.threshold_on),
-            math.exp(-rules.threshold_off),
-            STEPS,
-        )
+        levels = self.levels()
 
         def settle(found: Candidates) -> tuple[Firings, NDArray[np.int16]]:
-            return self._settle(found, edges_us)
+            return self._settle(found, levels.reference, edges_us)
 
-        yield from finder.map(settle, paths, grids, levels)
+        yield from finder.map(settle, paths, grids=grids, levels=levels, cells=cells)
 
-    def _settle(self, found: Candidates, edges_us: Int64Array) -> tuple[Firings, NDArray[np.int16]]:
-        """What the candidates of a band fire; moves their references."""
+    def _settle(
+        self, found: Candidates, level: Float64Array, edges_us: Int64Array
+    ) -> tuple[Firings, NDArray[np.int16]]:
+        """What the candidates of a band fire; moves their references and levels [H, W]."""
         pixel, grid, piece, before, now = found
         pieces = Pieces(
             pixel,
@@ -109,7 +128,7 @@ class LinePixels:
         crossings: LineCrossings = cross_pieces(pieces, self._rules, self._state)
         # Candidates come by pixel: the last one of each says where it is now.
         moved = pixel[np.flatnonzero(np.diff(pixel, append=-1))]
-        self._level.reshape(-1)[moved] = self._unit * np.exp(self._state.reference[moved])
+        level.reshape(-1)[moved] = self._unit * np.exp(self._state.reference[moved])
         fired = Firings.signal(pixel[crossings.row], crossings.t, crossings.p)
         return fired, piece[crossings.row]
 
@@ -132,23 +151,40 @@ class FusedEsim:
 
     def __init__(self, config: EsimConfig, seed: int) -> None:
         del seed  # with thresholds all alike, nothing is random
+        self._config = config
         self._pixels = esim_pixels(config)
+        self._watching: EsimSimulator | None = None
+        """What saw the last pair, if it was drawn: it moves the pixels' references."""
 
     def begin(self, frame: Frame) -> None:
         """Take the first frame."""
         self._pixels.begin(frame)
 
-    def fire(
-        self, finder: CandidateFinder, paths: Paths, edges_us: Sequence[int]
-    ) -> Iterator[EventStream]:
+    def fire(self, finder: CandidateFinder, pair: Pair) -> Iterator[tuple[Frame, EventStream]]:
         """Events of each sub-interval."""
-        edges = np.array(edges_us)[np.newaxis]
-        crossed = self._pixels.cross(finder, paths, one_grid(paths.positions), edges)
+        cells = finder.survey(pair, self._pixels.levels)
+        if cells is None:
+            yield from self._watch(pair)
+            return
+        self._watching = None
+        paths, edges_us = paths_of(pair), edges_of(pair)
+        grids = one_grid(paths.positions)
+        crossed = self._pixels.cross(finder, paths, grids, edges_us[np.newaxis], cells=cells)
         bands = [_cut_by_piece(*band, len(edges_us) - 1) for band in crossed]
-        for piece, span_us in enumerate(itertools.pairwise(edges_us)):
+        spans = itertools.pairwise(edges_us.tolist())
+        for piece, (frame, span_us) in enumerate(zip(undrawn_frames(pair), spans, strict=True)):
             parts = zip(*(band[piece] for band in bands), strict=True)
             fired = Firings(*(np.concatenate(column) for column in parts))
-            yield fired.packet(Interval(*span_us, np.uint64(0)), paths.size)
+            yield frame, fired.packet(Interval(*span_us, np.uint64(0)), paths.size)
+
+    def _watch(self, pair: Pair) -> Iterator[tuple[Frame, EventStream]]:
+        """The same from pictures."""
+        state, watching = self._pixels.hand_over(), self._watching
+        if watching is None:
+            watching = self._watching = EsimSimulator(self._config)
+            watching.resume(earlier_of(pair), *state)
+        for frame in undrawn_frames(pair):
+            yield frame, watching.step(frame)
 
 
 def _cut_by_piece(fired: Firings, piece_of: NDArray[np.int16], pieces: int) -> list[Firings]:

@@ -1,16 +1,18 @@
-"""The Texvent pixel model (Eqs. 5-7) on candidates instead of pictures: the same events."""
+"""The Texvent pixel model (Eqs. 5-7) on candidates, or on pictures where that costs less."""
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.brightness import balanced_log
 from texvent.engine.candidates import CandidateFinder, one_grid, show_pixels
+from texvent.engine.fused import earlier_of, edges_of, paths_of, undrawn_frames
 from texvent.engine.kernels.interface import (
     FOLLOWS,
     STEPS,
@@ -22,6 +24,7 @@ from texvent.engine.kernels.interface import (
     Levels,
 )
 from texvent.events import EventStream
+from texvent.interpolate.densify import Pair
 from texvent.interpolate.paths import Paths
 from texvent.simulate.cache import BrightnessCache
 from texvent.simulate.draws import frame_key
@@ -32,6 +35,7 @@ from texvent.simulate.kernels.stamp import Timing, load_stamp_events
 from texvent.simulate.kernels.texvent import NOISE_BLOCK, Fired
 from texvent.simulate.noise import poisson_cumulative
 from texvent.simulate.texvent_config import TexventConfig
+from texvent.simulate.texvent_pixels import SparsePixels
 from texvent.video import Frame
 
 _QUIET = NoisePlaces(np.empty(0, np.int64), np.empty(0), np.empty(0, np.uint8))
@@ -55,6 +59,8 @@ class FusedTexvent:
             config.multi_event,
             config.noise == "adaptive",
         )
+        self._watching: SparsePixels | None = None
+        """What saw the last pair, if it was drawn; None where the cache outlives pairs."""
 
     def begin(self, frame: Frame) -> None:
         """Take the first frame."""
@@ -66,14 +72,53 @@ class FusedTexvent:
             reset_pairs=config.cache_reset_pairs if self._is_kept else 0,
         )
 
-    def fire(
-        self, finder: CandidateFinder, paths: Paths, edges_us: Sequence[int]
-    ) -> Iterator[EventStream]:
+    def fire(self, finder: CandidateFinder, pair: Pair) -> Iterator[tuple[Frame, EventStream]]:
         """Events of each sub-interval, noise included."""
-        reference = self._calibrate(paths)
-        levels = self._levels(np.exp(reference) if self._is_kept else np.empty((0, 0)))
+        reference = self._calibrate(pair)
+        levels = functools.cache(lambda: self._levels(reference))
+        cells = finder.survey(pair, levels)
+        if cells is None:
+            yield from self._watch(pair, reference)
+            return
+        self._watching = None
+        paths, edges_us = paths_of(pair), edges_of(pair).tolist()
+        settle = self._settler(paths, reference, len(edges_us) - 1)
+        grids = one_grid(paths.positions)
+        bands = list(finder.map(settle, paths, grids=grids, levels=levels(), cells=cells))
+        stamp_events, size = load_stamp_events(AUTO), paths.size
+        spans = itertools.pairwise(edges_us)
+        for piece, (frame, span_us) in enumerate(zip(undrawn_frames(pair), spans, strict=True)):
+            parts = zip(*(band[piece] for band in bands), strict=True)
+            fired = Fired(*(np.concatenate(column) for column in parts))
+            span = Interval(*span_us, frame_key(self._seed, span_us[1]))
+            noise = self._draw_noise(paths, piece, span)
+            x, y, t, p, label = stamp_events(fired, noise, self._timing, span, size.shape)
+            yield frame, EventStream.unchecked(x, y, t, p, size=size, label=label)
+
+    def _watch(self, pair: Pair, reference: Float64Array) -> Iterator[tuple[Frame, EventStream]]:
+        """The same from pictures."""
+        edges_us = edges_of(pair).tolist()
+        pixels, last = self._watching, pair.second
+        if self._is_kept:
+            # The cache itself forgets at source frames (`_calibrate`), and keeps the references.
+            paths = paths_of(pair)
+            first = Frame(paths.earlier, edges_us[0])
+            level = reference.reshape(-1)
+            pixels = SparsePixels(self._config, AUTO, first, "a frame", level=level)
+            last = Frame(paths.later, edges_us[-1], is_source=False)
+        elif pixels is None:
+            first = earlier_of(pair)
+            pixels = self._watching = SparsePixels(self._config, AUTO, first, "a frame")
+        for frame, span_us in zip(undrawn_frames(pair), itertools.pairwise(edges_us), strict=True):
+            span = Interval(*span_us, frame_key(self._seed, span_us[1]))
+            seen = last if frame is pair.second else frame
+            yield frame, pixels.advance(seen, span, "a frame")
+
+    def _settler(
+        self, paths: Paths, reference: Float64Array, pieces: int
+    ) -> Callable[[Candidates], list[Fired]]:
+        """What settles the candidates of a band; moves their references."""
         flat, first = reference.reshape(-1), paths.earlier.reshape(-1)
-        pieces = len(edges_us) - 1
 
         def settle(found: Candidates) -> list[Fired]:
             if not self._is_kept:
@@ -81,24 +126,16 @@ class FusedTexvent:
                 flat[found.pixel] = self._brightness_of(first[found.pixel])
             return self._settle(found, flat, pieces)
 
-        bands = list(finder.map(settle, paths, one_grid(paths.positions), levels))
-        stamp_events, size = load_stamp_events(AUTO), paths.size
-        for piece, span_us in enumerate(itertools.pairwise(edges_us)):
-            parts = zip(*(band[piece] for band in bands), strict=True)
-            fired = Fired(*(np.concatenate(column) for column in parts))
-            span = Interval(*span_us, frame_key(self._seed, span_us[1]))
-            noise = self._draw_noise(paths, piece, span)
-            x, y, t, p, label = stamp_events(fired, noise, self._timing, span, size.shape)
-            yield EventStream.unchecked(x, y, t, p, size=size, label=label)
+        return settle
 
-    def _calibrate(self, paths: Paths) -> Float64Array:
+    def _calibrate(self, pair: Pair) -> Float64Array:
         """The references that a pair starts with, [H, W], log units: the cache's own array."""
         if not self._is_kept:
             return self._cache.calibrate(np.empty((0, 0)), is_source=False)
-        return self._cache.calibrate(self._brightness_of(paths.earlier), is_source=True)
+        return self._cache.calibrate(self._brightness_of(earlier_of(pair).luma), is_source=True)
 
     def _levels(self, reference: Float64Array) -> Levels:
-        """What `kernels.interface` calls levels, for balanced levels [H, W] or the frame's own."""
+        """What `kernels.interface` calls levels, for references [H, W] that count where kept."""
         config = self._config
         if config.cache == "none":
             rule = FOLLOWS
@@ -107,7 +144,8 @@ class FusedTexvent:
         else:
             rule = STEPS if config.multi_event else STEPS_ONCE
         up, down = math.exp(config.contrast_threshold), math.exp(-config.contrast_threshold)
-        return Levels(reference, config.balance, up, down, rule)
+        level = np.exp(reference) if self._is_kept else np.empty((0, 0))
+        return Levels(level, config.balance, up, down, rule)
 
     def _settle(self, found: Candidates, reference: Float64Array, pieces: int) -> list[Fired]:
         """Eq. 5 for the candidates of a band: what fires in each sub-interval."""

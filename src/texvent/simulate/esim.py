@@ -108,6 +108,22 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         packet: EventStream = self._on_gpu.step(frame)
         return packet
 
+    def resume(self, frame: Frame, reference: Float64Array, fired_us: NDArray[np.int64]) -> None:
+        """Go on from a frame, before any other, until which somebody else followed the pixels.
+
+        Args:
+            frame: the last frame that they saw.
+            reference: brightness at the last event of each, [H · W]; kept, and moved along.
+            fired_us: time of the last event of each, [H · W], µs; likewise.
+
+        Raises:
+            InputError: as `step`.
+        """
+        self._enter(frame)
+        self._begin(frame.luma)
+        self._levels = Levels(reference, fired_us)
+        self._set_triggers(np.arange(reference.size))
+
     @property
     def contrast_threshold(self) -> float:
         """The smaller threshold, log units."""

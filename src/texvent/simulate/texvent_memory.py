@@ -48,6 +48,23 @@ def remember(first: Intensity, config: TexventConfig) -> Memory:
     return memory
 
 
+def resume(first: Intensity, level: Float64Array, config: TexventConfig) -> Memory:
+    """The memory of pixels whose references somebody else has kept until a frame.
+
+    Args:
+        first: luma of the frame, [n] float32.
+        level: reference brightness, [n]; kept, and moved along.
+        config: options.
+    """
+    return Memory(
+        reference=np.exp(level).astype(np.float32),
+        renewed=np.empty(0, np.float32),
+        previous=first.copy() if config.stamp == "linear" else np.empty(0, np.float32),
+        level=level,
+        table=_NOTHING,
+    )
+
+
 def needs_levels(config: TexventConfig) -> bool:
     """Whether references lie between intensities, so that their brightness has to be kept."""
     if config.cache == "none":

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from texvent.brightness import check_balance
+from texvent.brightness import Float64Array, check_balance
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.simulate.cache import CacheSchedule, Renewal
@@ -36,6 +36,7 @@ from texvent.simulate.texvent_memory import (
     as_luma,
     move_levels,
     remember,
+    resume,
     scan_levels,
     turn_to_float,
 )
@@ -47,14 +48,32 @@ _QUIET = NoisePlaces(np.empty(0, np.int64), np.empty(0), np.empty(0, np.uint8))
 class SparsePixels:
     """All pixels of a sensor, by their trigger levels; takes and gives what `DensePixels` does."""
 
-    def __init__(self, config: TexventConfig, backend: str, frame: Frame, where: str) -> None:
-        """Begin with the first frame; see `texvent_reference.DensePixels`."""
+    def __init__(
+        self,
+        config: TexventConfig,
+        backend: str,
+        frame: Frame,
+        where: str,
+        *,
+        level: Float64Array | None = None,
+    ) -> None:
+        """Begin with the first frame; see `texvent_reference.DensePixels`.
+
+        Args:
+            config: options.
+            backend: which kernels compute.
+            frame: the first frame; float32 if there is a level.
+            where: what messages call it.
+            level: reference brightness, [n], that somebody else has kept until this frame; moved
+                along in place. None: the frame's own.
+        """
         check_intensity(frame.pixels, where)
         check_balance(frame.luma, config.balance)
         self._config, self._backend = config, backend
         self._schedule = CacheSchedule(config.cache, config.cache_reset_pairs)
         self._schedule.pass_frame(is_source=frame.is_source)
-        self._memory = remember(_native_intensity(frame), config)
+        first = _native_intensity(frame)
+        self._memory = remember(first, config) if level is None else resume(first, level, config)
         self._levels = scan_levels(config, self._memory)
         self._rule = FireRule(
             threshold=config.contrast_threshold,

@@ -19,6 +19,7 @@ from texvent.engine.kernels.interface import (
     STEPS,
     TAKES,
     Candidates,
+    Cells,
     Grids,
     Levels,
     Pictures,
@@ -34,6 +35,8 @@ Columns = tuple[
     NDArray[np.float32],
 ]
 FIRST_ROOM = 1024
+SAMPLE = 16
+"""Rows of which `estimate_active` looks at one."""
 BUSY, PROBE = 0.9, 8
 """After a row of which a larger share than `BUSY` is active, all pixels are followed, up to the
 next row whose number is a multiple of `PROBE`."""
@@ -51,21 +54,40 @@ def warm_up() -> None:
     endless = np.array([np.inf])
     grids = Grids(np.ones((1, 1)), np.array([1]), endless, endless)
     pictures = Pictures(picture, picture, flow, flow)
-    find_candidates(pictures, grids, Levels(np.empty((0, 0)), 1.0, 2.0, 0.5, TAKES))
+    levels = Levels(np.empty((0, 0)), 1.0, 2.0, 0.5, TAKES)
+    find_candidates(pictures, grids, levels)
+    estimate_active(pictures, levels, find_cells(pictures))
     show_pixels(pictures, 0.5, np.zeros(1, np.int64))
 
 
-def find_cells(pictures: Pictures) -> NDArray[np.float32]:
+def find_cells(pictures: Pictures) -> Cells:
     """What `find_in_rows` wants to know of the pair as a whole."""
-    cells: NDArray[np.float32] = find_reachable(*pictures.frozen())
+    cells: Cells = find_reachable(*pictures.frozen())
     return cells
+
+
+def estimate_active(pictures: Pictures, levels: Levels, cells: Cells) -> float:
+    """Share of the pixels that may fire, 0..1, by every `SAMPLE`-th row of the picture."""
+    return float(_estimate_active(pictures.frozen(), levels, cells))
+
+
+@numba.njit(cache=True, nogil=True)
+def _estimate_active(pictures: Pictures, levels: Levels, cells: Cells) -> float:
+    height, width = pictures.earlier.shape
+    active = np.empty(width, np.int64)
+    number, rows = 0, 0
+    for row in range(min(SAMPLE // 2, height - 1), height, SAMPLE):
+        number += list_active(pictures, levels, cells, row, active)
+        rows += 1
+    share: float = number / (rows * width)
+    return share
 
 
 def find_in_rows(
     pictures: Pictures,
     grids: Grids,
     levels: Levels,
-    cells: NDArray[np.float32],
+    cells: Cells,
     rows: tuple[int, int],
 ) -> Candidates:
     """The candidates of some rows of the picture; several threads may be at it.
@@ -86,7 +108,7 @@ def _find(
     pictures: Pictures,
     grids: Grids,
     levels: Levels,
-    cells: NDArray[np.float32],
+    cells: Cells,
     rows: tuple[int, int],
 ) -> tuple[int, Columns]:
     width = pictures.earlier.shape[1]

@@ -26,6 +26,8 @@ from texvent.interpolate.paths import frozen
 Float32Array: TypeAlias = NDArray[np.float32]
 Float64Array: TypeAlias = NDArray[np.float64]
 Int64Array: TypeAlias = NDArray[np.int64]
+Cells: TypeAlias = Float32Array
+"""Darkest and brightest luma that each cell of a pair can reach; see `reach_cpu`."""
 
 MARGIN = 1e-6
 """Relative distance from a trigger level within which the finishing pass decides."""
