@@ -10,6 +10,7 @@ from collections.abc import Sequence
 
 from texvent._registry import suggest
 from texvent._version import __version__
+from texvent.cli.leaving import leave
 from texvent.errors import ConfigError, OutputError, TexventError
 
 COMMANDS = {
@@ -45,13 +46,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line.
 
     Args:
-        arguments: words after `texvent`; default: those of the process.
+        arguments: words after `texvent`; default: those of the process, which then ends.
 
     Returns:
         Exit code: 0, or the `exit_code` of the error (2 for bad input), or 130 after Ctrl-C.
     """
-    words = list(sys.argv[1:] if arguments is None else arguments)
     _allow_any_text()
+    if arguments is None:
+        return leave(_run(sys.argv[1:]))
+    return _run(list(arguments))
+
+
+def _run(words: list[str]) -> int:
+    """Exit code of a command; every error becomes one line."""
     try:
         return _dispatch(words)
     except TexventError as error:

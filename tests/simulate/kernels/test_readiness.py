@@ -44,6 +44,17 @@ def test_a_kernel_is_ready_when_it_was_warmed_up_and_not_before(slow_module):
     assert slow_module.calls == [("uint8",)]
 
 
+def test_whoever_waits_learns_whether_something_is_still_being_prepared(slow_module):
+    readiness.is_ready("slow_kernel")
+    assert not readiness.wait_until_idle(0.01)
+    slow_module.go_on.set()
+    assert readiness.wait_until_idle()
+    readiness._compiler().shutdown()
+    readiness._compiler.cache_clear()
+    assert readiness.wait_until_idle(0.0)  # and starts no thread to find out
+    assert readiness._compiler.cache_info().currsize == 0
+
+
 def test_a_kernel_that_cannot_be_compiled_is_never_ready_and_says_why_once(monkeypatch, caplog):
     module = types.ModuleType("broken_kernel")
 

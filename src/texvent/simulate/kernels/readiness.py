@@ -43,9 +43,22 @@ def wait_until_ready(module: str, *variant: str) -> None:
     _prepare(module, variant).exception()
 
 
-def wait_until_idle() -> None:
-    """Return when nothing is being prepared any more: what is measured from here on is compiled."""
-    _compiler().submit(int).result()
+def wait_until_idle(timeout_s: float | None = None) -> bool:
+    """Return when nothing is being prepared any more: what is measured from here on is compiled.
+
+    Args:
+        timeout_s: how long to wait at most; default: as long as it takes.
+
+    Returns:
+        False if there still was something to prepare then.
+    """
+    if _compiler.cache_info().currsize == 0:
+        return True
+    try:
+        _compiler().submit(int).result(timeout_s)
+    except TimeoutError:
+        return False
+    return True
 
 
 def _warm_up(module: str, variant: tuple[str, ...]) -> None:

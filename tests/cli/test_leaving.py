@@ -1,0 +1,55 @@
+"""The process ends soon and with a word, also while kernels are being compiled."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+COMPILE_FOR_LONG = """
+import sys, threading, types
+from texvent.cli.leaving import leave
+from texvent.simulate.kernels import readiness
+module = types.ModuleType("slow_kernel")
+module.warm_up = lambda: threading.Event().wait({seconds})
+sys.modules["slow_kernel"] = module
+readiness.is_ready("slow_kernel")
+sys.stdout.write("done")
+sys.exit(leave({code}))
+"""
+
+
+def start(seconds, code):
+    program = COMPILE_FOR_LONG.format(seconds=seconds, code=code)
+    return subprocess.Popen(
+        [sys.executable, "-c", program],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+@pytest.mark.parametrize("code", [2, 130])
+def test_after_an_error_or_ctrl_c_nothing_is_waited_for(code):
+    start_s = time.monotonic()
+    process = start(60, code)
+    assert process.communicate(timeout=30) == ("done", "")
+    assert process.returncode == code
+    assert time.monotonic() - start_s < 30
+
+
+def test_a_good_run_says_that_it_compiles_and_ctrl_c_ends_that_without_an_error():
+    process = start(60, 0)
+    assert "the output is complete; compiling for later runs" in process.stderr.readline()
+    process.send_signal(signal.SIGINT)
+    assert process.communicate(timeout=30) == ("done", "")
+    assert process.returncode == 0
+
+
+def test_kernels_that_are_soon_ready_are_waited_for_without_a_word():
+    process = start(0.1, 0)
+    assert process.communicate(timeout=30) == ("done", "")
+    assert process.returncode == 0
