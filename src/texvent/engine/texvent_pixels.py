@@ -29,16 +29,13 @@ from texvent.interpolate.paths import Paths
 from texvent.simulate.cache import BrightnessCache
 from texvent.simulate.draws import frame_key
 from texvent.simulate.firings import Interval
-from texvent.simulate.kernels.noise import Block, NoisePlaces, load_place_noise
+from texvent.simulate.kernels.noise import NoisePlaces
 from texvent.simulate.kernels.select import AUTO
-from texvent.simulate.kernels.stamp import Timing, load_stamp_events
-from texvent.simulate.kernels.texvent import NOISE_BLOCK, Fired
-from texvent.simulate.noise import poisson_cumulative
+from texvent.simulate.kernels.stamp import load_stamp_events
+from texvent.simulate.kernels.texvent import Fired
 from texvent.simulate.texvent_config import TexventConfig
-from texvent.simulate.texvent_pixels import SparsePixels
+from texvent.simulate.texvent_pixels import SparsePixels, draw_noise_places, timing_of
 from texvent.video import Frame
-
-_QUIET = NoisePlaces(np.empty(0, np.int64), np.empty(0), np.empty(0, np.uint8))
 
 
 class FusedTexvent:
@@ -52,13 +49,7 @@ class FusedTexvent:
         self._config, self._seed = config, seed
         self._is_kept = config.cache in ("global", "leaky")
         self._has_line = config.stamp == "linear" or config.cache == "none"
-        self._timing = Timing(
-            config.stamp,
-            config.stamp_scale,
-            config.contrast_threshold,
-            config.multi_event,
-            config.noise == "adaptive",
-        )
+        self._timing = timing_of(config)
         self._watching: SparsePixels | None = None
         """What saw the last pair, if it was drawn; None where the cache outlives pairs."""
 
@@ -185,17 +176,9 @@ class FusedTexvent:
         return Fired(pixel, change, start, stop, then)
 
     def _draw_noise(self, paths: Paths, piece: int, span: Interval) -> NoisePlaces:
-        """Noise of Eq. 6 where pixels are dark, or, as ablation E11, anywhere."""
-        config = self._config
-        if not config.has_added_noise:
-            return _QUIET
-        cumulative = poisson_cumulative(config.expected_noise(span.duration_s) * NOISE_BLOCK)
-        block = Block(span.key, cumulative, config.noise_on_fraction)
-        noise = load_place_noise(AUTO)(block, paths.later.size)
-        if config.noise == "random" or not len(noise.pixel):
-            return noise
-        is_dark = show_pixels(paths, piece, noise.pixel) < config.noise_intensity
-        return NoisePlaces(noise.pixel[is_dark], noise.fraction[is_dark], noise.p[is_dark])
+        """Eq. 6."""
+        luma_of = functools.partial(show_pixels, paths, piece)
+        return draw_noise_places(self._config, span, paths.later.size, luma_of, AUTO)
 
     def _brightness_of(self, luma: NDArray[np.float32]) -> Float64Array:
         return balanced_log(luma, self._config.balance)

@@ -8,9 +8,10 @@ colour or more than one type.
 from __future__ import annotations
 
 import copy
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.brightness import Float64Array, check_balance
 from texvent.events import EventStream
@@ -42,6 +43,7 @@ from texvent.simulate.texvent_memory import (
 )
 from texvent.video import Frame, bad_intensity, check_intensity, is_intensity
 
+Int64Array = NDArray[np.int64]
 _QUIET = NoisePlaces(np.empty(0, np.int64), np.empty(0), np.empty(0, np.uint8))
 
 
@@ -84,13 +86,7 @@ class SparsePixels:
             has_line=config.stamp == "linear",
         )
         self._rule_that_renews = self._rule._replace(is_renewed=True)
-        self._timing = Timing(
-            config.stamp,
-            config.stamp_scale,
-            config.contrast_threshold,
-            config.multi_event,
-            config.noise == "adaptive",
-        )
+        self._timing = timing_of(config)
 
     def advance(self, frame: Frame, span: Interval, where: str) -> EventStream:
         """What fires until this frame; see `texvent_reference.DensePixels.advance`."""
@@ -201,22 +197,53 @@ class SparsePixels:
         return read_only(as_luma(intensity))
 
     def _draw_noise(self, intensity: Intensity, span: Interval) -> NoisePlaces:
-        """Noise of Eq. 6 where pixels are dark, or, as ablation E11, anywhere."""
-        config = self._config
-        if not config.has_added_noise:
-            return _QUIET
-        cumulative = poisson_cumulative(config.expected_noise(span.duration_s) * NOISE_BLOCK)
-        block = Block(span.key, cumulative, config.noise_on_fraction)
-        noise = load_place_noise(self._backend)(block, intensity.size)
-        if config.noise == "random" or not len(noise.pixel):
-            return noise
-        luma = intensity[noise.pixel]
-        if luma.dtype == np.uint16:
-            luma = as_luma(luma)
-        dark = np.flatnonzero(luma < config.noise_intensity)
-        if not len(dark):
-            return _QUIET
-        return NoisePlaces(noise.pixel[dark], noise.fraction[dark], noise.p[dark])
+        """Eq. 6."""
+
+        def luma_of(pixel: Int64Array) -> Intensity:
+            luma = intensity[pixel]
+            return as_luma(luma) if luma.dtype == np.uint16 else luma
+
+        return draw_noise_places(self._config, span, intensity.size, luma_of, self._backend)
+
+
+def timing_of(config: TexventConfig) -> Timing:
+    """How a configuration gives times to events."""
+    return Timing(
+        config.stamp,
+        config.stamp_scale,
+        config.contrast_threshold,
+        config.multi_event,
+        config.noise == "adaptive",
+    )
+
+
+def draw_noise_places(
+    config: TexventConfig,
+    span: Interval,
+    size: int,
+    luma_of: Callable[[Int64Array], Intensity],
+    backend: str,
+) -> NoisePlaces:
+    """Noise of Eq. 6 where pixels are dark, or, as ablation E11, anywhere.
+
+    Args:
+        config: options.
+        span: the sub-interval.
+        size: number of pixels.
+        luma_of: luma at the end of the sub-interval, 0..255 scale, of pixels given by flat index.
+        backend: which kernels draw.
+    """
+    if not config.has_added_noise:
+        return _QUIET
+    cumulative = poisson_cumulative(config.expected_noise(span.duration_s) * NOISE_BLOCK)
+    block = Block(span.key, cumulative, config.noise_on_fraction)
+    noise = load_place_noise(backend)(block, size)
+    if config.noise == "random" or not len(noise.pixel):
+        return noise
+    dark = np.flatnonzero(luma_of(noise.pixel) < config.noise_intensity)
+    if not len(dark):
+        return _QUIET
+    return NoisePlaces(noise.pixel[dark], noise.fraction[dark], noise.p[dark])
 
 
 def _native_intensity(frame: Frame) -> Intensity:

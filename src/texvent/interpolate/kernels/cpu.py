@@ -74,55 +74,15 @@ def warp_pixel(
     x1, y1 = column + to_first_x, row + to_first_y
     x2, y2 = column + to_second_x, row + to_second_y
     top, left, bottom, right, fx, fy = _corners(x1, y1, height, width)
-    error_x = (
-        _bilinear(
-            forward[top, left, 0],
-            forward[top, right, 0],
-            forward[bottom, left, 0],
-            forward[bottom, right, 0],
-            fx,
-            fy,
-        )
-        - path_x
-    )
-    error_y = (
-        _bilinear(
-            forward[top, left, 1],
-            forward[top, right, 1],
-            forward[bottom, left, 1],
-            forward[bottom, right, 1],
-            fx,
-            fy,
-        )
-        - path_y
-    )
+    error_x = _flow_at(forward, 0, top, left, bottom, right, fx, fy) - path_x
+    error_y = _flow_at(forward, 1, top, left, bottom, right, fx, fy) - path_y
     error_first = error_x * error_x + error_y * error_y
     a = _bilinear(
         first[top, left], first[top, right], first[bottom, left], first[bottom, right], fx, fy
     )
     top, left, bottom, right, fx, fy = _corners(x2, y2, height, width)
-    error_x = (
-        _bilinear(
-            backward[top, left, 0],
-            backward[top, right, 0],
-            backward[bottom, left, 0],
-            backward[bottom, right, 0],
-            fx,
-            fy,
-        )
-        + path_x
-    )
-    error_y = (
-        _bilinear(
-            backward[top, left, 1],
-            backward[top, right, 1],
-            backward[bottom, left, 1],
-            backward[bottom, right, 1],
-            fx,
-            fy,
-        )
-        + path_y
-    )
+    error_x = _flow_at(backward, 0, top, left, bottom, right, fx, fy) + path_x
+    error_y = _flow_at(backward, 1, top, left, bottom, right, fx, fy) + path_y
     error_second = error_x * error_x + error_y * error_y
     b = _bilinear(
         second[top, left], second[top, right], second[bottom, left], second[bottom, right], fx, fy
@@ -165,6 +125,27 @@ def _corners(
     fx, fy = x - left, y - top
     # Unsigned, or Numba allows for indices that count from the end.
     return np.uint64(top), np.uint64(left), np.uint64(bottom), np.uint64(right), fx, fy
+
+
+@numba.njit(inline="always")
+def _flow_at(
+    flow: NDArray[np.float32],
+    axis: int,
+    top: np.uint64,
+    left: np.uint64,
+    bottom: np.uint64,
+    right: np.uint64,
+    fx: float,
+    fy: float,
+) -> float:
+    return _bilinear(
+        flow[top, left, axis],
+        flow[top, right, axis],
+        flow[bottom, left, axis],
+        flow[bottom, right, axis],
+        fx,
+        fy,
+    )
 
 
 @numba.njit(inline="always")
