@@ -67,6 +67,7 @@ def test_ablations_run_and_are_compared_with_a_row_of_choice(tmp_path):
     assert all(score.threshold is None for score in report.scores)
     text = fidelity_tables(report, baseline="quiet")
     assert "STPP − quiet" in text
+    assert "STPP −" not in fidelity_tables(report)  # the default baseline did not run
 
 
 def test_a_folder_without_config_files_fails(tmp_path):

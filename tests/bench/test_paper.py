@@ -96,7 +96,7 @@ def test_event_frames_are_compared_where_simulators_can_run(pan_folder, monkeypa
         paper_simulators, "find_lack", lambda one: {"ef_lpips": "no weights"}.get(one.name)
     )
     scenes = [open_scene(str(pan_folder), Part(offset_us=5_000))]
-    found = event_frame_figures(scenes, is_rate_matched=True, announce=silent)
+    found = event_frame_figures(scenes, is_rate_matched=True, jobs=1, announce=silent)
     mse = found.figures["event frames: MSE ↓"]
     assert set(mse) == {"VID2E", "Texvent"}
     assert all(0 < float(value) < 1 for value in mse.values())
@@ -134,6 +134,30 @@ def test_seconds_per_pair_are_measured_for_what_runs(monkeypatch):
     assert set(seconds) == {"VID2E", "Texvent"}
     assert all(value > 0 for value in seconds.values())
     assert any("EQS" in need for need in found.needs)
+
+
+def test_weights_that_are_missing_are_refused_before_anything_is_timed(tmp_path):
+    steps = []
+    with pytest.raises(InputError, match="no weights file"):
+        measure_table(2, PaperInputs(rvt_weights=tmp_path / "none.ckpt"), steps.append)
+    assert steps == []
+
+
+def test_missing_weights_are_told_before_the_event_frames(monkeypatch, tmp_path, pan_folder):
+    keep_few(monkeypatch)
+    monkeypatch.setenv("TEXVENT_DATA", str(tmp_path))
+    steps = []
+    found = measure_table(1, PaperInputs(recordings=(str(pan_folder),)), steps.append)
+    assert "images; " in steps[0]
+    assert "event frames: MSE ↓" in found.figures
+    assert found.needs[-1].startswith("images; ")
+
+
+def test_a_baseline_that_does_not_run_is_refused_at_once(capsys, pan_folder, tmp_path):
+    (tmp_path / "E1.toml").write_text('interpolate = "none"\n')
+    words = ["--configs", str(tmp_path), "--no-oracle", "--recordings", str(pan_folder)]
+    assert main(["bench", "paper", *words, "--baseline", "E7"]) != 0
+    assert "baseline 'E7' does not run; allowed: E1" in capsys.readouterr().err
 
 
 def test_a_table_that_the_paper_lacks_is_refused(capsys):

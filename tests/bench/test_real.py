@@ -13,6 +13,7 @@ from texvent.bench.fidelity_table import fidelity_tables, motion_table
 from texvent.bench.real import HALVES, RealPlan, adapt_settings, real_entries, run_real
 from texvent.bench.real_scene import Part, open_scene
 from texvent.bench.results import read_report
+from texvent.cli.app import main
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
@@ -75,6 +76,10 @@ def test_the_document_states_what_was_used_and_gives_the_page_again(report):
     files = page_files(restored, "real")
     assert set(files) == {"real.md", "real-bars.svg", "real-levels.svg", "real-times.svg"}
     page = files["real.md"].decode()
+    assert page.startswith("# Simulators against recorded events")
+    assert "STPP − " not in page
+    page = page_files(restored, "real", baseline="esim, none")["real.md"].decode()
+    assert "STPP − esim, none" in page
     assert "floor: the recording itself" in page
     assert "frame_offset_us 5000" in page
     assert "flow error px/s" in motion_table(report)
@@ -114,6 +119,14 @@ def test_recordings_that_are_missing_or_too_short_are_refused(pan_folder, tmp_pa
     (copy / "events.txt").write_text("".join(f"{9 + i / 1e3:.6f} 1 1 1\n" for i in range(9)))
     with pytest.raises(InputError, match="same clock"):
         open_scene(str(copy))
+
+
+def test_an_unknown_name_and_an_unknown_baseline_are_refused_with_what_is_allowed(capsys):
+    assert main(["bench", "real", "slider_dept"]) != 0
+    assert "the name of a data set: slider_depth, davis346" in capsys.readouterr().err
+    words = ["--simulators", "esim", "--interpolations", "none", "--baseline", "esim"]
+    assert main(["bench", "real", "slider_dept", *words]) != 0
+    assert "baseline 'esim' does not run; allowed: esim, none" in capsys.readouterr().err
 
 
 def test_a_dsec_sequence_opens_as_a_scene_with_display_gamma(tmp_path):

@@ -17,12 +17,15 @@ def test_a_result_becomes_a_page_with_its_pictures(tmp_path, monkeypatch, capsys
     assert "commit: " in page
     assert "### translate, noisy pixels" in page
     assert "| esim, none | " in page
+    assert "esim, blend" not in page  # "none" is the name of an interpolator here
     for name in written:
         if name.endswith(".svg"):
             texts = ElementTree.fromstring((tmp_path / name).read_text()).iter()
             assert any("esim, none" in (one.text or "") for one in texts)
         if name != "r.md":
             assert name in page
+    assert main(["bench", "page", "r.json", "--overwrite", "--baseline", "esim, flow"]) != 0
+    assert "allowed: esim, none" in capsys.readouterr().err
     assert main(["bench", "page", "r.json"]) != 0
     assert "exists already" in capsys.readouterr().err
 

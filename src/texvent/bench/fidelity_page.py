@@ -6,17 +6,18 @@ from collections.abc import Mapping
 
 from texvent.bench.bar_chart import bar_chart
 from texvent.bench.detail_charts import level_chart, time_chart
-from texvent.bench.fidelity_table import fidelity_tables, motion_table
+from texvent.bench.fidelity_table import BASELINE, fidelity_tables, motion_table
 from texvent.bench.picture_grid import picture_grid
 from texvent.bench.results import FidelityReport
 
 
-def page_files(report: FidelityReport, name: str) -> dict[str, bytes]:
+def page_files(report: FidelityReport, name: str, *, baseline: str = BASELINE) -> dict[str, bytes]:
     """The page and its pictures.
 
     Args:
         report: a run that measured STPP.
         name: name of the page without its extension; pictures begin with it.
+        baseline: entry that the others are compared with, pair by pair.
 
     Returns:
         File name → content: `NAME.md`, `NAME-bars.svg`, `NAME-levels.svg`, `NAME-times.svg`, and
@@ -30,7 +31,7 @@ def page_files(report: FidelityReport, name: str) -> dict[str, bytes]:
         f"{name}-times.svg": time_chart(report, *where).encode(),
     }
     parts = [
-        "# Simulators against true events: the tables",
+        f"# Simulators against {'true' if report.score_seeds else 'recorded'} events: the tables",
         f"Written by `texvent bench page {name}.json`; [benchmark.md](../benchmark.md) and "
         "[real-data.md](../real-data.md) say how to read it and what follows from it.",
         _facts(report),
@@ -48,8 +49,8 @@ def page_files(report: FidelityReport, name: str) -> dict[str, bytes]:
         "of the sensor's side) to the right.",
         f"![STPP per level]({name}-levels.svg)",
         f"## Time errors: {first.title}",
-        "For every true event, how much later the nearest simulated event of its pixel and "
-        "polarity comes.",
+        "For every true or recorded event, how much later the nearest simulated event of its pixel "
+        "and polarity comes.",
         f"![Histograms of time errors]({name}-times.svg)",
         "## Motion",
         "Sharpness: variance of the picture of events moved along the known flow, over that of "
@@ -58,7 +59,7 @@ def page_files(report: FidelityReport, name: str) -> dict[str, bytes]:
         "the recorded events; px/s.",
         motion_table(report),
         "## Scores",
-        fidelity_tables(report),
+        fidelity_tables(report, baseline=baseline),
     ]
     page = "\n\n".join(part.rstrip() for part in parts) + "\n"
     return {f"{name}.md": page.encode(), **files}

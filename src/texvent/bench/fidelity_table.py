@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
+from texvent._registry import suggest
+from texvent.bench.oracle_pixel import TARGETS
 from texvent.bench.results import FidelityReport, Reference, Score
+from texvent.errors import ConfigError
 from texvent.metrics.summary import normalise, summarise
 
 BASELINE = "texvent, blend"
@@ -20,9 +23,24 @@ COLUMNS = {
 }
 """Metric → title; those that were not measured are left out."""
 
-
 MOTION = (("sharpness", "sharpness ↑", 3), ("flow_error", "flow error px/s", 0))
 """Field of the details, title, digits."""
+
+
+def check_baseline(baseline: str, entries: Iterable[str], *, default: str = BASELINE) -> None:
+    """Refuse a baseline that does not run.
+
+    Args:
+        baseline: what the user named.
+        entries: names of what runs.
+        default: may be absent; then nothing is compared.
+
+    Raises:
+        ConfigError: it is not among them.
+    """
+    names = tuple(dict.fromkeys(entries))
+    if baseline != default and baseline not in names:
+        raise ConfigError(f"baseline {baseline!r} does not run; {suggest(baseline, names)}")
 
 
 def fidelity_tables(report: FidelityReport, *, baseline: str = BASELINE) -> str:
@@ -30,7 +48,8 @@ def fidelity_tables(report: FidelityReport, *, baseline: str = BASELINE) -> str:
 
     Args:
         report: what was found.
-        baseline: entry that the others are compared with, pair by pair.
+        baseline: entry that the others are compared with, pair by pair; if it did not run, the
+            column is left out.
     """
     parts = [_overview(report)]
     for reference in report.references:
@@ -95,42 +114,50 @@ def _overview(report: FidelityReport) -> str:
 
 def _scene_heading(reference: Reference) -> str:
     mean = sum(reference.events) / len(reference.events)
-    return f"### {reference.title} ({mean:,.0f} true events)\n"
+    kind = "true" if reference.target in TARGETS else "recorded"
+    return f"### {reference.title} ({mean:,.0f} {kind} events)\n"
 
 
 def _scene_table(report: FidelityReport, reference: Reference, baseline: str) -> str:
     metrics = [metric for metric in COLUMNS if metric in reference.floor]
-    titles = [COLUMNS[metric] for metric in metrics]
-    lines = [
-        _row(["entry", "δ", "n at default δ", *titles, "S*", f"STPP − {baseline}"]),
-        _row(["---"] * (len(metrics) + 5)),
-        _bound_row(f"floor: {report.floor_name}", reference, metrics, is_floor=True),
-    ]
+    titles = ["entry", "δ", "n at default δ", *(COLUMNS[metric] for metric in metrics), "S*"]
     scores = report.ranked(reference.scene, reference.target)
+    rows = [
+        [f"floor: {report.floor_name}", *_bound_cells(reference, metrics, is_floor=True)],
+        *(_score_cells(score, reference, metrics) for score in scores),
+        ["null: times shuffled", *_bound_cells(reference, metrics, is_floor=False)],
+    ]
     compared = next((score for score in scores if score.entry == baseline), None)
-    for score in scores:
-        is_lost = score.threshold is not None and not score.is_matched and any(reference.events)
-        mark = " (count not reached)" if is_lost else ""
-        cells = [score.entry, _number(score.threshold, 3) + mark, _number(score.default_ratio, 3)]
-        cells += [_mean_and_error(score.values[metric]) for metric in metrics]
-        cells.append(_number(score.normalised("stpp", reference), 2))
-        cells.append(_paired(score, compared))
-        lines.append(_row(cells))
-    lines.append(_bound_row("null: times shuffled", reference, metrics, is_floor=False))
-    return "\n".join(lines) + "\n"
+    if compared is not None:
+        titles.append(f"STPP − {baseline}")
+        differences = ["", *(_paired(score, compared) for score in scores), ""]
+        rows = [[*cells, last] for cells, last in zip(rows, differences, strict=True)]
+    return "\n".join(map(_row, [titles, ["---"] * len(titles), *rows])) + "\n"
 
 
-def _bound_row(name: str, reference: Reference, metrics: Sequence[str], *, is_floor: bool) -> str:
+def _score_cells(score: Score, reference: Reference, metrics: Sequence[str]) -> list[str]:
+    is_lost = score.threshold is not None and not score.is_matched and any(reference.events)
+    mark = " (count not reached)" if is_lost else ""
+    return [
+        score.entry,
+        _number(score.threshold, 3) + mark,
+        _number(score.default_ratio, 3),
+        *(_mean_and_error(score.values[metric]) for metric in metrics),
+        _number(score.normalised("stpp", reference), 2),
+    ]
+
+
+def _bound_cells(reference: Reference, metrics: Sequence[str], *, is_floor: bool) -> list[str]:
     values = reference.floor if is_floor else reference.null
     cells = [_mean_and_error(values[metric]) for metric in metrics]
     floor, null = (summarise(one["stpp"]).mean for one in (reference.floor, reference.null))
     mine = floor if is_floor else null
     bound = normalise(mine, floor=floor, null=null, better="higher")
-    return _row([name, "", "", *cells, _number(bound, 2), ""])
+    return ["", "", *cells, _number(bound, 2)]
 
 
-def _paired(score: Score, baseline: Score | None) -> str:
-    if baseline is None or score is baseline:
+def _paired(score: Score, baseline: Score) -> str:
+    if score is baseline:
         return "–"
     difference = score.difference("stpp", baseline)
     error = _number(difference.standard_error, 3)

@@ -15,15 +15,14 @@ from texvent.bench.paper_simulators import (
 )
 from texvent.bench.paper_tables import OurFigures, join_figures
 from texvent.bench.paper_weights import accuracy_figures, noise_figures
-from texvent.bench.real_scene import RealScene, locate_source, open_scene
+from texvent.bench.real_scene import WITH_FRAMES, RealScene, locate_source, open_scene
 from texvent.data.pull import find_pulled
 from texvent.errors import InputError, MissingDependencyError
+from texvent.metrics.eqs import load_eqs
 from texvent.reconstruct.reconstructor import Reconstructor, load_reconstructor
 
 Announce = Callable[[str], None]
 
-RECORDINGS = ("slider_depth", "davis346")
-"""Data sets that are used where nothing else is named."""
 NETWORKS = {1: "e2vid", 7: "e2vid", 8: "et-net"}
 """Table → the network that the paper reconstructs with."""
 
@@ -33,8 +32,8 @@ class PaperInputs:
     """What the user has."""
 
     recordings: tuple[str, ...] = ()
-    """Names of pulled data sets, or paths of recordings; none: those of `RECORDINGS` that are
-    pulled."""
+    """Names of pulled data sets, or paths of recordings; none: those data sets with frames that
+    are pulled."""
     is_rate_matched: bool = True
     """Fit each δ to the recorded number of events; else presets keep theirs, as in the paper."""
     weights: Path | None = None
@@ -46,11 +45,13 @@ class PaperInputs:
     """Table 9: a sub-folder per column, each with a sub-folder of event files per class."""
     classes: Path | None = None
     """Table 9: names of the classes in the classifier's order."""
+    jobs: int = 1
+    """Processes for event frames and EQS."""
 
     @property
     def sources(self) -> tuple[str, ...]:
         """Recordings to use; none if nothing is named and nothing pulled."""
-        pulled = tuple(name for name in RECORDINGS if find_pulled(name) is not None)
+        pulled = tuple(name for name in WITH_FRAMES if find_pulled(name) is not None)
         return self.recordings or pulled
 
     def scenes(self) -> list[RealScene]:
@@ -88,22 +89,36 @@ def measure_table(number: int, inputs: PaperInputs, announce: Announce) -> OurFi
         return _measure_accuracy(inputs, announce)
     if number != 2 and not inputs.sources:
         return OurFigures(
-            needs=["all: texvent data pull slider_depth, or --recordings with a recording"]
+            needs=["anything; texvent data pull slider_depth, or --recordings with a recording"]
         )
     if number == 2:
         return _measure_eqs_and_time(inputs, announce)
+    network, lack = _find_network(number, inputs)
     found = []
     if number == 1:
-        scenes, is_matched = inputs.scenes(), inputs.is_rate_matched
-        found.append(event_frame_figures(scenes, is_rate_matched=is_matched, announce=announce))
+        for need in lack.needs:  # said before what takes minutes
+            announce(f"not measured: {need}")
+        found.append(
+            event_frame_figures(
+                inputs.scenes(),
+                is_rate_matched=inputs.is_rate_matched,
+                jobs=inputs.jobs,
+                announce=announce,
+            )
+        )
+    if network is not None:
+        found.append(_measure_pictures(number, inputs, network, announce))
+    return join_figures([*found, lack])
+
+
+def _find_network(number: int, inputs: PaperInputs) -> tuple[Reconstructor | None, OurFigures]:
+    """The network of a table, or None and what is missing."""
     try:
-        network = inputs.reconstructor(number)
+        return inputs.reconstructor(number), OurFigures()
     except (InputError, MissingDependencyError) as error:
         if inputs.weights is not None:
             raise
-        return join_figures([*found, OurFigures(needs=[f"images: {error}"])])
-    found.append(_measure_pictures(number, inputs, network, announce))
-    return join_figures(found)
+        return None, OurFigures(needs=[f"images; {error}"])
 
 
 def _measure_pictures(
@@ -121,10 +136,11 @@ def _measure_pictures(
 
 
 def _measure_eqs_and_time(inputs: PaperInputs, announce: Announce) -> OurFigures:
+    eqs = None if inputs.rvt_weights is None else load_eqs(inputs.rvt_weights)
     found = [time_figures(announce)]
-    if inputs.rvt_weights is None or not inputs.sources:
+    if eqs is None or not inputs.sources:
         needs = [
-            "EQS: --rvt-weights FILE (docs/metrics.md says where it comes from) and a "
+            "EQS; --rvt-weights FILE (docs/metrics.md says where it comes from) and a "
             "recording, such as texvent data pull slider_depth"
         ]
         found.append(OurFigures(needs=needs))
@@ -132,8 +148,9 @@ def _measure_eqs_and_time(inputs: PaperInputs, announce: Announce) -> OurFigures
         found.append(
             eqs_figures(
                 inputs.scenes(),
-                inputs.rvt_weights,
+                eqs,
                 is_rate_matched=inputs.is_rate_matched,
+                jobs=inputs.jobs,
                 announce=announce,
             )
         )
@@ -144,8 +161,9 @@ def _measure_accuracy(inputs: PaperInputs, announce: Announce) -> OurFigures:
     if inputs.folder is None or inputs.weights is None:
         return OurFigures(
             needs=[
-                "all: --folder DIR with recorded and simulated streams per class, and --weights "
-                "FILE of N-ImageNet's classifier (texvent bench classify says where it comes from)"
+                "anything; --folder DIR with recorded and simulated streams per class, and "
+                "--weights FILE of N-ImageNet's classifier (texvent bench classify says where it "
+                "comes from)"
             ]
         )
     return accuracy_figures(

@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
@@ -24,7 +23,6 @@ from texvent.bench.results import FidelityReport
 from texvent.errors import TexventError
 from texvent.generate.procedural.generator import ProceduralConfig, ProceduralGenerator
 from texvent.metrics.compare import load_metric
-from texvent.metrics.eqs import load_eqs
 from texvent.metrics.protocol import Metric, find_lack
 from texvent.reconstruct.reconstructor import Reconstructor
 from texvent.sensor import SENSORS
@@ -49,18 +47,19 @@ Announce = Callable[[str], None]
 
 
 def event_frame_figures(
-    scenes: Sequence[RealScene], *, is_rate_matched: bool, announce: Announce
+    scenes: Sequence[RealScene], *, is_rate_matched: bool, jobs: int, announce: Announce
 ) -> OurFigures:
     """Table 1, event frames: MSE, SSIM and, where its weights are, LPIPS.
 
     Args:
         scenes: recordings with frames.
         is_rate_matched: fit each δ to the recorded number of events; else presets keep theirs.
+        jobs: processes to use.
         announce: told of every step.
     """
     lacks = {name: find_lack(load_metric(name)) for name in EVENT_FRAMES.values()}
     metrics = ["stpp", *(name for name, lack in lacks.items() if lack is None)]
-    report = _run(scenes, metrics, is_rate_matched=is_rate_matched, announce=announce)
+    report = _run(scenes, metrics, is_rate_matched=is_rate_matched, jobs=jobs, announce=announce)
     figures = {
         f"event frames: {title}": _means(report, name)
         for title, name in EVENT_FRAMES.items()
@@ -73,22 +72,22 @@ def event_frame_figures(
 
 def eqs_figures(
     scenes: Sequence[RealScene],
-    rvt_weights: Path,
+    eqs: Metric,
     *,
     is_rate_matched: bool,
+    jobs: int,
     announce: Announce,
 ) -> OurFigures:
     """Table 2, first row: EQS against the recording of the same scene.
 
     Args:
         scenes: recordings with frames.
-        rvt_weights: RVT's published checkpoint.
+        eqs: the metric, with RVT's published weights.
         is_rate_matched: fit each δ to the recorded number of events; else presets keep theirs.
+        jobs: processes to use.
         announce: told of every step.
     """
-    report = _run(
-        scenes, [load_eqs(rvt_weights)], is_rate_matched=is_rate_matched, announce=announce
-    )
+    report = _run(scenes, [eqs], is_rate_matched=is_rate_matched, jobs=jobs, announce=announce)
     notes = [
         f"EQS against recordings of the same scene ({', '.join(one.name for one in scenes)}); the "
         "paper compares with other recordings of the same class",
@@ -160,10 +159,12 @@ def _run(
     metrics: Sequence[str | Metric],
     *,
     is_rate_matched: bool,
+    jobs: int,
     announce: Announce,
 ) -> FidelityReport:
     entries = [replace(entry, is_rate_matched=is_rate_matched) for entry in ENTRIES.values()]
-    return run_real(scenes, RealPlan(metrics=metrics, entries=entries), announce=announce)
+    plan = RealPlan(metrics=metrics, entries=entries)
+    return run_real(scenes, plan, jobs=jobs, announce=announce)
 
 
 def _means(report: FidelityReport, metric: str) -> dict[str, str]:

@@ -23,6 +23,8 @@ SEGMENT_US, EDGE_US = 200_000, 50_000
 MOST_SEGMENTS = 4
 FIT_SECONDS = 0.6
 DISPLAY_GAMMA, LINEAR_GAMMA = 2.2, 1.0
+WITH_FRAMES = ("slider_depth", "davis346")
+"""Data sets that hold frames beside events."""
 
 
 class Part(NamedTuple):
@@ -110,9 +112,19 @@ def open_scene(source: str, part: Part = WHOLE) -> RealScene:
 
 
 def locate_source(source: str) -> tuple[Path, int]:
-    """Where a recording lies, and the frozen offset of its frames, µs."""
+    """Where a recording lies, and the frozen offset of its frames, µs.
+
+    Raises:
+        InputError: it is not there, or not pulled.
+    """
     if source not in DATA_SETS:
-        return Path(source).expanduser(), 0
+        path = Path(source).expanduser()
+        if not path.exists():
+            raise InputError(
+                f"there is no recording {source}; give the path of one, or the name of a data set: "
+                f"{', '.join(WITH_FRAMES)}"
+            )
+        return path, 0
     pulled = find_pulled(source)
     if pulled is None:
         raise InputError(f"{source} is not pulled yet: texvent data pull {source}")

@@ -19,7 +19,7 @@ BENCHMARKS: Mapping[str, tuple[str, str]] = {
     ),
     "page": (
         "texvent.cli.bench_page:run",
-        "a result of fidelity as a page with tables and plots",
+        "a result of fidelity or real as a page with tables and plots",
     ),
     "paper": (
         "texvent.cli.bench_paper:run",

@@ -1,4 +1,4 @@
-"""`texvent bench page`: a result of `bench fidelity` as a page with tables and plots."""
+"""`texvent bench page`: a result of `bench fidelity` or `real` as a page with plots."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import ClassVar
 
 from texvent.bench.document import read_document
 from texvent.bench.fidelity_page import page_files
+from texvent.bench.fidelity_table import BASELINE, check_baseline
 from texvent.bench.results import read_report
 from texvent.cli.options import REQUIRED, parse_options
 from texvent.io.atomic import atomic_file, check_output
@@ -23,7 +24,9 @@ class PageOptions:
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o"}
 
     result: Path = REQUIRED
-    """JSON file that `texvent bench fidelity --out` wrote."""
+    """JSON file that `texvent bench fidelity --out` or `texvent bench real --out` wrote."""
+    baseline: str = BASELINE
+    """Row that the others are compared with, pair by pair."""
     out: Path | None = None
     """Folder of the page and its pictures; default: that of the result."""
     overwrite: bool = False
@@ -36,14 +39,16 @@ def run(arguments: Sequence[str]) -> None:
         arguments,
         {"options": PageOptions()},
         prog="texvent bench page",
-        description="A result of bench fidelity as a Markdown page with bars, level matrices, "
-        "time-error histograms and a picture grid, named after the result.",
+        description="A result of bench fidelity or bench real as a Markdown page with bars, level "
+        "matrices, time-error histograms and a picture grid, named after the result.",
     )
     options = PageOptions(**values)
     folder = options.out or options.result.parent
     name = options.result.stem
     check_output(folder / f"{name}.md", overwrite=options.overwrite)
-    files = page_files(read_report(read_document(options.result)), name)
+    report = read_report(read_document(options.result))
+    check_baseline(options.baseline, [score.entry for score in report.scores])
+    files = page_files(report, name, baseline=options.baseline)
     for file, content in files.items():
         with atomic_file(folder / file, overwrite=options.overwrite) as part:
             part.write_bytes(content)

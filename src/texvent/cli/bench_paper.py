@@ -14,9 +14,10 @@ from texvent.bench.ablation import read_ablations
 from texvent.bench.document import write_document
 from texvent.bench.environment import describe_environment
 from texvent.bench.fidelity import FidelityPlan, run_fidelity
-from texvent.bench.fidelity_table import fidelity_tables
+from texvent.bench.fidelity_table import check_baseline, fidelity_tables
+from texvent.bench.jobs import check_jobs
 from texvent.bench.paper import PaperInputs, measure_table
-from texvent.bench.paper_ablations import ablation_figures
+from texvent.bench.paper_ablations import BASELINE, ablation_figures
 from texvent.bench.paper_tables import TABLES, beside_paper, join_figures
 from texvent.bench.real import RealPlan, run_real
 from texvent.bench.real_scene import open_scene
@@ -50,7 +51,7 @@ class PaperOptions:
     keeps its own, as in the paper: then the number of events decides."""
     configs: Path = Path("configs/paper")
     """Tables 4 and 5: folder with one TOML file per row."""
-    baseline: str = "Texvent"
+    baseline: str = BASELINE
     """Tables 4 and 5: row that the others are compared with, pair by pair."""
     weights: Path | None = None
     """Tables 1, 7, 8: published weights of the network; table 9: those of the classifier."""
@@ -65,7 +66,7 @@ class PaperOptions:
     classes: Path | None = None
     """Table 9: names of the classes in the classifier's order, one per line."""
     jobs: int = 2
-    """Processes to use."""
+    """Processes for simulating on recordings and scenes."""
     out: Path | None = None
     """JSON file with every value."""
     overwrite: bool = False
@@ -78,6 +79,7 @@ class PaperOptions:
             raise ConfigError(
                 f"table is {self.table}; the tables are {', '.join(map(str, TABLES))}"
             )
+        check_jobs(self.jobs)
         if not self.oracle and not self.recordings and self.table in (None, *ABLATIONS):
             raise ConfigError("--no-oracle leaves nothing to run; name --recordings")
 
@@ -92,6 +94,7 @@ class PaperOptions:
             rvt_weights=self.rvt_weights,
             folder=self.folder,
             classes=self.classes,
+            jobs=self.jobs,
         )
 
 
@@ -132,6 +135,7 @@ def run(arguments: Sequence[str]) -> None:
 def _run_ablations(options: PaperOptions, announce: Announce) -> dict[str, Any]:
     """Tables 4 and 5, or one of them, on scenes and recordings."""
     entries = read_ablations(options.configs, is_rate_matched=options.match_rate)
+    check_baseline(options.baseline, [one.name for one in entries], default=BASELINE)
     recordings = [open_scene(source) for source in options.inputs.recordings]
     reports = []
     if options.oracle:

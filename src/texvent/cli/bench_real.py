@@ -13,9 +13,14 @@ from rich.console import Console
 from texvent.bench.ablation import ConfigEntry
 from texvent.bench.document import write_document
 from texvent.bench.entries import Entry, choose_entries
-from texvent.bench.fidelity_table import fidelity_tables, motion_table
+from texvent.bench.fidelity_table import (
+    BASELINE,
+    check_baseline,
+    fidelity_tables,
+    motion_table,
+)
 from texvent.bench.real import INTERPOLATIONS, RealPlan, real_entries, run_real
-from texvent.bench.real_scene import Part, open_scene
+from texvent.bench.real_scene import WITH_FRAMES, Part, open_scene
 from texvent.cli.options import parse_options
 from texvent.config import check_range
 from texvent.io.atomic import check_output
@@ -35,7 +40,7 @@ class RealOptions:
     positional: ClassVar[tuple[str, ...]] = ("sources",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
 
-    sources: tuple[str, ...] = ("slider_depth", "davis346")
+    sources: tuple[str, ...] = WITH_FRAMES
     """Names of pulled data sets, or paths of recordings."""
     start: float = 0.0
     """Skip this much of each recording, in seconds."""
@@ -54,7 +59,7 @@ class RealOptions:
     config: Path | None = None
     """Sensor file that texvent calibrate wrote, or any config file: one more row, its threshold
     left as it is."""
-    baseline: str = "texvent, blend"
+    baseline: str = BASELINE
     """Row that the others are compared with, pair by pair."""
     jobs: int = 2
     """Processes to use."""
@@ -79,6 +84,7 @@ def run(arguments: Sequence[str]) -> None:
     if options.out is not None:
         check_output(options.out, overwrite=options.overwrite)
     entries = _choose_entries(options)
+    check_baseline(options.baseline, [entry.name for entry in entries])
     part = Part(options.start, options.seconds, options.offset_us, options.frames_gamma)
     scenes = [open_scene(source, part) for source in options.sources]
     console = Console(stderr=True, quiet=options.quiet, highlight=False)

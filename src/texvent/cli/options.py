@@ -144,7 +144,8 @@ def _scalar_rule(
     metavar, convert = _SCALARS[hint]
 
     def read(words: list[str]) -> Any:
-        if optional and words[0].lower() == "none":
+        # As a text "none" may be a name: --interpolations none.
+        if optional and hint is not str and words[0].lower() == "none":
             return None
         try:
             return convert(words[0])
