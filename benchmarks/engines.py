@@ -5,8 +5,8 @@
     python -m benchmarks.engines --time --clip a.mp4  # ms per pair on a clip
 
 Fidelity is that of `texvent bench fidelity`: thresholds are fitted on one texture and scored on two
-others, 24 frames per second in 8 bits. Times are processor time of the process, the least of several runs,
-engines in turn; flow (both directions) and count are what all of them need.
+others, 24 frames per second in 8 bits. Times are processor time of the process, the least of five
+runs, engines in turn; flow (both directions) and count are what all of them need.
 """
 
 from __future__ import annotations
