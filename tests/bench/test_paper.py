@@ -15,7 +15,7 @@ from texvent.bench.paper_tables import TABLES, OurFigures, beside_paper, join_fi
 from texvent.bench.paper_weights import accuracy_figures
 from texvent.bench.real_scene import Part, open_scene
 from texvent.cli.app import main
-from texvent.errors import InputError
+from texvent.errors import ConfigError, InputError
 from texvent.metrics.compare import compare
 
 from .made_up import made_up_report
@@ -122,6 +122,8 @@ def test_the_network_of_a_table_is_named_with_the_place_of_its_weights(
     inputs = PaperInputs(recordings=(str(pan_folder),))
     found = measure_table(8, inputs, silent)
     assert "et-net" in found.needs[0]
+    with pytest.raises(ConfigError, match="unknown reconstructor 'e3vid'"):
+        dataclasses.replace(inputs, network="e3vid")
     with pytest.raises(InputError, match="no weights file"):
         measure_table(8, dataclasses.replace(inputs, weights=tmp_path / "none.pth"), silent)
 

@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent._registry import CODECS, load_object
+from texvent.bench.announce import Announce, stay_silent
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.io.files import load
@@ -105,7 +106,7 @@ def classify(
     classifier: Classifier,
     *,
     seed: int = 0,
-    announce: Callable[[str], None] = lambda line: None,
+    announce: Announce = stay_silent,
 ) -> Accuracy:
     """Accuracy over the samples.
 

@@ -7,8 +7,8 @@ import math
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
 
+from texvent.bench.announce import Announce, stay_silent
 from texvent.bench.details import describe
 from texvent.bench.entries import Entry, default_entries
 from texvent.bench.environment import describe_environment
@@ -25,8 +25,6 @@ from texvent.metrics.compare import compare, load_metric
 from texvent.metrics.protocol import Metric
 
 NULL = "shuffle all times"
-
-Announce: TypeAlias = Callable[[str], None]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,7 +88,7 @@ class Truth:
 
 
 def run_fidelity(
-    plan: FidelityPlan, *, jobs: int = 1, announce: Announce = lambda line: None
+    plan: FidelityPlan, *, jobs: int = 1, announce: Announce = stay_silent
 ) -> FidelityReport:
     """Run the benchmark.
 

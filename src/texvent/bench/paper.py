@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from texvent._registry import RECONSTRUCTORS
+from texvent.bench.announce import Announce
 from texvent.bench.frame_recording import FrameRecording, open_recording
 from texvent.bench.paper_simulators import (
     eqs_figures,
@@ -21,15 +22,17 @@ from texvent.errors import InputError, MissingDependencyError
 from texvent.metrics.eqs import load_eqs
 from texvent.reconstruct.reconstructor import Reconstructor, load_reconstructor
 
-Announce = Callable[[str], None]
-
 NETWORKS = {1: "e2vid", 7: "e2vid", 8: "et-net"}
 """Table → the network that the paper reconstructs with."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class PaperInputs:
-    """What the user has."""
+    """What the user has.
+
+    Raises:
+        ConfigError: an unknown network.
+    """
 
     recordings: tuple[str, ...] = ()
     """Names of pulled data sets, or paths of recordings; none: those data sets with frames that
@@ -47,6 +50,10 @@ class PaperInputs:
     """Table 9: names of the classes in the classifier's order."""
     jobs: int = 1
     """Processes for event frames and EQS."""
+
+    def __post_init__(self) -> None:
+        if self.network is not None:
+            RECONSTRUCTORS.load(self.network)
 
     @property
     def sources(self) -> tuple[str, ...]:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from texvent.bench.announce import Announce
 from texvent.bench.entries import Entry, simulate_video
 from texvent.bench.frame_recording import FrameRecording
 from texvent.bench.paper_tables import PICTURE_ROWS, OurFigures
@@ -42,8 +43,6 @@ OWN_MODELS = "the other simulators are texvent's models of them; docs/simulators
 EVENT_FRAMES = {"MSE ↓": "ef_mse", "SSIM ↑": "ef_ssim", "LPIPS ↓": "ef_lpips"}
 PROMPT = "a red car drives left past two trees at dusk"
 TIMED_PAIRS, REPEATS = 12, 3
-
-Announce = Callable[[str], None]
 
 
 def event_frame_figures(

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
+from texvent.bench.announce import Announce
 from texvent.bench.classify import classify, list_samples
 from texvent.bench.frame_recording import FrameRecording
 from texvent.bench.paper_tables import PICTURE_ROWS, TABLES, OurFigures
@@ -15,8 +16,6 @@ from texvent.bench.resnet34 import ResNetClassifier
 from texvent.bench.resnet34_weights import read_resnet_weights
 from texvent.errors import InputError
 from texvent.reconstruct.reconstructor import Reconstructor
-
-Announce = Callable[[str], None]
 
 
 def noise_figures(

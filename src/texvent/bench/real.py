@@ -5,12 +5,13 @@ from __future__ import annotations
 import dataclasses
 import math
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 
+from texvent.bench.announce import Announce, stay_silent
 from texvent.bench.details import Details, describe
 from texvent.bench.entries import Entry, simulate_video, simulators_to_compare
 from texvent.bench.environment import describe_environment
@@ -26,8 +27,6 @@ from texvent.metrics.compare import load_metric
 from texvent.metrics.contrast_maximisation import estimate_patch_flow
 from texvent.metrics.protocol import Metric
 from texvent.settings import Settings, apply_options
-
-Announce: TypeAlias = Callable[[str], None]
 
 TARGET = "recorded"
 """What takes the place of the oracle's kind of pixels."""
@@ -85,7 +84,7 @@ def run_real(
     plan: RealPlan,
     *,
     jobs: int = 1,
-    announce: Announce = lambda line: None,
+    announce: Announce = stay_silent,
 ) -> FidelityReport:
     """Fit δ on the first half of each recording and score the second, span by span.
 

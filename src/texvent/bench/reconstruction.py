@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
+from texvent.bench.announce import Announce, stay_silent
 from texvent.bench.entries import Entry
 from texvent.bench.frame_recording import FrameRecording
 from texvent.bench.picture_scores import Measures, PictureScores, ScoreSheet, score_pictures
@@ -28,7 +29,6 @@ from texvent.reconstruct.reconstructor import Intensity, Reconstructor
 from texvent.simulate.thresholds import contrast_threshold_of
 from texvent.video import MICROSECONDS
 
-Announce: TypeAlias = Callable[[str], None]
 Watch: TypeAlias = Callable[[str, str, int, Intensity], None]
 """Told of every picture: recording, source of the events, time in µs, picture."""
 
@@ -38,10 +38,6 @@ DEFAULT_SKIP = 10
 """Pictures that do not count where no part of the recording is named: a network needs time."""
 MATCH_SECONDS = 1.0
 """How much of a recording is simulated to fit the number of events."""
-
-
-def _no_announcement(line: str) -> None:
-    del line
 
 
 def _no_watch(recording: str, source: str, t_us: int, picture: Intensity) -> None:
@@ -189,7 +185,7 @@ def run_reconstruction(
     recordings: Sequence[FrameRecording],
     judge: ReconstructionJudge,
     *,
-    announce: Announce = _no_announcement,
+    announce: Announce = stay_silent,
 ) -> ReconstructionReport:
     """Score the recorded events of each recording, and those of each simulator.
 

@@ -113,12 +113,12 @@ def _norm(name: str, channels: int) -> dict[str, Shape]:
 def _count_blocks(shapes: Mapping[str, Shape], path: Path) -> tuple[int, ...]:
     for name, dimensions in (("conv1.weight", 4), ("fc.weight", 2)):
         if len(shapes.get(name, ())) != dimensions:
-            raise FileFormatError(f"{path} has no usable {name}: it is no ResNet. {WHERE_FROM}")
+            raise FileFormatError(f"{path} has no usable {name}: it is no ResNet; {WHERE_FROM}")
     found = []
     for stage in range(1, STAGES + 1):
         numbers = {name.split(".")[1] for name in shapes if name.startswith(f"layer{stage}.")}
         if not numbers:
-            raise FileFormatError(f"{path} has no layer{stage}: it is no ResNet. {WHERE_FROM}")
+            raise FileFormatError(f"{path} has no layer{stage}: it is no ResNet; {WHERE_FROM}")
         found.append(len(numbers))
     return tuple(found)
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import itertools
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from texvent.bench.announce import Announce, stay_silent
 from texvent.bench.oracle import oracle_scene, record
 from texvent.bench.oracle_pixel import NOISY
 from texvent.bench.perturbations import PERTURBATIONS, SERIES, perturb
@@ -56,7 +57,7 @@ class SelftestRow:
 
 
 def run_selftest(
-    metrics: Iterable[str] | None = None, *, announce: Callable[[str], None] = lambda line: None
+    metrics: Iterable[str] | None = None, *, announce: Announce = stay_silent
 ) -> list[SelftestRow]:
     """Run the self-test on the oracle's `mixed` scene with noisy pixels.
 

@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.bench.announce import Announce, stay_silent
 from texvent.bench.classify import event_extensions, load_stream
 from texvent.bench.perturbations import perturb
 from texvent.errors import InputError
@@ -49,7 +50,7 @@ def compare_folders(
     recorded: Path,
     *,
     limit: int | None = None,
-    announce: Callable[[str], None] = lambda line: None,
+    announce: Announce = stay_silent,
 ) -> UnpairedReport:
     """Compare all event files of two folders, sub-folders included.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, ClassVar
@@ -11,6 +11,7 @@ from typing import Any, ClassVar
 from rich.console import Console
 
 from texvent.bench.ablation import read_ablations
+from texvent.bench.announce import Announce
 from texvent.bench.document import write_document
 from texvent.bench.environment import describe_environment
 from texvent.bench.fidelity import FidelityPlan, run_fidelity
@@ -27,8 +28,6 @@ from texvent.io.atomic import check_output
 
 SCHEMA = "texvent-paper-1"
 ABLATIONS = (4, 5)
-
-Announce = Callable[[str], None]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -22,6 +22,7 @@ from texvent.metrics.compare import compare, describe_metrics, load_metric
 from texvent.metrics.eqs import EventQualityScore, load_eqs
 from texvent.metrics.protocol import Metric, find_lack
 from texvent.metrics.stpp import SPACE_CELLS, TIME_CELLS, Stpp
+from texvent.sensor import SensorSize, parse_sensor
 from texvent.video import MICROSECONDS
 
 DESCRIPTION = """Compare two event files of one sensor: the one to judge, then the true one. Each
@@ -44,6 +45,8 @@ class CompareOptions:
     """Compare from this time on, in seconds."""
     stop: float | None = None
     """Compare up to this time, in seconds."""
+    sensor: str | None = None
+    """Sensor size, for event formats that do not store it."""
     rvt_weights: Path | None = None
     """RVT's published checkpoint (rvt-t.ckpt, rvt-s.ckpt or rvt-b.ckpt): adds the metric eqs."""
     levels: bool = False
@@ -60,7 +63,8 @@ def run(arguments: Sequence[str]) -> int:
     options = CompareOptions(**values)
     metrics, left_out = _choose_metrics(options)
     span_us = _span(options)
-    predicted, reference = (_load(path) for path in (options.predicted, options.reference))
+    size = parse_sensor(options.sensor) if options.sensor else None
+    predicted, reference = (_load(path, size) for path in (options.predicted, options.reference))
     scores = compare(predicted, reference, metrics, span_us=span_us)
     if span_us is not None:
         predicted, reference = (one.between(*span_us) for one in (predicted, reference))
@@ -134,10 +138,10 @@ def _document(
     return document
 
 
-def _load(path: Path) -> EventStream:
+def _load(path: Path, size: SensorSize | None) -> EventStream:
     if not path.exists():
         raise InputError(f"no such file: {path}")
-    return load(path)
+    return load(path, size=size)
 
 
 def _span(options: CompareOptions) -> tuple[int, int] | None:
