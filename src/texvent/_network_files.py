@@ -162,6 +162,8 @@ def _damaged(path: Path, error: Exception, where_from: str) -> FileFormatError:
             'torch.save({"state_dict": model.state_dict()}, "plain.pth"), and give that file'
         )
     reason = f"{type(error).__name__}: {error}".splitlines()[0][:120]
+    if "weights_only" in reason:  # torch's advice to its own callers, of no use to a user
+        reason = type(error).__name__
     return FileFormatError(
         f"{path} cannot be read as network weights, it is damaged or of another kind "
         f"({reason}); {where_from}"

@@ -71,6 +71,11 @@ def test_text_rows_are_compared_when_the_sensor_is_named(pair, tmp_path, capsys)
     assert json.loads(capsys.readouterr().out)["scores"] == {"count_ratio": 0.5}
 
 
+def test_a_span_without_events_is_no_perfect_score(pair, capsys):
+    assert main(["compare", "guess.npz", "truth.npz", "--start", "1"]) != 0
+    assert "truth.npz from 0.000 to 0.900 s" in capsys.readouterr().err
+
+
 def test_compare_cuts_to_the_span(pair, capsys):
     words = ["compare", "guess.npz", "truth.npz", "--json", "--stop", "0.01"]
     assert main([*words, "--metrics", "stpp"]) == 0

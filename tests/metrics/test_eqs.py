@@ -133,6 +133,9 @@ def test_a_truncated_checkpoint_is_refused_by_name(published):
     path.write_bytes(path.read_bytes()[:100_000])
     with pytest.raises(FileFormatError, match=r"rvt-t\.ckpt cannot be read as network weights"):
         read_rvt_weights(path)
+    path.write_text("no weights")
+    with pytest.raises(FileFormatError, match=r"\(UnpicklingError\)"):
+        read_rvt_weights(path)
 
 
 @pytest.mark.torch

@@ -65,11 +65,12 @@ def run(arguments: Sequence[str]) -> int:
     span_us = _span(options)
     size = parse_sensor(options.sensor) if options.sensor else None
     predicted, reference = (_load(path, size) for path in (options.predicted, options.reference))
-    scores = compare(predicted, reference, metrics, span_us=span_us)
+    whole = (predicted, reference)
     if span_us is not None:
-        predicted, reference = (one.between(*span_us) for one in (predicted, reference))
+        predicted, reference = (one.between(*span_us) for one in whole)
+        _refuse_empty_span(options, (predicted, reference), whole)
     findings = Findings(
-        scores,
+        compare(*whole, metrics, span_us=span_us),
         {one.name: run_controls(one, reference) for one in metrics if one.name in CONTROLLED},
         Stpp().levels(predicted, reference).tolist() if options.levels else None,
         left_out,
@@ -113,6 +114,24 @@ def _choose_metrics(options: CompareOptions) -> tuple[list[Metric], dict[str, st
         else:
             left_out[name] = lack
     return chosen, left_out
+
+
+def _refuse_empty_span(
+    options: CompareOptions, cut: tuple[EventStream, ...], whole: tuple[EventStream, ...]
+) -> None:
+    """Two streams without events would be alike: rather a wrong span than a perfect score."""
+    if any(map(len, cut)):
+        return
+    paths = (options.predicted, options.reference)
+    clocks = [
+        f"{path} from {one.t[0] / MICROSECONDS:.3f} to {one.t[-1] / MICROSECONDS:.3f} s"
+        for path, one in zip(paths, whole, strict=True)
+        if len(one)
+    ]
+    raise InputError(
+        "neither file has events between --start and --stop; "
+        f"{' and '.join(clocks) or 'both are empty'}"
+    )
 
 
 def _document(
