@@ -7,12 +7,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent.errors import InputError
+from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.io.files import load, save
 from texvent.sensor import SensorSize
@@ -48,6 +49,14 @@ def test_a_truncated_file_is_refused(sound: Path, share: float) -> None:
     path = sound.with_name(f"short{sound.suffix}")
     path.write_bytes(content[: int(share * len(content))])
     assert _load_or_refuse(path) is None
+
+
+def test_another_start_time_than_the_one_written_is_refused(tmp_path: Path) -> None:
+    path = save(tmp_path / "events.h5", _events())
+    with h5py.File(path, "r+") as file:
+        file["t_offset"][()] = 2**56
+    with pytest.raises(FileFormatError, match="t_offset is 72057594037927936, written as 0"):
+        load(path)
 
 
 @settings(max_examples=120, deadline=None, derandomize=True)

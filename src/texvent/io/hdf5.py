@@ -181,11 +181,9 @@ class Hdf5Writer(BatchedHdf5Writer):
 
     def _complete(self) -> None:
         self._extend("ms_to_idx", np.array([self._written], dtype=np.uint64))
-        # Compact: the value then lies inside the checksummed header.
-        properties = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
-        properties.set_layout(h5py.h5d.COMPACT)
-        offset = self._file.create_dataset("t_offset", shape=(), dtype="<i8", dcpl=properties)
-        offset[()] = self._offset_us or 0
+        self._file["t_offset"] = np.int64(self._offset_us or 0)
+        # A single value has no checksum; attributes lie in the header, which has one.
+        self._file.attrs["t_offset"] = np.int64(self._offset_us or 0)
 
 
 class _Packets:
@@ -266,7 +264,12 @@ def _time_offset(file: Any, path: Path) -> int:
     value = file["t_offset"]
     if value.size != 1 or value.dtype.kind not in "iu":
         raise FileFormatError(f"{path}: t_offset must be one whole number; it is {value!r}")
-    return int(np.asarray(value[()]).reshape(-1)[0])
+    offset_us = int(np.asarray(value[()]).reshape(-1)[0])
+    if int(file.attrs.get("t_offset", offset_us)) != offset_us:
+        raise FileFormatError(
+            f"{path} is damaged: t_offset is {offset_us}, written as {file.attrs['t_offset']}"
+        )
+    return offset_us
 
 
 def stored_size(file: Any) -> tuple[int, int] | None:
