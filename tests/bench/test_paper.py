@@ -9,7 +9,7 @@ import pytest
 from texvent.bench import paper_simulators
 from texvent.bench.ablation import read_ablations
 from texvent.bench.paper import PaperInputs, measure_table
-from texvent.bench.paper_ablations import ablation_figures
+from texvent.bench.paper_ablations import ablation_figures, leave_out_other_tables
 from texvent.bench.paper_simulators import event_frame_figures
 from texvent.bench.paper_tables import TABLES, OurFigures, beside_paper, join_figures
 from texvent.bench.paper_weights import accuracy_figures
@@ -153,6 +153,14 @@ def test_missing_weights_are_told_before_the_event_frames(monkeypatch, tmp_path,
     assert "images; " in steps[0]
     assert "event frames: MSE ↓" in found.figures
     assert found.needs[-1].startswith("images; ")
+
+
+def test_one_table_runs_its_own_rows_alone(tmp_path):
+    for name in ("E7", "E9", "Texvent", "mine"):
+        (tmp_path / f"{name}.toml").write_text('interpolate = "none"\n')
+    entries = read_ablations(tmp_path)
+    names = [{one.name for one in leave_out_other_tables(table, entries)} for table in (4, 5)]
+    assert names == [{"E7", "Texvent", "mine"}, {"E9", "Texvent", "mine"}]
 
 
 def test_a_baseline_that_does_not_run_is_refused_at_once(capsys, pan_folder, tmp_path):

@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from texvent.bench.ablation import ConfigEntry
 from texvent.bench.paper_tables import TABLES, OurFigures
 from texvent.bench.results import FidelityReport
 
 BASELINE = "Texvent"
+TABLES_HERE = (4, 5)
 EQS_NEED = (
     "EQS itself: it needs RVT's weights, and streams of N-ImageNet beside streams simulated from "
     "their captions, which no one publishes"
 )
+
+
+def leave_out_other_tables(number: int, entries: Sequence[ConfigEntry]) -> list[ConfigEntry]:
+    """The rows of Table 4 or 5, and the user's own; not those of the other of the two."""
+    others = {column for table in TABLES_HERE for column in TABLES[table].columns}
+    return [one for one in entries if one.name not in others - set(TABLES[number].columns)]
 
 
 def ablation_figures(number: int, report: FidelityReport) -> OurFigures:

@@ -18,7 +18,12 @@ from texvent.bench.fidelity import FidelityPlan, run_fidelity
 from texvent.bench.fidelity_table import check_baseline, fidelity_tables
 from texvent.bench.jobs import check_jobs
 from texvent.bench.paper import PaperInputs, measure_table
-from texvent.bench.paper_ablations import BASELINE, ablation_figures
+from texvent.bench.paper_ablations import (
+    BASELINE,
+    TABLES_HERE,
+    ablation_figures,
+    leave_out_other_tables,
+)
 from texvent.bench.paper_tables import TABLES, beside_paper, join_figures
 from texvent.bench.real import RealPlan, run_real
 from texvent.bench.real_scene import open_scene
@@ -27,7 +32,6 @@ from texvent.errors import ConfigError
 from texvent.io.atomic import check_output
 
 SCHEMA = "texvent-paper-1"
-ABLATIONS = (4, 5)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,7 +83,7 @@ class PaperOptions:
                 f"table is {self.table}; the tables are {', '.join(map(str, TABLES))}"
             )
         check_jobs(self.jobs)
-        if not self.oracle and not self.recordings and self.table in (None, *ABLATIONS):
+        if not self.oracle and not self.recordings and self.table in (None, *TABLES_HERE):
             raise ConfigError("--no-oracle leaves nothing to run; name --recordings")
 
     @property
@@ -115,7 +119,7 @@ def run(arguments: Sequence[str]) -> None:
     def announce(line: str) -> None:
         console.print(line, style="dim")
 
-    if options.table is None or options.table in ABLATIONS:
+    if options.table is None or options.table in TABLES_HERE:
         found = _run_ablations(options, announce)
     else:
         figures = measure_table(options.table, options.inputs, announce)
@@ -134,6 +138,8 @@ def run(arguments: Sequence[str]) -> None:
 def _run_ablations(options: PaperOptions, announce: Announce) -> dict[str, Any]:
     """Tables 4 and 5, or one of them, on scenes and recordings."""
     entries = read_ablations(options.configs, is_rate_matched=options.match_rate)
+    if options.table is not None:
+        entries = leave_out_other_tables(options.table, entries)
     check_baseline(options.baseline, [one.name for one in entries], default=BASELINE)
     recordings = [open_scene(source) for source in options.inputs.recordings]
     reports = []
@@ -146,7 +152,7 @@ def _run_ablations(options: PaperOptions, announce: Announce) -> dict[str, Any]:
         real = RealPlan(entries=entries)
         reports.append(run_real(recordings, real, jobs=options.jobs, announce=announce))
     tables: dict[str, Any] = {}
-    for number in ABLATIONS if options.table is None else (options.table,):
+    for number in TABLES_HERE if options.table is None else (options.table,):
         figures = join_figures([ablation_figures(number, report) for report in reports])
         sys.stdout.write(f"{beside_paper(TABLES[number], figures)}\n")
         tables[f"table {number}"] = asdict(figures)
