@@ -4,7 +4,7 @@
     events/label u1, 1 = noise, where the run was told to store it
     ms_to_idx u8   ms_to_idx[m] = index of the first event with t >= 1000 m (n if there is none)
     t_offset  i8   added to events/t; 0
-    root attributes: width, height, timestamp_scale_ms = 0.001,
+    root attributes: width, height, timestamp_scale_ms = 0.001, t_offset again (checksummed),
                      texvent = all metadata as JSON, and its top-level scalars by name
 
 Files are streamed in compressed chunks (gzip 1 + shuffle), so plain h5py reads them. Metadata

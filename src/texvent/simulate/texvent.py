@@ -112,9 +112,11 @@ class TexventSimulator:
         return packet
 
     def step_batch(self, frames: Sequence[Frame]) -> list[EventStream]:
-        """Packets of several frames at once: the same as `step` gives one after the other, sooner.
+        """Packets of several frames at once: the same as `step` gives one after the other.
 
-        Threads share out the work (`kernels.threads`), which does not pay for single frames.
+        Threads share out the work (`kernels.threads`). It pays at about 1 % of the pixels firing;
+        where many fire, room for all frames' events costs more than a thread saves
+        (docs/speed.md), and clips in a thread each are the better use of cores.
 
         Raises:
             InputError, ConfigError: as `step`; then none of the frames was simulated, apart from
