@@ -66,7 +66,7 @@ def _by_place(keys: NDArray[np.uint64], fraction: NDArray[np.float64], pixels: i
     bits = 32
     while pixels >> (bits - 32):
         bits += 1
-    keys = sort_keys(keys, 31, bits)
+    keys = sort_keys(keys, np.empty_like(keys), 31, bits)
     pixel, p = np.empty(keys.size, np.int64), np.empty(keys.size, np.uint8)
     ordered = np.empty(keys.size)
     for i in range(keys.size):

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from texvent.simulate.kernels import order_reference
 from texvent.simulate.kernels.order import Columns, Unordered, read_only
+from texvent.simulate.kernels.scratch import take_scratch
 
 Uint64Array = NDArray[np.uint64]
 
@@ -23,6 +24,8 @@ Uint64Array = NDArray[np.uint64]
 _1, _2 = np.uint64(1), np.uint64(2)
 FEWEST_BITS, MOST_BITS = 8, 13
 """Bits of a digit: 2¹³ counters of 32 bits just fit the nearest cache."""
+KEY_USES = ("keys", "sorted keys")
+"""Of `scratch`: what is sorted, and room to sort it."""
 
 
 def order_events(events: Unordered, span_us: tuple[int, int], shape: tuple[int, int]) -> Columns:
@@ -31,9 +34,9 @@ def order_events(events: Unordered, span_us: tuple[int, int], shape: tuple[int, 
     low, high = key_bits(pixels), duration_us.bit_length()
     if low + high > 64:
         return order_reference.order_events(events, span_us, shape)
-    pixel, t, p, label = (read_only(column) for column in events)
-    ordered = _order_events(pixel, t, p, label, span_us[0], shape[1], low, low + high)
-    return Columns(*ordered)
+    keys, spare = (take_scratch(use, len(events.t), np.uint64) for use in KEY_USES)
+    given = Unordered(*(read_only(column) for column in events))
+    return Columns(*_order_events(given, (keys, spare), span_us[0], shape[1], (low, low + high)))
 
 
 def key_bits(pixels: int) -> int:
@@ -49,39 +52,37 @@ def warm_up() -> None:
 
 @numba.njit(cache=True, nogil=True)
 def _order_events(
-    pixel: NDArray[np.int64],
-    t: NDArray[np.int64],
-    p: NDArray[np.uint8],
-    label: NDArray[np.uint8],
+    events: Unordered,
+    scratch: tuple[Uint64Array, Uint64Array],
     start_us: int,
     width: int,
-    low: int,
-    bits: int,
+    key_size: tuple[int, int],
 ) -> Any:
-    keys = np.empty(pixel.size, np.uint64)
+    (pixel, t, p, label), (keys, spare), (low, bits) = events, scratch, key_size
     mask, last, steps_back = (_1 << np.uint64(low)) - _1, np.uint64(0), np.int64(0)
     for i in range(pixel.size):
         key = np.uint64(pixel[i]) << _2 | np.uint64(p[i]) << _1 | np.uint64(label[i])
         steps_back += key < last
         last = key
         keys[i] = np.uint64(t[i] - start_us) << np.uint64(low) | key & mask
-    keys = sort_keys(keys, 0 if steps_back else low, bits)
+    keys = sort_keys(keys, spare, 0 if steps_back else low, bits)
     return unpack_keys(keys, start_us, width, low)
 
 
 @numba.njit(cache=True, nogil=True)
-def sort_keys(keys: Uint64Array, first: int, bits: int) -> Uint64Array:
+def sort_keys(keys: Uint64Array, spare: Uint64Array, first: int, bits: int) -> Uint64Array:
     """Keys in ascending order of their bits `first`..`bits`; equal ones stay in order.
 
     Args:
-        keys: [n]; used as scratch.
+        keys: [n]; overwritten.
+        spare: [n] scratch.
         first: bits below it are sorted already, or do not matter.
         bits: how many bits a key has.
 
     Returns:
-        [n], `keys` or another array.
+        [n], `keys` or `spare`.
     """
-    widest, spare = FEWEST_BITS, np.empty(keys.size, np.uint64)
+    widest = FEWEST_BITS
     while widest < MOST_BITS and 1 << widest < 4 * keys.size:
         widest += 1
     digits = -(-(bits - first) // widest)

@@ -81,7 +81,8 @@ def _stamp_events(fired: Fired, noise: NoisePlaces, rule: _Rule, start_us: int, 
     keys = signal
     if noise.pixel.size:
         keys = _merge(signal, _list_noise(noise, rule), rule)
-    return unpack_keys(sort_keys(keys, rule.low, bits), start_us, rule.width, rule.low)
+    keys = sort_keys(keys, np.empty_like(keys), rule.low, bits)
+    return unpack_keys(keys, start_us, rule.width, rule.low)
 
 
 @numba.njit(cache=True, nogil=True)
