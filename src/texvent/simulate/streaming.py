@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from texvent.config import check_range
 from texvent.events import EventStream
 from texvent.simulate.draws import frame_key
-from texvent.simulate.firings import Firings, Interval
+from texvent.simulate.firings import Firings, Interval, Keyed
 from texvent.simulate.kernels.select import AUTO, check_backend
 from texvent.video import Frame, StreamChecker
 
@@ -66,6 +66,7 @@ class StreamingSimulator(abc.ABC, Generic[Config]):
                 that is NaN, infinite or negative.
         """
         interval = self._enter(frame)
+        fired: Firings | Keyed
         if interval.duration_us:
             fired = self._advance(frame.luma, interval)
         else:
@@ -91,5 +92,5 @@ class StreamingSimulator(abc.ABC, Generic[Config]):
         """Set up every pixel from the first frame."""
 
     @abc.abstractmethod
-    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
+    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings | Keyed:
         """What fires between the frame before and this one; moves every pixel's state along."""

@@ -22,6 +22,7 @@ Uint64Array = NDArray[np.uint64]
 
 # Numba turns a sum of uint64 and int64 into a float, so every constant is uint64.
 _1, _2 = np.uint64(1), np.uint64(2)
+MOST_KEY_BITS = 64
 FEWEST_BITS, MOST_BITS = 8, 13
 """Bits of a digit: 2¹³ counters of 32 bits just fit the nearest cache."""
 KEY_USES = ("keys", "sorted keys")
@@ -32,7 +33,7 @@ def order_events(events: Unordered, span_us: tuple[int, int], shape: tuple[int, 
     """See `order_reference.order_events`."""
     duration_us, pixels = span_us[1] - span_us[0], shape[0] * shape[1]
     low, high = key_bits(pixels), duration_us.bit_length()
-    if low + high > 64:
+    if low + high > MOST_KEY_BITS:
         return order_reference.order_events(events, span_us, shape)
     keys, spare = (take_scratch(use, len(events.t), np.uint64) for use in KEY_USES)
     given = Unordered(*(read_only(column) for column in events))
@@ -44,10 +45,30 @@ def key_bits(pixels: int) -> int:
     return (pixels - 1).bit_length() + 2
 
 
+def order_keys(keys: Uint64Array, span_us: tuple[int, int], shape: tuple[int, int]) -> Columns:
+    """As `order_events`, of events that are keys already.
+
+    Args:
+        keys: [n] by pixel, and the events of a pixel in time; used as scratch.
+        span_us: start (included) and stop (excluded) of the interval, µs.
+        shape: (height, width) of the sensor.
+    """
+    low = key_bits(shape[0] * shape[1])
+    bits = low + (span_us[1] - span_us[0]).bit_length()
+    spare = take_scratch(KEY_USES[1], keys.size, np.uint64)
+    return Columns(*_order_keys(keys, spare, span_us[0], (shape[1], low, bits)))
+
+
+def has_room_for_keys(duration_us: int, shape: tuple[int, int]) -> bool:
+    """Whether the time and the pixel of an event fit a key."""
+    return key_bits(shape[0] * shape[1]) + duration_us.bit_length() <= MOST_KEY_BITS
+
+
 def warm_up() -> None:
     """Compile, or load what was compiled before."""
     one, byte = np.zeros(1, np.int64), np.zeros(1, np.uint8)
     order_events(Unordered(one, one, byte, byte), (0, 1), (1, 1))
+    order_keys(np.zeros(1, np.uint64), (0, 1), (1, 1))
 
 
 @numba.njit(cache=True, nogil=True)
@@ -66,6 +87,22 @@ def _order_events(
         last = key
         keys[i] = np.uint64(t[i] - start_us) << np.uint64(low) | key & mask
     keys = sort_keys(keys, spare, 0 if steps_back else low, bits)
+    return unpack_keys(keys, start_us, width, low)
+
+
+@numba.njit(cache=True, nogil=True)
+def _order_keys(
+    keys: Uint64Array, spare: Uint64Array, start_us: int, layout: tuple[int, int, int]
+) -> Any:
+    width, low, bits = layout
+    keys = sort_keys(keys, spare, low, bits)
+    # Events of one pixel and microsecond may still be in another order than that of p and label.
+    for i in range(1, keys.size):
+        j, key = i, keys[i]
+        while j > 0 and keys[j - 1] > key:
+            keys[j] = keys[j - 1]
+            j -= 1
+        keys[j] = key
     return unpack_keys(keys, start_us, width, low)
 
 
