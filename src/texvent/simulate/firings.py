@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from texvent.events import NOISE, SIGNAL, EventStream
 from texvent.sensor import SensorSize
-from texvent.simulate.kernels.order import Unordered, load_order_events, load_order_keys
+from texvent.simulate.kernels.order import Unordered, load_order_events
 from texvent.simulate.kernels.select import AUTO
 
 
@@ -83,17 +83,4 @@ class Firings(NamedTuple):
         span_us = (interval.start_us, interval.stop_us)
         order_events = load_order_events(backend)
         x, y, t, p, label = order_events(Unordered(*self), span_us, size.shape)
-        return EventStream.unchecked(x, y, t, p, size=size, label=label)
-
-
-class Keyed(NamedTuple):
-    """Events of one interval as compiled kernels make them: a number for each."""
-
-    keys: NDArray[np.uint64]
-    """[n] see `kernels.order_cpu`; by pixel, and the events of a pixel in time."""
-
-    def packet(self, interval: Interval, size: SensorSize) -> EventStream:
-        """As `Firings.packet`; the keys are used as scratch."""
-        span_us = (interval.start_us, interval.stop_us)
-        x, y, t, p, label = load_order_keys()(self.keys, span_us, size.shape)
         return EventStream.unchecked(x, y, t, p, size=size, label=label)

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from texvent.config import check_range
 from texvent.events import EventStream
 from texvent.simulate.draws import frame_key
-from texvent.simulate.firings import Firings, Interval, Keyed
+from texvent.simulate.firings import Firings, Interval
+from texvent.simulate.kernels.order import Columns
 from texvent.simulate.kernels.select import AUTO, check_backend
 from texvent.video import Frame, StreamChecker
 
@@ -66,13 +67,16 @@ class StreamingSimulator(abc.ABC, Generic[Config]):
                 that is NaN, infinite or negative.
         """
         interval = self._enter(frame)
-        fired: Firings | Keyed
+        fired: Firings | Columns
         if interval.duration_us:
             fired = self._advance(frame.luma, interval)
         else:
             self._begin(frame.luma)
             fired = Firings.none()
-        return fired.packet(interval, frame.size)
+        if isinstance(fired, Firings):
+            return fired.packet(interval, frame.size)
+        x, y, t, p, label = fired
+        return EventStream.unchecked(x, y, t, p, size=frame.size, label=label)
 
     def _enter(self, frame: Frame) -> Interval:
         """The interval that a frame ends, an empty one for the first; bad frames are refused."""
@@ -92,5 +96,5 @@ class StreamingSimulator(abc.ABC, Generic[Config]):
         """Set up every pixel from the first frame."""
 
     @abc.abstractmethod
-    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings | Keyed:
+    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings | Columns:
         """What fires between the frame before and this one; moves every pixel's state along."""

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, TypeAlias, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.kernels.select import AUTO, load_kernel, load_kernel_when_ready
+from texvent.simulate.kernels.select import AUTO, load_kernel_when_ready
 
 
 class Unordered(NamedTuple):
@@ -46,19 +46,6 @@ def load_order_events(backend: str = AUTO) -> OrderEvents:
         MissingDependencyError: what the backend needs is not installed.
     """
     return cast("OrderEvents", load_kernel_when_ready("order", "order_events", backend))
-
-
-OrderKeys: TypeAlias = Callable[[NDArray[np.uint64], tuple[int, int], tuple[int, int]], Columns]
-"""`order_keys(keys, (start_us, stop_us), (height, width))`, see `order_cpu.order_keys`."""
-
-
-def load_order_keys() -> OrderKeys:
-    """The function that orders what compiled kernels make; there is but one.
-
-    Raises:
-        MissingDependencyError: Numba is not installed.
-    """
-    return cast("OrderKeys", load_kernel("order", "order_keys", "cpu"))
 
 
 def read_only(array: NDArray[Any]) -> NDArray[Any]:
