@@ -18,15 +18,12 @@ from texvent.simulate.kernels import texvent_numpy
 from texvent.simulate.kernels.cpu_draws import allow_wrap_around
 from texvent.simulate.kernels.marks_cpu import (
     LARGEST_FLOAT,
-    TILE,
-    Pictures,
-    cut,
+    RUN,
+    Marks,
     largest_word,
-    list_marks,
-    make_marks,
-    mark_again,
     mark_bytes,
     mark_levels,
+    number_of,
 )
 from texvent.simulate.kernels.order import read_only
 from texvent.simulate.kernels.texvent import (
@@ -39,6 +36,20 @@ from texvent.simulate.kernels.texvent import (
 )
 
 Int64Array = NDArray[np.int64]
+_0, _1 = np.uint64(0), np.uint64(1)
+_CHUNK = 1 << 13
+"""Pixels of float frames that are looked at together, twice: they stay in the nearest cache."""
+
+
+class Pictures(NamedTuple):
+    """All arrays as large as a frame."""
+
+    frame: Intensity
+    reference: Intensity
+    renewed: Intensity
+    """[0] unless all references are renewed."""
+    previous: Intensity
+    """[0] unless events need it."""
 
 
 class _Logs(NamedTuple):
@@ -187,16 +198,50 @@ def _step(level: float, change: float, rule: FireRule) -> float:
 @numba.njit(cache=True, nogil=True)
 def _find_candidates(pictures: Pictures, levels: Levels, pixel: Int64Array) -> int:
     """List the pixels of float frames that may fire; −1 if an intensity has a sign or no end."""
-    marks, place, found = make_marks(), np.empty(TILE + 1, np.int64), 0
-    for first in range(0, pictures.frame.size, TILE):
-        tile = cut(pictures, first)
-        if largest_word(tile.frame.view(np.uint32)) > LARGEST_FLOAT:
+    found = 0
+    for first in range(0, pictures.frame.size, _CHUNK):
+        last = first + _CHUNK
+        frame, reference = pictures.frame[first:last], pictures.reference[first:last]
+        if largest_word(frame.view(np.uint32)) > LARGEST_FLOAT:
             return -1
-        mark_levels(tile, levels, marks)
-        for k in range(list_marks(marks, place)):
-            pixel[found] = first + place[k]
-            found += 1
-        _copy(tile.frame, tile.renewed)
+        runs, words = mark_levels(frame, reference, levels)
+        for k in range(runs.size):
+            bits = words[k]
+            while bits != _0:
+                bit = bits & (~bits + _1)
+                bits ^= bit
+                pixel[found] = first + runs[k] * RUN + number_of(bit)
+                found += 1
+    _copy(pictures.frame, pictures.renewed)
+    return found
+
+
+@numba.njit(cache=True, nogil=True)
+def _fire_integers(
+    pictures: Pictures, marks: Marks, table: Float64Array, threshold: float, out: Fired
+) -> int:
+    """Let the marked pixels of uint8 or uint16 frames fire; how many did."""
+    frame, reference, renewed, previous = pictures
+    pixel, change, start, stop, at_start = out
+    runs, words = marks
+    is_renewed, has_line, found = renewed.size > 0, previous.size > 0, 0
+    for k in range(runs.size):
+        bits = words[k]
+        while bits != _0:
+            bit = bits & (~bits + _1)
+            bits ^= bit
+            i = runs[k] * RUN + number_of(bit)
+            now, then = table[frame[i]], table[reference[i]]
+            # Written always, kept if it fires: without a branch that cannot be foreseen.
+            pixel[found], change[found] = i, now - then
+            if has_line:
+                start[found], stop[found], at_start[found] = table[previous[i]], now, then
+            fires = abs(now - then) >= threshold
+            if fires and not is_renewed:
+                reference[i] = frame[i]
+            found += int(fires)
+    _copy(frame, renewed)
+    _copy(frame, previous)
     return found
 
 
@@ -205,14 +250,8 @@ def _fire_bytes(
     pictures: Pictures, table: Float64Array, levels: Levels, threshold: float, out: Fired
 ) -> int:
     """Let the pixels of uint8 frames fire; how many did."""
-    marks, place, found = make_marks(), np.empty(TILE + 1, np.int64), 0
-    for first in range(0, pictures.frame.size, TILE):
-        tile = cut(pictures, first)
-        mark_bytes(tile.frame, tile.reference, levels.least, marks)
-        mark_again(tile, levels, marks)
-        places = place[: list_marks(marks, place)]
-        found = _settle(tile, places, table, threshold, out, found, first)
-    return found
+    marks = mark_bytes(pictures.frame, pictures.reference, levels)
+    return _fire_integers(pictures, marks, table, threshold, out)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -220,45 +259,12 @@ def _fire_words(
     pictures: Pictures, table: Float64Array, levels: Levels, threshold: float, out: Fired
 ) -> int:
     """Let the pixels of uint16 frames fire; how many did."""
-    marks, place, found = make_marks(), np.empty(TILE + 1, np.int64), 0
-    for first in range(0, pictures.frame.size, TILE):
-        tile = cut(pictures, first)
-        mark_levels(tile, levels, marks)
-        places = place[: list_marks(marks, place)]
-        found = _settle(tile, places, table, threshold, out, found, first)
-    return found
-
-
-@numba.njit(cache=True, nogil=True)
-def _settle(
-    tile: Pictures,
-    places: Int64Array,
-    table: Float64Array,
-    threshold: float,
-    out: Fired,
-    found: int,
-    first: int,
-) -> int:
-    """Append the candidates of a tile that fire, and move what the tile remembers."""
-    for place in places:
-        now, then = table[tile.frame[place]], table[tile.reference[place]]
-        if abs(now - then) < threshold:
-            continue
-        out.pixel[found] = first + place
-        out.change[found] = now - then
-        if tile.previous.size:
-            out.start[found] = table[tile.previous[place]]
-            out.stop[found], out.reference[found] = now, then
-        if not tile.renewed.size:
-            tile.reference[place] = tile.frame[place]
-        found += 1
-    _copy(tile.frame, tile.renewed)
-    _copy(tile.frame, tile.previous)
-    return found
+    marks = mark_levels(pictures.frame, pictures.reference, levels)
+    return _fire_integers(pictures, marks, table, threshold, out)
 
 
 @numba.njit(cache=True, nogil=True)
 def _copy(source: Intensity, target: Intensity) -> None:
-    """Copy a tile, if there is anything to copy it to."""
+    """Copy a picture, if there is anything to copy it to."""
     for i in range(target.size):
         target[i] = source[i]
