@@ -118,11 +118,12 @@ def test_pixels_that_start_at_zero_leak_in_unison(backend):
     assert np.ptp(events.t) == 0
 
 
-def test_intervals_with_drift_are_inverse_gaussian(backend):
+@pytest.mark.parametrize("frame_us", [400_000, 2000, 100])
+def test_intervals_with_drift_are_inverse_gaussian_at_any_frame_rate(frame_us):
     # Mean 1 / μ = 1 ms, shape 1 / σ² = 10 ms; OFF first is a matter of exp(−20).
     config = with_only(k4=1e-3, k6=math.sqrt(1e-4))
-    simulator = VoltmeterSimulator(config, seed=1, backend=backend)
-    frames = [Frame(np.full((2, 3), 90.0), t) for t in (0, 400_000)]
+    simulator = VoltmeterSimulator(config, seed=1, backend="cpu")
+    frames = [Frame(np.full((2, 3), 90.0), t) for t in range(0, 400_001, frame_us)]
     events = run(simulator, frames)
     assert events.p.all()
     order = np.lexsort((events.t, events.x, events.y))
@@ -137,10 +138,10 @@ def test_intervals_with_drift_are_inverse_gaussian(backend):
 
 def test_passage_times_are_inverse_gaussian_at_any_ratio_of_drift_to_noise():
     random = np.random.default_rng(2)
-    normal, chance = random.standard_normal(4000), random.uniform(size=4000)
+    square, chance = random.standard_normal(4000) ** 2, random.uniform(size=4000)
     for sigma in (0.1, 1.0, 10.0):
         ones = np.ones(4000)
-        times = passage_time(ones, ones, sigma * ones, normal, chance)
+        times = passage_time(ones, ones, sigma * ones, square, chance)
 
         def cdf(t, shape=1 / sigma**2):
             return inverse_gaussian_cdf(t, 1.0, shape)
@@ -150,9 +151,9 @@ def test_passage_times_are_inverse_gaussian_at_any_ratio_of_drift_to_noise():
 
 def test_passage_times_without_drift_are_levy():
     random = np.random.default_rng(3)
-    normal, chance = random.standard_normal(4000), random.uniform(size=4000)
+    square, chance = random.standard_normal(4000) ** 2, random.uniform(size=4000)
     ones = np.ones(4000)
-    times = passage_time(2 * ones, 0 * ones, 0.5 * ones, normal, chance)
+    times = passage_time(2 * ones, 0 * ones, 0.5 * ones, square, chance)
 
     def cdf(t):
         return 2 * normal_cdf(-2 / 0.5 / np.sqrt(t))

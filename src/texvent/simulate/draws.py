@@ -28,6 +28,8 @@ MULTIPLIER_2 = 0x94D049BB133111EB
 MASK_64 = 0xFFFF_FFFF_FFFF_FFFF
 UNIT = 2.0**-53
 """Spacing of the uniform numbers: the top 53 bits of a word fill a float64 exactly."""
+HALF_UNIT = 2.0**-32
+"""Spacing of the uniform numbers that are made of half a word."""
 
 
 class Purpose(IntEnum):
@@ -101,6 +103,15 @@ def draw_uniforms(key: np.uint64, y: ArrayLike, x: ArrayLike, draw: ArrayLike) -
     """Uniform numbers in [0, 1), multiples of 2⁻⁵³; arguments as for `draw_words`."""
     words = draw_words(key, y, x, draw)
     return np.asarray((words >> np.uint64(11)).astype(np.float64) * UNIT)
+
+
+def draw_halves(
+    key: np.uint64, y: ArrayLike, x: ArrayLike, draw: ArrayLike
+) -> tuple[Float64Array, Float64Array]:
+    """Two uniform numbers in [0, 1), multiples of 2⁻³²; arguments as for `draw_words`."""
+    words = draw_words(key, y, x, draw)
+    high, low = words >> np.uint64(32), words & np.uint64(MASK_64 >> 32)
+    return high.astype(np.float64) * HALF_UNIT, low.astype(np.float64) * HALF_UNIT
 
 
 def draw_normals(key: np.uint64, y: ArrayLike, x: ArrayLike, draw: ArrayLike) -> Float64Array:

@@ -14,14 +14,14 @@ import numpy as np
 
 from texvent.config import check_range
 from texvent.errors import ConfigError
-from texvent.events import NOISE, SIGNAL
 from texvent.simulate.draws import Purpose, draw_uniforms
 from texvent.simulate.firings import Firings, Interval
+from texvent.simulate.kernels.order import Columns
 from texvent.simulate.kernels.passage import (
     Constants,
     Light,
-    Voltage,
-    load_find_passages_in_light,
+    load_find_passages,
+    new_voltage,
 )
 from texvent.simulate.pixel_maps import sensor_key
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
@@ -107,20 +107,14 @@ class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
             y, x = np.ogrid[: intensity.shape[0], : intensity.shape[1]]
             chance = draw_uniforms(sensor_key(self._seed), y, x, Purpose.PHASE.draw())
             residual = np.sign(leak) * chance
-        self._voltage = Voltage(residual, np.zeros(intensity.shape))
+        self._voltage = new_voltage(residual)
+        self._begin_us = self._last_us
 
-    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
+    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings | Columns:
         if intensity.dtype != self._seen.dtype:
             # Frames of two types: from now on all are float32, which holds 8-bit levels exactly.
             self._seen = self._seen.astype(np.float32, copy=False)
             intensity = intensity.astype(np.float32, copy=False)
-        passages = load_find_passages_in_light(intensity.dtype, self._backend)(
-            Light(self._seen, intensity, self._constants),
-            self._voltage,
-            interval.key,
-            interval.duration_us,
-        )
-        self._seen[:] = intensity
-        offset = np.floor(passages.after_us).astype(np.int64)
-        label = np.where(passages.is_noise, NOISE, SIGNAL).astype(np.uint8)
-        return Firings(passages.pixel, interval.start_us + offset, passages.p, label)
+        light = Light(self._seen, intensity, self._constants)
+        find_passages = load_find_passages(intensity.dtype, self._backend)
+        return find_passages(light, self._voltage, interval, self._begin_us)

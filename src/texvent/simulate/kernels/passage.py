@@ -1,4 +1,8 @@
-"""What a kernel gets and gives when each pixel's voltage is a Brownian motion with drift."""
+"""What a kernel gets and gives when each pixel's voltage is a Brownian motion with drift.
+
+Where the light rests, drift and diffusion stay what they are, so the passage that was drawn once
+holds until its time comes or the light changes, over as many frames as that takes.
+"""
 
 from __future__ import annotations
 
@@ -9,50 +13,42 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.simulate.draws import Purpose
-from texvent.simulate.kernels.select import AUTO, load_kernel, load_kernel_when_ready
+from texvent.simulate.firings import Firings, Interval
+from texvent.simulate.kernels.order import Columns
+from texvent.simulate.kernels.select import AUTO, load_kernel_when_ready
 
 Float64Array: TypeAlias = NDArray[np.float64]
 
 FIRST_DRAW: int = Purpose.PASSAGE.draw()
-DRAWS_PER_EVENT = 4
-"""Polarity, two for a normal number, and which of two roots."""
+DRAWS_PER_PASSAGE = 3
+"""Polarity, the size of a normal number, and its angle with which of two roots."""
 CERTAIN = 40.0
 """e^(−40) is nothing beside 1: where `steer · against` is above, the drift decides."""
 MOST_RESIDUAL = 1.0 - 2.0**-52
 """Voltage kept between intervals stays this side of both thresholds, whatever is rounded."""
-
-
-class Motion(NamedTuple):
-    """How the voltages move in one interval; voltage in units of the threshold."""
-
-    signal: Float64Array
-    """[H, W] drift that the change of light causes, 1/µs."""
-    drift: Float64Array
-    """[H, W] whole drift μ, leakage included, 1/µs."""
-    sigma: Float64Array
-    """[H, W] diffusion σ, 1/√µs, at least 0."""
+LONGEST_US = 2.0**62
+"""What stands for a passage that takes for ever, µs."""
+BLOCK = 512
+"""Pixels that a fast kernel looks at together, and skips together if nothing happens to them."""
 
 
 class Voltage(NamedTuple):
-    """Where the voltages stand between intervals."""
+    """How the voltages go on if the light stays: straight to the next threshold; [n] each.
 
-    residual: Float64Array
-    """[H, W] way gone since the last event, between −1 and 1."""
-    signal: Float64Array
-    """[H, W] part of it that the signal drove."""
+    A voltage is measured in thresholds since the last event. At a time t it is
+    `±1 − pace · (due − t)`, with the sign of the pace.
+    """
 
-
-class Passages(NamedTuple):
-    """Events of one interval, by pixel in row-major order, then in time."""
-
-    pixel: NDArray[np.int64]
-    """[n] flat index y · W + x."""
-    after_us: Float64Array
-    """[n] time since the start of the interval, µs."""
-    p: NDArray[np.uint8]
-    """[n] 1 = ON, 0 = OFF."""
-    is_noise: NDArray[np.bool_]
-    """[n] whether the signal drove less than half of the way to the threshold."""
+    due_us: Float64Array
+    """When the threshold is reached, µs after the first frame."""
+    pace: Float64Array
+    """1/µs, never 0: above 0 towards ON, else OFF."""
+    is_moving: NDArray[np.bool_]
+    """Whether the light moved in the last interval: then all this held for that interval only."""
+    signal: NDArray[np.float32]
+    """Part of the way since the last event that the signal drove."""
+    soonest_us: Float64Array
+    """[blocks] up to when nothing is due in a block; a note of the fast kernel for itself."""
 
 
 class Constants(NamedTuple):
@@ -70,36 +66,39 @@ class Light(NamedTuple):
     """Light at both ends of an interval, and what it does to the voltages."""
 
     before: NDArray[Any]
-    """[H, W] luma at the start, 0..255 scale, uint8 or float32."""
+    """[H, W] luma at the start, 0..255 scale, uint8 or float32; a kernel turns it into that at the
+    end."""
     now: NDArray[Any]
     """[H, W] luma at the end, of the same type."""
     constants: Constants
-    first_row: int = 0
-    """Which row of the sensor the first one is: draws are keyed by it."""
 
 
-FindPassages: TypeAlias = Callable[[Motion, Voltage, np.uint64, float], Passages]
-"""`find_passages(motion, voltage, key, duration_us)`, see `passage_reference.find_passages`."""
-FindPassagesInLight: TypeAlias = Callable[[Light, Voltage, np.uint64, float], Passages]
-"""The same with light instead of the motion it makes."""
+FindPassages: TypeAlias = Callable[[Light, Voltage, Interval, int], Firings | Columns]
+"""`find_passages(light, voltage, interval, first_us)`, see `passage_reference.find_passages`."""
 
 
-def load_find_passages_in_light(dtype: np.dtype[Any], backend: str = AUTO) -> FindPassagesInLight:
+def load_find_passages(dtype: np.dtype[Any], backend: str = AUTO) -> FindPassages:
     """The function of a backend; "auto" is NumPy until the compiled one is ready.
 
     Raises:
         ConfigError: no backend has that name.
         MissingDependencyError: what the backend needs is not installed.
     """
-    function = load_kernel_when_ready("passage", "find_passages_in_light", backend, dtype.name)
-    return cast("FindPassagesInLight", function)
+    function = load_kernel_when_ready("passage", "find_passages", backend, dtype.name)
+    return cast("FindPassages", function)
 
 
-def load_find_passages(backend: str = AUTO) -> FindPassages:
-    """The function of a backend. All return equal bits on one machine.
+def new_voltage(residual: Float64Array) -> Voltage:
+    """The state of pixels at the first frame.
 
-    Raises:
-        ConfigError: no backend has that name.
-        MissingDependencyError: what the backend needs is not installed.
+    Args:
+        residual: way gone already, any shape, thresholds, between −1 and 1.
     """
-    return cast("FindPassages", load_kernel("passage", "find_passages", backend))
+    n = residual.size
+    return Voltage(
+        np.full(n, LONGEST_US),
+        (1.0 - residual.reshape(-1)) / LONGEST_US,
+        np.ones(n, np.bool_),
+        np.zeros(n, np.float32),
+        np.full(-(-n // BLOCK), -np.inf),
+    )
