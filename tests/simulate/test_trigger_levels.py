@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.simulate.esim import EsimConfig, EsimSimulator, log_intensity
+from texvent.simulate.kernels.levels import Curve, Thresholds
 from texvent.simulate.kernels.ramp import Ramp, Rest
 from texvent.simulate.kernels.ramp_reference import cross_ramp
 from texvent.simulate.pixel_maps import LONG_AGO_US, draw_threshold_pair, sensor_key
@@ -115,11 +116,12 @@ def test_senpi_with_levels_fires_as_without(dtypes, seed, backend, threshold, si
 @pytest.mark.parametrize("dtype", [np.uint8, np.float32])
 def test_only_pixels_outside_their_levels_are_looked_at(backend, dtype):
     first = np.full((2, 300), 100, dtype)
-    levels = TriggerLevels(first, scale=1.0, offset=-10.0, backend=backend)
+    levels = TriggerLevels(first, Curve(1.0, -10.0), backend=backend)
     assert len(levels.find_outside(first)[0]) == 600
     # Silent from ln(10 + 90.5) to ln(10 + 120).
-    ends = np.full(600, np.log(100.5)), np.full(600, np.log(130.0))
-    levels.set(np.arange(600), *ends)
+    reference, pixel = np.full(600, np.log(110.0)), np.arange(600)
+    on, off = np.full(600, np.log(130.0 / 110.0)), np.full(600, np.log(110.0 / 100.5))
+    levels.set(pixel, reference, Thresholds(on, off))
     second = first.copy()
     second[0, :5] = [90, 91, 119, 120, 130]
     pixel, before, now = levels.find_outside(second)
@@ -130,10 +132,11 @@ def test_only_pixels_outside_their_levels_are_looked_at(backend, dtype):
 
 def test_a_pixel_that_always_fires_is_always_looked_at(backend):
     first = np.full((1, 3), 9, np.uint8)
-    levels = TriggerLevels(first, scale=1.0, offset=0.0, backend=backend)
+    levels = TriggerLevels(first, Curve(1.0, 0.0), backend=backend)
     # ON from below 0 on, OFF from above 255 on, and nowhere silent.
-    logs = np.array([-np.inf, 9.0, 3.0]), np.array([-20.0, 10.0, 2.0])
-    levels.set(np.arange(3), *logs)
+    reference, on = np.array([-21.0, 9.5, 2.5]), np.array([1.0, 0.5, -0.5])
+    off = np.array([np.inf, 0.5, -0.5])
+    levels.set(np.arange(3), reference, Thresholds(on, off))
     assert levels.find_outside(np.full((1, 3), 0, np.uint8))[0].tolist() == [0, 1, 2]
 
 

@@ -18,7 +18,9 @@ from texvent._registry import load_object
 from texvent.config import check_range
 from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.simulate.firings import Firings, Interval
+from texvent.simulate.firings import Interval
+from texvent.simulate.kernels.levels import Curve, Thresholds
+from texvent.simulate.kernels.order import Columns
 from texvent.simulate.kernels.ramp import Candidates, Levels, Rest, load_cross_levels
 from texvent.simulate.kernels.select import GPU
 from texvent.simulate.pixel_maps import (
@@ -30,10 +32,12 @@ from texvent.simulate.pixel_maps import (
     sensor_key,
 )
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
-from texvent.simulate.trigger_levels import TriggerLevels
+from texvent.simulate.trigger_levels import TriggerLevels, every_pixel, thresholds_at
 from texvent.video import Frame
 
 WHITE = 255.0
+FLOOR = Thresholds(np.array([LOWEST_THRESHOLD]), np.array([LOWEST_THRESHOLD]))
+"""The lowest that are ever drawn, for all pixels."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -122,7 +126,7 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         self._enter(frame)
         self._begin(frame.luma)
         self._levels = Levels(reference, fired_us)
-        self._set_triggers(np.arange(reference.size))
+        self._set_all_triggers()
 
     @property
     def contrast_threshold(self) -> float:
@@ -137,52 +141,52 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
     def _begin(self, intensity: IntensityArray) -> None:
         config = self.config
         reference = log_intensity(intensity, config.log_eps).reshape(-1)
-        self._levels = Levels(reference, np.full(reference.shape, LONG_AGO_US))
+        rested = reference.size if config.refractory_period_us else 0
+        self._levels = Levels(reference, np.full(rested, LONG_AGO_US))
         self._table = log_intensity(np.arange(256, dtype=np.uint8), config.log_eps)
-        self._shape = intensity.shape
+        height, width = intensity.shape
+        self._shape = height, width
         self._is_redrawn = config.threshold_sigma > 0 and config.threshold_redraw == "frame"
-        pair = draw_threshold_pair(intensity.shape, sensor_key(self._seed), config)
-        self._map = pair[0].reshape(-1), pair[1].reshape(-1)
-        self._triggers = TriggerLevels(
-            intensity, scale=WHITE, offset=-WHITE * config.log_eps, backend=self._backend
-        )
-        self._set_triggers(np.arange(intensity.size))
+        on, off = config.contrast_threshold_on, config.contrast_threshold_off
+        self._map = Thresholds(np.array([float(on)]), np.array([float(off)]))
+        if config.threshold_sigma > 0 and not self._is_redrawn:
+            pair = draw_threshold_pair(intensity.shape, sensor_key(self._seed), config)
+            self._map = Thresholds(*(one.reshape(-1) for one in pair))
+        curve = Curve(WHITE, -WHITE * config.log_eps)
+        self._triggers = TriggerLevels(intensity, curve, backend=self._backend)
+        self._set_all_triggers()
 
-    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
+    def _advance(self, intensity: IntensityArray, interval: Interval) -> Columns:
         pixel, before, now = self._triggers.find_outside(intensity)
         table = self._table if now.dtype == np.uint8 else None
         if table is None:
             before, now = (log_intensity(one, self.config.log_eps) for one in (before, now))
-        crossings = load_cross_levels(now.dtype, self._backend)(
-            Candidates(pixel, before, now, table, *self._thresholds(pixel, interval.key)),
+        cross_levels = load_cross_levels(now.dtype, self._backend)
+        columns = cross_levels(
+            Candidates(pixel, before, now, table, self._thresholds(pixel, interval.key)),
             self._levels,
             (interval.start_us, interval.stop_us),
             Rest(self.config.refractory_period_us, is_level_lost=True),
+            self._shape,
         )
         self._set_triggers(pixel)
-        return Firings.signal(crossings.pixel, crossings.t, crossings.p)
+        return columns
 
-    def _thresholds(
-        self, pixel: NDArray[np.int64], key: np.uint64
-    ) -> tuple[Float64Array, Float64Array]:
-        """ON and OFF thresholds of some pixels in this interval; [1] each if all have the same."""
-        config = self.config
-        if config.threshold_sigma == 0:
-            on, off = config.contrast_threshold_on, config.contrast_threshold_off
-            return np.array([float(on)]), np.array([float(off)])
-        if not self._is_redrawn:
-            return self._map[0][pixel], self._map[1][pixel]
-        y, x = np.divmod(pixel, self._shape[1])
-        return draw_threshold_pair_at(y, x, key, config)
+    def _thresholds(self, pixel: NDArray[np.int64], key: np.uint64) -> Thresholds:
+        """Thresholds of some pixels in this interval."""
+        if self._is_redrawn:
+            y, x = np.divmod(pixel, self._shape[1])
+            return Thresholds(*draw_threshold_pair_at(y, x, key, self.config))
+        return thresholds_at(pixel, self._map)
+
+    def _set_all_triggers(self) -> None:
+        for pixel in every_pixel(self._levels.reference.size):
+            self._set_triggers(pixel)
 
     def _set_triggers(self, pixel: NDArray[np.int64]) -> None:
-        """Where some pixels fire: reference ± θ."""
-        # Any threshold may be drawn, but none below the floor.
-        on = off = np.array([LOWEST_THRESHOLD])
-        if not self._is_redrawn:
-            on, off = self._thresholds(pixel, np.uint64(0))
-        reference = self._levels.reference[pixel]
-        self._triggers.set(pixel, reference - off, reference + on)
+        """Where some pixels fire: reference ± θ; any θ may be drawn, but none below the floor."""
+        thresholds = FLOOR if self._is_redrawn else thresholds_at(pixel, self._map)
+        self._triggers.set(pixel, self._levels.reference, thresholds)
 
 
 def log_intensity(intensity: IntensityArray, log_eps: float) -> Float64Array:

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from texvent.config import check_range
 from texvent.simulate.draws import Purpose
 from texvent.simulate.firings import Firings, Interval
+from texvent.simulate.kernels.levels import Curve, Thresholds
 from texvent.simulate.pixel_maps import (
     LONG_AGO_US,
     LOWEST_THRESHOLD,
@@ -29,13 +30,11 @@ from texvent.simulate.pixel_maps import (
 )
 from texvent.simulate.rate_noise import NoiseRates
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
-from texvent.simulate.trigger_levels import TriggerLevels
+from texvent.simulate.trigger_levels import TriggerLevels, every_pixel, thresholds_at
 
 WHITE = 255.0
 DARKEST = 1.0
 """Intensity below which all pixels count as equally dark, levels of 0..255."""
-SLACK = 1e-9
-"""Log units by which a level must be out of reach, for what is rounded."""
 FULL_SCALE = 0.9616
 """SENPI's threshold of 0.1 in its unit of ln(15000): 0.96158 in natural-log units."""
 
@@ -122,16 +121,18 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         config = self.config
         key, shape = sensor_key(self._seed), intensity.shape
         pair = draw_threshold_pair(shape, key, config)
-        self._threshold_on, self._threshold_off = (one.reshape(-1) for one in pair)
+        self._thresholds = Thresholds(*(one.reshape(-1) for one in pair))
         is_hot = draw_chosen(shape, key, Purpose.HOT_PIXEL, fraction=config.hot_fraction)
         self._rate_hz = np.where(is_hot, config.hot_rate_hz, config.noise_rate_hz)
         self._noise = NoiseRates(self._rate_hz)
         self._reference = np.log(photons(intensity, config.well_capacity)).reshape(-1)
         self._fired_us = np.full(intensity.size, LONG_AGO_US)
-        self._levels = TriggerLevels(
-            intensity, scale=WHITE / config.well_capacity, offset=0.0, backend=self._backend
-        )
-        self._set_levels(np.arange(intensity.size))
+        # Below the darkest level all voltages are equal, so one that is lower is never reached.
+        darkest = math.log(DARKEST / WHITE * config.well_capacity)
+        curve = Curve(WHITE / config.well_capacity, 0.0, darkest)
+        self._levels = TriggerLevels(intensity, curve, backend=self._backend)
+        for pixel in every_pixel(intensity.size):
+            self._set_levels(pixel)
 
     def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
         fired = self._compare(intensity, interval)
@@ -149,7 +150,7 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         t_us = interval.stop_us - 1
         pixel, _, now = self._levels.find_outside(intensity)
         change = self._voltage(now) - self._reference[pixel]
-        threshold = np.where(change > 0, self._threshold_on[pixel], self._threshold_off[pixel])
+        threshold = np.where(change > 0, *thresholds_at(pixel, self._thresholds))
         is_rested = t_us - self._fired_us[pixel] >= self.config.refractory_period_us
         fires = (np.abs(change) >= threshold) & is_rested
         pixel, is_on = pixel[fires], change[fires] > 0
@@ -160,11 +161,7 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
 
     def _set_levels(self, pixel: NDArray[np.int64]) -> None:
         """Where some pixels fire: reference ± θ."""
-        reference = self._reference[pixel]
-        low, high = reference - self._threshold_off[pixel], reference + self._threshold_on[pixel]
-        # Below the darkest level all voltages are equal, so one that is lower is never reached.
-        darkest = math.log(DARKEST / WHITE * self.config.well_capacity)
-        self._levels.set(pixel, np.where(low < darkest - SLACK, -np.inf, low), high)
+        self._levels.set(pixel, self._reference, thresholds_at(pixel, self._thresholds))
 
     def _draw_noise(self, intensity: IntensityArray, interval: Interval) -> Firings:
         if not self.config.shot_noise:
@@ -172,7 +169,7 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         electrons = photons(intensity, self.config.well_capacity)
         on, off = (
             shot_noise_rate_hz(electrons, threshold.reshape(electrons.shape), self.config)
-            for threshold in (self._threshold_on, self._threshold_off)
+            for threshold in self._thresholds
         )
         total = self._rate_hz + on + off
         on_fraction = (self._rate_hz / 2 + on) / np.maximum(total, np.finfo(np.float64).tiny)

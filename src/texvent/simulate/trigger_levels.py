@@ -7,66 +7,81 @@ are, so that rounding hides no event: who is outside *may* fire, and only there 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.kernels.levels import Luma, load_find_outside, load_narrow
+from texvent.simulate.kernels.levels import (
+    Curve,
+    Float64Array,
+    Luma,
+    Outside,
+    Thresholds,
+    load_find_outside,
+    load_narrow,
+)
 from texvent.simulate.streaming import IntensityArray
 
-Float64Array = NDArray[np.float64]
 Int64Array = NDArray[np.int64]
+AT_A_TIME = 1 << 14
 
 
 class TriggerLevels:
     """The levels of every pixel, and the luma that it saw last, in the type of the frames."""
 
-    def __init__(self, luma: IntensityArray, *, scale: float, offset: float, backend: str) -> None:
+    def __init__(self, luma: IntensityArray, curve: Curve, *, backend: str) -> None:
         """Look at the first frame; every pixel has to be looked at until its levels are set.
 
         Args:
             luma: 0..255 scale, [H, W], uint8 or float32; copied.
-            scale: a pixel of brightness v has the intensity `scale · e^v + offset`.
-            offset: see `scale`.
+            curve: brightness and intensity.
             backend: which kernels scan; all find the same.
         """
-        self._curve = scale, offset
+        self._curve = curve
         self._backend = backend
         self._seen: Luma = luma.reshape(-1).copy()
         self._low = np.full(self._seen.size, 255, self._seen.dtype)
         self._high = np.zeros(self._seen.size, self._seen.dtype)
 
-    def find_outside(self, luma: IntensityArray) -> tuple[Int64Array, Luma, Luma]:
+    def find_outside(self, luma: IntensityArray) -> Outside:
         """Pixels that may fire at a frame, which from now on is the last one seen.
 
         Args:
             luma: [H, W].
-
-        Returns:
-            Their flat index, ascending, and their luma in the frame before and in this one; [n].
         """
         now: Luma = luma.reshape(-1)
         if now.dtype != self._seen.dtype:
             # Frames of two types: from now on all are float32, which holds 8-bit levels exactly.
             self._seen, now = self._as_float(self._seen), self._as_float(now)
             self._low, self._high = self._as_float(self._low), self._as_float(self._high)
-        pixel = load_find_outside(now.dtype, self._backend)(now, self._low, self._high)
-        before, after = self._seen[pixel], now[pixel]
-        self._seen[:] = now
-        return pixel, before, after
+        find_outside = load_find_outside(now.dtype, self._backend)
+        return find_outside(now, self._seen, self._low, self._high)
 
-    def set(self, pixel: Int64Array, low: Float64Array, high: Float64Array) -> None:
-        """Say at what brightness some pixels fire.
+    def set(self, pixel: Int64Array, reference: Float64Array, thresholds: Thresholds) -> None:
+        """Say at what brightness some pixels fire: at their references ± θ.
 
         Args:
             pixel: flat index, [n].
-            low: brightness at and below which each fires OFF, [n].
-            high: brightness at and above which it fires ON, [n].
+            reference: of all pixels, [H · W] log units.
+            thresholds: of the chosen pixels.
         """
         narrow = load_narrow(self._seen.dtype, self._backend)
-        narrow(pixel, (low, high), self._curve, self._low, self._high)
+        narrow(pixel, reference, thresholds, self._curve, self._low, self._high)
 
     @staticmethod
     def _as_float(luma: NDArray[Any]) -> Luma:
         return luma.astype(np.float32, copy=False)
+
+
+def every_pixel(count: int) -> Iterator[Int64Array]:
+    """Flat index of all pixels, some at a time: one list of all is larger than most frames."""
+    for first in range(0, count, AT_A_TIME):
+        yield np.arange(first, min(first + AT_A_TIME, count))
+
+
+def thresholds_at(pixel: Int64Array, thresholds: Thresholds) -> Thresholds:
+    """Those of some pixels, of thresholds of all, [H · W] each, or [1] if all have the same."""
+    on, off = (one if one.size == 1 else one[pixel] for one in thresholds)
+    return Thresholds(on, off)

@@ -5,39 +5,58 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.kernels.levels import MARGIN, Curve, Logs, Luma
+from texvent.simulate.kernels.levels import (
+    MARGIN,
+    SLACK,
+    Curve,
+    Float64Array,
+    Luma,
+    Outside,
+    Thresholds,
+)
 
 MOST_LOG = 80.0
 """Brightness whose intensity float32 still holds; no frame is as bright."""
 
 
-def find_outside(luma: Luma, low: Luma, high: Luma) -> NDArray[np.int64]:
+def find_outside(luma: Luma, seen: Luma, low: Luma, high: Luma) -> Outside:
     """Pixels that may fire: those not between their two levels.
 
     Args:
         luma: [n].
+        seen: luma of the frame before, [n], of the same type as `luma`; becomes `luma`.
         low: lowest luma at which each pixel is silent for sure, [n], of the same type.
         high: highest such luma, [n]; below `low` where a pixel always has to be looked at.
-
-    Returns:
-        [m] flat index, ascending.
     """
-    return np.flatnonzero((luma < low) | (luma > high))
+    pixel = np.flatnonzero((luma < low) | (luma > high))
+    before, now = seen[pixel], luma[pixel]
+    seen[:] = luma
+    return Outside(pixel, before, now)
 
 
-def narrow(pixel: NDArray[np.int64], logs: Logs, curve: Curve, low: Luma, high: Luma) -> None:
+def narrow(
+    pixel: NDArray[np.int64],
+    reference: Float64Array,
+    thresholds: Thresholds,
+    curve: Curve,
+    low: Luma,
+    high: Luma,
+) -> None:
     """Say anew between which levels some pixels are silent for sure.
 
     Args:
         pixel: flat index, [n].
-        logs: brightness at which each fires OFF, and at which it fires ON, [n] each.
-        curve: the intensity of a brightness v is `scale · e^v + offset`.
+        reference: brightness that all pixels compare with, log units.
+        thresholds: of the chosen pixels.
+        curve: brightness and intensity.
         low: lowest silent luma of all pixels; changed in place.
         high: highest silent luma of all pixels; changed in place.
     """
-    scale, offset = curve
-    off, on = (scale * np.exp(np.minimum(log, MOST_LOG)) + offset for log in logs)
+    centre = reference[pixel]
+    ends = centre - thresholds.off, centre + thresholds.on
+    off, on = (curve.scale * np.exp(np.minimum(end, MOST_LOG)) + curve.offset for end in ends)
     lowest = off + MARGIN * (1.0 + np.abs(off))
+    lowest[ends[0] < curve.darkest - SLACK] = 0.0
     highest = on - MARGIN * (1.0 + np.abs(on))
     if low.dtype == np.uint8:
         lowest, highest = np.ceil(np.maximum(lowest, 0.0)), np.floor(np.minimum(highest, 255.0))

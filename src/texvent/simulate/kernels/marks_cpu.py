@@ -69,13 +69,13 @@ def mark_bytes(frame: ByteArray, reference: ByteArray, levels: Levels) -> Marks:
 
     Where many of a run do, only those at or beyond their trigger levels.
     """
-    is_marked, least = _make_flags(frame.size), levels.least
+    is_marked, least = make_flags(frame.size), levels.least
     for number in range(frame.size // RUN):
         first, is_any = number * RUN, np.uint8(0)
         for i in range(first, first + RUN):
             is_any |= _differs(frame[i], reference[i], least)
         is_marked[number] = is_any
-    run = _list_marked(is_marked)
+    run = list_marked(is_marked)
     bits, word = np.empty(run.size, np.uint64), np.empty(RUN // 8, np.uint64)
     mark = word.view(np.uint8)
     for k in range(run.size):
@@ -85,20 +85,20 @@ def mark_bytes(frame: ByteArray, reference: ByteArray, levels: Levels) -> Marks:
         first_pixel = np.uint64(run[k]) * _RUN
         if _mark_bytes(frame, reference, first_pixel, least, mark) > FEW:
             _mark_levels(frame, reference, first_pixel, levels, mark)
-        bits[k] = _as_bits(word)
+        bits[k] = as_bits(word)
     return Marks(run, bits)
 
 
 @numba.njit(cache=True, nogil=True)
 def mark_levels(frame: Intensity, reference: Intensity, levels: Levels) -> Marks:
     """Mark pixels at or beyond their trigger levels."""
-    is_marked = _make_flags(frame.size)
+    is_marked = make_flags(frame.size)
     for number in range(frame.size // RUN):
         first, is_any = number * RUN, np.uint8(0)
         for i in range(first, first + RUN):
             is_any |= _is_beyond(frame[i], reference[i], levels)
         is_marked[number] = is_any
-    run = _list_marked(is_marked)
+    run = list_marked(is_marked)
     bits, word = np.empty(run.size, np.uint64), np.empty(RUN // 8, np.uint64)
     mark = word.view(np.uint8)
     for k in range(run.size):
@@ -106,7 +106,7 @@ def mark_levels(frame: Intensity, reference: Intensity, levels: Levels) -> Marks
             bits[k] = _bits_of_rest(frame, reference, levels)
             continue
         _mark_levels(frame, reference, np.uint64(run[k]) * _RUN, levels, mark)
-        bits[k] = _as_bits(word)
+        bits[k] = as_bits(word)
     return Marks(run, bits)
 
 
@@ -151,13 +151,13 @@ def _mark_levels(
 
 
 @numba.njit(cache=True, nogil=True)
-def _make_flags(pixels: int) -> ByteArray:
+def make_flags(pixels: int) -> ByteArray:
     """Room for a flag per run; that of a last one that is not whole is set."""
     return np.ones(-(-pixels // RUN), np.uint8)
 
 
 @numba.njit(cache=True, nogil=True)
-def _list_marked(is_marked: ByteArray) -> Int64Array:
+def list_marked(is_marked: ByteArray) -> Int64Array:
     """The numbers of the flags that are set."""
     run, found = np.empty(is_marked.sum() + 1, np.int64), 0
     for number in range(is_marked.size):
@@ -168,7 +168,7 @@ def _list_marked(is_marked: ByteArray) -> Int64Array:
 
 
 @numba.njit(cache=True, nogil=True)
-def _as_bits(word: NDArray[np.uint64]) -> np.uint64:
+def as_bits(word: NDArray[np.uint64]) -> np.uint64:
     bits = _0
     for number in range(np.uint64(RUN // 8)):
         bits |= (word[number] * _GATHER >> _56) << number * _8

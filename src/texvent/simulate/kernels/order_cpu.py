@@ -97,7 +97,10 @@ def _order_keys(
     width, low, bits = layout
     keys = sort_keys(keys, spare, low, bits)
     # Events of one pixel and microsecond may still be in another order than that of p and label.
+    steps_back = 0
     for i in range(1, keys.size):
+        steps_back += keys[i] < keys[i - 1]
+    for i in range(1, keys.size if steps_back else 0):
         j, key = i, keys[i]
         while j > 0 and keys[j - 1] > key:
             keys[j] = keys[j - 1]

@@ -12,6 +12,8 @@ from typing import Any, NamedTuple, TypeAlias, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.simulate.kernels.levels import Thresholds
+from texvent.simulate.kernels.order import Columns
 from texvent.simulate.kernels.select import AUTO, load_kernel_when_ready
 
 Float64Array: TypeAlias = NDArray[np.float64]
@@ -81,10 +83,8 @@ class Candidates(NamedTuple):
     """At the end, likewise."""
     table: Float64Array | None
     """[256] brightness of 8-bit luma, or None."""
-    threshold_on: Float64Array
-    """[n], or [1] where all pixels have the same, log units."""
-    threshold_off: Float64Array
-    """[n] or [1]."""
+    thresholds: Thresholds
+    """Of these pixels."""
 
 
 class Levels(NamedTuple):
@@ -93,11 +93,14 @@ class Levels(NamedTuple):
     reference: Float64Array
     """[H · W] brightness at the last event, log units."""
     fired_us: NDArray[np.int64]
-    """[H · W] time of the last event, µs."""
+    """[H · W] time of the last event, µs; not looked at, so also [0], without a refractory
+    period."""
 
 
-CrossLevels: TypeAlias = Callable[[Candidates, Levels, tuple[int, int], Rest], RampCrossings]
-"""`cross_levels(candidates, levels, (start_us, stop_us), rest)`, see
+CrossLevels: TypeAlias = Callable[
+    [Candidates, Levels, tuple[int, int], Rest, tuple[int, int]], Columns
+]
+"""`cross_levels(candidates, levels, (start_us, stop_us), rest, (height, width))`, see
 `ramp_reference.cross_levels`."""
 
 

@@ -1,14 +1,26 @@
-"""Threshold crossings on a straight line, compiled by Numba: the reference's bits."""
+"""Threshold crossings on a straight line, compiled by Numba: the reference's bits.
+
+Pixels are counted first and listed then, each crossing as one key of `order_cpu`: a packet needs no
+columns but its own.
+"""
 
 from __future__ import annotations
 
-import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.simulate.kernels import ramp_reference
+from texvent.simulate.kernels.levels import Thresholds
+from texvent.simulate.kernels.order import Columns
+from texvent.simulate.kernels.order_cpu import (
+    KEY_USES,
+    has_room_for_keys,
+    key_bits,
+    order_keys,
+)
 from texvent.simulate.kernels.ramp import (
     Candidates,
     Float64Array,
@@ -17,45 +29,102 @@ from texvent.simulate.kernels.ramp import (
     RampCrossings,
     Rest,
 )
+from texvent.simulate.kernels.scratch import take_scratch
+
+_1, _2 = np.uint64(1), np.uint64(2)
+
+
+class _Lines(NamedTuple):
+    """What becomes of each pixel; [n] each."""
+
+    start: Float64Array
+    """Change at the start of the interval, log units."""
+    stop: Float64Array
+    """Change at its end."""
+    threshold: Float64Array
+    """Of the polarity that it may fire."""
+    steps: NDArray[np.int64]
+    """Thresholds that it has passed at the end; OFF below 0."""
+
+
+class _Clock(NamedTuple):
+    """The interval, and what an event's key is made of."""
+
+    start_us: int
+    duration_us: int
+    low: int
+    """Bits of a key below its time."""
 
 
 def cross_ramp(
     ramp: Ramp, fired_us: NDArray[np.int64], span_us: tuple[int, int], rest: Rest
 ) -> RampCrossings:
     """Every threshold that each pixel's change crosses; see `ramp_reference.cross_ramp`."""
-    steps = np.empty(len(ramp.pixel), np.int64)
-    total = _count_steps(ramp, steps)
-    pixel = np.empty(total, np.int64)
-    t = np.empty(total, np.int64)
-    p = np.empty(total, np.uint8)
-    found = _fill(ramp, fired_us, span_us, rest, (pixel, t, p, steps))
-    return RampCrossings(pixel[:found], t[:found], p[:found], steps)
+    clock = _clock(span_us, (fired_us.size, 1))
+    if clock is None:
+        return ramp_reference.cross_ramp(ramp, fired_us, span_us, rest)
+    pixel, start, stop, on, off = ramp
+    lines = _Lines(start, stop, np.empty(len(pixel)), np.empty(len(pixel), np.int64))
+    _count_steps(lines, Thresholds(on, off))
+    keys = _list_events(pixel, lines, fired_us, clock, rest)
+    found, t, p = _unpack(keys, clock)
+    return RampCrossings(found, t, p, lines.steps)
 
 
 def cross_levels(
-    candidates: Candidates, levels: Levels, span_us: tuple[int, int], rest: Rest
-) -> RampCrossings:
+    candidates: Candidates,
+    levels: Levels,
+    span_us: tuple[int, int],
+    rest: Rest,
+    shape: tuple[int, int],
+) -> Columns:
     """See `ramp_reference.cross_levels`."""
+    clock = _clock(span_us, shape)
+    if clock is None:
+        return ramp_reference.cross_levels(candidates, levels, span_us, rest, shape)
     # Numba leaves out branches for arguments that are None, but not for their fields.
-    pixel, before, now, table, on, off = candidates
-    start, stop = np.empty(len(pixel)), np.empty(len(pixel))
-    _compare((pixel, before, now), table, levels.reference, start, stop)
-    on, off = (np.broadcast_to(one, pixel.shape) for one in (on, off))
-    crossings = cross_ramp(Ramp(pixel, start, stop, on, off), levels.fired_us, span_us, rest)
-    _step(pixel, crossings.steps, (on, off), levels.reference)
-    return crossings
+    pixel, before, now, table, thresholds = candidates
+    start, stop, threshold = (
+        take_scratch(use, len(pixel), np.float64) for use in ("start", "stop", "threshold")
+    )
+    lines = _Lines(start, stop, threshold, take_scratch("steps", len(pixel), np.int64))
+    _compare((pixel, before, now), table, levels.reference, lines)
+    _count_steps(lines, thresholds)
+    keys = _list_events(pixel, lines, levels.fired_us, clock, rest)
+    _step(pixel, lines, levels.reference)
+    return order_keys(keys, span_us, shape)
 
 
 def warm_up(*dtypes: str) -> None:
     """Compile, for these types of frames, or load what was compiled before."""
-    # Two pixels with one threshold, for Numba compiles for arrays that repeat one number apart.
-    one, pixel = np.ones(2), np.zeros(2, np.int64)
+    one, pixel = np.ones(1), np.zeros(1, np.int64)
     cross_ramp(Ramp(pixel, one, one, one, one), pixel.copy(), (0, 1), Rest(0, False))
     for dtype in dtypes:
         is_byte = dtype == "uint8"
-        end, table = (np.zeros(2, dtype), np.ones(256)) if is_byte else (one, None)
-        candidates = Candidates(pixel, end, end, table, one[:1], one[:1])
-        cross_levels(candidates, Levels(one.copy(), pixel.copy()), (0, 1), Rest(0, False))
+        end, table = (np.zeros(1, dtype), np.ones(256)) if is_byte else (one, None)
+        candidates = Candidates(pixel, end, end, table, Thresholds(one, one))
+        cross_levels(candidates, Levels(one.copy(), pixel.copy()), (0, 1), Rest(0, False), (1, 1))
+
+
+def _clock(span_us: tuple[int, int], shape: tuple[int, int]) -> _Clock | None:
+    """None where time and pixel do not fit a key."""
+    start_us, stop_us = span_us
+    if not has_room_for_keys(stop_us - start_us, shape):
+        return None
+    return _Clock(start_us, stop_us - start_us, key_bits(shape[0] * shape[1]))
+
+
+def _list_events(
+    pixel: NDArray[np.int64],
+    lines: _Lines,
+    fired_us: NDArray[np.int64],
+    clock: _Clock,
+    rest: Rest,
+) -> NDArray[np.uint64]:
+    """Keys of all events, by pixel and then in time."""
+    keys = take_scratch(KEY_USES[0], _add_up(lines.steps), np.uint64)
+    with np.errstate(all="ignore"):
+        return keys[: _list_crossings(pixel, lines, fired_us, clock, rest, keys)]
 
 
 @numba.njit(cache=True, nogil=True)
@@ -63,11 +132,11 @@ def _compare(
     candidates: tuple[NDArray[np.int64], NDArray[Any], NDArray[Any]],
     table: Float64Array | None,
     reference: Float64Array,
-    start: Float64Array,
-    stop: Float64Array,
+    lines: _Lines,
 ) -> None:
     """Fill in the changes against the references."""
     pixel, before, now = candidates
+    start, stop, _, _ = lines
     for n in range(pixel.size):
         level = reference[pixel[n]]
         if table is not None:
@@ -76,71 +145,100 @@ def _compare(
             start[n], stop[n] = before[n] - level, now[n] - level
 
 
-@numba.njit(cache=True, nogil=True)
-def _step(
-    pixel: NDArray[np.int64],
-    steps: NDArray[np.int64],
-    thresholds: tuple[Float64Array, Float64Array],
-    reference: Float64Array,
-) -> None:
-    """Let the references make their steps."""
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _count_steps(lines: _Lines, thresholds: Thresholds) -> None:
+    """Fill in thresholds and steps."""
+    _, stop, threshold, steps = lines
     on, off = thresholds
-    for n in range(pixel.size):
-        reference[pixel[n]] += steps[n] * (on[n] if steps[n] > 0 else off[n])
+    # Loops over few arrays each, which become vector instructions.
+    if on.size == 1:
+        single_on, single_off = on[0], off[0]
+        for n in range(stop.size):
+            threshold[n] = single_on if stop[n] > 0 else single_off
+    else:
+        for n in range(stop.size):
+            threshold[n] = on[n] if stop[n] > 0 else off[n]
+    for n in range(stop.size):
+        change, size = abs(stop[n]), threshold[n]
+        # The quotient may be rounded across a whole number; what counts is the product.
+        count = np.floor(change / size)
+        count += 1.0 if change >= (count + 1.0) * size else 0.0
+        count -= 1.0 if change < count * size else 0.0
+        steps[n] = np.int64(count if stop[n] > 0 else -count)
 
 
 @numba.njit(cache=True, nogil=True)
-def _count_steps(ramp: Ramp, steps: NDArray[np.int64]) -> int:
-    """Fill in the thresholds that each pixel has passed at the end; return how many in all."""
+def _add_up(steps: NDArray[np.int64]) -> int:
+    """How many thresholds have been passed in all."""
     total = 0
-    stop, on, off = ramp.stop, ramp.threshold_on, ramp.threshold_off
-    for i in range(steps.size):
-        is_on = stop[i] > 0
-        threshold = on[i] if is_on else off[i]
-        last = abs(stop[i])
-        count = 0
-        while last >= (count + 1) * threshold:
-            count += 1
-        total += count
-        steps[i] = count if is_on else -count
+    for n in range(steps.size):
+        total += abs(steps[n])
     return total
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def _fill(
-    ramp: Ramp,
+def _list_crossings(
+    pixel: NDArray[np.int64],
+    lines: _Lines,
     fired_us: NDArray[np.int64],
-    span_us: tuple[int, int],
+    clock: _Clock,
     rest: Rest,
-    out: tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.uint8], NDArray[np.int64]],
+    keys: NDArray[np.uint64],
 ) -> int:
-    """Fill in the events of the pixels whose steps are not 0; return how many fired."""
-    pixel, t, p, steps = out
-    start_us, stop_us = span_us
-    duration, rests = stop_us - start_us, rest.period_us > 0
-    found = 0
-    for i in range(steps.size):
-        count = abs(steps[i])
-        if count == 0:
-            continue
-        is_on = steps[i] > 0
-        sign = 1 if is_on else -1
-        threshold = ramp.threshold_on[i] if is_on else ramp.threshold_off[i]
-        first, last = sign * ramp.start[i], sign * ramp.stop[i]
-        # Far apart in memory, so not even looked at where it does not matter.
-        fired, fired_at = 0, fired_us[ramp.pixel[i]] if rests else start_us
-        for k in range(1, count + 1):
-            level = k * threshold
-            fraction = (level - first) / (last - first) if first < level else 0.0
-            time = min(start_us + math.floor(fraction * duration), stop_us - 1)
-            if rests and time - fired_at < rest.period_us:
-                continue
-            fired_at = time
-            pixel[found], t[found], p[found] = ramp.pixel[i], time, is_on
-            found += 1
-            fired += 1
-        if rests:
-            fired_us[ramp.pixel[i]] = fired_at
-        if not rest.is_level_lost:
-            steps[i] = sign * fired
+    """Fill in the keys of all events, by pixel and then in time; return how many fired."""
+    start, stop, thresholds, steps = lines
+    low, found = np.uint64(clock.low), 0
+    duration, latest = np.float64(clock.duration_us), np.float64(clock.duration_us - 1)
+    for i in range(pixel.size):
+        is_on, count, threshold = steps[i] > 0, abs(steps[i]), thresholds[i]
+        begin, end = (start[i], stop[i]) if is_on else (-start[i], -stop[i])
+        place = np.uint64(pixel[i]) << _2 | np.uint64(is_on) << _1
+        for k in range(count):
+            level = np.float64(k + 1) * threshold
+            fraction = (level - begin) / (end - begin) if begin < level else 0.0
+            offset = np.int64(min(np.floor(fraction * duration), latest))
+            keys[found + k] = np.uint64(offset) << low | place
+        if rest.period_us > 0 and count > 0:
+            # Far apart in memory, so not even looked at where it does not matter.
+            last_us = fired_us[pixel[i]] - clock.start_us
+            count, last_us = _leave_rested(keys[found : found + count], last_us, rest, low)
+            fired_us[pixel[i]] = clock.start_us + last_us
+            if not rest.is_level_lost:
+                steps[i] = count if is_on else -count
+        found += count
     return found
+
+
+@numba.njit(cache=True, nogil=True)
+def _leave_rested(
+    keys: NDArray[np.uint64], last_us: int, rest: Rest, low: np.uint64
+) -> tuple[int, int]:
+    """Keep a pixel's events that are not too early; how many, and when it fired last."""
+    found = 0
+    for key in keys:
+        offset_us = np.int64(key >> low)
+        if offset_us - last_us >= rest.period_us:
+            keys[found], last_us = key, int(offset_us)
+            found += 1
+    return found, last_us
+
+
+@numba.njit(cache=True, nogil=True)
+def _step(pixel: NDArray[np.int64], lines: _Lines, reference: Float64Array) -> None:
+    """Let the references make their steps."""
+    _, _, threshold, steps = lines
+    for n in range(pixel.size):
+        reference[pixel[n]] += steps[n] * threshold[n]
+
+
+@numba.njit(cache=True, nogil=True)
+def _unpack(keys: NDArray[np.uint64], clock: _Clock) -> Any:
+    """Pixel, time and p of each key."""
+    pixel, t = np.empty(keys.size, np.int64), np.empty(keys.size, np.int64)
+    p, low = np.empty(keys.size, np.uint8), np.uint64(clock.low)
+    mask = (_1 << low) - _1
+    for i in range(keys.size):
+        pixel[i] = (keys[i] & mask) >> _2
+        t[i] = clock.start_us + np.int64(keys[i] >> low)
+        p[i] = keys[i] >> _1 & _1
+    return pixel, t, p

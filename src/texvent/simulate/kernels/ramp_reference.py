@@ -5,6 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.events import SIGNAL
+from texvent.simulate.kernels.order import Columns, Unordered
+from texvent.simulate.kernels.order_reference import order_events
 from texvent.simulate.kernels.ramp import Candidates, Levels, Ramp, RampCrossings, Rest
 
 
@@ -20,8 +23,8 @@ def cross_ramp(
 
     Args:
         ramp: where the lines run, and the thresholds.
-        fired_us: time of each pixel's last event, µs, [H · W]; brought up to date here, but left
-            alone without a refractory period.
+        fired_us: time of each pixel's last event, µs, [H · W]; brought up to date here, but not
+            looked at without a refractory period.
         span_us: start (included) and stop (excluded) of the interval, µs.
         rest: the refractory period.
 
@@ -45,10 +48,11 @@ def cross_ramp(
             np.divide(level - begin, last[own] - begin, out=fraction, where=begin < level)
             offset = np.floor(fraction * (stop_us - start_us)).astype(np.int64)
             t = np.minimum(start_us + offset, stop_us - 1)
-            fires = t - fired_us[ramp.pixel[own]] >= rest.period_us
-            fired = ramp.pixel[own[fires]]
+            fires = np.ones(len(own), np.bool_)
             if rest.period_us > 0:
-                fired_us[fired] = t[fires]
+                fires = t - fired_us[ramp.pixel[own]] >= rest.period_us
+                fired_us[ramp.pixel[own[fires]]] = t[fires]
+            fired = ramp.pixel[own[fires]]
             steps[own] += sign * (1 if rest.is_level_lost else fires)
             pixels.append(fired)
             times.append(t[fires])
@@ -64,8 +68,12 @@ def cross_ramp(
 
 
 def cross_levels(
-    candidates: Candidates, levels: Levels, span_us: tuple[int, int], rest: Rest
-) -> RampCrossings:
+    candidates: Candidates,
+    levels: Levels,
+    span_us: tuple[int, int],
+    rest: Rest,
+    shape: tuple[int, int],
+) -> Columns:
     """As `cross_ramp`, for the brightness of candidates; the references make their steps.
 
     Args:
@@ -73,17 +81,20 @@ def cross_levels(
         levels: what they compare with; changed in place.
         span_us: as for `cross_ramp`.
         rest: as for `cross_ramp`.
+        shape: (height, width) of the sensor.
 
     Returns:
-        As `cross_ramp`.
+        The events in the order of a packet, all of them signal.
     """
-    pixel, before, now, table, on, off = candidates
+    pixel, before, now, table, thresholds = candidates
     if table is not None:
         before, now = table[before], table[now]
     reference = levels.reference[pixel]
-    on, off = (np.broadcast_to(one, pixel.shape) for one in (on, off))
+    on, off = (np.broadcast_to(one, pixel.shape) for one in thresholds)
     ramp = Ramp(pixel, before - reference, now - reference, on, off)
     crossings = cross_ramp(ramp, levels.fired_us, span_us, rest)
     steps = crossings.steps
     levels.reference[pixel] = reference + steps * np.where(steps > 0, on, off)
-    return crossings
+    fired, t, p, _ = crossings
+    label = np.full(len(t), SIGNAL, np.uint8)
+    return order_events(Unordered(fired, t, p, label), span_us, shape)
