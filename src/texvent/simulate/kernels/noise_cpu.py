@@ -28,13 +28,13 @@ _INDEX = np.uint64((1 << 31) - 1)
 def place_noise(noise: Block, pixels: int) -> NoisePlaces:
     """See `noise_reference.place_noise`."""
     with allow_wrap_around():
-        places = _place_noise(noise.key, read_only(noise.cumulative), noise.on_fraction, pixels)
+        places = _place_noise(noise.key, noise.cumulative, noise.on_fraction, pixels)
     return NoisePlaces(*places)
 
 
 def warm_up() -> None:
     """Compile, or load what was compiled before."""
-    place_noise(Block(np.uint64(0), np.ones(1), 0.5), 1)
+    place_noise(Block(np.uint64(0), read_only(np.ones(1)), 0.5), 1)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -44,8 +44,7 @@ def _place_noise(
     blocks = -(-pixels // NOISE_BLOCK)
     count = np.empty(blocks, np.int64)
     for b in range(blocks):
-        chance = draw_uniform(key, b >> 16, b & 0xFFFF, _COUNT)
-        count[b] = np.searchsorted(cumulative, chance, side="right")
+        count[b] = _count_up_to(draw_uniform(key, b >> 16, b & 0xFFFF, _COUNT), cumulative)
     total = count.sum()
     keys, fraction, found = np.empty(total, np.uint64), np.empty(total), 0
     for b in range(blocks):
@@ -59,6 +58,15 @@ def _place_noise(
                 fraction[found] = np.float64(word & _TIME) * TIME_UNIT
                 found += 1
     return _by_place(keys[:found], fraction, pixels)
+
+
+@numba.njit(cache=True, nogil=True)
+def _count_up_to(chance: float, cumulative: NDArray[np.float64]) -> int:
+    """How many entries are at most `chance`: one by one, because most often it is none or few."""
+    count = 0
+    while count < cumulative.size and cumulative[count] <= chance:
+        count += 1
+    return count
 
 
 @numba.njit(cache=True, nogil=True)

@@ -37,8 +37,8 @@ from texvent.simulate.kernels.texvent import (
 
 Int64Array = NDArray[np.int64]
 _0, _1 = np.uint64(0), np.uint64(1)
-_CHUNK = 1 << 13
-"""Pixels of float frames that are looked at together, twice: they stay in the nearest cache."""
+_CHUNK = 1 << 14
+"""Pixels of float frames that are looked at together, twice: they stay in a near cache."""
 
 
 class Pictures(NamedTuple):
