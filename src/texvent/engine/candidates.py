@@ -21,6 +21,7 @@ from texvent.engine.kernels.interface import (
     Int64Array,
     Levels,
     Pictures,
+    Surveyed,
 )
 from texvent.engine.kernels.select import find_compiled
 from texvent.interpolate.densify import Pair
@@ -99,12 +100,16 @@ class CandidateFinder:
         """
         pictures, kernels = pictures_of(paths), find_compiled("candidates")
         if kernels is None:
-            return iter([settle(find_candidates(pictures, grids, levels, load_warp()))])
+            return iter(
+                [settle(find_candidates(pictures, grids, levels, load_warp().warp_between))]
+            )
         find_in_rows = kernels.find_in_rows
         cells = kernels.find_cells(pictures) if cells is None else cells
 
+        surveyed = Surveyed(paths.prepared, cells)
+
         def settle_band(rows: tuple[int, int]) -> Settled:
-            return settle(find_in_rows(pictures, grids, levels, cells, rows))
+            return settle(find_in_rows(pictures, grids, levels, surveyed, rows))
 
         threads = importlib.import_module("numba").get_num_threads()
         height = len(pictures.earlier)
@@ -130,7 +135,9 @@ def show_pixels(paths: Paths, index: int, pixel: Int64Array) -> Float32Array:
     kernels = find_compiled("candidates")
     if kernels is None:
         return paths.picture(index).reshape(-1)[pixel]
-    shown: Float32Array = kernels.show_pixels(pictures_of(paths), paths.positions[index], pixel)
+    shown: Float32Array = kernels.show_pixels(
+        pictures_of(paths), paths.prepared, paths.positions[index], pixel
+    )
     return shown
 
 

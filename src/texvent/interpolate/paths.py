@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+import importlib
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from types import ModuleType
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent._registry import load_object
 from texvent.interpolate.position import check_between, float_luma, position
 from texvent.sensor import SensorSize
 from texvent.video import Frame
@@ -16,7 +19,7 @@ from texvent.video import Frame
 FloatPicture = NDArray[np.float32]
 Flows = tuple[NDArray[np.float32], NDArray[np.float32]]
 
-WARP = "texvent.interpolate.kernels.cpu:warp_between"
+WARP = "texvent.interpolate.kernels.cpu"
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +84,15 @@ class Paths:
         place = self.positions[index]
         if self.flows is None:
             return self.earlier + np.float32(place) * (self.later - self.earlier)
-        return load_warp()(self.earlier, self.later, *self.flows, place)
+        drawn: FloatPicture = load_warp().warp_pair(self.prepared, place)
+        return drawn
+
+    @cached_property
+    def prepared(self) -> Any:
+        """The pair as the compiled kernels look things up, a `kernels.cpu.WarpPair`."""
+        nothing = np.empty((0, 0, 2), np.float32)
+        flows = (nothing, nothing) if self.flows is None else self.flows
+        return load_warp().prepare_pair(self.earlier, self.later, *flows)
 
 
 def frozen(picture: FloatPicture) -> FloatPicture:
@@ -91,7 +102,6 @@ def frozen(picture: FloatPicture) -> FloatPicture:
     return view
 
 
-def load_warp() -> Callable[..., FloatPicture]:
-    """The compiled `warp_between`; by name, because whoever blends does without Numba."""
-    warp: Callable[..., FloatPicture] = load_object(WARP)
-    return warp
+def load_warp() -> ModuleType:
+    """The compiled kernels; by name, because whoever blends does without Numba."""
+    return importlib.import_module(WARP)

@@ -18,8 +18,10 @@ from texvent.engine.kernels.interface import (
     TAKES,
     Levels,
     Pictures,
+    Surveyed,
 )
 from texvent.engine.kernels.reach_cpu import find_reachable, list_active
+from texvent.interpolate.kernels.cpu import prepare_pair
 from texvent.simulate.firings import Interval
 
 KERNELS = [candidates_reference.find_candidates, candidates_cpu.find_candidates]
@@ -125,9 +127,9 @@ def test_compiled_kernel_lists_what_the_definition_lists(shape, speed):
 
 def test_rows_can_be_searched_in_bands():
     pictures, grid, levels = moving((30, 20), 2.0), one_grid([0.5]), own_levels(TAKES)
-    cells = candidates_cpu.find_cells(pictures)
+    surveyed = Surveyed(prepare_pair(*pictures), candidates_cpu.find_cells(pictures))
     bands = [
-        candidates_cpu.find_in_rows(pictures, grid, levels, cells, rows)
+        candidates_cpu.find_in_rows(pictures, grid, levels, surveyed, rows)
         for rows in ((0, 7), (7, 16), (16, 30))
     ]
     whole = candidates_cpu.find_candidates(pictures, grid, levels)
@@ -158,10 +160,12 @@ def test_some_pixels_of_a_picture_are_those_of_the_whole_picture():
     pixel = np.array([0, 17, 311, 599])
     whole = candidates_reference.draw_picture(pictures, 0.3)
     np.testing.assert_array_equal(
-        candidates_cpu.show_pixels(pictures, 0.3, pixel), whole.reshape(-1)[pixel]
+        candidates_cpu.show_pixels(pictures, prepare_pair(*pictures), 0.3, pixel),
+        whole.reshape(-1)[pixel],
     )
     still = pictures._replace(forward=STILL, backward=STILL)
     whole = candidates_reference.draw_picture(still, 0.3)
     np.testing.assert_array_equal(
-        candidates_cpu.show_pixels(still, 0.3, pixel), whole.reshape(-1)[pixel]
+        candidates_cpu.show_pixels(still, prepare_pair(*still), 0.3, pixel),
+        whole.reshape(-1)[pixel],
     )

@@ -80,13 +80,43 @@ def test_compiled_kernel_is_the_same_with_one_and_two_threads():
     np.testing.assert_array_equal(*results)
 
 
-def test_sample_is_bilinear_and_repeats_the_edge():
+def test_float32_is_near_enough_to_float64():
+    # Smooth pictures and flows: where the nearest flow vector is another one, it hardly differs.
+    y, x = np.mgrid[:60, :80]
+    first, second = (128 + 100 * np.sin((x + shift) / 5 + y / 7) for shift in (0, 3))
+    forward = np.stack([3 + 0.5 * np.sin(y / 9), 0.3 * np.cos(x / 11)], axis=-1)
+    pair = first, second, forward, -forward
+    single = reference.warp_between(*(one.astype(np.float32) for one in pair), 0.3)
+    assert single.dtype == np.float32
+    assert np.abs(single - reference.warp_between(*pair, 0.3)).max() < 2e-3
+
+
+def test_a_flow_that_is_no_number_does_no_harm():
+    frame, flow = np.full((4, 5), 7, np.float32), constant_flow((4, 5), np.nan)
+    assert cpu.warp_between(frame, frame, flow, flow, 0.5).shape == (4, 5)
+    flow = constant_flow((4, 5), 1e30)
+    np.testing.assert_array_equal(cpu.warp_between(frame, frame, flow, flow, 0.5), frame)
+
+
+def test_places_are_looked_at_bilinearly_and_outside_at_the_edge():
     picture = np.array([[0.0, 10.0], [20.0, 30.0]])
-    x = np.array([[0.5, 0.25, -3.0, 9.0]])
-    y = np.array([[0.5, 0.0, 0.5, 9.0]])
-    np.testing.assert_allclose(reference.sample(picture, x, y), [[15.0, 2.5, 10.0, 30.0]])
+    flow = np.stack([picture, -picture], axis=-1)
+    way = np.zeros((2, 2, 2))
+    way[0, 0], way[0, 1], way[1, 0], way[1, 1] = (0.5, 0.4), (-0.75, 0.0), (-3.0, -0.5), (0.3, 9.0)
+    seen, vectors, is_inside = reference.look_along(picture, flow, way)
+    np.testing.assert_allclose(seen, [[13.0, 2.5], [10.0, 30.0]])
+    np.testing.assert_array_equal(vectors[..., 0], [[10.0, 0.0], [20.0, 30.0]])
+    np.testing.assert_array_equal(is_inside, [[True, True], [False, False]])
+    assert reference.look_along(picture, flow, way + np.array([0.2, -8.5]))[2][1, 1]
 
 
-def test_trust_is_one_half_at_the_tolerance():
-    got = reference.trust(np.array([0.0, 2.0, 4.0, 20.0]), np.full(4, 2.0))
-    np.testing.assert_allclose(got, [1.0, 0.5, 0.2, 1 / 101])
+def test_some_points_of_a_picture_are_those_of_the_whole_picture():
+    rng = np.random.default_rng(7)
+    first, second = (rng.uniform(0, 255, (30, 21)).astype(np.float32) for _ in range(2))
+    forward = rng.normal(0, 3, (30, 21, 2)).astype(np.float32)
+    pair = cpu.prepare_pair(first, second, forward, -forward)
+    pixel = np.sort(rng.choice(630, 100, replace=False))
+    room, shown = cpu.make_room(pixel.size), np.empty(pixel.size, np.float32)
+    cpu.take_points(pair, pixel, room.points)
+    cpu.warp_points(pair, room, pixel.size, 0.7, shown)
+    np.testing.assert_array_equal(shown, cpu.warp_pair(pair, 0.7).reshape(-1)[pixel])

@@ -1,13 +1,16 @@
 """The candidates of one pair, compiled by Numba: the reference's rows, without the pictures.
 
-Pixel by pixel, from the first picture to the last, so no picture is ever written to memory. Most
-pixels of most videos cannot fire at all: what they can show lies between bounds that cost a few
+Some rows at a time, from the first picture to the last, so no picture is ever written to memory.
+Most pixels of most videos cannot fire at all: what they can show lies between bounds that cost a few
 operations (`reach_cpu`), and they are not followed.
 
-Numba's cache looks at this file only: whoever changes `warp_pixel` must touch this one as well.
+Numba's cache looks at this file only: whoever changes what it calls in `interpolate.kernels.cpu`
+must touch this one as well.
 """
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numba
 import numpy as np
@@ -23,9 +26,18 @@ from texvent.engine.kernels.interface import (
     Grids,
     Levels,
     Pictures,
+    Surveyed,
 )
 from texvent.engine.kernels.reach_cpu import find_reachable, list_active
-from texvent.interpolate.kernels.cpu import warp_pixel
+from texvent.interpolate.kernels.cpu import (
+    POINTS,
+    Room,
+    WarpPair,
+    make_room,
+    prepare_pair,
+    take_points,
+    warp_points,
+)
 
 Columns = tuple[
     NDArray[np.int64],
@@ -44,8 +56,8 @@ next row whose number is a multiple of `PROBE`."""
 
 def find_candidates(pictures: Pictures, grids: Grids, levels: Levels) -> Candidates:
     """Every piece at whose end a pixel may fire; see `candidates_reference.find_candidates`."""
-    cells = find_cells(pictures)
-    return find_in_rows(pictures, grids, levels, cells, (0, pictures.earlier.shape[0]))
+    surveyed = Surveyed(prepare_pair(*pictures), find_cells(pictures))
+    return find_in_rows(pictures, grids, levels, surveyed, (0, pictures.earlier.shape[0]))
 
 
 def warm_up() -> None:
@@ -57,7 +69,7 @@ def warm_up() -> None:
     levels = Levels(np.empty((0, 0)), 1.0, 2.0, 0.5, TAKES)
     find_candidates(pictures, grids, levels)
     estimate_active(pictures, levels, find_cells(pictures))
-    show_pixels(pictures, 0.5, np.zeros(1, np.int64))
+    show_pixels(pictures, prepare_pair(*pictures), 0.5, np.zeros(1, np.int64))
 
 
 def find_cells(pictures: Pictures) -> Cells:
@@ -87,7 +99,7 @@ def find_in_rows(
     pictures: Pictures,
     grids: Grids,
     levels: Levels,
-    cells: Cells,
+    surveyed: Surveyed,
     rows: tuple[int, int],
 ) -> Candidates:
     """The candidates of some rows of the picture; several threads may be at it.
@@ -96,11 +108,23 @@ def find_in_rows(
         pictures: the pair.
         grids: when pixels are looked at.
         levels: what they compare with.
-        cells: of `find_cells`.
+        surveyed: the pair prepared, and its `find_cells`.
         rows: first row, and the one after the last.
     """
-    found, columns = _find(pictures.frozen(), grids, levels, cells, rows)
+    found, columns = _find(pictures.frozen(), grids, levels, surveyed, rows)
     return Candidates(*columns).take(slice(found))
+
+
+class _Followed(NamedTuple):
+    """Active pixels, and where what they show is written; [n]."""
+
+    pixel: NDArray[np.int64]
+    """Flat index, ascending."""
+    grid: NDArray[np.int64]
+    start: NDArray[np.int64]
+    """Where the pixel's first picture is in `shown`."""
+    step: NDArray[np.int64]
+    """How much further each of the next ones is."""
 
 
 @numba.njit(cache=True, nogil=True)
@@ -108,29 +132,36 @@ def _find(
     pictures: Pictures,
     grids: Grids,
     levels: Levels,
-    cells: Cells,
+    surveyed: Surveyed,
     rows: tuple[int, int],
 ) -> tuple[int, Columns]:
     width = pictures.earlier.shape[1]
     found, columns = 0, _columns(FIRST_ROOM)
-    active, chosen = np.empty(width, np.int64), np.empty(width, np.int64)
-    shown = np.empty(FIRST_ROOM, np.float32)
-    number = 0
-    for row in range(rows[0], rows[1]):
-        # Where nearly all pixels may fire, looking for the others is not worth while.
-        if number <= BUSY * width or row % PROBE == 0:
-            number = list_active(pictures, levels, cells, row, active)
-        else:
-            number = _list_all(active)
-        room = _choose_grids(pictures, grids, levels.balance, row, active[:number], chosen)
-        if room > shown.size:
-            shown = np.empty(2 * room, np.float32)
-        if found + room > columns[0].size:
-            columns = _grown(columns, room)
-        _show(pictures, grids, row, (active[:number], chosen), shown)
-        found = _follow(
-            pictures, grids, levels, row, (active[:number], chosen), shown, (columns, found)
+    room, shown = make_room(POINTS + width), np.empty(FIRST_ROOM, np.float32)
+    memory = np.empty((5, POINTS + width), np.int64)
+    row, number = rows[0], 0
+    while row < rows[1]:
+        filled = 0
+        while row < rows[1] and filled < POINTS:
+            # Where nearly all pixels may fire, looking for the others is not worth while.
+            if number <= BUSY * width or row % PROBE == 0:
+                number = list_active(pictures, levels, surveyed.cells, row, memory[4])
+            else:
+                number = _list_all(memory[4, :width])
+            for k in range(number):
+                memory[0, filled + k] = row * width + memory[4, k]
+            filled += number
+            row += 1
+        followed = _Followed(
+            memory[0, :filled], memory[1, :filled], memory[2, :filled], memory[3, :filled]
         )
+        pieces = _choose_grids(pictures, grids, levels.balance, followed)
+        if pieces > shown.size:
+            shown = np.empty(2 * pieces, np.float32)
+        if found + pieces > columns[0].size:
+            columns = _grown(columns, pieces)
+        _show(surveyed.pair, grids, followed, room, memory[4], shown)
+        found = _follow(pictures, grids, levels, followed, shown, (columns, found))
     return found, columns
 
 
@@ -142,65 +173,76 @@ def _list_all(active: NDArray[np.int64]) -> int:
 
 
 @numba.njit(cache=True, nogil=True)
-def _choose_grids(
-    pictures: Pictures,
-    grids: Grids,
-    balance: float,
-    row: int,
-    active: NDArray[np.int64],
-    chosen: NDArray[np.int64],
-) -> int:
+def _choose_grids(pictures: Pictures, grids: Grids, balance: float, followed: _Followed) -> int:
     """Fill in the grid of each active pixel; return how many pieces they have together."""
-    earlier, later, forward, backward = pictures
+    earlier, later = pictures.earlier.reshape(-1), pictures.later.reshape(-1)
+    forward, backward = pictures.forward.reshape(-1), pictures.backward.reshape(-1)
     last = grids.parts.size - 1
     room = 0
-    for k in range(active.size):
-        column = active[k]
+    for k in range(followed.pixel.size):
+        i = followed.pixel[k]
         way2 = 0.0
         if forward.size:
-            x, y = np.float64(forward[row, column, 0]), np.float64(forward[row, column, 1])
+            x, y = np.float64(forward[2 * i]), np.float64(forward[2 * i + 1])
             way2 = x * x + y * y
-            x, y = np.float64(backward[row, column, 0]), np.float64(backward[row, column, 1])
+            x, y = np.float64(backward[2 * i]), np.float64(backward[2 * i + 1])
             way2 = max(way2, x * x + y * y)
-        first = np.float64(earlier[row, column]) + balance
-        second = np.float64(later[row, column]) + balance
+        first = np.float64(earlier[i]) + balance
+        second = np.float64(later[i]) + balance
         low, high = min(first, second), max(first, second)
         grid = 0
         while grid < last and not (way2 <= grids.reach2[grid] and high <= low * grids.ratio[grid]):
             grid += 1
-        chosen[k] = grid
+        followed.grid[k] = grid
         room += grids.parts[grid]
     return room
 
 
 @numba.njit(cache=True, nogil=True)
 def _show(
-    pictures: Pictures,
+    pair: WarpPair,
     grids: Grids,
-    row: int,
-    followed: tuple[NDArray[np.int64], NDArray[np.int64]],
+    followed: _Followed,
+    room: Room,
+    chosen: NDArray[np.int64],
     shown: NDArray[np.float32],
 ) -> None:
-    """Fill in the luma of the followed pixels of a row at the ends of their pieces."""
-    # Unpacked once per row: Numba counts references to every array that it takes out of a tuple.
-    earlier, later, forward, backward = pictures
-    positions, parts, _, _ = grids
-    active, chosen = followed
-    filled = 0
-    for k in range(active.size):
-        column, last = active[k], parts[chosen[k]] - 1
-        start, stop = earlier[row, column], later[row, column]
-        if forward.size:
-            for j in range(last):
-                place = positions[chosen[k], j]
-                shown[filled + j] = warp_pixel(
-                    earlier, later, forward, backward, place, row, column
-                )
-        else:
-            for j in range(last):
-                shown[filled + j] = start + np.float32(positions[chosen[k], j]) * (stop - start)
-        shown[filled + last] = stop
-        filled += last + 1
+    """Fill in the luma of the followed pixels at the ends of their pieces, grid by grid."""
+    pixel, grid_of, start, step = followed
+    points, filled = room.points, 0
+    for grid in range(grids.parts.size):
+        number, pieces = 0, grids.parts[grid]
+        for k in range(pixel.size):
+            if grid_of[k] == grid:
+                start[k] = filled + number
+                chosen[number] = pixel[k]
+                number += 1
+        for k in range(pixel.size):
+            if grid_of[k] == grid:
+                step[k] = number
+        if number == 0:
+            continue
+        take_points(pair, chosen[:number], points)
+        for piece in range(pieces - 1):
+            place, out = grids.positions[grid, piece], shown[filled : filled + number]
+            if pair.forward.size:
+                warp_points(pair, room, number, place, out)
+            else:
+                _blend(points.earlier, points.later, np.float32(place), out)
+            filled += number
+        shown[filled : filled + number] = points.later[:number]
+        filled += number
+
+
+@numba.njit(cache=True, nogil=True)
+def _blend(
+    earlier: NDArray[np.float32],
+    later: NDArray[np.float32],
+    position: np.float32,
+    out: NDArray[np.float32],
+) -> None:
+    for k in range(out.size):
+        out[k] = earlier[k] + position * (later[k] - earlier[k])
 
 
 @numba.njit(cache=True, nogil=True)
@@ -208,30 +250,31 @@ def _follow(
     pictures: Pictures,
     grids: Grids,
     levels: Levels,
-    row: int,
-    followed: tuple[NDArray[np.int64], NDArray[np.int64]],
+    followed: _Followed,
     shown: NDArray[np.float32],
     out: tuple[Columns, int],
 ) -> int:
-    """List the candidates of a row behind those found so far; return how many there are then."""
-    earlier = pictures.earlier
+    """List the candidates among some pixels behind those found so far; return how many there are."""
+    earlier = pictures.earlier.reshape(-1)
     parts = grids.parts
     reference, balance, up, down, rule = levels
-    active, chosen = followed
+    references = reference.reshape(-1)
+    active, chosen, starts, steps = followed
     (pixel, grid, piece, befores, nows), found = out
-    filled = 0
     for k in range(active.size):
-        column = active[k]
-        before = earlier[row, column]
-        level = reference[row, column] if reference.size else np.float64(before) + balance
+        i = active[k]
+        before = earlier[i]
+        level = references[i] if references.size else np.float64(before) + balance
         above, below = level * (up * (1.0 - MARGIN)), level * (down * (1.0 + MARGIN))
         is_open: bool | np.bool_ = False
+        place, step = starts[k], steps[k]
         for j in range(parts[chosen[k]]):
-            now = shown[filled + j]
+            now = shown[place]
+            place += step
             shifted = np.float64(now) + balance
             is_up, is_down = shifted >= above, shifted <= below
             if is_up | is_down:
-                pixel[found] = row * earlier.shape[1] + column
+                pixel[found] = i
                 grid[found], piece[found] = chosen[k], j
                 befores[found], nows[found] = before, now
                 found += 1
@@ -245,7 +288,6 @@ def _follow(
                 level = shifted
                 above, below = level * (up * (1.0 - MARGIN)), level * (down * (1.0 + MARGIN))
             before = now
-        filled += parts[chosen[k]]
     return found
 
 
@@ -305,34 +347,32 @@ def _grown(columns: Columns, least: int) -> Columns:
 
 
 def show_pixels(
-    pictures: Pictures, position: float, pixel: NDArray[np.int64]
+    pictures: Pictures, pair: WarpPair, position: float, pixel: NDArray[np.int64]
 ) -> NDArray[np.float32]:
     """Luma of some pixels of the picture at a position.
 
     Args:
         pictures: the pair.
+        pair: the same, prepared.
         position: τ, 0 = earlier, 1 = later.
         pixel: [n] flat indices.
 
     Returns:
         [n] float32: the bits that the whole picture has there.
     """
-    shown: NDArray[np.float32] = _show_pixels(pictures.frozen(), position, pixel)
+    shown: NDArray[np.float32] = _show_pixels(pictures.frozen(), pair, position, pixel)
     return shown
 
 
 @numba.njit(cache=True, nogil=True)
 def _show_pixels(
-    pictures: Pictures, position: float, pixel: NDArray[np.int64]
+    pictures: Pictures, pair: WarpPair, position: float, pixel: NDArray[np.int64]
 ) -> NDArray[np.float32]:
-    earlier, later, forward, backward = pictures
-    width = earlier.shape[1]
     shown = np.empty(pixel.size, np.float32)
-    for k in range(pixel.size):
-        row, column = pixel[k] // width, pixel[k] % width
-        if forward.size:
-            shown[k] = warp_pixel(earlier, later, forward, backward, position, row, column)
-        else:
-            start = earlier[row, column]
-            shown[k] = start + np.float32(position) * (later[row, column] - start)
+    room = make_room(pixel.size)
+    take_points(pair, pixel, room.points)
+    if pictures.forward.size:
+        warp_points(pair, room, pixel.size, position, shown)
+    else:
+        _blend(room.points.earlier, room.points.later, np.float32(position), shown)
     return shown

@@ -16,7 +16,7 @@ leads and by which factor its own α + I changes.
 
 from __future__ import annotations
 
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,6 +52,14 @@ class Pictures(NamedTuple):
     def frozen(self) -> Pictures:
         """The same as views that cannot be written: kernels are compiled for these alone."""
         return Pictures(*(frozen(one) for one in self))
+
+
+class Surveyed(NamedTuple):
+    """What is known of a pair before its candidates are looked for."""
+
+    pair: Any
+    """`interpolate.kernels.cpu.WarpPair` of its frames."""
+    cells: Cells
 
 
 class Grids(NamedTuple):

@@ -1,9 +1,9 @@
 """Bounds of what a pixel can show between two frames, to leave out those that cannot fire.
 
 Every intermediate picture is, pixel by pixel, a mean of bilinear samples of both frames, at most
-the length of the flow away (`interpolate.kernels.reference.warp_between`: the flow to a frame is
-τ or 1 − τ times a mean of the two flows at most). So what a pixel shows lies between the darkest
-and the brightest that both frames have within that distance.
+the length of the flow away (`interpolate.kernels.reference.warp_between`: the way to a frame is
+τ or 1 − τ times a mean of one flow and the other turned around). So what a pixel shows lies between
+the darkest and the brightest that both frames have within that distance.
 
 * Up to 1 px of flow, a bilinear sample differs from the pixel itself by less than
   `|dx|` times the steps to its left and right neighbours (in the rows it may touch) plus `|dy|`
@@ -26,7 +26,10 @@ CELL = 8
 FARTHEST = 8
 """Cells further away than this are not looked up: such a cell counts as reaching everything."""
 SLACK = 8.0 * MARGIN
-"""Relative room that bounds are given for the rounding of the pictures."""
+"""Relative room that trigger levels are given for rounding."""
+ROUNDING = np.float32(1e-6)
+"""By how much rounding may take a picture past what it is a mean of, as a share of the brightest;
+ten times the error of mixing float32."""
 
 
 @numba.njit(cache=True, nogil=True)
@@ -127,8 +130,9 @@ def list_active(
     level = levels.reference[row] if levels.reference.size else earlier[row] + balance
     number = 0
     for x in range(width):
-        is_up = high[x] + balance >= level[x] * up
-        is_down = low[x] + balance <= level[x] * down
+        room = ROUNDING * high[x]
+        is_up = high[x] + room + balance >= level[x] * up
+        is_down = low[x] - room + balance <= level[x] * down
         active[number] = x
         number += is_up | is_down
     return number

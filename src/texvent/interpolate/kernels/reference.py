@@ -1,4 +1,4 @@
-"""Motion-compensated mixing of two frames, as it is defined (NumPy, float64)."""
+"""Motion-compensated mixing of two frames, as it is defined (NumPy, float32)."""
 
 from __future__ import annotations
 
@@ -7,24 +7,30 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.brightness import Float64Array
 from texvent.interpolate.kernels.tolerance import (
     LOST_PX2,
     LOST_RELATIVE,
+    MOST_PX2,
     UNSEEN_WEIGHT,
     VISIBLE_PX2,
     VISIBLE_RELATIVE,
 )
 
+FloatArray = NDArray[Any]
+"""float32; float64 where the rounding of float32 is to be seen."""
+
 
 def warp_between(
-    first: NDArray[np.float32],
-    second: NDArray[np.float32],
-    forward: NDArray[np.float32],
-    backward: NDArray[np.float32],
+    first: FloatArray,
+    second: FloatArray,
+    forward: FloatArray,
+    backward: FloatArray,
     position: float,
-) -> NDArray[np.float32]:
+) -> FloatArray:
     """The picture at `position` between two frames whose motion is known.
+
+    Everything is computed in the type of the frames; in float32, the order of the operations is
+    part of the definition.
 
     Args:
         first: the earlier frame, [H, W], intensity.
@@ -34,71 +40,71 @@ def warp_between(
         position: τ, 0 = first, 1 = second.
 
     Returns:
-        [H, W] float32, intensity.
+        [H, W], intensity.
 
-    Source: flows to the intermediate frame as in Jiang et al., Super SloMo (CVPR 2018), eq. 4;
-        the weights are ours: see `tolerance.py`.
+    Source: flows to the intermediate frame as in Jiang et al., Super SloMo (CVPR 2018), eq. 4,
+        which are −τ and 1 − τ times the path below; the weights are ours: see `tolerance.py`.
     """
-    height, width = first.shape
-    y, x = np.mgrid[:height, :width].astype(np.float64)
-    ahead, back = forward.astype(np.float64), backward.astype(np.float64)
-    rest = 1.0 - position
-    to_first = -rest * position * ahead + position * position * back
-    to_second = rest * rest * ahead - rest * position * back
-    path = to_second - to_first
-    length2 = _squared(path)
+    position = first.dtype.type(position)
+    rest = first.dtype.type(1.0) - position
+    path = forward - position * (forward + backward)
+    length2 = np.minimum(_squared(path), MOST_PX2)
 
-    x_first, y_first = x + to_first[..., 0], y + to_first[..., 1]
-    x_second, y_second = x + to_second[..., 0], y + to_second[..., 1]
-    error_first = _squared(sample(ahead, x_first, y_first) - path)
-    error_second = _squared(sample(back, x_second, y_second) + path)
+    a, path_first, is_in_first = look_along(first, forward, -position * path)
+    b, path_second, is_in_second = look_along(second, backward, rest * path)
+    error_first = np.minimum(_squared(path_first - path), MOST_PX2)
+    error_second = np.minimum(_squared(path_second + path), MOST_PX2)
 
-    visible = VISIBLE_RELATIVE * length2 + VISIBLE_PX2
-    seen_first = trust(error_first, visible) * inside(x_first, y_first, first.shape)
-    seen_second = trust(error_second, visible) * inside(x_second, y_second, first.shape)
-    weight_first = rest * (seen_first + UNSEEN_WEIGHT)
-    weight_second = position * (seen_second + UNSEEN_WEIGHT)
-    a, b = sample(first, x_first, y_first), sample(second, x_second, y_second)
+    # A frame's weight is its share of the time, times (how well it sees the point + UNSEEN_WEIGHT);
+    # both over one denominator, which cancels.
+    visible = _squared_number(VISIBLE_RELATIVE * length2 + VISIBLE_PX2)
+    doubt_first = visible + error_first * error_first
+    doubt_second = visible + error_second * error_second
+    seen_first = np.where(is_in_first, visible, 0) + UNSEEN_WEIGHT * doubt_first
+    seen_second = np.where(is_in_second, visible, 0) + UNSEEN_WEIGHT * doubt_second
+    weight_first = rest * (seen_first * doubt_second)
+    weight_second = position * (seen_second * doubt_first)
     warped = a + (b - a) * (weight_second / (weight_first + weight_second))
 
-    lost = LOST_RELATIVE * length2 + LOST_PX2
-    confidence = trust(np.minimum(error_first, error_second), lost)
-    blended = first + (second.astype(np.float64) - first) * position
-    return np.asarray(blended + (warped - blended) * confidence, dtype=np.float32)
+    lost = _squared_number(LOST_RELATIVE * length2 + LOST_PX2)
+    confidence = lost / (lost + _squared_number(np.minimum(error_first, error_second)))
+    blended = first + (second - first) * position
+    return np.asarray(blended + (warped - blended) * confidence)
 
 
-def trust(error2: Float64Array, tolerance2: Float64Array) -> Float64Array:
-    """1 for no error, 1/2 at the tolerance, falling to 0 with the fourth power of the error."""
-    ratio = error2 / tolerance2
-    return np.asarray(1.0 / (1.0 + ratio * ratio))
-
-
-def inside(x: Float64Array, y: Float64Array, shape: tuple[int, ...]) -> NDArray[np.bool_]:
-    """Whether points lie on the picture, whose pixels reach half a pixel past their centres."""
-    height, width = shape
-    return (x >= -0.5) & (x <= width - 0.5) & (y >= -0.5) & (y <= height - 0.5)
-
-
-def sample(picture: NDArray[Any], x: Float64Array, y: Float64Array) -> Float64Array:
-    """Bilinear samples at (x, y); outside, the nearest edge pixel.
+def look_along(
+    picture: FloatArray, flow: FloatArray, way: FloatArray
+) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
+    """What lies some way off each pixel; outside the picture, what lies at its nearest edge.
 
     Args:
-        picture: [H, W] or [H, W, C].
-        x: columns, px, [H, W].
-        y: rows, px, [H, W].
+        picture: [H, W].
+        flow: [H, W, 2].
+        way: [H, W, 2] as (x, y), px.
+
+    Returns:
+        The picture there (bilinear), the flow of the nearest pixel, and whether the place is on the
+        picture, whose pixels reach half a pixel past their centres.
     """
-    height, width = picture.shape[:2]
-    x, y = np.clip(x, 0.0, width - 1.0), np.clip(y, 0.0, height - 1.0)
-    left, top = x.astype(np.intp), y.astype(np.intp)
+    height, width = picture.shape
+    row, column = np.mgrid[:height, :width]
+    kind = picture.dtype
+    x = np.clip(way[..., 0], (-column).astype(kind), (width - 1 - column).astype(kind))
+    y = np.clip(way[..., 1], (-row).astype(kind), (height - 1 - row).astype(kind))
+    outside = np.maximum(np.abs(way[..., 0] - x), np.abs(way[..., 1] - y))
+    left, top = np.floor(x), np.floor(y)
+    u, v = x - left, y - top
+    left, top = column + left.astype(np.intp), row + top.astype(np.intp)
     right, bottom = np.minimum(left + 1, width - 1), np.minimum(top + 1, height - 1)
-    fx, fy = x - left, y - top
-    if picture.ndim == 3:
-        fx, fy = fx[..., np.newaxis], fy[..., np.newaxis]
-    picture = picture.astype(np.float64)
-    upper = picture[top, left] + (picture[top, right] - picture[top, left]) * fx
-    lower = picture[bottom, left] + (picture[bottom, right] - picture[bottom, left]) * fx
-    return np.asarray(upper + (lower - upper) * fy)
+    upper = picture[top, left] + (picture[top, right] - picture[top, left]) * u
+    lower = picture[bottom, left] + (picture[bottom, right] - picture[bottom, left]) * u
+    nearest = np.where(v >= 0.5, bottom, top), np.where(u >= 0.5, right, left)
+    return upper + (lower - upper) * v, flow[nearest], outside <= 0.5
 
 
-def _squared(vectors: Float64Array) -> Float64Array:
+def _squared(vectors: FloatArray) -> FloatArray:
     return np.asarray(vectors[..., 0] * vectors[..., 0] + vectors[..., 1] * vectors[..., 1])
+
+
+def _squared_number(number: FloatArray) -> FloatArray:
+    return number * number
