@@ -17,19 +17,21 @@ from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.errors import ConfigError
-from texvent.events import NOISE, SIGNAL
 from texvent.simulate.draws import Purpose, draw_normals
 from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.kernels.follow import (
     DARK_OFFSET,
     WHITE_LEVEL,
+    Float32Array,
     Light,
     Pixels,
-    PixelState,
+    Restless,
     load_follow_light,
+    new_state,
 )
 from texvent.simulate.kernels.follow_reference import lin_log
-from texvent.simulate.kernels.ramp import Ramp, RampCrossings, Rest, load_cross_ramp
+from texvent.simulate.kernels.memorise import LastEvents, Rules, load_fire_and_memorise
+from texvent.simulate.kernels.order import Columns
 from texvent.simulate.pixel_maps import (
     LONG_AGO_US,
     LOWEST_THRESHOLD,
@@ -151,7 +153,9 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
         config = self.config
         key, shape = sensor_key(self._seed), intensity.shape
         on, off = (one.reshape(-1) for one in draw_threshold_pair(shape, key, config))
-        self._pixels = Pixels(on, off, self._draw_leak(shape, key, on))
+        self._pixels = Pixels(
+            on.astype(np.float32), off.astype(np.float32), self._draw_leak(shape, key, on)
+        )
         more_on, more_off = config.contrast_threshold_on / on, config.contrast_threshold_off / off
         self._on_fraction = more_on / (more_on + more_off)
         rate_hz = config.shot_noise_rate_hz / 2 * (more_on + more_off)
@@ -160,47 +164,55 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
         self._table = np.stack([lin_log(levels, config.linear_below), relative_intensity(levels)])
         flat = intensity.reshape(-1).astype(np.float64)
         brightness = lin_log(flat, config.linear_below)
-        self._state = PixelState(brightness, brightness.copy(), None)
+        voltage, voltage_then = None, None
         if config.photoreceptor_noise:
-            self._state = self._state._replace(voltage=(np.zeros(flat.size), np.zeros(flat.size)))
-            self._voltage_at_event = np.zeros(flat.size)
+            voltage, voltage_then = (np.zeros(flat.size), np.zeros(flat.size)), np.zeros(flat.size)
+        self._state = new_state(brightness, voltage)
+        self._seen = intensity.reshape(-1).copy()
         self._start_us = self._last_us
-        self._event_us = np.full(flat.size, self._start_us)
-        self._fired_us = np.full(flat.size, LONG_AGO_US)
+        self._last = LastEvents(
+            np.full(flat.size, LONG_AGO_US), np.full(flat.size, self._start_us), voltage_then
+        )
 
     def _draw_leak(
         self, shape: tuple[int, ...], key: np.uint64, threshold_on: Float64Array
-    ) -> Float64Array | None:
+    ) -> Float32Array | None:
         """By how much references sink, log units per µs."""
         config = self.config
         if config.leak_rate_hz == 0:
             return None
         factor = draw_rate_factors(shape, key, Purpose.LEAK_RATE, decades=config.leak_rate_decades)
-        return factor.reshape(-1) * (config.leak_rate_hz / MICROSECONDS) * threshold_on
+        leak = factor.reshape(-1) * (config.leak_rate_hz / MICROSECONDS) * threshold_on
+        return leak.astype(np.float32)
 
-    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
+    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings | Columns:
         if self.config.photoreceptor_noise:
             self._shake(intensity.shape, interval)
-        luma = intensity.reshape(-1)
+        restless = self._follow(intensity.reshape(-1), interval)
+        noise = self._draw_shot_noise(intensity.reshape(-1), interval)
+        fired = load_fire_and_memorise(self._backend)(
+            restless,
+            (self._pixels, self._state),
+            self._last,
+            noise,
+            Rules(interval, self.config.refractory_period_us, intensity.shape),
+        )
+        self._memorise_noise(noise.pixel, interval)
+        return fired
+
+    def _follow(self, luma: IntensityArray, interval: Interval) -> Restless:
+        """Move the photoreceptors to the end of the interval; who has reached a threshold then."""
+        if luma.dtype != self._seen.dtype:
+            # Frames of two types: from now on all are float32, which holds 8-bit levels exactly.
+            self._seen, luma = self._seen.astype(np.float32), luma.astype(np.float32)
         angle = 2 * math.pi * self.config.cutoff_hz * interval.duration_s or math.inf
         table = self._table if luma.dtype == np.uint8 else None
-        restless = load_follow_light(luma.dtype, self._backend)(
-            Light(luma, table, self.config.linear_below, angle),
+        return load_follow_light(luma.dtype, self._backend)(
+            Light(self._seen, luma, table, self.config.linear_below, angle),
             self._pixels,
             self._state,
             (float(interval.start_us - self._start_us), float(interval.stop_us - self._start_us)),
         )
-        pixel = restless.pixel
-        on, off = self._pixels.threshold_on[pixel], self._pixels.threshold_off[pixel]
-        ramp = Ramp(pixel, restless.start, restless.stop, on, off)
-        crossings = load_cross_ramp(self._backend)(
-            ramp,
-            self._fired_us,
-            (interval.start_us, interval.stop_us),
-            Rest(self.config.refractory_period_us, is_level_lost=False),
-        )
-        fired = self._label(ramp, crossings, interval.stop_us)
-        return fired.joined(self._add_shot_noise(luma, interval))
 
     def _shake(self, shape: tuple[int, ...], interval: Interval) -> None:
         """Move the noise of the photoreceptors, if they have any, to the end of the interval."""
@@ -215,34 +227,12 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
         now = kept * voltage + rms * math.sqrt(1 - kept * kept) * fresh
         self._state = self._state._replace(voltage=(voltage, now))
 
-    def _leaked(self, pixel: NDArray[np.int64], us: NDArray[np.int64] | int) -> Float64Array:
-        """What the references of some pixels leak in a time."""
-        leak = self._pixels.leak
-        return np.zeros(len(pixel)) if leak is None else leak[pixel] * us
-
-    def _label(self, ramp: Ramp, crossings: RampCrossings, stop_us: int) -> Firings:
-        """Move the references, and tell the events that noise and leak made from the others."""
-        pixel, steps = ramp.pixel, crossings.steps
-        moved = steps * np.where(steps > 0, ramp.threshold_on, ramp.threshold_off)
-        self._state.reference[pixel] += moved
-        by_noise = self._leaked(pixel, stop_us - self._event_us[pixel])
-        fired = pixel[steps != 0]
-        if self._state.voltage is not None:
-            voltage = self._state.voltage[1]
-            by_noise += voltage[pixel] - self._voltage_at_event[pixel]
-            self._voltage_at_event[fired] = voltage[fired]
-        is_noise = by_noise * np.sign(steps) >= 0.5 * np.abs(moved)
-        self._event_us[fired] = stop_us
-        # A step is an event here, and events come by pixel.
-        label = np.repeat(np.where(is_noise, NOISE, SIGNAL).astype(np.uint8), np.abs(steps))
-        return Firings(crossings.pixel, crossings.t, crossings.p, label)
-
-    def _add_shot_noise(self, luma: IntensityArray, interval: Interval) -> Firings:
-        """Independent noise events; each makes its pixel memorise the present brightness."""
+    def _draw_shot_noise(self, luma: IntensityArray, interval: Interval) -> Firings:
+        """Independent noise events."""
         config = self.config
         if config.shot_noise_rate_hz == 0 or config.photoreceptor_noise:
             return Firings.none()
-        noise = self._noise.draw(
+        return self._noise.draw(
             interval,
             share=lambda pixel: (
                 1.0 - (1.0 - BRIGHT_SHOT_SHARE) * np.minimum(relative_intensity(luma[pixel]), 1.0)
@@ -250,11 +240,15 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
             on_fraction=self._on_fraction,
             backend=self._backend,
         )
-        pixel, stop_us = noise.pixel, interval.stop_us
-        leaked = self._leaked(pixel, stop_us - self._start_us)
+
+    def _memorise_noise(self, pixel: NDArray[np.int64], interval: Interval) -> None:
+        """A noise event makes its pixel memorise the present brightness."""
+        leaked, leak = np.zeros(len(pixel)), self._pixels.leak
+        if leak is not None:
+            leaked = leak[pixel].astype(np.float64) * (interval.stop_us - self._start_us)
         self._state.reference[pixel] = self._state.brightness[pixel] + leaked
-        self._event_us[pixel] = stop_us
-        return noise
+        self._state.disturb(pixel)
+        self._last.interval_us[pixel] = interval.stop_us
 
 
 def relative_intensity(intensity: NDArray[Any]) -> Float64Array:

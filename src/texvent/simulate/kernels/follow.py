@@ -11,16 +11,26 @@ from numpy.typing import NDArray
 from texvent.simulate.kernels.select import AUTO, load_kernel_when_ready
 
 Float64Array: TypeAlias = NDArray[np.float64]
+Float32Array: TypeAlias = NDArray[np.float32]
 
 DARK_OFFSET, WHITE_LEVEL = 20.0, 275.0
 """Bandwidth and shot noise depend on (I + 20) / 275, which is never 0."""
 
 
-class Light(NamedTuple):
-    """The frame that ends the interval."""
+SETTLED = 2.0**-40
+"""A lag of brightness below this, log units, is none, so that a pixel at rest is at rest."""
+BLOCK = 256
+"""Pixels that a fast kernel looks at together, and skips together if nothing happens to them."""
 
+
+class Light(NamedTuple):
+    """The frames at both ends of the interval."""
+
+    before: NDArray[Any]
+    """[n] luma at the start, 0..255 scale, uint8 or float32; a kernel turns it into that at the
+    end."""
     luma: NDArray[Any]
-    """[n] 0..255 scale, uint8 or float32."""
+    """[n] luma at the end, of the same type."""
     table: Float64Array | None
     """[2, 256] for uint8: brightness of every level, and its (I + 20) / 275; else None."""
     linear_below: float
@@ -32,11 +42,11 @@ class Light(NamedTuple):
 class Pixels(NamedTuple):
     """What differs from pixel to pixel and never changes."""
 
-    threshold_on: Float64Array
+    threshold_on: Float32Array
     """[n] log units, above 0."""
-    threshold_off: Float64Array
+    threshold_off: Float32Array
     """[n] log units, above 0."""
-    leak: Float64Array | None
+    leak: Float32Array | None
     """[n] log units per µs by which references sink; None without leak."""
 
 
@@ -49,6 +59,13 @@ class PixelState(NamedTuple):
     """[n] the level of the last event, as it was at the first frame, before it leaked."""
     voltage: tuple[Float64Array, Float64Array] | None
     """[n] noise of the photoreceptor at the start and at the end; None without."""
+    calm_until_us: Float64Array
+    """[blocks] time after the first frame, µs, up to which no pixel of a block reaches a threshold
+    if its light stays as it is; a note of the fast kernel for itself."""
+
+    def disturb(self, pixel: NDArray[np.int64]) -> None:
+        """Have kernels look at some pixels again, whose references have moved."""
+        self.calm_until_us[pixel // BLOCK] = -np.inf
 
 
 class Restless(NamedTuple):
@@ -76,3 +93,16 @@ def load_follow_light(dtype: np.dtype[Any], backend: str = AUTO) -> FollowLight:
     return cast(
         "FollowLight", load_kernel_when_ready("follow", "follow_light", backend, dtype.name)
     )
+
+
+def new_state(
+    brightness: Float64Array, voltage: tuple[Float64Array, Float64Array] | None
+) -> PixelState:
+    """The state of pixels that have memorised what they see.
+
+    Args:
+        brightness: [n] log units.
+        voltage: see `PixelState`.
+    """
+    blocks = -(-brightness.size // BLOCK)
+    return PixelState(brightness, brightness.copy(), voltage, np.full(blocks, -np.inf))

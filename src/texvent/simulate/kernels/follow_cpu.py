@@ -11,8 +11,11 @@ from numpy.typing import NDArray
 
 from texvent.simulate.kernels.elementary_cpu import natural_log
 from texvent.simulate.kernels.follow import (
+    BLOCK,
     DARK_OFFSET,
+    SETTLED,
     WHITE_LEVEL,
+    Float32Array,
     Float64Array,
     Light,
     Pixels,
@@ -24,78 +27,97 @@ from texvent.simulate.kernels.threads import count_threads, run_parts, split
 
 SHARE = 1 << 18
 """Fewest pixels that are worth a thread of their own."""
-BLOCK, WORD = 512, 8
-"""Pixels that are moved together, and pixels that are passed over together."""
+WORD = 8
+"""Pixels that are passed over together."""
 
 
 def follow_light(
     light: Light, pixels: Pixels, state: PixelState, elapsed_us: tuple[float, float]
 ) -> Restless:
     """See `follow_reference.follow_light`."""
-    nothing = np.empty(0)
+    nothing, none = np.empty(0), np.empty(0, np.float32)
     leak, voltage = pixels.leak, state.voltage or (nothing, nothing)
 
     def follow(part: slice) -> tuple[NDArray[np.int64], Float64Array, Float64Array]:
         # Numba leaves out branches for arguments that are None, but not for their fields.
         pixel, start, stop = _follow_light(
-            read_only(light.luma[part]),
+            (light.before[part], read_only(light.luma[part])),
             light.table,
             (light.linear_below, light.angle),
             (pixels.threshold_on[part], pixels.threshold_off[part]),
-            (state.brightness[part], state.reference[part]),
-            (nothing if leak is None else leak[part], *elapsed_us),
+            (
+                state.brightness[part],
+                state.reference[part],
+                state.calm_until_us[part.start // BLOCK : -(-part.stop // BLOCK)],
+            ),
+            (none if leak is None else leak[part], *elapsed_us),
             (voltage[0][part], voltage[1][part]),
         )
         return pixel + part.start, start, stop
 
     parts = run_parts(follow, split(light.luma.size, count_threads(), unit=SHARE))
+    if len(parts) == 1:
+        return Restless(*parts[0])
     pixel, start, stop = (np.concatenate(columns) for columns in zip(*parts, strict=True))
     return Restless(pixel, start, stop)
 
 
 def warm_up(dtype: str) -> None:
     """Compile for one type of frames, or load what was compiled before."""
-    table = np.ones((2, 256)) if dtype == "uint8" else None
-    light, one = Light(np.ones(1, dtype), table, 20.0, 1.0), np.ones(1)
-    follow_light(light, Pixels(one, one, None), PixelState(one.copy(), one, None), (0.0, 1.0))
+    table, luma = np.ones((2, 256)) if dtype == "uint8" else None, np.ones(1, dtype)
+    one, threshold = np.ones(1), np.ones(1, np.float32)
+    state = PixelState(one.copy(), one, None, one.copy())
+    pixels = Pixels(threshold, threshold, None)
+    follow_light(Light(luma.copy(), luma, table, 20.0, 1.0), pixels, state, (0.0, 1.0))
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def _follow_light(
-    luma: NDArray[Any],
+    luma: tuple[NDArray[Any], NDArray[Any]],
     table: Float64Array | None,
     curve: tuple[float, float],
-    thresholds: tuple[Float64Array, Float64Array],
-    state: tuple[Float64Array, Float64Array],
-    leaking: tuple[Float64Array, float, float],
+    thresholds: tuple[Float32Array, Float32Array],
+    state: tuple[Float64Array, Float64Array, Float64Array],
+    leaking: tuple[Float32Array, float, float],
     voltage: tuple[Float64Array, Float64Array],
 ) -> tuple[NDArray[np.int64], Float64Array, Float64Array]:
-    size = luma.size
-    leak, start_us, stop_us = leaking
+    (before, now), (leak, start_us, stop_us) = luma, leaking
+    (on, off), (brightness, reference, calm_until_us) = thresholds, state
+    size = now.size
     pixel, change = np.empty(size // 16 + BLOCK, np.int64), np.empty((2, size // 16 + BLOCK))
     start, stop, weight = np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK)
     words, found = np.zeros(BLOCK // WORD, np.uint64), 0
     marks = words.view(np.uint8)
     for first in range(0, size, BLOCK):
         last = min(first + BLOCK, size)
+        is_still = voltage[0].size == 0 and _is_equal(before[first:last], now[first:last])
+        if is_still and stop_us <= calm_until_us[first // BLOCK]:
+            continue
+        before[first:last] = now[first:last]
         if found + BLOCK >= pixel.size:
             pixel, change = _grown(pixel, change)
-        _see(luma[first:last], table, curve, stop, weight)
-        _move(state[0][first:last], state[1][first:last], weight, start, stop)
+        _see(now[first:last], table, curve, stop, weight)
+        moving = _move(brightness[first:last], reference[first:last], weight, start, stop)
         if leak.size > 0:
             _add(start, leak[first:last], start_us)
             _add(stop, leak[first:last], stop_us)
         if voltage[0].size > 0:
             _add(start, voltage[0][first:last], 1.0)
             _add(stop, voltage[1][first:last], 1.0)
-        on, off = thresholds[0][first:last], thresholds[1][first:last]
-        _mark(stop, on, off, marks)
+        _mark(stop, on[first:last], off[first:last], marks)
+        earlier = found
         for word in range(-(-(last - first) // WORD)):
             if words[word] == 0:
                 continue
             for j in range(WORD * word, WORD * word + WORD):
                 pixel[found], change[0, found], change[1, found] = first + j, start[j], stop[j]
                 found += marks[j]
+        calm_until = -np.inf
+        if is_still and moving == 0 and found == earlier:
+            calm_until = _calm_until(
+                brightness[first:last], reference[first:last], on[first:last], leak[first:last]
+            )
+        calm_until_us[first // BLOCK] = calm_until
     return pixel[:found], change[0, :found], change[1, :found]
 
 
@@ -131,26 +153,55 @@ def _move(
     weight: Float64Array,
     start: Float64Array,
     stop: Float64Array,
-) -> None:
-    """On entry `stop` is the brightness of the frame; on return the change at the end."""
+) -> int:
+    """On entry `stop` is the brightness of the frame; on return the change at the end.
+
+    Returns:
+        0 if all pixels have reached the brightness of the frame.
+    """
     for j in range(brightness.size):
         start[j] = brightness[j] - reference[j]
+    moving = 0
     for j in range(brightness.size):
         before, now = brightness[j], stop[j]
-        brightness[j] = before + weight[j] * (now - before) if weight[j] < 1.0 else now
+        lags = (weight[j] < 1.0) & (abs(now - before) >= SETTLED)
+        brightness[j] = before + weight[j] * (now - before) if lags else now
+        moving |= brightness[j] != now
     for j in range(brightness.size):
         stop[j] = brightness[j] - reference[j]
+    return moving
 
 
 @numba.njit(cache=True, nogil=True)
-def _add(target: Float64Array, term: Float64Array, factor: float) -> None:
+def _is_equal(one: NDArray[Any], two: NDArray[Any]) -> bool:
+    different = 0
+    for j in range(one.size):
+        different |= one[j] != two[j]
+    return different == 0
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _calm_until(
+    brightness: Float64Array, reference: Float64Array, on: Float32Array, leak: Float32Array
+) -> float:
+    """The time up to which no pixel of a block at rest fires by its leak."""
+    soonest = np.inf
+    for j in range(leak.size):
+        left = np.float64(on[j]) - (brightness[j] - reference[j])
+        soonest = min(soonest, left / np.float64(leak[j]))
+    # A microsecond for what is rounded here.
+    return soonest - 1.0
+
+
+@numba.njit(cache=True, nogil=True)
+def _add(target: Float64Array, term: NDArray[Any], factor: float) -> None:
     for j in range(term.size):
-        target[j] += term[j] * factor
+        target[j] += np.float64(term[j]) * factor
 
 
 @numba.njit(cache=True, nogil=True)
 def _mark(
-    stop: Float64Array, on: Float64Array, off: Float64Array, marks: NDArray[np.uint8]
+    stop: Float64Array, on: Float32Array, off: Float32Array, marks: NDArray[np.uint8]
 ) -> None:
     """1 where a pixel has reached a threshold, else 0, also beyond the last."""
     for j in range(on.size):

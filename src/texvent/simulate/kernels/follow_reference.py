@@ -9,6 +9,7 @@ import numpy as np
 from texvent.simulate.kernels.elementary import natural_log
 from texvent.simulate.kernels.follow import (
     DARK_OFFSET,
+    SETTLED,
     WHITE_LEVEL,
     Float64Array,
     Light,
@@ -24,7 +25,7 @@ def follow_light(
     """Move the brightness through the low-pass, and find who has reached a threshold.
 
     Args:
-        light: the frame at the end.
+        light: the frames; `before` becomes `luma`.
         pixels: thresholds and leak.
         state: at the start; its brightness is moved to the end.
         elapsed_us: time from the first frame to the start and to the end of the interval, µs.
@@ -39,11 +40,15 @@ def follow_light(
         now, relative = lin_log(luma, light.linear_below), (luma + DARK_OFFSET) / WHITE_LEVEL
     else:
         now, relative = light.table[0][light.luma], light.table[1][light.luma]
+    light.before[:] = light.luma
     before, weight = state.brightness.copy(), np.minimum(relative * light.angle, 1.0)
-    state.brightness[:] = np.where(weight < 1.0, before + weight * (now - before), now)
+    lag = now - before
+    lags = (weight < 1.0) & (np.abs(lag) >= SETTLED)
+    state.brightness[:] = np.where(lags, before + weight * lag, now)
     start, stop = before - state.reference, state.brightness - state.reference
     if pixels.leak is not None:
-        start, stop = start + pixels.leak * elapsed_us[0], stop + pixels.leak * elapsed_us[1]
+        leak = pixels.leak.astype(np.float64)
+        start, stop = start + leak * elapsed_us[0], stop + leak * elapsed_us[1]
     if state.voltage is not None:
         start, stop = start + state.voltage[0], stop + state.voltage[1]
     pixel = np.flatnonzero((stop >= pixels.threshold_on) | (-stop >= pixels.threshold_off))

@@ -49,7 +49,7 @@ def order_keys(keys: Uint64Array, span_us: tuple[int, int], shape: tuple[int, in
     """As `order_events`, of events that are keys already.
 
     Args:
-        keys: [n] by pixel, and the events of a pixel in time; used as scratch.
+        keys: [n] by pixel; used as scratch.
         span_us: start (included) and stop (excluded) of the interval, µs.
         shape: (height, width) of the sensor.
     """
@@ -146,6 +146,27 @@ def _sort_by_digit(keys: Uint64Array, target: Uint64Array, first: int, width: in
         digit = keys[i] >> shift & mask
         target[place[digit]] = keys[i]
         place[digit] += 1
+
+
+@numba.njit(cache=True, nogil=True)
+def merge_keys(one: Uint64Array, other: Uint64Array, low: int) -> Uint64Array:
+    """Two lists of keys by pixel as one; those of `one` come first at each pixel.
+
+    Args:
+        one: [n] by pixel.
+        other: [m] by pixel.
+        low: how many bits there are below the time.
+    """
+    keys, waiting = np.empty(one.size + other.size, np.uint64), 0
+    mask = (_1 << np.uint64(low)) - _1
+    for i in range(one.size):
+        pixel = (one[i] & mask) >> _2
+        while waiting < other.size and (other[waiting] & mask) >> _2 < pixel:
+            keys[i + waiting] = other[waiting]
+            waiting += 1
+        keys[i + waiting] = one[i]
+    keys[one.size + waiting :] = other[waiting:]
+    return keys
 
 
 @numba.njit(cache=True, nogil=True)

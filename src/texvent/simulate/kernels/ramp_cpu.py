@@ -34,7 +34,7 @@ from texvent.simulate.kernels.scratch import take_scratch
 _1, _2 = np.uint64(1), np.uint64(2)
 
 
-class _Lines(NamedTuple):
+class Lines(NamedTuple):
     """What becomes of each pixel; [n] each."""
 
     start: Float64Array
@@ -47,7 +47,7 @@ class _Lines(NamedTuple):
     """Thresholds that it has passed at the end; OFF below 0."""
 
 
-class _Clock(NamedTuple):
+class Clock(NamedTuple):
     """The interval, and what an event's key is made of."""
 
     start_us: int
@@ -60,13 +60,13 @@ def cross_ramp(
     ramp: Ramp, fired_us: NDArray[np.int64], span_us: tuple[int, int], rest: Rest
 ) -> RampCrossings:
     """Every threshold that each pixel's change crosses; see `ramp_reference.cross_ramp`."""
-    clock = _clock(span_us, (fired_us.size, 1))
+    clock = clock_of(span_us, (fired_us.size, 1))
     if clock is None:
         return ramp_reference.cross_ramp(ramp, fired_us, span_us, rest)
     pixel, start, stop, on, off = ramp
-    lines = _Lines(start, stop, np.empty(len(pixel)), np.empty(len(pixel), np.int64))
-    _count_steps(lines, Thresholds(on, off))
-    keys = _list_events(pixel, lines, fired_us, clock, rest)
+    lines = Lines(start, stop, np.empty(len(pixel)), np.empty(len(pixel), np.int64))
+    count_steps(lines, Thresholds(on, off))
+    keys = list_events(pixel, lines, fired_us, clock, rest)
     found, t, p = _unpack(keys, clock)
     return RampCrossings(found, t, p, lines.steps)
 
@@ -79,7 +79,7 @@ def cross_levels(
     shape: tuple[int, int],
 ) -> Columns:
     """See `ramp_reference.cross_levels`."""
-    clock = _clock(span_us, shape)
+    clock = clock_of(span_us, shape)
     if clock is None:
         return ramp_reference.cross_levels(candidates, levels, span_us, rest, shape)
     # Numba leaves out branches for arguments that are None, but not for their fields.
@@ -87,10 +87,10 @@ def cross_levels(
     start, stop, threshold = (
         take_scratch(use, len(pixel), np.float64) for use in ("start", "stop", "threshold")
     )
-    lines = _Lines(start, stop, threshold, take_scratch("steps", len(pixel), np.int64))
+    lines = Lines(start, stop, threshold, take_scratch("steps", len(pixel), np.int64))
     _compare((pixel, before, now), table, levels.reference, lines)
-    _count_steps(lines, thresholds)
-    keys = _list_events(pixel, lines, levels.fired_us, clock, rest)
+    count_steps(lines, thresholds)
+    keys = list_events(pixel, lines, levels.fired_us, clock, rest)
     _step(pixel, lines, levels.reference)
     return order_keys(keys, span_us, shape)
 
@@ -106,19 +106,19 @@ def warm_up(*dtypes: str) -> None:
         cross_levels(candidates, Levels(one.copy(), pixel.copy()), (0, 1), Rest(0, False), (1, 1))
 
 
-def _clock(span_us: tuple[int, int], shape: tuple[int, int]) -> _Clock | None:
+def clock_of(span_us: tuple[int, int], shape: tuple[int, int]) -> Clock | None:
     """None where time and pixel do not fit a key."""
     start_us, stop_us = span_us
     if not has_room_for_keys(stop_us - start_us, shape):
         return None
-    return _Clock(start_us, stop_us - start_us, key_bits(shape[0] * shape[1]))
+    return Clock(start_us, stop_us - start_us, key_bits(shape[0] * shape[1]))
 
 
-def _list_events(
+def list_events(
     pixel: NDArray[np.int64],
-    lines: _Lines,
+    lines: Lines,
     fired_us: NDArray[np.int64],
-    clock: _Clock,
+    clock: Clock,
     rest: Rest,
 ) -> NDArray[np.uint64]:
     """Keys of all events, by pixel and then in time."""
@@ -132,7 +132,7 @@ def _compare(
     candidates: tuple[NDArray[np.int64], NDArray[Any], NDArray[Any]],
     table: Float64Array | None,
     reference: Float64Array,
-    lines: _Lines,
+    lines: Lines,
 ) -> None:
     """Fill in the changes against the references."""
     pixel, before, now = candidates
@@ -146,7 +146,7 @@ def _compare(
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def _count_steps(lines: _Lines, thresholds: Thresholds) -> None:
+def count_steps(lines: Lines, thresholds: Thresholds) -> None:
     """Fill in thresholds and steps."""
     _, stop, threshold, steps = lines
     on, off = thresholds
@@ -179,9 +179,9 @@ def _add_up(steps: NDArray[np.int64]) -> int:
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def _list_crossings(
     pixel: NDArray[np.int64],
-    lines: _Lines,
+    lines: Lines,
     fired_us: NDArray[np.int64],
-    clock: _Clock,
+    clock: Clock,
     rest: Rest,
     keys: NDArray[np.uint64],
 ) -> int:
@@ -224,7 +224,7 @@ def _leave_rested(
 
 
 @numba.njit(cache=True, nogil=True)
-def _step(pixel: NDArray[np.int64], lines: _Lines, reference: Float64Array) -> None:
+def _step(pixel: NDArray[np.int64], lines: Lines, reference: Float64Array) -> None:
     """Let the references make their steps."""
     _, _, threshold, steps = lines
     for n in range(pixel.size):
@@ -232,7 +232,7 @@ def _step(pixel: NDArray[np.int64], lines: _Lines, reference: Float64Array) -> N
 
 
 @numba.njit(cache=True, nogil=True)
-def _unpack(keys: NDArray[np.uint64], clock: _Clock) -> Any:
+def _unpack(keys: NDArray[np.uint64], clock: Clock) -> Any:
     """Pixel, time and p of each key."""
     pixel, t = np.empty(keys.size, np.int64), np.empty(keys.size, np.int64)
     p, low = np.empty(keys.size, np.uint8), np.uint64(clock.low)
