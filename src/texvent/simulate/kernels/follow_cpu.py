@@ -84,7 +84,8 @@ def _follow_light(
     (before, now), (leak, start_us, stop_us) = luma, leaking
     (on, off), (brightness, reference, calm_until_us) = thresholds, state
     size = now.size
-    pixel, change = np.empty(size // 16 + BLOCK, np.int64), np.empty((2, size // 16 + BLOCK))
+    pixel, change = np.empty(size // 8 + BLOCK, np.int64), np.empty((2, size // 8 + BLOCK))
+    local = np.empty(BLOCK + WORD, np.uint64)
     start, stop, weight = np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK)
     words, found = np.zeros(BLOCK // WORD, np.uint64), 0
     marks = words.view(np.uint8)
@@ -105,15 +106,13 @@ def _follow_light(
             _add(start, voltage[0][first:last], 1.0)
             _add(stop, voltage[1][first:last], 1.0)
         _mark(stop, on[first:last], off[first:last], marks)
-        earlier = found
-        for word in range(-(-(last - first) // WORD)):
-            if words[word] == 0:
-                continue
-            for j in range(WORD * word, WORD * word + WORD):
-                pixel[found], change[0, found], change[1, found] = first + j, start[j], stop[j]
-                found += marks[j]
+        restless = _list_marked(words[: -(-(last - first) // WORD)], marks, local)
+        for k in range(restless):
+            pixel[found + k] = first + local[k]
+            change[0, found + k], change[1, found + k] = start[local[k]], stop[local[k]]
+        found += restless
         calm_until = -np.inf
-        if is_still and moving == 0 and found == earlier:
+        if is_still and moving == 0 and restless == 0:
             calm_until = _calm_until(
                 brightness[first:last], reference[first:last], on[first:last], leak[first:last]
             )
@@ -207,6 +206,21 @@ def _mark(
     for j in range(on.size):
         marks[j] = (stop[j] >= on[j]) | (-stop[j] >= off[j])
     marks[on.size :] = 0
+
+
+@numba.njit(cache=True, nogil=True)
+def _list_marked(
+    words: NDArray[np.uint64], marks: NDArray[np.uint8], local: NDArray[np.uint64]
+) -> int:
+    """List what is marked; return how many that are."""
+    found = 0
+    for word in range(words.size):
+        if words[word] == 0:
+            continue
+        for j in range(WORD * word, WORD * word + WORD):
+            local[found] = j
+            found += marks[j]
+    return found
 
 
 @numba.njit(cache=True, nogil=True)

@@ -32,6 +32,8 @@ from texvent.simulate.kernels.ramp import (
 from texvent.simulate.kernels.scratch import take_scratch
 
 _1, _2 = np.uint64(1), np.uint64(2)
+FEW = 4
+"""Events that most pixels that fire have at most in an interval."""
 
 
 class Lines(NamedTuple):
@@ -122,7 +124,7 @@ def list_events(
     rest: Rest,
 ) -> NDArray[np.uint64]:
     """Keys of all events, by pixel and then in time."""
-    keys = take_scratch(KEY_USES[0], _add_up(lines.steps), np.uint64)
+    keys = take_scratch(KEY_USES[0], _add_up(lines.steps) + FEW, np.uint64)
     with np.errstate(all="ignore"):
         return keys[: _list_crossings(pixel, lines, fired_us, clock, rest, keys)]
 
@@ -188,39 +190,61 @@ def _list_crossings(
     """Fill in the keys of all events, by pixel and then in time; return how many fired."""
     start, stop, thresholds, steps = lines
     low, found = np.uint64(clock.low), 0
-    duration, latest = np.float64(clock.duration_us), np.float64(clock.duration_us - 1)
+    duration = np.float64(clock.duration_us)
     for i in range(pixel.size):
         is_on, count, threshold = steps[i] > 0, abs(steps[i]), thresholds[i]
         begin, end = (start[i], stop[i]) if is_on else (-start[i], -stop[i])
         place = np.uint64(pixel[i]) << _2 | np.uint64(is_on) << _1
-        for k in range(count):
-            level = np.float64(k + 1) * threshold
-            fraction = (level - begin) / (end - begin) if begin < level else 0.0
-            offset = np.int64(min(np.floor(fraction * duration), latest))
-            keys[found + k] = np.uint64(offset) << low | place
+        # The first few always, also beyond the count: a loop that ends after each pixel's own number
+        # of rounds is one that no processor foresees. The next pixel overwrites what is too many.
+        for k in range(FEW):
+            keys[found + k] = _key((k + 1) * threshold, (begin, end), duration, low) | place
+        for k in range(FEW, count):
+            keys[found + k] = _key((k + 1) * threshold, (begin, end), duration, low) | place
         if rest.period_us > 0 and count > 0:
             # Far apart in memory, so not even looked at where it does not matter.
             last_us = fired_us[pixel[i]] - clock.start_us
-            count, last_us = _leave_rested(keys[found : found + count], last_us, rest, low)
-            fired_us[pixel[i]] = clock.start_us + last_us
-            if not rest.is_level_lost:
-                steps[i] = count if is_on else -count
+            if not _is_rested(keys[found : found + FEW], count, last_us, rest, low):
+                count = _leave_rested(keys[found : found + count], last_us, rest, low)
+                if not rest.is_level_lost:
+                    steps[i] = count if is_on else -count
+            if count > 0:
+                fired_us[pixel[i]] = clock.start_us + np.int64(keys[found + count - 1] >> low)
         found += count
     return found
 
 
+@numba.njit(cache=True, nogil=True, inline="always")
+def _key(level: float, ends: tuple[float, float], duration: float, low: np.uint64) -> Any:
+    """When the line from begin to end reaches a level, where the time is in a key."""
+    begin, end = ends
+    fraction = (level - begin) / (end - begin) if begin < level else 0.0
+    return np.uint64(np.int64(min(np.floor(fraction * duration), duration - 1.0))) << low
+
+
+@numba.njit(cache=True, nogil=True, inline="always")
+def _is_rested(
+    keys: NDArray[np.uint64], count: int, last_us: int, rest: Rest, low: np.uint64
+) -> bool:
+    """Whether none of at most `FEW` events is too early; False says nothing of more."""
+    is_rested, before_us = count <= FEW, last_us
+    for k in range(FEW):
+        offset_us = np.int64(keys[k] >> low)
+        is_rested &= (k >= count) | (offset_us - before_us >= rest.period_us)
+        before_us = offset_us
+    return is_rested
+
+
 @numba.njit(cache=True, nogil=True)
-def _leave_rested(
-    keys: NDArray[np.uint64], last_us: int, rest: Rest, low: np.uint64
-) -> tuple[int, int]:
-    """Keep a pixel's events that are not too early; how many, and when it fired last."""
+def _leave_rested(keys: NDArray[np.uint64], last_us: int, rest: Rest, low: np.uint64) -> int:
+    """Keep a pixel's events that are not too early; how many those are."""
     found = 0
     for key in keys:
         offset_us = np.int64(key >> low)
         if offset_us - last_us >= rest.period_us:
             keys[found], last_us = key, int(offset_us)
             found += 1
-    return found, last_us
+    return found
 
 
 @numba.njit(cache=True, nogil=True)
