@@ -23,6 +23,7 @@ from texvent.simulate.kernels.follow import (
     Restless,
 )
 from texvent.simulate.kernels.order import read_only
+from texvent.simulate.kernels.scratch import take_scratch
 from texvent.simulate.kernels.threads import count_threads, run_parts, split
 
 SHARE = 1 << 18
@@ -38,9 +39,15 @@ def follow_light(
     nothing, none = np.empty(0), np.empty(0, np.float32)
     leak, voltage = pixels.leak, state.voltage or (nothing, nothing)
 
-    def follow(part: slice) -> tuple[NDArray[np.int64], Float64Array, Float64Array]:
+    def follow(part: slice) -> Restless:
+        size = part.stop - part.start
+        room = (
+            take_scratch("restless pixels", size, np.int64),
+            take_scratch("start of restless pixels", size, np.float64),
+            take_scratch("stop of restless pixels", size, np.float64),
+        )
         # Numba leaves out branches for arguments that are None, but not for their fields.
-        pixel, start, stop = _follow_light(
+        found = _follow_light(
             (light.before[part], read_only(light.luma[part])),
             light.table,
             (light.linear_below, light.angle),
@@ -52,14 +59,21 @@ def follow_light(
             ),
             (none if leak is None else leak[part], *elapsed_us),
             (voltage[0][part], voltage[1][part]),
+            room,
         )
-        return pixel + part.start, start, stop
+        return Restless(*(column[:found] for column in room))
 
-    parts = run_parts(follow, split(light.luma.size, count_threads(), unit=SHARE))
+    parts = split(light.luma.size, count_threads(), unit=SHARE)
     if len(parts) == 1:
-        return Restless(*parts[0])
-    pixel, start, stop = (np.concatenate(columns) for columns in zip(*parts, strict=True))
-    return Restless(pixel, start, stop)
+        return follow(parts[0])
+
+    def follow_and_copy(part: slice) -> Restless:
+        # A thread may do several parts, and has one scratch.
+        pixel, start, stop = follow(part)
+        return Restless(pixel + part.start, start.copy(), stop.copy())
+
+    columns = zip(*run_parts(follow_and_copy, parts), strict=True)
+    return Restless(*(np.concatenate(column) for column in columns))
 
 
 def warm_up(dtype: str) -> None:
@@ -80,11 +94,13 @@ def _follow_light(
     state: tuple[Float64Array, Float64Array, Float64Array],
     leaking: tuple[Float32Array, float, float],
     voltage: tuple[Float64Array, Float64Array],
-) -> tuple[NDArray[np.int64], Float64Array, Float64Array]:
+    room: tuple[NDArray[np.int64], Float64Array, Float64Array],
+) -> int:
+    """Fill in who is restless; return how many are."""
     (before, now), (leak, start_us, stop_us) = luma, leaking
     (on, off), (brightness, reference, calm_until_us) = thresholds, state
     size = now.size
-    pixel, change = np.empty(size // 8 + BLOCK, np.int64), np.empty((2, size // 8 + BLOCK))
+    pixel, start_change, stop_change = room
     local = np.empty(BLOCK + WORD, np.uint64)
     start, stop, weight = np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK)
     words, found = np.zeros(BLOCK // WORD, np.uint64), 0
@@ -95,8 +111,6 @@ def _follow_light(
         if is_still and stop_us <= calm_until_us[first // BLOCK]:
             continue
         before[first:last] = now[first:last]
-        if found + BLOCK >= pixel.size:
-            pixel, change = _grown(pixel, change)
         _see(now[first:last], table, curve, stop, weight)
         moving = _move(brightness[first:last], reference[first:last], weight, start, stop)
         if leak.size > 0:
@@ -109,7 +123,7 @@ def _follow_light(
         restless = _list_marked(words[: -(-(last - first) // WORD)], marks, local)
         for k in range(restless):
             pixel[found + k] = first + local[k]
-            change[0, found + k], change[1, found + k] = start[local[k]], stop[local[k]]
+            start_change[found + k], stop_change[found + k] = start[local[k]], stop[local[k]]
         found += restless
         calm_until = -np.inf
         if is_still and moving == 0 and restless == 0:
@@ -117,7 +131,7 @@ def _follow_light(
                 brightness[first:last], reference[first:last], on[first:last], leak[first:last]
             )
         calm_until_us[first // BLOCK] = calm_until
-    return pixel[:found], change[0, :found], change[1, :found]
+    return found
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
@@ -221,14 +235,3 @@ def _list_marked(
             local[found] = j
             found += marks[j]
     return found
-
-
-@numba.njit(cache=True, nogil=True)
-def _grown(
-    pixel: NDArray[np.int64], change: Float64Array
-) -> tuple[NDArray[np.int64], Float64Array]:
-    """The same columns with room for as many again."""
-    size = pixel.size
-    more, changes = np.empty(2 * size, np.int64), np.empty((2, 2 * size))
-    more[:size], changes[:, :size] = pixel, change
-    return more, changes
