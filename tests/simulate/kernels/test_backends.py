@@ -18,12 +18,12 @@ def without_numba(monkeypatch):
 
 
 def test_auto_is_cpu():
-    assert load_kernel("ramp", "cross_ramp", "auto") is ramp_cpu.cross_ramp
+    assert load_kernel("ramp", "cross_levels", "auto") is ramp_cpu.cross_levels
 
 
 @pytest.mark.usefixtures("without_numba")
 def test_auto_falls_back_to_the_reference_without_numba():
-    assert load_kernel("ramp", "cross_ramp", "auto") is ramp_reference.cross_ramp
+    assert load_kernel("ramp", "cross_levels", "auto") is ramp_reference.cross_levels
 
 
 def test_the_reference_serves_as_numpy_where_a_model_has_no_other():
@@ -33,9 +33,9 @@ def test_the_reference_serves_as_numpy_where_a_model_has_no_other():
 @pytest.mark.usefixtures("without_numba")
 def test_cpu_without_numba_fails_with_the_command_that_installs_it():
     with pytest.raises(MissingDependencyError, match="pip install"):
-        load_kernel("ramp", "cross_ramp", "cpu")
+        load_kernel("ramp", "cross_levels", "cpu")
 
 
 def test_unknown_backend_fails():
     with pytest.raises(ConfigError, match=r"unknown backend 'cqu'.*did you mean 'cpu'"):
-        load_kernel("ramp", "cross_ramp", "cqu")
+        load_kernel("ramp", "cross_levels", "cqu")

@@ -58,20 +58,6 @@ class RampCrossings(NamedTuple):
     down (OFF) below."""
 
 
-CrossRamp: TypeAlias = Callable[[Ramp, NDArray[np.int64], tuple[int, int], Rest], RampCrossings]
-"""`cross_ramp(ramp, fired_us, (start_us, stop_us), rest)`, see `ramp_reference.cross_ramp`."""
-
-
-def load_cross_ramp(backend: str = AUTO) -> CrossRamp:
-    """The function of a backend; "auto" is NumPy until the compiled one is ready.
-
-    Raises:
-        ConfigError: no backend has that name.
-        MissingDependencyError: what the backend needs is not installed.
-    """
-    return cast("CrossRamp", load_kernel_when_ready("ramp", "cross_ramp", backend))
-
-
 class Candidates(NamedTuple):
     """Pixels that may fire, whose brightness is a logarithm of their luma; [n] each."""
 

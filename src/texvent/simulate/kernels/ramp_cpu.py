@@ -6,6 +6,7 @@ columns but its own.
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 import numba
@@ -25,14 +26,12 @@ from texvent.simulate.kernels.ramp import (
     Candidates,
     Float64Array,
     Levels,
-    Ramp,
-    RampCrossings,
     Rest,
 )
 from texvent.simulate.kernels.scratch import take_scratch
 
 _1, _2 = np.uint64(1), np.uint64(2)
-FEW = 4
+FEW = 2
 """Events that most pixels that fire have at most in an interval."""
 
 
@@ -56,21 +55,6 @@ class Clock(NamedTuple):
     duration_us: int
     low: int
     """Bits of a key below its time."""
-
-
-def cross_ramp(
-    ramp: Ramp, fired_us: NDArray[np.int64], span_us: tuple[int, int], rest: Rest
-) -> RampCrossings:
-    """Every threshold that each pixel's change crosses; see `ramp_reference.cross_ramp`."""
-    clock = clock_of(span_us, (fired_us.size, 1))
-    if clock is None:
-        return ramp_reference.cross_ramp(ramp, fired_us, span_us, rest)
-    pixel, start, stop, on, off = ramp
-    lines = Lines(start, stop, np.empty(len(pixel)), np.empty(len(pixel), np.int64))
-    count_steps(lines, Thresholds(on, off))
-    keys = list_events(pixel, lines, fired_us, clock, rest)
-    found, t, p = _unpack(keys, clock)
-    return RampCrossings(found, t, p, lines.steps)
 
 
 def cross_levels(
@@ -97,15 +81,12 @@ def cross_levels(
     return order_keys(keys, span_us, shape)
 
 
-def warm_up(*dtypes: str) -> None:
-    """Compile, for these types of frames, or load what was compiled before."""
+def warm_up(dtype: str) -> None:
+    """Compile for one type of frames, or load what was compiled before."""
     one, pixel = np.ones(1), np.zeros(1, np.int64)
-    cross_ramp(Ramp(pixel, one, one, one, one), pixel.copy(), (0, 1), Rest(0, False))
-    for dtype in dtypes:
-        is_byte = dtype == "uint8"
-        end, table = (np.zeros(1, dtype), np.ones(256)) if is_byte else (one, None)
-        candidates = Candidates(pixel, end, end, table, Thresholds(one, one))
-        cross_levels(candidates, Levels(one.copy(), pixel.copy()), (0, 1), Rest(0, False), (1, 1))
+    end, table = (np.zeros(1, dtype), np.ones(256)) if dtype == "uint8" else (one, None)
+    candidates = Candidates(pixel, end, end, table, Thresholds(one, one))
+    cross_levels(candidates, Levels(one.copy(), pixel.copy()), (0, 1), Rest(0, False), (1, 1))
 
 
 def clock_of(span_us: tuple[int, int], shape: tuple[int, int]) -> Clock | None:
@@ -193,10 +174,12 @@ def _list_crossings(
     duration = np.float64(clock.duration_us)
     for i in range(pixel.size):
         is_on, count, threshold = steps[i] > 0, abs(steps[i]), thresholds[i]
-        begin, end = (start[i], stop[i]) if is_on else (-start[i], -stop[i])
+        # By a product: whether a pixel fires ON or OFF cannot be foreseen either.
+        begin, end = math.copysign(1.0, stop[i]) * start[i], abs(stop[i])
         place = np.uint64(pixel[i]) << _2 | np.uint64(is_on) << _1
-        # The first few always, also beyond the count: a loop that ends after each pixel's own number
-        # of rounds is one that no processor foresees. The next pixel overwrites what is too many.
+        # The first few always, also beyond the count: a loop that ends after each pixel's own
+        # number of rounds is one that no processor foresees. The next pixel overwrites what is
+        # too many.
         for k in range(FEW):
             keys[found + k] = _key((k + 1) * threshold, (begin, end), duration, low) | place
         for k in range(FEW, count):
@@ -227,11 +210,11 @@ def _is_rested(
     keys: NDArray[np.uint64], count: int, last_us: int, rest: Rest, low: np.uint64
 ) -> bool:
     """Whether none of at most `FEW` events is too early; False says nothing of more."""
-    is_rested, before_us = count <= FEW, last_us
+    is_rested, before_us = bool(count <= FEW), last_us
     for k in range(FEW):
         offset_us = np.int64(keys[k] >> low)
-        is_rested &= (k >= count) | (offset_us - before_us >= rest.period_us)
-        before_us = offset_us
+        is_rested &= bool((k >= count) | (offset_us - before_us >= rest.period_us))
+        before_us = int(offset_us)
     return is_rested
 
 
@@ -253,16 +236,3 @@ def _step(pixel: NDArray[np.int64], lines: Lines, reference: Float64Array) -> No
     _, _, threshold, steps = lines
     for n in range(pixel.size):
         reference[pixel[n]] += steps[n] * threshold[n]
-
-
-@numba.njit(cache=True, nogil=True)
-def _unpack(keys: NDArray[np.uint64], clock: Clock) -> Any:
-    """Pixel, time and p of each key."""
-    pixel, t = np.empty(keys.size, np.int64), np.empty(keys.size, np.int64)
-    p, low = np.empty(keys.size, np.uint8), np.uint64(clock.low)
-    mask = (_1 << low) - _1
-    for i in range(keys.size):
-        pixel[i] = (keys[i] & mask) >> _2
-        t[i] = clock.start_us + np.int64(keys[i] >> low)
-        p[i] = keys[i] >> _1 & _1
-    return pixel, t, p
