@@ -266,13 +266,13 @@ def test_a_batch_gives_the_packets_of_its_steps_for_any_number_of_threads(
 @pytest.mark.parametrize("options", [{}, {"reset": "step", "stamp": "linear"}], ids=str)
 def test_a_batch_with_a_bad_frame_is_refused_as_a_whole(options, backend):
     rng = np.random.default_rng(5)
-    frames = [frame(rng.uniform(0, 255, (90, 100)), np.float32, 10 * k) for k in range(5)]
-    broken = frames[3].pixels.copy()
+    frames = [frame(rng.uniform(0, 255, (90, 100)), np.float32, 10 * k) for k in range(9)]
+    broken = frames[7].pixels.copy()
     broken[80, 7] = np.nan
     simulator = TexventSimulator(TexventConfig(**options), backend=backend)
     packets = simulator.step_batch(frames[:2])
-    with pytest.raises(InputError, match=r"frame 3 .t = 30 µs. has 1 pixel.s. that are NaN"):
-        simulator.step_batch([frames[2], Frame(broken, 30), frames[4]])
+    with pytest.raises(InputError, match=r"frame 7 .t = 70 µs. has 1 pixel.s. that are NaN"):
+        simulator.step_batch([*frames[2:7], Frame(broken, 70), frames[8]])
     if backend != "reference":
         packets += simulator.step_batch(frames[2:])
         assert EventStream.concat(packets).equals(simulate(frames, backend=backend, **options))

@@ -79,8 +79,7 @@ class FusedTexvent:
         stamp_events, size = load_stamp_events(AUTO), paths.size
         spans = itertools.pairwise(edges_us)
         for piece, (frame, span_us) in enumerate(zip(undrawn_frames(pair), spans, strict=True)):
-            parts = zip(*(band[piece] for band in bands), strict=True)
-            fired = Fired(*(np.concatenate(column) for column in parts))
+            fired = [band[piece] for band in bands]
             span = Interval(*span_us, frame_key(self._seed, span_us[1]))
             noise = self._draw_noise(paths, piece, span)
             x, y, t, p, label = stamp_events(fired, noise, self._timing, span, size.shape)

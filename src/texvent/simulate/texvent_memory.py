@@ -90,7 +90,7 @@ def turn_to_float(memory: Memory) -> None:
     memory.previous = as_luma(memory.previous)
     memory.renewed = np.empty(memory.renewed.size, np.float32)
     memory.table = _NOTHING
-    memory.work = None
+    memory.work, memory.band_work = None, {}
 
 
 def move_levels(memory: Memory, luma: Intensity, config: TexventConfig, renewal: Renewal) -> None:

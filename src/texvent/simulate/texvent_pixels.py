@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent._heap import keep_freed_memory
 from texvent.brightness import Float64Array, check_balance
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
@@ -27,7 +28,6 @@ from texvent.simulate.kernels.texvent import (
     FireRule,
     Intensity,
     Memory,
-    join_fired,
     load_find_fired,
 )
 from texvent.simulate.kernels.threads import count_threads, run_parts, split
@@ -44,6 +44,9 @@ from texvent.simulate.texvent_memory import (
 from texvent.video import Frame, bad_intensity, check_intensity, is_intensity
 
 Int64Array = NDArray[np.int64]
+_FRAMES_AT_ONCE = 4
+"""Frames for which threads are asked together: asking takes some 20 µs each time, and what fired in
+so many frames should stay in the cache."""
 _QUIET = NoisePlaces(np.empty(0, np.int64), np.empty(0), np.empty(0, np.uint8))
 
 
@@ -96,7 +99,7 @@ class SparsePixels:
         if fired is None:
             raise bad_intensity(frame.pixels, where)
         self._schedule.pass_frame(is_source=frame.is_source)
-        return self._stamp(fired, intensity, span, frame.size)
+        return self._stamp([fired], intensity, span, frame.size)
 
     def advance_batch(
         self, frames: Sequence[Frame], spans: Sequence[Interval], where: Sequence[str]
@@ -106,6 +109,8 @@ class SparsePixels:
         A pixel's references depend on no other pixel. So each thread takes a band of rows through
         all frames, and then, for some of the frames, times and order of the events.
         """
+        # What fires in all the frames is kept until the last one is done.
+        keep_freed_memory()
         named = list(zip(frames, where, strict=True))
         intensities = [self._read(*one) for one in named]
         if any(one.dtype != self._memory.reference.dtype for one in intensities):
@@ -113,54 +118,67 @@ class SparsePixels:
             intensities = [self._read(*one) for one in named]
         schedule = copy.copy(self._schedule)
         renewals = [schedule.pass_frame(is_source=frame.is_source) for frame in frames]
-        fired = self._fire_bands(intensities, renewals)
-        if fired is None:
-            raise next(
-                bad_intensity(frame.pixels, place)
-                for frame, place in named
-                if not is_intensity(frame.pixels)
-            )
+        memory, packets = self._memory, []
+        kept = [one.copy() for one in (memory.reference, memory.previous, memory.level)]
+        for part in split(len(frames), -(-len(frames) // _FRAMES_AT_ONCE)):
+            fired = self._fire_bands(intensities[part], renewals[part])
+            if fired is None:
+                memory.reference[:], memory.previous[:], memory.level[:] = kept
+                raise next(
+                    bad_intensity(frame.pixels, place)
+                    for frame, place in named
+                    if not is_intensity(frame.pixels)
+                )
+            packets += self._stamp_all(fired, intensities[part], spans[part], frames[0].size)
         self._schedule = schedule
-
-        rows = list(zip(fired, intensities, spans, strict=True))
-
-        def stamp(part: slice) -> list[EventStream]:
-            return [self._stamp(*row, frames[0].size) for row in rows[part]]
-
-        packets = run_parts(stamp, split(len(frames), count_threads()))
-        return [packet for part in packets for packet in part]
+        return packets
 
     def _fire_bands(
         self, intensities: Sequence[Intensity], renewals: Sequence[Renewal]
-    ) -> list[Fired] | None:
-        """Eq. 5 for several frames, a band of rows per thread.
+    ) -> list[list[Fired]] | None:
+        """Eq. 5 for a few frames, a band of rows per thread.
 
         Returns:
-            What fired, a row per frame; None, and nothing has changed, where an intensity is
-            impossible.
+            What fired, a row per frame with its bands; None where an intensity is impossible.
         """
         memory = self._memory
         parts = split(memory.reference.size, count_threads(), unit=NOISE_BLOCK)
         bands = [memory.band(part) for part in parts]
-        kept = [one.copy() for one in (memory.reference, memory.previous, memory.level)]
 
         def fire(number: int) -> list[Fired]:
-            part, rows = parts[number], []
-            for intensity, renewal in zip(intensities, renewals, strict=True):
-                fired = self._fire(bands[number], intensity[part], renewal)
+            part, band, rows = parts[number], bands[number], []
+            for place, (intensity, renewal) in enumerate(zip(intensities, renewals, strict=True)):
+                band.work = memory.band_work.get((part.start, place))
+                fired = self._fire(band, intensity[part], renewal)
                 if fired is None:
                     break
-                rows.append(fired.moved(part.start))
+                memory.band_work[part.start, place] = band.work
+                rows.append(fired)
             return rows
 
         fired = run_parts(fire, range(len(parts)))
         if any(len(rows) < len(renewals) for rows in fired):
-            memory.reference[:], memory.previous[:], memory.level[:] = kept
             return None
         if not memory.level.size and renewals.count("renew") % 2:
             # As every band did; an even number of times leaves them as they were.
             memory.reference, memory.renewed = memory.renewed, memory.reference
-        return [join_fired(rows) for rows in zip(*fired, strict=True)]
+        return [list(rows) for rows in zip(*fired, strict=True)]
+
+    def _stamp_all(
+        self,
+        fired: Sequence[Sequence[Fired]],
+        intensities: Sequence[Intensity],
+        spans: Sequence[Interval],
+        size: SensorSize,
+    ) -> list[EventStream]:
+        """Packets of a few frames, some of the frames per thread."""
+        rows = list(zip(fired, intensities, spans, strict=True))
+
+        def stamp(part: slice) -> list[EventStream]:
+            return [self._stamp(*row, size) for row in rows[part]]
+
+        packets = run_parts(stamp, split(len(rows), count_threads()))
+        return [packet for part in packets for packet in part]
 
     def _fire(self, memory: Memory, intensity: Intensity, renewal: Renewal) -> Fired | None:
         """Eq. 5 for the pixels of a memory; None where an intensity is impossible."""
@@ -173,12 +191,12 @@ class SparsePixels:
         return fired
 
     def _stamp(
-        self, fired: Fired, intensity: Intensity, span: Interval, size: SensorSize
+        self, bands: Sequence[Fired], intensity: Intensity, span: Interval, size: SensorSize
     ) -> EventStream:
         """Eqs. 6 and 7: the packet of one sub-interval."""
         noise = self._draw_noise(intensity, span)
         stamp_events = load_stamp_events(self._backend)
-        x, y, t, p, label = stamp_events(fired, noise, self._timing, span, size.shape)
+        x, y, t, p, label = stamp_events(bands, noise, self._timing, span, size.shape)
         return EventStream.unchecked(x, y, t, p, size=size, label=label)
 
     def _read(self, frame: Frame, where: str) -> Intensity:

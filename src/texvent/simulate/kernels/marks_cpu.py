@@ -169,6 +169,7 @@ def list_marked(is_marked: ByteArray) -> Int64Array:
 
 @numba.njit(cache=True, nogil=True)
 def as_bits(word: NDArray[np.uint64]) -> np.uint64:
+    """One bit for each of eight words of eight bytes that are 0 or 1."""
     bits = _0
     for number in range(np.uint64(RUN // 8)):
         bits |= (word[number] * _GATHER >> _56) << number * _8

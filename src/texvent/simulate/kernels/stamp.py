@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeAlias, cast
 
 from texvent.simulate.firings import Interval
@@ -27,8 +27,10 @@ class Timing(NamedTuple):
     """Whether noise is dropped where the pixel fired (Eq. 6)."""
 
 
-StampEvents: TypeAlias = Callable[[Fired, NoisePlaces, Timing, Interval, tuple[int, int]], Columns]
-"""`stamp_events(fired, noise, timing, span, (height, width))`, see `stamp_numpy.stamp_events`."""
+StampEvents: TypeAlias = Callable[
+    [Sequence[Fired], NoisePlaces, Timing, Interval, tuple[int, int]], Columns
+]
+"""`stamp_events(bands, noise, timing, span, (height, width))`, see `stamp_numpy.stamp_events`."""
 
 
 def load_stamp_events(backend: str) -> StampEvents:

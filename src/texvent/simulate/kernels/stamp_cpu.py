@@ -8,6 +8,7 @@ sorting by time (`order_cpu`) is all that is left. The arithmetic of every rule 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numba
@@ -51,18 +52,37 @@ class _Rule(NamedTuple):
 
 
 def stamp_events(
-    fired: Fired, noise: NoisePlaces, timing: Timing, span: Interval, shape: tuple[int, int]
+    bands: Sequence[Fired],
+    noise: NoisePlaces,
+    timing: Timing,
+    span: Interval,
+    shape: tuple[int, int],
 ) -> Columns:
     """See `stamp_numpy.stamp_events`."""
     low = key_bits(shape[0] * shape[1])
     bits = low + span.duration_us.bit_length()
     if bits > 64:
-        return stamp_numpy.stamp_events(fired, noise, timing, span, shape)
+        return stamp_numpy.stamp_events(bands, noise, timing, span, shape)
     rule = _Rule(
         _STAMPS.index(timing.stamp), *timing[1:], span.key, span.duration_us, shape[1], low
     )
     with allow_wrap_around():
-        return Columns(*_stamp_events(fired, noise, rule, span.start_us, bits))
+        if len(bands) == 1:
+            return Columns(*_stamp_events(bands[0], noise, rule, span.start_us, bits))
+        return Columns(*_stamp_bands(bands, noise, rule, span.start_us, bits))
+
+
+def _stamp_bands(
+    bands: Sequence[Fired], noise: NoisePlaces, rule: _Rule, start_us: int, bits: int
+) -> Any:
+    """The same for several bands, whose columns need not be joined for it."""
+    numbers, smallest, largest = zip(*(_measure(band.change, rule) for band in bands), strict=True)
+    reach = min(smallest), max(largest)
+    signal, first = np.empty(sum(numbers), np.uint64), 0
+    for band, number in zip(bands, numbers, strict=True):
+        _list_signal(band, reach, rule, signal[first : first + number])
+        first += number
+    return _order(signal, noise, rule, start_us, bits)
 
 
 def warm_up() -> None:
@@ -71,28 +91,36 @@ def warm_up() -> None:
     fired = Fired(index, real, real, real, real)
     noise = NoisePlaces(index, real, np.zeros(1, np.uint8))
     timing = Timing("eq7", 1.0, 1.0, multi_event=False, noise_at_rest=True)
-    stamp_events(fired, noise, timing, Interval(0, 1, np.uint64(0)), (1, 1))
+    for bands in ([fired], [fired, fired]):
+        stamp_events(bands, noise, timing, Interval(0, 1, np.uint64(0)), (2, 1))
 
 
 @numba.njit(cache=True, nogil=True)
 def _stamp_events(fired: Fired, noise: NoisePlaces, rule: _Rule, start_us: int, bits: int) -> Any:
-    signal = np.empty(_count_events(fired.change, rule), np.uint64)
-    _list_signal(fired, rule, signal)
+    number, smallest, largest = _measure(fired.change, rule)
+    signal = np.empty(number, np.uint64)
+    _list_signal(fired, (smallest, largest), rule, signal)
+    return _order(signal, noise, rule, start_us, bits)
+
+
+@numba.njit(cache=True, nogil=True)
+def _measure(changes: Float64Array, rule: _Rule) -> tuple[int, float, float]:
+    """How many events there are, and the smallest and largest |ΔL|."""
+    number, smallest, largest = 0, np.inf, 0.0
+    for change in changes:
+        smallest, largest = min(smallest, abs(change)), max(largest, abs(change))
+        number += _number_of(change, rule)
+    return number, smallest, largest
+
+
+@numba.njit(cache=True, nogil=True)
+def _order(signal: Uint64Array, noise: NoisePlaces, rule: _Rule, start_us: int, bits: int) -> Any:
+    """Columns of the packet."""
     keys = signal
     if noise.pixel.size:
         keys = _merge(signal, _list_noise(noise, rule), rule)
     keys = sort_keys(keys, np.empty_like(keys), rule.low, bits)
     return unpack_keys(keys, start_us, rule.width, rule.low)
-
-
-@numba.njit(cache=True, nogil=True)
-def _count_events(changes: Float64Array, rule: _Rule) -> int:
-    if not rule.multi_event:
-        return changes.size
-    total = 0
-    for change in changes:
-        total += _number_of(change, rule)
-    return total
 
 
 @numba.njit(cache=True, nogil=True, inline="always")
@@ -101,15 +129,15 @@ def _number_of(change: float, rule: _Rule) -> Any:
 
 
 @numba.njit(cache=True, nogil=True)
-def _list_signal(fired: Fired, rule: _Rule, keys: Uint64Array) -> None:
-    """Keys of the events that fired, by pixel."""
+def _list_signal(fired: Fired, reach: tuple[float, float], rule: _Rule, keys: Uint64Array) -> None:
+    """Keys of the events that fired, by pixel; |ΔL| reaches from the one number to the other."""
     # Arrays are taken out of their tuple once: counting references to them in the loop is slow.
-    pixel, change, start, stop, reference = fired
-    smallest, largest = _range_of(change)
+    pixel, change, start, stop, reference, origin = fired
+    smallest, largest = reach
     found = 0
     for i in range(pixel.size):
         sign = 1.0 if change[i] > 0 else -1.0
-        place = np.uint64(pixel[i]) << _2 | np.uint64(change[i] > 0) << _1
+        place = np.uint64(origin + pixel[i]) << _2 | np.uint64(change[i] > 0) << _1
         number = _number_of(change[i], rule)
         for order in range(1, number + 1):
             if rule.stamp == _EQ7:
@@ -119,7 +147,7 @@ def _list_signal(fired: Fired, rule: _Rule, keys: Uint64Array) -> None:
                 level = reference[i] + sign * (order * rule.threshold)
                 fraction = _linear_crossing(start[i], stop[i], level, sign)
             else:
-                fraction = _fraction(pixel[i], abs(change[i]), order, number, rule)
+                fraction = _fraction(origin + pixel[i], abs(change[i]), order, number, rule)
             keys[found] = _key(place, fraction, rule)
             found += 1
 
@@ -155,15 +183,6 @@ def _merge(signal: Uint64Array, noise: Uint64Array, rule: _Rule) -> Uint64Array:
         keys[found] = noise[i]
         found += 1
     return keys[:found]
-
-
-@numba.njit(cache=True, nogil=True)
-def _range_of(changes: Float64Array) -> tuple[float, float]:
-    """Smallest and largest |ΔL| of the sub-interval."""
-    smallest, largest = np.inf, 0.0
-    for change in changes:
-        smallest, largest = min(smallest, abs(change)), max(largest, abs(change))
-    return smallest, largest
 
 
 @numba.njit(cache=True, nogil=True, inline="always")

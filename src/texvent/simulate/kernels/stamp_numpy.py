@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from texvent.simulate.event_frame import EventFrame, count_events, list_activations
 from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.interval import SparseInterval, place_in
@@ -9,23 +11,28 @@ from texvent.simulate.kernels.noise import NoisePlaces
 from texvent.simulate.kernels.order import Columns, Unordered
 from texvent.simulate.kernels.order_reference import order_events
 from texvent.simulate.kernels.stamp import Timing
-from texvent.simulate.kernels.texvent import Fired
+from texvent.simulate.kernels.texvent import Fired, join_fired
 from texvent.simulate.noise import is_background
 from texvent.simulate.timestamps import reconstruct_timestamps
 
 
 def stamp_events(
-    fired: Fired, noise: NoisePlaces, timing: Timing, span: Interval, shape: tuple[int, int]
+    bands: Sequence[Fired],
+    noise: NoisePlaces,
+    timing: Timing,
+    span: Interval,
+    shape: tuple[int, int],
 ) -> Columns:
     """Give every event its time (Eq. 7) and put signal and noise in the order of a packet.
 
     Args:
-        fired: the pixels that fired.
+        bands: the pixels that fired, of bands that follow each other, at least one.
         noise: the noise events in dark pixels.
         timing: the rules.
         span: the sub-interval.
         shape: (height, width).
     """
+    fired = join_fired(bands)
     number = count_events(fired.change, timing.threshold, multi_event=timing.multi_event)
     activations = list_activations(EventFrame(fired.pixel, fired.change, number))
     t = reconstruct_timestamps(
