@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numba
@@ -136,38 +135,45 @@ def _narrow(
     low: Luma,
     high: Luma,
 ) -> None:
-    is_byte = low.itemsize == 1
     on, off = thresholds
     scale, offset, darkest = curve
-    below, above = np.empty(BLOCK), np.empty(BLOCK)
+    darkest_level = scale * exponential(darkest - SLACK) + offset
+    centre, up, down = np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK)
+    lowest, highest = np.empty(BLOCK, low.dtype), np.empty(BLOCK, low.dtype)
     for first in range(0, pixel.size, BLOCK):
         size = min(BLOCK, pixel.size - first)
-        _copy_rows(off, first, size, below)
-        _copy_rows(on, first, size, above)
+        _take_exponentials(on, 1.0, first, size, up)
+        _take_exponentials(off, -1.0, first, size, down)
         for j in range(size):
-            centre = reference[pixel[first + j]]
-            below[j], above[j] = centre - below[j], centre + above[j]
+            centre[j] = reference[pixel[first + j]]
         for j in range(size):
-            level = scale * exponential(below[j]) + offset
-            level += MARGIN * (1.0 + abs(level))
-            below[j] = 0.0 if below[j] < darkest - SLACK else level
+            centre[j] = scale * exponential(centre[j])
         for j in range(size):
-            level = scale * exponential(above[j]) + offset
-            above[j] = level - MARGIN * (1.0 + abs(level))
+            below, above = centre[j] * down[j] + offset, centre[j] * up[j] + offset
+            least = below + MARGIN * (1.0 + abs(below)) if below >= darkest_level else 0.0
+            lowest[j], highest[j] = _as_luma(least, above - MARGIN * (1.0 + abs(above)), low)
         for j in range(size):
-            lowest, highest = below[j], above[j]
-            if is_byte:
-                lowest, highest = math.ceil(max(lowest, 0.0)), math.floor(min(highest, 255.0))
-                if lowest > highest:
-                    lowest, highest = 255, 0
-            low[pixel[first + j]], high[pixel[first + j]] = lowest, highest
+            low[pixel[first + j]], high[pixel[first + j]] = lowest[j], highest[j]
 
 
-@numba.njit(cache=True, nogil=True)
-def _copy_rows(values: Float64Array, first: int, size: int, rows: Float64Array) -> None:
-    """Copy some rows; of [1] values, the only one into all."""
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _take_exponentials(
+    values: Float64Array, sign: float, first: int, size: int, rows: Float64Array
+) -> None:
+    """Exponentials of some rows; of [1] values, the only one into all."""
     if values.size == 1:
-        rows[:size] = values[0]
+        rows[:size] = exponential(sign * values[0])
     else:
         for j in range(size):
-            rows[j] = values[first + j]
+            rows[j] = exponential(sign * values[first + j])
+
+
+@numba.njit(cache=True, nogil=True, inline="always")
+def _as_luma(lowest: float, highest: float, kind: Luma) -> Any:
+    """Silent levels in the type of the frames: of bytes, those between both numbers."""
+    if kind.itemsize > 1:
+        return lowest, highest
+    least, most = np.ceil(max(lowest, 0.0)), np.floor(min(highest, 255.0))
+    is_empty = least > most
+    # By way of 32 bits, from which bytes are made in vector registers.
+    return np.int32(255.0 if is_empty else least), np.int32(0.0 if is_empty else most)
