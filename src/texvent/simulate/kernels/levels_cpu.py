@@ -61,18 +61,19 @@ def warm_up(dtype: str) -> None:
 def _find_outside(luma: Luma, seen: Luma, low: Luma, high: Luma, found: Outside) -> int:
     pixel, before, now = found
     run, all_bits = _mark_outside(luma, low, high)
-    count = 0
+    # Places are counted in uint64, which need no check for counting from the end.
+    count = _0
     for k in range(run.size):
-        first, bits = run[k] * RUN, all_bits[k]
+        first, bits = np.uint64(run[k] * RUN), all_bits[k]
         while bits != _0:
             lowest = bits & (~bits + _1)
-            i = first + np.int64(number_of(lowest))
+            i = first + np.uint64(number_of(lowest))
             pixel[count], before[count], now[count] = i, seen[i], luma[i]
-            count += 1
+            count += _1
             bits ^= lowest
-    for i in range(luma.size):
-        seen[i] = luma[i]
-    return count
+    for place in range(luma.size):
+        seen[place] = luma[place]
+    return np.int64(count)
 
 
 @numba.njit(cache=True, nogil=True)
