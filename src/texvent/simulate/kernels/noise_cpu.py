@@ -13,7 +13,7 @@ from texvent.simulate.kernels.cpu_draws import allow_wrap_around, draw_uniform, 
 from texvent.simulate.kernels.noise import Block, NoisePlaces
 from texvent.simulate.kernels.noise_reference import TIME_UNIT
 from texvent.simulate.kernels.order import read_only
-from texvent.simulate.kernels.order_cpu import sort_keys
+from texvent.simulate.kernels.order_cpu import sort_almost_sorted, sort_keys
 from texvent.simulate.kernels.texvent import NOISE_BLOCK, NOISE_PLACE_SHIFT
 
 _COUNT, _PLACE, _POLARITY = (
@@ -23,6 +23,8 @@ _COUNT, _PLACE, _POLARITY = (
 _SHIFT, _TIME = np.uint64(NOISE_PLACE_SHIFT), np.uint64((1 << NOISE_PLACE_SHIFT) - 1)
 _1, _INDEX_BITS = np.uint64(1), np.uint64(31)
 _INDEX = np.uint64((1 << 31) - 1)
+FEW_PIXELS = NOISE_BLOCK // 32
+"""With an event for fewer pixels than these, 32 a block, sorting them by digits is faster."""
 
 
 def place_noise(noise: Block, pixels: int) -> NoisePlaces:
@@ -71,10 +73,14 @@ def _count_up_to(chance: float, cumulative: NDArray[np.float64]) -> int:
 
 @numba.njit(cache=True, nogil=True)
 def _by_place(keys: NDArray[np.uint64], fraction: NDArray[np.float64], pixels: int) -> Any:
-    bits = 32
-    while pixels >> (bits - 32):
-        bits += 1
-    keys = sort_keys(keys, np.empty_like(keys), 31, bits)
+    if keys.size * FEW_PIXELS < pixels:
+        # Blocks follow each other already.
+        sort_almost_sorted(keys)
+    else:
+        bits = 32
+        while pixels >> (bits - 32):
+            bits += 1
+        keys = sort_keys(keys, np.empty_like(keys), 31, bits)
     pixel, p = np.empty(keys.size, np.int64), np.empty(keys.size, np.uint8)
     ordered = np.empty(keys.size)
     for i in range(keys.size):

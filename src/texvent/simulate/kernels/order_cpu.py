@@ -101,13 +101,20 @@ def _order_keys(
     steps_back = 0
     for i in range(1, keys.size):
         steps_back += keys[i] < keys[i - 1]
-    for i in range(1, keys.size if steps_back else 0):
+    if steps_back:
+        sort_almost_sorted(keys)
+    return unpack_keys(keys, start_us, width, low)
+
+
+@numba.njit(cache=True, nogil=True)
+def sort_almost_sorted(keys: Uint64Array) -> None:
+    """Sort keys of which none is far from its place, by insertion."""
+    for i in range(1, keys.size):
         j, key = i, keys[i]
         while j > 0 and keys[j - 1] > key:
             keys[j] = keys[j - 1]
             j -= 1
         keys[j] = key
-    return unpack_keys(keys, start_us, width, low)
 
 
 @numba.njit(cache=True, nogil=True)

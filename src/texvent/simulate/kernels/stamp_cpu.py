@@ -7,6 +7,7 @@ sorting by time (`order_cpu`) is all that is left. The arithmetic of every rule 
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
@@ -22,7 +23,7 @@ from texvent.simulate.kernels import stamp_numpy
 from texvent.simulate.kernels.cpu_draws import allow_wrap_around, draw_uniform
 from texvent.simulate.kernels.noise import NoisePlaces
 from texvent.simulate.kernels.order import Columns
-from texvent.simulate.kernels.order_cpu import key_bits, sort_keys, unpack_keys
+from texvent.simulate.kernels.order_cpu import MOST_KEY_BITS, key_bits, sort_keys, unpack_keys
 from texvent.simulate.kernels.stamp import Timing
 from texvent.simulate.kernels.texvent import Fired
 
@@ -37,18 +38,24 @@ _1, _2 = np.uint64(1), np.uint64(2)
 
 
 class _Rule(NamedTuple):
-    """`Timing` and the interval, in numbers."""
+    """`Timing` and the sensor, in numbers."""
 
     stamp: int
     scale: float
     threshold: float
     multi_event: bool
     noise_at_rest: bool
-    key: np.uint64
-    duration_us: int
     width: int
     low: int
     """Bits of a key below its time."""
+
+    @classmethod
+    @functools.lru_cache(maxsize=16)
+    def of(cls, timing: Timing, shape: tuple[int, int]) -> _Rule:
+        """The same numbers for every packet of a simulator."""
+        return cls(
+            _STAMPS.index(timing.stamp), *timing[1:], shape[1], key_bits(shape[0] * shape[1])
+        )
 
 
 def stamp_events(
@@ -59,30 +66,27 @@ def stamp_events(
     shape: tuple[int, int],
 ) -> Columns:
     """See `stamp_numpy.stamp_events`."""
-    low = key_bits(shape[0] * shape[1])
-    bits = low + span.duration_us.bit_length()
-    if bits > 64:
+    rule = _Rule.of(timing, shape)
+    bits = rule.low + span.duration_us.bit_length()
+    if bits > MOST_KEY_BITS:
         return stamp_numpy.stamp_events(bands, noise, timing, span, shape)
-    rule = _Rule(
-        _STAMPS.index(timing.stamp), *timing[1:], span.key, span.duration_us, shape[1], low
-    )
     with allow_wrap_around():
         if len(bands) == 1:
-            return Columns(*_stamp_events(bands[0], noise, rule, span.start_us, bits))
-        return Columns(*_stamp_bands(bands, noise, rule, span.start_us, bits))
+            return Columns(*_stamp_events(bands[0], noise, rule, span, bits))
+        return Columns(*_stamp_bands(bands, noise, rule, span, bits))
 
 
 def _stamp_bands(
-    bands: Sequence[Fired], noise: NoisePlaces, rule: _Rule, start_us: int, bits: int
+    bands: Sequence[Fired], noise: NoisePlaces, rule: _Rule, span: Interval, bits: int
 ) -> Any:
     """The same for several bands, whose columns need not be joined for it."""
     numbers, smallest, largest = zip(*(_measure(band.change, rule) for band in bands), strict=True)
     reach = min(smallest), max(largest)
     signal, first = np.empty(sum(numbers), np.uint64), 0
     for band, number in zip(bands, numbers, strict=True):
-        _list_signal(band, reach, rule, signal[first : first + number])
+        _list_signal(band, reach, rule, span, signal[first : first + number])
         first += number
-    return _order(signal, noise, rule, start_us, bits)
+    return _order(signal, noise, rule, span, bits)
 
 
 def warm_up() -> None:
@@ -96,11 +100,11 @@ def warm_up() -> None:
 
 
 @numba.njit(cache=True, nogil=True)
-def _stamp_events(fired: Fired, noise: NoisePlaces, rule: _Rule, start_us: int, bits: int) -> Any:
+def _stamp_events(fired: Fired, noise: NoisePlaces, rule: _Rule, span: Interval, bits: int) -> Any:
     number, smallest, largest = _measure(fired.change, rule)
     signal = np.empty(number, np.uint64)
-    _list_signal(fired, (smallest, largest), rule, signal)
-    return _order(signal, noise, rule, start_us, bits)
+    _list_signal(fired, (smallest, largest), rule, span, signal)
+    return _order(signal, noise, rule, span, bits)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -114,13 +118,13 @@ def _measure(changes: Float64Array, rule: _Rule) -> tuple[int, float, float]:
 
 
 @numba.njit(cache=True, nogil=True)
-def _order(signal: Uint64Array, noise: NoisePlaces, rule: _Rule, start_us: int, bits: int) -> Any:
+def _order(signal: Uint64Array, noise: NoisePlaces, rule: _Rule, span: Interval, bits: int) -> Any:
     """Columns of the packet."""
     keys = signal
     if noise.pixel.size:
-        keys = _merge(signal, _list_noise(noise, rule), rule)
+        keys = _merge(signal, _list_noise(noise, rule, span), rule)
     keys = sort_keys(keys, np.empty_like(keys), rule.low, bits)
-    return unpack_keys(keys, start_us, rule.width, rule.low)
+    return unpack_keys(keys, span.start_us, rule.width, rule.low)
 
 
 @numba.njit(cache=True, nogil=True, inline="always")
@@ -129,7 +133,9 @@ def _number_of(change: float, rule: _Rule) -> Any:
 
 
 @numba.njit(cache=True, nogil=True)
-def _list_signal(fired: Fired, reach: tuple[float, float], rule: _Rule, keys: Uint64Array) -> None:
+def _list_signal(
+    fired: Fired, reach: tuple[float, float], rule: _Rule, span: Interval, keys: Uint64Array
+) -> None:
     """Keys of the events that fired, by pixel; |ΔL| reaches from the one number to the other."""
     # Arrays are taken out of their tuple once: counting references to them in the loop is slow.
     pixel, change, start, stop, reference, origin = fired
@@ -147,19 +153,19 @@ def _list_signal(fired: Fired, reach: tuple[float, float], rule: _Rule, keys: Ui
                 level = reference[i] + sign * (order * rule.threshold)
                 fraction = _linear_crossing(start[i], stop[i], level, sign)
             else:
-                fraction = _fraction(origin + pixel[i], abs(change[i]), order, number, rule)
-            keys[found] = _key(place, fraction, rule)
+                fraction = _fraction(origin + pixel[i], abs(change[i]), order, number, rule, span)
+            keys[found] = _key(place, fraction, rule, span)
             found += 1
 
 
 @numba.njit(cache=True, nogil=True)
-def _list_noise(noise: NoisePlaces, rule: _Rule) -> Uint64Array:
+def _list_noise(noise: NoisePlaces, rule: _Rule, span: Interval) -> Uint64Array:
     """Keys of noise events, by pixel and polarity."""
     pixel, fraction, p = noise
     keys = np.empty(pixel.size, np.uint64)
     for i in range(pixel.size):
         place = np.uint64(pixel[i]) << _2 | np.uint64(p[i]) << _1 | _NOISE
-        keys[i] = _key(place, fraction[i], rule)
+        keys[i] = _key(place, fraction[i], rule, span)
     return keys
 
 
@@ -186,10 +192,11 @@ def _merge(signal: Uint64Array, noise: Uint64Array, rule: _Rule) -> Uint64Array:
 
 
 @numba.njit(cache=True, nogil=True, inline="always")
-def _key(place: np.uint64, fraction: float, rule: _Rule) -> Any:
+def _key(place: np.uint64, fraction: float, rule: _Rule, span: Interval) -> Any:
     """Time, as `interval.place_in` rounds it, above the place."""
-    offset = np.int64(math.floor(fraction * rule.duration_us))
-    return np.uint64(min(offset, np.int64(rule.duration_us - 1))) << np.uint64(rule.low) | place
+    duration_us = span.stop_us - span.start_us
+    offset = np.int64(math.floor(fraction * duration_us))
+    return np.uint64(min(offset, np.int64(duration_us - 1))) << np.uint64(rule.low) | place
 
 
 @numba.njit(cache=True, nogil=True, inline="always")
@@ -209,7 +216,9 @@ def _linear_crossing(start: float, stop: float, level: float, sign: float) -> fl
 
 
 @numba.njit(cache=True, nogil=True, inline="always")
-def _fraction(pixel: int, size: float, order: int, number: int, rule: _Rule) -> float:
+def _fraction(
+    pixel: int, size: float, order: int, number: int, rule: _Rule, span: Interval
+) -> float:
     """Time of an event as a fraction of the sub-interval; see `timestamps`."""
     if rule.stamp == _HYPERBOLIC:
         return min(order * rule.threshold / size, 1.0)
@@ -217,5 +226,5 @@ def _fraction(pixel: int, size: float, order: int, number: int, rule: _Rule) -> 
         return order / number
     if rule.stamp == _RANDOM:
         y = pixel // rule.width
-        return draw_uniform(rule.key, y, pixel - y * rule.width, _DRAW + order)
+        return draw_uniform(span.key, y, pixel - y * rule.width, _DRAW + order)
     return 1.0
