@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from texvent.events import NOISE
 from texvent.simulate.draws import frame_key
 from texvent.simulate.firings import Interval
+from texvent.simulate.kernels import arrivals_cpu
 from texvent.simulate.rate_noise import NoiseRates
 
 
@@ -94,3 +95,11 @@ def test_backends_find_the_same_events(seed, shape, highest_hz, seconds):
     assert all(np.array_equal(a, b) for a, b in zip(first, second, strict=True))
     assert rate_hz.reshape(-1)[first.pixel].all()
     assert ((first.t >= 1000) & (first.t < 1000 + round(seconds * 1e6))).all()
+
+
+def test_more_arrivals_than_there_is_room_for_are_all_kept(monkeypatch):
+    monkeypatch.setattr(arrivals_cpu, "SPREAD", -20.0)
+    rates = NoiseRates(np.full((30, 40), 20.0))
+    plain, compiled = (rates.draw(interval(1.0), backend=name) for name in ("reference", "cpu"))
+    assert len(plain.t) > 23_000
+    assert all(np.array_equal(*columns) for columns in zip(plain, compiled, strict=True))

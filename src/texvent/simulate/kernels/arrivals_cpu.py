@@ -8,13 +8,15 @@ from numpy.typing import NDArray
 
 from texvent.simulate.kernels.arrivals import FIRST_DRAW, Arrivals
 from texvent.simulate.kernels.arrivals_reference import MOST_FRACTION
-from texvent.simulate.kernels.cpu_draws import draw_uniform
+from texvent.simulate.kernels.cpu_draws import allow_wrap_around, draw_uniform
 from texvent.simulate.kernels.elementary_cpu import natural_log
-
-Columns = tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]
 
 NEAR = 2
 """How many pixels around a guess are looked at first."""
+SPREAD = 6.0
+"""There is room for the mean number of arrivals and so many standard deviations."""
+GAPS = 16
+"""How many gaps are drawn at a time."""
 
 
 def draw_arrivals(
@@ -22,10 +24,15 @@ def draw_arrivals(
 ) -> Arrivals:
     """Arrivals of a Poisson process; see `arrivals_reference.draw_arrivals`."""
     mean = float(cumulative_hz[:, -1].sum()) * duration_s
-    room = int(mean + 6.0 * np.sqrt(mean)) + 16
-    # With NUMBA_DISABLE_JIT=1 the hash runs in NumPy, which would warn of its wrap-around.
-    with np.errstate(over="ignore"):
-        return Arrivals(*_draw_arrivals(cumulative_hz, float(duration_s), key, int(stream), room))
+    room, source = int(mean + SPREAD * np.sqrt(mean)) + 16, (key, int(stream))
+    while True:
+        columns = Arrivals(np.empty(room, np.int64), np.empty(room), np.empty(room, np.int64))
+        with allow_wrap_around():
+            found = _draw_arrivals(cumulative_hz, float(duration_s), source, columns)
+        if found <= room:
+            pixel, fraction, order = columns
+            return Arrivals(pixel[:found], fraction[:found], order[:found])
+        room *= 2
 
 
 def warm_up() -> None:
@@ -35,61 +42,65 @@ def warm_up() -> None:
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def _draw_arrivals(
-    cumulative_hz: NDArray[np.float64], duration_s: float, key: np.uint64, stream: int, room: int
-) -> Columns:
+    cumulative_hz: NDArray[np.float64],
+    duration_s: float,
+    source: tuple[np.uint64, int],
+    columns: Arrivals,
+) -> int:
+    """Fill in the columns; how many arrivals there are, or more than there is room for."""
+    # Arrays are taken out of tuples once: counting references for each arrival is slow.
+    pixel, fraction, order = columns
     height, width = cumulative_hz.shape
-    columns = np.empty(room, np.int64), np.empty(room), np.empty(room, np.int64)
-    per_s = 1.0 / duration_s
-    found = 0
+    per_s, found = 1.0 / duration_s, 0
+    gap = np.empty(GAPS)
     for y in range(height):
-        place, order, x = 0.0, 0, 0
+        place, number, x = 0.0, 0, 0
         total = cumulative_hz[y, width - 1]
         per_hz = width / total if total > 0 else 0.0
         while True:
-            chance = draw_uniform(key, y, stream, FIRST_DRAW + order)
-            place += -natural_log(1.0 - chance) * per_s
+            if number % GAPS == 0:
+                _draw_gaps(source, y, number, per_s, gap)
+            place += gap[number % GAPS]
             if place >= total:
                 break
-            x = _first_above(cumulative_hz[y], place, x, int(place * per_hz))
+            if found == pixel.size:
+                return found + 1
+            x = _first_above(cumulative_hz, y, place, x, int(place * per_hz))
             start = cumulative_hz[y, x - 1] if x > 0 else 0.0
-            fraction = (place - start) / (cumulative_hz[y, x] - start)
-            if found == columns[0].size:
-                columns = _grown(columns)
-            columns[0][found] = y * width + x
-            columns[1][found] = min(fraction, MOST_FRACTION)
-            columns[2][found] = order
+            pixel[found], order[found] = y * width + x, number
+            fraction[found] = min((place - start) / (cumulative_hz[y, x] - start), MOST_FRACTION)
             found += 1
-            order += 1
-    return columns[0][:found], columns[1][:found], columns[2][:found]
+            number += 1
+    return found
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _draw_gaps(
+    source: tuple[np.uint64, int], y: int, number: int, per_s: float, gap: NDArray[np.float64]
+) -> None:
+    """Fill in a row's gaps from one number on, in vector registers; some will not be needed."""
+    key, stream = source
+    for j in range(gap.size):
+        chance = draw_uniform(key, y, stream, FIRST_DRAW + number + j)
+        gap[j] = -natural_log(1.0 - chance) * per_s
 
 
 @numba.njit(cache=True, nogil=True)
-def _first_above(ascending: NDArray[np.float64], value: float, first: int, guess: int) -> int:
-    """The first index, from `first` on, whose entry is above a value; the last one's is."""
-    last = ascending.size - 1
+def _first_above(
+    cumulative_hz: NDArray[np.float64], y: int, value: float, first: int, guess: int
+) -> int:
+    """The first index in a row, from `first` on, whose entry is above a value: the last's is."""
+    last = cumulative_hz.shape[1] - 1
     # Where all pixels have about the same rate, the guess is off by a few at most.
     low, high = min(guess - NEAR, last), min(guess + NEAR, last)
-    if low >= first and ascending[low] <= value:
+    if low >= first and cumulative_hz[y, low] <= value:
         first = low + 1
-    if high >= first and ascending[high] > value:
+    if high >= first and cumulative_hz[y, high] > value:
         last = high
     while first < last:
         middle = (first + last) // 2
-        if ascending[middle] > value:
+        if cumulative_hz[y, middle] > value:
             last = middle
         else:
             first = middle + 1
     return first
-
-
-@numba.njit(cache=True, nogil=True)
-def _grown(columns: Columns) -> Columns:
-    """The same columns with room for as many arrivals again."""
-    size = columns[0].size
-    pixel, fraction, order = (
-        np.empty(2 * size, np.int64),
-        np.empty(2 * size),
-        np.empty(2 * size, np.int64),
-    )
-    pixel[:size], fraction[:size], order[:size] = columns
-    return pixel, fraction, order
