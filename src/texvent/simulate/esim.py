@@ -27,12 +27,15 @@ from texvent.simulate.pixel_maps import (
     LONG_AGO_US,
     LOWEST_THRESHOLD,
     Float64Array,
-    draw_threshold_pair,
     draw_threshold_pair_at,
-    sensor_key,
 )
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
-from texvent.simulate.trigger_levels import TriggerLevels, every_pixel, thresholds_at
+from texvent.simulate.trigger_levels import (
+    TriggerLevels,
+    every_pixel,
+    sensor_thresholds,
+    thresholds_at,
+)
 from texvent.video import Frame
 
 WHITE = 255.0
@@ -147,11 +150,10 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         height, width = intensity.shape
         self._shape = height, width
         self._is_redrawn = config.threshold_sigma > 0 and config.threshold_redraw == "frame"
-        on, off = config.contrast_threshold_on, config.contrast_threshold_off
-        self._map = Thresholds(np.array([float(on)]), np.array([float(off)]))
-        if config.threshold_sigma > 0 and not self._is_redrawn:
-            pair = draw_threshold_pair(intensity.shape, sensor_key(self._seed), config)
-            self._map = Thresholds(*(one.reshape(-1) for one in pair))
+        # Any threshold may be drawn anew, but none below the floor.
+        self._fixed = FLOOR
+        if not self._is_redrawn:
+            self._fixed = sensor_thresholds(intensity.shape, self._seed, config)
         curve = Curve(WHITE, -WHITE * config.log_eps)
         self._triggers = TriggerLevels(intensity, curve, backend=self._backend)
         self._set_all_triggers()
@@ -177,16 +179,15 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         if self._is_redrawn:
             y, x = np.divmod(pixel, self._shape[1])
             return Thresholds(*draw_threshold_pair_at(y, x, key, self.config))
-        return thresholds_at(pixel, self._map)
+        return thresholds_at(pixel, self._fixed)
 
     def _set_all_triggers(self) -> None:
         for pixel in every_pixel(self._levels.reference.size):
             self._set_triggers(pixel)
 
     def _set_triggers(self, pixel: NDArray[np.int64]) -> None:
-        """Where some pixels fire: reference ± θ; any θ may be drawn, but none below the floor."""
-        thresholds = FLOOR if self._is_redrawn else thresholds_at(pixel, self._map)
-        self._triggers.set(pixel, self._levels.reference, thresholds)
+        """Where some pixels fire: reference ± θ."""
+        self._triggers.set(pixel, self._levels.reference, thresholds_at(pixel, self._fixed))
 
 
 def log_intensity(intensity: IntensityArray, log_eps: float) -> Float64Array:

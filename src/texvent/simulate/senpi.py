@@ -19,18 +19,22 @@ from numpy.typing import NDArray
 from texvent.config import check_range
 from texvent.simulate.draws import Purpose
 from texvent.simulate.firings import Firings, Interval
-from texvent.simulate.kernels.levels import Curve, Thresholds
+from texvent.simulate.kernels.levels import Curve
 from texvent.simulate.pixel_maps import (
     LONG_AGO_US,
     LOWEST_THRESHOLD,
     Float64Array,
     draw_chosen,
-    draw_threshold_pair,
     sensor_key,
 )
 from texvent.simulate.rate_noise import NoiseRates
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
-from texvent.simulate.trigger_levels import TriggerLevels, every_pixel, thresholds_at
+from texvent.simulate.trigger_levels import (
+    TriggerLevels,
+    every_pixel,
+    sensor_thresholds,
+    thresholds_at,
+)
 
 WHITE = 255.0
 DARKEST = 1.0
@@ -120,8 +124,7 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
     def _begin(self, intensity: IntensityArray) -> None:
         config = self.config
         key, shape = sensor_key(self._seed), intensity.shape
-        pair = draw_threshold_pair(shape, key, config)
-        self._thresholds = Thresholds(*(one.reshape(-1) for one in pair))
+        self._thresholds = sensor_thresholds(shape, self._seed, config)
         is_hot = draw_chosen(shape, key, Purpose.HOT_PIXEL, fraction=config.hot_fraction)
         self._rate_hz = np.where(is_hot, config.hot_rate_hz, config.noise_rate_hz)
         self._noise = NoiseRates(self._rate_hz)
@@ -140,8 +143,9 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         # What fired memorises the present voltage, whatever the reason.
         pixel = np.concatenate([fired.pixel, noise.pixel])
         self._reference[pixel] = self._voltage(intensity.reshape(-1)[pixel])
-        for events in (fired, noise):
-            np.maximum.at(self._fired_us, events.pixel, events.t)
+        # The last of a pixel's events stays: noise comes in time, and a change fires at the end.
+        for events in (noise, fired):
+            self._fired_us[events.pixel] = events.t
         self._set_levels(pixel)
         return fired.joined(noise)
 
@@ -168,7 +172,9 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
             return self._noise.draw(interval, backend=self._backend)
         electrons = photons(intensity, self.config.well_capacity)
         on, off = (
-            shot_noise_rate_hz(electrons, threshold.reshape(electrons.shape), self.config)
+            shot_noise_rate_hz(electrons.reshape(-1), threshold, self.config).reshape(
+                electrons.shape
+            )
             for threshold in self._thresholds
         )
         total = self._rate_hz + on + off

@@ -22,6 +22,12 @@ from texvent.simulate.kernels.levels import (
     load_find_outside,
     load_narrow,
 )
+from texvent.simulate.pixel_maps import (
+    NominalThresholds,
+    Shape,
+    draw_threshold_pair,
+    sensor_key,
+)
 from texvent.simulate.streaming import IntensityArray
 
 Int64Array = NDArray[np.int64]
@@ -79,6 +85,15 @@ def every_pixel(count: int) -> Iterator[Int64Array]:
     """Flat index of all pixels, some at a time: one list of all is larger than most frames."""
     for first in range(0, count, AT_A_TIME):
         yield np.arange(first, min(first + AT_A_TIME, count))
+
+
+def sensor_thresholds(shape: Shape, seed: int, nominal: NominalThresholds) -> Thresholds:
+    """Thresholds that differ from pixel to pixel and never change; [1] each if all are alike."""
+    if nominal.threshold_sigma == 0:
+        on, off = nominal.contrast_threshold_on, nominal.contrast_threshold_off
+        return Thresholds(np.array([float(on)]), np.array([float(off)]))
+    pair = draw_threshold_pair(shape, sensor_key(seed), nominal)
+    return Thresholds(*(one.reshape(-1) for one in pair))
 
 
 def thresholds_at(pixel: Int64Array, thresholds: Thresholds) -> Thresholds:

@@ -73,7 +73,7 @@ def _find_outside(luma: Luma, seen: Luma, low: Luma, high: Luma, found: Outside)
             bits ^= lowest
     for place in range(luma.size):
         seen[place] = luma[place]
-    return np.int64(count)
+    return int(count)
 
 
 @numba.njit(cache=True, nogil=True)
