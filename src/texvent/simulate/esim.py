@@ -19,7 +19,7 @@ from texvent.config import check_range
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.simulate.firings import Interval
-from texvent.simulate.kernels.levels import Curve, Thresholds
+from texvent.simulate.kernels.levels import Curve, Thresholds, load_look_up
 from texvent.simulate.kernels.order import Columns
 from texvent.simulate.kernels.ramp import Candidates, Levels, Rest, load_cross_levels
 from texvent.simulate.kernels.select import GPU
@@ -32,7 +32,6 @@ from texvent.simulate.pixel_maps import (
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 from texvent.simulate.trigger_levels import (
     TriggerLevels,
-    every_pixel,
     sensor_thresholds,
     thresholds_at,
 )
@@ -129,7 +128,7 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         self._enter(frame)
         self._begin(frame.luma)
         self._levels = Levels(reference, fired_us)
-        self._set_all_triggers()
+        self._triggers.set_all(reference, self._fixed)
 
     @property
     def contrast_threshold(self) -> float:
@@ -143,10 +142,14 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
 
     def _begin(self, intensity: IntensityArray) -> None:
         config = self.config
-        reference = log_intensity(intensity, config.log_eps).reshape(-1)
+        self._table = log_intensity(np.arange(256, dtype=np.uint8), config.log_eps)
+        of_luma = self._table if intensity.dtype == np.uint8 else None
+        if of_luma is None:
+            reference = log_intensity(intensity, config.log_eps).reshape(-1)
+        else:
+            reference = load_look_up(self._backend)(of_luma, intensity.reshape(-1))
         rested = reference.size if config.refractory_period_us else 0
         self._levels = Levels(reference, np.full(rested, LONG_AGO_US))
-        self._table = log_intensity(np.arange(256, dtype=np.uint8), config.log_eps)
         height, width = intensity.shape
         self._shape = height, width
         self._is_redrawn = config.threshold_sigma > 0 and config.threshold_redraw == "frame"
@@ -156,7 +159,7 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
             self._fixed = sensor_thresholds(intensity.shape, self._seed, config)
         curve = Curve(WHITE, -WHITE * config.log_eps)
         self._triggers = TriggerLevels(intensity, curve, backend=self._backend)
-        self._set_all_triggers()
+        self._triggers.set_all(reference, self._fixed, of_luma=of_luma)
 
     def _advance(self, intensity: IntensityArray, interval: Interval) -> Columns:
         pixel, before, now = self._triggers.find_outside(intensity)
@@ -171,7 +174,8 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
             Rest(self.config.refractory_period_us, is_level_lost=True),
             self._shape,
         )
-        self._set_triggers(pixel)
+        fixed = thresholds_at(pixel, self._fixed)
+        self._triggers.set(pixel, self._levels.reference, fixed)
         return columns
 
     def _thresholds(self, pixel: NDArray[np.int64], key: np.uint64) -> Thresholds:
@@ -180,14 +184,6 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
             y, x = np.divmod(pixel, self._shape[1])
             return Thresholds(*draw_threshold_pair_at(y, x, key, self.config))
         return thresholds_at(pixel, self._fixed)
-
-    def _set_all_triggers(self) -> None:
-        for pixel in every_pixel(self._levels.reference.size):
-            self._set_triggers(pixel)
-
-    def _set_triggers(self, pixel: NDArray[np.int64]) -> None:
-        """Where some pixels fire: reference ± θ."""
-        self._triggers.set(pixel, self._levels.reference, thresholds_at(pixel, self._fixed))
 
 
 def log_intensity(intensity: IntensityArray, log_eps: float) -> Float64Array:

@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.simulate.draws import Purpose
@@ -31,7 +30,6 @@ from texvent.simulate.rate_noise import NoiseRates
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 from texvent.simulate.trigger_levels import (
     TriggerLevels,
-    every_pixel,
     sensor_thresholds,
     thresholds_at,
 )
@@ -134,8 +132,7 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         darkest = math.log(DARKEST / WHITE * config.well_capacity)
         curve = Curve(WHITE / config.well_capacity, 0.0, darkest)
         self._levels = TriggerLevels(intensity, curve, backend=self._backend)
-        for pixel in every_pixel(intensity.size):
-            self._set_levels(pixel)
+        self._levels.set_all(self._reference, self._thresholds)
 
     def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
         fired = self._compare(intensity, interval)
@@ -146,7 +143,7 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         # The last of a pixel's events stays: noise comes in time, and a change fires at the end.
         for events in (noise, fired):
             self._fired_us[events.pixel] = events.t
-        self._set_levels(pixel)
+        self._levels.set(pixel, self._reference, thresholds_at(pixel, self._thresholds))
         return fired.joined(noise)
 
     def _compare(self, intensity: IntensityArray, interval: Interval) -> Firings:
@@ -162,10 +159,6 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
 
     def _voltage(self, intensity: IntensityArray) -> Float64Array:
         return np.asarray(np.log(photons(intensity, self.config.well_capacity)))
-
-    def _set_levels(self, pixel: NDArray[np.int64]) -> None:
-        """Where some pixels fire: reference ± θ."""
-        self._levels.set(pixel, self._reference, thresholds_at(pixel, self._thresholds))
 
     def _draw_noise(self, intensity: IntensityArray, interval: Interval) -> Firings:
         if not self.config.shot_noise:

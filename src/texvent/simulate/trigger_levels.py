@@ -7,7 +7,6 @@ are, so that rounding hides no event: who is outside *may* fire, and only there 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -20,6 +19,7 @@ from texvent.simulate.kernels.levels import (
     Outside,
     Thresholds,
     load_find_outside,
+    load_look_up,
     load_narrow,
 )
 from texvent.simulate.pixel_maps import (
@@ -76,15 +76,35 @@ class TriggerLevels:
         narrow = load_narrow(self._seen.dtype, self._backend)
         narrow(pixel, reference, thresholds, self._curve, self._low, self._high)
 
+    def set_all(
+        self,
+        reference: Float64Array,
+        thresholds: Thresholds,
+        *,
+        of_luma: Float64Array | None = None,
+    ) -> None:
+        """Say it of all pixels.
+
+        Args:
+            reference: [H · W] log units.
+            thresholds: of all pixels.
+            of_luma: [256] reference by luma, where it is that of the 8-bit luma seen last.
+        """
+        if of_luma is not None and thresholds.on.size == 1:
+            low, high = np.empty(256, np.uint8), np.empty(256, np.uint8)
+            narrow = load_narrow(self._seen.dtype, self._backend)
+            narrow(np.arange(256), of_luma, thresholds, self._curve, low, high)
+            look_up = load_look_up(self._backend)
+            self._low, self._high = look_up(low, self._seen), look_up(high, self._seen)
+            return
+        # Some at a time: one list of all is larger than most frames.
+        for first in range(0, self._seen.size, AT_A_TIME):
+            pixel = np.arange(first, min(first + AT_A_TIME, self._seen.size))
+            self.set(pixel, reference, thresholds_at(pixel, thresholds))
+
     @staticmethod
     def _as_float(luma: NDArray[Any]) -> Luma:
         return luma.astype(np.float32, copy=False)
-
-
-def every_pixel(count: int) -> Iterator[Int64Array]:
-    """Flat index of all pixels, some at a time: one list of all is larger than most frames."""
-    for first in range(0, count, AT_A_TIME):
-        yield np.arange(first, min(first + AT_A_TIME, count))
 
 
 def sensor_thresholds(shape: Shape, seed: int, nominal: NominalThresholds) -> Thresholds:

@@ -73,3 +73,12 @@ Narrow: TypeAlias = Callable[[NDArray[np.int64], Float64Array, Thresholds, Curve
 def load_narrow(dtype: np.dtype[Any], backend: str = AUTO) -> Narrow:
     """As `load_find_outside`."""
     return cast("Narrow", load_kernel_when_ready("levels", "narrow", backend, dtype.name))
+
+
+LookUp: TypeAlias = Callable[[NDArray[Any], NDArray[np.uint8]], NDArray[Any]]
+"""`look_up(table, luma)`, see `levels_reference.look_up`."""
+
+
+def load_look_up(backend: str = AUTO) -> LookUp:
+    """As `load_find_outside`."""
+    return cast("LookUp", load_kernel_when_ready("levels", "look_up", backend, "uint8"))

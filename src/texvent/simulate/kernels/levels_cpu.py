@@ -50,11 +50,27 @@ def find_outside(luma: Luma, seen: Luma, low: Luma, high: Luma) -> Outside:
     return Outside(pixel[:count], before[:count], now[:count])
 
 
+def look_up(table: NDArray[Any], luma: NDArray[np.uint8]) -> NDArray[Any]:
+    """See `levels_reference.look_up`; NumPy would make 64-bit numbers of the luma first."""
+    found = np.empty(luma.size, table.dtype)
+    _look_up(read_only(table), read_only(luma), found)
+    return found
+
+
 def warm_up(dtype: str) -> None:
     """Compile for one type of frames, or load what was compiled before."""
     one, log = np.zeros(1, dtype), np.zeros(1)
     pixel, _, _ = find_outside(one, *(one.copy() for _ in range(3)))
     narrow(pixel, log, Thresholds(log, log), Curve(1.0, 0.0), one.copy(), one.copy())
+    if dtype == "uint8":
+        look_up(log, one)
+        look_up(one, one)
+
+
+@numba.njit(cache=True, nogil=True)
+def _look_up(table: NDArray[Any], luma: NDArray[np.uint8], found: NDArray[Any]) -> None:
+    for i in range(luma.size):
+        found[i] = table[luma[i]]
 
 
 @numba.njit(cache=True, nogil=True)
