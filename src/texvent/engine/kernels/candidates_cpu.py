@@ -1,8 +1,8 @@
 """The candidates of one pair, compiled by Numba: the reference's rows, without the pictures.
 
 Some rows at a time, from the first picture to the last, so no picture is ever written to memory.
-Most pixels of most videos cannot fire at all: what they can show lies between bounds that cost a few
-operations (`reach_cpu`), and they are not followed.
+Most pixels of most videos cannot fire at all: what they can show lies between bounds that cost a
+few operations (`reach_cpu`), and they are not followed.
 
 Numba's cache looks at this file only: whoever changes what it calls in `interpolate.kernels.cpu`
 must touch this one as well.
@@ -254,7 +254,7 @@ def _follow(
     shown: NDArray[np.float32],
     out: tuple[Columns, int],
 ) -> int:
-    """List the candidates among some pixels behind those found so far; return how many there are."""
+    """List the candidates among some pixels behind those found; return how many there are."""
     earlier = pictures.earlier.reshape(-1)
     parts = grids.parts
     reference, balance, up, down, rule = levels

@@ -185,7 +185,7 @@ def _warp_rows(pair: WarpPair, top: int, bottom: int, position: float, result: F
 
 @numba.njit(cache=True, nogil=True)
 def make_room(number: int) -> Room:
-    """Memory for so many points; they are all the first pixel, so that those left over do no harm."""
+    """Memory for so many points; all are the first pixel, so that those left over do no harm."""
     room = (number + LANES - 1) // LANES * LANES
     points = Points(
         np.zeros(room, np.int32),

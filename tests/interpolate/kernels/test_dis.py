@@ -1,0 +1,149 @@
+"""Dense inverse search: hand-made cases for both sets of kernels, which give equal bits."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.interpolate.kernels import dis_cpu, dis_reference
+from texvent.interpolate.kernels.dis import (
+    MARGIN,
+    count_levels,
+    follow_levels,
+    make_pyramid,
+    size_of,
+)
+
+KERNELS = pytest.mark.parametrize("kernels", [dis_reference, dis_cpu], ids=["reference", "cpu"])
+
+
+def waves(shape, dx=0.0, dy=0.0, seed=0):
+    rng = np.random.default_rng(seed)
+    y, x = np.mgrid[: shape[0], : shape[1]].astype(np.float64)
+    picture = np.full(shape, 120.0)
+    for _ in range(10):
+        length, angle, phase = rng.uniform(6, 25), rng.uniform(0, np.pi), rng.uniform(0, 6)
+        along = (x - dx) * np.cos(angle) + (y - dy) * np.sin(angle)
+        picture += 20 * np.sin(2 * np.pi * along / length + phase)
+    return picture.astype(np.float32)
+
+
+def test_pictures_are_halved_until_they_are_about_four_patches_long():
+    assert count_levels((260, 346)) == 3
+    assert count_levels((720, 1280)) == 5
+    assert count_levels((16, 400)) == 1
+    assert count_levels((16, 16)) == 0
+
+
+@KERNELS
+def test_halving_takes_means_and_counts_an_odd_edge_twice(kernels):
+    picture = np.float32([[1, 3, 5], [5, 7, 9], [2, 4, 6]])
+    np.testing.assert_array_equal(kernels.halve(picture), [[4, 7], [3, 6]])
+
+
+@KERNELS
+def test_slopes_are_those_of_a_plane_in_levels_per_pixel(kernels):
+    y, x = np.mgrid[:20, :30].astype(np.float32)
+    level = kernels.make_level(2 * x - 3 * y + 100)
+    inner = np.s_[MARGIN + 1 : -MARGIN - 1, MARGIN + 1 : -MARGIN - 1]
+    np.testing.assert_array_equal(level[1][inner], 2.0)
+    np.testing.assert_array_equal(level[2][inner], -3.0)
+    assert size_of(level) == (20, 30)
+    assert level[0, 0, 0] == 100
+    assert not level[1:, :MARGIN].any()
+
+
+@KERNELS
+def test_doubling_a_flow_doubles_its_vectors_and_joins_their_places(kernels):
+    flow = np.float32([[[1, 2], [3, 4]], [[0, 0], [8, 8]]])
+    got = kernels.double(flow, (4, 3))
+    # Rows 1, 1.5, 2.5, 3 and columns +0, +.25, +.75 of the first component, twice.
+    np.testing.assert_allclose(got[0], 2 * np.add.outer([1, 1.5, 2.5, 3], [0, 0.25, 0.75]))
+    np.testing.assert_allclose(got[1, :, 0], [0, 4, 12, 16])
+
+
+@KERNELS
+def test_a_shift_is_found_on_one_level(kernels):
+    start, stop = (kernels.make_level(waves((40, 56), dx)) for dx in (0.0, 1.6))
+    flow = kernels.match(start, stop, np.zeros((2, 40, 56), np.float32), True)
+    assert np.median(np.abs(flow[0, 8:-8, 8:-8] - 1.6)) < 0.05
+    assert np.median(np.abs(flow[1, 8:-8, 8:-8])) < 0.05
+
+
+def test_brighter_light_alone_does_not_move_patches():
+    start, stop = (dis_reference.make_level(waves((24, 32)) + more) for more in (0, 25))
+    found = dis_reference.search(start, stop, np.zeros((2, 24, 32), np.float32), False)
+    assert np.abs(found[..., :2]).max() < 1e-3
+
+
+@KERNELS
+def test_a_flat_picture_keeps_the_flow_it_begins_with(kernels):
+    level = kernels.make_level(np.full((24, 32), 90, np.float32))
+    begin = np.stack([np.full((24, 32), number, np.float32) for number in (2.5, -1.0)])
+    np.testing.assert_allclose(kernels.match(level, level, begin, False), begin, rtol=1e-5)
+
+
+def test_a_pixel_counts_those_patches_more_that_fit_it():
+    # Two patches hold columns 3 to 7. The left one, which has not moved, fits; the right one, which
+    # has, is 20 levels off: weights 1 and 1/20.
+    start = dis_reference.make_level(np.tile(20 * np.arange(11, dtype=np.float32), (8, 1)))
+    patches = np.zeros((1, 2, 3), np.float32)
+    patches[0, 1, 0] = 1.0
+    flow = dis_reference.join(start, start, patches)
+    np.testing.assert_allclose(flow[0, 2, :3], 0.0)
+    np.testing.assert_allclose(flow[0, 2, 3:8], (1 / 20) / (1 + 1 / 20), rtol=1e-5)
+    np.testing.assert_allclose(flow[0, 2, 8:10], 1.0)
+
+
+def test_refining_leaves_a_perfect_flow_and_mends_one_vector_that_is_not():
+    start, stop = (dis_reference.make_level(waves((24, 32), dx)) for dx in (0.0, 1.0))
+    flow = np.zeros((2, 24, 32), np.float32)
+    flow[0] = 1.0
+    np.testing.assert_allclose(
+        dis_reference.refine(start, stop, flow)[:, 4:-4, 4:-4], flow[:, 4:-4, 4:-4], atol=1e-3
+    )
+    flow[0, 12, 16] = 3.0
+    assert abs(dis_reference.refine(start, stop, flow)[0, 12, 16] - 1.0) < 0.3
+
+
+@settings(deadline=None, max_examples=6)
+@given(
+    st.sampled_from([(8, 8), (9, 8), (24, 33), (30, 21)]),
+    st.floats(0, 40),
+    st.booleans(),
+    st.integers(0, 99),
+)
+def test_compiled_parts_equal_their_definitions(shape, spread, is_coarsest, seed):
+    rng = np.random.default_rng(seed)
+    pictures = waves(shape, seed=seed), waves(shape, 2.3, 1.1, seed=seed)
+    pictures = [one + rng.normal(0, 1 + spread, shape).astype(np.float32) for one in pictures]
+    flow = rng.normal(0, 1 + spread, (2, *shape)).astype(np.float32)
+    wanted = [dis_reference.make_level(one) for one in pictures]
+    for got, level, picture in zip(
+        map(dis_cpu.make_level, pictures), wanted, pictures, strict=True
+    ):
+        np.testing.assert_array_equal(got, level)
+        np.testing.assert_array_equal(dis_cpu.halve(picture), dis_reference.halve(picture))
+    twice = tuple(2 * side - seed % 2 for side in shape)
+    np.testing.assert_array_equal(dis_cpu.double(flow, twice), dis_reference.double(flow, twice))
+    np.testing.assert_array_equal(
+        dis_cpu.match(*wanted, flow, is_coarsest), dis_reference.match(*wanted, flow, is_coarsest)
+    )
+
+
+def test_the_whole_way_is_equal_too_and_finds_a_far_shift():
+    pictures = waves((64, 80), seed=3), waves((64, 80), 5.0, -2.0, seed=3)
+    flows = []
+    for kernels in (dis_reference, dis_cpu):
+        start, stop = (make_pyramid(one, 1, kernels) for one in pictures)
+        flows.append(follow_levels(start, stop, 0, kernels))
+    np.testing.assert_array_equal(*flows)
+    assert np.median(np.abs(flows[0][0, 12:-12, 12:-12] - 5.0)) < 0.05
+
+
+def test_frames_that_are_no_numbers_do_no_harm():
+    level = dis_cpu.make_level(np.full((16, 24), np.nan, np.float32))
+    flow = dis_cpu.match(level, level, np.full((2, 16, 24), np.nan, np.float32), True)
+    assert flow.shape == (2, 16, 24)
