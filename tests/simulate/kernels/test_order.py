@@ -47,6 +47,17 @@ def test_backends_order_events_alike(seed, count, shape, duration_us, is_by_pixe
     assert all(np.array_equal(a, b) for a, b in zip(one, two, strict=True))
 
 
+@pytest.mark.parametrize("duration_us", [5000, 41_667, 100_000])
+def test_many_events_are_ordered_alike(duration_us):
+    """So many that all bits of the time are one digit, where there are at most 16."""
+    unordered = by_pixel(events(3, 70_000, (40, 50), duration_us, start_us=7))
+    span_us = (7, 7 + duration_us)
+    one, two = (
+        module.order_events(unordered, span_us, (40, 50)) for module in (order_reference, order_cpu)
+    )
+    assert all(np.array_equal(a, b) for a, b in zip(one, two, strict=True))
+
+
 @pytest.mark.parametrize("module", [order_reference, order_cpu])
 def test_every_pixel_of_an_odd_width_keeps_its_place(module):
     """Rows are found by a product with 1 / width, which must not miss at a row's ends."""
