@@ -14,6 +14,7 @@ Float64Array: TypeAlias = NDArray[np.float64]
 Luma: TypeAlias = NDArray[Any]
 """[n] 0..255 scale, uint8 or float32."""
 
+_BYTE = np.dtype(np.uint8).str
 MARGIN = 1e-6
 """By how much levels are narrowed, relative and in levels of 0..255: ten float32 roundings."""
 SLACK = 1e-9
@@ -61,9 +62,7 @@ def load_find_outside(dtype: np.dtype[Any], backend: str = AUTO) -> FindOutside:
         ConfigError: no backend has that name.
         MissingDependencyError: what the backend needs is not installed.
     """
-    return cast(
-        "FindOutside", load_kernel_when_ready("levels", "find_outside", backend, dtype.name)
-    )
+    return cast("FindOutside", load_kernel_when_ready("levels", "find_outside", backend, dtype.str))
 
 
 Narrow: TypeAlias = Callable[[NDArray[np.int64], Float64Array, Thresholds, Curve, Luma, Luma], None]
@@ -72,7 +71,7 @@ Narrow: TypeAlias = Callable[[NDArray[np.int64], Float64Array, Thresholds, Curve
 
 def load_narrow(dtype: np.dtype[Any], backend: str = AUTO) -> Narrow:
     """As `load_find_outside`."""
-    return cast("Narrow", load_kernel_when_ready("levels", "narrow", backend, dtype.name))
+    return cast("Narrow", load_kernel_when_ready("levels", "narrow", backend, dtype.str))
 
 
 LookUp: TypeAlias = Callable[[NDArray[Any], NDArray[np.uint8]], NDArray[Any]]
@@ -81,4 +80,4 @@ LookUp: TypeAlias = Callable[[NDArray[Any], NDArray[np.uint8]], NDArray[Any]]
 
 def load_look_up(backend: str = AUTO) -> LookUp:
     """As `load_find_outside`."""
-    return cast("LookUp", load_kernel_when_ready("levels", "look_up", backend, "uint8"))
+    return cast("LookUp", load_kernel_when_ready("levels", "look_up", backend, _BYTE))

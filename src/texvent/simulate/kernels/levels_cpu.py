@@ -38,11 +38,11 @@ _0, _1 = np.uint64(0), np.uint64(1)
 def find_outside(luma: Luma, seen: Luma, low: Luma, high: Luma) -> Outside:
     """See `levels_reference.find_outside`."""
     # Room for all pixels; the system gives memory only to what is used.
-    size, kind = luma.size + 1, luma.dtype.type
+    size, kind = luma.size + 1, luma.dtype
     found = Outside(
         take_scratch("candidates", size, np.int64),
-        take_scratch(f"{luma.dtype} before", size, kind),
-        take_scratch(f"{luma.dtype} now", size, kind),
+        take_scratch("before " + kind.char, size, kind.type),
+        take_scratch("now " + kind.char, size, kind.type),
     )
     with allow_wrap_around():
         count = _find_outside(read_only(luma), seen, low, high, found)
@@ -62,7 +62,7 @@ def warm_up(dtype: str) -> None:
     one, log = np.zeros(1, dtype), np.zeros(1)
     pixel, _, _ = find_outside(one, *(one.copy() for _ in range(3)))
     narrow(pixel, log, Thresholds(log, log), Curve(1.0, 0.0), one.copy(), one.copy())
-    if dtype == "uint8":
+    if one.dtype == np.uint8:
         look_up(log, one)
         look_up(one, one)
 

@@ -97,4 +97,4 @@ def load_cross_levels(dtype: np.dtype[Any], backend: str = AUTO) -> CrossLevels:
         ConfigError: no backend has that name.
         MissingDependencyError: what the backend needs is not installed.
     """
-    return cast("CrossLevels", load_kernel_when_ready("ramp", "cross_levels", backend, dtype.name))
+    return cast("CrossLevels", load_kernel_when_ready("ramp", "cross_levels", backend, dtype.str))

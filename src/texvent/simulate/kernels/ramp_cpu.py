@@ -84,7 +84,8 @@ def cross_levels(
 def warm_up(dtype: str) -> None:
     """Compile for one type of frames, or load what was compiled before."""
     one, pixel = np.ones(1), np.zeros(1, np.int64)
-    end, table = (np.zeros(1, dtype), np.ones(256)) if dtype == "uint8" else (one, None)
+    end = np.zeros(1, dtype)
+    table = np.ones(256) if end.dtype == np.uint8 else None
     candidates = Candidates(pixel, end, end, table, Thresholds(one, one))
     cross_levels(candidates, Levels(one.copy(), pixel.copy()), (0, 1), Rest(0, False), (1, 1))
 
