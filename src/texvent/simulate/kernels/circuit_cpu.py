@@ -30,6 +30,8 @@ from texvent.simulate.kernels.circuit import (
     new_state,
 )
 from texvent.simulate.kernels.circuit_reference import SETTLED
+
+# Numba's cache looks at this file only: whoever changes `walk_pixel` must change this one too.
 from texvent.simulate.kernels.circuit_walk_cpu import Events, walk_pixel
 from texvent.simulate.kernels.elementary_cpu import decay_and_gain, exponential, natural_log
 from texvent.simulate.kernels.order import read_only

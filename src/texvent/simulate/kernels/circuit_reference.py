@@ -34,10 +34,11 @@ LEAK_SHARE = 0.5
 """An ON event is noise if leakage made at least this share of its change."""
 SETTLED = 2.0**-40
 """A lag below this, log units, is none, so that a pixel at rest is at rest."""
-PIECES_PER_LOG = 16.0
-"""The corner frequency is constant on a piece of an interval: it is right to 3 %."""
-PIECES_PER_ANGLE = 4.0
-"""No piece need be shorter than a quarter of a time constant, which is straight enough."""
+FEWEST_PER_LOG, MOST_PER_LOG = 2.0, 16.0
+"""Pieces of an interval per log unit of brightness: on each the corner hardly changes.
+Between the two, as many as there are time constants."""
+STRAIGHT = 1e-3
+"""A piece that is shorter, in time constants, is a straight line."""
 
 
 def advance_pixels(
@@ -128,8 +129,12 @@ class _Walk:
     rise: Float64Array
     corner: Float64Array
     """ω on this piece."""
+    corner_from: Float64Array
+    """At the start of this piece."""
     glow: Float64Array
-    """α + I in the middle of the next piece: it grows by one factor per piece."""
+    """α + I then."""
+    growth: Float64Array
+    """By what factor it grows on each piece."""
     pieces: Float64Array
     piece: Float64Array
     """Number of this piece."""
@@ -137,9 +142,10 @@ class _Walk:
     """Of this piece."""
     now: Float64Array
     lag: Float64Array
-    """At the end of the piece before."""
-    steady: Float64Array
-    """Lag on this piece once the transient has died."""
+    """At the end of this piece."""
+    base: Float64Array
+    """The output on this piece is `base + tilt · now − transient`."""
+    tilt: Float64Array
     transient: Float64Array
     kept: Float64Array
     """What will be left of the transient at the end of the piece, as a share."""
@@ -162,8 +168,9 @@ class _Walk:
         """Some pixels at the start of the interval."""
         bright, rise, corner, corner_now = (column[pixel] for column in sight)
         duration = float(span_us[1] - span_us[0])
-        fine = np.maximum(corner, corner_now) * duration * PIECES_PER_ANGLE
-        pieces = np.maximum(np.ceil(np.minimum(np.abs(rise) * PIECES_PER_LOG, fine)), 1.0)
+        angle, size = np.maximum(corner, corner_now) * duration, np.abs(rise)
+        pieces = np.ceil(np.minimum(np.maximum(angle, FEWEST_PER_LOG * size), MOST_PER_LOG * size))
+        pieces = np.where(angle > 0, np.maximum(pieces, 1.0), 1.0)
         nothing, none = np.zeros(len(pixel)), np.zeros(len(pixel), np.int64)
         return cls(
             pixel=pixel,
@@ -172,14 +179,17 @@ class _Walk:
             leak=pixels.leak[pixel].astype(np.float64),
             bright=bright,
             rise=rise,
-            corner=(corner + corner_now) * 0.5,
-            glow=exponential(bright + rise * (0.5 / pieces)),
+            corner=corner,
+            corner_from=corner,
+            glow=exponential(bright),
+            growth=exponential(rise / pieces),
             pieces=pieces,
             piece=nothing - 1.0,
             end=nothing.copy(),
             now=nothing.copy(),
             lag=bright - state.output[pixel],
-            steady=nothing.copy(),
+            base=bright,
+            tilt=rise / duration,
             transient=nothing.copy(),
             kept=nothing + 1.0,
             level=state.level[pixel].copy(),
@@ -198,24 +208,38 @@ class _Walk:
             getattr(self, field.name)[chosen] = getattr(other, field.name)
 
     def enter_piece(self, light: Light, duration: float) -> None:
-        """Begin the next piece."""
+        """Begin the next piece; see docs/simulators.md for what is solved here."""
         self.piece = self.piece + 1.0
         length = duration / self.pieces
         is_last = self.piece == self.pieces - 1.0
         self.now = self.piece * length
         self.end = np.where(is_last, duration, (self.piece + 1.0) * length)
-        if light.optics.corner_per_level > 0:
-            offset = DARK_OFFSET - light.optics.balance
-            corner = light.optics.corner_per_level * (self.glow + offset)
-            self.glow = self.glow * exponential(self.rise / self.pieces)
-            self.corner = np.where(self.pieces == 1.0, self.corner, corner)
-            self.steady = self.rise / duration / self.corner
-            self.transient = self.lag - self.steady
-            self.kept = exponential(-self.corner * (self.end - self.now))
+        per_level, slope = light.optics.corner_per_level, self.rise / duration
+        if per_level == 0:
+            self.lag = np.zeros(self.lag.shape)
+            return
+        ahead = self.glow * self.growth
+        offset = DARK_OFFSET - light.optics.balance
+        mean = (self.glow + ahead) * (1 / 6) + np.sqrt(self.glow * ahead) * (2 / 3)
+        corner, corner_to = per_level * (mean + offset), per_level * (ahead + offset)
+        angle = corner * length
+        kept, gain = decay_and_gain(angle)
+        is_straight = angle < STRAIGHT
+        bend = (corner_to - self.corner_from) / corner * 0.5
+        curl = np.where(is_straight, 0.0, (angle - 2.0 + kept * (angle + 2.0)) / (angle * angle))
+        lag, lag_to = self.lag, self.lag * kept + slope * length * (gain - bend * curl)
+        drop = slope - self.corner_from * lag
+        room = np.where(is_straight, 1.0, angle - 1.0 + kept)
+        self.transient = np.where(is_straight, 0.0, (lag_to - lag - drop * length) / room)
+        drop = np.where(is_straight, (lag_to - lag) / length, drop + corner * self.transient)
+        self.tilt = slope - drop
+        self.base = self.bright + slope * self.now - (lag - self.transient) - self.tilt * self.now
+        self.corner, self.kept, self.lag = corner, kept, lag_to
+        self.corner_from, self.glow = corner_to, ahead
 
-    def output(self, duration: float) -> Float64Array:
+    def output(self) -> Float64Array:
         """Of the photoreceptors, now."""
-        return self.bright + self.rise / duration * self.now - self.steady - self.transient
+        return self.base + self.tilt * self.now - self.transient
 
     def move(self, to: Float64Array) -> None:
         """Go on to a later time of this piece."""
@@ -254,8 +278,7 @@ class _Fired:
         moving = np.ones(len(walk.pixel), np.bool_)
         while moving.any():
             step = walk.only(moving)
-            reaches_end = self._move(step, duration)
-            step.lag = np.where(reaches_end, step.steady + step.transient, step.lag)
+            reaches_end = self._move(step)
             goes_on = reaches_end & (step.piece < step.pieces - 1.0)
             into = step.only(goes_on)
             into.enter_piece(light, duration)
@@ -264,29 +287,28 @@ class _Fired:
             moving[moving] = ~reaches_end | goes_on
         return walk
 
-    def _move(self, walk: _Walk, duration: float) -> BoolArray:
+    def _move(self, walk: _Walk) -> BoolArray:
         """Up to the next event, or the end of the piece; returns who has reached it."""
         held = walk.since > walk.now
         while (passed := held & (self._next_noise(walk) < walk.since)).any():
             walk.k = walk.k + passed
         released = held & (walk.since <= walk.end)
         walk.move(np.where(held, np.minimum(walk.since, walk.end), walk.now))
-        walk.level = np.where(released, walk.output(duration), walk.level)
+        walk.level = np.where(released, walk.output(), walk.level)
         waits = held & ~released
 
         is_dead = np.abs(walk.transient) <= NEGLIGIBLE * np.minimum(walk.on, walk.off)
         walk.transient = np.where(is_dead & ~waits, 0.0, walk.transient)
-        slope = walk.rise / duration
-        change = walk.output(duration) - walk.level + walk.leak * (walk.now - walk.since)
+        change = walk.output() - walk.level + walk.leak * (walk.now - walk.since)
         change = np.where(waits, 0.0, change)
         room = walk.end - walk.now
-        course = Course(change, slope + walk.leak, walk.transient, walk.corner, room, walk.kept)
+        course = Course(change, walk.tilt + walk.leak, walk.transient, walk.corner, room, walk.kept)
         wait, p = time_to_threshold(course, walk.on, walk.off)
         crossing, arrival = walk.now + wait, self._next_noise(walk)
         event = np.minimum(crossing, arrival)
         fires = (event <= walk.end) & ~waits
         walk.move(np.where(fires, event, walk.end))
-        self._fire(walk, fires, fires & (arrival <= crossing), p, duration)
+        self._fire(walk, fires, fires & (arrival <= crossing), p)
         return ~fires
 
     def _next_noise(self, walk: _Walk) -> Float64Array:
@@ -298,7 +320,6 @@ class _Fired:
         fires: BoolArray,
         by_noise: BoolArray,
         p: NDArray[np.uint8],
-        duration: float,
     ) -> None:
         start_us, stop_us = self._span_us
         p = np.where(by_noise, self._noise_p[walk.k], p)
@@ -309,5 +330,5 @@ class _Fired:
         self._found.append((walk.pixel[fires], t[fires], p[fires].astype(np.int64), label[fires]))
         walk.k = walk.k + by_noise
         resets = fires & (~by_noise | self._rules.by_noise)
-        walk.level = np.where(resets, walk.output(duration), walk.level)
+        walk.level = np.where(resets, walk.output(), walk.level)
         walk.since = np.where(resets, after + self._rules.refractory_us, walk.since)

@@ -1,4 +1,4 @@
-"""One pixel circuit on its way through an interval, compiled by Numba for `circuit_cpu`.
+"""One pixel circuit on its way through the interval, compiled by Numba for `circuit_cpu`.
 
 Arguments are numbers in tuples and two arrays: Numba counts the references to every array of a
 tuple whenever it is passed on, and that costs more than most pixels do.
@@ -14,19 +14,18 @@ from numpy.typing import NDArray
 
 from texvent.events import NOISE, SIGNAL
 from texvent.simulate.kernels.circuit_reference import (
+    FEWEST_PER_LOG,
     LEAK_SHARE,
-    PIECES_PER_ANGLE,
-    PIECES_PER_LOG,
+    MOST_PER_LOG,
     SETTLED,
+    STRAIGHT,
 )
 from texvent.simulate.kernels.crossing_time import NEGLIGIBLE, NEVER
 from texvent.simulate.kernels.crossing_time_cpu import time_to_threshold
-from texvent.simulate.kernels.elementary_cpu import exponential
+from texvent.simulate.kernels.elementary_cpu import decay_and_gain, exponential
 
 Events = NDArray[np.int64]
 """[3, room] pixel, time in µs, and p + 2 · label."""
-SLACK = 1e-9
-"""Log units by which bounds are widened, for what is rounded."""
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
@@ -51,27 +50,39 @@ def walk_pixel(
     output, level, since = held
     duration = float(where[2] - where[1])
     rise = bright_now - bright
-    fine = max(corner, corner_now) * duration * PIECES_PER_ANGLE
-    pieces = max(math.ceil(min(abs(rise) * PIECES_PER_LOG, fine)), 1.0)
+    angle, size = max(corner, corner_now) * duration, abs(rise)
+    pieces = np.ceil(min(max(angle, FEWEST_PER_LOG * size), MOST_PER_LOG * size))
+    pieces = max(pieces, 1.0) if angle > 0 else 1.0
     length, slope = duration / pieces, rise / duration
-    lag, steady, transient = bright - output, 0.0, 0.0
-    corner = (corner + corner_now) * 0.5
-    glow, growth, kept = 0.0, 1.0, 1.0
-    if pieces > 1.0:
-        glow, growth = exponential(bright + rise * (0.5 / pieces)), exponential(rise / pieces)
+    lag, corner_from = bright - output, corner
+    base, tilt, transient, kept = bright, slope, 0.0, 1.0
+    glow, growth = exponential(bright), exponential(rise / pieces)
     k, last_k = own_noise
     for piece in range(int(pieces)):
         end = duration if piece == pieces - 1.0 else (piece + 1.0) * length
+        now = piece * length
         if corner_per_level > 0:
-            if pieces > 1.0:
-                corner = corner_per_level * (glow + corner_offset)
-                glow *= growth
-            steady = slope / corner
-            transient = lag - steady
-            kept = exponential(-corner * (end - piece * length))
-        transient, level, since, k, found = _run_piece(
+            ahead = glow * growth
+            mean = (glow + ahead) * (1 / 6) + math.sqrt(glow * ahead) * (2 / 3)
+            corner = corner_per_level * (mean + corner_offset)
+            corner_to = corner_per_level * (ahead + corner_offset)
+            angle = corner * length
+            kept, gain = decay_and_gain(angle)
+            is_straight = angle < STRAIGHT
+            bend = (corner_to - corner_from) / corner * 0.5
+            curl = (angle - 2.0 + kept * (angle + 2.0)) / (angle * angle)
+            curl = 0.0 if is_straight else curl
+            lag_to = lag * kept + slope * length * (gain - bend * curl)
+            drop = slope - corner_from * lag
+            room = 1.0 if is_straight else angle - 1.0 + kept
+            transient = 0.0 if is_straight else (lag_to - lag - drop * length) / room
+            drop = (lag_to - lag) / length if is_straight else drop + corner * transient
+            tilt = slope - drop
+            base = bright + slope * now - (lag - transient) - tilt * now
+            lag, glow, corner_from = lag_to, ahead, corner_to
+        level, since, k, found = _run_piece(
             where,
-            (bright, slope, steady, transient, corner, kept, piece * length, end),
+            (base, tilt, transient, corner, kept, now, end),
             (on, off, leak),
             (level, since),
             (k, last_k),
@@ -81,7 +92,6 @@ def walk_pixel(
         )
         if found < 0:
             break
-        lag = steady + transient
     lag = 0.0 if abs(lag) < SETTLED else lag
     return found, bright_now - lag, level, since
 
@@ -89,17 +99,17 @@ def walk_pixel(
 @numba.njit(cache=True, nogil=True, inline="always", error_model="numpy")
 def _run_piece(
     where: tuple[int, int, int, int, bool],
-    course: tuple[float, float, float, float, float, float, float, float],
+    piece: tuple[float, float, float, float, float, float, float],
     limits: tuple[float, float, float],
     reset: tuple[float, float],
     own_noise: tuple[int, int],
     noise_times: NDArray[np.int64],
     events: Events,
     found: int,
-) -> tuple[float, float, float, int, int]:
+) -> tuple[float, float, int, int]:
     """Fire what there is to fire on a piece on which the corner frequency is constant."""
     i, start_us, stop_us, refractory_us, resets_by_noise = where
-    bright, slope, steady, transient, corner, kept, now, end = course
+    base, tilt, transient, corner, kept, now, end = piece
     on, off, leak = limits
     level, since = reset
     k, last_k = own_noise
@@ -110,13 +120,13 @@ def _run_piece(
                 break
             transient, kept = _decay(transient, corner, kept, since - now, since == end)
             now = since
-            level = bright + slope * now - steady - transient
+            level = base + tilt * now - transient
         if abs(transient) <= NEGLIGIBLE * min(on, off):
             transient = 0.0
-        line = bright + slope * now, slope, bright + slope * end
-        crossing, p = _next_crossing(
-            line, (steady, transient, corner, kept), (now, end), limits, (level, since)
-        )
+        change = base + tilt * now - transient - level + leak * (now - since)
+        course = change, tilt + leak, transient, corner, end - now, kept
+        wait, p = time_to_threshold(course, on, off)
+        crossing = now + wait
         arrival = float(noise_times[k] >> 1) if k < last_k else NEVER
         event = min(crossing, arrival)
         if event > end:
@@ -130,16 +140,16 @@ def _run_piece(
         elif p == 1 and leak * (now - since) >= LEAK_SHARE * on:
             label = NOISE
         if found == events.shape[1]:
-            return transient, level, since, k, -1
+            return level, since, k, -1
         after = math.floor(now)
         events[0, found] = i
         events[1, found] = min(start_us + int(after), stop_us - 1)
         events[2, found] = p + 2 * label
         found += 1
         if resets:
-            level = bright + slope * now - steady - transient
+            level = base + tilt * now - transient
             since = float(after + refractory_us)
-    return transient * kept, level, since, k, found
+    return level, since, k, found
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
@@ -161,32 +171,3 @@ def _skip_until(time_us: float, noise_times: NDArray[np.int64], k: int, last_k: 
     while k < last_k and noise_times[k] >> 1 < time_us:
         k += 1
     return k
-
-
-@numba.njit(cache=True, nogil=True, error_model="numpy")
-def _next_crossing(
-    line: tuple[float, float, float],
-    lag: tuple[float, float, float, float],
-    span: tuple[float, float],
-    limits: tuple[float, float, float],
-    reset: tuple[float, float],
-) -> tuple[float, int]:
-    """When the change next reaches a threshold, and its polarity."""
-    (bright, slope, bright_end), (steady, transient, corner, kept) = line, lag
-    (now, end), (on, off, leak), (level, since) = span, limits, reset
-    output = bright - steady - transient
-    way = output - level, bright - level, bright_end - level
-    if not _may_fire(way, leak * (end - since), on, off):
-        return NEVER, 0
-    change = output - level + leak * (now - since)
-    course = change, slope + leak, transient, corner, end - now, kept
-    wait, p = time_to_threshold(course, on, off)
-    return now + wait, p
-
-
-@numba.njit(cache=True, nogil=True)
-def _may_fire(way: tuple[float, float, float], leaked: float, on: float, off: float) -> bool:
-    """Whether a low-pass can get to a threshold, given how far it and its input are from reset."""
-    output, begin, end = way
-    high, low = max(output, max(begin, end)), min(output, min(begin, end))
-    return high + leaked >= on - SLACK or -low >= off - SLACK
