@@ -35,6 +35,9 @@ _EQ7, _RANDOM, _LINEAR, _HYPERBOLIC, _EVEN, _END = range(len(_STAMPS))
 _DRAW = int(Purpose.TIMESTAMP.draw())
 _NOISE = np.uint64(NOISE)
 _1, _2 = np.uint64(1), np.uint64(2)
+_SIZE_BITS = (1 << 63) - 1
+"""Bits of a float64 but its sign."""
+_INFINITY_BITS = int(np.array(np.inf).view(np.int64))
 
 
 class _Rule(NamedTuple):
@@ -110,11 +113,20 @@ def _stamp_events(fired: Fired, noise: NoisePlaces, rule: _Rule, span: Interval,
 @numba.njit(cache=True, nogil=True)
 def _measure(changes: Float64Array, rule: _Rule) -> tuple[int, float, float]:
     """How many events there are, and the smallest and largest |ΔL|."""
-    number, smallest, largest = 0, np.inf, 0.0
-    for change in changes:
-        smallest, largest = min(smallest, abs(change)), max(largest, abs(change))
-        number += _number_of(change, rule)
-    return number, smallest, largest
+    number = changes.size
+    if rule.multi_event:
+        number = 0
+        for change in changes:
+            number += _number_of(change, rule)
+    # As bits, whose order is that of sizes: minima of floats do not become vector instructions.
+    bits, reach = changes.view(np.int64), np.array([_INFINITY_BITS, 0])
+    smallest, largest = reach
+    for i in range(bits.size):
+        size = bits[i] & _SIZE_BITS
+        smallest, largest = min(smallest, size), max(largest, size)
+    reach[0], reach[1] = smallest, largest
+    ends = reach.view(np.float64)
+    return number, ends[0], ends[1]
 
 
 @numba.njit(cache=True, nogil=True)
