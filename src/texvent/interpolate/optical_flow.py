@@ -8,6 +8,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent._heap import keep_freed_memory
 from texvent.interpolate.kernels import dis_cpu
 from texvent.interpolate.kernels.dis import PATCH, count_levels, follow_levels, make_pyramid
 
@@ -32,6 +33,7 @@ class DisFlow:
     """
 
     def __init__(self) -> None:
+        keep_freed_memory()
         # One for each direction, where there is more than one core; it ends with this object.
         self._helper = (
             ThreadPoolExecutor(1, "texvent-flow") if numba.get_num_threads() > 1 else None
@@ -53,10 +55,13 @@ class DisFlow:
         pictures = [_pad(picture) for picture in stretch(first, second)]
         finest = 0 if min(shape) < SMALL_SIDE_PX else 1
         levels = max(finest, count_levels(pictures[0].shape))
-        earlier, later = (make_pyramid(picture, levels, dis_cpu) for picture in pictures)
+        earlier, later = (make_pyramid(one, finest, levels, dis_cpu) for one in pictures)
+        full = pictures[0].shape
 
         def follow(start: list[FlowArray], stop: list[FlowArray]) -> FlowArray:
-            planes = follow_levels(start, stop, finest, dis_cpu)
+            planes = follow_levels(start, stop, dis_cpu)
+            if finest:
+                planes = dis_cpu.double(planes, full)
             return np.stack([plane[: shape[0], : shape[1]] for plane in planes], axis=-1)
 
         if self._helper is None:

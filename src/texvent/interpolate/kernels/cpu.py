@@ -42,6 +42,12 @@ _0, _HALF, _1 = np.float32(0.0), np.float32(0.5), np.float32(1.0)
 _ONE = np.uint64(1)
 
 
+_part = numba.njit(
+    cache=True, nogil=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True
+)
+"""For what other compiled functions alone call: it compiles sooner."""
+
+
 class WarpPair(NamedTuple):
     """Two frames and their motion, as the kernels look things up."""
 
@@ -152,12 +158,11 @@ def read_only(array: NDArray[Any]) -> NDArray[Any]:
 def _with_neighbours(picture: Floats) -> Words:
     height, width = picture.shape
     levels = np.empty((height + 1, 2 * width), np.float32)
-    for row in range(height):
-        source, target = picture[row], levels[row]
+    for row in range(height + 1):
+        source, target = picture[min(row, height - 1)], levels[row]
         for x in range(width - 1):
             target[2 * x], target[2 * x + 1] = source[x], source[x + 1]
         target[2 * width - 2], target[2 * width - 1] = source[width - 1], source[width - 1]
-    levels[height] = levels[height - 1]
     return levels.reshape(-1).view(np.uint64)
 
 
@@ -172,7 +177,7 @@ def warp_pair(pair: WarpPair, position: float) -> Floats:
     return result
 
 
-@numba.njit(cache=True, nogil=True)
+@_part
 def _warp_rows(pair: WarpPair, top: int, bottom: int, position: float, result: Floats) -> None:
     width = result.shape[1]
     step = max(POINTS // width, 1)
@@ -201,7 +206,7 @@ def make_room(number: int) -> Room:
     return Room(points, _make_look(room), _make_look(room))
 
 
-@numba.njit(cache=True, nogil=True)
+@_part
 def _make_look(room: int) -> Look:
     return Look(
         np.empty(room, np.int32),
@@ -270,7 +275,7 @@ def warp_points(pair: WarpPair, room: Room, number: int, position: float, out: F
     _mix(points, in_first, in_second, number, place, out)
 
 
-@numba.njit(cache=True, nogil=True)
+@_part
 def _aim(
     points: Points,
     number: int,
@@ -299,7 +304,7 @@ def _aim(
         nearest[k] = here + (width if down >= _HALF else np.int32(0)) + np.int32(right >= _HALF)
 
 
-@numba.njit(cache=True, nogil=True)
+@_part
 def _fetch(pixels: Words, flows: Words, number: int, width: int, look: Look) -> None:
     """Fetch what lies where the points look."""
     corner, nearest, _, _, _, upper, lower, flow = look
@@ -311,7 +316,7 @@ def _fetch(pixels: Words, flows: Words, number: int, width: int, look: Look) -> 
         flow[k] = flows[np.uint64(nearest[k])]
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@_part
 def _mix(
     points: Points, in_first: Look, in_second: Look, number: int, position: np.float32, out: Floats
 ) -> None:

@@ -20,10 +20,14 @@ x before y, px):
 * `make_level(picture)`: [3, H + 32, W + 32]: the picture with `MARGIN` at each edge, then its
   slopes to the right and downwards (Sobel's, levels per px), 0 in the margin.
 * `double(flow, shape)`: the flow of a picture of twice the size, or a row or column less.
-* `match(start, stop, flow, is_coarsest)`: the flow from a level to another, to begin with a flow.
+* `search(start, stop, flow, is_coarsest)`: what the patches of a level find in another, from a flow
+  to begin with: [rows, columns, 3], x, y, and how well that fits.
+* `join(start, stop, patches)`: the flow.
+* `refine(start, stop, flow)`: the flow.
 
-Deviation: Gauss-Newton steps of full length, so six do instead of 25; pictures keep their
-    precision; no gradient constancy; whole pixels are tried on the coarsest level.
+Deviation: Gauss-Newton steps of full length, so two do instead of 25; pictures keep their
+    precision; no gradient constancy; whole pixels are tried on the coarsest level. More steps and
+    sweeps were not better (docs/speed.md).
 """
 
 from __future__ import annotations
@@ -43,7 +47,7 @@ STEP = 3
 """Distance of patches, px."""
 MARGIN = 16
 """How far pictures are continued past their edges, px: a patch may lie outside altogether."""
-MOST_STEPS = 6
+MOST_STEPS = 2
 """Gauss-Newton steps at most."""
 SMALL_STEP2 = 1e-3
 """Squared length of a step, px², after which no other follows."""
@@ -61,7 +65,7 @@ REACH_COST = 8.0
 LEAST_DIFFERENCE = 1.0
 """Patches that differ by less at a pixel count alike there, levels."""
 
-SWEEPS = 5
+SWEEPS = 3
 RELAXATION = 1.6
 SMOOTHNESS, DATA = 10.0, 2.5
 """Weights of both terms of the refinement."""
@@ -80,42 +84,48 @@ def count_levels(shape: tuple[int, int]) -> int:
     return max(0, min(longest, math.floor(math.log2(min(shape) / PATCH))))
 
 
-def make_pyramid(picture: Floats, number: int, kernels: ModuleType) -> list[Floats]:
-    """The picture and `number` halved ones.
+def make_pyramid(picture: Floats, finest: int, coarsest: int, kernels: ModuleType) -> list[Floats]:
+    """The levels of a picture, the finest first.
 
     Args:
         picture: [H, W], levels of 0..255 or so.
-        number: of halvings.
+        finest: how often the picture is halved for the first of them.
+        coarsest: and for the last.
         kernels: that compute.
     """
     pictures = [picture]
-    for _ in range(number):
+    for _ in range(coarsest):
         pictures.append(kernels.halve(pictures[-1]))
-    return [kernels.make_level(one) for one in pictures]
+    return [kernels.make_level(one) for one in pictures[finest:]]
 
 
-def follow_levels(
-    start: list[Floats], stop: list[Floats], finest: int, kernels: ModuleType
-) -> Floats:
+def follow_levels(start: list[Floats], stop: list[Floats], kernels: ModuleType) -> Floats:
     """Flow from one picture to another.
 
     Args:
         start: pyramid of the one.
         stop: pyramid of the other.
-        finest: level at which to end; from there on the flow is enlarged.
         kernels: that compute.
 
     Returns:
-        [2, H, W] float32: x and y, px, at full size.
+        [2, H, W] float32: x and y, px, of the finest level.
     """
-    coarsest = len(start) - 1
     flow = np.zeros((2, *size_of(start[-1])), np.float32)
-    for number in range(coarsest, -1, -1):
-        if number < coarsest:
-            flow = kernels.double(flow, size_of(start[number]))
-        if number >= finest:
-            flow = kernels.match(start[number], stop[number], flow, number == coarsest)
+    for number in range(len(start) - 1, -1, -1):
+        one, other, is_coarsest = start[number], stop[number], number == len(start) - 1
+        if not is_coarsest:
+            flow = kernels.double(flow, size_of(one))
+        flow = match(one, other, flow, is_coarsest, kernels=kernels)
     return flow
+
+
+def match(
+    start: Floats, stop: Floats, flow: Floats, is_coarsest: bool, *, kernels: ModuleType
+) -> Floats:
+    """The flow from a level to another, to begin with a flow: search, join, refine."""
+    patches = kernels.search(start, stop, flow, is_coarsest)
+    matched: Floats = kernels.refine(start, stop, kernels.join(start, stop, patches))
+    return matched
 
 
 def size_of(level: Floats) -> tuple[int, int]:

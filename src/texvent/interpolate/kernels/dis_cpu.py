@@ -37,6 +37,11 @@ _LEAST_DIFFERENCE, _OUTSIDE = np.float32(LEAST_DIFFERENCE), np.float32(-PATCH)
 _DATA, _SMOOTHNESS, _RELAXATION = np.float32(DATA), np.float32(SMOOTHNESS), np.float32(RELAXATION)
 _LEAST2, _LEAST_SLOPE2 = np.float32(LEAST2), np.float32(LEAST_SLOPE2)
 
+_part = numba.njit(
+    cache=True, nogil=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True
+)
+"""For what other compiled functions alone call: it compiles sooner."""
+
 Sums = tuple[np.float32, np.float32, np.float32, np.float32]
 """Of d, d², d·slope_x and d·slope_y over a patch."""
 Vector = tuple[np.float32, np.float32]
@@ -68,9 +73,10 @@ def make_level(picture: Floats) -> Floats:
     padded = level[0]
     for row in range(padded.shape[0]):
         source, target = picture[min(max(row - MARGIN, 0), height - 1)], padded[row]
-        target[:MARGIN] = source[0]
-        target[MARGIN : MARGIN + width] = source
-        target[MARGIN + width :] = source[width - 1]
+        for x in range(MARGIN):
+            target[x], target[MARGIN + width + x] = source[0], source[width - 1]
+        for x in range(width):
+            target[MARGIN + x] = source[x]
     inner, near = slice(MARGIN, MARGIN + width), slice(MARGIN - 1, MARGIN + width + 1)
     for row in range(MARGIN, MARGIN + height):
         above, here, below = padded[row - 1, near], padded[row, near], padded[row + 1, near]
@@ -78,7 +84,7 @@ def make_level(picture: Floats) -> Floats:
     return level
 
 
-@numba.njit(cache=True, nogil=True)
+@_part
 def _find_slopes(
     above: Floats, here: Floats, below: Floats, slope_x: Floats, slope_y: Floats
 ) -> None:
@@ -110,25 +116,20 @@ def double(flow: Floats, shape: tuple[int, int]) -> Floats:
                 middle = np.float32(0.75) * inner[x]
                 wide[2 * x] = middle + _QUARTER * mixed[x]
                 wide[2 * x + 1] = middle + _QUARTER * mixed[x + 2]
-            result[axis, row] = wide[: shape[1]]
+            out = result[axis, row]
+            for x in range(shape[1]):
+                out[x] = wide[x]
     return result
 
 
-@numba.njit(cache=True, nogil=True)
-def match(start: Floats, stop: Floats, flow: Floats, is_coarsest: bool) -> Floats:
-    """Flow from a level to another, to begin with a flow: search, join, refine."""
-    patches = _search(start, stop[0], flow, is_coarsest)
-    return _refine(start[0], stop[0], _join(start, stop[0], patches))
-
-
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def _search(start: Floats, stop: Floats, flow: Floats, is_coarsest: bool) -> Floats:
+def search(start: Floats, stop: Floats, flow: Floats, is_coarsest: bool) -> Floats:
     """Flow of each patch, [rows, columns, 3]: x, y, and how well that fits."""
     _, height, width = flow.shape
     down, across = 1 + (height - PATCH) // STEP, 1 + (width - PATCH) // STEP
     found = np.empty((down, across, 3), np.float32)
     slopes = np.empty((down, across, 6), np.float32)
-    level, sought, shape = start.reshape(-1), stop.reshape(-1), stop.shape
+    level, sought, shape = start.reshape(-1), stop.reshape(-1), start.shape[1:]
     for row in range(down):
         for column in range(across):
             here = row * STEP, column * STEP
@@ -151,7 +152,7 @@ def _search(start: Floats, stop: Floats, flow: Floats, is_coarsest: bool) -> Flo
     return found
 
 
-@numba.njit(cache=True, nogil=True)
+@_part
 def _compare(
     level: Floats, sought: Floats, shape: tuple[int, int], here: tuple[int, int], flow: Vector
 ) -> Sums:
@@ -162,7 +163,7 @@ def _compare(
     return sums[0], sums[1] - sums[0] * sums[0] / _AREA, sums[2], sums[3]
 
 
-@numba.njit(cache=True, nogil=True)
+@_part
 def _place(shape: tuple[int, int], x: np.float32, y: np.float32) -> tuple[int, Sums]:
     """Flat index of the pixel up left of a place, and bilinear weights of it and the others.
 
@@ -176,7 +177,7 @@ def _place(shape: tuple[int, int], x: np.float32, y: np.float32) -> tuple[int, S
     return corner, ((_1 - u) * (_1 - v), u * (_1 - v), (_1 - u) * v, u * v)
 
 
-@numba.njit(cache=True, nogil=True)
+@_part
 def _sum_slopes(
     level: Floats, sought: Floats, shape: tuple[int, int], here: tuple[int, int], sums: Floats
 ) -> None:
@@ -196,7 +197,7 @@ def _sum_slopes(
     sums[0], sums[1], sums[2], sums[3], sums[4], sums[5] = xx, xy, yy, x, y, xx * yy - xy * xy
 
 
-@numba.njit(cache=True, nogil=True)
+@_part
 def _try_around(
     level: Floats, sought: Floats, shape: tuple[int, int], here: tuple[int, int]
 ) -> Vector:
@@ -212,7 +213,7 @@ def _try_around(
     return best
 
 
-@numba.njit(cache=True, nogil=True)
+@_part
 def _ask(
     level: Floats,
     sought: Floats,
@@ -249,7 +250,7 @@ def _ask(
     return is_better
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@_part
 def _descend(
     level: Floats,
     sought: Floats,
@@ -292,7 +293,7 @@ def _descend(
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def _join(start: Floats, stop: Floats, patches: Floats) -> Floats:
+def join(start: Floats, stop: Floats, patches: Floats) -> Floats:
     """Flow of each pixel, [2, H, W], from those of the patches that hold it."""
     _, rows, columns = start.shape
     height, width = rows - 2 * MARGIN, columns - 2 * MARGIN
@@ -318,30 +319,43 @@ def _join(start: Floats, stop: Floats, patches: Floats) -> Floats:
             total, out = sums[axis + 1, first : first + width], joined[axis, y]
             for x in range(last_column + 1):
                 out[x] = total[x] / weight[x]
-            out[last_column + 1 :] = out[last_column]
+            for x in range(last_column + 1, width):
+                out[x] = out[last_column]
     return joined
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def _refine(start: Floats, stop: Floats, flow: Floats) -> Floats:
+def refine(start: Floats, stop: Floats, flow: Floats) -> Floats:
     """The flow after a few sweeps towards constant brightness and smoothness."""
     _, height, width = flow.shape
-    terms = _linearize(start, stop, flow)
+    terms = _linearize(start[0], stop[0], flow)
     # A pixel of margin, so that every pixel has four neighbours; those outside weigh nothing.
     bonds = np.zeros((2, height + 2, width + 2), np.float32)
     _bind(flow, bonds)
     _solve(terms, bonds)
     now = np.zeros((2, height + 2, width + 2), np.float32)
-    now[:, 1:-1, 1:-1] = flow
-    then = now.copy()
+    then = np.zeros((2, height + 2, width + 2), np.float32)
+    _copy(flow, now, 0, 1)
     for turn in range(2 * SWEEPS):
         for y in range(height):
             _relax(now, then, bonds, terms, y, turn % 2)
         now, then = then, now
-    return now[:, 1:-1, 1:-1].copy()
+    refined = np.empty(flow.shape, np.float32)
+    _copy(now, refined, 1, 0)
+    return refined
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@_part
+def _copy(source: Floats, target: Floats, margin: int, new_margin: int) -> None:
+    """Copy a flow that has some pixels of margin to where it has others."""
+    for axis in range(2):
+        for y in range(source.shape[1] - 2 * margin):
+            old, new = source[axis, y + margin], target[axis, y + new_margin]
+            for x in range(source.shape[2] - 2 * margin):
+                new[x + new_margin] = old[x + margin]
+
+
+@_part
 def _linearize(start: Floats, stop: Floats, flow: Floats) -> Floats:
     """The data term: matrix (xx, xy, yy) and right side (x, y) of each pixel, [5, H, W]."""
     _, height, width = flow.shape
@@ -361,16 +375,12 @@ def _linearize(start: Floats, stop: Floats, flow: Floats) -> Floats:
         here = start[y + MARGIN, MARGIN : MARGIN + width]
         _mix(corners, weights, here, middle[y], change[y])
     for y in range(height):
-        _weigh(
-            (middle[max(y - 1, 0)], middle[y], middle[min(y + 1, height - 1)]),
-            change[y],
-            (flow[0, y], flow[1, y]),
-            terms[:, y],
-        )
+        rows = middle[max(y - 1, 0)], middle[y], middle[min(y + 1, height - 1)]
+        _weigh(rows, change[y], (flow[0, y], flow[1, y]), terms, y)
     return terms
 
 
-@numba.njit(cache=True, nogil=True)
+@_part
 def _aim(
     u: Floats, v: Floats, y: int, shape: tuple[int, int], corner: Numbers, weights: Floats
 ) -> None:
@@ -386,7 +396,7 @@ def _aim(
         corner[x] = (np.int32(top) + np.int32(MARGIN)) * columns + np.int32(left) + np.int32(MARGIN)
 
 
-@numba.njit(cache=True, nogil=True)
+@_part
 def _mix(corners: Floats, weights: Floats, here: Floats, middle: Floats, change: Floats) -> None:
     """Fill in the mean of both pictures, and by how much the other is brighter."""
     a, b, c, d = corners[0], corners[1], corners[2], corners[3]
@@ -399,35 +409,40 @@ def _mix(corners: Floats, weights: Floats, here: Floats, middle: Floats, change:
         change[x] = there - here[x]
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@_part
 def _weigh(
     rows: tuple[Floats, Floats, Floats],
     change: Floats,
     flow: tuple[Floats, Floats],
     terms: Floats,
+    y: int,
 ) -> None:
     """Fill in the data term of a row."""
     above, here, below = rows
     u, v = flow
-    xx, xy, yy, side_x, side_y = terms[0], terms[1], terms[2], terms[3], terms[4]
+    xx, xy, yy, side_x, side_y = terms[0, y], terms[1, y], terms[2, y], terms[3, y], terms[4, y]
+    slope_x, slope_y, weight = xx, yy, xy  # for the time being
     last = here.size - 1
-    slope = xx  # as memory
+    slope_x[0] = _HALF * (here[min(1, last)] - here[0])
     for x in range(1, last):
-        slope[x] = _HALF * (here[x + 1] - here[x - 1])
-    slope[0] = _HALF * (here[min(1, last)] - here[0])
-    slope[last] = _HALF * (here[last] - here[max(last - 1, 0)])
+        slope_x[x] = _HALF * (here[x + 1] - here[x - 1])
+    slope_x[last] = _HALF * (here[last] - here[max(last - 1, 0)])
+    # Few arrays in a loop, or Numba does not find out that they do not overlap.
     for x in range(here.size):
-        slope_x, slope_y = slope[x], _HALF * (below[x] - above[x])
-        length2 = slope_x * slope_x + slope_y * slope_y + _LEAST_SLOPE2
-        weight = _DATA / (np.sqrt(change[x] * change[x] / length2 + _LEAST2) * length2)
+        slope_y[x] = _HALF * (below[x] - above[x])
+        length2 = slope_x[x] * slope_x[x] + slope_y[x] * slope_y[x] + _LEAST_SLOPE2
+        weight[x] = _DATA / (np.sqrt(change[x] * change[x] / length2 + _LEAST2) * length2)
+    for x in range(here.size):
         # What the linearisation says of the flow itself, not of its change.
-        wanted = weight * (slope_x * u[x] + slope_y * v[x] - change[x])
-        side_x[x], side_y[x] = slope_x * wanted, slope_y * wanted
-        xx[x] = weight * slope_x * slope_x
-        xy[x], yy[x] = weight * slope_x * slope_y, weight * slope_y * slope_y
+        wanted = weight[x] * (slope_x[x] * u[x] + slope_y[x] * v[x] - change[x])
+        side_x[x], side_y[x] = slope_x[x] * wanted, slope_y[x] * wanted
+    for x in range(here.size):
+        along, across, strength = slope_x[x], slope_y[x], weight[x]
+        xx[x] = strength * along * along
+        xy[x], yy[x] = strength * along * across, strength * across * across
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@_part
 def _bind(flow: Floats, bonds: Floats) -> None:
     """Fill in how much each pixel is drawn to the next one to the right and below, inside only."""
     _, height, width = flow.shape
@@ -443,10 +458,11 @@ def _bind(flow: Floats, bonds: Floats) -> None:
         uy, vy = u_below[width - 1] - u[width - 1], v_below[width - 1] - v[width - 1]
         down[width - 1] = _SMOOTHNESS / np.sqrt(uy * uy + vy * vy + _LEAST2)
         if y == height - 1:
-            down[:] = _0
+            for x in range(width):
+                down[x] = _0
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@_part
 def _solve(terms: Floats, bonds: Floats) -> None:
     """Turn each pixel's matrix, with its bonds, into its inverse."""
     for y in range(terms.shape[1]):
@@ -460,7 +476,7 @@ def _solve(terms: Floats, bonds: Floats) -> None:
             xx[x], xy[x], yy[x] = c / determinant, -b / determinant, a / determinant
 
 
-@numba.njit(cache=True, nogil=True)
+@_part
 def _relax(now: Floats, then: Floats, bonds: Floats, terms: Floats, y: int, colour: int) -> None:
     """Move the fields of one colour in a row towards what their neighbours and the data want."""
     right, left = bonds[0, y + 1, 1:], bonds[0, y + 1]

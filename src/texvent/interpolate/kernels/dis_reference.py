@@ -66,11 +66,6 @@ def _between(flow: Floats, axis: int, near: np.float32, far: np.float32) -> Floa
     return np.moveaxis(doubled, 0, axis)
 
 
-def match(start: Floats, stop: Floats, flow: Floats, is_coarsest: bool) -> Floats:
-    """Flow from a level to another, to begin with a flow: search, join, refine."""
-    return refine(start, stop, join(start, stop, search(start, stop, flow, is_coarsest)))
-
-
 def search(start: Floats, stop: Floats, flow: Floats, is_coarsest: bool) -> Floats:
     """Flow of each patch, [rows, columns, 3]: x, y, and how well that fits."""
     height, width = size_of(start)
