@@ -13,6 +13,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.interpolate.kernels.compile_part import compile_part
 from texvent.interpolate.kernels.tolerance import (
     LOST_PX2,
     LOST_RELATIVE,
@@ -40,12 +41,6 @@ _LOST_RELATIVE, _LOST_PX2 = np.float32(LOST_RELATIVE), np.float32(LOST_PX2)
 _UNSEEN, _MOST = np.float32(UNSEEN_WEIGHT), np.float32(MOST_PX2)
 _0, _HALF, _1 = np.float32(0.0), np.float32(0.5), np.float32(1.0)
 _ONE = np.uint64(1)
-
-
-_part = numba.njit(
-    cache=True, nogil=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True
-)
-"""For what other compiled functions alone call: it compiles sooner."""
 
 
 class WarpPair(NamedTuple):
@@ -177,7 +172,7 @@ def warp_pair(pair: WarpPair, position: float) -> Floats:
     return result
 
 
-@_part
+@compile_part
 def _warp_rows(pair: WarpPair, top: int, bottom: int, position: float, result: Floats) -> None:
     width = result.shape[1]
     step = max(POINTS // width, 1)
@@ -206,7 +201,7 @@ def make_room(number: int) -> Room:
     return Room(points, _make_look(room), _make_look(room))
 
 
-@_part
+@compile_part
 def _make_look(room: int) -> Look:
     return Look(
         np.empty(room, np.int32),
@@ -275,7 +270,7 @@ def warp_points(pair: WarpPair, room: Room, number: int, position: float, out: F
     _mix(points, in_first, in_second, number, place, out)
 
 
-@_part
+@compile_part
 def _aim(
     points: Points,
     number: int,
@@ -304,7 +299,7 @@ def _aim(
         nearest[k] = here + (width if down >= _HALF else np.int32(0)) + np.int32(right >= _HALF)
 
 
-@_part
+@compile_part
 def _fetch(pixels: Words, flows: Words, number: int, width: int, look: Look) -> None:
     """Fetch what lies where the points look."""
     corner, nearest, _, _, _, upper, lower, flow = look
@@ -316,7 +311,7 @@ def _fetch(pixels: Words, flows: Words, number: int, width: int, look: Look) -> 
         flow[k] = flows[np.uint64(nearest[k])]
 
 
-@_part
+@compile_part
 def _mix(
     points: Points, in_first: Look, in_second: Look, number: int, position: np.float32, out: Floats
 ) -> None:
