@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from texvent.events import NOISE, SIGNAL, EventStream
 from texvent.sensor import SensorSize
-from texvent.simulate.kernels.order import Unordered, load_order_events
+from texvent.simulate.kernels.order import Columns, Unordered, load_order_events
 from texvent.simulate.kernels.select import AUTO
 
 
@@ -63,6 +63,12 @@ class Firings(NamedTuple):
     def noise(cls, pixel: NDArray[np.int64], t: NDArray[np.int64], p: NDArray[np.uint8]) -> Firings:
         """Events that noise fired."""
         return cls(pixel, t, p, np.full(len(pixel), NOISE, np.uint8))
+
+    @classmethod
+    def of(cls, columns: Columns, width: int) -> Firings:
+        """Events of a packet; `width` of the sensor, pixels."""
+        x, y, t, p, label = columns
+        return cls(y.astype(np.int64) * width + x, t, p, label)
 
     def joined(self, other: Firings) -> Firings:
         """These events and `other`, unsorted."""

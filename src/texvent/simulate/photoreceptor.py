@@ -64,7 +64,7 @@ class Sight:
             # Frames of two types: from now on all are float32, which holds 8-bit levels exactly.
             self._seen, now = self._seen.astype(np.float32), now.astype(np.float32)
         table = self._table if now.dtype == np.uint8 else None
-        return Light(self._seen, np.ascontiguousarray(now), self._optics, table)
+        return Light(self._seen, np.ascontiguousarray(now), self._optics, table, luma.shape)
 
     def intensity(self, luma: NDArray[np.generic]) -> Float64Array:
         """Linear intensity of some luma, of the same shape."""

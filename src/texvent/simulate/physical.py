@@ -34,6 +34,7 @@ from texvent.simulate.kernels.circuit import (
     load_advance_pixels,
     new_state,
 )
+from texvent.simulate.kernels.order import Columns
 from texvent.simulate.noise_curve import parse_noise_curve
 from texvent.simulate.photoreceptor import Sight
 from texvent.simulate.physical_config import PRESETS, PhysicalConfig
@@ -99,7 +100,7 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
             level -= phase * (on + off) - off
         self._state = new_state(output, level, self._last_us)
 
-    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
+    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings | Columns:
         light = self._sight.towards(intensity)
         noise = self._draw_noise(light, interval)
         rules = ResetRules(self.config.refractory_period_us, self.config.noise_resets)
@@ -107,6 +108,10 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
             light, self._pixels, self._state, noise, rules, (interval.start_us, interval.stop_us)
         )
         self._forget(interval)
+        if self.config.readout.is_ideal:
+            return fired
+        if not isinstance(fired, Firings):
+            fired = Firings.of(fired, intensity.shape[1])
         return self._readout.read(fired, interval)
 
     def _draw_sensor(self, shape: tuple[int, ...]) -> None:

@@ -68,14 +68,20 @@ COURSES = st.builds(
 @example(course_of(0.0, 1e-6, 1e-8, 1e-4, 1e6), 0.05)
 def test_backends_agree_and_find_the_first_crossing(course, on):
     wait, p = time_of(course, on)
-    compiled = crossing_time_cpu.time_to_threshold(tuple(float(x[0]) for x in course), on, 0.2)
-    assert compiled[0] == wait
+    # Beside other lanes, on a line and on a curve.
+    others = course_of([0.0, 0.1], [1e-4, 1e-5], [0.0, 0.2], [1e-3, 1e-3], [1e4, 1e4])
+    lanes = Course(*(np.concatenate(columns) for columns in zip(others, course, strict=True)))
+    limits = np.array([0.2, 0.2, on]), np.full(3, 0.2)
+    waits, polarities = crossing_time_cpu.time_to_threshold(lanes, *limits)
+    expected, _ = crossing_time.time_to_threshold(lanes, *limits)
+    assert np.array_equal(waits, expected)
+    assert waits[2] == wait
     # A curve may creep up to a threshold and touch it by rounding; small transients are forgotten.
     forgotten = crossing_time.NEGLIGIBLE * min(on, 0.2) + 1e-9
     early, late = (first_crossing(course, on + d, 0.2 + d) for d in (-forgotten, forgotten))
     assert early - 1e-5 * course.room[0] <= wait
     assert wait <= late
     if 0 < wait < np.inf:
-        assert compiled[1] == p
+        assert polarities[2] == p
         change = course.after(np.array([wait]), np.exp(-course.corner * wait))
         assert abs(change[0] - (on if p else -0.2)) < 1e-4

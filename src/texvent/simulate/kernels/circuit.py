@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from texvent.simulate.firings import Firings
 from texvent.simulate.kernels.elementary import exponential, natural_log
+from texvent.simulate.kernels.order import Columns
 from texvent.simulate.kernels.select import AUTO, load_kernel_when_ready
 
 Float64Array: TypeAlias = NDArray[np.float64]
@@ -53,6 +54,8 @@ class Light(NamedTuple):
     optics: Optics
     table: tuple[Float64Array, Float64Array] | None
     """For 8-bit luma `light_of` of all 256 levels, so that kernels need no logarithm."""
+    shape: tuple[int, int]
+    """(height, width) of the sensor."""
 
 
 class Pixels(NamedTuple):
@@ -104,7 +107,7 @@ class ResetRules(NamedTuple):
 
 
 AdvancePixels: TypeAlias = Callable[
-    [Light, Pixels, PixelState, NoiseEvents, ResetRules, tuple[int, int]], Firings
+    [Light, Pixels, PixelState, NoiseEvents, ResetRules, tuple[int, int]], Firings | Columns
 ]
 """`advance_pixels(light, pixels, state, noise, rules, (start_us, stop_us))`, see
 `circuit_reference.advance_pixels`."""

@@ -7,13 +7,12 @@ then walk through the interval one by one.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.simulate.firings import Firings
+from texvent.simulate.kernels import circuit_reference
 from texvent.simulate.kernels.circuit import (
     ALMOST_BLACK,
     BLOCK,
@@ -29,37 +28,28 @@ from texvent.simulate.kernels.circuit import (
     ResetRules,
     new_state,
 )
-from texvent.simulate.kernels.circuit_reference import SETTLED
 
-# Numba's cache looks at this file only: whoever changes `walk_pixel` must change this one too.
-from texvent.simulate.kernels.circuit_walk_cpu import Events, walk_pixel
+# Numba's cache looks at this file only: whoever changes these functions must change it too.
+from texvent.simulate.kernels.circuit_lanes_cpu import (
+    LANES,
+    Block,
+    load_lanes,
+    new_block,
+    new_work,
+)
+from texvent.simulate.kernels.circuit_reference import SETTLED
+from texvent.simulate.kernels.circuit_walk_cpu import walk_lanes
 from texvent.simulate.kernels.elementary_cpu import decay_and_gain, exponential, natural_log
-from texvent.simulate.kernels.order import read_only
+from texvent.simulate.kernels.lanes_cpu import append_by_lane
+from texvent.simulate.kernels.order import Columns, read_only
+from texvent.simulate.kernels.order_cpu import has_room_for_keys, key_bits, order_keys
 from texvent.simulate.kernels.threads import count_threads, run_parts, split
 
 SHARE = 64 * BLOCK
 """Fewest pixels that are worth a thread of their own."""
+Uint64Array = NDArray[np.uint64]
 NOT_CALM = -(2**62)
 FOREVER = 2**62
-
-
-class _Block(NamedTuple):
-    """What is known of the pixels of one block, [BLOCK] each."""
-
-    bright: Float64Array
-    corner: Float64Array
-    bright_now: Float64Array
-    corner_now: Float64Array
-    output: Float64Array
-    """At the end of the interval, if the pixel is calm."""
-    low: Float64Array
-    """The outputs stay above it."""
-    high: Float64Array
-    """The outputs stay below it."""
-    decay: Float64Array
-    gain: Float64Array
-    is_calm: NDArray[np.bool_]
-    restless: NDArray[np.int64]
 
 
 def advance_pixels(
@@ -69,18 +59,21 @@ def advance_pixels(
     noise: NoiseEvents,
     rules: ResetRules,
     span_us: tuple[int, int],
-) -> Firings:
+) -> Firings | Columns:
     """Every event between two frames; see `circuit_reference.advance_pixels`."""
+    shape = light.shape
+    if not has_room_for_keys(span_us[1] - span_us[0], shape):
+        return circuit_reference.advance_pixels(light, pixels, state, noise, rules, span_us)
     table = None if light.table is None else np.stack(light.table)
+    low = key_bits(light.now.size)
 
-    def advance(part: slice) -> tuple[Events, int]:
+    def advance(part: slice) -> Uint64Array:
         first, last = part.start, part.stop
         noisy = slice(*np.searchsorted(noise.pixel, [first, last]))
         noise_times = (noise.t[noisy] - span_us[0]) * 2 + noise.p[noisy]
-        room = len(noise_times) + (last - first) // 16 + 64
         # With NUMBA_DISABLE_JIT=1 this runs in NumPy, which would warn where extremes overflow.
         with np.errstate(all="ignore"):
-            events = _advance_blocks(
+            keys: Uint64Array = _advance_blocks(
                 (light.before[part], read_only(light.now[part]), table, light.optics),
                 Pixels(*(column[part] for column in pixels)),
                 PixelState(
@@ -90,23 +83,21 @@ def advance_pixels(
                     state.calm_until_us[first // BLOCK : -(-last // BLOCK)],
                 ),
                 (noise.pixel[noisy] - first, noise_times),
-                rules,
+                (*rules, first, low),
                 span_us,
-                room,
             )
-        return events, first
+        return keys
 
     parts = run_parts(advance, split(light.now.size, count_threads(), unit=SHARE))
-    pixel = np.concatenate([events[0] + first for events, first in parts])
-    t, kind = (np.concatenate([events[i] for events, _ in parts]) for i in (1, 2))
-    return Firings(pixel, t, (kind & 1).astype(np.uint8), (kind >> 1).astype(np.uint8))
+    keys = parts[0] if len(parts) == 1 else np.concatenate(parts)
+    return order_keys(keys, span_us, shape)
 
 
 def warm_up(dtype: str) -> None:
     """Compile for one type of frames, or load what was compiled before."""
     luma, one, none = np.zeros(1, dtype), np.ones(1, np.float32), np.zeros(0, np.int64)
     table = (np.ones(256), np.ones(256)) if dtype == "uint8" else None
-    light = Light(luma.copy(), luma, Optics(1.0, 1.0, 0.0), table)
+    light = Light(luma.copy(), luma, Optics(1.0, 1.0, 0.0), table, (1, 1))
     state = new_state(np.zeros(1), np.zeros(1), 0)
     noise = NoiseEvents(none, none, none.astype(np.uint8))
     advance_pixels(light, Pixels(one, one, one), state, noise, ResetRules(0, True), (0, 1))
@@ -118,16 +109,18 @@ def _advance_blocks(
     pixels: Pixels,
     state: PixelState,
     noise: tuple[NDArray[np.int64], NDArray[np.int64]],
-    rules: ResetRules,
+    rules: tuple[int, bool, int, int],
     span_us: tuple[int, int],
-    room: int,
-) -> Events:
+) -> Uint64Array:
     before, now, table, optics = light
     start_us, stop_us = span_us
     duration = float(stop_us - start_us)
-    events = np.empty((3, room), np.int64)
-    noise_pixel, found, noise_done = noise[0], 0, 0
-    block = _new_block()
+    keys, found = np.empty(now.size // 16 + noise[0].size + 64, np.uint64), 0
+    events, work = np.empty((2, 2 * LANES), np.uint64), new_work()
+    noise_pixel, noise_done, walking = noise[0], 0, 0
+    refractory_us, resets_by_noise, first_of_part, low = rules
+    walk = refractory_us, resets_by_noise, first_of_part, low, start_us, stop_us - start_us
+    block = new_block()
     for first in range(0, now.size, BLOCK):
         last = min(first + BLOCK, now.size)
         noise_first = noise_done
@@ -159,28 +152,16 @@ def _advance_blocks(
         if is_left_alone and restless == 0:
             calm_until = _calm_until(block, own, stop_us)
         state.calm_until_us[first // BLOCK] = calm_until
-        found, events = _walk_restless(
-            (first, restless, noise_first, found), block, own, optics, noise, rules, span_us, events
-        )
+        if walking + restless > LANES:
+            events, made = walk_lanes(work, walking, state, optics, noise[1], walk, events)
+            keys, found = append_by_lane(events[:, :made], work.events[:walking], keys, found)
+            walking = 0
+        load_lanes(work, walking, (first, restless, noise_first), block, own, noise, start_us)
+        walking += restless
         own[1].output[:] = block.output[: last - first]
-    return events[:, :found]
-
-
-@numba.njit(cache=True, nogil=True)
-def _new_block() -> _Block:
-    return _Block(
-        np.empty(BLOCK),
-        np.empty(BLOCK),
-        np.empty(BLOCK),
-        np.empty(BLOCK),
-        np.empty(BLOCK),
-        np.empty(BLOCK),
-        np.empty(BLOCK),
-        np.empty(BLOCK),
-        np.empty(BLOCK),
-        np.empty(BLOCK, np.bool_),
-        np.empty(BLOCK, np.int64),
-    )
+    events, made = walk_lanes(work, walking, state, optics, noise[1], walk, events)
+    keys, found = append_by_lane(events[:, :made], work.events[:walking], keys, found)
+    return keys[:found]
 
 
 @numba.njit(cache=True, nogil=True)
@@ -214,7 +195,7 @@ def _see(
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def _advance_calmly(block: _Block, output: Float64Array, duration: float, is_limited: bool) -> None:
+def _advance_calmly(block: Block, output: Float64Array, duration: float, is_limited: bool) -> None:
     """Where the outputs go if nothing fires, and between which bounds.
 
     Short loops over few arrays each: Numba fills vector registers in no others.
@@ -237,7 +218,7 @@ def _advance_calmly(block: _Block, output: Float64Array, duration: float, is_lim
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def _find_restless(
-    block: _Block, own: tuple[Pixels, PixelState], stop_us: int, noisy: NDArray[np.int64]
+    block: Block, own: tuple[Pixels, PixelState], stop_us: int, noisy: NDArray[np.int64]
 ) -> int:
     """List the pixels that may fire, those with noise among them; return how many."""
     pixels, state = own
@@ -263,7 +244,7 @@ def _find_restless(
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def _calm_until(block: _Block, own: tuple[Pixels, PixelState], stop_us: int) -> int:
+def _calm_until(block: Block, own: tuple[Pixels, PixelState], stop_us: int) -> int:
     """The time up to which no pixel of a block at rest fires by its leak; at once if in motion."""
     pixels, state = own
     soonest, moving = np.inf, 0
@@ -274,61 +255,3 @@ def _calm_until(block: _Block, own: tuple[Pixels, PixelState], stop_us: int) -> 
         soonest = min(soonest, float(after))
     # A microsecond for what is rounded here.
     return stop_us if moving else int(min(soonest, float(FOREVER))) - 1
-
-
-@numba.njit(cache=True, nogil=True, error_model="numpy")
-def _walk_restless(
-    where: tuple[int, int, int, int],
-    block: _Block,
-    own: tuple[Pixels, PixelState],
-    optics: Optics,
-    noise: tuple[NDArray[np.int64], NDArray[np.int64]],
-    rules: ResetRules,
-    span_us: tuple[int, int],
-    events: Events,
-) -> tuple[int, Events]:
-    """Send the restless pixels of a block through the interval; how many events there are now."""
-    first, restless, k, found = where
-    pixels, state = own
-    noise_pixel, noise_times = noise
-    start_us, stop_us = span_us
-    for j in block.restless[:restless]:
-        next_k = k
-        while next_k < noise_pixel.size and noise_pixel[next_k] == first + j:
-            next_k += 1
-        circuit = (
-            optics.corner_per_level,
-            DARK_OFFSET - optics.balance,
-            np.float64(pixels.threshold_on[j]),
-            np.float64(pixels.threshold_off[j]),
-            np.float64(pixels.leak[j]),
-        )
-        sight = block.bright[j], block.bright_now[j], block.corner[j], block.corner_now[j]
-        held = state.output[j], state.level[j], float(state.since_us[j] - start_us)
-        filled = -1
-        while filled < 0:
-            filled, output, level, since = walk_pixel(
-                (first + j, start_us, stop_us, rules.refractory_us, rules.by_noise),
-                circuit,
-                sight,
-                held,
-                (k, next_k),
-                noise_times,
-                events,
-                found,
-            )
-            if filled < 0:
-                events = _grown(events)
-        found, k = filled, next_k
-        block.output[j] = output
-        state.level[j] = np.nan if since > float(stop_us - start_us) else level
-        state.since_us[j] = start_us + int(since)
-    return found, events
-
-
-@numba.njit(cache=True, nogil=True)
-def _grown(events: Events) -> Events:
-    """The same events with room for as many again."""
-    larger = np.empty((3, 2 * events.shape[1]), np.int64)
-    larger[:, : events.shape[1]] = events
-    return larger

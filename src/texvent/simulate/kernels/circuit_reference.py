@@ -88,8 +88,7 @@ def advance_pixels(
     lag[finished.pixel] = finished.lag
     lag[np.abs(lag) < SETTLED] = 0.0
     state.output[:] = bright_now - lag
-    is_held = finished.since > duration
-    state.level[finished.pixel] = np.where(is_held, np.nan, finished.level)
+    state.level[finished.pixel] = finished.level
     state.since_us[finished.pixel] = span_us[0] + finished.since.astype(np.int64)
     return fired.events()
 
@@ -138,6 +137,8 @@ class _Walk:
     pieces: Float64Array
     piece: Float64Array
     """Number of this piece."""
+    begin_us: Float64Array
+    """Of this piece."""
     end: Float64Array
     """Of this piece."""
     now: Float64Array
@@ -147,8 +148,9 @@ class _Walk:
     """The output on this piece is `base + tilt · now − transient`."""
     tilt: Float64Array
     transient: Float64Array
+    """At the start of this piece."""
     kept: Float64Array
-    """What will be left of the transient at the end of the piece, as a share."""
+    """What is left of it at the end, as a share."""
     level: Float64Array
     since: Float64Array
     k: Int64Array
@@ -185,6 +187,7 @@ class _Walk:
             growth=exponential(rise / pieces),
             pieces=pieces,
             piece=nothing - 1.0,
+            begin_us=nothing.copy(),
             end=nothing.copy(),
             now=nothing.copy(),
             lag=bright - state.output[pixel],
@@ -212,7 +215,7 @@ class _Walk:
         self.piece = self.piece + 1.0
         length = duration / self.pieces
         is_last = self.piece == self.pieces - 1.0
-        self.now = self.piece * length
+        self.now, self.begin_us = self.piece * length, self.piece * length
         self.end = np.where(is_last, duration, (self.piece + 1.0) * length)
         per_level, slope = light.optics.corner_per_level, self.rise / duration
         if per_level == 0:
@@ -236,17 +239,6 @@ class _Walk:
         self.base = self.bright + slope * self.now - (lag - self.transient) - self.tilt * self.now
         self.corner, self.kept, self.lag = corner, kept, lag_to
         self.corner_from, self.glow = corner_to, ahead
-
-    def output(self) -> Float64Array:
-        """Of the photoreceptors, now."""
-        return self.base + self.tilt * self.now - self.transient
-
-    def move(self, to: Float64Array) -> None:
-        """Go on to a later time of this piece."""
-        kept = np.where(to == self.end, self.kept, exponential(-self.corner * (to - self.now)))
-        self.transient = self.transient * kept
-        self.kept = np.where(to == self.end, 1.0, self.kept / kept)
-        self.now = to
 
 
 class _Fired:
@@ -292,22 +284,23 @@ class _Fired:
         held = walk.since > walk.now
         while (passed := held & (self._next_noise(walk) < walk.since)).any():
             walk.k = walk.k + passed
-        released = held & (walk.since <= walk.end)
-        walk.move(np.where(held, np.minimum(walk.since, walk.end), walk.now))
-        walk.level = np.where(released, walk.output(), walk.level)
-        waits = held & ~released
-
-        is_dead = np.abs(walk.transient) <= NEGLIGIBLE * np.minimum(walk.on, walk.off)
-        walk.transient = np.where(is_dead & ~waits, 0.0, walk.transient)
-        change = walk.output() - walk.level + walk.leak * (walk.now - walk.since)
-        change = np.where(waits, 0.0, change)
-        room = walk.end - walk.now
-        course = Course(change, walk.tilt + walk.leak, walk.transient, walk.corner, room, walk.kept)
+        waits = held & (walk.since > walk.end)
+        now = np.where(held & ~waits, walk.since, walk.now)
+        left = exponential(-walk.corner * (now - walk.begin_us))
+        transient = walk.transient * left
+        transient[np.abs(transient) <= NEGLIGIBLE * np.minimum(walk.on, walk.off)] = 0.0
+        output = walk.base + walk.tilt * now - transient
+        walk.level = np.where(np.isnan(walk.level) & ~waits, output, walk.level)
+        change = np.where(waits, 0.0, output - walk.level + walk.leak * (now - walk.since))
+        room = walk.end - now
+        course = Course(
+            change, walk.tilt + walk.leak, transient, walk.corner, room, walk.kept / left
+        )
         wait, p = time_to_threshold(course, walk.on, walk.off)
-        crossing, arrival = walk.now + wait, self._next_noise(walk)
+        crossing, arrival = now + wait, self._next_noise(walk)
         event = np.minimum(crossing, arrival)
         fires = (event <= walk.end) & ~waits
-        walk.move(np.where(fires, event, walk.end))
+        walk.now = np.where(fires, event, now)
         self._fire(walk, fires, fires & (arrival <= crossing), p)
         return ~fires
 
@@ -330,5 +323,6 @@ class _Fired:
         self._found.append((walk.pixel[fires], t[fires], p[fires].astype(np.int64), label[fires]))
         walk.k = walk.k + by_noise
         resets = fires & (~by_noise | self._rules.by_noise)
-        walk.level = np.where(resets, walk.output(), walk.level)
+        # What it is when the pixel is released, which without refractory period is at once.
+        walk.level = np.where(resets, np.nan, walk.level)
         walk.since = np.where(resets, after + self._rules.refractory_us, walk.since)

@@ -20,6 +20,7 @@ from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.kernels import passage_reference
 from texvent.simulate.kernels.cpu_draws import draw_halves_at, draw_uniform_at, place_of
 from texvent.simulate.kernels.elementary_cpu import cosine_of_turns, natural_log
+from texvent.simulate.kernels.lanes_cpu import append_by_lane, make_room
 from texvent.simulate.kernels.order import Columns, read_only
 from texvent.simulate.kernels.order_cpu import has_room_for_keys, key_bits, order_keys
 from texvent.simulate.kernels.passage import (
@@ -44,6 +45,8 @@ _motion_of = numba.njit(cache=True, nogil=True, error_model="numpy")(passage_ref
 
 SHARE = 16 * BLOCK
 """Fewest pixels that are worth a thread of their own."""
+ROOM = BLOCK + 8
+"""Columns of `lanes`: rows a power of two apart would share few lines of the nearest cache."""
 WORD = 8
 """Pixels that are passed over together."""
 WAY, SINCE, DUE, PACE, DRIVEN, SIGNAL, FORWARD, SPEED, SPREAD, SQUARE, CHANCE, DISTANCE = range(12)
@@ -114,7 +117,7 @@ def _find_passages(
     due, pace, is_moving, driven, soonest = volts
     stop, base = span[1], (np.uint64(place[0]), np.uint64(place[2]), span[0])
     keys, found = np.empty(now.size // 4 + 64, np.uint64), 0
-    lanes, names = np.empty((12, BLOCK)), np.empty((3, BLOCK), np.uint64)
+    lanes, names = np.empty((12, ROOM)), np.empty((3, ROOM), np.uint64)
     words, listed = np.zeros((2, BLOCK // WORD), np.uint64), np.empty((2, BLOCK + WORD), np.int64)
     moves, marks = words[0].view(np.uint8), words[1].view(np.uint8)
     events, count = np.empty((2, 2 * BLOCK), np.uint64), np.empty(BLOCK, np.int64)
@@ -140,8 +143,7 @@ def _find_passages(
         count[:busy] = 0
         n, going = busy, _part(lanes[DUE, :busy], stop, listed)
         while True:
-            if made + going > events.shape[1]:
-                events = _grown(events)
+            events = make_room(events, made + going)
             firing, is_due = listed[0, :going], order == FIRST_DRAW
             made = _fire(lanes, names, firing, is_due, base, events, made, count)
             n = n if is_due else going
@@ -154,9 +156,7 @@ def _find_passages(
                 driven[i] = lanes[DRIVEN, j] + lanes[SIGNAL, j] * (stop - lanes[SINCE, j])
                 due[i], pace[i] = lanes[DUE, j], lanes[PACE, j]
             order += DRAWS_PER_PASSAGE
-        if found + made > keys.size:
-            keys = _enlarged(keys, found + made)
-        found = _put_by_pixel(events[:, :made], count[:busy], keys, found)
+        keys, found = append_by_lane(events[:, :made], count[:busy], keys, found)
     return keys[:found]
 
 
@@ -336,34 +336,3 @@ def _name(names: Uint64Array, n: int, place: tuple[int, int, int]) -> None:
         # Half a pixel off the row's start, so that rounding of the product cannot miss the row.
         y = int((pixel + 0.5) * inverse)
         names[PLACE, k] = place_of(y, pixel - y * place[1])
-
-
-@numba.njit(cache=True, nogil=True)
-def _put_by_pixel(
-    events: Uint64Array, count: NDArray[np.int64], keys: Uint64Array, found: int
-) -> int:
-    """Append the events of a block, lane after lane; return how many keys there are now."""
-    for number in range(count.size):
-        own = count[number]
-        count[number] = found
-        found += own
-    for k in range(events.shape[1]):
-        keys[count[events[1, k]]] = events[0, k]
-        count[events[1, k]] += 1
-    return found
-
-
-@numba.njit(cache=True, nogil=True)
-def _grown(events: Uint64Array) -> Uint64Array:
-    """The same events with room for as many again."""
-    larger = np.empty((2, 2 * events.shape[1]), np.uint64)
-    larger[:, : events.shape[1]] = events
-    return larger
-
-
-@numba.njit(cache=True, nogil=True)
-def _enlarged(keys: Uint64Array, needed: int) -> Uint64Array:
-    """The same keys with room for more than are needed."""
-    larger = np.empty(2 * needed, np.uint64)
-    larger[: keys.size] = keys
-    return larger
