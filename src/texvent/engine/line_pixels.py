@@ -183,7 +183,7 @@ class FusedEsim:
         if watching is None:
             watching = self._watching = EsimSimulator(self._config)
             watching.resume(earlier_of(pair), *state)
-        for frame in undrawn_frames(pair):
+        for frame in pair.frames:
             yield frame, watching.step(frame)
 
 

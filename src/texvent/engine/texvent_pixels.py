@@ -99,7 +99,7 @@ class FusedTexvent:
         elif pixels is None:
             first = earlier_of(pair)
             pixels = self._watching = SparsePixels(self._config, AUTO, first, "a frame")
-        for frame, span_us in zip(undrawn_frames(pair), itertools.pairwise(edges_us), strict=True):
+        for frame, span_us in zip(pair.frames, itertools.pairwise(edges_us), strict=True):
             span = Interval(*span_us, frame_key(self._seed, span_us[1]))
             seen = last if frame is pair.second else frame
             yield frame, pixels.advance(seen, span, "a frame")

@@ -20,6 +20,8 @@ FloatPicture = NDArray[np.float32]
 Flows = tuple[NDArray[np.float32], NDArray[np.float32]]
 
 WARP = "texvent.interpolate.kernels.cpu"
+DRAWN_BYTES = 16 << 20
+"""Moved pictures are drawn a few at a time, which is faster; this much of them at most."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,19 +75,27 @@ class Paths:
         return len(self.times_us)
 
     def __iter__(self) -> Iterator[Frame]:
-        for index, t_us in enumerate(self.times_us):
-            yield Frame(self.picture(index), t_us, is_source=False)
+        step = max(1, DRAWN_BYTES // max(1, self.earlier.nbytes))
+        for start in range(0, len(self), step):
+            for picture, t_us in zip(
+                self._draw(start, start + step), self.times_us[start:], strict=False
+            ):
+                yield Frame(picture, t_us, is_source=False)
 
     def picture(self, index: int) -> FloatPicture:
         """One picture, [H, W] float32 luma.
 
         Without flow it is `I_1 + τ (I_2 − I_1)` in float32.
         """
-        place = self.positions[index]
-        if self.flows is None:
-            return self.earlier + np.float32(place) * (self.later - self.earlier)
-        drawn: FloatPicture = load_warp().warp_pair(self.prepared, place)
-        return drawn
+        return next(self._draw(index, index + 1))
+
+    def _draw(self, start: int, stop: int) -> Iterator[FloatPicture]:
+        places = np.array(self.positions[start:stop], np.float64)
+        if self.flows is not None:
+            yield from load_warp().warp_pair(self.prepared, places)
+            return
+        for place in places.tolist():
+            yield self.earlier + np.float32(place) * (self.later - self.earlier)
 
     @cached_property
     def prepared(self) -> Any:

@@ -119,4 +119,5 @@ def test_some_points_of_a_picture_are_those_of_the_whole_picture():
     room, shown = cpu.make_room(pixel.size), np.empty(pixel.size, np.float32)
     cpu.take_points(pair, pixel, room.points)
     cpu.warp_points(pair, room, pixel.size, 0.7, shown)
-    np.testing.assert_array_equal(shown, cpu.warp_pair(pair, 0.7).reshape(-1)[pixel])
+    whole = cpu.warp_pair(pair, np.array([0.2, 0.7]))
+    np.testing.assert_array_equal(shown, whole[1].reshape(-1)[pixel])

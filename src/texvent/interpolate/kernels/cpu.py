@@ -123,7 +123,8 @@ def warp_between(
     Returns:
         [H, W] float32, intensity; defined by `reference.warp_between`.
     """
-    picture: Floats = warp_pair(prepare_pair(first, second, forward, backward), position)
+    pair = prepare_pair(first, second, forward, backward)
+    picture: Floats = warp_pair(pair, np.array([position]))[0]
     return picture
 
 
@@ -162,25 +163,32 @@ def _with_neighbours(picture: Floats) -> Words:
 
 
 @numba.njit(cache=True, parallel=True)
-def warp_pair(pair: WarpPair, position: float) -> Floats:
-    """`warp_between` of a pair that is prepared."""
+def warp_pair(pair: WarpPair, positions: NDArray[np.float64]) -> Floats:
+    """`warp_between` of a pair that is prepared, at several positions: [n, H, W].
+
+    All pictures of some rows are made together, from what the nearest caches hold.
+    """
     height, width = pair.first.shape
-    result = np.empty((height, width), np.float32)
+    result = np.empty((positions.size, height, width), np.float32)
     for band in numba.prange((height + BAND_ROWS - 1) // BAND_ROWS):
         top, bottom = band * BAND_ROWS, min((band + 1) * BAND_ROWS, height)
-        _warp_rows(pair, top, bottom, position, result)
+        _warp_rows(pair, top, bottom, positions, result)
     return result
 
 
 @compile_part
-def _warp_rows(pair: WarpPair, top: int, bottom: int, position: float, result: Floats) -> None:
-    width = result.shape[1]
+def _warp_rows(
+    pair: WarpPair, top: int, bottom: int, positions: NDArray[np.float64], result: Floats
+) -> None:
+    width = result.shape[2]
     step = max(POINTS // width, 1)
     room = make_room(min(step, bottom - top) * width)
     for row in range(top, bottom, step):
         end = min(row + step, bottom)
         take_rows(pair, row, end, room.points)
-        warp_points(pair, room, (end - row) * width, position, result[row:end].reshape(-1))
+        for k in range(positions.size):
+            out = result[k, row:end].reshape(-1)
+            warp_points(pair, room, (end - row) * width, positions[k], out)
 
 
 @numba.njit(cache=True, nogil=True)
