@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from texvent.simulate.kernels.circuit import BLOCK, Pixels, PixelState
 from texvent.simulate.kernels.circuit_reference import SETTLED
+from texvent.simulate.kernels.crossing_time_cpu import ROWS
 
 Float64Array = NDArray[np.float64]
 Int64Array = NDArray[np.int64]
@@ -27,7 +28,7 @@ L_BRIGHT_NOW, LANE_ROWS = 22, 23
 N_PIXEL, N_NUMBER, N_NOISE, N_LAST_NOISE = range(4)
 """Rows of names, [4, room] int64: which pixel a lane is, which lane it was at first,
 its next noise event, and where those of the next pixel begin."""
-MOVE_ROWS = 20
+MOVE_ROWS = ROWS + 6
 """Rows of `Work.moves`."""
 LANES = 1000
 """Pixels that walk together. Rows a power of two apart would share few lines of the cache."""

@@ -63,6 +63,7 @@ from texvent.simulate.kernels.crossing_time_cpu import (
     ON,
     RISES,
     ROOM,
+    ROWS,
     SLOPE,
     TRANSIENT,
     WAIT,
@@ -71,7 +72,7 @@ from texvent.simulate.kernels.crossing_time_cpu import (
 from texvent.simulate.kernels.elementary_cpu import decay_and_gain, exponential
 from texvent.simulate.kernels.lanes_cpu import make_room
 
-R_NOW, R_AGE, R_SINCE, R_LEVEL, R_LEAK, R_WAITS = range(14, 20)
+R_NOW, R_AGE, R_SINCE, R_LEVEL, R_LEAK, R_WAITS = range(ROWS, ROWS + 6)
 """Rows of moves, besides those of `crossing_time_cpu`."""
 Rules = tuple[int, bool, int, int, int, int]
 """Refractory period, whether noise resets, number of the first pixel, bits of a key below its time,
@@ -203,6 +204,29 @@ def _move(
     Returns:
         How many fire.
     """
+    size = moving.size
+    _look_up(lanes, names, moving, noise_times, moves)
+    _set_out(moves, size)
+    find_crossings(moves, solving, lane, size)
+    found = 0
+    for k in range(size):
+        j = moving[k]
+        lanes[L_LEVEL, j], lanes[L_NOW, j] = moves[R_LEVEL, k], moves[R_NOW, k]
+        event = min(moves[R_NOW, k] + moves[WAIT, k], lanes[L_ARRIVAL, j])
+        lane[found] = k
+        found += (event <= lanes[L_END, j]) & (moves[R_WAITS, k] == 0)
+    return found
+
+
+@numba.njit(cache=True, nogil=True)
+def _look_up(
+    lanes: Float64Array,
+    names: Int64Array,
+    moving: Int64Array,
+    noise_times: Int64Array,
+    moves: Float64Array,
+) -> None:
+    """Copy what a move needs to know of its lanes, which are on the piece or are released there."""
     for k in range(moving.size):
         j = moving[k]
         now, since = lanes[L_NOW, j], lanes[L_SINCE, j]
@@ -216,7 +240,11 @@ def _move(
         moves[TRANSIENT, k], moves[CORNER, k] = lanes[L_TRANSIENT, j], lanes[L_CORNER, j]
         moves[KEPT, k], moves[R_LEVEL, k] = lanes[L_KEPT, j], lanes[L_LEVEL, j]
         moves[ON, k], moves[OFF, k] = lanes[L_ON, j], lanes[L_OFF, j]
-    size = moving.size
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _set_out(moves: Float64Array, size: int) -> None:
+    """How the change goes on from where each lane is; the level is taken if it has been released."""
     for k in range(size):
         left = exponential(-moves[CORNER, k] * moves[R_AGE, k])
         transient = moves[TRANSIENT, k] * left
@@ -231,15 +259,6 @@ def _move(
         moves[CHANGE, k] = 0.0 if waits else output - level + leaked
         moves[SLOPE, k], moves[R_LEVEL, k] = moves[SLOPE, k] + moves[R_LEAK, k], level
         moves[R_WAITS, k] = 1.0 if waits else 0.0
-    find_crossings(moves, solving, lane, size)
-    found = 0
-    for k in range(size):
-        j = moving[k]
-        lanes[L_LEVEL, j], lanes[L_NOW, j] = moves[R_LEVEL, k], moves[R_NOW, k]
-        event = min(moves[R_NOW, k] + moves[WAIT, k], lanes[L_ARRIVAL, j])
-        lane[found] = k
-        found += (event <= lanes[L_END, j]) & (moves[R_WAITS, k] == 0)
-    return found
 
 
 @numba.njit(cache=True, nogil=True)

@@ -27,7 +27,9 @@ WAIT, RISES = 8, 9
 """Rows that say when it gets to a threshold, and 1 for ON, 0 for OFF."""
 TURN, STOP, LEFT, LEVEL = 10, 11, 12, 13
 """Scratch: when the curve turns round or else the room ends, and what it has come to then."""
-ROWS = 14
+AT_END, MEETS = 14, 15
+"""Scratch: what it has come to at the end, and the arc that meets a threshold: 1, 2, or 0 for none."""
+ROWS = 16
 TARGET, START, END, KEPT_FIRST, KEPT_LAST, FIRST, LAST, U, BUSY = range(4, 13)
 """Rows of lanes that are solved for, besides the first four: the arc, see `crossing_time._Arc`, and
 how far the solution has got."""
@@ -58,7 +60,8 @@ def find_crossings(
     """
     _along_line(rows, size)
     _turn(rows, size)
-    busy = _choose_arcs(rows, solving, lane, size)
+    _meet(rows, size)
+    busy = _list_arcs(rows, solving, lane, size)
     _solve(solving, busy)
     for k in range(busy):
         rows[WAIT, lane[k]] = solving[U, k]
@@ -66,70 +69,91 @@ def find_crossings(
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def _along_line(rows: Float64Array, size: int) -> None:
+    # Here as below, everything is read before it is chosen from: what is read in one case only is
+    # a branch, and no vector instruction.
     for j in range(size):
-        change, slope = rows[CHANGE, j], rows[SLOPE, j]
-        target = rows[ON, j] if slope > 0 else -rows[OFF, j]
-        wait = (target - change) / slope
-        is_late = (slope == 0) | (wait > rows[ROOM, j])
-        rows[WAIT, j], rows[RISES, j] = NEVER if is_late else wait, 1.0 if slope > 0 else 0.0
-    for j in range(size):
-        is_over, is_under = rows[CHANGE, j] >= rows[ON, j], -rows[CHANGE, j] >= rows[OFF, j]
-        rows[WAIT, j] = 0.0 if is_over | is_under else rows[WAIT, j]
-        rows[RISES, j] = 1.0 if is_over else (0.0 if is_under else rows[RISES, j])
+        change, slope, room = rows[CHANGE, j], rows[SLOPE, j], rows[ROOM, j]
+        on, off = rows[ON, j], -rows[OFF, j]
+        wait = ((on if slope > 0 else off) - change) / slope
+        wait = NEVER if wait > room else wait
+        wait = NEVER if slope == 0 else wait
+        rises = 1.0 if slope > 0 else 0.0
+        wait = 0.0 if change <= off else wait
+        wait = 0.0 if change >= on else wait
+        rises = 0.0 if change <= off else rises
+        rows[WAIT, j], rows[RISES, j] = wait, 1.0 if change >= on else rises
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def _turn(rows: Float64Array, size: int) -> None:
     """Where the first arc of a curve ends; see `crossing_time._along_curve`."""
     for j in range(size):
-        slope, corner = rows[SLOPE, j], rows[CORNER, j]
-        kick = corner * rows[TRANSIENT, j]
-        turns = (slope + kick) * slope < 0
-        ratio = -kick / slope if turns else 1.0
-        turn = natural_log(ratio) / corner if turns else NEVER
-        is_first = turn >= rows[ROOM, j]
-        rows[TURN, j] = turn
-        rows[STOP, j] = rows[ROOM, j] if is_first else turn
-        rows[LEFT, j] = rows[KEPT, j] if is_first else 1.0 / ratio
+        slope, kick = rows[SLOPE, j], rows[CORNER, j] * rows[TRANSIENT, j]
+        ratio = -kick / slope
+        rows[LEFT, j] = ratio if (slope + kick) * slope < 0 else 1.0
+    for j in range(size):
+        rows[TURN, j] = natural_log(rows[LEFT, j]) / rows[CORNER, j]
+    for j in range(size):
+        slope, kick, turn = rows[SLOPE, j], rows[CORNER, j] * rows[TRANSIENT, j], rows[TURN, j]
+        rows[TURN, j] = turn if (slope + kick) * slope < 0 else NEVER
+    for j in range(size):
+        turn, room, kept, left = rows[TURN, j], rows[ROOM, j], rows[KEPT, j], 1.0 / rows[LEFT, j]
+        rows[STOP, j] = room if turn >= room else turn
+        rows[LEFT, j] = kept if turn >= room else left
     for j in range(size):
         line = rows[CHANGE, j] + rows[SLOPE, j] * rows[STOP, j]
         rows[LEVEL, j] = line + rows[TRANSIENT, j] * (1.0 - rows[LEFT, j])
+    for j in range(size):
+        line = rows[CHANGE, j] + rows[SLOPE, j] * rows[ROOM, j]
+        rows[AT_END, j] = line + rows[TRANSIENT, j] * (1.0 - rows[KEPT, j])
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
-def _choose_arcs(
+def _meet(rows: Float64Array, size: int) -> None:
+    """Which arc of each curve meets a threshold."""
+    for j in range(size):
+        slope, last, on, off = rows[SLOPE, j], rows[AT_END, j], rows[ON, j], -rows[OFF, j]
+        up, down = 2.0 if last >= on else 0.0, 2.0 if last <= off else 0.0
+        later = up if slope > 0 else down
+        rows[MEETS, j] = later if rows[TURN, j] < rows[ROOM, j] else 0.0
+    for j in range(size):
+        slope, kick, level = rows[SLOPE, j], rows[CORNER, j] * rows[TRANSIENT, j], rows[LEVEL, j]
+        on, off, later = rows[ON, j], -rows[OFF, j], rows[MEETS, j]
+        up, down = 1.0 if level >= on else later, 1.0 if level <= off else later
+        direction = slope if slope + kick == 0 else slope + kick
+        rows[MEETS, j] = up if direction > 0 else down
+    for j in range(size):
+        change, on, off, wait = rows[CHANGE, j], rows[ON, j], rows[OFF, j], rows[WAIT, j]
+        meets, transient = rows[MEETS, j], rows[TRANSIENT, j]
+        lowest = NEGLIGIBLE * (on if on < off else off)
+        is_curved = (abs(transient) > lowest) & (change < on) & (-change < off)
+        rows[WAIT, j], rows[MEETS, j] = NEVER if is_curved else wait, meets if is_curved else 0.0
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def _list_arcs(
     rows: Float64Array, solving: Float64Array, lane: NDArray[np.int64], size: int
 ) -> int:
-    """List the lanes on a curve that meets a threshold, and say on which arc; how many."""
+    """Copy the lanes that meet a threshold on a curve, side by side; how many those are."""
     busy = 0
     for j in range(size):
-        change, slope, transient = rows[CHANGE, j], rows[SLOPE, j], rows[TRANSIENT, j]
-        on, off, level = rows[ON, j], rows[OFF, j], rows[LEVEL, j]
-        is_curved = abs(transient) > NEGLIGIBLE * min(on, off)
-        if not (is_curved and change < on and -change < off):
-            continue
-        first = slope + rows[CORNER, j] * transient
-        rises = slope > 0 if first == 0 else first > 0
-        rows[RISES, j], rows[WAIT, j] = 1.0 if rises else 0.0, NEVER
-        solving[START, busy], solving[END, busy] = 0.0, rows[STOP, j]
-        solving[KEPT_FIRST, busy], solving[KEPT_LAST, busy] = 1.0, rows[LEFT, j]
-        solving[FIRST, busy], solving[LAST, busy] = change, level
-        if not (level >= on if rises else -level >= off):
-            if rows[TURN, j] >= rows[ROOM, j]:
-                continue
-            rises = slope > 0
-            last = change + slope * rows[ROOM, j] + transient * (1.0 - rows[KEPT, j])
-            if not (last >= on if rises else -last >= off):
-                continue
-            rows[RISES, j] = 1.0 if rises else 0.0
-            solving[START, busy], solving[END, busy] = rows[STOP, j], rows[ROOM, j]
-            solving[KEPT_FIRST, busy], solving[KEPT_LAST, busy] = rows[LEFT, j], rows[KEPT, j]
-            solving[FIRST, busy], solving[LAST, busy] = level, last
-        solving[CHANGE, busy], solving[SLOPE, busy] = change, slope
-        solving[TRANSIENT, busy], solving[CORNER, busy] = transient, rows[CORNER, j]
-        solving[TARGET, busy] = on if rises else -off
         lane[busy] = j
-        busy += 1
+        busy += rows[MEETS, j] > 0
+    for k in range(busy):
+        j = lane[k]
+        is_first, change, slope = rows[MEETS, j] == 1.0, rows[CHANGE, j], rows[SLOPE, j]
+        stop, room, left, kept = rows[STOP, j], rows[ROOM, j], rows[LEFT, j], rows[KEPT, j]
+        level, at_end, on, off = rows[LEVEL, j], rows[AT_END, j], rows[ON, j], -rows[OFF, j]
+        solving[CHANGE, k], solving[SLOPE, k] = change, slope
+        solving[TRANSIENT, k], solving[CORNER, k] = rows[TRANSIENT, j], rows[CORNER, j]
+        solving[START, k], solving[END, k] = 0.0 if is_first else stop, stop if is_first else room
+        solving[KEPT_FIRST, k] = 1.0 if is_first else left
+        solving[KEPT_LAST, k] = left if is_first else kept
+        first, last = change if is_first else level, level if is_first else at_end
+        solving[FIRST, k], solving[LAST, k] = first, last
+        # It rises to ON, or falls to OFF.
+        solving[TARGET, k] = on if last > first else off
+        rows[RISES, j] = 1.0 if last > first else 0.0
     return busy
 
 
@@ -144,8 +168,8 @@ def _solve(solving: Float64Array, size: int) -> None:
         solving[U, j], solving[BUSY, j] = start + part * line, 1.0 if by_line else 0.0
         solving[LAST, j] = 1.0 if by_line else solving[KEPT_FIRST, j] - part * fall
     for j in range(size):
-        by_curve = -natural_log(solving[LAST, j]) / solving[CORNER, j]
-        u = solving[U, j] if solving[BUSY, j] > 0 else by_curve
+        by_line, by_curve = solving[U, j], -natural_log(solving[LAST, j]) / solving[CORNER, j]
+        u = by_line if solving[BUSY, j] > 0 else by_curve
         solving[U, j] = min(max(u, solving[START, j]), solving[END, j])
         solving[BUSY, j] = 1.0
     for _ in range(MOST_STEPS):
