@@ -244,7 +244,7 @@ def _look_up(
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def _set_out(moves: Float64Array, size: int) -> None:
-    """How the change goes on from where each lane is; the level is taken if it has been released."""
+    """How the change goes on from where each lane is; those that were released take their level."""
     for k in range(size):
         left = exponential(-moves[CORNER, k] * moves[R_AGE, k])
         transient = moves[TRANSIENT, k] * left

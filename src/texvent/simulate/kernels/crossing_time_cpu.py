@@ -28,7 +28,7 @@ WAIT, RISES = 8, 9
 TURN, STOP, LEFT, LEVEL = 10, 11, 12, 13
 """Scratch: when the curve turns round or else the room ends, and what it has come to then."""
 AT_END, MEETS = 14, 15
-"""Scratch: what it has come to at the end, and the arc that meets a threshold: 1, 2, or 0 for none."""
+"""Scratch: what it has come to at the end, and which arc meets a threshold: 1, 2, or 0 for none."""
 ROWS = 16
 TARGET, START, END, KEPT_FIRST, KEPT_LAST, FIRST, LAST, U, BUSY = range(4, 13)
 """Rows of lanes that are solved for, besides the first four: the arc, see `crossing_time._Arc`, and
