@@ -25,7 +25,7 @@ BASE = {
     "numba": "fast kernels and the scene renderer",
     "h5py": "HDF5 event files",
     "av": "reading and writing video",
-    "opencv-python-headless": "optical flow, pictures, resizing",
+    "opencv-python-headless": "pictures, resizing",
     "tyro": "command line",
     "rich": "progress and tables",
     "pyyaml": "YAML config files",
