@@ -40,7 +40,7 @@ from texvent.simulate.kernels.circuit_lanes_cpu import (
 from texvent.simulate.kernels.circuit_reference import SETTLED
 from texvent.simulate.kernels.circuit_walk_cpu import walk_lanes
 from texvent.simulate.kernels.elementary_cpu import decay_and_gain, exponential, natural_log
-from texvent.simulate.kernels.lanes_cpu import append_by_lane
+from texvent.simulate.kernels.lanes_cpu import append_by_lane, is_equal
 from texvent.simulate.kernels.order import Columns, read_only
 from texvent.simulate.kernels.order_cpu import has_room_for_keys, key_bits, order_keys
 from texvent.simulate.kernels.threads import count_threads, run_parts, split
@@ -126,7 +126,7 @@ def _advance_blocks(
         noise_first = noise_done
         while noise_done < noise_pixel.size and noise_pixel[noise_done] < last:
             noise_done += 1
-        is_still = _is_equal(before[first:last], now[first:last])
+        is_still = is_equal(before[first:last], now[first:last])
         is_left_alone = is_still and noise_first == noise_done
         if is_left_alone and stop_us <= state.calm_until_us[first // BLOCK]:
             continue
@@ -162,14 +162,6 @@ def _advance_blocks(
     events, made = walk_lanes(work, walking, state, optics, noise[1], walk, events)
     keys, found = append_by_lane(events[:, :made], work.events[:walking], keys, found)
     return keys[:found]
-
-
-@numba.njit(cache=True, nogil=True)
-def _is_equal(one: Luma, two: Luma) -> bool:
-    different = 0
-    for j in range(one.size):
-        different |= one[j] != two[j]
-    return different == 0
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")

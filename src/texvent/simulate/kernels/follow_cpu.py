@@ -22,14 +22,13 @@ from texvent.simulate.kernels.follow import (
     PixelState,
     Restless,
 )
+from texvent.simulate.kernels.lanes_cpu import WORD, is_equal, list_marked
 from texvent.simulate.kernels.order import read_only
 from texvent.simulate.kernels.scratch import take_scratch
 from texvent.simulate.kernels.threads import count_threads, run_parts, split
 
 SHARE = 1 << 18
 """Fewest pixels that are worth a thread of their own."""
-WORD = 8
-"""Pixels that are passed over together."""
 
 
 def follow_light(
@@ -107,7 +106,7 @@ def _follow_light(
     marks = words.view(np.uint8)
     for first in range(0, size, BLOCK):
         last = min(first + BLOCK, size)
-        is_still = voltage[0].size == 0 and _is_equal(before[first:last], now[first:last])
+        is_still = voltage[0].size == 0 and is_equal(before[first:last], now[first:last])
         if is_still and stop_us <= calm_until_us[first // BLOCK]:
             continue
         before[first:last] = now[first:last]
@@ -120,7 +119,7 @@ def _follow_light(
             _add(start, voltage[0][first:last], 1.0)
             _add(stop, voltage[1][first:last], 1.0)
         _mark(stop, on[first:last], off[first:last], marks)
-        restless = _list_marked(words[: -(-(last - first) // WORD)], marks, local)
+        restless = list_marked(words[: -(-(last - first) // WORD)], marks, local)
         for k in range(restless):
             pixel[found + k] = first + local[k]
             start_change[found + k], stop_change[found + k] = start[local[k]], stop[local[k]]
@@ -185,14 +184,6 @@ def _move(
     return moving
 
 
-@numba.njit(cache=True, nogil=True)
-def _is_equal(one: NDArray[Any], two: NDArray[Any]) -> bool:
-    different = 0
-    for j in range(one.size):
-        different |= one[j] != two[j]
-    return different == 0
-
-
 @numba.njit(cache=True, nogil=True, error_model="numpy")
 def _calm_until(
     brightness: Float64Array, reference: Float64Array, on: Float32Array, leak: Float32Array
@@ -220,18 +211,3 @@ def _mark(
     for j in range(on.size):
         marks[j] = (stop[j] >= on[j]) | (-stop[j] >= off[j])
     marks[on.size :] = 0
-
-
-@numba.njit(cache=True, nogil=True)
-def _list_marked(
-    words: NDArray[np.uint64], marks: NDArray[np.uint8], local: NDArray[np.uint64]
-) -> int:
-    """List what is marked; return how many that are."""
-    found = 0
-    for word in range(words.size):
-        if words[word] == 0:
-            continue
-        for j in range(WORD * word, WORD * word + WORD):
-            local[found] = j
-            found += marks[j]
-    return found

@@ -1,12 +1,46 @@
-"""Events that lanes of pixels make round after round, put in the order of their pixels."""
+"""What kernels share that look at blocks of pixels and send some of each side by side, in lanes."""
 
 from __future__ import annotations
+
+from typing import Any
 
 import numba
 import numpy as np
 from numpy.typing import NDArray
 
 Uint64Array = NDArray[np.uint64]
+WORD = 8
+"""Pixels that are passed over together if none of them is marked."""
+
+
+@numba.njit(cache=True, nogil=True)
+def is_equal(one: NDArray[Any], other: NDArray[Any]) -> bool:
+    """Whether two arrays of a size have the same elements."""
+    different = 0
+    for j in range(one.size):
+        different |= one[j] != other[j]
+    return different == 0
+
+
+@numba.njit(cache=True, nogil=True)
+def list_marked(
+    words: Uint64Array, marks: NDArray[np.uint8], listed: NDArray[np.unsignedinteger[Any]]
+) -> int:
+    """List the pixels of a block that are marked; return how many that are.
+
+    Args:
+        words: the marks, `WORD` at a time.
+        marks: 1 or 0 for each pixel, and 0 beyond the last; the same memory.
+        listed: the list, with room for `WORD` more than there are pixels.
+    """
+    found = 0
+    for word in range(words.size):
+        if words[word] == 0:
+            continue
+        for j in range(WORD * word, WORD * word + WORD):
+            listed[found] = j
+            found += marks[j]
+    return found
 
 
 @numba.njit(cache=True, nogil=True)

@@ -20,7 +20,7 @@ from texvent.simulate.firings import Firings, Interval
 from texvent.simulate.kernels import passage_reference
 from texvent.simulate.kernels.cpu_draws import draw_halves_at, draw_uniform_at, place_of
 from texvent.simulate.kernels.elementary_cpu import cosine_of_turns, natural_log
-from texvent.simulate.kernels.lanes_cpu import append_by_lane, make_room
+from texvent.simulate.kernels.lanes_cpu import WORD, append_by_lane, list_marked, make_room
 from texvent.simulate.kernels.order import Columns, read_only
 from texvent.simulate.kernels.order_cpu import has_room_for_keys, key_bits, order_keys
 from texvent.simulate.kernels.passage import (
@@ -47,8 +47,6 @@ SHARE = 16 * BLOCK
 """Fewest pixels that are worth a thread of their own."""
 ROOM = BLOCK + 8
 """Columns of `lanes`: rows a power of two apart would share few lines of the nearest cache."""
-WORD = 8
-"""Pixels that are passed over together."""
 WAY, SINCE, DUE, PACE, DRIVEN, SIGNAL, FORWARD, SPEED, SPREAD, SQUARE, CHANCE, DISTANCE = range(12)
 """Rows of `lanes`, [12, BLOCK] float64: what busy pixels do, see `passage_reference._Going`.
 FORWARD is the sign of the drift, SPREAD is σ². It is one array because Numba counts the references
@@ -127,7 +125,7 @@ def _find_passages(
         if is_still and soonest[first // BLOCK] >= stop:
             continue
         _mark_busy(due[first:last], stop, moves, is_moving[first:last], marks)
-        busy, made, order = _list_marked(words[1], marks, listed[0]), 0, FIRST_DRAW
+        busy, made, order = list_marked(words[1], marks, listed[0]), 0, FIRST_DRAW
         soonest[first // BLOCK] = _first_due(due[first:last]) if is_still and busy == 0 else -np.inf
         pixel = names[LOCAL, :busy]
         for k in range(busy):
@@ -190,19 +188,6 @@ def _mark_busy(
     for j in range(due.size):
         marks[j] |= moves[j]
     marks[due.size :] = 0
-
-
-@numba.njit(cache=True, nogil=True)
-def _list_marked(words: Uint64Array, marks: NDArray[np.uint8], listed: NDArray[np.int64]) -> int:
-    """List what is marked; return how many that are."""
-    n = 0
-    for word in range(words.size):
-        if words[word] == 0:
-            continue
-        for j in range(WORD * word, WORD * word + WORD):
-            listed[n] = j
-            n += marks[j]
-    return n
 
 
 @numba.njit(cache=True, nogil=True)
