@@ -16,21 +16,22 @@ Float64Array = NDArray[np.float64]
 Int64Array = NDArray[np.int64]
 Uint64Array = NDArray[np.uint64]
 
-L_BRIGHT, L_SLOPE, L_LAG, L_GLOW, L_GROWTH, L_CORNER_FROM = range(6)
-"""Rows of lanes: the light, see `circuit_reference._Walk`."""
-L_PIECES, L_LENGTH, L_BEGIN, L_END = 6, 7, 8, 9
-"""Pieces: how many, how long, and this one's span."""
-L_BASE, L_TILT, L_TRANSIENT, L_CORNER, L_KEPT = 10, 11, 12, 13, 14
-"""The photoreceptor on this piece."""
-L_ON, L_OFF, L_LEAK, L_LEVEL, L_SINCE, L_NOW, L_ARRIVAL = 15, 16, 17, 18, 19, 20, 21
+L_BRIGHT, L_BRIGHT_NOW, L_SLOPE, L_LAG, L_GLOW, L_GROWTH, L_CORNER_FROM = range(7)
+"""Rows of lanes, [LANE_ROWS, LANES] float64: the light, see `circuit_reference._Walk`."""
+L_PIECES, L_LENGTH = 7, 8
+"""Into how many pieces the interval is cut, and how long they are."""
+L_ON, L_OFF, L_LEAK, L_LEVEL, L_SINCE, L_ARRIVAL = range(9, 15)
 """The pixel, and its next noise event."""
-L_BRIGHT_NOW, LANE_ROWS = 22, 23
+CARRIED_ROWS = 15
+"""Rows up to here go on from piece to piece; the others belong to one."""
+L_BEGIN, L_END, L_NOW, L_BASE, L_TILT, L_TRANSIENT, L_CORNER, L_KEPT = range(15, 23)
+LANE_ROWS = 23
 N_PIXEL, N_NUMBER, N_NOISE, N_LAST_NOISE = range(4)
-"""Rows of names, [4, room] int64: which pixel a lane is, which lane it was at first,
-its next noise event, and where those of the next pixel begin."""
+"""Rows of names, [4, LANES] int64: which pixel a lane is, which lane it was at first, its next
+noise event, and where those of the next pixel begin."""
 MOVE_ROWS = ROWS + 6
 """Rows of `Work.moves`."""
-LANES = 1000
+LANES = 1512
 """Pixels that walk together. Rows a power of two apart would share few lines of the cache."""
 
 
@@ -155,7 +156,7 @@ def leave_lanes(
     for n in range(size):
         if piece < lanes[L_PIECES, n]:
             if staying < n:
-                for row in range(LANE_ROWS):
+                for row in range(CARRIED_ROWS):
                     lanes[row, staying] = lanes[row, n]
                 for row in range(4):
                     names[row, staying] = names[row, n]
