@@ -39,7 +39,7 @@ def list_marked(
             continue
         for j in range(WORD * word, WORD * word + WORD):
             listed[found] = j
-            found += np.int64(marks[j])
+            found += int(np.int64(marks[j]))
     return found
 
 
