@@ -29,7 +29,7 @@ from texvent.simulate.kernels.circuit import (
     new_state,
 )
 
-# Numba's cache looks at this file only: whoever changes these changes this one too.
+# Numba's cache looks at this file only: whoever changes these must touch up this one too.
 from texvent.simulate.kernels.circuit_lanes_cpu import (
     LANES,
     Block,

@@ -34,9 +34,9 @@ LEAK_SHARE = 0.5
 """An ON event is noise if leakage made at least this share of its change."""
 SETTLED = 2.0**-40
 """A lag below this, log units, is none, so that a pixel at rest is at rest."""
-FEWEST_PER_LOG, MOST_PER_LOG = 2.0, 16.0
-"""Pieces of an interval per log unit of brightness: on each the corner hardly changes.
-Between the two, as many as there are time constants."""
+FEWEST_PER_LOG, MOST_PER_LOG = 2.0, 8.0
+"""Pieces of an interval per log unit of brightness: on each the corner hardly changes. One per time
+constant, but no fewer and, but for one, no more than these."""
 STRAIGHT = 1e-3
 """A piece that is shorter, in time constants, is a straight line."""
 
@@ -171,7 +171,8 @@ class _Walk:
         bright, rise, corner, corner_now = (column[pixel] for column in sight)
         duration = float(span_us[1] - span_us[0])
         angle, size = np.maximum(corner, corner_now) * duration, np.abs(rise)
-        pieces = np.ceil(np.minimum(np.maximum(angle, FEWEST_PER_LOG * size), MOST_PER_LOG * size))
+        most = MOST_PER_LOG * size + 1.0
+        pieces = np.ceil(np.minimum(np.maximum(angle, FEWEST_PER_LOG * size), most))
         pieces = np.where(angle > 0, np.maximum(pieces, 1.0), 1.0)
         nothing, none = np.zeros(len(pixel)), np.zeros(len(pixel), np.int64)
         return cls(

@@ -126,7 +126,7 @@ def _begin_walk(lanes: Float64Array, size: int, duration: float, is_limited: boo
     for j in range(size):
         rise = lanes[L_BRIGHT_NOW, j] - lanes[L_BRIGHT, j]
         angle, span = max(lanes[L_CORNER_FROM, j], lanes[L_CORNER, j]) * duration, abs(rise)
-        pieces = np.ceil(min(max(angle, FEWEST_PER_LOG * span), MOST_PER_LOG * span))
+        pieces = np.ceil(min(max(angle, FEWEST_PER_LOG * span), MOST_PER_LOG * span + 1.0))
         pieces = max(pieces, 1.0) if angle > 0 else 1.0
         lanes[L_PIECES, j], lanes[L_LENGTH, j] = pieces, duration / pieces
     for j in range(size):
