@@ -5,6 +5,8 @@ import math
 import numpy as np
 import pytest
 
+from texvent.simulate.kernels import circuit_reference
+
 from .physical_pixels import clean, intensity
 from .published import curve, frames_of, moving_texture, run
 
@@ -52,6 +54,21 @@ def test_bandwidth_does_not_depend_on_the_frame_rate(backend, fps):
     assert fast.p.tolist() == slow.p.tolist()
     # What is left: corners are averaged over pieces of an interval; time constants are 12 ms here.
     assert fast.t == pytest.approx(slow.t, abs=200)
+
+
+@pytest.mark.parametrize("frame_us", [1000, 5000, 41_667])
+@pytest.mark.parametrize("cutoff_hz", [30.0, 250.0])
+def test_few_pieces_are_as_good_as_many(frame_us, cutoff_hz, monkeypatch):
+    frames = frames_of([30.0, *[90.0] * 4, *[30.0] * 4], range(0, 9 * frame_us, frame_us))
+
+    def times():
+        simulator = clean("reference", cutoff_hz=cutoff_hz, contrast_threshold=0.1)
+        return run(simulator, frames).t
+
+    few = times()
+    monkeypatch.setattr(circuit_reference, "FEWEST_PER_LOG", 200.0)
+    monkeypatch.setattr(circuit_reference, "MOST_PER_LOG", 200.0)
+    assert few == pytest.approx(times(), abs=max(2, 0.005 * frame_us))
 
 
 def test_dark_pixels_are_slower_than_bright_ones(backend):

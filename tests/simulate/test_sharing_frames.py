@@ -76,6 +76,22 @@ def test_a_scene_that_rests_for_long_still_leaks_in_time(leak_rate_hz):
 
 
 @pytest.mark.parametrize(
+    ("simulator_class", "config"),
+    [
+        (V2eSimulator, V2eConfig(leak_rate_hz=4.0, cutoff_hz=30.0, shot_noise_rate_hz=0.2)),
+        (V2eSimulator, V2eConfig(leak_rate_hz=0.0, cutoff_hz=30.0)),
+        (VoltmeterSimulator, VoltmeterSimulator.presets["davis240"]),
+        (PhysicalSimulator, PhysicalConfig(noise_scale=0.1)),
+    ],
+)
+def test_blocks_that_come_to_rest_and_move_again_fire_as_in_the_reference(simulator_class, config):
+    still, moved = (patches([np.uint8], seed=seed)[0].pixels for seed in (0, 1))
+    pictures = [still] * 2 + [moved] * 60 + [still] * 40
+    frames = [Frame(pixels, 10_000 * i) for i, pixels in enumerate(pictures)]
+    assert assert_equal_to_reference(simulator_class, config, frames) > 1000
+
+
+@pytest.mark.parametrize(
     ("simulator_class", "module"),
     [(PhysicalSimulator, "circuit"), (V2eSimulator, "follow"), (VoltmeterSimulator, "passage")],
 )
