@@ -23,9 +23,9 @@ from typing import Any, NamedTuple
 
 from benchmarks.speed.floor import Bandwidth, measure_bandwidth
 from benchmarks.speed.scenes import Bytes, jumping_pixels, to_and_fro
+from texvent._readiness import wait_until_idle
 from texvent._registry import SIMULATORS
 from texvent.sensor import SensorSize
-from texvent.simulate.kernels.readiness import wait_until_idle
 
 SIZES = (SensorSize(346, 260), SensorSize(1280, 720))
 DENSITIES = (0.001, 0.01, 0.05, 0.2)

@@ -172,7 +172,7 @@ def time_cold_start() -> Iterator[tuple[str, float, float]]:
     program = (
         "import time; start = time.perf_counter()\n"
         "import numpy as np\n"
-        "from texvent.simulate.kernels.readiness import wait_until_idle\n"
+        "from texvent._readiness import wait_until_idle\n"
         "from texvent.simulate.texvent import TexventSimulator\n"
         "from texvent.video import Frame\n"
         "imported = time.perf_counter()\n"

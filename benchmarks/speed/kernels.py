@@ -13,9 +13,9 @@ from benchmarks.model_kernels import threads_at_most
 from benchmarks.speed.floor import Bandwidth
 from benchmarks.speed.scenes import Bytes, jumping_pixels, to_and_fro
 from benchmarks.speed.timing import Quartiles, rounded, seconds
+from texvent._readiness import wait_until_idle
 from texvent._registry import SIMULATORS
 from texvent.sensor import SensorSize
-from texvent.simulate.kernels.readiness import wait_until_idle
 from texvent.video import Frame
 
 SIZES = (SensorSize(346, 260), SensorSize(1280, 720))

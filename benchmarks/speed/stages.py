@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, Literal, TypeVar
 
 from benchmarks.speed.timing import Quartiles, rounded
+from texvent._readiness import wait_until_idle
 from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent.capture.open import open_frames
 from texvent.engine.select import advance
@@ -22,7 +23,6 @@ from texvent.io.behind import WriteBehind
 from texvent.io.files import open_writer
 from texvent.pipeline import video_to_events
 from texvent.settings import Settings, resolve
-from texvent.simulate.kernels.readiness import wait_until_idle
 from texvent.simulate.look_ahead import step_through
 from texvent.video import Frame, FrameStream
 

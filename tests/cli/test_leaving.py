@@ -12,7 +12,7 @@ import pytest
 COMPILE_FOR_LONG = """
 import sys, threading, types
 from texvent.cli.leaving import leave
-from texvent.simulate.kernels import readiness
+from texvent import _readiness as readiness
 module = types.ModuleType("slow_kernel")
 module.warm_up = lambda: threading.Event().wait({seconds})
 sys.modules["slow_kernel"] = module

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from texvent._readiness import wait_until_ready
 from texvent._registry import INTERPOLATORS, SIMULATORS, load_object
 from texvent.engine.fused import step_fused
 from texvent.engine.kernels.select import NAMES, find_compiled
@@ -13,7 +14,6 @@ from texvent.engine.select import FUSED
 from texvent.interpolate.densify import dense_frames, pair_up
 from texvent.interpolate.policy import CountPolicy
 from texvent.settings import resolve
-from texvent.simulate.kernels.readiness import wait_until_ready
 from texvent.video import Video
 
 FRAME_US = 40_000

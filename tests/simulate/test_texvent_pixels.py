@@ -10,9 +10,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from texvent import _readiness as readiness
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.simulate.kernels import readiness, select
+from texvent.simulate.kernels import select
 from texvent.simulate.texvent import TexventConfig, TexventSimulator
 from texvent.simulate.texvent_memory import brightness_table, least_difference
 from texvent.video import Frame

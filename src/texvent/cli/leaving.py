@@ -20,7 +20,7 @@ def leave(code: int) -> int:
     Returns:
         `code`, where nothing is left to wait for; else the process ends here.
     """
-    readiness = sys.modules.get("texvent.simulate.kernels.readiness")
+    readiness = sys.modules.get("texvent._readiness")
     try:
         if readiness is None or readiness.wait_until_idle(PATIENCE_S if code == 0 else 0.0):
             return code

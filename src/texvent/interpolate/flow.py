@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from texvent.config import InterpolateConfig
 from texvent.interpolate.pair_flow import PairFlow
-from texvent.interpolate.paths import Paths
+from texvent.interpolate.paths import Paths, prepare_warp
 from texvent.interpolate.position import check_between
 from texvent.video import Frame, FrameStream
 
@@ -25,6 +25,7 @@ class FlowInterpolator:
         del config, stream  # every interpolator is built alike; this one needs neither
         self.pair_flow = PairFlow()
         """The flow of the last pair, for whoever counts by motion."""
+        prepare_warp()
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Paths:
         """Frames with every point moved along its path from `first` to `second`.

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent._heap import keep_freed_memory
+from texvent._readiness import is_ready, wait_until_ready
 from texvent.interpolate.kernels import dis_cpu
 from texvent.interpolate.kernels.dis import PATCH, count_levels, follow_levels, make_pyramid
 
@@ -34,6 +35,8 @@ class DisFlow:
 
     def __init__(self) -> None:
         keep_freed_memory()
+        # Before what simulates, which has slower twins: nothing happens without flow.
+        is_ready(dis_cpu.__name__)
         # One for each direction, where there is more than one core; it ends with this object.
         self._helper = (
             ThreadPoolExecutor(1, "texvent-flow") if numba.get_num_threads() > 1 else None
@@ -51,6 +54,7 @@ class DisFlow:
         Returns:
             Two flows, [H, W, 2] float32 as (x, y), px; finite.
         """
+        wait_until_ready(dis_cpu.__name__)
         shape = first.shape
         pictures = [_pad(picture) for picture in stretch(first, second)]
         finest = 0 if min(shape) < SMALL_SIDE_PX else 1

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent._readiness import is_ready, wait_until_ready
 from texvent.interpolate.position import check_between, float_luma, position
 from texvent.sensor import SensorSize
 from texvent.video import Frame
@@ -114,4 +115,10 @@ def frozen(picture: FloatPicture) -> FloatPicture:
 
 def load_warp() -> ModuleType:
     """The compiled kernels; by name, because whoever blends does without Numba."""
+    wait_until_ready(WARP)
     return importlib.import_module(WARP)
+
+
+def prepare_warp() -> None:
+    """Begin to compile what draws moved pictures."""
+    is_ready(WARP)

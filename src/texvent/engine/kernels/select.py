@@ -8,7 +8,7 @@ import typing
 from types import ModuleType
 from typing import Literal
 
-from texvent.simulate.kernels.readiness import is_ready
+from texvent._readiness import is_ready
 
 Name = Literal["candidates", "pieces"]
 NAMES: tuple[Name, ...] = typing.get_args(Name)

@@ -150,6 +150,12 @@ def read_only(array: NDArray[Any]) -> NDArray[Any]:
     return view
 
 
+def warm_up() -> None:
+    """Compile what draws pictures, or load what was compiled before."""
+    picture, flow = np.zeros((2, 2), np.float32), np.zeros((2, 2, 2), np.float32)
+    warp_pair(prepare_pair(picture, picture, flow, flow), np.array([0.5]))
+
+
 @numba.njit(cache=True, nogil=True)
 def _with_neighbours(picture: Floats) -> Words:
     height, width = picture.shape

@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
+import sys
+
 import numba
 import numpy as np
 
 from texvent.interpolate.kernels.compile_part import compile_part
-from texvent.interpolate.kernels.dis import (
-    MARGIN,
-    Floats,
-)
+from texvent.interpolate.kernels.dis import MARGIN, Floats, follow_levels, make_pyramid
 from texvent.interpolate.kernels.dis_refine_cpu import refine
 from texvent.interpolate.kernels.dis_search_cpu import join, search
 
-__all__ = ["double", "halve", "join", "make_level", "refine", "search"]
+__all__ = ["double", "halve", "join", "make_level", "refine", "search", "warm_up"]
 
 # As float32: Numba computes with float64 where a constant is one.
 _2 = np.float32(2.0)
 _HALF = np.float32(0.5)
 _EIGHTH = np.float32(0.125)
 _QUARTER = np.float32(0.25)
+
+
+def warm_up() -> None:
+    """Compile, or load what was compiled before."""
+    picture, kernels = np.zeros((64, 64), np.float32), sys.modules[__name__]
+    pyramid = make_pyramid(picture, 1, 2, kernels)
+    double(follow_levels(pyramid, pyramid, kernels), picture.shape)
 
 
 @numba.njit(cache=True, nogil=True)
@@ -41,7 +47,7 @@ def halve(picture: Floats) -> Floats:
 
 @numba.njit(cache=True, nogil=True)
 def make_level(picture: Floats) -> Floats:
-    """The picture with its edges continued, and its slopes; see `dis.Kernels`."""
+    """The picture with its edges continued, and its slopes; see `dis`."""
     height, width = picture.shape
     level = np.zeros((3, height + 2 * MARGIN, width + 2 * MARGIN), np.float32)
     padded = level[0]

@@ -38,7 +38,7 @@ def halve(picture: Floats) -> Floats:
 
 
 def make_level(picture: Floats) -> Floats:
-    """The picture with its edges continued, and its slopes; see `dis.Kernels`."""
+    """The picture with its edges continued, and its slopes; see `dis`."""
     level = np.zeros((3, *(side + 2 * MARGIN for side in picture.shape)), np.float32)
     level[0] = np.pad(picture, MARGIN, mode="edge")
     near = level[0, MARGIN - 1 : 1 - MARGIN, MARGIN - 1 : 1 - MARGIN]

@@ -6,10 +6,10 @@ import functools
 import importlib
 import importlib.util
 
+from texvent._readiness import is_ready
 from texvent._registry import suggest
 from texvent._require import require
 from texvent.errors import ConfigError, MissingDependencyError
-from texvent.simulate.kernels.readiness import is_ready
 
 AUTO = "auto"
 _FOLDER = "texvent.simulate.kernels"

@@ -7,7 +7,8 @@ import types
 
 import pytest
 
-from texvent.simulate.kernels import order_cpu, order_reference, readiness
+from texvent import _readiness as readiness
+from texvent.simulate.kernels import order_cpu, order_reference
 from texvent.simulate.kernels.select import load_kernel_when_ready
 
 

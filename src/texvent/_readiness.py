@@ -1,4 +1,4 @@
-"""Kernels that compile while a slower twin already works.
+"""Kernels that are compiled by a thread, while slower twins work or whoever needs them waits.
 
 Compiling takes seconds the first time, and loading what was compiled a third of a second. Neither
 holds up a run: a thread does it, and the caller asks at every frame whether it is done. Since all
