@@ -114,8 +114,8 @@ class TexventSimulator:
     def step_batch(self, frames: Sequence[Frame]) -> list[EventStream]:
         """Packets of several frames at once: the same as `step` gives one after the other.
 
-        Threads share out the work (`kernels.threads`). It pays where many pixels fire, by a fifth to
-        a third with two (docs/speed.md); clips in a thread each are the better use of cores.
+        Threads share out the work (`kernels.threads`). It pays where many pixels fire, by a fifth
+        to a third with two (docs/speed.md); clips in a thread each are the better use of cores.
 
         Raises:
             InputError, ConfigError: as `step`; then none of the frames was simulated, apart from
