@@ -20,7 +20,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-import cv2
 import numba
 import numpy as np
 
@@ -150,7 +149,6 @@ def time_engines(video: Video, options: Mapping[str, Any]) -> dict[str, float]:
 
 def compare_times(clip: Path | None, frames: int) -> None:
     """Print milliseconds per pair."""
-    cv2.setNumThreads(1)
     numba.set_num_threads(1)
     models = {"texvent paper": {"simulator": "texvent"}, **MODELS}
     if clip is not None:
