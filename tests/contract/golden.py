@@ -1,0 +1,216 @@
+"""Runs whose events are pinned: `golden_events.json` and `golden_files.json` hold their digests.
+
+    python -m tests.contract.golden   # writes both anew; CHANGELOG.md must say why
+
+Cases use the public API alone, so they outlive any change of the code behind it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import texvent
+
+FOLDER = Path(__file__).parent
+EVENTS_FILE = FOLDER / "golden_events.json"
+FILES_FILE = FOLDER / "golden_files.json"
+PROMPT = "a red car drives left past two trees"
+GENERATE = {"sensor": "48x36", "duration": 0.25, "seed": 5}
+
+SIMULATORS: dict[str, list[dict[str, Any]]] = {
+    "texvent": [
+        {},
+        {"preset": "accurate"},
+        {"cache": "global"},
+        {"cache": "none"},
+        {"cache": "leaky", "cache_leak": 0.1},
+        {"cache": "global", "cache_reset_pairs": 2},
+        {"reset": "step"},
+        {"reset": "step", "multi_event": True, "stamp": "linear"},
+        {"stamp": "linear"},
+        {"noise": "random"},
+        {"noise": "none"},
+        {"noise": "gaussian"},
+        {"label_noise": True},
+        {"events": "noise"},
+        {"randomize": "stoffregen"},
+        {"target_rate": 20_000.0},
+    ],
+    "esim": [
+        {},
+        {"refractory_period_us": 3000},
+        {"threshold_sigma": 0.05},
+        {"threshold_sigma": 0.05, "threshold_redraw": "never"},
+    ],
+    "physical": [{}, {"preset": "clean"}, {"sensor": "davis346"}],
+    "v2e": [{}, {"preset": "noisy"}],
+    "senpi": [{}],
+    "voltmeter": [{}],
+}
+INTERPOLATIONS = ("none", "blend", "flow")
+BACKENDS = ("cpu", "reference")
+
+
+def clip(dtype: str = "uint8") -> np.ndarray[Any, Any]:
+    """A texture that moves and brightens, [8, 36, 48], and a disc that crosses it.
+
+    In the clip "still" only the disc moves, so that most pixels see no change.
+    """
+    y, x = np.mgrid[:36, :48]
+    frames = []
+    for number in range(8):
+        i = 0 if dtype == "still" else number
+        image = 110 + 70 * np.sin((x + 1.7 * i) / 4.1) * np.cos((y - 0.6 * i) / 5.3) + 3 * i
+        image[np.hypot(x - 6 - 4 * number, y - 18) < 7] = 230
+        image[:6, :6] = 0
+        frames.append(np.clip(image, 0, 255))
+    array = np.array(frames)
+    if dtype == "uint16":
+        return np.round(array * 257).astype(np.uint16)
+    return array.astype(np.float32) if dtype == "float32" else np.round(array).astype(np.uint8)
+
+
+def event_cases() -> Iterator[tuple[str, Any]]:
+    """Name of a case, and a function that makes its events."""
+    for simulator, variants in SIMULATORS.items():
+        for options in variants:
+            for interpolate in INTERPOLATIONS:
+                yield _frames_case(simulator=simulator, interpolate=interpolate, **options)
+        for backend in BACKENDS:
+            yield _frames_case(simulator=simulator, interpolate="flow", backend=backend)
+        for dtype in ("uint16", "float32"):
+            for interpolate in ("none", "flow"):
+                yield _frames_case(simulator=simulator, interpolate=interpolate, dtype=dtype)
+        yield _generate_case(simulator=simulator, interpolate="exact")
+        yield _generate_case(simulator=simulator, interpolate="flow")
+    for preset in ("paper", "accurate"):
+        yield _frames_case(dtype="still", simulator="texvent", interpolate="flow", preset=preset)
+    for cache in ("none", "global", "leaky"):
+        yield _frames_case(dtype="still", simulator="texvent", interpolate="flow", cache=cache)
+    yield _frames_case(dtype="still", simulator="esim", interpolate="flow")
+    for options in ({"simulator": "esim"}, {"simulator": "texvent", "preset": "accurate"}):
+        for interpolate in INTERPOLATIONS:
+            yield _frames_case(engine="continuous", interpolate=interpolate, **options)
+        yield _frames_case(engine="continuous", interpolate="flow", cache="global", **options) if (
+            options["simulator"] == "texvent"
+        ) else _frames_case(
+            engine="continuous", interpolate="flow", refractory_period_us=3000, **options
+        )
+    for options in (
+        {"count": "fixed", "fixed_count": 3},
+        {"motion_floor": True},
+        {"max_frames_per_second": 60.0},
+        {"detect_cuts": False},
+        {"flicker_guard": True},
+    ):
+        yield _frames_case(simulator="texvent", interpolate="flow", **options)
+
+
+def _name(options: dict[str, Any]) -> str:
+    return " ".join(f"{name}={value}" for name, value in options.items())
+
+
+def _frames_case(dtype: str = "uint8", **options: Any) -> tuple[str, Any]:
+    name = _name({"frames": dtype, **options})
+    return name, lambda: texvent.simulate(clip(dtype), fps=24, seed=5, **options)
+
+
+def _generate_case(**options: Any) -> tuple[str, Any]:
+    name = _name({"prompt": "car", **options})
+    return name, lambda: texvent.generate(PROMPT, **GENERATE, **options)
+
+
+def digest(events: texvent.EventStream) -> str:
+    """Number of events, and a hash of x, y, t, p and, if there is one, of the label."""
+    columns = [events.x, events.y, events.t, events.p]
+    columns += [] if events.label is None else [events.label]
+    hashed = hashlib.sha256(str(events.size).encode())
+    for column in columns:
+        hashed.update(np.ascontiguousarray(column).tobytes())
+    return f"{len(events)} {hashed.hexdigest()[:24]}"
+
+
+def sample_events() -> texvent.EventStream:
+    """Events for the files: without provenance, whose version and paths would change the bytes."""
+    random = np.random.default_rng(3)
+    number = 5000
+    t = np.sort(random.integers(0, 400_000, number))
+    x, y = random.integers(0, 128, number), random.integers(0, 128, number)
+    order = np.lexsort((x, y, t))
+    return texvent.EventStream(
+        x=x[order], y=y[order], t=t[order], p=random.integers(0, 2, number), size=(128, 128)
+    )
+
+
+def file_digest(path: Path) -> str:
+    """A hash of a file, or of the files of a folder."""
+    files = sorted(path.rglob("*")) if path.is_dir() else [path]
+    hashed = hashlib.sha256()
+    for file in files:
+        if file.is_file():
+            hashed.update(file.relative_to(path.parent).as_posix().encode())
+            hashed.update(file.read_bytes())
+    return hashed.hexdigest()[:24]
+
+
+def main() -> None:
+    """Write both tables anew."""
+    events = {}
+    for name, make in event_cases():
+        if name in events:
+            raise SystemExit(f"two cases are called {name!r}")
+        events[name] = digest(make())
+    EVENTS_FILE.write_text(json.dumps(events, indent=1) + "\n")
+    with tempfile.TemporaryDirectory() as folder:
+        FILES_FILE.write_text(json.dumps(dict(file_cases(Path(folder))), indent=1) + "\n")
+
+
+def file_cases(folder: Path) -> Iterator[tuple[str, str]]:
+    """Format, and the digest of the file that it makes of `sample_events`."""
+    for format in FORMATS:
+        path = folder / format / "events"
+        path.parent.mkdir()
+        sample_events().save(path.with_suffix(FORMATS[format]), format=format)
+        yield format, file_digest(path.with_suffix(FORMATS[format]))
+
+
+FORMATS = {
+    "hdf5": ".h5",
+    "npz": ".npz",
+    "ecd": ".txt",
+    "evt3": ".raw",
+    "evt2": ".raw",
+    "evt21": ".raw",
+    "dat": ".dat",
+    "prophesee-hdf5": ".hdf5",
+    "csv": ".csv",
+    "e2vid": ".zip",
+    "n-imagenet": ".npz",
+    "v2e": ".h5",
+    "dsec": ".h5",
+    "rosbag1": ".bag",
+    "mcap": ".mcap",
+    "esim": "",
+    "evreal": "",
+    "aedat2": ".aedat",
+    "aedat2-dvs128": ".aedat",
+    "cifar10-dvs": ".aedat",
+    "aedat3": ".aedat",
+    "es": ".es",
+    "atis": ".bin",
+    "aedat4": ".aedat4",
+    "aedat4-none": ".aedat4",
+    "aedat4-zstd": ".aedat4",
+}
+"""Formats whose bytes depend on the events alone, and an extension of each."""
+
+
+if __name__ == "__main__":
+    main()
