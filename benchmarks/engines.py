@@ -25,16 +25,16 @@ import numpy as np
 
 from benchmarks.interpolation_scenes import moving_scene
 from texvent._registry import INTERPOLATORS, SIMULATORS, load_object
-from texvent.bench.entries import Entry
-from texvent.bench.fidelity import FidelityPlan, record_truths, score_entry
-from texvent.bench.results import Score
+from texvent.bench.fidelity.entries import Entry
+from texvent.bench.fidelity.results import Score
+from texvent.bench.fidelity.run import FidelityPlan, record_truths, score_entry
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.engine.continuous import step_continuously
 from texvent.engine.fused import step_fused
 from texvent.engine.select import CONTINUOUS, FUSED
+from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.densify import Pair, dense_frames, pair_up
-from texvent.interpolate.policy import CountPolicy
 from texvent.settings import Settings, resolve
 from texvent.video import Frame, Video
 

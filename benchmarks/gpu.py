@@ -29,14 +29,14 @@ from texvent._version import __version__
 from texvent.config import InterpolateConfig
 from texvent.engine.gpu_pairs import GpuPairs
 from texvent.errors import TexventError
-from texvent.interpolate.rife import RifeInterpolator
-from texvent.interpolate.rife_layouts import RIFE_4_6, RifeLayout
-from texvent.interpolate.rife_weights import RifeWeights, write_rife_weights
+from texvent.interpolate.rife.interpolator import RifeInterpolator
+from texvent.interpolate.rife.layouts import RIFE_4_6, RifeLayout
+from texvent.interpolate.rife.weights import RifeWeights, write_rife_weights
 from texvent.sensor import SensorSize
 from texvent.simulate import gpu
-from texvent.simulate.esim import EsimConfig
+from texvent.simulate.esim.simulator import EsimConfig
 from texvent.simulate.gpu.device import EXTRA, default_device
-from texvent.simulate.texvent import TexventConfig
+from texvent.simulate.texvent.simulator import TexventConfig
 from texvent.video import Video
 
 VGA, HD = SensorSize(640, 480), SensorSize(1280, 720)

@@ -30,12 +30,12 @@ from numpy.typing import NDArray
 from benchmarks.interpolation_scenes import SPEEDS, TEXTURES, embedded_scene, moving_scene
 from texvent.config import InterpolateConfig
 from texvent.interpolate.blend import BlendInterpolator
-from texvent.interpolate.cuts import Jump, detect_jump
 from texvent.interpolate.flow import FlowInterpolator
 from texvent.interpolate.protocol import Interpolator
-from texvent.interpolate.rife import RifeInterpolator
-from texvent.interpolate.rife_weights import read_rife_weights
+from texvent.interpolate.rife.interpolator import RifeInterpolator
+from texvent.interpolate.rife.weights import read_rife_weights
 from texvent.metrics.structural_similarity import structural_similarity
+from texvent.pairs.scene_change import Jump, detect_jump
 from texvent.video import Frame, Video
 
 INTERVAL_US = 40_000

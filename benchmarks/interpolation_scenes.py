@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.generate.procedural.generator import ProceduralConfig, ProceduralGenerator
+from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 
 FloatArray = NDArray[np.float64]
 TEXTURES = {

@@ -23,8 +23,8 @@ from typing import Any, NamedTuple
 
 from benchmarks.speed.floor import Bandwidth, measure_bandwidth
 from benchmarks.speed.scenes import Bytes, jumping_pixels, to_and_fro
-from texvent._readiness import wait_until_idle
 from texvent._registry import SIMULATORS
+from texvent.runtime.background_jit import wait_until_idle
 from texvent.sensor import SensorSize
 
 SIZES = (SensorSize(346, 260), SensorSize(1280, 720))

@@ -12,9 +12,9 @@ import argparse
 import statistics
 import time
 
-from texvent.generate.procedural.generator import ProceduralConfig, ProceduralGenerator
-from texvent.generate.procedural.primitives import Scene
-from texvent.generate.procedural.render import render
+from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
+from texvent.scenes.primitives import Scene
+from texvent.scenes.render import render
 from texvent.sensor import SensorSize
 
 PROMPTS = (

@@ -29,7 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.sensor import SensorSize
-from texvent.simulate.texvent import TexventConfig, TexventSimulator
+from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.video import Frame
 
 SIZES = (SensorSize(346, 260), SensorSize(1280, 720))
@@ -172,8 +172,8 @@ def time_cold_start() -> Iterator[tuple[str, float, float]]:
     program = (
         "import time; start = time.perf_counter()\n"
         "import numpy as np\n"
-        "from texvent._readiness import wait_until_idle\n"
-        "from texvent.simulate.texvent import TexventSimulator\n"
+        "from texvent.runtime.background_jit import wait_until_idle\n"
+        "from texvent.simulate.texvent.simulator import TexventSimulator\n"
         "from texvent.video import Frame\n"
         "imported = time.perf_counter()\n"
         "simulator = TexventSimulator()\n"

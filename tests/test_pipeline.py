@@ -8,8 +8,8 @@ import pytest
 
 from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent.errors import InputError
-from texvent.interpolate.cuts import Jump
 from texvent.interpolate.densify import densify
+from texvent.pairs.scene_change import Jump
 from texvent.pipeline import select, video_to_events
 from texvent.settings import resolve
 from texvent.video import Video, frame_time_us

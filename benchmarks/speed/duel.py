@@ -30,7 +30,7 @@ from benchmarks.speed.peers import (
 )
 from benchmarks.speed.scenes import EXCERPT, dense_video, heavy_clip, source_frames
 from benchmarks.speed.timing import Quartiles, cpu_in_turns, rounded
-from texvent._readiness import wait_until_idle
+from texvent.runtime.background_jit import wait_until_idle
 from texvent.video import Video
 
 LOWEST, HIGHEST = 0.01, 3.0

@@ -13,8 +13,8 @@ from benchmarks.model_kernels import threads_at_most
 from benchmarks.speed.floor import Bandwidth
 from benchmarks.speed.scenes import Bytes, jumping_pixels, to_and_fro
 from benchmarks.speed.timing import Quartiles, rounded, seconds
-from texvent._readiness import wait_until_idle
 from texvent._registry import SIMULATORS
+from texvent.runtime.background_jit import wait_until_idle
 from texvent.sensor import SensorSize
 from texvent.video import Frame
 

@@ -13,15 +13,15 @@ from pathlib import Path
 from typing import Any, Literal, TypeVar
 
 from benchmarks.speed.timing import Quartiles, rounded
-from texvent._readiness import wait_until_idle
 from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent.capture.open import open_frames
 from texvent.engine.select import advance
+from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.densify import Pair, dense_frames, pair_up
-from texvent.interpolate.policy import CountPolicy
-from texvent.io.behind import WriteBehind
 from texvent.io.files import open_writer
 from texvent.pipeline import video_to_events
+from texvent.runtime.background_jit import wait_until_idle
+from texvent.runtime.background_writer import WriteBehind
 from texvent.settings import Settings, resolve
 from texvent.simulate.look_ahead import step_through
 from texvent.video import Frame, FrameStream

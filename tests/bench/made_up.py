@@ -2,8 +2,8 @@
 
 import math
 
-from texvent.bench.details import BINS, Details
-from texvent.bench.results import FidelityReport, Reference, Score
+from texvent.bench.fidelity.details import BINS, Details
+from texvent.bench.fidelity.results import FidelityReport, Reference, Score
 
 
 def made_up_details(**changes):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from texvent.bench.frame_recording import FrameRecording
+from texvent.bench.real.frame_recording import FrameRecording
 from texvent.events import EventPackets, EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Video

@@ -2,11 +2,11 @@ from pathlib import Path
 
 import pytest
 
-from texvent.bench.ablation import read_ablations
-from texvent.bench.fidelity import FidelityPlan, run_fidelity
-from texvent.bench.fidelity_table import fidelity_tables
+from texvent.bench.fidelity.run import FidelityPlan, run_fidelity
+from texvent.bench.fidelity.table import fidelity_tables
+from texvent.bench.paper.ablation import read_ablations
 from texvent.errors import ConfigError, InputError
-from texvent.simulate.texvent import TexventConfig
+from texvent.simulate.texvent.simulator import TexventConfig
 
 PAPER = Path(__file__).parents[2] / "configs" / "paper"
 

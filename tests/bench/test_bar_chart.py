@@ -2,7 +2,7 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 
-from texvent.bench.bar_chart import BAR_PX, bar_chart
+from texvent.bench.fidelity.bar_chart import BAR_PX, bar_chart
 
 from .made_up import made_up_report
 

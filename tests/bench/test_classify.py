@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from texvent.bench.classify import Sample, classify, list_samples, take_slice
-from texvent.bench.resnet34_weights import read_resnet_weights, tensor_shapes
+from texvent.bench.recognition.classify import Sample, classify, list_samples, take_slice
+from texvent.bench.recognition.resnet34_weights import read_resnet_weights, tensor_shapes
 from texvent.cli.app import main
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.events import EventStream
@@ -115,7 +115,7 @@ def checkpoint(torch, tmp_path):
 
 @pytest.mark.torch
 def test_the_network_agrees_with_layers_of_torch_put_together_by_hand(torch, checkpoint):
-    from texvent.bench.resnet34 import ResNetClassifier
+    from texvent.bench.recognition.resnet34 import ResNetClassifier
 
     weights = read_resnet_weights(checkpoint)
     assert (weights.blocks, weights.class_count) == (BLOCKS, CLASSES)

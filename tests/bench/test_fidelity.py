@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 
 from texvent._registry import SIMULATORS
-from texvent.bench.camera import EXPOSURE
-from texvent.bench.details import BINS, describe
-from texvent.bench.entries import INTERPOLATIONS, Entry, choose_entries, default_entries
-from texvent.bench.fidelity import FULL, FidelityPlan, record_truths, run_fidelity, score_entry
-from texvent.bench.fidelity_table import fidelity_tables
-from texvent.bench.oracle import TrueFrames, oracle_scene, record
-from texvent.bench.oracle_pixel import IDEAL, NOISY
-from texvent.bench.results import read_report
+from texvent.bench.fidelity.details import BINS, describe
+from texvent.bench.fidelity.entries import INTERPOLATIONS, Entry, choose_entries, default_entries
+from texvent.bench.fidelity.results import read_report
+from texvent.bench.fidelity.run import FULL, FidelityPlan, record_truths, run_fidelity, score_entry
+from texvent.bench.fidelity.table import fidelity_tables
+from texvent.bench.oracle.camera import EXPOSURE
+from texvent.bench.oracle.pixel import IDEAL, NOISY
+from texvent.bench.oracle.recording import TrueFrames, oracle_scene, record
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.metrics.compare import compare

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from texvent.bench.camera import film_level, radiance_of
-from texvent.bench.oracle import SIZE, TrueFrames, film, oracle_scene, record
-from texvent.bench.oracle_pixel import IDEAL, NOISY, PixelArray, PixelModel
-from texvent.bench.prompt_scenes import PROMPTS
-from texvent.bench.scenes import SCENES, build_scene, known_flow
-from texvent.bench.value_noise import ValueNoise
+from texvent.bench.oracle.camera import film_level, radiance_of
+from texvent.bench.oracle.pixel import IDEAL, NOISY, PixelArray, PixelModel
+from texvent.bench.oracle.prompt_scenes import PROMPTS
+from texvent.bench.oracle.recording import SIZE, TrueFrames, film, oracle_scene, record
+from texvent.bench.oracle.scenes import SCENES, build_scene, known_flow
+from texvent.bench.oracle.value_noise import ValueNoise
 from texvent.errors import ConfigError
-from texvent.generate.procedural.generator import ProceduralConfig, ProceduralGenerator
+from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.sensor import SensorSize
 
 ONE = SensorSize(1, 1)

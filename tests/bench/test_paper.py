@@ -6,14 +6,14 @@ import json
 import numpy as np
 import pytest
 
-from texvent.bench import paper_simulators
-from texvent.bench.ablation import read_ablations
-from texvent.bench.paper import PaperInputs, measure_table
-from texvent.bench.paper_ablations import ablation_figures, leave_out_other_tables
-from texvent.bench.paper_simulators import event_frame_figures
-from texvent.bench.paper_tables import TABLES, OurFigures, beside_paper, join_figures
-from texvent.bench.paper_weights import accuracy_figures
-from texvent.bench.real_scene import Part, open_scene
+from texvent.bench.paper import simulators as paper_simulators
+from texvent.bench.paper.ablation import read_ablations
+from texvent.bench.paper.ablations import ablation_figures, leave_out_other_tables
+from texvent.bench.paper.run import PaperInputs, measure_table
+from texvent.bench.paper.simulators import event_frame_figures
+from texvent.bench.paper.tables import TABLES, OurFigures, beside_paper, join_figures
+from texvent.bench.paper.weights import accuracy_figures
+from texvent.bench.real.scene import Part, open_scene
 from texvent.cli.app import main
 from texvent.errors import ConfigError, InputError
 from texvent.metrics.compare import compare
@@ -178,7 +178,7 @@ def test_a_table_that_the_paper_lacks_is_refused(capsys):
 @pytest.mark.torch
 def test_accuracy_is_measured_for_the_columns_that_have_a_folder(tmp_path):
     torch = pytest.importorskip("torch")
-    from texvent.bench.resnet34_weights import tensor_shapes
+    from texvent.bench.recognition.resnet34_weights import tensor_shapes
     from texvent.events import EventStream
     from texvent.sensor import SensorSize
 

@@ -1,9 +1,9 @@
 import cv2
 import numpy as np
 
-from texvent.bench.entries import Entry
-from texvent.bench.picture_grid import COLUMNS, picture_grid
-from texvent.bench.results import FidelityReport, Reference, Score
+from texvent.bench.fidelity.entries import Entry
+from texvent.bench.fidelity.event_grid import COLUMNS, picture_grid
+from texvent.bench.fidelity.results import FidelityReport, Reference, Score
 
 from .made_up import made_up_details
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from texvent.bench.picture_scores import (
+from texvent.bench.reconstruction.image_scores import (
     Measures,
     PictureMeasure,
     PictureScores,

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.bench.rate_matching import HIGHEST, LOWEST, MOST_STEPS, match_rate
+from texvent.bench.fidelity.rate_matching import HIGHEST, LOWEST, MOST_STEPS, match_rate
 
 
 class Counter:

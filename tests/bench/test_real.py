@@ -6,13 +6,13 @@ import shutil
 import numpy as np
 import pytest
 
-from texvent.bench.ablation import ConfigEntry
-from texvent.bench.entries import Entry
-from texvent.bench.fidelity_page import page_files
-from texvent.bench.fidelity_table import fidelity_tables, motion_table
-from texvent.bench.real import HALVES, RealPlan, adapt_settings, real_entries, run_real
-from texvent.bench.real_scene import Part, open_scene
-from texvent.bench.results import read_report
+from texvent.bench.fidelity.entries import Entry
+from texvent.bench.fidelity.page import page_files
+from texvent.bench.fidelity.results import read_report
+from texvent.bench.fidelity.table import fidelity_tables, motion_table
+from texvent.bench.paper.ablation import ConfigEntry
+from texvent.bench.real.run import HALVES, RealPlan, adapt_settings, real_entries, run_real
+from texvent.bench.real.scene import Part, open_scene
 from texvent.cli.app import main
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream

@@ -7,10 +7,11 @@ import math
 import numpy as np
 import pytest
 
-from texvent.bench.entries import Entry
-from texvent.bench.perturbations import add_background, scatter
-from texvent.bench.picture_scores import load_measures
-from texvent.bench.reconstruction import (
+from texvent.bench.fidelity.entries import Entry
+from texvent.bench.reconstruction.grid import ReconstructionGrid
+from texvent.bench.reconstruction.image_scores import load_measures
+from texvent.bench.reconstruction.noise import NoiseLevel, noise_curve
+from texvent.bench.reconstruction.run import (
     DEFAULT_SKIP,
     RECORDED,
     ReconstructionJudge,
@@ -19,9 +20,8 @@ from texvent.bench.reconstruction import (
     run_reconstruction,
     simulate_recording,
 )
-from texvent.bench.reconstruction_grid import ReconstructionGrid
-from texvent.bench.reconstruction_noise import NoiseLevel, noise_curve
-from texvent.bench.reconstruction_table import reconstruction_document, reconstruction_tables
+from texvent.bench.reconstruction.table import reconstruction_document, reconstruction_tables
+from texvent.bench.selftest.perturbations import add_background, scatter
 from texvent.errors import ConfigError
 
 from .pictures_made_up import FRAMES, SIZE, STEP_US, StandInReconstructor, moving_bar

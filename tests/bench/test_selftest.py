@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from texvent._registry import METRICS
-from texvent.bench import selftest
 from texvent.bench.document import write_document
-from texvent.bench.perturbations import PERTURBATIONS, SERIES, perturb
-from texvent.bench.selftest import DETECTED, SelftestRow, judge_metric, run_selftest
-from texvent.bench.selftest_chart import FOUND, REWARDED, selftest_chart
-from texvent.bench.selftest_table import read_selftest, selftest_document, selftest_table
+from texvent.bench.selftest import run as selftest
+from texvent.bench.selftest.chart import FOUND, REWARDED, selftest_chart
+from texvent.bench.selftest.perturbations import PERTURBATIONS, SERIES, perturb
+from texvent.bench.selftest.run import DETECTED, SelftestRow, judge_metric, run_selftest
+from texvent.bench.selftest.table import read_selftest, selftest_document, selftest_table
 from texvent.errors import FileFormatError
 from texvent.events import EventStream
 from texvent.metrics.compare import load_metric

@@ -5,9 +5,9 @@ import json
 import numpy as np
 import pytest
 
-from texvent.bench.oracle import oracle_scene, record
-from texvent.bench.oracle_pixel import IDEAL, NOISY
-from texvent.bench.unpaired import compare_folders
+from texvent.bench.oracle.pixel import IDEAL, NOISY
+from texvent.bench.oracle.recording import oracle_scene, record
+from texvent.bench.recognition.unpaired import compare_folders
 from texvent.cli.app import main
 from texvent.errors import InputError
 

@@ -8,7 +8,8 @@ from dataclasses import replace
 import pytest
 
 from benchmarks import gpu
-from texvent.interpolate import rife_layouts, rife_weights
+from texvent.interpolate.rife import layouts as rife_layouts
+from texvent.interpolate.rife import weights as rife_weights
 from texvent.sensor import SensorSize
 
 TINY = SensorSize(24, 16)

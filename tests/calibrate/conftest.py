@@ -8,8 +8,8 @@ import pytest
 from texvent.calibrate.recording import Recording
 from texvent.config import InterpolateConfig
 from texvent.events import EventStream
-from texvent.simulate.physical import PhysicalSimulator
-from texvent.simulate.physical_config import PRESETS
+from texvent.simulate.physical.config import PRESETS
+from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import Video
 
 TRUTH = dataclasses.replace(

@@ -7,7 +7,7 @@ from texvent.calibrate.preset import describe_fit, write_preset
 from texvent.errors import OutputError
 from texvent.sensor import SensorSize
 from texvent.settings import resolve
-from texvent.simulate.physical_config import PRESETS
+from texvent.simulate.physical.config import PRESETS
 
 from .conftest import TRUTH
 

@@ -13,7 +13,7 @@ from texvent.calibrate.noise import (
 from texvent.calibrate.recording import Recording, Span
 from texvent.config import InterpolateConfig
 from texvent.events import EventStream
-from texvent.simulate.physical import PhysicalSimulator
+from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import Video
 
 from .conftest import TRUTH

@@ -12,7 +12,7 @@ from texvent.config import CaptureConfig, InterpolateConfig
 from texvent.data.pull import pull
 from texvent.io.files import load
 from texvent.sensor import SensorSize
-from texvent.simulate.physical_config import PRESETS
+from texvent.simulate.physical.config import PRESETS
 
 
 @pytest.mark.network

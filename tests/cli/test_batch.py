@@ -46,7 +46,7 @@ def test_a_batch_goes_on_where_it_was(folder, capsys):
 
 def test_a_prompt_that_fails_does_not_end_the_others(folder, capsys, monkeypatch):
     from texvent.errors import InputError
-    from texvent.generate.procedural.generator import ProceduralGenerator
+    from texvent.generate.procedural import ProceduralGenerator
 
     whole = ProceduralGenerator.generate
 

@@ -18,7 +18,7 @@ import pytest
 
 import texvent
 from texvent.cli.app import main
-from texvent.cli.doctor import EXTRAS
+from texvent.cli.setup.doctor import EXTRAS
 
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
 PYPROJECT = Path(__file__).parents[2] / "pyproject.toml"

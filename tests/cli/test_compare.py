@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from texvent.bench.controls import CONTROLS
+from texvent.bench.selftest.controls import CONTROLS
 from texvent.cli.app import main
 from texvent.events import EventStream
 from texvent.sensor import SensorSize

@@ -11,8 +11,8 @@ import pytest
 import texvent
 from texvent.cli.app import main
 from texvent.errors import FileFormatError
-from texvent.generate.models import MODELS
-from texvent.generate.stored_video import reopen
+from texvent.generate.models.table import MODELS
+from texvent.generate.videos.stored_video import reopen
 from texvent.pipeline import text_to_video
 from texvent.settings import resolve
 
@@ -93,7 +93,7 @@ def test_mistakes_are_one_line_before_any_work(folder, capsys, words, code, why)
 
 def test_the_list_of_generators_names_size_rate_licence_and_the_extra(folder, capsys, monkeypatch):
     monkeypatch.setenv("COLUMNS", "200")
-    monkeypatch.setattr("texvent.cli.generators.find_spec", lambda name: None)
+    monkeypatch.setattr("texvent.cli.setup.generators.find_spec", lambda name: None)
     assert run("generators") == 0
     shown = capsys.readouterr().out
     row = next(line for line in shown.splitlines() if line.startswith("cosmos-7b"))
@@ -119,8 +119,8 @@ def test_a_damaged_download_does_not_end_the_list(folder, capsys, monkeypatch):
     def damaged(model):
         raise FileFormatError("x.safetensors is damaged")
 
-    monkeypatch.setattr("texvent.cli.generators.find_spec", lambda name: True)
-    monkeypatch.setattr("texvent.cli.generators.load_object", lambda where: damaged)
+    monkeypatch.setattr("texvent.cli.setup.generators.find_spec", lambda name: True)
+    monkeypatch.setattr("texvent.cli.setup.generators.load_object", lambda where: damaged)
     assert run("generators") == 0
     rows = capsys.readouterr().out.splitlines()
     assert next(line for line in rows if line.startswith("wan-1.3b")).split()[1] == "damaged"

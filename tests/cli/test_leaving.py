@@ -11,8 +11,8 @@ import pytest
 
 COMPILE_FOR_LONG = """
 import sys, threading, types
-from texvent.cli.leaving import leave
-from texvent import _readiness as readiness
+from texvent.cli.shutdown import leave
+from texvent.runtime import background_jit as readiness
 module = types.ModuleType("slow_kernel")
 module.warm_up = lambda: threading.Event().wait({seconds})
 sys.modules["slow_kernel"] = module

@@ -8,8 +8,8 @@ import pytest
 
 from texvent.cli.app import main
 from texvent.errors import OutputError
-from texvent.io import hdf5_writer
-from texvent.io.hdf5 import Hdf5Writer
+from texvent.io.hdf5 import writer as hdf5_writer
+from texvent.io.hdf5.native import Hdf5Writer
 from texvent.view.preview import Preview
 
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"

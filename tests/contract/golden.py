@@ -54,6 +54,31 @@ SIMULATORS: dict[str, list[dict[str, Any]]] = {
     "senpi": [{}],
     "voltmeter": [{}],
 }
+FLOW = {"interpolate": "flow"}
+STILL = {"dtype": "still", "interpolate": "flow"}
+CONTINUOUS_ESIM = {"engine": "continuous", "simulator": "esim"}
+CONTINUOUS_TEXVENT = {"engine": "continuous", "simulator": "texvent", "preset": "accurate"}
+MORE_CASES: list[dict[str, Any]] = [
+    {**STILL, "simulator": "texvent", "preset": "paper"},
+    {**STILL, "simulator": "texvent", "preset": "accurate"},
+    {**STILL, "simulator": "texvent", "cache": "none"},
+    {**STILL, "simulator": "texvent", "cache": "global"},
+    {**STILL, "simulator": "texvent", "cache": "leaky"},
+    {**STILL, "simulator": "esim"},
+    {**CONTINUOUS_ESIM, "interpolate": "none"},
+    {**CONTINUOUS_ESIM, "interpolate": "blend"},
+    {**CONTINUOUS_ESIM, "interpolate": "flow"},
+    {**CONTINUOUS_ESIM, "interpolate": "flow", "refractory_period_us": 3000},
+    {**CONTINUOUS_TEXVENT, "interpolate": "none"},
+    {**CONTINUOUS_TEXVENT, "interpolate": "blend"},
+    {**CONTINUOUS_TEXVENT, "interpolate": "flow"},
+    {**CONTINUOUS_TEXVENT, "interpolate": "flow", "cache": "global"},
+    {**FLOW, "simulator": "texvent", "count": "fixed", "fixed_count": 3},
+    {**FLOW, "simulator": "texvent", "motion_floor": True},
+    {**FLOW, "simulator": "texvent", "max_frames_per_second": 60.0},
+    {**FLOW, "simulator": "texvent", "detect_cuts": False},
+    {**FLOW, "simulator": "texvent", "flicker_guard": True},
+]
 INTERPOLATIONS = ("none", "blend", "flow")
 BACKENDS = ("cpu", "reference")
 
@@ -90,27 +115,8 @@ def event_cases() -> Iterator[tuple[str, Any]]:
                 yield _frames_case(simulator=simulator, interpolate=interpolate, dtype=dtype)
         yield _generate_case(simulator=simulator, interpolate="exact")
         yield _generate_case(simulator=simulator, interpolate="flow")
-    for preset in ("paper", "accurate"):
-        yield _frames_case(dtype="still", simulator="texvent", interpolate="flow", preset=preset)
-    for cache in ("none", "global", "leaky"):
-        yield _frames_case(dtype="still", simulator="texvent", interpolate="flow", cache=cache)
-    yield _frames_case(dtype="still", simulator="esim", interpolate="flow")
-    for options in ({"simulator": "esim"}, {"simulator": "texvent", "preset": "accurate"}):
-        for interpolate in INTERPOLATIONS:
-            yield _frames_case(engine="continuous", interpolate=interpolate, **options)
-        yield _frames_case(engine="continuous", interpolate="flow", cache="global", **options) if (
-            options["simulator"] == "texvent"
-        ) else _frames_case(
-            engine="continuous", interpolate="flow", refractory_period_us=3000, **options
-        )
-    for options in (
-        {"count": "fixed", "fixed_count": 3},
-        {"motion_floor": True},
-        {"max_frames_per_second": 60.0},
-        {"detect_cuts": False},
-        {"flicker_guard": True},
-    ):
-        yield _frames_case(simulator="texvent", interpolate="flow", **options)
+    for options in MORE_CASES:
+        yield _frames_case(**options)
 
 
 def _name(options: dict[str, Any]) -> str:

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-
 from tests.contract.golden import EVENTS_FILE, FILES_FILE, digest, event_cases, file_cases
 
 CASES = dict(event_cases())

@@ -28,7 +28,7 @@ def models(tmp_path_factory):
 @pytest.fixture
 def model_cache(tmp_path, monkeypatch):
     """An empty cache folder, and no pipeline in memory."""
-    from texvent.generate.pipeline_loading import forget_pipeline
+    from texvent.generate.diffusers_models.pipeline_loading import forget_pipeline
 
     monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))
     forget_pipeline()

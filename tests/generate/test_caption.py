@@ -15,10 +15,10 @@ from PIL import Image  # noqa: E402
 
 from texvent.cli.app import main  # noqa: E402
 from texvent.errors import FileFormatError, InputError, TexventError  # noqa: E402
-from texvent.generate.caption import Captioner, find_pictures  # noqa: E402
-from texvent.generate.prompts import read_prompts  # noqa: E402
-from texvent.generate.upsample import upsample_prompt  # noqa: E402
-from texvent.generate.upsample_config import UpsampleConfig  # noqa: E402
+from texvent.generate.prompts.caption import Captioner, find_pictures  # noqa: E402
+from texvent.generate.prompts.files import read_prompts  # noqa: E402
+from texvent.generate.prompts.upsample import upsample_prompt  # noqa: E402
+from texvent.generate.prompts.upsample_config import UpsampleConfig  # noqa: E402
 
 from . import tiny_pipelines  # noqa: E402
 

@@ -10,11 +10,11 @@ import pytest
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import InputError, TexventError
-from texvent.generate.attempts import generate_checked, nth_seed
-from texvent.generate.check import block_means, check_clip, neighbour_correlation
-from texvent.generate.procedural.generator import ProceduralConfig, ProceduralGenerator
-from texvent.generate.stored_video import write_video
+from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.generate.video_config import GeneratedVideoConfig
+from texvent.generate.videos.attempts import generate_checked, nth_seed
+from texvent.generate.videos.check import block_means, check_clip, neighbour_correlation
+from texvent.generate.videos.stored_video import write_video
 from texvent.sensor import SensorSize
 from texvent.video import Frame
 

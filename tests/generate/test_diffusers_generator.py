@@ -32,14 +32,14 @@ from texvent.errors import (  # noqa: E402
     MissingDependencyError,
     TexventError,
 )
-from texvent.generate import guardrail, model_run, pipeline_loading  # noqa: E402
-from texvent.generate.agreement import measure_agreement  # noqa: E402
-from texvent.generate.cache import made_folder  # noqa: E402
-from texvent.generate.models import MODELS  # noqa: E402
-from texvent.generate.pipeline_loading import (  # noqa: E402
+from texvent.generate.diffusers_models import guardrail, model_run, pipeline_loading  # noqa: E402
+from texvent.generate.diffusers_models.pipeline_loading import (  # noqa: E402
     forget_pipeline,
 )
-from texvent.generate.stored_video import write_video  # noqa: E402
+from texvent.generate.models.table import MODELS  # noqa: E402
+from texvent.generate.videos.agreement import measure_agreement  # noqa: E402
+from texvent.generate.videos.cache import made_folder  # noqa: E402
+from texvent.generate.videos.stored_video import write_video  # noqa: E402
 from texvent.pipeline import text_to_events  # noqa: E402
 from texvent.settings import resolve  # noqa: E402
 

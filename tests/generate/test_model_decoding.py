@@ -13,10 +13,10 @@ torch.set_num_threads(1)  # tiny arrays: more threads only wait for each other
 pytest.importorskip("diffusers")
 
 from texvent.errors import FileFormatError, InputError  # noqa: E402
-from texvent.generate import pipeline_loading  # noqa: E402
-from texvent.generate.decoder_tap import TAPPED_PIPELINES  # noqa: E402
-from texvent.generate.pipeline_call import call_pipeline  # noqa: E402
-from texvent.generate.placement import Placement  # noqa: E402
+from texvent.generate.diffusers_models import pipeline_loading  # noqa: E402
+from texvent.generate.diffusers_models.decoder_tap import TAPPED_PIPELINES  # noqa: E402
+from texvent.generate.diffusers_models.pipeline_call import call_pipeline  # noqa: E402
+from texvent.generate.diffusers_models.placement import Placement  # noqa: E402
 from texvent.generate.silence import Silence  # noqa: E402
 from texvent.generate.video_config import DiffusersConfig  # noqa: E402
 

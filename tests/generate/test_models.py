@@ -10,13 +10,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.errors import InputError
-from texvent.generate.procedural.model import Model, Noun, Part, Pose
-from texvent.generate.procedural.models import joints, shaping, variation
-from texvent.generate.procedural.models.joints import Gait
-from texvent.generate.procedural.models.paint import DARK, GREY, RED, Paint
-from texvent.generate.procedural.models.table import AFLOAT, NOUNS
-from texvent.generate.procedural.models.wheels import Wheel, rolled
-from texvent.generate.procedural.primitives import Shape
+from texvent.scenes.model import Model, Noun, Part, Pose
+from texvent.scenes.models import shaping, variation
+from texvent.scenes.models.paint import DARK, GREY, RED, Paint
+from texvent.scenes.models.people import joints
+from texvent.scenes.models.people.joints import Gait
+from texvent.scenes.models.table import AFLOAT, NOUNS
+from texvent.scenes.models.vehicles.wheels import Wheel, rolled
+from texvent.scenes.primitives import Shape
 
 ALL = list(NOUNS.values())
 BY_NAME = pytest.mark.parametrize("noun", ALL, ids=[noun.name for noun in ALL])

@@ -21,16 +21,16 @@ from texvent.errors import (  # noqa: E402
     InputError,
     MissingDependencyError,
 )
-from texvent.generate.agreement import measure_agreement  # noqa: E402
-from texvent.generate.loading import quiet_libraries  # noqa: E402
-from texvent.generate.pipeline_call import check_options  # noqa: E402
-from texvent.generate.pipeline_loading import (  # noqa: E402
+from texvent.generate.diffusers_models.pipeline_call import check_options  # noqa: E402
+from texvent.generate.diffusers_models.pipeline_loading import (  # noqa: E402
     LoadRequest,
     load_pipeline,
     place_pipeline,
 )
-from texvent.generate.placement import Placement  # noqa: E402
+from texvent.generate.diffusers_models.placement import Placement  # noqa: E402
+from texvent.generate.models.loading import quiet_libraries  # noqa: E402
 from texvent.generate.video_config import DiffusersConfig  # noqa: E402
+from texvent.generate.videos.agreement import measure_agreement  # noqa: E402
 
 from . import tiny_pipelines  # noqa: E402
 from .tiny_models import PROMPT, build  # noqa: E402

@@ -3,9 +3,9 @@
 import pytest
 
 from texvent.errors import ConfigError
-from texvent.generate import placement
-from texvent.generate.models import MODELS
-from texvent.generate.placement import GB, place
+from texvent.generate.diffusers_models import placement
+from texvent.generate.diffusers_models.placement import GB, place
+from texvent.generate.models.table import MODELS
 from texvent.generate.video_config import DiffusersConfig
 
 COSMOS = MODELS["cosmos-7b"]  # 74 GB on the device, 24.4 GB with offload

@@ -8,7 +8,7 @@ torch = pytest.importorskip("torch")
 
 from tests.generate.tiny_pipelines import cogvideox_vae, ltx_vae, random_weights, wan_vae  # noqa: E402
 
-from texvent.generate.streamed_decoding import can_stream, stream_decoder  # noqa: E402
+from texvent.generate.diffusers_models.streamed_decoding import can_stream, stream_decoder  # noqa: E402
 
 
 def wan22_5b_vae():

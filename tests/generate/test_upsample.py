@@ -9,8 +9,8 @@ import pytest
 import texvent
 from texvent.cli.app import main
 from texvent.errors import ConfigError, InputError, TexventError
-from texvent.generate.upsample import upsample_prompt
-from texvent.generate.upsample_config import UpsampleConfig
+from texvent.generate.prompts.upsample import upsample_prompt
+from texvent.generate.prompts.upsample_config import UpsampleConfig
 
 LONG = "A red car drives left past two trees at dusk."
 

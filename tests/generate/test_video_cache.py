@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError, OutputError
-from texvent.generate.cache import VideoCache, content_key, made_folder
-from texvent.generate.check import measure_clip
-from texvent.generate.stored_video import open_stored, to_16_bits, write_video
+from texvent.generate.videos.cache import VideoCache, content_key, made_folder
+from texvent.generate.videos.check import measure_clip
+from texvent.generate.videos.stored_video import open_stored, to_16_bits, write_video
 
 FPS = Fraction(30_000, 1001)
 

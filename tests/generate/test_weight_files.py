@@ -6,7 +6,11 @@ import struct
 import pytest
 
 from texvent.errors import FileFormatError, InputError
-from texvent.generate.weight_files import check_weight_files, fingerprint, read_pipeline_index
+from texvent.generate.models.weight_files import (
+    check_weight_files,
+    fingerprint,
+    read_pipeline_index,
+)
 
 
 def safetensors(payload: bytes) -> bytes:

@@ -12,7 +12,7 @@ import torch
 import transformers
 from tokenizers.pre_tokenizers import ByteLevel
 
-from texvent.generate.torchvision_stand_in import stand_in_for_torchvision
+from texvent.generate.diffusers_models.torchvision_stand_in import stand_in_for_torchvision
 
 TEXT = {"d_model": 32, "d_kv": 8, "d_ff": 37, "num_layers": 2, "num_heads": 4}
 

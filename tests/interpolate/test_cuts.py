@@ -7,8 +7,8 @@ import itertools
 import numpy as np
 import pytest
 
-from texvent.interpolate.cuts import Jump, detect_jump
-from texvent.interpolate.pan import shift_agreement
+from texvent.pairs.scene_change import Jump, detect_jump
+from texvent.pairs.shift_correlation import shift_agreement
 from texvent.video import Frame
 
 WIDTH, HEIGHT = 192, 144

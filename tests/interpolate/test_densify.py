@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
 from texvent.errors import InputError
-from texvent.interpolate.cuts import Jump
 from texvent.interpolate.densify import densify
+from texvent.pairs.scene_change import Jump
 from texvent.video import Frame, Video
 
 

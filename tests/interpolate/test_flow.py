@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from texvent.errors import InputError
-from texvent.interpolate import paths
 from texvent.interpolate.blend import BlendInterpolator
 from texvent.interpolate.flow import FlowInterpolator
+from texvent.pairs import motion_interpolation as paths
 from texvent.video import Frame
 
 

@@ -9,7 +9,7 @@ from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError
 from texvent.interpolate.densify import densify
-from texvent.interpolate.gain_jumps import FOLLOW, global_gain, steady_frames
+from texvent.pairs.deflicker import FOLLOW, global_gain, steady_frames
 from texvent.video import Frame, Video
 
 

@@ -6,7 +6,7 @@ import numba
 import numpy as np
 import pytest
 
-from texvent.interpolate.optical_flow import DisFlow, stretch
+from texvent.interpolate.dis_flow.estimator import DisFlow, stretch
 
 
 def test_flow_is_the_translation_in_both_directions(moving_texture):

@@ -8,9 +8,9 @@ import pytest
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError
+from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.densify import densify
-from texvent.interpolate.pair_flow import PairFlow
-from texvent.interpolate.policy import CountPolicy
+from texvent.interpolate.dis_flow.pair_flow import PairFlow
 from texvent.video import Frame, Video
 
 

@@ -11,12 +11,13 @@ import pytest
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError, FileFormatError, InputError
-from texvent.interpolate import rife_layouts, rife_weights
 from texvent.interpolate.densify import densify
-from texvent.interpolate.rife import RifeInterpolator
-from texvent.interpolate.rife_layouts import LAYOUTS, RIFE_4_0
-from texvent.interpolate.rife_network import Motion
-from texvent.interpolate.rife_weights import read_rife_weights, write_rife_weights
+from texvent.interpolate.rife import layouts as rife_layouts
+from texvent.interpolate.rife import weights as rife_weights
+from texvent.interpolate.rife.interpolator import RifeInterpolator
+from texvent.interpolate.rife.layouts import LAYOUTS, RIFE_4_0
+from texvent.interpolate.rife.network import Motion
+from texvent.interpolate.rife.weights import read_rife_weights, write_rife_weights
 from texvent.pipeline import video_to_events
 from texvent.settings import resolve
 from texvent.video import Frame, Video

@@ -4,7 +4,7 @@ from math import prod
 
 import pytest
 
-from texvent.interpolate.rife_layouts import (
+from texvent.interpolate.rife.layouts import (
     LAYOUTS,
     RIFE_4_0,
     RIFE_4_6,

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from texvent.interpolate.rife_layouts import LAYOUTS
-from texvent.interpolate.rife_network import Motion, RifeNetwork
-from texvent.interpolate.rife_shared import move_motion
-from texvent.interpolate.torch_warp import warp
+from texvent.interpolate.networks.torch_warp import warp
+from texvent.interpolate.rife.layouts import LAYOUTS
+from texvent.interpolate.rife.network import Motion, RifeNetwork
+from texvent.interpolate.rife.shared import move_motion
 
 from . import rife_numpy
 from .rife_files import random_tensors

@@ -6,7 +6,7 @@ import pytest
 
 from texvent.config import InterpolateConfig
 from texvent.data.pull import pull
-from texvent.interpolate.rife import RifeInterpolator
+from texvent.interpolate.rife.interpolator import RifeInterpolator
 from texvent.video import Frame
 from texvent.weights.pull import pull_weights
 

@@ -10,9 +10,9 @@ import pytest
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError, FileFormatError, InputError, MissingDependencyError
-from texvent.interpolate.super_slomo_layout import FLOW_NET, REFINE_NET
-from texvent.interpolate.super_slomo_network import UNet
-from texvent.interpolate.super_slomo_weights import read_checkpoint
+from texvent.interpolate.super_slomo.layout import FLOW_NET, REFINE_NET
+from texvent.interpolate.super_slomo.network import UNet
+from texvent.interpolate.super_slomo.weights import read_checkpoint
 from texvent.video import Frame
 
 from .rife_numpy import warp

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.errors import ConfigError
-from texvent.interpolate.tiles import OVERLAP_PX, cut_tiles, tile_weights
+from texvent.interpolate.networks.tiles import OVERLAP_PX, cut_tiles, tile_weights
 
 SIZES = st.integers(1, 700)
 

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from texvent.errors import FileFormatError
-from texvent.io import bag_chunks
 from texvent.io.files import load, save
+from texvent.io.ros import bag_chunks
 from texvent.sensor import SensorSize
 
 from .format_cases import random_events

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from texvent.io.behind import DEPTH, WriteBehind
+from texvent.runtime.background_writer import DEPTH, WriteBehind
 
 
 class Slow:

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.errors import FileFormatError
-from texvent.io import ecf
+from texvent.io.prophesee import ecf
 
 from .ecf_bodies import Event, make_chunk
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from texvent.errors import FileFormatError, InputError
-from texvent.io import text_header
 from texvent.io.files import codec_for, codec_that_reads, load, save
+from texvent.io.prophesee import text_header
 
 from .prophesee_files import HEADERS, at_times, write_words
 

@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.events import EventStream
-from texvent.io import word_stream
 from texvent.io.files import load, open_events, save
-from texvent.io.word_stream import KernelDecoder
+from texvent.io.prophesee import word_stream
+from texvent.io.prophesee.word_stream import KernelDecoder
 
 from .prophesee_files import SIZE, at_times, events_of, row_bursts, write_words
 from .slow_words import decode_evt3
@@ -110,7 +110,7 @@ def test_twelve_days_of_silence_cost_less_than_half_a_megabyte(tmp_path: Path) -
 )
 def test_any_words_mean_what_the_slow_decoder_says(words: list[int], cut: int) -> None:
     array = np.array(words, dtype="<u2")
-    decoder = KernelDecoder("texvent.io.kernels.evt3", "<u2")
+    decoder = KernelDecoder("texvent.io.prophesee.evt3_kernels", "<u2")
     rows = []
     for part in (array[:cut], array[cut:]):
         columns = decoder.decode(part)

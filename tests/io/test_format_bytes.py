@@ -12,7 +12,7 @@ import pytest
 
 from texvent.errors import FileFormatError, InputError, OutputError
 from texvent.events import EventStream
-from texvent.io import aedat4_packing
+from texvent.io.aedat import aedat4_packing
 from texvent.io.files import codec_that_reads, load, open_events, save
 from texvent.sensor import SensorSize
 

@@ -14,8 +14,9 @@ from hypothesis import strategies as st
 
 from texvent.errors import FileFormatError, InputError, MissingDependencyError, OutputError
 from texvent.events import EventPackets, EventStream
-from texvent.io import hdf5, hdf5_writer
 from texvent.io.files import load, open_events, save
+from texvent.io.hdf5 import native as hdf5
+from texvent.io.hdf5 import writer as hdf5_writer
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(6, 5)

@@ -5,7 +5,7 @@ import threading
 
 import pytest
 
-from texvent.io.interrupts import delay_interrupts
+from texvent.runtime.interrupts import delay_interrupts
 
 
 def test_ctrl_c_takes_effect_after_the_block() -> None:

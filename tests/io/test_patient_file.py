@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from texvent.io.patient_file import PatientFile
+from texvent.io.hdf5.deferred_error_file import PatientFile
 
 
 @pytest.fixture

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
-from texvent.io import word_stream
 from texvent.io.files import load, open_events, save
+from texvent.io.prophesee import word_stream
 
 from .prophesee_files import EXTENSIONS, FORMATS, SIZE, WORD_FORMATS, row_bursts
 

@@ -9,10 +9,10 @@ import pytest
 
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
-from texvent.io import prophesee_hdf5
-from texvent.io.ecf_dataset import ECF_FILTER
 from texvent.io.files import codec_for, codec_that_reads, load, open_events, save
-from texvent.io.prophesee_hdf5 import CHUNK_EVENTS, EVENT
+from texvent.io.prophesee import ecf_hdf5 as prophesee_hdf5
+from texvent.io.prophesee.ecf_dataset import ECF_FILTER
+from texvent.io.prophesee.ecf_hdf5 import CHUNK_EVENTS, EVENT
 
 from .ecf_bodies import make_chunk
 from .prophesee_files import SIZE, at_times, events_of, row_bursts

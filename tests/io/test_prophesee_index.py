@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent.io import prophesee_index
-from texvent.io.prophesee_index import TimeIndex
+from texvent.io.prophesee import ecf_index as prophesee_index
+from texvent.io.prophesee.ecf_index import TimeIndex
 
 
 def build(*packets: list[int]) -> list[tuple[int, int]]:

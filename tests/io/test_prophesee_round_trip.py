@@ -187,9 +187,9 @@ def test_a_disk_that_fills_up_leaves_nothing(
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
     place = {
-        "dat": "texvent.io.dat.DatEncoder.encode",
+        "dat": "texvent.io.prophesee.dat.DatEncoder.encode",
         "prophesee-hdf5": "os.pwrite",
-    }.get(format, "texvent.io.word_stream.KernelEncoder.encode")
+    }.get(format, "texvent.io.prophesee.word_stream.KernelEncoder.encode")
     monkeypatch.setattr(place, fail)
     with pytest.raises(OutputError, match="the disk is full") as caught:
         save(tmp_path / f"e{EXTENSIONS[format]}", at_times(1, 2), format=format)

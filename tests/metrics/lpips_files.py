@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from texvent.metrics.lpips_layout import ALEX
-from texvent.metrics.lpips_weights import LpipsWeights
+from texvent.metrics.lpips.layout import ALEX
+from texvent.metrics.lpips.weights import LpipsWeights
 
 NARROW = replace(
     ALEX,

@@ -5,7 +5,7 @@ import pytest
 
 from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.metrics.contrast_maximisation import (
+from texvent.metrics.motion.contrast_maximisation import (
     estimate_patch_flow,
     estimate_velocities,
     estimate_velocity,

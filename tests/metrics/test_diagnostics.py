@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from texvent.events import EventStream
-from texvent.metrics.batching import BatchingDifference, same_timestamp_share
-from texvent.metrics.cadence import CadenceDifference, cadence_energy
-from texvent.metrics.flow_warp import FlowWarpRatio, flow_warp_sharpness
-from texvent.metrics.structural_ratio import StructuralRatioQuotient, structural_ratio
+from texvent.metrics.motion.flow_warp import FlowWarpRatio, flow_warp_sharpness
+from texvent.metrics.motion.structural_ratio import StructuralRatioQuotient, structural_ratio
+from texvent.metrics.timing.batching import BatchingDifference, same_timestamp_share
+from texvent.metrics.timing.cadence import CadenceDifference, cadence_energy
 from texvent.sensor import SensorSize
 
 from .recordings import SMALL, one_event, random_events

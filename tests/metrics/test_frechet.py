@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from texvent.events import EventStream
-from texvent.metrics.frechet import FrechetStatistics, frechet_distance
-from texvent.metrics.patch_statistics import FEATURES, patch_statistics
+from texvent.metrics.unpaired.frechet import FrechetStatistics, frechet_distance
+from texvent.metrics.unpaired.patch_statistics import FEATURES, patch_statistics
 from texvent.sensor import SensorSize
 
 from . import slow

@@ -11,11 +11,12 @@ from hypothesis import strategies as st
 
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
-from texvent.metrics import lpips, lpips_weights
 from texvent.metrics.event_frames import EventFrameLpips
-from texvent.metrics.lpips import lpips_distance
-from texvent.metrics.lpips_layout import ALEX, VGG
-from texvent.metrics.lpips_weights import (
+from texvent.metrics.lpips import metric as lpips
+from texvent.metrics.lpips import weights as lpips_weights
+from texvent.metrics.lpips.layout import ALEX, VGG
+from texvent.metrics.lpips.metric import lpips_distance
+from texvent.metrics.lpips.weights import (
     find_lpips_weights,
     read_lpips_weights,
     write_lpips_weights,

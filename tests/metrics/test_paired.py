@@ -11,12 +11,12 @@ from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.metrics.compare import compare, describe_metrics
 from texvent.metrics.event_frames import EventFrameMse, EventFramePsnr, EventFrameSsim
-from texvent.metrics.intervals import IntervalDistance
 from texvent.metrics.marginals import ActiveIou, CountRatio, OnDifference
-from texvent.metrics.nearest import NearestTime
 from texvent.metrics.protocol import find_lack
+from texvent.metrics.spike_trains.intervals import IntervalDistance
+from texvent.metrics.spike_trains.nearest import NearestTime
+from texvent.metrics.spike_trains.van_rossum import VanRossum
 from texvent.metrics.stpp import Stpp
-from texvent.metrics.van_rossum import VanRossum
 from texvent.metrics.voxel import VoxelDifference
 from texvent.sensor import SensorSize
 

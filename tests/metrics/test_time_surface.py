@@ -3,7 +3,7 @@ import math
 import pytest
 
 from texvent.events import EventStream
-from texvent.metrics.time_surface import TimeSurfaceDifference
+from texvent.metrics.spike_trains.time_surface import TimeSurfaceDifference
 
 from . import slow
 from .recordings import SMALL, random_events

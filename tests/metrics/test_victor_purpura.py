@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.events import EventStream
-from texvent.metrics.victor_purpura import VictorPurpura, edit_cost
+from texvent.metrics.spike_trains.victor_purpura import VictorPurpura, edit_cost
 
 from . import slow
 from .recordings import one_event, random_events

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from texvent.bench.frame_recording import open_recording
+from texvent.bench.real.frame_recording import open_recording
 from texvent.data.pull import find_pulled
 from texvent.reconstruct.packet_slices import slice_between
 from texvent.reconstruct.reconstructor import load_reconstructor

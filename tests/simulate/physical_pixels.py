@@ -3,8 +3,8 @@
 import dataclasses
 import math
 
-from texvent.simulate.physical import PhysicalSimulator
-from texvent.simulate.physical_config import PRESETS
+from texvent.simulate.physical.config import PRESETS
+from texvent.simulate.physical.simulator import PhysicalSimulator
 
 CLEAN = dataclasses.replace(PRESETS["clean"], gamma=1.0)
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from texvent.simulate.cache import BrightnessCache
-from texvent.simulate.event_frame import EventFrame
+from texvent.simulate.texvent.brightness_cache import BrightnessCache
+from texvent.simulate.texvent.event_frame import EventFrame
 
 
 def levels(*values) -> np.ndarray:

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent.simulate.draws import draw_normals, draw_uniforms, draw_words, frame_key
-from texvent.simulate.kernels.cpu_draws import draw_uniform, draw_word
+from texvent.simulate.random.draws import draw_normals, draw_uniforms, draw_words, frame_key
+from texvent.simulate.random.draws_cpu import draw_uniform, draw_word
 
 SEEDS = st.integers(0, 2**63 - 1)
 COORDINATES = st.integers(0, 65_535)

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from texvent.errors import ConfigError
-from texvent.simulate.esim import EsimConfig, EsimSimulator, log_intensity
+from texvent.simulate.esim.simulator import EsimConfig, EsimSimulator, log_intensity
 from texvent.video import Frame
 
 from .published import curve, frames_of, run, static

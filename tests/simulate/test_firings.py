@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from texvent.sensor import SensorSize
-from texvent.simulate.firings import Firings, Interval
+from texvent.simulate.packets.unsorted_events import Firings, Interval
 
 KEY = np.uint64(0)
 SIZE = SensorSize(3, 2)

@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from texvent.errors import ConfigError, InputError
-from texvent.simulate import ldati, ldati_reference
-from texvent.simulate.draws import frame_key
-from texvent.simulate.firings import Interval
-from texvent.simulate.ldati import (
+from texvent.simulate.packets.unsorted_events import Interval
+from texvent.simulate.random.draws import frame_key
+from texvent.simulate.v2ce import ldati, ldati_reference
+from texvent.simulate.v2ce.ldati import (
     density_slope,
     infer_counts,
     sample_density,

@@ -1,7 +1,7 @@
 """Frames through models that answer at once, and through one that answers later."""
 
 from texvent.events import EventStream
-from texvent.simulate.esim import EsimSimulator
+from texvent.simulate.esim.simulator import EsimSimulator
 from texvent.simulate.look_ahead import LookAheadSimulator, step_through
 
 from .published import moving_texture

@@ -4,16 +4,16 @@ import numpy as np
 import pytest
 
 from texvent.events import SIGNAL, EventStream
-from texvent.simulate.draws import frame_key
-from texvent.simulate.firings import Interval
-from texvent.simulate.noise import (
+from texvent.simulate.packets.unsorted_events import Interval
+from texvent.simulate.random.draws import frame_key
+from texvent.simulate.texvent.noise import (
     draw_noise,
     draw_voltage_noise,
     low_light_background,
     poisson_cumulative,
     voltage_noise_sd,
 )
-from texvent.simulate.texvent import TexventConfig, TexventSimulator
+from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.video import Frame, frame_time_us
 
 SECOND = 1_000_000

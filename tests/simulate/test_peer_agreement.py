@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 from texvent.events import EventStream
-from texvent.simulate.esim import EsimSimulator
-from texvent.simulate.senpi import SenpiSimulator
-from texvent.simulate.v2e import V2eSimulator
-from texvent.simulate.voltmeter import VoltmeterSimulator
+from texvent.simulate.esim.simulator import EsimSimulator
+from texvent.simulate.senpi.simulator import SenpiSimulator
+from texvent.simulate.v2e.simulator import V2eSimulator
+from texvent.simulate.voltmeter.simulator import VoltmeterSimulator
 from texvent.video import Frame
 
 from .published import moving_texture

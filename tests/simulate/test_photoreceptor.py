@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from texvent.simulate.kernels import circuit_reference
+from texvent.simulate.physical.kernels import circuit_reference
 
 from .physical_pixels import clean, intensity
 from .published import curve, frames_of, moving_texture, run

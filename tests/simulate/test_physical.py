@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.errors import ConfigError
-from texvent.simulate.physical import PhysicalSimulator
-from texvent.simulate.physical_config import PRESETS, RANGES, PhysicalConfig
+from texvent.simulate.physical.config import PRESETS, RANGES, PhysicalConfig
+from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import Frame
 
 from .physical_pixels import clean, intensity

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from texvent.events import NOISE, SIGNAL
-from texvent.simulate.physical import PhysicalSimulator
-from texvent.simulate.physical_config import PRESETS
+from texvent.simulate.physical.config import PRESETS
+from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import Frame
 
 from .physical_pixels import clean, intensity, noisy, poisson_interval

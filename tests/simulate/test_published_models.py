@@ -11,11 +11,11 @@ from texvent._registry import SIMULATORS
 from texvent.config import option_help, option_names
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.simulate.esim import EsimSimulator
-from texvent.simulate.physical import PhysicalSimulator
-from texvent.simulate.senpi import SenpiSimulator
-from texvent.simulate.v2e import V2eSimulator
-from texvent.simulate.voltmeter import VoltmeterConfig, VoltmeterSimulator
+from texvent.simulate.esim.simulator import EsimSimulator
+from texvent.simulate.physical.simulator import PhysicalSimulator
+from texvent.simulate.senpi.simulator import SenpiSimulator
+from texvent.simulate.v2e.simulator import V2eSimulator
+from texvent.simulate.voltmeter.simulator import VoltmeterConfig, VoltmeterSimulator
 from texvent.video import Frame
 
 from .published import moving_texture, run, static

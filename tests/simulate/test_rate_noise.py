@@ -6,10 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.events import NOISE
-from texvent.simulate.draws import frame_key
-from texvent.simulate.firings import Interval
-from texvent.simulate.kernels import arrivals_cpu
-from texvent.simulate.rate_noise import NoiseRates
+from texvent.simulate.packets.unsorted_events import Interval
+from texvent.simulate.random import arrivals_cpu
+from texvent.simulate.random.draws import frame_key
+from texvent.simulate.random.rate_noise import NoiseRates
 
 
 def interval(seconds: float, frame: int = 1) -> Interval:

@@ -6,9 +6,9 @@ import math
 import numpy as np
 import pytest
 
-from texvent.simulate.draws import frame_key
-from texvent.simulate.firings import Firings, Interval
-from texvent.simulate.readout import Readout, ReadoutRules
+from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.physical.readout import Readout, ReadoutRules
+from texvent.simulate.random.draws import frame_key
 
 WIDTH = 20
 

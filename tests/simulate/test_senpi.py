@@ -6,7 +6,12 @@ import pytest
 
 from texvent.errors import ConfigError
 from texvent.events import NOISE, SIGNAL
-from texvent.simulate.senpi import SenpiConfig, SenpiSimulator, photons, shot_noise_rate_hz
+from texvent.simulate.senpi.simulator import (
+    SenpiConfig,
+    SenpiSimulator,
+    photons,
+    shot_noise_rate_hz,
+)
 
 from .published import curve, frames_of, run, static
 

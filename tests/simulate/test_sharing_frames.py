@@ -6,11 +6,11 @@ import importlib
 import numpy as np
 import pytest
 
-from texvent.simulate.physical import PhysicalSimulator
-from texvent.simulate.physical_config import PRESETS, PhysicalConfig
-from texvent.simulate.senpi import SenpiSimulator
-from texvent.simulate.v2e import V2eConfig, V2eSimulator
-from texvent.simulate.voltmeter import VoltmeterSimulator
+from texvent.simulate.physical.config import PRESETS, PhysicalConfig
+from texvent.simulate.physical.simulator import PhysicalSimulator
+from texvent.simulate.senpi.simulator import SenpiSimulator
+from texvent.simulate.v2e.simulator import V2eConfig, V2eSimulator
+from texvent.simulate.voltmeter.simulator import VoltmeterSimulator
 from texvent.video import Frame
 
 from .published import run
@@ -93,11 +93,15 @@ def test_blocks_that_come_to_rest_and_move_again_fire_as_in_the_reference(simula
 
 @pytest.mark.parametrize(
     ("simulator_class", "module"),
-    [(PhysicalSimulator, "circuit"), (V2eSimulator, "follow"), (VoltmeterSimulator, "passage")],
+    [
+        (PhysicalSimulator, "physical.kernels.circuit"),
+        (V2eSimulator, "v2e.kernels.low_pass"),
+        (VoltmeterSimulator, "voltmeter.kernels.first_passage"),
+    ],
 )
 def test_threads_do_not_change_an_event(simulator_class, module, monkeypatch):
     frames = patches([np.uint8] * 5)
-    kernels = importlib.import_module(f"texvent.simulate.kernels.{module}_cpu")
+    kernels = importlib.import_module(f"texvent.simulate.{module}_cpu")
     monkeypatch.setattr(kernels, "SHARE", 512)
     streams = []
     for threads in ("1", "2", "5"):

@@ -11,7 +11,7 @@ import pytest
 
 from texvent.errors import ConfigError, InputError
 from texvent.events import NOISE, SIGNAL, EventStream
-from texvent.simulate.texvent import TexventConfig, TexventSimulator
+from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.video import Frame
 
 SECOND = 1_000_000

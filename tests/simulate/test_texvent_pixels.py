@@ -10,12 +10,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent import _readiness as readiness
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.simulate.kernels import select
-from texvent.simulate.texvent import TexventConfig, TexventSimulator
-from texvent.simulate.texvent_memory import brightness_table, least_difference
+from texvent.runtime import background_jit as readiness
+from texvent.simulate.backend import select
+from texvent.simulate.texvent.pixel_state import brightness_table, least_difference
+from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.video import Frame
 
 FAST = ("numpy", "cpu")
@@ -196,9 +196,9 @@ def test_auto_prepares_the_kernels_of_the_frames_it_gets():
     simulator = TexventSimulator(backend="auto")
     simulator.step(frame(np.zeros((2, 2)), np.uint8, 0))
     simulator.step(frame(np.zeros((2, 2)), np.uint8, 1))
-    folder = "texvent.simulate.kernels"
-    readiness.wait_until_ready(f"{folder}.texvent_cpu", "|u1")
-    assert readiness.is_ready(f"{folder}.texvent_cpu", "|u1")
+    folder = "texvent.simulate.texvent.kernels"
+    readiness.wait_until_ready(f"{folder}.scan_cpu", "|u1")
+    assert readiness.is_ready(f"{folder}.scan_cpu", "|u1")
 
 
 @pytest.mark.parametrize("backend", FAST)

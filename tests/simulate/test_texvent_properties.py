@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from texvent.brightness import balanced_log
 from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.simulate.texvent import TexventConfig, TexventSimulator
+from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.video import Frame
 
 CHECKED = settings(max_examples=60, deadline=None)
@@ -238,7 +238,7 @@ def test_negated_contrast_swaps_on_and_off(frames, options):
     """The brightness itself is negated: negated intensities would round differently."""
     options = options | {"noise": "none", "backend": "reference"}
     events = simulate(frames, **options)
-    module = importlib.import_module("texvent.simulate.texvent_reference")
+    module = importlib.import_module("texvent.simulate.texvent.reference")
     with mock.patch.object(module, "balanced_log", lambda *given: -balanced_log(*given)):
         negated = simulate(frames, **options)
     swapped = EventStream(negated.x, negated.y, negated.t, 1 - negated.p, negated.size)

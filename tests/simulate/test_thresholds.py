@@ -3,12 +3,12 @@ from dataclasses import dataclass
 import pytest
 
 from texvent.errors import ConfigError
-from texvent.simulate.esim import EsimConfig
-from texvent.simulate.physical_config import PhysicalConfig
-from texvent.simulate.texvent import TexventConfig
+from texvent.simulate.esim.simulator import EsimConfig
+from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulate.texvent.simulator import TexventConfig
 from texvent.simulate.thresholds import contrast_threshold_of, with_contrast_threshold
-from texvent.simulate.v2e import V2eConfig
-from texvent.simulate.voltmeter import VoltmeterConfig
+from texvent.simulate.v2e.simulator import V2eConfig
+from texvent.simulate.voltmeter.simulator import VoltmeterConfig
 
 
 @pytest.mark.parametrize(

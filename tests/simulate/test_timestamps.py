@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from texvent.simulate.draws import frame_key
-from texvent.simulate.event_frame import EventFrame, list_activations
-from texvent.simulate.firings import Interval
-from texvent.simulate.interval import SubInterval
-from texvent.simulate.timestamps import larger_change_earlier, reconstruct_timestamps
+from texvent.simulate.packets.interval import SubInterval
+from texvent.simulate.packets.unsorted_events import Interval
+from texvent.simulate.random.draws import frame_key
+from texvent.simulate.texvent.event_frame import EventFrame, list_activations
+from texvent.simulate.texvent.timestamps import larger_change_earlier, reconstruct_timestamps
 
 THRESHOLD = 0.2
 

@@ -5,9 +5,9 @@ import pytest
 
 from texvent.config import plain
 from texvent.errors import ConfigError
-from texvent.simulate.esim import EsimConfig
-from texvent.simulate.physical_config import PhysicalConfig
-from texvent.simulate.texvent import TexventConfig
+from texvent.simulate.esim.simulator import EsimConfig
+from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulate.texvent.simulator import TexventConfig
 from texvent.simulate.thresholds import contrast_threshold_of
 from texvent.simulate.training import NOISE, draw_training_config
 

@@ -7,13 +7,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent.simulate.esim import EsimConfig, EsimSimulator, log_intensity
-from texvent.simulate.kernels.levels import Curve, Thresholds
-from texvent.simulate.kernels.ramp import Ramp, Rest
-from texvent.simulate.kernels.ramp_reference import cross_ramp
-from texvent.simulate.pixel_maps import LONG_AGO_US, draw_threshold_pair, sensor_key
-from texvent.simulate.senpi import SenpiConfig, SenpiSimulator, photons
-from texvent.simulate.trigger_levels import TriggerLevels
+from texvent.simulate.crossing.levels import Curve, Thresholds
+from texvent.simulate.crossing.ramp import Ramp, Rest
+from texvent.simulate.crossing.ramp_reference import cross_ramp
+from texvent.simulate.crossing.trigger_levels import TriggerLevels
+from texvent.simulate.esim.simulator import EsimConfig, EsimSimulator, log_intensity
+from texvent.simulate.random.mismatch import LONG_AGO_US, draw_threshold_pair, sensor_key
+from texvent.simulate.senpi.simulator import SenpiConfig, SenpiSimulator, photons
 from texvent.video import Frame
 
 from .published import run

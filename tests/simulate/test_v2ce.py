@@ -17,11 +17,11 @@ from texvent.errors import ConfigError, InputError, MissingDependencyError
 from texvent.events import SIGNAL, EventStream
 from texvent.pipeline import video_to_events
 from texvent.settings import default_settings, resolve
-from texvent.simulate import ldati
-from texvent.simulate.draws import frame_key
-from texvent.simulate.firings import Interval
 from texvent.simulate.look_ahead import step_through
-from texvent.simulate.v2ce import V2ceConfig, V2ceSimulator, normalise
+from texvent.simulate.packets.unsorted_events import Interval
+from texvent.simulate.random.draws import frame_key
+from texvent.simulate.v2ce import ldati
+from texvent.simulate.v2ce.simulator import V2ceConfig, V2ceSimulator, normalise
 from texvent.video import Frame, Video
 
 from .published import moving_texture

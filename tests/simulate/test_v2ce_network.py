@@ -8,9 +8,9 @@ import pytest
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.simulate.look_ahead import step_through
-from texvent.simulate.v2ce import V2ceConfig, V2ceSimulator
-from texvent.simulate.v2ce_network import load_network
-from texvent.simulate.v2ce_weights import read_weights
+from texvent.simulate.v2ce.network import load_network
+from texvent.simulate.v2ce.simulator import V2ceConfig, V2ceSimulator
+from texvent.simulate.v2ce.weights import read_weights
 
 from . import v2ce_numpy
 from .published import moving_texture, static

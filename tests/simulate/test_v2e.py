@@ -6,8 +6,8 @@ import pytest
 
 from texvent.errors import ConfigError
 from texvent.events import NOISE, SIGNAL
-from texvent.simulate.kernels.follow_reference import lin_log
-from texvent.simulate.v2e import (
+from texvent.simulate.v2e.kernels.low_pass_reference import lin_log
+from texvent.simulate.v2e.simulator import (
     V2eConfig,
     V2eSimulator,
     photoreceptor_noise_rms,

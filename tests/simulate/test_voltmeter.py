@@ -6,9 +6,13 @@ import pytest
 
 from texvent.errors import ConfigError
 from texvent.events import NOISE, SIGNAL
-from texvent.simulate.kernels.passage import Constants
-from texvent.simulate.kernels.passage_reference import chance_along, motion_of, passage_time
-from texvent.simulate.voltmeter import VoltmeterConfig, VoltmeterSimulator
+from texvent.simulate.voltmeter.kernels.first_passage import Constants
+from texvent.simulate.voltmeter.kernels.first_passage_reference import (
+    chance_along,
+    motion_of,
+    passage_time,
+)
+from texvent.simulate.voltmeter.simulator import VoltmeterConfig, VoltmeterSimulator
 from texvent.video import Frame
 
 from .published import curve, frames_of, run, static

@@ -14,8 +14,8 @@ from texvent.errors import ConfigError, InputError, OutputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Frame
-from texvent.view.encode import FilmEncoder
-from texvent.view.film import FilmWriter, title_of
+from texvent.view.film.encode import FilmEncoder
+from texvent.view.film.film import FilmWriter, title_of
 
 SIZE = SensorSize(32, 24)
 Steps = list[tuple[Frame, EventStream]]

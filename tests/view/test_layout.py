@@ -5,7 +5,7 @@ import pytest
 
 from texvent.sensor import SENSORS, SensorSize
 from texvent.view.canvas import blank, fit_text, text_width
-from texvent.view.layout import SURROUND, Layout, draw_legend
+from texvent.view.film.layout import SURROUND, Layout, draw_legend
 from texvent.view.palettes import PALETTES, get_palette
 
 SIZES = [

@@ -8,9 +8,9 @@ import pytest
 from texvent.errors import ConfigError, InputError
 from texvent.sensor import SensorSize
 from texvent.video import Video
-from texvent.view.beside import Companion
-from texvent.view.interval import Interval
-from texvent.view.marks import ARROW_US, BOX_COLOUR, FLOW_COLOUR, Marks, marks_of
+from texvent.view.film.interval import Interval
+from texvent.view.film.marks import ARROW_US, BOX_COLOUR, FLOW_COLOUR, Marks, marks_of
+from texvent.view.film.source_overlay import Companion
 
 SIZE = SensorSize(48, 32)
 

@@ -13,7 +13,7 @@ import pytest
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Video
-from texvent.view.page import show
+from texvent.view.page.page import show
 from texvent.view.render import RenderConfig, render_events
 
 SIZE = SensorSize(64, 48)

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.video import Frame
+from texvent.view.images.event_image import count_ceiling, draw_events, frame_picture
 from texvent.view.palettes import PALETTES, get_palette
-from texvent.view.picture import count_ceiling, draw_events, frame_picture
 
 PAPER = get_palette("paper")
 

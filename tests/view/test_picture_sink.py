@@ -10,7 +10,7 @@ from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import InputError, OutputError
 from texvent.sensor import SensorSize
-from texvent.view.picture_sink import check_pictures, open_pictures
+from texvent.view.images.image_sink import check_pictures, open_pictures
 
 SIZE = SensorSize(15, 11)
 

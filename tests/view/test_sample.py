@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.view.sample import FIRST_BIN_US, RATE_BINS, RateCurve, UniformSample
+from texvent.view.page.sample import FIRST_BIN_US, RATE_BINS, RateCurve, UniformSample
 
 SIZE = SensorSize(100, 100)
 

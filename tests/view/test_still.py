@@ -6,7 +6,7 @@ import numpy as np
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Frame
-from texvent.view.still import StillPicker
+from texvent.view.images.still import StillPicker
 
 SIZE = SensorSize(32, 24)
 

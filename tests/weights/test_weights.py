@@ -12,14 +12,14 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from texvent._cache import cache_folder
 from texvent.cli.app import main
 from texvent.data.catalogue import Archive, DataFile
 from texvent.errors import ConfigError, FileFormatError
-from texvent.interpolate import rife_layouts
-from texvent.metrics import lpips_layout
-from texvent.metrics.lpips import lpips_distance
-from texvent.metrics.lpips_weights import read_lpips_weights
+from texvent.interpolate.rife import layouts as rife_layouts
+from texvent.metrics.lpips import layout as lpips_layout
+from texvent.metrics.lpips.metric import lpips_distance
+from texvent.metrics.lpips.weights import read_lpips_weights
+from texvent.runtime.cache_folder import cache_folder
 from texvent.weights import catalogue, pull
 from texvent.weights.catalogue import LPIPS_ALEX, RIFE, WEIGHTS, find_weights
 from texvent.weights.pull import pull_weights

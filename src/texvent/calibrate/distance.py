@@ -6,7 +6,7 @@ import math
 from typing import NamedTuple
 
 from texvent.events import EventStream
-from texvent.metrics.intervals import IntervalDistance
+from texvent.metrics.spike_trains.intervals import IntervalDistance
 from texvent.metrics.stpp import Stpp
 
 NOTHING = 10.0

@@ -16,7 +16,7 @@ from texvent.calibrate.distance import Distance, measure_distance
 from texvent.calibrate.noise import MeasuredNoise, measure_noise
 from texvent.calibrate.recording import Recording, Span, simulate_span
 from texvent.events import EventStream
-from texvent.simulate.physical_config import PhysicalConfig
+from texvent.simulate.physical.config import PhysicalConfig
 from texvent.video import Frame
 
 OFFSETS_US = (-10_000, -5_000, 0, 2_500, 5_000, 10_000, 15_000)

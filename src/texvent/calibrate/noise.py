@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from texvent.calibrate.recording import Recording, Span
 from texvent.represent.event_frame import count_events
-from texvent.simulate.kernels.circuit import linearize
-from texvent.simulate.noise_curve import NoiseCurve
+from texvent.simulate.physical.kernels.circuit import linearize
+from texvent.simulate.physical.noise_curve import NoiseCurve
 from texvent.video import MICROSECONDS, Frame
 
 EDGES = (0, 2, 5, 10, 20, 30, 45, 70, 100, 140, 190, 256)

@@ -13,8 +13,8 @@ from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.interpolate.densify import densify
 from texvent.sensor import SensorSize
-from texvent.simulate.physical import PhysicalSimulator
-from texvent.simulate.physical_config import PhysicalConfig
+from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import MICROSECONDS, Frame, FrameStream
 
 WARM_UP_US = 100_000

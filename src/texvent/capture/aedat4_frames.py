@@ -23,9 +23,9 @@ import numpy as np
 
 from texvent.capture.times import FrameTimes
 from texvent.errors import FileFormatError
-from texvent.io.aedat4_container import MAGIC, Container, open_container, stored_size
-from texvent.io.aedat4_tables import StreamInfo
-from texvent.io.flatbuffer import Table
+from texvent.io.aedat.aedat4_container import MAGIC, Container, open_container, stored_size
+from texvent.io.aedat.aedat4_tables import StreamInfo
+from texvent.io.aedat.flatbuffer import Table
 from texvent.io.magic import begins_with
 from texvent.sensor import SensorSize, checked_size
 from texvent.video import Frame, PixelArray

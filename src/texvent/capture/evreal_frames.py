@@ -19,7 +19,7 @@ import numpy as np
 from texvent.capture.levels import usable_pixels
 from texvent.capture.times import FrameTimes, listed_times
 from texvent.errors import FileFormatError
-from texvent.io.npy_file import map_array
+from texvent.io.arrays.npy_file import map_array
 from texvent.sensor import SensorSize, checked_size
 from texvent.video import MICROSECONDS, Frame
 

@@ -10,33 +10,63 @@ from collections.abc import Sequence
 
 from texvent._registry import suggest
 from texvent._version import __version__
-from texvent.cli.leaving import leave
+from texvent.cli.shutdown import leave
 from texvent.errors import ConfigError, OutputError, TexventError
 
 COMMANDS = {
-    "generate": "Events, film, picture and page from a text prompt.",
-    "batch": "Events for every prompt of a file.",
-    "caption": "Prompts from pictures, by an image-and-text model of yours.",
-    "simulate": "Events from a video, an image folder or a camera.",
-    "render": "A film, GIF or picture of an event file.",
-    "view": "Open an event file in the browser: cloud, playback, region, rate, video.",
-    "app": "The web page: type a prompt or drop a video, see and download the events.",
-    "info": "What an event file or video holds, and how it was made.",
-    "convert": "Another event format, a region, a time range, several files in one.",
-    "validate": "Can this event file be trusted? A verdict and an exit code.",
-    "compare": "How close an event file is to the true one, by many metrics.",
-    "reconstruct": "Pictures from events alone, by a published network whose weights are yours.",
-    "bench": "Benchmarks: which metrics can be trusted, which simulator is closest.",
-    "calibrate": "Fit the physical model to a recording of frames and events.",
-    "data": "Recordings and clips to try things on: list them, fetch them.",
-    "weights": "Published network weights: list them, fetch them.",
-    "generators": "Text-to-video generators: the embedded one, learned models, what is here.",
-    "doctor": "What is installed, what is missing, how to get it.",
+    "generate": ("texvent.cli.make.generate", "Events, film, picture and page from a text prompt."),
+    "batch": ("texvent.cli.make.batch", "Events for every prompt of a file."),
+    "caption": (
+        "texvent.cli.make.caption",
+        "Prompts from pictures, by an image-and-text model of yours.",
+    ),
+    "simulate": ("texvent.cli.make.simulate", "Events from a video, an image folder or a camera."),
+    "render": ("texvent.cli.files.render", "A film, GIF or picture of an event file."),
+    "view": (
+        "texvent.cli.files.view",
+        "Open an event file in the browser: cloud, playback, region, rate, video.",
+    ),
+    "app": (
+        "texvent.cli.make.web",
+        "The web page: type a prompt or drop a video, see and download the events.",
+    ),
+    "info": ("texvent.cli.files.info", "What an event file or video holds, and how it was made."),
+    "convert": (
+        "texvent.cli.files.convert",
+        "Another event format, a region, a time range, several files in one.",
+    ),
+    "validate": (
+        "texvent.cli.files.validate",
+        "Can this event file be trusted? A verdict and an exit code.",
+    ),
+    "compare": (
+        "texvent.cli.files.compare",
+        "How close an event file is to the true one, by many metrics.",
+    ),
+    "reconstruct": (
+        "texvent.cli.files.reconstruct",
+        "Pictures from events alone, by a published network whose weights are yours.",
+    ),
+    "bench": (
+        "texvent.cli.bench.bench",
+        "Benchmarks: which metrics can be trusted, which simulator is closest.",
+    ),
+    "calibrate": (
+        "texvent.cli.make.calibrate",
+        "Fit the physical model to a recording of frames and events.",
+    ),
+    "data": (
+        "texvent.cli.setup.data",
+        "Recordings and clips to try things on: list them, fetch them.",
+    ),
+    "weights": ("texvent.cli.setup.weights", "Published network weights: list them, fetch them."),
+    "generators": (
+        "texvent.cli.setup.generators",
+        "Text-to-video generators: the embedded one, learned models, what is here.",
+    ),
+    "doctor": ("texvent.cli.setup.doctor", "What is installed, what is missing, how to get it."),
 }
-"""Command → what it does; each is `texvent.cli.<command>` with a function `run(arguments)`."""
-
-MODULES = {"app": "web"}
-"""Commands whose module has another name; `app` is this one."""
+"""Command → its module, which has a function `run(arguments)`, and what it does."""
 
 INTERRUPTED = 130
 """Exit code after Ctrl-C: 128 + SIGINT, as shells expect."""
@@ -98,7 +128,7 @@ def _dispatch(words: list[str]) -> int:
         return 0
     if words[0] not in COMMANDS:
         raise ConfigError(f"unknown command {words[0]!r}; {suggest(words[0], tuple(COMMANDS))}")
-    command = importlib.import_module(f"texvent.cli.{MODULES.get(words[0], words[0])}")
+    command = importlib.import_module(COMMANDS[words[0]][0])
     code: int = command.run(words[1:])
     return code
 
@@ -110,7 +140,7 @@ def _show_help() -> None:
         "",
         "Text prompts and videos to the stream of an event camera.",
         "",
-        *(f"  {name:<{width}}  {text}" for name, text in COMMANDS.items()),
+        *(f"  {name:<{width}}  {text}" for name, (_, text) in COMMANDS.items()),
         "",
         "Try:  texvent generate 'a red car drives left past two trees at dusk' -o out.h5",
         "Help: texvent COMMAND --help    Version: texvent --version",

@@ -28,10 +28,10 @@ from texvent.calibrate.rate import reach_target_rate
 from texvent.cli.estimate import describe_estimate, estimate_run
 from texvent.cli.outputs import OutputOptions
 from texvent.events import EventStream
-from texvent.interpolate.cuts import Jump
-from texvent.io.behind import WriteBehind
 from texvent.io.files import open_writer
+from texvent.pairs.scene_change import Jump
 from texvent.pipeline import Simulation
+from texvent.runtime.background_writer import WriteBehind
 from texvent.settings import Settings, unmeasured_sensor
 from texvent.video import MICROSECONDS, Frame
 

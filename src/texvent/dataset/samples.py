@@ -18,7 +18,7 @@ from texvent.events import EventStream
 from texvent.pipeline import Simulation, text_to_events, video_to_events
 from texvent.represent.named import load_representation, option_names_of, represent
 from texvent.settings import Settings, resolve
-from texvent.simulate.draws import frame_key
+from texvent.simulate.random.draws import frame_key
 
 Sample: TypeAlias = dict[str, Any]
 MAX_SEED = 2**63 - 1

@@ -17,15 +17,15 @@ from typing import Protocol
 
 import numpy as np
 
-from texvent.engine.candidates import CandidateFinder, one_grid
 from texvent.engine.fused import paths_of
-from texvent.engine.kernels.interface import Grids, Int64Array
 from texvent.events import EventStream
 from texvent.interpolate.count import intermediate_times_us
-from texvent.interpolate.cuts import Jump
 from texvent.interpolate.densify import OnCut, Pair, tell_jump
-from texvent.interpolate.paths import Paths
-from texvent.simulate.firings import Firings, Interval
+from texvent.pairs.motion_interpolation import Paths
+from texvent.pairs.scene_change import Jump
+from texvent.simulate.fused.candidates import CandidateFinder, one_grid
+from texvent.simulate.fused.interface import Grids, Int64Array
+from texvent.simulate.packets.unsorted_events import Firings, Interval
 from texvent.video import Frame
 
 PIECE_PX = 0.5

@@ -9,17 +9,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.brightness import Float64Array, balanced_log
-from texvent.engine.candidates import CandidateFinder
-from texvent.engine.kernels.interface import Grids, Int64Array
-from texvent.engine.kernels.pieces import LineRules
-from texvent.engine.line_pixels import LinePixels, esim_pixels
-from texvent.interpolate.paths import Paths
-from texvent.simulate.cache import BrightnessCache
-from texvent.simulate.draws import frame_key
-from texvent.simulate.esim import EsimConfig
-from texvent.simulate.firings import Firings, Interval
-from texvent.simulate.noise import draw_noise, low_light_background
-from texvent.simulate.texvent_config import TexventConfig
+from texvent.pairs.motion_interpolation import Paths
+from texvent.simulate.esim.simulator import EsimConfig
+from texvent.simulate.fused.candidates import CandidateFinder
+from texvent.simulate.fused.interface import Grids, Int64Array
+from texvent.simulate.fused.line_pixels import LinePixels, esim_pixels
+from texvent.simulate.fused.segments import LineRules
+from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.random.draws import frame_key
+from texvent.simulate.texvent.brightness_cache import BrightnessCache
+from texvent.simulate.texvent.config import TexventConfig
+from texvent.simulate.texvent.noise import draw_noise, low_light_background
 from texvent.video import Frame
 
 

@@ -13,13 +13,13 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from texvent.engine.candidates import CandidateFinder
-from texvent.engine.kernels.interface import Int64Array
 from texvent.events import EventStream
 from texvent.interpolate.densify import OnCut, Pair, tell_jump
-from texvent.interpolate.paths import Paths
+from texvent.pairs.motion_interpolation import Paths
 from texvent.sensor import SensorSize
-from texvent.simulate.firings import Firings, Interval
+from texvent.simulate.fused.candidates import CandidateFinder
+from texvent.simulate.fused.interface import Int64Array
+from texvent.simulate.packets.unsorted_events import Firings, Interval
 from texvent.video import Frame
 
 

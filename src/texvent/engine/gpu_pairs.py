@@ -14,7 +14,7 @@ from texvent._require import require
 from texvent.config import check_range
 from texvent.errors import InputError
 from texvent.interpolate.count import DEFAULT_CAP, intermediate_times_us
-from texvent.interpolate.network_device import picture_of
+from texvent.interpolate.networks.device import picture_of
 from texvent.simulate.gpu.device import EXTRA
 
 Tensor: TypeAlias = Any

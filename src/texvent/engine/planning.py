@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, closing
 
-from texvent._ahead import read_ahead
-from texvent._heap import release_freed_memory
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
+from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.densify import Pair, pair_up
-from texvent.interpolate.policy import CountPolicy
+from texvent.runtime.allocator import release_freed_memory
+from texvent.runtime.prefetch import read_ahead
 from texvent.simulate.protocol import Simulator
 from texvent.video import Frame, FrameStream
 

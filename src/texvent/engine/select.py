@@ -16,8 +16,8 @@ from texvent.simulate.protocol import Simulator
 from texvent.video import Frame
 
 FUSED: Mapping[str, str] = {
-    "texvent": "texvent.engine.texvent_pixels:FusedTexvent",
-    "esim": "texvent.engine.line_pixels:FusedEsim",
+    "texvent": "texvent.simulate.texvent.fused:FusedTexvent",
+    "esim": "texvent.simulate.fused.line_pixels:FusedEsim",
 }
 """Simulator → the same model on candidates; see `fused.FusedPixels`."""
 CONTINUOUS: Mapping[str, str] = {

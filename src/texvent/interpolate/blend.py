@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from texvent.config import InterpolateConfig
-from texvent.interpolate.paths import Paths
+from texvent.pairs.motion_interpolation import Paths
 from texvent.video import Frame, FrameStream
 
 

@@ -8,12 +8,12 @@ from typing import TypeAlias
 
 from texvent.config import InterpolateConfig
 from texvent.interpolate.count import intermediate_times_us
-from texvent.interpolate.cuts import Jump, detect_jump
-from texvent.interpolate.gain_jumps import steady_frames
-from texvent.interpolate.paths import Paths
-from texvent.interpolate.policy import CountPolicy
-from texvent.interpolate.position import float_luma
+from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.protocol import Interpolator
+from texvent.pairs.deflicker import steady_frames
+from texvent.pairs.instants import float_luma
+from texvent.pairs.motion_interpolation import Paths
+from texvent.pairs.scene_change import Jump, detect_jump
 from texvent.video import Frame, FrameStream, StreamChecker
 
 JUMP_DURATION_US = 1_000

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError
-from texvent.interpolate.position import check_between, float_luma
+from texvent.pairs.instants import check_between, float_luma
 from texvent.video import Frame, FrameStream, RenderableStream
 
 

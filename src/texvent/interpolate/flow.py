@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from texvent.config import InterpolateConfig
-from texvent.interpolate.pair_flow import PairFlow
-from texvent.interpolate.paths import Paths, prepare_warp
-from texvent.interpolate.position import check_between
+from texvent.interpolate.dis_flow.pair_flow import PairFlow
+from texvent.pairs.instants import check_between
+from texvent.pairs.motion_interpolation import Paths, prepare_warp
 from texvent.video import Frame, FrameStream
 
 

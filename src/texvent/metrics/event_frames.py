@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from texvent.errors import InputError
 from texvent.events import EventStream
-from texvent.metrics.lpips import lpips_distance
-from texvent.metrics.lpips_weights import find_lpips_weights, read_lpips_weights
+from texvent.metrics.lpips.metric import lpips_distance
+from texvent.metrics.lpips.weights import find_lpips_weights, read_lpips_weights
 from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
 from texvent.metrics.structural_similarity import structural_similarity
 from texvent.metrics.windows import count_windows, occupied_windows

@@ -8,8 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from texvent._cache import cache_folder
-from texvent._network_files import (
+from texvent._registry import RECONSTRUCTORS, load_object
+from texvent.errors import FileFormatError, InputError
+from texvent.reconstruct.layers import EXTRA
+from texvent.reconstruct.layout import BATCH_COUNTER, Shape
+from texvent.reconstruct.protocol import PublishedNetwork, RecurrentNetwork
+from texvent.runtime.cache_folder import cache_folder
+from texvent.runtime.network_files import (
     StandIn,
     Tensor,
     check_finite,
@@ -18,11 +23,6 @@ from texvent._network_files import (
     read_mapping,
     shapes_of,
 )
-from texvent._registry import RECONSTRUCTORS, load_object
-from texvent.errors import FileFormatError, InputError
-from texvent.reconstruct.layers import EXTRA
-from texvent.reconstruct.layout import BATCH_COUNTER, Shape
-from texvent.reconstruct.protocol import PublishedNetwork, RecurrentNetwork
 
 LEFT_BY_TRAINING = (
     *("parse_config.ConfigParser", "utils.parse_config.ConfigParser"),

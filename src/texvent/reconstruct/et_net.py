@@ -7,7 +7,6 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from texvent._network_files import Tensor
 from texvent.reconstruct.layers import Layers
 from texvent.reconstruct.layout import (
     Shape,
@@ -20,6 +19,7 @@ from texvent.reconstruct.layout import (
     layer_norm,
     linear,
 )
+from texvent.runtime.network_files import Tensor
 
 SCALES = 3
 HEADS = 8

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from texvent._network_files import Tensor
 from texvent.reconstruct.layers import Layers
 from texvent.reconstruct.layout import (
     Shape,
@@ -15,6 +14,7 @@ from texvent.reconstruct.layout import (
     conv_layer,
     residual_block,
 )
+from texvent.runtime.network_files import Tensor
 
 PUBLISHED_HEAD = (16, 5, 3, 3)
 """Shape of the first kernel: channels, bins, side, side."""

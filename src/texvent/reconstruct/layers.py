@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import ModuleType
 
-from texvent._network_files import Tensor
 from texvent._require import require
+from texvent.runtime.network_files import Tensor
 
 EXTRA = "torch"
 """The texvent extra that brings torch."""

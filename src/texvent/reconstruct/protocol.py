@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from texvent._network_files import Tensor
 from texvent.reconstruct.layout import Shape, Shapes
+from texvent.runtime.network_files import Tensor
 
 
 class RecurrentNetwork(Protocol):

@@ -10,7 +10,6 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent._network_files import Tensor
 from texvent._registry import RECONSTRUCTORS, load_object
 from texvent._require import require
 from texvent.errors import ConfigError, FileFormatError, InputError
@@ -20,6 +19,7 @@ from texvent.reconstruct.config import Device
 from texvent.reconstruct.layers import EXTRA
 from texvent.reconstruct.protocol import PublishedNetwork, RecurrentNetwork
 from texvent.represent.voxel_grid import voxel_e2vid
+from texvent.runtime.network_files import Tensor
 from texvent.sensor import SensorSize
 
 Intensity: TypeAlias = NDArray[np.float32]

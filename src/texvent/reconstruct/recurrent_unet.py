@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from texvent._network_files import Tensor
 from texvent.reconstruct.dynamic_decoder import decode_dynamically, dynamic_decoder_shapes
 from texvent.reconstruct.layers import Layers
 from texvent.reconstruct.layout import (
@@ -18,6 +17,7 @@ from texvent.reconstruct.layout import (
     count_blocks,
     residual_block,
 )
+from texvent.runtime.network_files import Tensor
 
 PREFIX = "unetrecurrent"
 HEAD = f"{PREFIX}.head"

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.events import EventStream
-from texvent.simulate.draws import frame_key
-from texvent.simulate.firings import Firings, Interval
-from texvent.simulate.kernels.order import Columns
-from texvent.simulate.kernels.select import AUTO, check_backend
+from texvent.simulate.backend.select import AUTO, check_backend
+from texvent.simulate.packets.order import Columns
+from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.random.draws import frame_key
 from texvent.video import Frame, StreamChecker
 
 Config = TypeVar("Config")

@@ -15,11 +15,11 @@ from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, check_output
 from texvent.sensor import SensorSize
 from texvent.video import Frame
-from texvent.view.film import FilmWriter, title_of
-from texvent.view.interval import Interval, IntervalCollector
-from texvent.view.page import PageWriter
+from texvent.view.film.film import FilmWriter, title_of
+from texvent.view.film.interval import Interval, IntervalCollector
+from texvent.view.images.still import StillPicker
+from texvent.view.page.page import PageWriter
 from texvent.view.palettes import DEFAULT_PALETTE, Palette, get_palette
-from texvent.view.still import StillPicker
 
 PREVIEW_KINDS = ("mp4", "gif", "png", "html")
 

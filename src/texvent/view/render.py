@@ -11,15 +11,15 @@ from texvent.errors import ConfigError, InputError
 from texvent.events import EventPackets, EventStream
 from texvent.io.atomic import atomic_file, check_output
 from texvent.video import MICROSECONDS, FrameStream
-from texvent.view.beside import Companion
 from texvent.view.canvas import png_bytes
-from texvent.view.encode import FILM_EXTENSIONS
-from texvent.view.film import FilmWriter, title_of
-from texvent.view.interval import Interval
-from texvent.view.page import PageWriter
+from texvent.view.film.encode import FILM_EXTENSIONS
+from texvent.view.film.film import FilmWriter, title_of
+from texvent.view.film.interval import Interval
+from texvent.view.film.source_overlay import Companion
+from texvent.view.images.contact_sheet import draw_sheet
+from texvent.view.images.still import StillPicker
+from texvent.view.page.page import PageWriter
 from texvent.view.render_config import RenderConfig
-from texvent.view.sheet import draw_sheet
-from texvent.view.still import StillPicker
 from texvent.view.windows import (
     cut_counts,
     cut_fading,

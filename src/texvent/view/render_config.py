@@ -8,9 +8,9 @@ from fractions import Fraction
 from texvent.config import check_range
 from texvent.errors import ConfigError
 from texvent.video import MICROSECONDS
-from texvent.view.marks import Overlay
+from texvent.view.film.marks import Overlay
+from texvent.view.page.sample import SAMPLE_EVENTS
 from texvent.view.palettes import DEFAULT_PALETTE, get_palette
-from texvent.view.sample import SAMPLE_EVENTS
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -13,11 +13,11 @@ from texvent.errors import InputError
 from texvent.events import EventPackets, EventStream
 from texvent.io.atomic import atomic_file
 from texvent.video import MICROSECONDS, FrameStream
-from texvent.view.film import title_of
+from texvent.view.film.film import title_of
+from texvent.view.images.event_image import frame_picture
+from texvent.view.page.sample import UniformSample
 from texvent.view.palettes import Palette, get_palette
-from texvent.view.picture import frame_picture
 from texvent.view.render_config import RenderConfig
-from texvent.view.sample import UniformSample
 from texvent.view.windows import cut_streams, time_range
 
 TIMELINE = "time"

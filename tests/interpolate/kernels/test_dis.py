@@ -7,8 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent.interpolate.kernels import dis_cpu, dis_reference
-from texvent.interpolate.kernels.dis import (
+from texvent.interpolate.dis_flow import flow_cpu as dis_cpu
+from texvent.interpolate.dis_flow import flow_reference as dis_reference
+from texvent.interpolate.dis_flow.definitions import (
     MARGIN,
     count_levels,
     follow_levels,

@@ -6,7 +6,8 @@ import numba
 import numpy as np
 import pytest
 
-from texvent.interpolate.kernels import cpu, reference
+from texvent.pairs import warp_cpu as cpu
+from texvent.pairs import warp_reference as reference
 
 KERNELS = [reference.warp_between, cpu.warp_between]
 kernels = pytest.mark.parametrize("warp", KERNELS, ids=["reference", "cpu"])

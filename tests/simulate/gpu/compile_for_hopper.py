@@ -21,9 +21,9 @@ from triton.backends.compiler import GPUTarget
 from triton.runtime import driver
 from triton.runtime.jit import JITFunction
 
-from texvent.simulate.esim import EsimConfig
+from texvent.simulate.esim.simulator import EsimConfig
 from texvent.simulate.gpu import engine
-from texvent.simulate.texvent import TexventConfig
+from texvent.simulate.texvent.simulator import TexventConfig
 
 TOOL = Path(triton.__file__).parent / "backends" / "nvidia" / "bin" / "cuobjdump"
 RANDOM = {"noise": "random", "stamp": "random"}

@@ -11,8 +11,8 @@ import texvent
 from texvent._registry import SIMULATORS
 from texvent.cli.app import main
 from texvent.errors import ConfigError
-from texvent.simulate.esim import EsimConfig, EsimSimulator
-from texvent.simulate.texvent import TexventConfig, TexventSimulator
+from texvent.simulate.esim.simulator import EsimConfig, EsimSimulator
+from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 
 from .clips import SEED, TWO_PAIRS, on_cpu, random_clips, random_times
 

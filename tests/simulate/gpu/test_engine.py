@@ -11,10 +11,10 @@ import pytest
 from texvent.errors import ConfigError, InputError
 from texvent.events import NOISE
 from texvent.represent.voxel_grid import voxel_zhu
-from texvent.simulate.esim import EsimConfig, EsimSimulator
-from texvent.simulate.kernels.texvent import NOISE_BLOCK
-from texvent.simulate.physical import PhysicalConfig
-from texvent.simulate.texvent import TexventConfig, TexventSimulator
+from texvent.simulate.esim.simulator import EsimConfig, EsimSimulator
+from texvent.simulate.physical.simulator import PhysicalConfig
+from texvent.simulate.texvent.kernels.scan import NOISE_BLOCK
+from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 
 from .clips import (
     CLIPS,

@@ -8,11 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.errors import InputError
-from texvent.simulate.cache import BrightnessCache
 from texvent.simulate.gpu.intervals import Clock
 from texvent.simulate.gpu.kernel_types import FORGET, LEAK
 from texvent.simulate.gpu.launch import alignment
-from texvent.simulate.gpu.texvent_rules import byte_brightness, byte_trigger_levels
+from texvent.simulate.texvent.brightness_cache import BrightnessCache
+from texvent.simulate.texvent.gpu.rules import byte_brightness, byte_trigger_levels
 
 
 @given(
@@ -67,8 +67,8 @@ def test_a_time_that_does_not_increase_is_named_with_its_clip():
 @pytest.mark.parametrize("every", [0, 2])
 def test_references_are_renewed_as_the_brightness_cache_does(cache, every):
     pytest.importorskip("triton")
-    from texvent.simulate.gpu.texvent_pixels import TexventPixels
-    from texvent.simulate.texvent import TexventConfig
+    from texvent.simulate.texvent.gpu.pixels import TexventPixels
+    from texvent.simulate.texvent.simulator import TexventConfig
 
     reset_pairs = every if cache in ("leaky", "global") else 0
     config = TexventConfig(cache=cache, cache_reset_pairs=reset_pairs)

@@ -5,8 +5,10 @@ import sys
 import pytest
 
 from texvent.errors import ConfigError, MissingDependencyError
-from texvent.simulate.kernels import order_reference, ramp_cpu, ramp_reference, select
-from texvent.simulate.kernels.select import load_kernel
+from texvent.simulate.backend import select
+from texvent.simulate.backend.select import load_kernel
+from texvent.simulate.crossing import ramp, ramp_cpu, ramp_reference
+from texvent.simulate.packets import order, order_reference
 
 
 @pytest.fixture
@@ -18,24 +20,24 @@ def without_numba(monkeypatch):
 
 
 def test_auto_is_cpu():
-    assert load_kernel("ramp", "cross_levels", "auto") is ramp_cpu.cross_levels
+    assert load_kernel(ramp.__name__, "cross_levels", "auto") is ramp_cpu.cross_levels
 
 
 @pytest.mark.usefixtures("without_numba")
 def test_auto_falls_back_to_the_reference_without_numba():
-    assert load_kernel("ramp", "cross_levels", "auto") is ramp_reference.cross_levels
+    assert load_kernel(ramp.__name__, "cross_levels", "auto") is ramp_reference.cross_levels
 
 
 def test_the_reference_serves_as_numpy_where_a_model_has_no_other():
-    assert load_kernel("order", "order_events", "numpy") is order_reference.order_events
+    assert load_kernel(order.__name__, "order_events", "numpy") is order_reference.order_events
 
 
 @pytest.mark.usefixtures("without_numba")
 def test_cpu_without_numba_fails_with_the_command_that_installs_it():
     with pytest.raises(MissingDependencyError, match="pip install"):
-        load_kernel("ramp", "cross_levels", "cpu")
+        load_kernel(ramp.__name__, "cross_levels", "cpu")
 
 
 def test_unknown_backend_fails():
     with pytest.raises(ConfigError, match=r"unknown backend 'cqu'.*did you mean 'cpu'"):
-        load_kernel("ramp", "cross_levels", "cqu")
+        load_kernel(ramp.__name__, "cross_levels", "cqu")

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from texvent.simulate.kernels import crossing_time, crossing_time_cpu
-from texvent.simulate.kernels.crossing_time import Course
-from texvent.simulate.kernels.elementary import exponential
+from texvent.simulate.backend.elementary import exponential
+from texvent.simulate.physical.kernels import crossing_time, crossing_time_cpu
+from texvent.simulate.physical.kernels.crossing_time import Course
 
 
 def course_of(change, slope, transient, corner, room) -> Course:

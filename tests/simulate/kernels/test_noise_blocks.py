@@ -4,11 +4,12 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent.simulate.draws import frame_key
-from texvent.simulate.kernels import noise_cpu, noise_reference
-from texvent.simulate.kernels.noise import Block
-from texvent.simulate.kernels.texvent import NOISE_BLOCK
-from texvent.simulate.noise import poisson_cumulative
+from texvent.simulate.random.draws import frame_key
+from texvent.simulate.texvent.kernels import noise_blocks_cpu as noise_cpu
+from texvent.simulate.texvent.kernels import noise_blocks_reference as noise_reference
+from texvent.simulate.texvent.kernels.noise_blocks import Block
+from texvent.simulate.texvent.kernels.scan import NOISE_BLOCK
+from texvent.simulate.texvent.noise import poisson_cumulative
 
 
 @settings(max_examples=60, deadline=None)

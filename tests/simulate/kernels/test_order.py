@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent.simulate.kernels import order_cpu, order_reference
-from texvent.simulate.kernels.order import Unordered
+from texvent.simulate.packets import order_cpu, order_reference
+from texvent.simulate.packets.order import Unordered
 
 DURATIONS = (1, 2, 255, 5000, 8192, 41_667, 3_000_000, 2**40)
 

@@ -5,12 +5,17 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from texvent.events import NOISE, SIGNAL
-from texvent.simulate.draws import frame_key
-from texvent.simulate.firings import Firings, Interval
-from texvent.simulate.kernels.order import Columns, Unordered
-from texvent.simulate.kernels.order_reference import order_events
-from texvent.simulate.kernels.passage import Constants, Light, load_find_passages, new_voltage
-from texvent.simulate.kernels.passage_reference import MOST_RESIDUAL
+from texvent.simulate.packets.order import Columns, Unordered
+from texvent.simulate.packets.order_reference import order_events
+from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.random.draws import frame_key
+from texvent.simulate.voltmeter.kernels.first_passage import (
+    Constants,
+    Light,
+    load_find_passages,
+    new_voltage,
+)
+from texvent.simulate.voltmeter.kernels.first_passage_reference import MOST_RESIDUAL
 
 SHAPE = (3, 4)
 # In thresholds per interval of 1000 µs; 0 and the smallest numbers are edge cases of the formulas.

@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from texvent.errors import ConfigError
-from texvent.simulate.kernels.levels import Thresholds
-from texvent.simulate.kernels.ramp import Candidates, Levels, Ramp, Rest, load_cross_levels
-from texvent.simulate.kernels.ramp_reference import cross_ramp
+from texvent.simulate.crossing.levels import Thresholds
+from texvent.simulate.crossing.ramp import Candidates, Levels, Ramp, Rest, load_cross_levels
+from texvent.simulate.crossing.ramp_reference import cross_ramp
 
 SHAPE = (12,)
 SENSOR = (3, 8)

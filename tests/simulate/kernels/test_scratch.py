@@ -4,7 +4,7 @@ import threading
 
 import numpy as np
 
-from texvent.simulate.kernels.scratch import take_scratch
+from texvent.runtime.scratch import take_scratch
 
 
 def test_the_same_memory_is_handed_out_again():

@@ -6,8 +6,8 @@ import time
 import pytest
 
 from texvent.errors import ConfigError
-from texvent.simulate.kernels import threads
-from texvent.simulate.kernels.threads import count_threads, run_parts, split
+from texvent.runtime import threads
+from texvent.runtime.threads import count_threads, run_parts, split
 
 VARIABLES = ("TEXVENT_NUM_THREADS", "NUMBA_NUM_THREADS")
 

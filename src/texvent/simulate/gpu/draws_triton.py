@@ -1,11 +1,11 @@
-"""The twin of `texvent.simulate.draws` for Triton kernels: same bits."""
+"""The twin of `texvent.simulate.random.draws` for Triton kernels: same bits."""
 
 from __future__ import annotations
 
 import triton
 import triton.language as tl
 
-from texvent.simulate import draws
+from texvent.simulate.random import draws
 
 # Kernels may read module-level numbers only as constexpr.
 _GOLDEN = tl.constexpr(draws.GOLDEN)

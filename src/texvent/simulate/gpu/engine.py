@@ -12,18 +12,18 @@ from texvent._require import require
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError
 from texvent.sensor import SensorSize, checked_size
-from texvent.simulate.esim import EsimConfig
+from texvent.simulate.esim.gpu.pixels import EsimPixels
+from texvent.simulate.esim.simulator import EsimConfig
 from texvent.simulate.gpu.batch import EventBatch
 from texvent.simulate.gpu.device import EXTRA, check_device, on_device
-from texvent.simulate.gpu.esim_pixels import EsimPixels
 from texvent.simulate.gpu.intervals import Clock, Span
 from texvent.simulate.gpu.kernel_types import Call, Frames, Intervals, NoiseRules, Tensor
 from texvent.simulate.gpu.launch import alignment, to_device
-from texvent.simulate.gpu.noise import noise_rules
 from texvent.simulate.gpu.ordering import order_events
 from texvent.simulate.gpu.passes import GpuPixels, run_passes
-from texvent.simulate.gpu.texvent_pixels import TexventPixels
-from texvent.simulate.texvent_config import TexventConfig
+from texvent.simulate.texvent.config import TexventConfig
+from texvent.simulate.texvent.gpu.noise import noise_rules
+from texvent.simulate.texvent.gpu.pixels import TexventPixels
 
 _MAX_AREA = 2**31
 _MAX_WORD = 2**63

@@ -9,9 +9,9 @@ import numpy as np
 from texvent._registry import load_object
 from texvent._require import require
 from texvent.events import EventStream
-from texvent.simulate.esim import EsimConfig
+from texvent.simulate.esim.simulator import EsimConfig
 from texvent.simulate.gpu.device import EXTRA, default_device
-from texvent.simulate.texvent_config import TexventConfig
+from texvent.simulate.texvent.config import TexventConfig
 from texvent.video import Frame
 
 

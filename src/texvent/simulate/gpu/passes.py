@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from texvent._require import require
 from texvent.errors import InputError
+from texvent.simulate.esim.gpu.pixels import EsimPixels
 from texvent.simulate.gpu.device import EXTRA
-from texvent.simulate.gpu.esim_pixels import EsimPixels
 from texvent.simulate.gpu.kernel_types import PIXELS_PER_MARK, Call, NoiseRules, Tally, Tensor
-from texvent.simulate.gpu.noise import NoiseDraw
-from texvent.simulate.gpu.texvent_pixels import TexventPixels
+from texvent.simulate.texvent.gpu.noise import NoiseDraw
+from texvent.simulate.texvent.gpu.pixels import TexventPixels
 
 GpuPixels = TexventPixels | EsimPixels
 

@@ -1,0 +1,1 @@
+"""Simulators against the exact events of the oracle."""

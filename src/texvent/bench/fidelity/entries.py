@@ -1,0 +1,141 @@
+"""What the benchmark runs: every simulator by every way of filling the time between frames."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from texvent._registry import SIMULATORS
+from texvent.bench.oracle.recording import TrueFrames, film
+from texvent.bench.oracle.scenes import Scene
+from texvent.errors import ConfigError
+from texvent.events import EventStream
+from texvent.pipeline import video_to_events
+from texvent.settings import Settings, resolve
+from texvent.simulate.thresholds import contrast_threshold_of, with_contrast_threshold
+from texvent.video import FrameStream
+
+Track: TypeAlias = Literal["frames", "true frames", "recorded"]
+"""What a simulator is given: frames as a camera films them, or the scene at any instant. Events
+that a sensor recorded are no simulator's."""
+
+INTERPOLATIONS = ("none", "blend", "flow", "exact")
+"""Interpolators that are compared; "exact" gets the true frames, all others the film."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Entry:
+    """One row of the benchmark."""
+
+    simulator: str
+    interpolate: str
+    preset: str | None = None
+    """Name of the options; default: the simulator's first preset."""
+    is_rate_matched: bool = True
+    """Whether the contrast threshold is fitted to the number of true events, or kept."""
+
+    @property
+    def name(self) -> str:
+        """How tables call it."""
+        preset = f" {self.preset}" if self.preset else ""
+        return f"{self.simulator}{preset}, {self.interpolate}"
+
+    @property
+    def track(self) -> Track:
+        """Whether it is given the true intermediate frames."""
+        return "true frames" if self.interpolate == "exact" else "frames"
+
+    @classmethod
+    def parse(cls, name: str) -> Entry:
+        """The entry that tables call so."""
+        model, _, interpolate = name.rpartition(", ")
+        simulator, _, preset = model.partition(" ")
+        return cls(simulator=simulator, preset=preset or None, interpolate=interpolate)
+
+    def settings(self, seed: int) -> Settings:
+        """Resolved options of a run.
+
+        Raises:
+            ConfigError: the simulator, its preset or the interpolator does not exist.
+        """
+        options = {
+            "simulator": self.simulator,
+            "preset": self.preset,
+            "interpolate": self.interpolate,
+            "seed": seed,
+        }
+        return resolve("simulate", options)
+
+    @property
+    def default_threshold(self) -> float | None:
+        """Contrast threshold from which the fit starts, log units.
+
+        None for a simulator that has none, or whose threshold is kept.
+        """
+        if not self.is_rate_matched:
+            return None
+        try:
+            return contrast_threshold_of(self.settings(0).simulate)
+        except ConfigError:
+            return None
+
+    def simulate(self, scene: Scene, seed: int, threshold: float | None) -> EventStream:
+        """Events of one run on a scene of the oracle.
+
+        Args:
+            scene: what is filmed.
+            seed: of the simulator's own noise.
+            threshold: contrast threshold δ, log units; None leaves the preset's.
+
+        Raises:
+            TexventError: the simulator cannot run as it is, such as without its weights.
+        """
+        video: FrameStream = film(scene) if self.track == "frames" else TrueFrames(scene)
+        return simulate_video(video, self.settings(seed), threshold)
+
+
+def simulate_video(video: FrameStream, settings: Settings, threshold: float | None) -> EventStream:
+    """Events of a film with a contrast threshold, log units, or the settings' own (None)."""
+    if threshold is not None:
+        simulate = with_contrast_threshold(settings.simulate, threshold)
+        settings = dataclasses.replace(settings, simulate=simulate)
+    return video_to_events(video, settings).packets.collect()
+
+
+MORE_PRESETS: Mapping[str, tuple[str, ...]] = {"texvent": ("accurate",)}
+"""Simulator → presets that are listed beside its first one."""
+
+
+def simulators_to_compare() -> list[tuple[str, str | None]]:
+    """(simulator, preset) of every registered simulator, with the presets listed beside."""
+    return [
+        (simulator, preset)
+        for simulator in SIMULATORS.names()
+        for preset in (None, *MORE_PRESETS.get(simulator, ()))
+    ]
+
+
+def choose_entries(simulators: str | None, interpolations: str | None) -> list[Entry]:
+    """Entries from the words of a command line.
+
+    Args:
+        simulators: `NAME` or `NAME:PRESET`, separated by commas; None means all to compare.
+        interpolations: names of interpolators, separated by commas; None means `INTERPOLATIONS`.
+    """
+    chosen = simulators_to_compare()
+    if simulators is not None:
+        words = (word.partition(":") for word in simulators.split(","))
+        chosen = [(simulator, preset or None) for simulator, _, preset in words]
+    names = interpolations.split(",") if interpolations is not None else INTERPOLATIONS
+    return [
+        Entry(simulator=simulator, preset=preset, interpolate=interpolate)
+        for simulator, preset in chosen
+        for interpolate in names
+    ]
+
+
+def default_entries() -> list[Entry]:
+    """Every simulator to compare by every interpolator."""
+    return choose_entries(None, None)

@@ -1,0 +1,85 @@
+"""A result of the oracle benchmark as a Markdown page with its pictures beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from texvent.bench.fidelity.bar_chart import bar_chart
+from texvent.bench.fidelity.detail_charts import level_chart, time_chart
+from texvent.bench.fidelity.event_grid import picture_grid
+from texvent.bench.fidelity.results import FidelityReport
+from texvent.bench.fidelity.table import BASELINE, fidelity_tables, motion_table
+
+
+def page_files(report: FidelityReport, name: str, *, baseline: str = BASELINE) -> dict[str, bytes]:
+    """The page and its pictures.
+
+    Args:
+        report: a run that measured STPP.
+        name: name of the page without its extension; pictures begin with it.
+        baseline: entry that the others are compared with, pair by pair.
+
+    Returns:
+        File name → content: `NAME.md`, `NAME-bars.svg`, `NAME-levels.svg`, `NAME-times.svg`, and
+        `NAME-events.png` of scenes of the oracle, whose entries are simulated again.
+    """
+    first = report.references[0]
+    where = (first.scene, first.target)
+    files = {
+        f"{name}-bars.svg": bar_chart(report).encode(),
+        f"{name}-levels.svg": level_chart(report, *where).encode(),
+        f"{name}-times.svg": time_chart(report, *where).encode(),
+    }
+    parts = [
+        f"# Simulators against {'true' if report.score_seeds else 'recorded'} events: the tables",
+        f"Written by `texvent bench page {name}.json`; [benchmark.md](../benchmark.md) and "
+        "[real-data.md](../real-data.md) say how to read it and what follows from it.",
+        _facts(report),
+        f"![STPP of every entry with standard errors]({name}-bars.svg)",
+    ]
+    if report.score_seeds:  # scenes of the oracle, which can be shown again
+        files[f"{name}-events.png"] = picture_grid(report, first.scene)
+        parts += [
+            f"## The same 10 ms of {first.title}",
+            f"![True and simulated events side by side]({name}-events.png)",
+        ]
+    parts += [
+        f"## Levels: {first.title}",
+        "STPP per level of the pyramid: shorter time cells downwards, smaller space cells (share "
+        "of the sensor's side) to the right.",
+        f"![STPP per level]({name}-levels.svg)",
+        f"## Time errors: {first.title}",
+        "For every true or recorded event, how much later the nearest simulated event of its pixel "
+        "and polarity comes.",
+        f"![Histograms of time errors]({name}-times.svg)",
+        "## Motion",
+        "Sharpness: variance of the picture of events moved along the known flow, over that of "
+        "unmoved ones, in windows of 60 ms. Flow error: what contrast maximisation finds in the "
+        "events against the known flow of the scene or, patch by patch, against what it finds in "
+        "the recorded events; px/s.",
+        motion_table(report),
+        "## Scores",
+        fidelity_tables(report, baseline=baseline),
+    ]
+    page = "\n\n".join(part.rstrip() for part in parts) + "\n"
+    return {f"{name}.md": page.encode(), **files}
+
+
+def _facts(report: FidelityReport) -> str:
+    facts = {
+        **{name.replace("_", " "): value for name, value in report.environment.items()},
+        "textures for δ": report.fit_seeds or None,
+        "textures scored": report.score_seeds or None,
+        **{f"{name}, µs": value for name, value in report.protocol.items()},
+        "seconds": f"{report.seconds:.0f}",
+    }
+    lines = []
+    for name, value in facts.items():
+        if value is None:
+            continue
+        if isinstance(value, Mapping):
+            value = ", ".join(f"{key} {one}" for key, one in value.items())
+        elif isinstance(value, (list, tuple)):
+            value = ", ".join(map(str, value))
+        lines.append(f"- {name}: {value}")
+    return "\n".join(lines)

@@ -1,0 +1,199 @@
+"""What a run of the benchmark found, and its JSON document."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field, fields
+from typing import Any
+
+from texvent.bench.fidelity.details import Details
+from texvent.bench.oracle.pixel import TARGETS
+from texvent.errors import FileFormatError
+from texvent.metrics.compare import load_metric
+from texvent.metrics.summary import Summary, normalise, summarise
+
+SCHEMA = "texvent-fidelity-2"
+"""Name of the document's layout; docs/benchmark.md describes it."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reference:
+    """What two true recordings of a scene score, and what the null scores, per scoring seed."""
+
+    scene: str
+    target: str
+    """Pixels of the reference, "noisy" or "ideal", or "recorded"."""
+    events: list[int]
+    floor: Mapping[str, list[float]]
+    """Metric → values of a second recording."""
+    null: Mapping[str, list[float]]
+    """Metric → values of the reference with its times shuffled."""
+    details: Details
+    """Of the floor."""
+
+    @property
+    def title(self) -> str:
+        """What tables and charts call it."""
+        return f"{self.scene}, {self.target}{' pixels' if self.target in TARGETS else ''}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Score:
+    """What one entry scored on one scene."""
+
+    scene: str
+    target: str
+    entry: str
+    track: str
+    threshold: float | None
+    """δ fitted on the fitting seeds; None for a simulator without one."""
+    is_matched: bool
+    """False where no δ brings the count within 2 %."""
+    default_ratio: float
+    """Events per true event at the preset's own δ, on the fitting seeds."""
+    values: Mapping[str, list[float]]
+    """Metric → value per scoring seed."""
+    seconds: float
+    """Time of one simulation."""
+    details: Details
+
+    def summary(self, metric: str) -> Summary:
+        """Mean ± standard error over the scoring seeds."""
+        return summarise(self.values[metric])
+
+    def normalised(self, metric: str, reference: Reference) -> float:
+        """`S*`: 0 at the null, 1 at the floor; NaN where the null is no worse than the floor."""
+        return normalise(
+            self.summary(metric).mean,
+            floor=summarise(reference.floor[metric]).mean,
+            null=summarise(reference.null[metric]).mean,
+            better=load_metric(metric).better,
+        )
+
+    def difference(self, metric: str, other: Score) -> Summary:
+        """This entry minus another on the same seeds: the paired difference."""
+        pairs = zip(self.values[metric], other.values[metric], strict=True)
+        return summarise([mine - theirs for mine, theirs in pairs])
+
+
+@dataclass(frozen=True, kw_only=True)
+class FidelityReport:
+    """Everything a run found."""
+
+    environment: Mapping[str, Any]
+    """What it ran on: `environment.describe_environment`."""
+    references: Sequence[Reference]
+    scores: Sequence[Score]
+    fit_seeds: Sequence[int] = ()
+    """Textures on which δ was fitted; none for recordings."""
+    score_seeds: Sequence[int] = ()
+    skipped: Mapping[str, str] = field(default_factory=dict)
+    """Entry → why it did not run."""
+    seconds: float = 0.0
+    floor_name: str = "second recording"
+    """What the floor compares with the truth."""
+    protocol: Mapping[str, Any] = field(default_factory=dict)
+    """Recording → what was used of it, for real ones."""
+
+    def reference(self, scene: str, target: str) -> Reference:
+        """Floor and null of a scene."""
+        return next(one for one in self.references if one.scene == scene and one.target == target)
+
+    def ranked(self, scene: str, target: str) -> list[Score]:
+        """Scores on a scene, best STPP first, undefined ones last."""
+        scores = [one for one in self.scores if (one.scene, one.target) == (scene, target)]
+        return sorted(scores, key=_undefined_last)
+
+    def document(self) -> dict[str, Any]:
+        """Plain values, ready for JSON; undefined ones are None."""
+        scores = []
+        for score in self.scores:
+            reference = self.reference(score.scene, score.target)
+            normalised = {metric: score.normalised(metric, reference) for metric in score.values}
+            scores.append({**asdict(score), "normalised": normalised})
+        document = {
+            "schema": SCHEMA,
+            "environment": dict(self.environment),
+            "fit_seeds": list(self.fit_seeds),
+            "score_seeds": list(self.score_seeds),
+            "seconds": round(self.seconds, 1),
+            "floor_name": self.floor_name,
+            "protocol": dict(self.protocol),
+            "references": [asdict(one) for one in self.references],
+            "scores": scores,
+            "skipped": dict(self.skipped),
+        }
+        plain: dict[str, Any] = without_nan(document)
+        return plain
+
+
+def _undefined_last(score: Score) -> float:
+    mean = score.summary("stpp").mean
+    return math.inf if math.isnan(mean) else -mean
+
+
+def read_report(document: Mapping[str, Any]) -> FidelityReport:
+    """The report that a document states.
+
+    Args:
+        document: as `FidelityReport.document` gives it, read back from JSON.
+
+    Raises:
+        FileFormatError: it is another kind of document, or lacks a part.
+    """
+    if document.get("schema") != SCHEMA:
+        raise FileFormatError(
+            f"the document's schema is {document.get('schema')!r}, not {SCHEMA!r}; "
+            "run texvent bench fidelity --out again"
+        )
+    try:
+        return FidelityReport(
+            environment=document["environment"],
+            fit_seeds=document["fit_seeds"],
+            score_seeds=document["score_seeds"],
+            references=[Reference(**_with_nan(one)) for one in document["references"]],
+            scores=[
+                Score(**{name: value for name, value in _with_nan(one).items() if name in _SCORE})
+                for one in document["scores"]
+            ],
+            skipped=document["skipped"],
+            seconds=document["seconds"],
+            floor_name=document["floor_name"],
+            protocol=document["protocol"],
+        )
+    except (KeyError, TypeError, AttributeError) as error:
+        raise FileFormatError(f"the document is damaged: {error!r}") from error
+
+
+_SCORE = {field.name for field in fields(Score)}
+
+
+def _with_nan(part: Mapping[str, Any]) -> dict[str, Any]:
+    """A reference or score with NaN for undefined values; a threshold may be None."""
+    restored = {name: part[name] for name in part if name not in ("details",)}
+    for name in ("values", "floor", "null"):
+        if name in restored:
+            restored[name] = {key: _numbers(values) for key, values in restored[name].items()}
+    if restored.get("default_ratio", 0.0) is None:
+        restored["default_ratio"] = math.nan
+    details = {name: _numbers(values) for name, values in part["details"].items()}
+    return {**restored, "details": Details(**details)}
+
+
+def _numbers(values: list[Any]) -> list[Any]:
+    return [
+        _numbers(one) if isinstance(one, list) else math.nan if one is None else one
+        for one in values
+    ]
+
+
+def without_nan(value: Any) -> Any:
+    """Plain values for JSON: what is undefined becomes None."""
+    if isinstance(value, Mapping):
+        return {key: without_nan(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [without_nan(item) for item in value]
+    if isinstance(value, float):
+        return float(value) if math.isfinite(value) else None
+    return value

@@ -1,0 +1,249 @@
+"""The oracle benchmark: simulators see 24 frames per second, and are judged by the true events."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import time
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from texvent.bench.announce import Announce, stay_silent
+from texvent.bench.environment import describe_environment
+from texvent.bench.fidelity.details import describe
+from texvent.bench.fidelity.entries import Entry, default_entries
+from texvent.bench.fidelity.rate_matching import Match, match_rate
+from texvent.bench.fidelity.results import FidelityReport, Reference, Score
+from texvent.bench.jobs import check_jobs, run_jobs
+from texvent.bench.oracle.pixel import FLOOR_SEED, REFERENCE_SEED, TARGETS
+from texvent.bench.oracle.recording import oracle_scene, record
+from texvent.bench.oracle.scenes import check_scene, known_flow, scene_names
+from texvent.bench.selftest.perturbations import perturb
+from texvent.errors import ConfigError, TexventError
+from texvent.events import EventStream
+from texvent.metrics.compare import compare, load_metric
+from texvent.metrics.protocol import Metric
+
+NULL = "shuffle all times"
+
+
+@dataclass(frozen=True, kw_only=True)
+class FidelityPlan:
+    """What a run of the benchmark covers.
+
+    Raises:
+        ConfigError: an unknown scene, target or metric, or no seed to fit or to score.
+    """
+
+    scenes: Sequence[str] = ("mixed", "translate", "fast", "slow")
+    targets: Sequence[str] = ("noisy",)
+    fit_seeds: Sequence[int] = (7,)
+    """Textures on which δ is fitted."""
+    score_seeds: Sequence[int] = (21, 33)
+    """Textures on which the entries are scored with that δ."""
+    metrics: Sequence[str] = (
+        "stpp",
+        "van_rossum",
+        "nearest",
+        "isi",
+        "ef_mse",
+        "batching",
+        "cadence",
+        "count_ratio",
+    )
+    entries: Sequence[Entry] = ()
+    """Simulators and interpolators; none means all that are registered."""
+
+    def __post_init__(self) -> None:
+        for scene in self.scenes:
+            check_scene(scene)
+        for metric in self.metrics:
+            load_metric(metric)
+        unknown = set(self.targets) - set(TARGETS)
+        if unknown or not self.fit_seeds or not self.score_seeds:
+            raise ConfigError(
+                f"targets {list(self.targets)}, fit seeds {list(self.fit_seeds)}, score seeds "
+                f"{list(self.score_seeds)}: targets are {', '.join(TARGETS)}, seeds at least one"
+            )
+
+
+FULL = FidelityPlan(
+    scenes=scene_names(),
+    targets=tuple(TARGETS),
+    fit_seeds=(7, 21),
+    score_seeds=(33, 54, 68),
+    metrics=(*FidelityPlan.metrics, "voxel", "kernel", "ef_ssim", "active_iou"),
+)
+"""The paper-grade run: every scene, ideal and noisy pixels, five seeds."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Truth:
+    """True recordings of one scene by one kind of pixels."""
+
+    scene: str
+    target: str
+    references: Mapping[int, EventStream]
+    """Texture seed → the recording that counts as the truth."""
+
+
+def run_fidelity(
+    plan: FidelityPlan, *, jobs: int = 1, announce: Announce = stay_silent
+) -> FidelityReport:
+    """Run the benchmark.
+
+    Args:
+        plan: what it covers.
+        jobs: processes to use; 1 stays in this one.
+        announce: told of every step.
+
+    Raises:
+        ConfigError: the plan names something that does not exist, or jobs is below 1.
+    """
+    check_jobs(jobs)
+    start = time.perf_counter()
+    entries = list(plan.entries) or default_entries()
+    for entry in entries:
+        entry.settings(0)
+    environment = describe_environment()
+    truths: list[Truth] = []
+    references: list[Reference] = []
+    for found in run_jobs(record_truths, [(plan, scene) for scene in plan.scenes], jobs):
+        for truth, reference in found:
+            announce(f"recorded {truth.scene}, {truth.target} pixels")
+            truths.append(truth)
+            references.append(reference)
+    scores: list[Score] = []
+    skipped: dict[str, str] = {}
+    work = [(plan, truth, entry) for truth, entry in itertools.product(truths, entries)]
+    for score in run_jobs(score_entry, work, jobs):
+        if isinstance(score, Score):
+            announce(f"{score.scene}, {score.target}: {score.entry} ({score.seconds:.1f} s a run)")
+            scores.append(score)
+        else:
+            skipped[score[0]] = score[1]
+    return FidelityReport(
+        environment=environment,
+        fit_seeds=plan.fit_seeds,
+        score_seeds=plan.score_seeds,
+        references=references,
+        scores=scores,
+        skipped=skipped,
+        seconds=time.perf_counter() - start,
+    )
+
+
+def record_truths(plan: FidelityPlan, scene: str) -> list[tuple[Truth, Reference]]:
+    """The true recordings of one scene by each kind of pixels, with floor and null.
+
+    Args:
+        plan: which pixels, seeds and metrics.
+        scene: name of the scene.
+    """
+    # All at once, since drawing a scene 4,800 times a second takes longer than its pixels do.
+    sensors = {
+        (target, seed): (TARGETS[target], seed)
+        for target in plan.targets
+        for seed in (REFERENCE_SEED, FLOOR_SEED)
+    }
+    recordings = {
+        seed: record(oracle_scene(scene, seed), sensors)
+        for seed in (*plan.fit_seeds, *plan.score_seeds)
+    }
+    found = []
+    for target in plan.targets:
+        references, seconds = (
+            {texture: all_of[target, noise] for texture, all_of in recordings.items()}
+            for noise in (REFERENCE_SEED, FLOOR_SEED)
+        )
+        truth = Truth(scene=scene, target=target, references=references)
+        found.append((truth, _measure_bounds(plan, truth, seconds)))
+    return found
+
+
+def _measure_bounds(
+    plan: FidelityPlan, truth: Truth, seconds: Mapping[int, EventStream]
+) -> Reference:
+    """What second recordings and shuffled ones score against the truth."""
+    scored = [truth.references[seed] for seed in plan.score_seeds]
+    floors = [seconds[seed] for seed in plan.score_seeds]
+    nulls = [perturb(events, NULL) for events in scored]
+    return Reference(
+        scene=truth.scene,
+        target=truth.target,
+        events=[len(events) for events in scored],
+        floor=compare_all(floors, scored, plan.metrics),
+        null=compare_all(nulls, scored, plan.metrics),
+        details=describe(floors, scored, known_flow(truth.scene)),
+    )
+
+
+def score_entry(plan: FidelityPlan, truth: Truth, entry: Entry) -> Score | tuple[str, str]:
+    """One entry on one scene: δ fitted on the fitting seeds, scored on the others.
+
+    Returns:
+        The score, or (name of the entry, why it cannot run).
+    """
+    scenes = {seed: oracle_scene(truth.scene, seed) for seed in truth.references}
+
+    def count_events(threshold: float | None) -> int:
+        return sum(len(entry.simulate(scenes[seed], seed, threshold)) for seed in plan.fit_seeds)
+
+    references = [truth.references[seed] for seed in plan.score_seeds]
+    target = sum(len(truth.references[seed]) for seed in plan.fit_seeds)
+    try:
+        match, default_ratio = fit_threshold(count_events, target, entry.default_threshold)
+        start = time.perf_counter()
+        simulated = [
+            entry.simulate(scenes[seed], seed, match.threshold if match else None)
+            for seed in plan.score_seeds
+        ]
+        seconds = (time.perf_counter() - start) / len(simulated)
+    except TexventError as error:
+        return entry.name, str(error)
+    return Score(
+        scene=truth.scene,
+        target=truth.target,
+        entry=entry.name,
+        track=entry.track,
+        threshold=match.threshold if match else None,
+        is_matched=bool(match and match.is_matched),
+        default_ratio=default_ratio,
+        seconds=seconds,
+        values=compare_all(simulated, references, plan.metrics),
+        details=describe(simulated, references, known_flow(truth.scene)),
+    )
+
+
+def fit_threshold(
+    count_events: Callable[[float | None], int], target: int, default: float | None
+) -> tuple[Match | None, float]:
+    """The threshold at which a simulator makes as many events as there truly were.
+
+    Args:
+        count_events: threshold, or None for the preset's own → number of events.
+        target: true events.
+        default: where the search starts, log units; None for a simulator without a threshold.
+
+    Returns:
+        What was found, None without a threshold; events per true event before the search.
+    """
+    counts: dict[float | None, int] = {}
+
+    def count(threshold: float | None) -> int:
+        if threshold not in counts:
+            counts[threshold] = count_events(threshold)
+        return counts[threshold]
+
+    ratio = count(default) / target if target else math.nan
+    return None if default is None else match_rate(count, target, start=default), ratio
+
+
+def compare_all(
+    predicted: Iterable[EventStream],
+    references: Iterable[EventStream],
+    metrics: Sequence[str | Metric],
+) -> dict[str, list[float]]:
+    """Name of the metric → value per pair of a simulated and a true stream."""
+    rows = [compare(one, other, metrics) for one, other in zip(predicted, references, strict=True)]
+    return {name: [row[name] for row in rows] for name in (rows[0] if rows else ())}

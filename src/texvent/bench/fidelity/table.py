@@ -1,0 +1,183 @@
+"""The benchmark's result as Markdown tables: one over all scenes, one per scene."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+from texvent._registry import suggest
+from texvent.bench.fidelity.results import FidelityReport, Reference, Score
+from texvent.bench.oracle.pixel import TARGETS
+from texvent.errors import ConfigError
+from texvent.metrics.summary import normalise, summarise
+
+BASELINE = "texvent, blend"
+"""The paper's own method: what the others are compared with, pair by pair."""
+COLUMNS = {
+    "ef_mse": "EF MSE",
+    "ef_ssim": "EF SSIM ↑",
+    "isi": "ISI",
+    "nearest": "NN ms",
+    "van_rossum": "vR",
+    "stpp": "STPP ↑",
+}
+"""Metric → title; those that were not measured are left out."""
+
+MOTION = (("sharpness", "sharpness ↑", 3), ("flow_error", "flow error px/s", 0))
+"""Field of the details, title, digits."""
+
+
+def check_baseline(baseline: str, entries: Iterable[str], *, default: str = BASELINE) -> None:
+    """Refuse a baseline that does not run.
+
+    Args:
+        baseline: what the user named.
+        entries: names of what runs.
+        default: may be absent; then nothing is compared.
+
+    Raises:
+        ConfigError: it is not among them.
+    """
+    names = tuple(dict.fromkeys(entries))
+    if baseline != default and baseline not in names:
+        raise ConfigError(f"baseline {baseline!r} does not run; {suggest(baseline, names)}")
+
+
+def fidelity_tables(report: FidelityReport, *, baseline: str = BASELINE) -> str:
+    """All tables of a run, with the entries that could not run.
+
+    Args:
+        report: what was found.
+        baseline: entry that the others are compared with, pair by pair; if it did not run, the
+            column is left out.
+    """
+    parts = [_overview(report)]
+    for reference in report.references:
+        parts += [_scene_heading(reference), _scene_table(report, reference, baseline)]
+    reasons: dict[str, list[str]] = {}
+    for name, why in report.skipped.items():
+        reasons.setdefault(why, []).append(name)
+    if reasons:
+        parts.append("Not run:\n")
+        parts += [f"- {'; '.join(names)}: {why}\n" for why, names in reasons.items()]
+    return "\n".join(parts)
+
+
+def motion_table(report: FidelityReport) -> str:
+    """Sharpness along the known flow and error of the estimated flow, where they are defined."""
+    columns = [
+        (reference, name, title, digits)
+        for reference in report.references
+        for name, title, digits in MOTION
+        if summarise(getattr(reference.details, name)).defined
+    ]
+    titles = [f"{one.scene}, {one.target}: {title}" for one, _, title, _ in columns]
+    rows = {f"floor: {report.floor_name}": {_place(one): one.details for one in report.references}}
+    for score in report.scores:
+        rows.setdefault(score.entry, {})[_place(score)] = score.details
+    lines = [_row(["entry", *titles]), _row(["---"] * (len(titles) + 1))]
+    for entry, details in rows.items():
+        cells = [
+            _mean_and_error(getattr(details[_place(one)], name), digits)
+            if _place(one) in details
+            else "–"
+            for one, name, _, digits in columns
+        ]
+        lines.append(_row([entry, *cells]))
+    return "\n".join(lines) + "\n"
+
+
+def _place(part: Reference | Score) -> tuple[str, str]:
+    return part.scene, part.target
+
+
+def _overview(report: FidelityReport) -> str:
+    """S* of STPP per scene, and its mean: 0 is the null, 1 a second recording."""
+    lines = [
+        _row(["entry", *(f"{one.scene}, {one.target}" for one in report.references), "mean S*"]),
+        _row(["---"] * (len(report.references) + 2)),
+    ]
+    ranked: list[tuple[float, str, list[float]]] = []
+    for entry in dict.fromkeys(score.entry for score in report.scores):
+        normalised = [
+            score.normalised("stpp", reference)
+            for reference in report.references
+            for score in report.ranked(reference.scene, reference.target)
+            if score.entry == entry
+        ]
+        ranked.append((summarise(normalised).mean, entry, normalised))
+    ranked.sort(key=lambda one: math.inf if math.isnan(one[0]) else -one[0])
+    for mean, entry, normalised in ranked:
+        lines.append(_row([entry, *(_number(one, 2) for one in normalised), _number(mean, 2)]))
+    return "\n".join(lines) + "\n"
+
+
+def _scene_heading(reference: Reference) -> str:
+    mean = sum(reference.events) / len(reference.events)
+    kind = "true" if reference.target in TARGETS else "recorded"
+    return f"### {reference.title} ({mean:,.0f} {kind} events)\n"
+
+
+def _scene_table(report: FidelityReport, reference: Reference, baseline: str) -> str:
+    metrics = [metric for metric in COLUMNS if metric in reference.floor]
+    titles = ["entry", "δ", "n at default δ", *(COLUMNS[metric] for metric in metrics), "S*"]
+    scores = report.ranked(reference.scene, reference.target)
+    rows = [
+        [f"floor: {report.floor_name}", *_bound_cells(reference, metrics, is_floor=True)],
+        *(_score_cells(score, reference, metrics) for score in scores),
+        ["null: times shuffled", *_bound_cells(reference, metrics, is_floor=False)],
+    ]
+    compared = next((score for score in scores if score.entry == baseline), None)
+    if compared is not None:
+        titles.append(f"STPP − {baseline}")
+        differences = ["", *(_paired(score, compared) for score in scores), ""]
+        rows = [[*cells, last] for cells, last in zip(rows, differences, strict=True)]
+    return "\n".join(map(_row, [titles, ["---"] * len(titles), *rows])) + "\n"
+
+
+def _score_cells(score: Score, reference: Reference, metrics: Sequence[str]) -> list[str]:
+    is_lost = score.threshold is not None and not score.is_matched and any(reference.events)
+    mark = " (count not reached)" if is_lost else ""
+    return [
+        score.entry,
+        _number(score.threshold, 3) + mark,
+        _number(score.default_ratio, 3),
+        *(_mean_and_error(score.values[metric]) for metric in metrics),
+        _number(score.normalised("stpp", reference), 2),
+    ]
+
+
+def _bound_cells(reference: Reference, metrics: Sequence[str], *, is_floor: bool) -> list[str]:
+    values = reference.floor if is_floor else reference.null
+    cells = [_mean_and_error(values[metric]) for metric in metrics]
+    floor, null = (summarise(one["stpp"]).mean for one in (reference.floor, reference.null))
+    mine = floor if is_floor else null
+    bound = normalise(mine, floor=floor, null=null, better="higher")
+    return ["", "", *cells, _number(bound, 2)]
+
+
+def _paired(score: Score, baseline: Score) -> str:
+    if score is baseline:
+        return "–"
+    difference = score.difference("stpp", baseline)
+    error = _number(difference.standard_error, 3)
+    return f"{difference.mean:+.3f} ± {error}" if difference.defined else "undefined"
+
+
+def _mean_and_error(values: Sequence[float], digits: int = 3) -> str:
+    summary = summarise(values)
+    if not summary.defined:
+        return "undefined"
+    if math.isnan(summary.standard_error):
+        return f"{summary.mean:.{digits}f}"
+    return f"{summary.mean:.{digits}f} ± {summary.standard_error:.{digits}f}"
+
+
+def _number(value: float | None, digits: int) -> str:
+    if value is None:
+        return "–"
+    return "undefined" if math.isnan(value) else f"{value:.{digits}f}"
+
+
+def _row(cells: Sequence[str]) -> str:
+    return "| " + " | ".join(cells) + " |"

@@ -1,0 +1,1 @@
+"""Scenes with exactly known events."""

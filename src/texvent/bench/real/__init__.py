@@ -1,0 +1,1 @@
+"""Simulators against recorded events."""

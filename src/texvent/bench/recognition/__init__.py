@@ -1,0 +1,1 @@
+"""Classifiers of event streams, and streams of different scenes."""

@@ -1,0 +1,1 @@
+"""Simulators judged by the images a network reconstructs from their events."""

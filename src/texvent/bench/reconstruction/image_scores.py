@@ -1,0 +1,196 @@
+"""Reconstructed pictures against true frames: MSE, PSNR, SSIM, LPIPS, frame by frame."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.errors import InputError
+from texvent.metrics.lpips.metric import lpips_distance
+from texvent.metrics.lpips.weights import find_lpips_weights, read_lpips_weights
+from texvent.metrics.protocol import Better
+from texvent.metrics.structural_similarity import structural_similarity
+from texvent.video import Frame
+
+Float64Array: TypeAlias = NDArray[np.float64]
+Picture: TypeAlias = NDArray[np.floating]
+"""[H, W], 0..1."""
+Compare: TypeAlias = Callable[[Float64Array, Float64Array], float]
+
+TOLERANCE_US = 1_000
+"""A picture and a frame further apart in time are not compared, µs; EVREAL has 1 ms."""
+WHITE = 255.0
+
+
+@dataclass(frozen=True)
+class PictureMeasure:
+    """How two pictures, 0..1, are compared."""
+
+    name: str
+    better: Better
+    compare: Compare
+
+
+@dataclass(frozen=True, kw_only=True)
+class Measures:
+    """What is measured here, and what cannot be."""
+
+    chosen: tuple[PictureMeasure, ...]
+    absent: Mapping[str, str] = field(default_factory=dict)
+    """Name of a measure → why it is left out."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PictureScores:
+    """Values frame by frame."""
+
+    t_us: Sequence[int]
+    """Times of the frames, µs."""
+    values: Mapping[str, Sequence[float]]
+    """Measure → one value per frame; NaN where it is undefined."""
+
+    def mean(self, measure: str) -> float:
+        """Mean over the frames where it is defined; NaN if there are none."""
+        defined = [one for one in self.values[measure] if not math.isnan(one)]
+        return float(np.mean(defined)) if defined else math.nan
+
+
+def load_measures() -> Measures:
+    """All measures; LPIPS only where its weights were pulled.
+
+    Source: EVREAL (Ercan et al., CVPRW 2023) reports MSE, SSIM and LPIPS (AlexNet); the paper adds
+        PSNR in its Table 3.
+    """
+    plain = (
+        PictureMeasure("mse", "lower", mean_squared_error),
+        PictureMeasure("psnr", "higher", peak_signal_to_noise),
+        PictureMeasure("ssim", "higher", structural_similarity),
+    )
+    try:
+        weights = read_lpips_weights(find_lpips_weights())
+    except InputError as error:
+        return Measures(chosen=plain, absent={"lpips": str(error)})
+    lpips = PictureMeasure("lpips", "lower", lambda a, b: lpips_distance(a, b, weights))
+    return Measures(chosen=(*plain, lpips))
+
+
+def mean_squared_error(a: Float64Array, b: Float64Array) -> float:
+    """Mean squared difference of two pictures."""
+    return float(((a - b) ** 2).mean())
+
+
+def peak_signal_to_noise(a: Float64Array, b: Float64Array) -> float:
+    """`−10 log10(MSE)` in dB for pictures from 0 to 1; infinite for equal ones."""
+    mse = mean_squared_error(a, b)
+    return math.inf if mse == 0 else -10.0 * math.log10(mse)
+
+
+class ScoreSheet:
+    """Collects the values of one source of pictures, frame by frame."""
+
+    def __init__(
+        self, measures: Measures, *, span_us: tuple[int, int] | None = None, skip: int = 0
+    ) -> None:
+        """An empty sheet.
+
+        Args:
+            measures: what to compute.
+            span_us: first and last time that counts, µs, both included; None counts all.
+            skip: how many pictures at the start do not count.
+        """
+        self._measures = measures.chosen
+        self._span_us = span_us
+        self._skip = skip
+        self._seen = 0
+        self._times: list[int] = []
+        self._values: dict[str, list[float]] = {one.name: [] for one in measures.chosen}
+
+    def add(self, t_us: int, picture: Picture, true: Picture) -> None:
+        """Compare a picture with the true one, both 0..1, if it counts.
+
+        Raises:
+            InputError: their sizes differ.
+        """
+        self._seen += 1
+        is_outside = self._span_us is not None and not (
+            self._span_us[0] <= t_us <= self._span_us[1]
+        )
+        if self._seen <= self._skip or is_outside:
+            return
+        if picture.shape != true.shape:
+            raise InputError(
+                f"the picture at {t_us} µs is {picture.shape[1]}x{picture.shape[0]}, the frame "
+                f"{true.shape[1]}x{true.shape[0]}"
+            )
+        self._times.append(t_us)
+        a, b = (np.clip(one.astype(np.float64), 0.0, 1.0) for one in (picture, true))
+        for measure in self._measures:
+            self._values[measure.name].append(measure.compare(a, b))
+
+    def scores(self) -> PictureScores:
+        """What was collected.
+
+        Raises:
+            InputError: nothing counted.
+        """
+        if not self._times:
+            raise InputError(
+                "no reconstructed picture counts: none has a frame within 1 ms in the part that is "
+                "scored; choose another part, or check that frames and events share a clock"
+            )
+        return PictureScores(t_us=self._times, values=self._values)
+
+
+def score_pictures(
+    pictures: Iterable[tuple[int, Picture]], frames: Iterable[Frame], sheet: ScoreSheet
+) -> PictureScores:
+    """Compare pictures with the frames of the same time.
+
+    Args:
+        pictures: (time in µs, picture) in time order.
+        frames: the true frames in time order.
+        sheet: an empty one, which says what counts.
+
+    Raises:
+        InputError: the sizes differ, or no picture counts that has a frame.
+    """
+    for t_us, picture, true in _pair(pictures, frames):
+        sheet.add(t_us, picture, true)
+    return sheet.scores()
+
+
+def true_picture(frame: Frame) -> Picture:
+    """A frame as pictures are compared: luma, 0..1, [H, W] float64."""
+    return frame.luma.astype(np.float64) / WHITE
+
+
+def pool_scores(parts: Iterable[PictureScores]) -> PictureScores:
+    """The frames of several recordings together, so that each frame counts the same."""
+    scores = list(parts)
+    return PictureScores(
+        t_us=[t_us for one in scores for t_us in one.t_us],
+        values={
+            name: [value for one in scores for value in one.values[name]]
+            for name in scores[0].values
+        },
+    )
+
+
+def _pair(
+    pictures: Iterable[tuple[int, Picture]], frames: Iterable[Frame]
+) -> Iterator[tuple[int, Picture, Picture]]:
+    """Each picture that has a frame within the tolerance, with that frame."""
+    later = iter(frames)
+    frame = next(later, None)
+    for t_us, picture in pictures:
+        while frame is not None and frame.t_us < t_us - TOLERANCE_US:
+            frame = next(later, None)
+        if frame is None:
+            return
+        if frame.t_us <= t_us + TOLERANCE_US:
+            yield t_us, picture, true_picture(frame)

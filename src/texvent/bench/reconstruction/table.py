@@ -1,0 +1,153 @@
+"""Scores of reconstruction as Markdown tables, and as a document."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from texvent.bench.environment import describe_environment
+from texvent.bench.fidelity.results import without_nan
+from texvent.bench.reconstruction.image_scores import PictureScores, pool_scores
+from texvent.bench.reconstruction.noise import NoiseScore
+from texvent.bench.reconstruction.run import RECORDED, ReconstructionReport, ReconstructionRow
+
+SCHEMA = "texvent-reconstruction-1"
+"""Name of the document's layout; docs/reconstruction.md describes it."""
+COLUMNS = {"mse": "MSE ↓", "psnr": "PSNR, dB ↑", "ssim": "SSIM ↑", "lpips": "LPIPS ↓"}
+DIGITS = {"mse": 4, "psnr": 2, "ssim": 3, "lpips": 3}
+ALL = "all recordings"
+
+
+def reconstruction_tables(report: ReconstructionReport, noise: Sequence[NoiseScore] = ()) -> str:
+    """All tables of a run, with what could not be measured.
+
+    Args:
+        report: what was found.
+        noise: the noise curves, if any were measured.
+    """
+    parts = []
+    recordings = list(dict.fromkeys(row.recording for row in report.rows))
+    for recording in recordings:
+        rows = [row for row in report.rows if row.recording == recording]
+        parts.append(f"### {recording}, {report.network} ({len(rows[0].scores.t_us)} pictures)\n")
+        parts.append(_table(rows))
+    if len(recordings) > 1:
+        parts.append(f"### {ALL}, {report.network} (each picture counts the same)\n")
+        parts.append(_table([_pooled(report.rows_of(source)) for source in report.sources()]))
+    for recording in dict.fromkeys(one.recording for one in noise):
+        parts.append(f"### noise in the recorded events of {recording}, {report.network}\n")
+        parts.append(_noise_table([one for one in noise if one.recording == recording]))
+    lacks = {**report.absent, **report.skipped}
+    parts += [f"not measured: {name}: {why}\n" for name, why in lacks.items()]
+    return "\n".join(parts)
+
+
+def reconstruction_document(
+    report: ReconstructionReport, noise: Sequence[NoiseScore] = ()
+) -> dict[str, Any]:
+    """The result as plain values, ready for JSON; undefined and infinite ones are None."""
+    plan = report.plan
+    document = {
+        "schema": SCHEMA,
+        "environment": describe_environment(),
+        "network": {
+            "name": report.network,
+            "sha256": report.sha256,
+            "is_published": report.is_published,
+        },
+        "span_us": plan.span_us,
+        "skip": plan.skip,
+        "is_rate_matched": plan.is_rate_matched,
+        "frames_gamma": plan.frames_gamma,
+        "seed": plan.seed,
+        "rows": [
+            {
+                "recording": row.recording,
+                "source": row.source,
+                "events": row.events,
+                "threshold": row.threshold,
+                "seconds": round(row.seconds, 1),
+                **_plain(row.scores),
+            }
+            for row in report.rows
+        ],
+        "noise": [
+            {
+                "recording": one.recording,
+                "kind": one.level.kind,
+                "amount": one.level.amount,
+                "against_clean": _plain(one.against_clean),
+                "against_frames": _plain(one.against_frames),
+            }
+            for one in noise
+        ],
+        "absent": report.absent,
+        "skipped": report.skipped,
+    }
+    plain: dict[str, Any] = without_nan(document)
+    return plain
+
+
+def _plain(scores: PictureScores) -> dict[str, Any]:
+    return {
+        "mean": {name: scores.mean(name) for name in scores.values},
+        "t_us": list(scores.t_us),
+        "values": {name: list(values) for name, values in scores.values.items()},
+    }
+
+
+def _table(rows: Sequence[ReconstructionRow]) -> str:
+    measures = list(rows[0].scores.values)
+    recorded = next(row.events for row in rows if row.source == RECORDED)
+    lines = [
+        _line(["events", "number", "δ", *(COLUMNS[name] for name in measures)]),
+        _line(["---"] * (3 + len(measures))),
+    ]
+    for row in rows:
+        ratio = f"×{row.events / recorded:.2f}" if recorded else "–"
+        number = f"{row.events:,}" if row.source == RECORDED else ratio
+        threshold = "–" if row.threshold is None else f"{row.threshold:.3g}"
+        lines.append(_line([row.source, number, threshold, *_means(row.scores)]))
+    return "\n".join(lines) + "\n"
+
+
+def _noise_table(points: Sequence[NoiseScore]) -> str:
+    measures = list(points[0].against_clean.values)
+    titles = [COLUMNS[name] for name in measures]
+    lines = [
+        _line(
+            ["noise", *(f"{one}, to clean" for one in titles), *(f"{one}, true" for one in titles)]
+        ),
+        _line(["---"] * (1 + 2 * len(measures))),
+    ]
+    for point in points:
+        amount = point.level.amount
+        is_share = point.level.kind == "scattered"
+        name = f"{amount:.0%} of the events scattered" if is_share else f"{amount:g} Hz per pixel"
+        cells = [*_means(point.against_clean), *_means(point.against_frames)]
+        lines.append(_line([name, *cells]))
+    return "\n".join(lines) + "\n"
+
+
+def _means(scores: PictureScores) -> list[str]:
+    return [_number(scores.mean(name), DIGITS[name]) for name in scores.values]
+
+
+def _pooled(rows: Sequence[ReconstructionRow]) -> ReconstructionRow:
+    thresholds = {row.threshold for row in rows}
+    return ReconstructionRow(
+        recording=ALL,
+        source=rows[0].source,
+        scores=pool_scores(row.scores for row in rows),
+        events=sum(row.events for row in rows),
+        threshold=thresholds.pop() if len(thresholds) == 1 else None,
+    )
+
+
+def _number(value: float, digits: int) -> str:
+    return f"{value:.{digits}f}" if math.isfinite(value) else "undefined"
+
+
+def _line(cells: Sequence[str]) -> str:
+    return f"| {' | '.join(cells)} |"

@@ -1,0 +1,1 @@
+"""The self-test of the metrics: which perturbation does each one see?"""

@@ -1,0 +1,51 @@
+"""Controls of a similarity score: what it says of streams whose answer is known beforehand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import TypeAlias
+
+import numpy as np
+
+from texvent.bench.selftest.perturbations import perturb
+from texvent.events import EventStream
+from texvent.metrics.protocol import Metric
+
+CONTROLLED = ("lfs", "eqs")
+"""Metrics that are reported with their controls: their numbers alone mislead."""
+
+Pair: TypeAlias = tuple[EventStream, EventStream]
+"""What is judged, and by which reference."""
+
+
+def _split_half(events: EventStream) -> Pair:
+    """A random half of the events, and the other half: alike, without an event in common."""
+    is_first = np.random.default_rng(2026).random(len(events)) < 0.5
+    return events[is_first], events[~is_first]
+
+
+def _spoil(events: EventStream, *, perturbation: str) -> Pair:
+    return perturb(events, perturbation), events
+
+
+CONTROLS: Mapping[str, Callable[[EventStream], Pair]] = {
+    "identity": lambda events: (events, events),
+    "split half": _split_half,
+    "shuffle all times": partial(_spoil, perturbation="shuffle all times"),
+    "shuffle all pixels": partial(_spoil, perturbation="shuffle all pixels"),
+    "flip 100 %": partial(_spoil, perturbation="flip 100 %"),
+    "noise 30 %": partial(_spoil, perturbation="noise 30 %"),
+}
+"""Name → the pair made of a reference. A score is worth something only between its split half and
+its shuffles."""
+
+
+def run_controls(metric: Metric, reference: EventStream) -> dict[str, float]:
+    """Control → what the metric says of it.
+
+    Args:
+        metric: which metric.
+        reference: the true stream; all controls are made of it.
+    """
+    return {name: metric(*pair(reference)) for name, pair in CONTROLS.items()}

@@ -1,0 +1,90 @@
+"""The self-test's result: a document with a schema, and the table in docs/metrics.md."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, fields
+from pathlib import Path
+from typing import Any
+
+from texvent.bench.document import read_document
+from texvent.bench.environment import describe_environment
+from texvent.bench.selftest.perturbations import PERTURBATIONS, SERIES
+from texvent.bench.selftest.run import (
+    RECORDING_SEEDS,
+    SCENE,
+    TEXTURE_SEED,
+    SelftestRow,
+    ranked_rows,
+)
+from texvent.errors import FileFormatError
+
+SCHEMA = "texvent-selftest-1"
+"""Name of the document's layout: one entry of `rows` per `SelftestRow`."""
+MOST_NAMES = 8
+"""Missed perturbations that a row of the table names; of more, one less and dots."""
+
+
+def selftest_table(rows: Sequence[SelftestRow]) -> str:
+    """The result as a Markdown table, best metrics first."""
+    lines = [
+        f"| metric | floor | found /{len(PERTURBATIONS)} | monotone /{len(SERIES)} | missed |",
+        "|---|---|---|---|---|",
+    ]
+    for row in ranked_rows(rows):
+        missed = row.missed
+        if len(missed) > MOST_NAMES:
+            missed = (*missed[: MOST_NAMES - 1], "...")
+        lines.append(
+            f"| {row.metric} | {row.floor:.4g} ± {row.floor_sd:.1g} | {len(row.found)} "
+            f"| {sum(row.monotone.values())} | {', '.join(missed) or '–'} |"
+        )
+    return "\n".join(lines) + "\n"
+
+
+def selftest_document(rows: Sequence[SelftestRow]) -> dict[str, Any]:
+    """The result as plain values, ready for JSON; NaN becomes None."""
+    return {
+        "schema": SCHEMA,
+        "environment": describe_environment(),
+        "scene": SCENE,
+        "texture_seed": TEXTURE_SEED,
+        "recording_seeds": list(RECORDING_SEEDS),
+        "series": {name: list(steps) for name, steps in SERIES.items()},
+        "rows": [_plain(asdict(row)) for row in rows],
+    }
+
+
+def read_selftest(path: Path) -> list[SelftestRow]:
+    """The rows of a document that `texvent bench selftest --out` wrote.
+
+    Raises:
+        InputError: there is no such file.
+        FileFormatError: it is no self-test of this layout.
+    """
+    document = read_document(path)
+    if document.get("schema") != SCHEMA:
+        raise FileFormatError(
+            f"{path} has the schema {document.get('schema')!r}, expected {SCHEMA!r}; "
+            "write one with texvent bench selftest --out"
+        )
+    names = {field.name for field in fields(SelftestRow)}
+    rows = document.get("rows", [])
+    if not all(isinstance(row, Mapping) and row.keys() == names for row in rows):
+        raise FileFormatError(f"{path}: its rows must have the fields {', '.join(sorted(names))}")
+    return [SelftestRow(**_with_nan(row)) for row in rows]
+
+
+def _plain(value: Any) -> Any:
+    """The value with None for numbers that JSON does not know."""
+    if isinstance(value, Mapping):
+        return {name: _plain(one) for name, one in value.items()}
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _with_nan(value: Any) -> Any:
+    """The value with NaN for None."""
+    if isinstance(value, Mapping):
+        return {name: _with_nan(one) for name, one in value.items()}
+    return math.nan if value is None else value

@@ -1,0 +1,1 @@
+"""`texvent bench`: one benchmark per file."""

@@ -1,0 +1,55 @@
+"""`texvent bench page`: a result of `bench fidelity` or `real` as a page with plots."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import ClassVar
+
+from texvent.bench.document import read_document
+from texvent.bench.fidelity.page import page_files
+from texvent.bench.fidelity.results import read_report
+from texvent.bench.fidelity.table import BASELINE, check_baseline
+from texvent.cli.options import REQUIRED, parse_options
+from texvent.io.atomic import atomic_file, check_output
+
+
+@dataclass(frozen=True, kw_only=True)
+class PageOptions:
+    """Which result, and where the page goes."""
+
+    positional: ClassVar[tuple[str, ...]] = ("result",)
+    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o"}
+
+    result: Path = REQUIRED
+    """JSON file that `texvent bench fidelity --out` or `texvent bench real --out` wrote."""
+    baseline: str = BASELINE
+    """Row that the others are compared with, pair by pair."""
+    out: Path | None = None
+    """Folder of the page and its pictures; default: that of the result."""
+    overwrite: bool = False
+    """Replace files that exist already."""
+
+
+def run(arguments: Sequence[str]) -> None:
+    """Run the command."""
+    values = parse_options(
+        arguments,
+        {"options": PageOptions()},
+        prog="texvent bench page",
+        description="A result of bench fidelity or bench real as a Markdown page with bars, level "
+        "matrices, time-error histograms and a picture grid, named after the result.",
+    )
+    options = PageOptions(**values)
+    folder = options.out or options.result.parent
+    name = options.result.stem
+    check_output(folder / f"{name}.md", overwrite=options.overwrite)
+    report = read_report(read_document(options.result))
+    check_baseline(options.baseline, [score.entry for score in report.scores])
+    files = page_files(report, name, baseline=options.baseline)
+    for file, content in files.items():
+        with atomic_file(folder / file, overwrite=options.overwrite) as part:
+            part.write_bytes(content)
+    sys.stdout.write("".join(f"{folder / file}\n" for file in files))

@@ -1,0 +1,110 @@
+"""`texvent bench real`: simulators against the events that a real sensor recorded."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import ClassVar
+
+from rich.console import Console
+
+from texvent.bench.document import write_document
+from texvent.bench.fidelity.entries import Entry, choose_entries
+from texvent.bench.fidelity.table import (
+    BASELINE,
+    check_baseline,
+    fidelity_tables,
+    motion_table,
+)
+from texvent.bench.paper.ablation import ConfigEntry
+from texvent.bench.real.run import INTERPOLATIONS, RealPlan, real_entries, run_real
+from texvent.bench.real.scene import WITH_FRAMES, Part, open_scene
+from texvent.cli.options import parse_options
+from texvent.config import check_range
+from texvent.io.atomic import check_output
+
+DESCRIPTION = """\
+Simulators get the frames that a sensor recorded, and are judged by the events it recorded.
+
+A source is a pulled data set (slider_depth, davis346), a folder of the Event-Camera Dataset, an
+EVREAL folder with pictures, a DSEC sequence, or an AEDAT4 file with frames. docs/real-data.md
+explains the tables."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RealOptions:
+    """What to run, and where to keep the result."""
+
+    positional: ClassVar[tuple[str, ...]] = ("sources",)
+    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+
+    sources: tuple[str, ...] = WITH_FRAMES
+    """Names of pulled data sets, or paths of recordings."""
+    start: float = 0.0
+    """Skip this much of each recording, in seconds."""
+    seconds: float = 4.0
+    """Longest part that is used, in seconds: δ is fitted on its first half, its second scored."""
+    offset_us: int | None = None
+    """Added to the times of the frames, µs; default: what the catalogue knows of a data set, 0
+    for others. `texvent calibrate` finds it; half of the exposure where stamps are its start."""
+    frames_gamma: float | None = None
+    """Exponent that makes the frames linear; default: 1 (DAVIS), for DSEC 2.2."""
+    simulators: str | None = None
+    """Names of simulators, separated by commas, a preset after a colon (physical:davis346);
+    default: all that are registered, texvent:accurate, and sensor presets of physical."""
+    interpolations: str | None = None
+    """Names of interpolators, separated by commas; default: none,blend,flow."""
+    config: Path | None = None
+    """Sensor file that texvent calibrate wrote, or any config file: one more row, its threshold
+    left as it is."""
+    baseline: str = BASELINE
+    """Row that the others are compared with, pair by pair."""
+    jobs: int = 2
+    """Processes to use."""
+    out: Path | None = None
+    """JSON file with every value; `texvent bench page` makes a page of it."""
+    overwrite: bool = False
+    """Replace a file that exists already."""
+    quiet: bool = False
+    """No progress; only the tables."""
+
+    def __post_init__(self) -> None:
+        check_range("start", self.start, 0.0)
+        check_range("seconds", self.seconds, 0.5)
+
+
+def run(arguments: Sequence[str]) -> None:
+    """Run the command."""
+    values = parse_options(
+        arguments, {"options": RealOptions()}, prog="texvent bench real", description=DESCRIPTION
+    )
+    options = RealOptions(**values)
+    if options.out is not None:
+        check_output(options.out, overwrite=options.overwrite)
+    entries = _choose_entries(options)
+    check_baseline(options.baseline, [entry.name for entry in entries])
+    part = Part(options.start, options.seconds, options.offset_us, options.frames_gamma)
+    scenes = [open_scene(source, part) for source in options.sources]
+    console = Console(stderr=True, quiet=options.quiet, highlight=False)
+    report = run_real(
+        scenes,
+        RealPlan(entries=entries),
+        jobs=options.jobs,
+        announce=lambda line: console.print(line, style="dim"),
+    )
+    if options.out is not None:
+        write_document(options.out, report.document(), overwrite=options.overwrite)
+    sys.stdout.write(fidelity_tables(report, baseline=options.baseline))
+    sys.stdout.write(f"\n{motion_table(report)}")
+
+
+def _choose_entries(options: RealOptions) -> list[Entry]:
+    entries: list[Entry] = real_entries()
+    if options.simulators or options.interpolations:
+        names = options.interpolations or ",".join(INTERPOLATIONS)
+        entries = choose_entries(options.simulators, names)
+    if options.config is not None:
+        entries.append(ConfigEntry.read(options.config))
+    return entries

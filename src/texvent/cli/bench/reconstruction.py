@@ -1,0 +1,166 @@
+"""`texvent bench reconstruction`: simulators judged by the pictures made from their events."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import ClassVar
+
+from rich.console import Console
+
+from texvent.bench.document import write_document
+from texvent.bench.fidelity.entries import choose_entries
+from texvent.bench.real.frame_recording import FrameRecording, open_recording
+from texvent.bench.real.scene import locate_source
+from texvent.bench.reconstruction.grid import ReconstructionGrid
+from texvent.bench.reconstruction.image_scores import load_measures
+from texvent.bench.reconstruction.noise import NoiseScore, noise_curve
+from texvent.bench.reconstruction.run import (
+    ReconstructionJudge,
+    ReconstructionPlan,
+    run_reconstruction,
+)
+from texvent.bench.reconstruction.table import reconstruction_document, reconstruction_tables
+from texvent.cli.files.time_range import parse_time_range
+from texvent.cli.options import parse_options
+from texvent.errors import ConfigError
+from texvent.io.atomic import atomic_file, check_output
+from texvent.reconstruct.config import ReconstructConfig
+from texvent.reconstruct.reconstructor import load_reconstructor
+from texvent.sensor import parse_sensor
+
+DESCRIPTION = """\
+A network makes a picture at every frame of a recording, once from the recorded events and once from
+those that each simulator makes of the frames. All are compared with the frames themselves.
+
+A recording is a pulled data set (slider_depth, davis346), a folder of the Event-Camera Dataset, an
+EVREAL folder with pictures, an AEDAT4 file with frames, or an event file with --frames. The
+network's weights must be yours: docs/reconstruction.md says where they come from."""
+GRID_PARTS = (0.2, 0.4, 0.6, 0.8)
+"""Where in the scored part the pictures of --picture are taken."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReconstructionOptions:
+    """What to run, and where to keep the result."""
+
+    positional: ClassVar[tuple[str, ...]] = ("recordings",)
+    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+
+    recordings: tuple[str, ...] = ("slider_depth",)
+    """Names of pulled data sets, or paths of recordings."""
+    frames: str | None = None
+    """Frames of a recording that is an event file alone: a video or image folder on its clock."""
+    sensor: str | None = None
+    """Sensor size, for event formats that do not store it; default: that of the frames."""
+    simulators: str | None = None
+    """Names of simulators, separated by commas, a preset after a colon (physical:davis346);
+    default: texvent, physical, esim, v2e."""
+    interpolations: str | None = None
+    """Names of interpolators, separated by commas; default: flow, for texvent also blend."""
+    match_rate: bool = False
+    """Fit each contrast threshold to the number of recorded events, instead of keeping it."""
+    frames_gamma: float = 1.0
+    """Exponent that makes the frames linear: 1 for those of a DAVIS, 2.2 for ordinary video."""
+    time: str | None = None
+    """Score START,STOP alone, in seconds of the recording's clock. Without it: the part that EVREAL
+    scores, where it names the recording, else all."""
+    skip_frames: int | None = None
+    """Do not score this many pictures at the start, and score all others; default: 10, but 0 where
+    a part is named."""
+    noise: bool = False
+    """Also spoil the recorded events step by step: the paper's Table 7."""
+    seed: int = 0
+    """Of the simulators and of the noise."""
+    out: Path | None = None
+    """JSON file with every value; docs/reconstruction.md describes it."""
+    picture: Path | None = None
+    """PNG file with the pictures of the first recording, a row per source of events."""
+    overwrite: bool = False
+    """Replace a file that exists already."""
+    quiet: bool = False
+    """No progress; only the tables."""
+
+    def plan(self) -> ReconstructionPlan:
+        """What these options ask for.
+
+        Raises:
+            ConfigError: a value is out of range, or something named does not exist.
+        """
+        plan = ReconstructionPlan(
+            span_us=None if self.time is None else parse_time_range(self.time),
+            skip=self.skip_frames,
+            is_rate_matched=self.match_rate,
+            frames_gamma=self.frames_gamma,
+            seed=self.seed,
+        )
+        if self.simulators is None and self.interpolations is None:
+            return plan
+        simulators = self.simulators or "texvent,physical,esim,v2e"
+        return replace(plan, entries=choose_entries(simulators, self.interpolations or "flow"))
+
+    def open_recordings(self) -> list[FrameRecording]:
+        """The recordings.
+
+        Raises:
+            ConfigError: frames are given for several recordings.
+            InputError: a recording is not there, or holds no frames.
+        """
+        if self.frames is not None and len(self.recordings) != 1:
+            raise ConfigError(
+                f"frames belong to one recording; {len(self.recordings)} are given: run them one "
+                "by one"
+            )
+        size = parse_sensor(self.sensor) if self.sensor else None
+        return [
+            open_recording(locate_source(source)[0], frames=self.frames, size=size)
+            for source in self.recordings
+        ]
+
+
+def run(arguments: Sequence[str]) -> None:
+    """Run the command."""
+    values = parse_options(
+        arguments,
+        {"input": ReconstructionOptions(), "network": ReconstructConfig()},
+        prog="texvent bench reconstruction",
+        description=DESCRIPTION,
+    )
+    network = ReconstructConfig.take(values)
+    options = ReconstructionOptions(**values)
+    for path in (options.out, options.picture):
+        if path is not None:
+            check_output(path, overwrite=options.overwrite)
+    plan = options.plan()
+    reconstructor = load_reconstructor(network.network, network.weights, device=network.device)
+    recordings = options.open_recordings()
+    judge = ReconstructionJudge(reconstructor=reconstructor, measures=load_measures(), plan=plan)
+    console = Console(stderr=True, quiet=options.quiet, highlight=False)
+    if options.picture is not None:
+        grid = ReconstructionGrid(recordings[0], _instants(recordings[0], plan))
+        judge = replace(judge, watch=grid)
+    report = run_reconstruction(
+        recordings, judge, announce=lambda line: console.print(line, style="dim", markup=False)
+    )
+    noise: list[NoiseScore] = []
+    for recording in recordings if options.noise else ():
+        console.print(f"{recording.name}: noise", style="dim", markup=False)
+        noise += noise_curve(recording, judge)
+    if options.out is not None:
+        document = reconstruction_document(report, noise)
+        write_document(options.out, document, overwrite=options.overwrite)
+    if options.picture is not None:
+        with atomic_file(options.picture, overwrite=options.overwrite) as part:
+            part.write_bytes(grid.png())
+    sys.stdout.write(reconstruction_tables(report, noise))
+
+
+def _instants(recording: FrameRecording, plan: ReconstructionPlan) -> list[int]:
+    """Times spread over the part that is scored, µs."""
+    span, skip = plan.scored_part(recording)
+    times = [frame.t_us for frame in recording.frames][1 + skip :]
+    first, last = span or (times[0], times[-1])
+    last = min(last, times[-1])
+    return [round(first + part * (last - first)) for part in GRID_PARTS]

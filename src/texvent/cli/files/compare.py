@@ -1,0 +1,216 @@
+"""`texvent compare PREDICTED REFERENCE`: how close two event files are."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar
+
+from rich.console import Console
+from rich.table import Table
+
+from texvent.bench.selftest.controls import CONTROLLED, run_controls
+from texvent.cli.options import REQUIRED, parse_options
+from texvent.errors import ConfigError, InputError
+from texvent.events import EventStream
+from texvent.io.files import load
+from texvent.metrics.compare import compare, describe_metrics, load_metric
+from texvent.metrics.protocol import Metric, find_lack
+from texvent.metrics.rvt.eqs import EventQualityScore, load_eqs
+from texvent.metrics.stpp import SPACE_CELLS, TIME_CELLS, Stpp
+from texvent.sensor import SensorSize, parse_sensor
+from texvent.video import MICROSECONDS
+
+DESCRIPTION = """Compare two event files of one sensor: the one to judge, then the true one. Each
+metric says what it does not see; docs/metrics.md gives definitions and the self-test."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CompareOptions:
+    """Which files, and by which metrics."""
+
+    positional: ClassVar[tuple[str, ...]] = ("predicted", "reference")
+
+    predicted: Path = REQUIRED
+    """Event file to judge."""
+    reference: Path = REQUIRED
+    """Event file with the truth, or another recording of the same scene."""
+    metrics: str | None = None
+    """Names of metrics, separated by commas; default: all whose weights are here."""
+    start: float | None = None
+    """Compare from this time on, in seconds."""
+    stop: float | None = None
+    """Compare up to this time, in seconds."""
+    sensor: str | None = None
+    """Sensor size, for event formats that do not store it."""
+    rvt_weights: Path | None = None
+    """RVT's published checkpoint (rvt-t.ckpt, rvt-s.ckpt or rvt-b.ckpt): adds the metric eqs."""
+    levels: bool = False
+    """Show the level matrix of STPP too: how far apart in time and space the events are."""
+    json: bool = False
+    """Print JSON instead of a table; undefined values are null."""
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the command; returns its exit code."""
+    values = parse_options(
+        arguments, {"input": CompareOptions()}, prog="texvent compare", description=DESCRIPTION
+    )
+    options = CompareOptions(**values)
+    metrics, left_out = _choose_metrics(options)
+    span_us = _span(options)
+    size = parse_sensor(options.sensor) if options.sensor else None
+    predicted, reference = (_load(path, size) for path in (options.predicted, options.reference))
+    whole = (predicted, reference)
+    if span_us is not None:
+        predicted, reference = (one.between(*span_us) for one in whole)
+        _refuse_empty_span(options, (predicted, reference), whole)
+    findings = Findings(
+        compare(*whole, metrics, span_us=span_us),
+        {one.name: run_controls(one, reference) for one in metrics if one.name in CONTROLLED},
+        Stpp().levels(predicted, reference).tolist() if options.levels else None,
+        left_out,
+    )
+    if options.json:
+        events = {"predicted": len(predicted), "reference": len(reference)}
+        document = _document(options, events, span_us, findings)
+        sys.stdout.write(json.dumps(document, indent=2, ensure_ascii=False) + "\n")
+    else:
+        _show(metrics, findings)
+    return 0
+
+
+@dataclass(frozen=True)
+class Findings:
+    """Everything that is shown of a comparison."""
+
+    scores: Mapping[str, float]
+    controls: Mapping[str, Mapping[str, float]]
+    """Metric → control → value, of the metrics that are not shown without."""
+    levels: list[list[float]] | None
+    """Of STPP, [time cells, space cells]."""
+    left_out: Mapping[str, str]
+    """Metric → what it lacks."""
+
+
+def _choose_metrics(options: CompareOptions) -> tuple[list[Metric], dict[str, str]]:
+    """The metrics asked for, or all; and what those lack that are left out, by name."""
+    known = dict(describe_metrics())
+    if options.rvt_weights is not None:
+        known[EventQualityScore.name] = load_eqs(options.rvt_weights)
+    names = options.metrics.split(",") if options.metrics else list(known)
+    chosen, left_out = [], {}
+    for name in names:
+        metric = known[name] if name in known else load_metric(name)  # refuses what is not known
+        lack = find_lack(metric)
+        if lack is None:
+            chosen.append(metric)
+        elif options.metrics:
+            raise ConfigError(f"metric {name} cannot be computed: {lack}")
+        else:
+            left_out[name] = lack
+    return chosen, left_out
+
+
+def _refuse_empty_span(
+    options: CompareOptions, cut: tuple[EventStream, ...], whole: tuple[EventStream, ...]
+) -> None:
+    """Two streams without events would be alike: rather a wrong span than a perfect score."""
+    if any(map(len, cut)):
+        return
+    paths = (options.predicted, options.reference)
+    clocks = [
+        f"{path} from {one.t[0] / MICROSECONDS:.3f} to {one.t[-1] / MICROSECONDS:.3f} s"
+        for path, one in zip(paths, whole, strict=True)
+        if len(one)
+    ]
+    raise InputError(
+        "neither file has events between --start and --stop; "
+        f"{' and '.join(clocks) or 'both are empty'}"
+    )
+
+
+def _document(
+    options: CompareOptions,
+    events: Mapping[str, int],
+    span_us: tuple[int, int] | None,
+    findings: Findings,
+) -> dict[str, Any]:
+    """What `--json` prints."""
+    document: dict[str, Any] = {
+        "predicted": {"path": str(options.predicted), "events": events["predicted"]},
+        "reference": {"path": str(options.reference), "events": events["reference"]},
+        "span_us": span_us,
+        "scores": {name: _plain(value) for name, value in findings.scores.items()},
+        "controls": {
+            metric: {name: _plain(value) for name, value in values.items()}
+            for metric, values in findings.controls.items()
+        },
+        "left_out": dict(findings.left_out),
+    }
+    if findings.levels is not None:
+        document["stpp_levels"] = findings.levels
+    return document
+
+
+def _load(path: Path, size: SensorSize | None) -> EventStream:
+    if not path.exists():
+        raise InputError(f"no such file: {path}")
+    return load(path, size=size)
+
+
+def _span(options: CompareOptions) -> tuple[int, int] | None:
+    if options.start is None and options.stop is None:
+        return None
+    start = round((options.start or 0.0) * MICROSECONDS)
+    stop = 2**62 if options.stop is None else round(options.stop * MICROSECONDS)
+    if start >= stop:
+        raise ConfigError(
+            f"stop is {options.stop:g} s; it must come after start ({start / MICROSECONDS:g} s)"
+        )
+    return start, stop
+
+
+def _show(metrics: Sequence[Metric], findings: Findings) -> None:
+    console = Console(highlight=False)
+    table = _table(("metric", "value", "unit", "good", "does not see"))
+    good = {"lower": "low", "higher": "high", "one": "near 1"}
+    for metric in metrics:
+        shown = _number(findings.scores[metric.name])
+        table.add_row(metric.name, shown, metric.unit, good[metric.better], metric.blind_to)
+    console.print(table)
+    for name, values in findings.controls.items():
+        console.print()
+        controls = _table(("of the reference", "value"), title=f"{name}, controls")
+        for control, value in values.items():
+            controls.add_row(control, _number(value))
+        console.print(controls)
+    if findings.levels is not None:
+        console.print()
+        cells = ("cells in time \\ space", *map(str, SPACE_CELLS))
+        matrix = _table(cells, title="STPP levels")
+        for count, row in zip(TIME_CELLS, findings.levels, strict=True):
+            matrix.add_row(str(count), *(f"{value:.3f}" for value in row))
+        console.print(matrix)
+    for name, lack in findings.left_out.items():
+        console.print(f"\n{name} was left out: {lack}", style="dim", markup=False)
+
+
+def _table(titles: Sequence[str], *, title: str | None = None) -> Table:
+    """A table without lines; columns of numbers are flush right."""
+    table = Table(box=None, pad_edge=False, header_style="bold", title=title, title_justify="left")
+    for one in titles:
+        table.add_column(one, justify="right" if one == "value" or one.isdigit() else "left")
+    return table
+
+
+def _number(value: float) -> str:
+    return "undefined" if math.isnan(value) else f"{value:.4f}"
+
+
+def _plain(value: float) -> float | None:
+    return value if math.isfinite(value) else None

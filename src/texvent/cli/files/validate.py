@@ -1,0 +1,100 @@
+"""`texvent validate FILE`: can this recording be trusted? A verdict and an exit code."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any, ClassVar
+
+from texvent.cli.options import REQUIRED, parse_options
+from texvent.io.files import open_events
+from texvent.metrics.timing.soundness import SoundnessCheck
+from texvent.sensor import parse_sensor
+
+SUSPICIOUS = 1
+"""Exit code of a recording that can be read but is suspicious."""
+SHOWN_HOT_PIXELS = 10
+DESCRIPTION = """Read a whole event file and say whether it can be trusted: order, coordinates and
+polarity (a file that breaks them is refused), exact duplicates, hot pixels, clumped timestamps,
+a missing polarity.
+
+Exit code: 0 sound, 1 suspicious, 2 damaged or unreadable."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ValidateOptions:
+    """Which file, and how to say it."""
+
+    positional: ClassVar[tuple[str, ...]] = ("path",)
+    short_flags: ClassVar[Mapping[str, str]] = {"quiet": "-q"}
+
+    path: Path = REQUIRED
+    """Event file, or folder of one format."""
+    json: bool = False
+    """Print JSON instead of lines."""
+    format: str | None = None
+    """Event format, where neither extension nor content says."""
+    sensor: str | None = None
+    """Sensor size, for formats that do not store it: WIDTHxHEIGHT or a name."""
+    quiet: bool = False
+    """Print nothing; the exit code says it."""
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the command; returns its exit code."""
+    values = parse_options(
+        arguments, {"input": ValidateOptions()}, prog="texvent validate", description=DESCRIPTION
+    )
+    options = ValidateOptions(**values)
+    facts = validate(options)
+    if not options.quiet:
+        text = json.dumps(facts, indent=2) if options.json else "\n".join(_lines(facts))
+        sys.stdout.write(text + "\n")
+    return 0 if facts["verdict"] == "sound" else SUSPICIOUS
+
+
+def validate(options: ValidateOptions) -> dict[str, Any]:
+    """Verdict, complaints and figures of a file.
+
+    Raises:
+        InputError: it cannot be read; FileFormatError if it is damaged.
+    """
+    size = parse_sensor(options.sensor) if options.sensor else None
+    events = open_events(options.path, format=options.format, size=size)
+    check = SoundnessCheck(events.size)
+    for packet in events:
+        check.update(packet)
+    report = check.report()
+    complaints = report.complaints()
+    facts = asdict(report)
+    hot = facts.pop("hot_pixels")
+    shares = {name: facts[name] for name in ("clumped_share", "on_share")}
+    rounded = {name: None if math.isnan(one) else round(one, 4) for name, one in shares.items()}
+    return {
+        "verdict": "suspicious" if complaints else "sound",
+        "complaints": complaints,
+        "sensor": str(events.size),
+        **facts,
+        **rounded,
+        "hot_pixels": len(hot),
+        "hottest": [list(pixel) for pixel in hot[:SHOWN_HOT_PIXELS]],
+    }
+
+
+def _lines(facts: Mapping[str, Any]) -> list[str]:
+    """The verdict first, then the complaints, then figures."""
+    figures = {
+        name: value
+        for name, value in facts.items()
+        if name not in ("verdict", "complaints", "hottest")
+    }
+    width = max(map(len, figures))
+    lines = [facts["verdict"], *(f"  {text}" for text in facts["complaints"])]
+    for name, value in figures.items():
+        shown = f"{value:,}" if isinstance(value, int) else value
+        lines.append(f"{name:<{width}}  {shown}")
+    return lines

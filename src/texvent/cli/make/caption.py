@@ -1,0 +1,108 @@
+"""`texvent caption PICTURES`: prompts from pictures, ready for `texvent batch`."""
+
+from __future__ import annotations
+
+import csv
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import ClassVar
+
+from rich.console import Console
+
+from texvent._registry import load_object
+from texvent.cli.options import REQUIRED, parse_options
+from texvent.config import check_range
+from texvent.errors import ConfigError, InputError, TexventError
+from texvent.generate.prompts.caption import INSTRUCTION, find_pictures
+from texvent.io.atomic import atomic_file, check_output
+
+DESCRIPTION = """Describe pictures with an image-and-text model of yours (LLaVA and its kin, run by
+transformers), one line each. The result of -o is a file for texvent batch:
+
+texvent caption photos/ --model hub:llava-hf/llava-1.5-7b-hf -o prompts.csv
+
+texvent batch prompts.csv --generator wan-1.3b -o events"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CaptionOptions:
+    """Which pictures, which model, what to ask."""
+
+    positional: ClassVar[tuple[str, ...]] = ("pictures",)
+    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+
+    pictures: Path = REQUIRED
+    """Picture, or folder of pictures."""
+    model: str = REQUIRED
+    """Folder of an image-and-text model saved by transformers, or hub:org/name."""
+    out: Path | None = None
+    """CSV file for the captions (columns name, prompt); without it they are printed."""
+    instruction: str = INSTRUCTION
+    """What the model is asked."""
+    longest: int = 124
+    """Most tokens of a caption."""
+    generator_device: str = "auto"
+    """Where the model runs: auto, cpu, cuda, cuda:1."""
+    overwrite: bool = False
+    """Replace the file if it exists already."""
+    quiet: bool = False
+    """No progress."""
+
+    def __post_init__(self) -> None:
+        check_range("longest", self.longest, 1, 4096)
+        if self.out is not None and self.out.suffix.lower() != ".csv":
+            raise ConfigError(f"captions are written as CSV; {self.out} must end in .csv")
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the command; returns 0.
+
+    Raises:
+        TexventError: some pictures have no caption; those of the others are written.
+    """
+    values = parse_options(
+        arguments, {"input": CaptionOptions()}, prog="texvent caption", description=DESCRIPTION
+    )
+    options = CaptionOptions(**values)
+    if options.out is not None:
+        check_output(options.out, overwrite=options.overwrite)
+    pictures = find_pictures(options.pictures)
+    console = Console(stderr=True, quiet=options.quiet, highlight=False)
+    captioner = load_object("texvent.generate.prompts.caption:Captioner")(
+        options.model, device=options.generator_device
+    )
+    rows: list[tuple[str, str]] = []
+    for number, picture in enumerate(pictures, start=1):
+        console.print(f"{number}/{len(pictures)} {picture}", markup=False)
+        try:
+            text = captioner.caption(
+                picture, instruction=options.instruction, longest=options.longest
+            )
+        except InputError as error:
+            # One damaged picture must not cost the captions of the others.
+            if len(pictures) == 1:
+                raise
+            sys.stderr.write(f"failed   {error}\n")
+            continue
+        rows.append((_row_name(picture, pictures), text))
+        if options.out is None:
+            sys.stdout.write(f"{text}\n")
+    if options.out is not None and rows:
+        with (
+            atomic_file(options.out, overwrite=options.overwrite) as part,
+            part.open("w", encoding="utf-8", newline="") as file,
+        ):
+            csv.writer(file).writerows([("name", "prompt"), *rows])
+        sys.stdout.write(f"{options.out}\n")
+    if len(rows) < len(pictures):
+        failed = len(pictures) - len(rows)
+        raise TexventError(f"{failed} of {len(pictures)} pictures have no caption")
+    return 0
+
+
+def _row_name(picture: Path, pictures: Sequence[Path]) -> str:
+    """The stem, or the whole name where a.png and a.jpg would share it: `batch` wants each once."""
+    is_shared = sum(other.stem == picture.stem for other in pictures) > 1
+    return picture.name if is_shared else picture.stem

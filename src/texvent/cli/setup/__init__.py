@@ -1,0 +1,1 @@
+"""Commands about what is installed: data, weights, generators, doctor."""

@@ -1,1 +1,0 @@
-"""Candidates and crossings: definitions in NumPy, and compiled kernels."""

@@ -1,0 +1,191 @@
+"""One adapter over every diffusers text-to-video pipeline (Eq. 3): prompt → video on disk.
+
+    generator = GENERATORS.load("wan-1.3b")(config, seed=0, size=None)
+    video = generator.generate("a red car drives left")
+
+The pipeline is loaded only if the video was not made before. Frames go from the model's decoder
+into a lossless 16-bit file, a few at a time where the decoder allows it, and are read from there.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any, ClassVar
+
+from texvent._version import __version__
+from texvent.config import plain
+from texvent.errors import ConfigError, InputError
+from texvent.generate.diffusers_models.latents import Latents
+from texvent.generate.diffusers_models.model_run import ModelRun
+from texvent.generate.models.source import find_downloaded
+from texvent.generate.models.table import VideoModel
+from texvent.generate.models.weight_files import CONFIG, check_part, fingerprint
+from texvent.generate.protocol import Watch
+from texvent.generate.silence import Silence
+from texvent.generate.video_config import DiffusersConfig
+from texvent.generate.videos.attempts import generate_checked
+from texvent.generate.videos.cache import VideoCache, content_key
+from texvent.generate.videos.stored_video import StoredVideo
+from texvent.video import PixelArray
+
+PIXEL_OPTIONS = (
+    *("frames", "width", "height", "steps", "guidance"),
+    *("negative_prompt", "dtype", "quantize"),
+)
+"""Options that decide the pixels, beside model, prompt, seed and picture."""
+NETWORK_OPTIONS = ("decoder", "motion_adapter")
+"""Options that name a folder with a network."""
+
+
+class DiffusersGenerator:
+    """A learned text-to-video model, run through diffusers.
+
+    Args:
+        config: options; None values are the pipeline's own defaults.
+        model: where the weights are, and what they were made for.
+        seed: seed of the first noise.
+    """
+
+    config_type: ClassVar[type] = DiffusersConfig
+    default_interpolate: ClassVar[str] = "flow"
+    default_sensor: ClassVar[str | None] = None
+
+    def __init__(self, config: DiffusersConfig, *, model: VideoModel, seed: int = 0) -> None:
+        self.config = config
+        self.model = model
+        self.seed = seed
+        self._run: ModelRun | None = None
+
+    def generate(self, prompt: str, *, watch: Watch | None = None) -> StoredVideo:
+        """The video for `prompt`, made now unless it was made before.
+
+        Args:
+            prompt: what to show.
+            watch: told the licence before a download, and every denoising step; an exception from
+                it, like Ctrl-C, stops the run and leaves nothing behind.
+
+        Raises:
+            InputError: the prompt is empty or blocked, or the model is not on this machine and
+                cannot be fetched.
+            ConfigError: the pipeline does not take an option, or its frame rate is not known.
+            FileFormatError: a file of the model is damaged.
+            MissingDependencyError: a package is not installed.
+        """
+        self._check(prompt)
+        told = watch or Silence()
+        return generate_checked(
+            lambda seed: self._find_or_make(prompt, seed, told),
+            self.config,
+            prompt=prompt,
+            seed=self.seed,
+            watch=told,
+        )
+
+    def generate_latents(self, prompt: str, *, watch: Watch | None = None) -> Latents:
+        """What the model denoises for `prompt`, with the scale and shift of its decoder.
+
+        Raises:
+            InputError: the model's decoder is not known, or the model has a guardrail that must
+                see finished frames; and what `generate` raises.
+        """
+        self._check(prompt)
+        return self._loaded(watch or Silence()).latents(prompt, self.seed)
+
+    def decode(self, latents: Latents) -> Iterator[PixelArray]:
+        """Frames of latents, [H, W, 3] float32 in 0..1, a few at a time in memory."""
+        return self._loaded(Silence()).decode(latents)
+
+    def plan(self, prompt: str) -> str | None:
+        """What making the video would take, or None if it was made before. Touches no network."""
+        self._check(prompt)
+        key = content_key(self._pixel_facts(prompt, self.seed))
+        if VideoCache(is_kept=self.config.reuse_video).find(key, self.fps) is not None:
+            return None
+        config, folder = self.config, self.model.folder or find_downloaded(self.model)
+        here = f"its files are in {folder}" if folder is not None else "it has to be fetched first"
+        wishes = {"frames": config.frames, "steps": config.steps}
+        amounts = ", ".join(f"{value} {name}" for name, value in wishes.items() if value)
+        return (
+            f"the video is not made yet: {self.model.name} would make it"
+            f"{f' ({amounts})' if amounts else ''}; {here}; licence: {self.model.licence}"
+        )
+
+    @property
+    def fps(self) -> Fraction:
+        """Frame rate of the video.
+
+        Raises:
+            ConfigError: neither the option nor the model's row says it.
+        """
+        rate = self.config.fps or self.model.fps
+        if rate is None:
+            raise ConfigError(
+                f"the frame rate of {self.model.name} is not known, and it is nowhere in the "
+                "weights; say it, for example --fps 16"
+            )
+        return Fraction(rate)
+
+    def _check(self, prompt: str) -> None:
+        if not prompt.strip():
+            raise InputError("the prompt is empty; describe a scene, such as 'a car drives left'")
+        image = self.config.image
+        if image is not None and not image.is_file():
+            raise InputError(f"there is no picture {image}")
+        for option in NETWORK_OPTIONS:
+            folder = getattr(self.config, option)
+            if folder is None:
+                continue
+            if not (folder / CONFIG).is_file():
+                raise InputError(f"there is no {option} in {folder} (no {CONFIG})")
+            check_part(folder)
+        self.fps  # noqa: B018  (an unknown rate is refused before anything is loaded)
+
+    def _loaded(self, watch: Watch) -> ModelRun:
+        if self._run is None:
+            self._run = ModelRun(self.model, self.config, fps=self.fps, watch=watch)
+        self._run.watch = watch
+        return self._run
+
+    def _find_or_make(self, prompt: str, seed: int, watch: Watch) -> StoredVideo:
+        cache = VideoCache(is_kept=self.config.reuse_video)
+        key = content_key(self._pixel_facts(prompt, seed))
+        found = cache.find(key, self.fps)
+        if found is not None:
+            watch.announce(f"this video was generated before: {found.path}")
+            return found
+        run = self._loaded(watch)
+        frames = run.frames(prompt, seed)
+        facts = {
+            "generator": self.model.name,
+            "version": __version__,
+            "prompt": prompt,
+            "seed": seed,
+            "options": plain(self.config),
+            **run.provenance(),
+        }
+        video = cache.store(key, frames, self.fps, facts)
+        if self.config.frames not in (None, video.frame_count):
+            watch.announce(
+                f"the model made {video.frame_count} frames, not {self.config.frames}: it can "
+                "make certain numbers only"
+            )
+        return video
+
+    def _pixel_facts(self, prompt: str, seed: int) -> dict[str, Any]:
+        """Everything that decides the frames."""
+        model, config = self.model, self.config
+        facts: dict[str, Any] = {name: getattr(config, name) for name in PIXEL_OPTIONS}
+        if not model.ignores_fps:
+            facts["fps"] = self.fps
+        for option in NETWORK_OPTIONS:
+            if getattr(config, option) is not None:
+                facts[option] = fingerprint(getattr(config, option))
+        if config.image is not None:
+            facts["image"] = hashlib.sha256(config.image.read_bytes()).hexdigest()
+        if model.folder is None:
+            facts["source"] = model.source
+        else:
+            facts["folder"] = fingerprint(model.folder) if model.folder.is_dir() else ""
+        return {**facts, "prompt": prompt, "seed": seed}

@@ -1,0 +1,1 @@
+"""The table of text-to-video models, and where their files are."""

@@ -1,0 +1,1 @@
+"""Open-Sora in the user's own installation."""

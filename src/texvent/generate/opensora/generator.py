@@ -1,0 +1,246 @@
+"""Open-Sora 2 in the user's own installation, run as a separate program (paper, Figs. 13-14).
+
+Open-Sora pins versions of Python, torch and CUDA extensions that exclude most other packages, so
+it lives in an environment of its own and is called by its documented command line. It writes an
+ordinary 8-bit mp4, which is kept byte by byte.
+"""
+
+from __future__ import annotations
+
+import csv
+import os
+import shutil
+import tempfile
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Any, ClassVar, Literal
+
+from texvent._version import __version__
+from texvent.config import check_range, plain
+from texvent.errors import ConfigError, InputError, TexventError
+from texvent.generate.opensora.external_program import run_program
+from texvent.generate.protocol import Watch
+from texvent.generate.silence import Silence
+from texvent.generate.video_config import GeneratedVideoConfig
+from texvent.generate.videos.attempts import generate_checked
+from texvent.generate.videos.cache import VideoCache, content_key
+from texvent.generate.videos.stored_video import StoredVideo, open_stored
+from texvent.sensor import SensorSize
+
+ROOT_VARIABLE = "OPENSORA_ROOT"
+"""Environment variable that names the folder of Open-Sora."""
+SCRIPT = Path("scripts/diffusion/inference.py")
+CONFIGS = Path("configs/diffusion/inference")
+WEIGHTS = tuple(
+    Path("ckpts", name)
+    for name in (
+        "Open_Sora_v2.safetensors",
+        "hunyuan_vae.safetensors",
+        "google/t5-v1_1-xxl",
+        "openai/clip-vit-large-patch14",
+    )
+)
+"""What its configs load, from its own folder."""
+LAUNCHERS = (Path(".venv/bin/torchrun"), Path("venv/bin/torchrun"))
+SEED_MODULUS = 2**31 - 2
+
+
+@dataclass(frozen=True, kw_only=True)
+class OpenSoraConfig(GeneratedVideoConfig):
+    """How Open-Sora is called."""
+
+    fps: Fraction | None = Fraction(24)
+    """Frame rate that Open-Sora is told (a whole number), and the video's."""
+    opensora_root: Path | None = None
+    """Folder of your Open-Sora 2 checkout; without it: $OPENSORA_ROOT."""
+    opensora_launcher: Path | None = None
+    """torchrun of its environment; without it: the one in .venv or venv of the checkout, else the
+    first on the PATH."""
+    resolution: Literal["256px", "768px"] = "256px"
+    """Size class: 256px takes about a minute and 52 GB on an H100, 768px half an hour and 60 GB."""
+    aspect_ratio: Literal["16:9", "9:16", "1:1"] = "16:9"
+    """Shape of the picture."""
+    frames: int = 129
+    """Frames to generate, 4k+1, at most 129."""
+    steps: int = 50
+    """Denoising steps."""
+    guidance: float = 7.5
+    """How closely the prompt is followed."""
+    offload: bool = True
+    """Keep parts that are not in use in the computer's memory."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_range("frames", self.frames, 5, 129)
+        check_range("steps", self.steps, 1, 1000)
+        check_range("guidance", self.guidance, 0.0, 1000.0)
+        if self.frames % 4 != 1:
+            raise ConfigError(f"frames is {self.frames}; Open-Sora makes 4k+1, such as 97 or 129")
+        if self.fps is None or Fraction(self.fps).denominator != 1:
+            raise ConfigError(f"fps is {self.fps}; Open-Sora takes a whole number, such as 24")
+
+
+class OpenSoraGenerator:
+    """Open-Sora 2, run in your own installation of it ($OPENSORA_ROOT)."""
+
+    config_type: ClassVar[type] = OpenSoraConfig
+    default_interpolate: ClassVar[str] = "flow"
+    default_sensor: ClassVar[str | None] = None
+    licence: ClassVar[str] = "Apache-2.0; its decoder: Tencent Hunyuan Community License ?"
+
+    def __init__(
+        self, config: OpenSoraConfig, *, seed: int = 0, size: SensorSize | None = None
+    ) -> None:
+        del size  # the pipeline fits the finished frames
+        self.config = config
+        self.seed = seed
+
+    @classmethod
+    def find_missing(cls, config: OpenSoraConfig | None = None) -> str | None:
+        """What keeps Open-Sora from running, and what to do; None if nothing does."""
+        config = config or OpenSoraConfig()
+        root = _root(config)
+        if root is None:
+            return (
+                "the folder of Open-Sora is not known; install Open-Sora 2 "
+                "(github.com/hpcaitech/Open-Sora) in an environment of its own, then set "
+                f"{ROOT_VARIABLE} or pass --opensora-root"
+            )
+        if not root.is_dir():
+            return f"there is no folder {root}; set {ROOT_VARIABLE} to your Open-Sora checkout"
+        for path in (SCRIPT, CONFIGS / f"{config.resolution}.py"):
+            if not (root / path).is_file():
+                return f"{root} has no {path}; it must be a checkout of Open-Sora 2.0"
+        if find_launcher(config) is None:
+            return (
+                f"no torchrun in {root}/.venv, {root}/venv or on the PATH; pass "
+                "--opensora-launcher /path/to/its/environment/bin/torchrun"
+            )
+        for path in WEIGHTS:
+            if not (root / path).exists():
+                return (
+                    f"the weights {root / path} are missing; in {root} run: hf download "
+                    "hpcai-tech/Open-Sora-v2 --local-dir ./ckpts"
+                )
+        return None
+
+    def generate(self, prompt: str, *, watch: Watch | None = None) -> StoredVideo:
+        """The video for `prompt`, made now unless it was made before.
+
+        Args:
+            prompt: what to show.
+            watch: told when it starts.
+
+        Raises:
+            InputError: the prompt is empty.
+            TexventError: Open-Sora is not there, lacks something, or fails; its last words follow.
+        """
+        if not prompt.strip():
+            raise InputError("the prompt is empty; describe a scene, such as 'a car drives left'")
+        told = watch or Silence()
+        return generate_checked(
+            lambda seed: self._find_or_make(prompt, seed, told),
+            self.config,
+            prompt=prompt,
+            seed=self.seed,
+            watch=told,
+        )
+
+    def plan(self, prompt: str) -> str | None:
+        """What making the video would take, or None if it was made before."""
+        config = self.config
+        key = self._key(prompt, self.seed)
+        if VideoCache(is_kept=config.reuse_video).find(key, Fraction(config.fps or 24)) is not None:
+            return None
+        state = self.find_missing(config) or "it is ready"
+        return (
+            f"the video is not made yet: Open-Sora would make it ({config.frames} frames, "
+            f"{config.steps} steps, {config.resolution}); {state}"
+        )
+
+    def _key(self, prompt: str, seed: int) -> str:
+        names = ("fps", "resolution", "aspect_ratio", "frames", "steps", "guidance")
+        facts = {name: getattr(self.config, name) for name in names}
+        return content_key({**facts, "source": "open-sora 2", "prompt": prompt, "seed": seed})
+
+    def _find_or_make(self, prompt: str, seed: int, watch: Watch) -> StoredVideo:
+        config = self.config
+        fps = Fraction(config.fps or 24)
+        key = self._key(prompt, seed)
+        cache = VideoCache(is_kept=config.reuse_video)
+        found = cache.find(key, fps)
+        if found is not None:
+            watch.announce(f"this video was generated before: {found.path}")
+            return found
+        missing = self.find_missing(config)
+        if missing is not None:
+            raise TexventError(missing)
+        origin = {
+            "generator": "opensora",
+            "version": __version__,
+            "prompt": prompt,
+            "seed": seed,
+            "options": plain(config),
+        }
+        with tempfile.TemporaryDirectory(prefix="texvent-opensora-") as folder:
+            watch.announce(f"running Open-Sora ({config.resolution}, {config.steps} steps)")
+            made = self._run(prompt, seed, Path(folder))
+            return cache.adopt(key, open_stored(made, fps, origin))
+
+    def _run(self, prompt: str, seed: int, folder: Path) -> Path:
+        """Call the program; returns the mp4 it wrote."""
+        root = _root(self.config)
+        prompts = folder / "prompts.csv"
+        with prompts.open("w", encoding="utf-8", newline="") as file:
+            csv.writer(file).writerows([["text"], [prompt]])
+        run_program(self._command(prompts, folder / "out", seed), cwd=root, log=folder / "log.txt")
+        videos = sorted((folder / "out").rglob("*.mp4"))
+        if not videos:
+            raise TexventError(
+                f"Open-Sora ended without writing a video below {folder / 'out'}; "
+                "run it by hand to see why"
+            )
+        return videos[0]
+
+    def _command(self, prompts: Path, out: Path, seed: int) -> list[str]:
+        config = self.config
+        # Open-Sora reads seed 0 as "no seed", and its libraries take 32 bits.
+        its_seed = str(seed % SEED_MODULUS + 1)
+        options: dict[str, Any] = {
+            "--save-dir": out,
+            "--dataset.data-path": prompts,
+            "--seed": its_seed,
+            "--fps_save": config.fps,
+            "--offload": config.offload,
+            "--sampling_option.seed": its_seed,
+            "--sampling_option.num_frames": config.frames,
+            "--sampling_option.num_steps": config.steps,
+            "--sampling_option.guidance": config.guidance,
+            "--sampling_option.aspect_ratio": config.aspect_ratio,
+        }
+        words = [str(word) for pair in options.items() for word in pair]
+        return [
+            str(find_launcher(config)),
+            *("--nproc_per_node", "1", "--standalone"),
+            *(str(SCRIPT), str(CONFIGS / f"{config.resolution}.py")),
+            *words,
+        ]
+
+
+def find_launcher(config: OpenSoraConfig) -> Path | None:
+    """The torchrun of Open-Sora's environment, or None."""
+    if config.opensora_launcher is not None:
+        given = config.opensora_launcher.expanduser()
+        return given if os.access(given, os.X_OK) else None
+    root = _root(config)
+    for path in LAUNCHERS if root is not None else ():
+        if root is not None and os.access(root / path, os.X_OK):
+            return (root / path).absolute()
+    on_path = shutil.which("torchrun")
+    return Path(on_path) if on_path else None
+
+
+def _root(config: OpenSoraConfig) -> Path | None:
+    named = config.opensora_root or os.environ.get(ROOT_VARIABLE)
+    return Path(named).expanduser() if named else None

@@ -1,0 +1,174 @@
+"""The embedded generator: prompt → description → scene → frames, at any instant.
+
+Nothing here is learned. The words of the prompt choose and place articulated models made of
+simple shapes, and a ray caster draws them; in return every frame is exact at its own instant and
+comes with exact ground truth.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from texvent._version import __version__
+from texvent.config import check_range, plain
+from texvent.errors import ConfigError, InputError
+from texvent.sensor import SENSORS, SensorSize
+from texvent.video import MICROSECONDS, Frame, frame_time_us
+
+if TYPE_CHECKING:
+    from texvent.generate.protocol import Watch
+    from texvent.scenes.ground_truth import GroundTruth
+    from texvent.scenes.primitives import Scene
+
+DEFAULT_SIZE = SENSORS["davis346"].size
+"""Picture size when none is asked for."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ProceduralConfig:
+    """How the embedded generator films a scene."""
+
+    fps: Fraction = Fraction(24)
+    """Frame rate of the video, as 24, 29.97 or 30000/1001. Frames in between are rendered as
+    exactly as these, so the rate decides little but where frames fall."""
+    duration: float = 2.0
+    """Length of the video, in seconds."""
+    samples: int = 2
+    """Fineness of edges: rays per pixel side that look for them; 1 = fast draft, 2 = smooth
+    enough for events."""
+    shadows: bool = True
+    """Whether the sun and the moon cast shadows."""
+
+    def __post_init__(self) -> None:
+        check_range("duration", self.duration, 1e-6, 86_400.0)
+        check_range("samples", self.samples, 1, 8)
+        if not 0 < self.fps <= MICROSECONDS:
+            raise ConfigError(f"fps is {self.fps}; it must be above 0 and at most {MICROSECONDS}")
+        if self.intervals < 1:
+            raise ConfigError(
+                f"duration is {self.duration:g} s, shorter than one frame interval at "
+                f"{self.fps} fps; it must be at least {float(1 / self.fps):g} s"
+            )
+
+    @property
+    def intervals(self) -> int:
+        """Frame intervals in the duration; there is one frame more."""
+        return math.floor(Fraction(str(self.duration)) * self.fps)
+
+
+@dataclass(frozen=True, eq=False)
+class ProceduralVideo:
+    """A scene being filmed: a stream of frames that can also be rendered at any instant."""
+
+    scene: Scene
+    """What is filmed."""
+    size: SensorSize
+    """Width and height of every frame, pixels."""
+    config: ProceduralConfig = field(default_factory=ProceduralConfig)
+    """How it is filmed."""
+    metadata: Mapping[str, Any] = field(default_factory=dict)
+    """What the generator made of the prompt (JSON-serialisable)."""
+    flicker_hz: float | None = None
+    """Periods per second with which all light beats, or None where it is steady."""
+
+    @property
+    def fps(self) -> Fraction:
+        """Frame rate, frames per second."""
+        return self.config.fps
+
+    @property
+    def frame_count(self) -> int:
+        """How many frames there are: events cover the time from the first to the last."""
+        return self.config.intervals + 1
+
+    @property
+    def is_live(self) -> bool:
+        """False: the frames can be rendered again."""
+        return False
+
+    def __iter__(self) -> Iterator[Frame]:
+        """Frames in time order, each rendered when it is asked for."""
+        for index in range(self.frame_count):
+            yield self._frame(frame_time_us(index, self.fps), is_source=True)
+
+    def at(self, t_us: int) -> Frame:
+        """The frame at `t_us`, [H, W, 3] float32 RGB on the 0..255 scale, `is_source` False."""
+        return self._frame(t_us, is_source=False)
+
+    def ground_truth(self, t0_us: int, t1_us: int) -> GroundTruth:
+        """Depth, ids and boxes at `t0_us`, and optical flow from there to `t1_us`."""
+        # Imported here: the kernels load Numba, which reading options and help must not do.
+        from texvent.scenes.ground_truth import ground_truth
+
+        return ground_truth(self.scene, t0_us / MICROSECONDS, t1_us / MICROSECONDS, self.size)
+
+    def _frame(self, t_us: int, *, is_source: bool) -> Frame:
+        from texvent.scenes.render import render
+
+        pixels = render(
+            self.scene,
+            t_us / MICROSECONDS,
+            self.size,
+            samples=self.config.samples,
+            shadows=self.config.shadows,
+        )
+        return Frame(pixels, t_us, is_source)
+
+
+class ProceduralGenerator:
+    """Prompts become scenes built from simple shapes. No weights, no downloads."""
+
+    config_type: ClassVar[type] = ProceduralConfig
+    default_interpolate: ClassVar[str] = "exact"
+
+    def __init__(
+        self, config: ProceduralConfig, *, seed: int = 0, size: SensorSize | None = None
+    ) -> None:
+        self.config = config
+        self.seed = seed
+        self.size = size if size is not None else DEFAULT_SIZE
+
+    def generate(self, prompt: str, *, watch: Watch | None = None) -> ProceduralVideo:
+        """The video for `prompt`.
+
+        Args:
+            prompt: English sentences, such as "a red car drives left past two trees at dusk".
+            watch: told nothing: frames are rendered when they are asked for.
+
+        Returns:
+            A stream of float RGB frames. Its metadata say what was understood and which words
+            had no effect; a prompt of which nothing was understood shows a default scene.
+
+        Raises:
+            InputError: the prompt is empty.
+        """
+        del watch
+        if not prompt.strip():
+            raise InputError(
+                "the prompt is empty; describe a scene, such as 'a red car drives left at dusk'"
+            )
+        # Imported here: the vocabulary and all models are only needed to make a scene.
+        from texvent.scenes.compose import compose_scene
+        from texvent.scenes.grammar import parse_prompt
+
+        description = parse_prompt(prompt)
+        scene = compose_scene(
+            description, seed=self.seed, size=self.size, duration_s=self.config.duration
+        )
+        metadata = {
+            "generator": "procedural",
+            "version": __version__,
+            "prompt": prompt,
+            "seed": self.seed,
+            "options": plain(self.config),
+            "understood": list(description.summary()),
+            "not_understood": list(description.not_understood),
+            "understood_nothing": bool(description.understood_nothing),
+        }
+        return ProceduralVideo(
+            scene, self.size, self.config, metadata, flicker_hz=description.light.flicker_hz
+        )

@@ -1,1 +1,0 @@
-"""Everyday things built from unit shapes: one file per family, one table of nouns."""

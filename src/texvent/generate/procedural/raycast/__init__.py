@@ -1,1 +1,0 @@
-"""The ray caster: kernels compiled by Numba, and the arrays they read."""

@@ -1,0 +1,1 @@
+"""Prompts: files of them, captions of images, detailed versions."""

@@ -1,0 +1,132 @@
+"""Pictures → prompts, by an image-and-text model of the user's (paper, data collection for 9.7).
+
+The paper captions pictures with LLaVA and the instruction "Caption the image in detail." Any model
+that transformers runs as "image-text-to-text" will do; decoding is greedy, so a picture has one
+caption.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from texvent._require import require
+from texvent.errors import InputError, TexventError
+from texvent.generate.diffusers_models.pipeline_loading import resolve_device
+from texvent.generate.models.loading import loading
+
+EXTRA = "generate"
+INSTRUCTION = "Caption the image in detail."
+"""The paper's."""
+PLAIN_CHAT = "USER: <image>\n{} ASSISTANT:"
+"""LLaVA 1.5's way to ask, for models that bring no chat template."""
+HUB = "hub:"
+PICTURES = (".png", ".jpg", ".jpeg", ".webp", ".bmp")
+
+
+class Captioner:
+    """A model that describes pictures, loaded once.
+
+    Args:
+        model: folder of a model saved by transformers, or `hub:org/name`.
+        device: "auto", or a torch device.
+
+    Raises:
+        InputError: there is no such model.
+        FileFormatError: it cannot be loaded.
+        MissingDependencyError: transformers is not installed.
+    """
+
+    def __init__(self, model: str, *, device: str = "auto") -> None:
+        self._device, free = resolve_device(device)
+        folder = _find_folder(model)
+        self._processor, self._model = _load(folder, "bfloat16" if free else "float32")
+        self._model.to(self._device)
+
+    def caption(self, picture: Path, *, instruction: str = INSTRUCTION, longest: int = 124) -> str:
+        """One line that describes a picture.
+
+        Args:
+            picture: its file.
+            instruction: what to ask.
+            longest: most tokens of the answer; the paper's captions have up to 124.
+
+        Raises:
+            InputError: the picture cannot be read, or the model has nothing to say.
+        """
+        torch = require("torch", extra=EXTRA)
+        images = require("PIL.Image", extra=EXTRA)
+        try:
+            with images.open(picture) as opened:
+                rgb = opened.convert("RGB")
+        except OSError as error:
+            raise InputError(f"{picture} cannot be read as a picture ({error})") from error
+        inputs = self._processor(images=rgb, text=self._ask(instruction), return_tensors="pt").to(
+            self._device
+        )
+        inputs["pixel_values"] = inputs["pixel_values"].to(self._model.dtype)
+        with torch.no_grad():
+            tokens = self._model.generate(**inputs, max_new_tokens=longest, do_sample=False)
+        answer = tokens[0, inputs["input_ids"].shape[1] :]
+        text = " ".join(self._processor.decode(answer, skip_special_tokens=True).split())
+        if not text:
+            raise InputError(f"the model says nothing about {picture}; try another instruction")
+        return text
+
+    def _ask(self, instruction: str) -> str:
+        if getattr(self._processor, "chat_template", None) is None:
+            return PLAIN_CHAT.format(instruction)
+        content = [{"type": "image"}, {"type": "text", "text": instruction}]
+        asked: str = self._processor.apply_chat_template(
+            [{"role": "user", "content": content}], add_generation_prompt=True
+        )
+        return asked
+
+
+def find_pictures(path: Path) -> list[Path]:
+    """The picture, or all pictures right in the folder, in order of name.
+
+    Raises:
+        InputError: there is none.
+    """
+    if path.is_file():
+        return [path]
+    found = sorted(
+        one for one in path.glob("*") if one.suffix.lower() in PICTURES and one.is_file()
+    )
+    if not found:
+        raise InputError(f"there is no picture at {path} ({', '.join(PICTURES)})")
+    return found
+
+
+def _find_folder(model: str) -> Path:
+    if not model.startswith(HUB):
+        folder = Path(model).expanduser()
+        if not (folder / "config.json").is_file():
+            raise InputError(
+                f"there is no model in {folder} (no config.json); give the folder of an "
+                "image-and-text model saved by transformers, or hub:org/name, such as "
+                "hub:llava-hf/llava-1.5-7b-hf"
+            )
+        return folder
+    hub = require("huggingface_hub", extra=EXTRA)
+    repo = model.removeprefix(HUB)
+    try:
+        return Path(hub.snapshot_download(repo, ignore_patterns=["*.bin", "*.pt", "*.pth"]))
+    except (OSError, ValueError) as error:
+        reason = str(error).strip().splitlines()[0]
+        raise TexventError(
+            f"{repo} is not on this machine and the model hub cannot be reached: {reason}. Fetch "
+            f"it elsewhere (hf download {repo}) and name its folder"
+        ) from error
+
+
+def _load(folder: Path, dtype: str) -> tuple[Any, Any]:
+    transformers = require("transformers", extra=EXTRA)
+    torch = require("torch", extra=EXTRA)
+    with loading(folder, "an image-and-text model"):
+        processor = transformers.AutoProcessor.from_pretrained(str(folder), local_files_only=True)
+        model = transformers.AutoModelForImageTextToText.from_pretrained(
+            str(folder), dtype=getattr(torch, dtype), local_files_only=True, use_safetensors=True
+        )
+    return processor, model.eval()

@@ -1,0 +1,1 @@
+"""Generated videos on disk: stored, cached, checked."""

@@ -1,0 +1,99 @@
+"""Generate, look at the result, and warn, refuse or try another seed (paper 9.6)."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+from collections.abc import Callable
+
+from texvent.errors import TexventError
+from texvent.generate.protocol import Watch
+from texvent.generate.video_config import GeneratedVideoConfig
+from texvent.generate.videos.agreement import check_clip_folder, measure_agreement
+from texvent.generate.videos.cache import MEASURES
+from texvent.generate.videos.check import ClipReport, check_clip, judge_measures
+from texvent.generate.videos.stored_video import StoredVideo
+
+
+def generate_checked(
+    make: Callable[[int], StoredVideo],
+    config: GeneratedVideoConfig,
+    *,
+    prompt: str,
+    seed: int,
+    watch: Watch,
+) -> StoredVideo:
+    """A video that passes the failure filter, or what `on_failure` says instead.
+
+    Args:
+        make: seed → video.
+        config: what to do about a failed video, and how often to try again.
+        prompt: what the video should show.
+        seed: the first seed; the others follow from it.
+        watch: told what is wrong.
+
+    Returns:
+        The video, with the filter's findings in its metadata.
+
+    Raises:
+        InputError: there is no CLIP model where `agreement_model` says; nothing was generated.
+        TexventError: the video failed and `on_failure` is "reject", or every seed failed.
+    """
+    if config.on_failure == "ignore":
+        return make(seed)
+    if config.agreement_model is not None:
+        check_clip_folder(config.agreement_model)
+    tries = config.retries + 1 if config.on_failure == "retry" else 1
+    for attempt in range(tries):
+        attempt_seed = nth_seed(seed, attempt)
+        video = make(attempt_seed)
+        report = _judge(video, prompt, config)
+        if report.is_fine or config.on_failure == "warn":
+            if not report.is_fine:
+                watch.announce(f"warning: the generated video looks failed: {report.summary}")
+            return _with_findings(video, report)
+        watch.announce(f"seed {attempt_seed} is refused: {report.summary}")
+    raise TexventError(_refusal(report, tries))
+
+
+def _judge(video: StoredVideo, prompt: str, config: GeneratedVideoConfig) -> ClipReport:
+    """What is wrong with the video itself, and whether it shows the prompt."""
+    measures = video.metadata.get(MEASURES)
+    report = check_clip(video) if measures is None else judge_measures(dict(measures))
+    if config.agreement_model is None:
+        return report
+    score = measure_agreement(video, prompt, config.agreement_model)
+    low = config.min_agreement is not None and score < config.min_agreement
+    return ClipReport(
+        problems=(*report.problems, *((f"agreement {score:.3f}",) if low else ())),
+        measures={**report.measures, "agreement": score},
+    )
+
+
+def _with_findings(video: StoredVideo, report: ClipReport) -> StoredVideo:
+    """The video with the findings in place of the bare measures."""
+    facts = {name: fact for name, fact in video.metadata.items() if name != MEASURES}
+    return dataclasses.replace(video, metadata={**facts, "check": report.as_facts()})
+
+
+def nth_seed(seed: int, attempt: int) -> int:
+    """The seed of an attempt: the given one first, then digests of it, below 2^31.
+
+    Example:
+        >>> nth_seed(7, 0)
+        7
+        >>> nth_seed(7, 1) == nth_seed(7, 1) != nth_seed(8, 1)
+        True
+    """
+    if attempt == 0:
+        return seed
+    digest = hashlib.sha256(f"{seed} {attempt}".encode()).digest()
+    return int.from_bytes(digest[:4], "big") >> 1
+
+
+def _refusal(report: ClipReport, tries: int) -> str:
+    seeds = "the video" if tries == 1 else f"all {tries} videos, each of another seed,"
+    return (
+        f"{seeds} failed the check of generated videos: {report.summary}. Reword the prompt, try "
+        "another --seed, or accept it with --on-failure warn"
+    )

@@ -1,0 +1,93 @@
+"""How many intermediate frames a pair gets: Eq. 4, and what the user put above or below it."""
+
+from __future__ import annotations
+
+import math
+import sys
+from typing import Any
+
+from texvent._registry import load_object
+from texvent.config import InterpolateConfig
+from texvent.interpolate.count import count_for_flicker, count_intermediate
+from texvent.interpolate.protocol import Interpolator
+from texvent.video import MICROSECONDS, FlickeringStream, Frame, FrameStream
+
+
+class CountPolicy:
+    """Eq. 4 or a fixed count, raised by motion and by flickering light, lowered by a budget."""
+
+    def __init__(
+        self,
+        config: InterpolateConfig,
+        stream: FrameStream,
+        interpolator: Interpolator,
+        *,
+        balance: float,
+        contrast_threshold: float,
+    ) -> None:
+        """A policy for one stream.
+
+        Args:
+            config: what the user chose.
+            stream: the source frames; it may know of flickering light.
+            interpolator: its optical flow is used, where it has one, for the motion floor.
+            balance: the simulator's α.
+            contrast_threshold: the simulator's δ.
+        """
+        self._config = config
+        self._balance = balance if config.count_balance is None else config.count_balance
+        self._threshold = (
+            contrast_threshold if config.count_threshold is None else config.count_threshold
+        )
+        counts_motion = config.motion_floor and config.count == "brightness"
+        self._pair_flow = _pair_flow(interpolator) if counts_motion else None
+        self._flicker_hz = _flicker_hz(stream, config)
+
+    def count(self, first: Frame, second: Frame) -> int:
+        """How many intermediate frames go between two source frames.
+
+        Raises:
+            InputError: the frames differ in size.
+            ConfigError: α + I is 0 somewhere.
+
+        Equation: (4), section 3.2.1, where the user chose nothing else.
+        """
+        config = self._config
+        if config.interpolate == "none":
+            return 0
+        if config.count == "fixed":
+            return min(config.fixed_count, self._budget(first, second))
+        cap = min(config.max_intermediate, self._budget(first, second))
+        count = count_intermediate(
+            first,
+            second,
+            balance=self._balance,
+            contrast_threshold=self._threshold,
+            percentile=config.count_percentile,
+            cap=cap,
+        )
+        count = max(count, count_for_flicker(first.t_us, second.t_us, self._flicker_hz, cap=cap))
+        if self._pair_flow is None or count == cap:
+            return count
+        motion: int = self._pair_flow.motion_px(first, second)
+        return min(max(count, motion), cap)
+
+    def _budget(self, first: Frame, second: Frame) -> int:
+        """What the frame rate allows in a pair; its second source frame is one of them."""
+        rate = self._config.max_frames_per_second
+        if rate is None:
+            return sys.maxsize
+        return max(0, math.floor(rate * (second.t_us - first.t_us) / MICROSECONDS) - 1)
+
+
+def _flicker_hz(stream: FrameStream, config: InterpolateConfig) -> float | None:
+    """The beat that intermediate frames must follow: only rendered ones can show it."""
+    is_seen = config.interpolate == "exact" and config.count == "brightness"
+    return stream.flicker_hz if is_seen and isinstance(stream, FlickeringStream) else None
+
+
+def _pair_flow(interpolator: Interpolator) -> Any:
+    """The flow that the interpolator computes anyway, or else one of its own."""
+    shared = getattr(interpolator, "pair_flow", None)
+    # By name, because OpenCV should load only when motion is counted.
+    return shared or load_object("texvent.interpolate.dis_flow.pair_flow:PairFlow")()

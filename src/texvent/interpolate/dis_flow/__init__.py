@@ -1,0 +1,1 @@
+"""Dense inverse search: optical flow between the two frames of a pair."""

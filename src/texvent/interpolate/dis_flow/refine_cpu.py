@@ -1,0 +1,206 @@
+"""The sweeps that refine a flow, compiled."""
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.interpolate.dis_flow.definitions import (
+    DATA,
+    LEAST2,
+    LEAST_SLOPE2,
+    MARGIN,
+    PATCH,
+    RELAXATION,
+    SMOOTHNESS,
+    SWEEPS,
+    Floats,
+)
+from texvent.runtime.compile_part import compile_part
+
+# As float32: Numba computes with float64 where a constant is one.
+_0 = np.float32(0.0)
+_HALF = np.float32(0.5)
+_OUTSIDE = np.float32(-PATCH)
+_DATA = np.float32(DATA)
+_SMOOTHNESS = np.float32(SMOOTHNESS)
+_RELAXATION = np.float32(RELAXATION)
+_LEAST2 = np.float32(LEAST2)
+_LEAST_SLOPE2 = np.float32(LEAST_SLOPE2)
+
+Numbers = NDArray[np.int32]
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def refine(start: Floats, stop: Floats, flow: Floats) -> Floats:
+    """The flow after a few sweeps towards constant brightness and smoothness."""
+    _, height, width = flow.shape
+    terms = _linearize(start[0], stop[0], flow)
+    # A pixel of margin, so that every pixel has four neighbours; those outside weigh nothing.
+    bonds = np.zeros((2, height + 2, width + 2), np.float32)
+    _bind(flow, bonds)
+    _solve(terms, bonds)
+    now = np.zeros((2, height + 2, width + 2), np.float32)
+    then = np.zeros((2, height + 2, width + 2), np.float32)
+    _copy(flow, now, 0, 1)
+    for turn in range(2 * SWEEPS):
+        for y in range(height):
+            _relax(now, then, bonds, terms, y, turn % 2)
+        now, then = then, now
+    refined = np.empty(flow.shape, np.float32)
+    _copy(now, refined, 1, 0)
+    return refined
+
+
+@compile_part
+def _copy(source: Floats, target: Floats, margin: int, new_margin: int) -> None:
+    """Copy a flow that has some pixels of margin to where it has others."""
+    for axis in range(2):
+        for y in range(source.shape[1] - 2 * margin):
+            old, new = source[axis, y + margin], target[axis, y + new_margin]
+            for x in range(source.shape[2] - 2 * margin):
+                new[x + new_margin] = old[x + margin]
+
+
+@compile_part
+def _linearize(start: Floats, stop: Floats, flow: Floats) -> Floats:
+    """The data term: matrix (xx, xy, yy) and right side (x, y) of each pixel, [5, H, W]."""
+    _, height, width = flow.shape
+    columns = stop.shape[1]
+    terms = np.empty((5, height, width), np.float32)
+    middle, change = np.empty((height, width), np.float32), np.empty((height, width), np.float32)
+    flat = stop.reshape(-1)
+    corner, weights = np.empty(width, np.int32), np.empty((2, width), np.float32)
+    corners = np.empty((4, width), np.float32)
+    for y in range(height):
+        _aim(flow[0, y], flow[1, y], y, (height, width), corner, weights)
+        for x in range(width):
+            i = corner[x]
+            corners[0, x], corners[1, x] = flat[np.uint64(i)], flat[np.uint64(i + 1)]
+            corners[2, x] = flat[np.uint64(i + columns)]
+            corners[3, x] = flat[np.uint64(i + columns + 1)]
+        here = start[y + MARGIN, MARGIN : MARGIN + width]
+        _mix(corners, weights, here, middle[y], change[y])
+    for y in range(height):
+        rows = middle[max(y - 1, 0)], middle[y], middle[min(y + 1, height - 1)]
+        _weigh(rows, change[y], (flow[0, y], flow[1, y]), terms, y)
+    return terms
+
+
+@compile_part
+def _aim(
+    u: Floats, v: Floats, y: int, shape: tuple[int, int], corner: Numbers, weights: Floats
+) -> None:
+    """Find where the pixels of a row are in the other picture."""
+    right, below = weights[0], weights[1]
+    height, width = np.float32(shape[0]), np.float32(shape[1])
+    columns = np.int32(shape[1] + 2 * MARGIN)
+    for x in range(u.size):
+        place_x = min(max(_OUTSIDE, np.float32(x) + u[x]), width)
+        place_y = min(max(_OUTSIDE, np.float32(y) + v[x]), height)
+        left, top = np.floor(place_x), np.floor(place_y)
+        right[x], below[x] = place_x - left, place_y - top
+        corner[x] = (np.int32(top) + np.int32(MARGIN)) * columns + np.int32(left) + np.int32(MARGIN)
+
+
+@compile_part
+def _mix(corners: Floats, weights: Floats, here: Floats, middle: Floats, change: Floats) -> None:
+    """Fill in the mean of both pictures, and by how much the other is brighter."""
+    a, b, c, d = corners[0], corners[1], corners[2], corners[3]
+    right, below = weights[0], weights[1]
+    for x in range(here.size):
+        upper = a[x] + (b[x] - a[x]) * right[x]
+        lower = c[x] + (d[x] - c[x]) * right[x]
+        there = upper + (lower - upper) * below[x]
+        middle[x] = _HALF * (here[x] + there)
+        change[x] = there - here[x]
+
+
+@compile_part
+def _weigh(
+    rows: tuple[Floats, Floats, Floats],
+    change: Floats,
+    flow: tuple[Floats, Floats],
+    terms: Floats,
+    y: int,
+) -> None:
+    """Fill in the data term of a row."""
+    above, here, below = rows
+    u, v = flow
+    xx, xy, yy, side_x, side_y = terms[0, y], terms[1, y], terms[2, y], terms[3, y], terms[4, y]
+    slope_x, slope_y, weight = xx, yy, xy  # for the time being
+    last = here.size - 1
+    slope_x[0] = _HALF * (here[min(1, last)] - here[0])
+    for x in range(1, last):
+        slope_x[x] = _HALF * (here[x + 1] - here[x - 1])
+    slope_x[last] = _HALF * (here[last] - here[max(last - 1, 0)])
+    # Few arrays in a loop, or Numba does not find out that they do not overlap.
+    for x in range(here.size):
+        slope_y[x] = _HALF * (below[x] - above[x])
+        length2 = slope_x[x] * slope_x[x] + slope_y[x] * slope_y[x] + _LEAST_SLOPE2
+        weight[x] = _DATA / (np.sqrt(change[x] * change[x] / length2 + _LEAST2) * length2)
+    for x in range(here.size):
+        # What the linearisation says of the flow itself, not of its change.
+        wanted = weight[x] * (slope_x[x] * u[x] + slope_y[x] * v[x] - change[x])
+        side_x[x], side_y[x] = slope_x[x] * wanted, slope_y[x] * wanted
+    for x in range(here.size):
+        along, across, strength = slope_x[x], slope_y[x], weight[x]
+        xx[x] = strength * along * along
+        xy[x], yy[x] = strength * along * across, strength * across * across
+
+
+@compile_part
+def _bind(flow: Floats, bonds: Floats) -> None:
+    """Fill in how much each pixel is drawn to the next one to the right and below, inside only."""
+    _, height, width = flow.shape
+    for y in range(height):
+        u, v, u_below, v_below = flow[0, y], flow[1, y], flow[0, min(y + 1, height - 1)], flow[1, y]
+        v_below = flow[1, min(y + 1, height - 1)]
+        aside, down = bonds[0, y + 1, 1:], bonds[1, y + 1, 1:]
+        for x in range(width - 1):
+            ux, uy = u[x + 1] - u[x], u_below[x] - u[x]
+            vx, vy = v[x + 1] - v[x], v_below[x] - v[x]
+            bond = _SMOOTHNESS / np.sqrt(ux * ux + uy * uy + vx * vx + vy * vy + _LEAST2)
+            aside[x], down[x] = bond, bond
+        uy, vy = u_below[width - 1] - u[width - 1], v_below[width - 1] - v[width - 1]
+        down[width - 1] = _SMOOTHNESS / np.sqrt(uy * uy + vy * vy + _LEAST2)
+        if y == height - 1:
+            for x in range(width):
+                down[x] = _0
+
+
+@compile_part
+def _solve(terms: Floats, bonds: Floats) -> None:
+    """Turn each pixel's matrix, with its bonds, into its inverse."""
+    for y in range(terms.shape[1]):
+        xx, xy, yy = terms[0, y], terms[1, y], terms[2, y]
+        right, left = bonds[0, y + 1, 1:], bonds[0, y + 1]
+        below, above = bonds[1, y + 1, 1:], bonds[1, y, 1:]
+        for x in range(xx.size):
+            bond = (left[x] + right[x]) + (above[x] + below[x])
+            a, b, c = xx[x] + bond, xy[x], yy[x] + bond
+            determinant = a * c - b * b
+            xx[x], xy[x], yy[x] = c / determinant, -b / determinant, a / determinant
+
+
+@compile_part
+def _relax(now: Floats, then: Floats, bonds: Floats, terms: Floats, y: int, colour: int) -> None:
+    """Move the fields of one colour in a row towards what their neighbours and the data want."""
+    right, left = bonds[0, y + 1, 1:], bonds[0, y + 1]
+    below, above = bonds[1, y + 1, 1:], bonds[1, y, 1:]
+    xx, xy, yy, side_x, side_y = terms[0, y], terms[1, y], terms[2, y], terms[3, y], terms[4, y]
+    u, u_above, u_below = now[0, y + 1], now[0, y, 1:], now[0, y + 2, 1:]
+    v, v_above, v_below = now[1, y + 1], now[1, y, 1:], now[1, y + 2, 1:]
+    new_u, new_v = then[0, y + 1, 1:], then[1, y + 1, 1:]
+    for x in range(xx.size):
+        p = side_x[x] + (
+            (left[x] * u[x] + right[x] * u[x + 2]) + (above[x] * u_above[x] + below[x] * u_below[x])
+        )
+        q = side_y[x] + (
+            (left[x] * v[x] + right[x] * v[x + 2]) + (above[x] * v_above[x] + below[x] * v_below[x])
+        )
+        is_moved = (x + y) & 1 == colour
+        du, dv = xx[x] * p + xy[x] * q - u[x + 1], xy[x] * p + yy[x] * q - v[x + 1]
+        new_u[x] = u[x + 1] + (_RELAXATION * du if is_moved else _0)
+        new_v[x] = v[x + 1] + (_RELAXATION * dv if is_moved else _0)

@@ -1,0 +1,241 @@
+"""What patches of a level find in another, and the flow that makes, compiled."""
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+
+from texvent.interpolate.dis_flow.definitions import (
+    FARTHEST,
+    FLAT,
+    LEAST_DIFFERENCE,
+    MARGIN,
+    MOST_STEPS,
+    PATCH,
+    REACH,
+    REACH_COST,
+    SAME,
+    SMALL_STEP2,
+    STEP,
+    Floats,
+)
+from texvent.interpolate.dis_flow.patches_cpu import compare_patch, spread_patch
+from texvent.runtime.compile_part import compile_part
+
+# As float32: Numba computes with float64 where a constant is one.
+_0 = np.float32(0.0)
+_1 = np.float32(1.0)
+_AREA = np.float32(PATCH * PATCH)
+_FARTHEST = np.float32(FARTHEST)
+_FLAT = np.float32(FLAT)
+_SAME = np.float32(SAME)
+_SMALL_STEP2 = np.float32(SMALL_STEP2)
+_REACH_COST = np.float32(REACH_COST)
+_LEAST_DIFFERENCE = np.float32(LEAST_DIFFERENCE)
+_OUTSIDE = np.float32(-PATCH)
+
+Sums = tuple[np.float32, np.float32, np.float32, np.float32]
+"""Of d, d², d·slope_x and d·slope_y over a patch."""
+Vector = tuple[np.float32, np.float32]
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def search(start: Floats, stop: Floats, flow: Floats, is_coarsest: bool) -> Floats:
+    """Flow of each patch, [rows, columns, 3]: x, y, and how well that fits."""
+    _, height, width = flow.shape
+    down, across = 1 + (height - PATCH) // STEP, 1 + (width - PATCH) // STEP
+    found = np.empty((down, across, 3), np.float32)
+    slopes = np.empty((down, across, 6), np.float32)
+    level, sought, shape = start.reshape(-1), stop.reshape(-1), start.shape[1:]
+    for row in range(down):
+        for column in range(across):
+            here = row * STEP, column * STEP
+            own = (
+                flow[0, here[0] + PATCH // 2, here[1] + PATCH // 2],
+                flow[1, here[0] + PATCH // 2, here[1] + PATCH // 2],
+            )
+            if is_coarsest:
+                own = _try_around(level, sought, shape, here)
+            _sum_slopes(level, sought, shape, here, slopes[row, column])
+            found[row, column, 0], found[row, column, 1] = own
+            _, found[row, column, 2], _, _ = _compare(level, sought, shape, here, own)
+            _ask(level, sought, shape, found, (row, column, -1))
+            _descend(level, sought, shape, own, slopes, found, (row, column))
+    for row in range(down - 1, -1, -1):
+        for column in range(across - 1, -1, -1):
+            own = found[row, column, 0], found[row, column, 1]
+            if _ask(level, sought, shape, found, (row, column, 1)):
+                _descend(level, sought, shape, own, slopes, found, (row, column))
+    return found
+
+
+@compile_part
+def _compare(
+    level: Floats, sought: Floats, shape: tuple[int, int], here: tuple[int, int], flow: Vector
+) -> Sums:
+    """The sums of `compare_patch` for a patch and its place, the second without the means'."""
+    corner, weights = _place(shape, np.float32(here[1]) + flow[0], np.float32(here[0]) + flow[1])
+    plane, place = shape[0] * shape[1], (here[0] + MARGIN) * shape[1] + here[1] + MARGIN
+    sums = compare_patch(level, sought, (plane, place, corner, shape[1]), weights)
+    return sums[0], sums[1] - sums[0] * sums[0] / _AREA, sums[2], sums[3]
+
+
+@compile_part
+def _place(shape: tuple[int, int], x: np.float32, y: np.float32) -> tuple[int, Sums]:
+    """Flat index of the pixel up left of a place, and bilinear weights of it and the others.
+
+    Nothing is sought further out than a patch.
+    """
+    x = min(max(_OUTSIDE, x), np.float32(shape[1] - 2 * MARGIN))
+    y = min(max(_OUTSIDE, y), np.float32(shape[0] - 2 * MARGIN))
+    left, top = np.floor(x), np.floor(y)
+    u, v = x - left, y - top
+    corner = (int(top) + MARGIN) * shape[1] + int(left) + MARGIN
+    return corner, ((_1 - u) * (_1 - v), u * (_1 - v), (_1 - u) * v, u * v)
+
+
+@compile_part
+def _sum_slopes(
+    level: Floats, sought: Floats, shape: tuple[int, int], here: tuple[int, int], sums: Floats
+) -> None:
+    """Fill in what steps of a patch need: slopes squared and summed (xx, xy, yy, x, y), det."""
+    plane, place = shape[0] * shape[1], (here[0] + MARGIN) * shape[1] + here[1] + MARGIN
+    nothing = _0, _0, _0, _0
+    # The difference of nothing and a slope is the slope turned around. slope_y is the patch here,
+    # and the array before it slope_x.
+    y, yy, xy, _ = compare_patch(
+        level, sought, (-plane, place + 2 * plane, place, shape[1]), nothing
+    )
+    x, xx, _, _ = compare_patch(level, sought, (0, place + plane, place, shape[1]), nothing)
+    x, y = -x, -y
+    xx = xx - x * x / _AREA + _FLAT
+    xy = -xy - x * y / _AREA
+    yy = yy - y * y / _AREA + _FLAT
+    sums[0], sums[1], sums[2], sums[3], sums[4], sums[5] = xx, xy, yy, x, y, xx * yy - xy * xy
+
+
+@compile_part
+def _try_around(
+    level: Floats, sought: Floats, shape: tuple[int, int], here: tuple[int, int]
+) -> Vector:
+    """The best of the whole pixels around."""
+    least, best = np.float32(np.inf), (_0, _0)
+    for down in range(-REACH, REACH + 1):
+        for right in range(-REACH, REACH + 1):
+            flow = np.float32(right), np.float32(down)
+            _, cost, _, _ = _compare(level, sought, shape, here, flow)
+            cost += _REACH_COST * np.float32(right * right + down * down)
+            if cost < least:
+                least, best = cost, flow
+    return best
+
+
+@compile_part
+def _ask(
+    level: Floats,
+    sought: Floats,
+    shape: tuple[int, int],
+    found: Floats,
+    patch: tuple[int, int, int],
+) -> bool:
+    """Let a patch take the flow of a neighbour, to one side and above or below, if it fits better.
+
+    Args:
+        level: the patch's, flat.
+        sought: the other picture, flat.
+        shape: of both, with margins.
+        found: of all patches.
+        patch: row and column in `found`, and which way its neighbours are, −1 or 1.
+
+    Returns:
+        Whether it has taken one.
+    """
+    row, column, way = patch
+    here, own = (row * STEP, column * STEP), found[row, column]
+    is_better = False
+    for turn in range(2):
+        i, j = (row, column + way) if turn == 0 else (row + way, column)
+        if i < 0 or j < 0 or i >= found.shape[0] or j >= found.shape[1]:
+            continue
+        u, v = found[i, j, 0], found[i, j, 1]
+        if abs(u - own[0]) + abs(v - own[1]) < _SAME:
+            continue
+        _, cost, _, _ = _compare(level, sought, shape, here, (u, v))
+        if cost < own[2]:
+            own[0], own[1], own[2] = u, v, cost
+            is_better = True
+    return is_better
+
+
+@compile_part
+def _descend(
+    level: Floats,
+    sought: Floats,
+    shape: tuple[int, int],
+    begin: Vector,
+    slopes: Floats,
+    found: Floats,
+    patch: tuple[int, int],
+) -> None:
+    """Gauss-Newton steps, as long as they make a patch fit better.
+
+    Args:
+        level: the patch's, flat.
+        sought: the other picture, flat.
+        shape: of both, with margins.
+        begin: flow from which it must not stray.
+        slopes: of `_sum_slopes`, of all patches.
+        found: of all patches.
+        patch: row and column.
+    """
+    row, column = patch
+    here, own, known = (row * STEP, column * STEP), found[row, column], slopes[row, column]
+    xx, xy, yy, x, y, determinant = known[0], known[1], known[2], known[3], known[4], known[5]
+    if not determinant > _FLAT:
+        return
+    mean, _, sum_x, sum_y = _compare(level, sought, shape, here, (own[0], own[1]))
+    for _ in range(MOST_STEPS):
+        sum_x, sum_y = sum_x - mean * x / _AREA, sum_y - mean * y / _AREA
+        du = (yy * sum_x - xy * sum_y) / determinant
+        dv = (xx * sum_y - xy * sum_x) / determinant
+        u, v = own[0] - du, own[1] - dv
+        if abs(u - begin[0]) > _FARTHEST or abs(v - begin[1]) > _FARTHEST:
+            return
+        mean, cost, sum_x, sum_y = _compare(level, sought, shape, here, (u, v))
+        if not cost < own[2]:
+            return
+        own[0], own[1], own[2] = u, v, cost
+        if du * du + dv * dv < _SMALL_STEP2:
+            return
+
+
+@numba.njit(cache=True, nogil=True, error_model="numpy")
+def join(start: Floats, stop: Floats, patches: Floats) -> Floats:
+    """Flow of each pixel, [2, H, W], from those of the patches that hold it."""
+    _, rows, columns = start.shape
+    height, width = rows - 2 * MARGIN, columns - 2 * MARGIN
+    sums = np.zeros((3, rows * columns), np.float32)
+    level, sought, target = start.reshape(-1), stop.reshape(-1), sums.reshape(-1)
+    for i in range(patches.shape[0]):
+        for j in range(patches.shape[1]):
+            u, v = patches[i, j, 0], patches[i, j, 1]
+            x, y = np.float32(j * STEP) + u, np.float32(i * STEP) + v
+            corner, weights = _place((rows, columns), x, y)
+            place = (i * STEP + MARGIN) * columns + j * STEP + MARGIN
+            flow = u, v, _LEAST_DIFFERENCE
+            layout = rows * columns, place, corner, columns
+            spread_patch(level, sought, layout, weights, target, flow)
+    # What no patch holds, at the right and below, is like its nearest pixel that one does.
+    last_row = (patches.shape[0] - 1) * STEP + PATCH - 1
+    last_column = (patches.shape[1] - 1) * STEP + PATCH - 1
+    joined = np.empty((2, height, width), np.float32)
+    for y in range(height):
+        first = (min(y, last_row) + MARGIN) * columns + MARGIN
+        weight = sums[0, first : first + width]
+        for axis in range(2):
+            total, out = sums[axis + 1, first : first + width], joined[axis, y]
+            for x in range(last_column + 1):
+                out[x] = total[x] / weight[x]
+            for x in range(last_column + 1, width):
+                out[x] = out[last_column]
+    return joined

@@ -1,0 +1,1 @@
+"""What the interpolation networks share: devices, weight files, tiles, warping."""

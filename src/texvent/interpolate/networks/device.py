@@ -1,0 +1,136 @@
+"""Where and how precisely an interpolating network runs, and what it is shown."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from texvent._require import require
+from texvent.brightness import LUMA_WEIGHTS
+from texvent.config import InterpolateConfig
+from texvent.errors import ConfigError, InputError
+from texvent.interpolate.networks.files import EXTRA, Tensor
+from texvent.video import UINT16_PER_LEVEL, Frame
+
+WHITE = 255.0
+
+
+@dataclass(frozen=True, eq=False)
+class Placement:
+    """A device and a number type."""
+
+    device: str
+    """cpu or cuda."""
+    dtype: Any
+    """torch.float32, torch.float16 or torch.bfloat16."""
+
+
+def place(config: InterpolateConfig) -> Placement:
+    """The device and number type that a configuration asks for.
+
+    Raises:
+        ConfigError: "cuda" without a GPU that torch can use.
+        MissingDependencyError: torch is not installed.
+    """
+    torch = require("torch", extra=EXTRA)
+    has_gpu = torch.cuda.is_available()
+    wanted = config.interpolator_device
+    if wanted == "cuda" and not has_gpu:
+        raise ConfigError(
+            "interpolator_device is cuda, but torch finds no GPU here; use cpu or auto"
+        )
+    device = ("cuda" if has_gpu else "cpu") if wanted == "auto" else wanted
+    return Placement(device, getattr(torch, config.interpolator_precision))
+
+
+def picture_tensors(first: Frame, second: Frame) -> tuple[Tensor, Tensor]:
+    """Both pictures of a pair as a network expects them.
+
+    Grey pictures are repeated in all three channels. A pair that is brighter than white is
+    scaled down together, so that it stays in the range the network knows.
+
+    Returns:
+        Two tensors [1, 3, H, W] float32, 0..1, on the CPU.
+    """
+    torch = require("torch", extra=EXTRA)
+    levels = [_levels(first), _levels(second)]
+    scale = np.float32(1.0 / max(WHITE, *(float(one.max()) for one in levels)))
+    earlier, later = (
+        torch.from_numpy(np.ascontiguousarray(one * scale)).expand(1, 3, -1, -1) for one in levels
+    )
+    return earlier, later
+
+
+def picture_of(picture: Tensor, device: str) -> tuple[Tensor, Tensor]:
+    """A picture that lies in a tensor: in three channels for a network, and its luma.
+
+    Args:
+        picture: [H, W] luma or [3, H, W] RGB, 0..255 scale, uint8 or float, on any device.
+        device: where both results go.
+
+    Returns:
+        [1, 3, H, W] and [1, 1, H, W], both float32, 0..255 scale.
+
+    Raises:
+        InputError: it has another shape.
+    """
+    if picture.ndim not in (2, 3) or (picture.ndim == 3 and len(picture) != 3):
+        raise InputError(f"a picture must be [H, W] or [3, H, W]; got {list(picture.shape)}")
+    levels = picture.to(device).float()
+    if levels.ndim == 2:
+        return levels.expand(1, 3, -1, -1), levels[None, None]
+    luma = levels[0] * LUMA_WEIGHTS[0]
+    luma += levels[1] * LUMA_WEIGHTS[1]
+    luma += levels[2] * LUMA_WEIGHTS[2]
+    return levels[None], luma[None, None]
+
+
+def _levels(frame: Frame) -> np.ndarray[Any, np.dtype[np.float32]]:
+    """[1 or 3, H, W] float32, 0..255 scale."""
+    pixels = np.asarray(frame.pixels, dtype=np.float32)
+    if frame.pixels.dtype == np.uint16:
+        pixels = pixels / np.float32(UINT16_PER_LEVEL)
+    return pixels[None] if pixels.ndim == 2 else np.moveaxis(pixels, 2, 0)
+
+
+def luma_tensor(frame: Frame, device: str) -> Tensor:
+    """Luma of a frame, [1, 1, H, W] float32, 0..255 scale, on the device."""
+    torch = require("torch", extra=EXTRA)
+    luma = np.array(frame.luma, dtype=np.float32)
+    return torch.from_numpy(luma)[None, None].to(device)
+
+
+def pad_to_multiple(picture: Tensor, multiple: int) -> Tensor:
+    """The picture with its right and lower edges repeated up to a multiple of a number of px."""
+    torch = require("torch", extra=EXTRA)
+    height, width = picture.shape[-2:]
+    below, right = -height % multiple, -width % multiple
+    return torch.nn.functional.pad(picture, (0, right, 0, below), mode="replicate")
+
+
+@contextmanager
+def explain_failures(device: str, *, is_compiled: bool = False) -> Iterator[None]:
+    """Turn the failures of torch that a user can do something about into one line.
+
+    Raises:
+        InputError: the pictures do not fit into the device's memory.
+        ConfigError: torch.compile does not work here.
+    """
+    try:
+        yield
+    except RuntimeError as error:
+        if "memory" in str(error):
+            raise InputError(
+                f"a pair of frames does not fit into the memory of device {device}; "
+                "set --interpolator-tile 512 (or less), or choose a smaller --sensor"
+            ) from error
+        if is_compiled and type(error).__module__.startswith(("torch._dynamo", "torch._inductor")):
+            reason = str(error).strip().splitlines()[0][:120]
+            raise ConfigError(
+                f"torch.compile does not work here ({reason}); leave out --interpolator-compile"
+            ) from error
+        raise

@@ -1,0 +1,1 @@
+"""RIFE: intermediate frames by a published network."""

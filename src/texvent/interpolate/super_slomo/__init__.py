@@ -1,0 +1,1 @@
+"""Super SloMo: intermediate frames by a published network."""

@@ -1,0 +1,1 @@
+"""iniVation formats: AEDAT 2, 3.1 and 4."""

@@ -1,0 +1,189 @@
+"""AEDAT2, jAER's format: text lines that start with `#`, then 8 bytes per event, big-endian.
+
+    record   u32 address · u32 time, µs; the address layouts are in `aedat2_layouts`
+
+Times stay below 2^31 µs (35.8 min): most readers take them as signed. texvent names the layout
+in the header (`# Layout: davis346`); a file of another program that names no layout is read only
+with the layout's format given, because a wrong one gives wrong events without any error.
+
+Traps:
+    The only line with a time is `# Creation time: System.currentTimeMillis() 0`: other wordings
+    crash readers. It is 0, so that the same events give the same file.
+    A first record that begins with the byte of `#` (DAVIS346, y 116 to 119) would be taken for
+    text; then a record of an external signal (no pixel's) of the same time precedes it.
+    SpikingJelly and tonic do not know such records and see one OFF event more.
+
+Source: iniVation, AEDAT 2.0 file format.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack
+from functools import partial
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+
+from texvent.errors import FileFormatError, InputError
+from texvent.events import EventPackets
+from texvent.io.aedat.aedat2_layouts import (
+    CIFAR10_DVS,
+    DAVIS346,
+    DVS128,
+    LAYOUTS,
+    SPECIAL,
+    AddressLayout,
+)
+from texvent.io.aedat.header import (
+    AEDAT2_END,
+    AEDAT2_MAGIC,
+    AedatHeader,
+    make_aedat_header,
+    read_aedat_header,
+)
+from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget, read_records
+from texvent.io.columns import existing_file, stored_or_given_size
+from texvent.io.limits import FormatLimits
+from texvent.io.magic import begins_with
+from texvent.sensor import SensorSize
+
+RECORD = np.dtype([("address", ">u4"), ("t", ">u4")])
+STOP_US = 1 << 31
+COMMENTS = (
+    "# This is a raw AE data file - do not edit",
+    "# Data format is int32 address, int32 timestamp (8 bytes total), repeated for each event",
+    "# Timestamps tick is 1 us",
+    "# Creation time: System.currentTimeMillis() 0",
+)
+
+
+class Aedat2Codec:
+    """AEDAT2 whose layout follows from the header on reading and from the sensor on writing."""
+
+    name: ClassVar[str] = "aedat2"
+    extensions: ClassVar[tuple[str, ...]] = (".aedat",)
+    layout: ClassVar[AddressLayout | None] = None
+    limits: ClassVar[FormatLimits] = FormatLimits("AEDAT2", 346, STOP_US)
+
+    def recognises(self, path: Path) -> bool:
+        """True if the file begins as AEDAT2 does."""
+        return begins_with(path, AEDAT2_MAGIC.encode())
+
+    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
+        """Events of a file, block by block.
+
+        Raises:
+            InputError: no such file, or the layout is neither named in it nor given.
+            FileFormatError: the file is damaged or of another format.
+        """
+        path = existing_file(path)
+        header = read_aedat_header(path, AEDAT2_MAGIC, AEDAT2_END)
+        layout = self.layout or _named_layout(path, header)
+        final_size = stored_or_given_size(path, layout.size, size)
+        metadata = header.metadata(path)
+        blocks = partial(_read_blocks, path, header.length, layout)
+        return EventPackets(BlockPackets(path, blocks, final_size, metadata), final_size, metadata)
+
+    def open_writer(
+        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
+    ) -> BlockWriter:
+        """Start a file; see `EventCodec.open_writer`."""
+        layout = self.layout or _layout_for(path, size)
+        if size != layout.size:
+            raise InputError(
+                f"cannot write {path}: {self.name} holds sensors of {layout.size}, not {size}; "
+                "aedat3 (.aedat), aedat4 (.aedat4) and hdf5 (.h5) hold it"
+            )
+        lines = (AEDAT2_MAGIC, *COMMENTS, f"# Layout: {layout.name}")
+        header = make_aedat_header(lines, metadata, AEDAT2_END)
+        target = FileTarget(path, size, metadata, overwrite)
+        return BlockWriter(
+            target, partial(Aedat2Sink, header=header, layout=layout), limits=self.limits
+        )
+
+
+class Davis346Codec(Aedat2Codec):
+    """AEDAT2 of a DAVIS346."""
+
+    name: ClassVar[str] = "aedat2-davis346"
+    extensions: ClassVar[tuple[str, ...]] = ()
+    layout: ClassVar[AddressLayout | None] = DAVIS346
+
+
+class Dvs128Codec(Aedat2Codec):
+    """AEDAT2 of a DVS128, as tonic reads it."""
+
+    name: ClassVar[str] = "aedat2-dvs128"
+    extensions: ClassVar[tuple[str, ...]] = ()
+    layout: ClassVar[AddressLayout | None] = DVS128
+
+
+class Cifar10DvsCodec(Aedat2Codec):
+    """AEDAT2 of a DVS128, as CIFAR10-DVS stores it."""
+
+    name: ClassVar[str] = "cifar10-dvs"
+    extensions: ClassVar[tuple[str, ...]] = ()
+    layout: ClassVar[AddressLayout | None] = CIFAR10_DVS
+
+
+class Aedat2Sink:
+    """Writes the header and records."""
+
+    def __init__(
+        self, part: Path, stack: ExitStack, *, header: bytes, layout: AddressLayout
+    ) -> None:
+        self._file = stack.enter_context(part.open("wb"))
+        self._file.write(header)
+        self._layout = layout
+        self._is_first = True
+
+    def write(self, columns: Columns) -> None:
+        """Add events."""
+        records = np.empty(len(columns["t"]), dtype=RECORD)
+        records["address"] = self._layout.encode(columns)
+        records["t"] = columns["t"]
+        if self._is_first and records[0].tobytes().startswith(b"#"):
+            self._file.write(np.array([(SPECIAL, records["t"][0])], dtype=RECORD).tobytes())
+        self._is_first = False
+        self._file.write(records.tobytes())
+
+    def finish(self) -> None:
+        """Nothing follows the last record."""
+
+
+def _layout_for(path: Path, size: SensorSize) -> AddressLayout:
+    for layout in (DAVIS346, DVS128):
+        if layout.size == size:
+            return layout
+    raise InputError(
+        f"cannot write {path}: AEDAT2 holds sensors of {DAVIS346.size} and {DVS128.size}, not "
+        f"{size}; aedat3 (.aedat), aedat4 (.aedat4) and hdf5 (.h5) hold it"
+    )
+
+
+def _named_layout(path: Path, header: AedatHeader) -> AddressLayout:
+    name = header.value("Layout")
+    if name is None and "davis346" in (header.value("AEChip") or "").lower():
+        name = DAVIS346.name
+    if name is None:
+        raise InputError(
+            f"{path} is AEDAT2 but does not say how its addresses are laid out; state the format: "
+            f"--format {Davis346Codec.name}, {Dvs128Codec.name} or {Cifar10DvsCodec.name}"
+        )
+    if name not in LAYOUTS:
+        raise FileFormatError(f"{path}: its header names an unknown layout {name[:40]!r}")
+    return LAYOUTS[name]
+
+
+def _read_blocks(path: Path, start: int, layout: AddressLayout) -> Iterator[Columns]:
+    for block in read_records(path, start, RECORD.itemsize):
+        records = np.frombuffer(block, dtype=RECORD)
+        address = records["address"].astype(np.uint32)
+        t = records["t"].astype(np.int64)
+        if layout.not_events:
+            is_event = (address & np.uint32(layout.not_events)) == 0
+            if not is_event.all():
+                address, t = address[is_event], t[is_event]
+        yield {**layout.decode(address), "t": t}

@@ -1,0 +1,185 @@
+"""AEDAT3.1, cAER's format: text lines, then packets of events, little-endian. DVS128Gesture's.
+
+    packet   i16 type 1 · i16 source · i32 event size 8 · i32 time offset 4 · i32 time turns ·
+             i32 capacity · i32 events · i32 valid events
+    event    u32: 31..17 x · 16..2 y · 1 polarity · 0 valid · u32 time, µs, 31 bits
+
+Coordinates below 32768. The time counter turns after 2^31 µs; `time turns` of the packet counts
+this, so long recordings are whole, though many readers look at the 31 bits only. The sensor's
+size is written as `#Size: WIDTHxHEIGHT`; in files of other programs it follows from the camera
+named in `#Source 1: DVS128`, or is asked for. Packets of other types (frames, IMU samples,
+triggers) and events marked invalid are read over.
+
+Traps: capacity is the number of events, because some readers take it for that.
+
+Source: iniVation, AEDAT 3.1 file format.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import struct
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack
+from functools import partial
+from pathlib import Path
+from typing import Any, BinaryIO, ClassVar
+
+import numpy as np
+
+from texvent.errors import FileFormatError
+from texvent.events import EventPackets
+from texvent.io.aedat.header import (
+    AEDAT3_END,
+    AEDAT3_MAGIC,
+    AedatHeader,
+    make_aedat_header,
+    read_aedat_header,
+)
+from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
+from texvent.io.columns import existing_file, stored_or_given_size
+from texvent.io.limits import FormatLimits
+from texvent.io.magic import begins_with
+from texvent.sensor import SENSORS, SensorSize
+
+EVENT = np.dtype([("place", "<u4"), ("t", "<u4")])
+PACKET_EVENTS = 8192
+POLARITY_TYPE = 1
+TIME_BITS = 31
+TIME_MASK = (1 << TIME_BITS) - 1
+MAX_EVENTS = 1 << 24
+"""More events than this in a packet are damage: cAER's packets hold thousands."""
+CAMERAS = {"DVS128": "dvs128", "DAVIS240C": "davis240c", "DAVIS346": "davis346"}
+"""Names of cameras in `#Source` lines → sensors."""
+_HEAD = struct.Struct("<2h6i")
+
+
+class Aedat3Codec:
+    """AEDAT3.1."""
+
+    name: ClassVar[str] = "aedat3"
+    extensions: ClassVar[tuple[str, ...]] = (".aedat",)
+    limits: ClassVar[FormatLimits] = FormatLimits("AEDAT3.1", 1 << 15, 1 << 62)
+
+    def recognises(self, path: Path) -> bool:
+        """True if the file begins as AEDAT3.1 does."""
+        return begins_with(path, AEDAT3_MAGIC.encode())
+
+    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
+        """Events of a file, packet by packet.
+
+        Raises:
+            InputError: no such file, or it stores no sensor size and none is given.
+            FileFormatError: the file is damaged or of another format.
+        """
+        path = existing_file(path)
+        header = read_aedat_header(path, AEDAT3_MAGIC, AEDAT3_END)
+        if header.lines[-1] != AEDAT3_END:
+            raise FileFormatError(f"{path}: its header does not end with {AEDAT3_END}")
+        final_size = stored_or_given_size(path, _stored_size(path, header), size)
+        metadata = header.metadata(path)
+        blocks = partial(_read_blocks, path, header.length)
+        return EventPackets(BlockPackets(path, blocks, final_size, metadata), final_size, metadata)
+
+    def open_writer(
+        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
+    ) -> BlockWriter:
+        """Start a file; see `EventCodec.open_writer`."""
+        sizes = {SENSORS[sensor].size: camera for camera, sensor in CAMERAS.items()}
+        lines = (
+            AEDAT3_MAGIC,
+            "#Format: RAW",
+            f"#Source 1: {sizes.get(size, 'texvent')}",
+            "#Start-Time: 1970-01-01 00:00:00 (TZ+0000)",
+            f"#Size: {size}",
+        )
+        header = make_aedat_header(lines, metadata, AEDAT3_END)
+        target = FileTarget(path, size, metadata, overwrite)
+        return BlockWriter(target, partial(Aedat3Sink, header=header), limits=self.limits)
+
+
+class Aedat3Sink:
+    """Writes packets of at most 8192 events, none across a turn of the time counter."""
+
+    def __init__(self, part: Path, stack: ExitStack, *, header: bytes) -> None:
+        self._file = stack.enter_context(part.open("wb"))
+        self._file.write(header)
+
+    def write(self, columns: Columns) -> None:
+        """Add events."""
+        events = np.empty(len(columns["t"]), dtype=EVENT)
+        x, y, p = (columns[name].astype(np.uint32) for name in "xyp")
+        events["place"] = x << 17 | y << 2 | p << 1 | 1
+        events["t"] = columns["t"] & TIME_MASK
+        turns = columns["t"] >> TIME_BITS
+        start = 0
+        while start < len(events):
+            turn = int(turns[start])
+            same = int(np.searchsorted(turns, turn, side="right"))
+            stop = min(start + PACKET_EVENTS, same)
+            count = stop - start
+            self._file.write(
+                _HEAD.pack(POLARITY_TYPE, 1, EVENT.itemsize, 4, turn, count, count, count)
+            )
+            self._file.write(events[start:stop].tobytes())
+            start = stop
+
+    def finish(self) -> None:
+        """Nothing follows the last packet."""
+
+
+def _stored_size(path: Path, header: AedatHeader) -> tuple[int, int] | None:
+    text = header.value("Size")
+    if text is not None:
+        match = re.fullmatch(r"(\d{1,9})x(\d{1,9})", text)
+        if match is None:
+            raise FileFormatError(f"{path}: its header states a size of {text[:40]!r}")
+        return int(match[1]), int(match[2])
+    sensor = CAMERAS.get((header.value("Source 1") or "").upper())
+    if sensor is None:
+        return None
+    size = SENSORS[sensor].size
+    return size.width, size.height
+
+
+def _read_blocks(path: Path, start: int) -> Iterator[Columns]:
+    with path.open("rb") as file:
+        left = os.fstat(file.fileno()).st_size - start
+        file.seek(start)
+        while left > 0:
+            head = _read_head(file, path, left)
+            kind, _, event_bytes, time_offset, turns, _, count, _ = head
+            left -= _HEAD.size + event_bytes * count
+            if kind != POLARITY_TYPE:
+                file.seek(event_bytes * count, os.SEEK_CUR)
+                continue
+            if (event_bytes, time_offset) != (EVENT.itemsize, 4) or turns < 0:
+                raise FileFormatError(
+                    f"{path} holds a packet of events of {event_bytes} bytes, not 8; it is damaged"
+                )
+            events = np.frombuffer(file.read(event_bytes * count), dtype=EVENT)
+            events = events[(events["place"] & 1) == 1]
+            place = events["place"]
+            yield {
+                "x": (place >> 17).astype(np.uint16),
+                "y": (place >> 2 & 0x7FFF).astype(np.uint16),
+                "t": (events["t"].astype(np.int64) & TIME_MASK) + (turns << TIME_BITS),
+                "p": (place >> 1 & 1).astype(np.uint8),
+            }
+
+
+def _read_head(file: BinaryIO, path: Path, left: int) -> tuple[int, ...]:
+    """The numbers at the beginning of a packet that fits into the `left` bytes."""
+    data = file.read(_HEAD.size)
+    if len(data) < _HEAD.size:
+        raise FileFormatError(f"{path} ends inside a packet; the file was cut off")
+    head: tuple[int, ...] = _HEAD.unpack(data)
+    _, _, event_bytes, _, _, capacity, count, _ = head
+    if event_bytes <= 0 or not 0 <= count <= min(capacity, MAX_EVENTS):
+        raise FileFormatError(
+            f"{path} holds a packet of {count} events of {event_bytes} bytes; it is damaged"
+        )
+    if event_bytes * count > left - _HEAD.size:
+        raise FileFormatError(f"{path} ends inside a packet; the file was cut off")
+    return head

@@ -1,0 +1,199 @@
+"""The three tables of AEDAT4, as NumPy records: file header, events of a packet, list of packets.
+
+    IOHE  slot 0 i32 compression · slot 1 i64 position of the list (-1: none) · slot 2 text, XML
+    EVTS  slot 0 vector of events: i8 t (µs), i2 x, i2 y, u1 p, 3 bytes padding
+    FTAB  slot 0 vector of tables: i64 position after the packet's head, {i32 stream, i32 bytes},
+          i64 events, i64 first time, i64 last time
+
+Every table is written with fixed positions, so that the place of the list can be filled in at
+the end without changing the header's length.
+
+Source: iniVation, AEDAT 4.0 file format; FlatBuffers, "FlatBuffer Internals".
+"""
+
+from __future__ import annotations
+
+import struct
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.errors import FileFormatError
+from texvent.io.aedat.flatbuffer import Table
+
+EVENT = np.dtype(
+    {
+        "names": ["t", "x", "y", "p"],
+        "formats": ["<i8", "<i2", "<i2", "u1"],
+        "offsets": [0, 8, 10, 12],
+        "itemsize": 16,
+    }
+)
+EVENTS_START = 32
+"""Events lie here in a packet: a multiple of 8, as FlatBuffers demands for i8."""
+UNKNOWN = -1
+"""Position of the list while there is none."""
+
+_ENTRY = np.dtype(
+    {
+        "names": ["vtable", "position", "stream", "bytes", "count", "first", "last"],
+        "formats": ["<i4", "<i8", "<i4", "<i4", "<i8", "<i8", "<i8"],
+        "offsets": [0, 4, 12, 16, 20, 28, 36],
+        "itemsize": 48,
+    }
+)
+_ENTRY_VTABLE = struct.pack("<7H", 14, 44, 4, 12, 20, 28, 36)
+
+
+@dataclass(frozen=True)
+class PacketEntry:
+    """One line of the list of packets."""
+
+    position: int
+    """First byte after the packet's head, in the file."""
+    bytes: int
+    """Length of the packet without its head."""
+    count: int
+    """Number of events."""
+    first_us: int
+    last_us: int
+
+
+@dataclass(frozen=True)
+class StreamInfo:
+    """What the header says about one stream."""
+
+    number: int
+    identifier: str
+    """Type: EVTS for events, FRME for frames, IMUS, TRIG."""
+    attributes: Mapping[str, str]
+    """`sizeX`, `sizeY`, `source` and others."""
+
+
+def make_header(compression: int, list_position: int, xml: bytes) -> bytes:
+    """The file header, size-prefixed; its length depends on the XML only."""
+    text = struct.pack("<I", len(xml)) + xml + b"\0"
+    text += bytes(-len(text) % 8)
+    vtable = struct.pack("<5H", 10, 20, 12, 4, 16)
+    table = struct.pack("<iqiI", 16, list_position, compression, 4)
+    body = struct.pack("<I4s", 24, b"IOHE") + vtable + bytes(6) + table + text
+    return struct.pack("<I", len(body)) + body
+
+
+def make_events(columns: Mapping[str, NDArray[Any]]) -> bytes:
+    """The events of a packet, size-prefixed."""
+    count = len(columns["t"])
+    events = np.zeros(count, dtype=EVENT)
+    for name in "txyp":
+        events[name] = columns[name]
+    return _vector_head(b"EVTS", count, count * EVENT.itemsize) + events.tobytes()
+
+
+def make_list(entries: Sequence[PacketEntry], stream: int) -> bytes:
+    """The list of packets, size-prefixed."""
+    count = len(entries)
+    offsets_end = EVENTS_START + 4 * count
+    vtable_at = offsets_end + offsets_end % 4
+    start = vtable_at + len(_ENTRY_VTABLE)
+    # Numbers of 8 bytes follow 4 bytes after the start of each entry.
+    start += (4 - start) % 8
+    table = np.zeros(count, dtype=_ENTRY)
+    places = start + _ENTRY.itemsize * np.arange(count, dtype=np.int64)
+    table["vtable"] = places - vtable_at
+    table["stream"] = stream
+    for name, field in (
+        ("position", "position"),
+        ("bytes", "bytes"),
+        ("count", "count"),
+        ("first", "first_us"),
+        ("last", "last_us"),
+    ):
+        table[name] = [getattr(entry, field) for entry in entries]
+    offsets = (places - (EVENTS_START + 4 * np.arange(count))).astype("<u4").tobytes()
+    gap = bytes(start - vtable_at - len(_ENTRY_VTABLE))
+    rest = offsets + bytes(vtable_at - offsets_end) + _ENTRY_VTABLE + gap + table.tobytes()
+    return _vector_head(b"FTAB", count, len(rest)) + rest
+
+
+def read_events(data: bytes | memoryview) -> NDArray[Any]:
+    """Events of an uncompressed packet, as records of type `EVENT`.
+
+    Raises:
+        FileFormatError: the packet is damaged.
+    """
+    start, count = Table.root(data, b"EVTS").vector(0)
+    if start + count * EVENT.itemsize > len(data):
+        raise FileFormatError(f"a packet states {count} events, more than it holds")
+    return np.frombuffer(data, dtype=EVENT, count=count, offset=start)
+
+
+def make_info(size: tuple[int, int], compression: str, metadata_json: str) -> bytes:
+    """The header's XML: one stream of events."""
+    root = ElementTree.Element("dv", version="2.0")
+    streams = _add_node(root, "outInfo", "/mainloop/Recorder/outInfo/")
+    stream = _add_node(streams, "0", "/mainloop/Recorder/outInfo/0/")
+    for key, value in (
+        ("compression", compression),
+        ("originalModuleName", "texvent"),
+        ("originalOutputName", "events"),
+        ("typeDescription", "Array of events (polarity ON/OFF)."),
+        ("typeIdentifier", "EVTS"),
+    ):
+        _add_attribute(stream, key, "string", value)
+    info = _add_node(stream, "info", "/mainloop/Recorder/outInfo/0/info/")
+    _add_attribute(info, "sizeX", "int", str(size[0]))
+    _add_attribute(info, "sizeY", "int", str(size[1]))
+    _add_attribute(info, "source", "string", "texvent")
+    _add_attribute(info, "texvent", "string", metadata_json)
+    xml: bytes = ElementTree.tostring(root, encoding="us-ascii")
+    return xml
+
+
+def read_info(path: Path, xml: bytes) -> list[StreamInfo]:
+    """The streams that a header names.
+
+    Raises:
+        FileFormatError: the XML is damaged, or defines entities (which can grow without bound).
+    """
+    if b"<!" in xml:
+        raise FileFormatError(f"{path}: its header is XML with declarations, which is refused")
+    try:
+        root = ElementTree.fromstring(xml)
+    except (ElementTree.ParseError, ValueError, LookupError) as error:
+        raise FileFormatError(f"{path}: its header is damaged XML ({error})") from error
+    streams = []
+    for node in root.findall("./node[@name='outInfo']/node"):
+        attributes = _attributes(node)
+        info = node.find("./node[@name='info']")
+        number = node.get("name", "")
+        if not number.isdecimal() or len(number) > 9:
+            raise FileFormatError(f"{path}: its header names a stream {number[:20]!r}")
+        inner = {} if info is None else _attributes(info)
+        streams.append(
+            StreamInfo(int(number), attributes.get("typeIdentifier", ""), {**attributes, **inner})
+        )
+    return streams
+
+
+def _vector_head(identifier: bytes, count: int, rest: int) -> bytes:
+    """A root table with one vector, up to the vector's first element at `EVENTS_START`."""
+    return struct.pack(
+        "<II4s3HHiII", EVENTS_START - 4 + rest, 16, identifier, 6, 8, 4, 0, 8, 4, count
+    )
+
+
+def _add_node(parent: ElementTree.Element, name: str, path: str) -> ElementTree.Element:
+    return ElementTree.SubElement(parent, "node", name=name, path=path)
+
+
+def _add_attribute(parent: ElementTree.Element, key: str, kind: str, value: str) -> None:
+    ElementTree.SubElement(parent, "attr", key=key, type=kind).text = value
+
+
+def _attributes(node: ElementTree.Element) -> dict[str, str]:
+    return {one.get("key", ""): one.text or "" for one in node.findall("attr")}

@@ -1,0 +1,1 @@
+"""Array formats: npz, Parquet, and folders of arrays."""

@@ -1,0 +1,130 @@
+"""ESIM's folders: `0000000000.npz`, `0000000001.npz` …, arrays x, y, t (ns), p (-1 or +1).
+
+texvent adds `texvent.json` with size and metadata; ESIM's folders have none, so the size is asked
+for. Times that are no whole µs are rounded down. Files of 262,144 events keep memory flat.
+
+Trap: tools that expect µs read these times 1000 times too long.
+
+Source: Gehrig et al., Video to Events, CVPR 2020 (rpg_vid2e), and its files.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack
+from functools import partial
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+
+from texvent.errors import FileFormatError
+from texvent.events import EventPackets
+from texvent.io.arrays.npz import read_arrays
+from texvent.io.atomic import atomic_folder, check_output_folder
+from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
+from texvent.io.columns import existing_folder, stored_or_given_size
+from texvent.io.limits import FormatLimits
+from texvent.io.sidecar import parse_sidecar, sidecar_text
+from texvent.sensor import SensorSize
+
+FACTS = "texvent.json"
+NS = 1000
+"""Nanoseconds per µs."""
+
+
+class EsimCodec:
+    """Folders of numbered npz files."""
+
+    name: ClassVar[str] = "esim"
+    extensions: ClassVar[tuple[str, ...]] = ()
+    limits: ClassVar[FormatLimits] = FormatLimits("ESIM npz", 1 << 16, (1 << 63) // NS)
+
+    def recognises(self, path: Path) -> bool:
+        """True if it is a folder of npz files with ten-digit names, or of none but texvent's."""
+        return path.is_dir() and bool(_numbered(path) or _is_empty_recording(path))
+
+    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
+        """Events of a folder, file by file.
+
+        Raises:
+            InputError: no such folder, or it stores no sensor size and none is given.
+            FileFormatError: a file is damaged, or there is none.
+        """
+        path = existing_folder(path)
+        facts = path / FACTS
+        stored: tuple[int, int] | None = None
+        metadata: dict[str, Any] = {}
+        if facts.is_file():
+            stored, metadata = parse_sidecar(facts, facts.read_bytes())
+        elif not _numbered(path):
+            raise FileFormatError(f"{path} holds no files 0000000000.npz, 0000000001.npz …")
+        final_size = stored_or_given_size(path, stored, size)
+        blocks = partial(_read_blocks, path)
+        return EventPackets(BlockPackets(path, blocks, final_size, metadata), final_size, metadata)
+
+    def open_writer(
+        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
+    ) -> BlockWriter:
+        """Start a folder; see `EventCodec.open_writer`."""
+        check_output_folder(path, overwrite=overwrite, is_own=_is_own)
+        target = FileTarget(path, size, metadata, overwrite)
+        return BlockWriter(
+            target,
+            partial(EsimSink, target=target),
+            limits=self.limits,
+            place=partial(atomic_folder, is_own=_is_own),
+        )
+
+
+class EsimSink:
+    """Writes one file per block."""
+
+    def __init__(self, part: Path, stack: ExitStack, *, target: FileTarget) -> None:
+        self._folder = part
+        self._count = 0
+        (part / FACTS).write_text(sidecar_text(target.size, target.metadata), encoding="utf-8")
+
+    def write(self, columns: Columns) -> None:
+        """Add events."""
+        with (self._folder / f"{self._count:010d}.npz").open("wb") as file:
+            np.savez(
+                file,
+                x=columns["x"],
+                y=columns["y"],
+                t=columns["t"] * NS,
+                p=columns["p"].astype(np.int8) * 2 - 1,
+            )
+        self._count += 1
+
+    def finish(self) -> None:
+        """Nothing follows the last file."""
+
+
+def _numbered(path: Path) -> list[Path]:
+    try:
+        files = [one for one in path.iterdir() if re.fullmatch(r"\d{10}\.npz", one.name)]
+    except OSError:
+        return []
+    return sorted(files)
+
+
+def _is_own(path: Path) -> bool:
+    return path.name == FACTS or re.fullmatch(r"\d{10}\.npz", path.name) is not None
+
+
+def _is_empty_recording(path: Path) -> bool:
+    return [one.name for one in path.iterdir()] == [FACTS]
+
+
+def _read_blocks(path: Path) -> Iterator[Columns]:
+    for file in _numbered(path):
+        arrays = read_arrays(file)
+        missing = [name for name in "xytp" if name not in arrays]
+        if missing:
+            raise FileFormatError(f"{file} has no array {missing[0]!r}")
+        t = arrays["t"]
+        if t.dtype.kind not in "iu":
+            raise FileFormatError(f"{file}: t holds {t.dtype}; ESIM writes whole nanoseconds")
+        yield {**{name: arrays[name] for name in "xyp"}, "t": t.astype(np.int64) // NS}

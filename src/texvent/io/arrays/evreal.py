@@ -1,0 +1,180 @@
+"""EVREAL's folders of memory-mapped arrays.
+
+    events_ts.npy  f8 [n], seconds   events_xy.npy  u2 [n, 2]   events_p.npy  bool [n]
+    metadata.json  {"sensor_resolution": [height, width], "texvent": all metadata}
+
+Seconds in f8 keep every µs for 71 years, so times stay below 2^51 µs. Pictures and their times
+(images.npy, images_ts.npy, image_event_indices.npy), which the format may hold too, are neither
+read nor written; a folder that has them is never replaced.
+
+Source: Ercan et al., EVREAL: Towards a Comprehensive Benchmark and Analysis Suite for
+Event-based Video Reconstruction, CVPRW 2023, and its reader.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack
+from functools import partial
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.errors import FileFormatError
+from texvent.events import EventPackets
+from texvent.io.arrays.npy_file import NpyFile, map_array
+from texvent.io.atomic import atomic_folder, check_output_folder
+from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
+from texvent.io.columns import (
+    existing_folder,
+    metadata_from_json,
+    metadata_to_json,
+    stored_or_given_size,
+)
+from texvent.io.limits import FormatLimits
+from texvent.sensor import SensorSize
+
+TIMES, PLACES, POLARITIES = "events_ts.npy", "events_xy.npy", "events_p.npy"
+FACTS = "metadata.json"
+OWN = (TIMES, PLACES, POLARITIES, FACTS)
+STOP_US = 1 << 51
+MICROSECONDS = 1_000_000
+PACKET_EVENTS = 2**18
+
+
+class EvrealCodec:
+    """Folders that EVREAL reads."""
+
+    name: ClassVar[str] = "evreal"
+    extensions: ClassVar[tuple[str, ...]] = ()
+    limits: ClassVar[FormatLimits] = FormatLimits("EVREAL", 1 << 16, STOP_US)
+
+    def recognises(self, path: Path) -> bool:
+        """True if it is a folder with the three arrays."""
+        return all((path / name).is_file() for name in (TIMES, PLACES, POLARITIES))
+
+    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
+        """Events of a folder, a quarter of a million at a time.
+
+        Raises:
+            InputError: no such folder, or it stores no sensor size and none is given.
+            FileFormatError: a file is missing or damaged.
+        """
+        path = existing_folder(path)
+        _map_arrays(path)
+        stored, metadata = _read_facts(path)
+        final_size = stored_or_given_size(path, stored, size)
+        blocks = partial(_read_blocks, path)
+        return EventPackets(BlockPackets(path, blocks, final_size, metadata), final_size, metadata)
+
+    def open_writer(
+        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
+    ) -> BlockWriter:
+        """Start a folder; see `EventCodec.open_writer`."""
+        check_output_folder(path, overwrite=overwrite, is_own=_is_own)
+        target = FileTarget(path, size, metadata, overwrite)
+        return BlockWriter(
+            target,
+            partial(EvrealSink, target=target),
+            limits=self.limits,
+            place=partial(atomic_folder, is_own=_is_own),
+        )
+
+
+class EvrealSink:
+    """Writes the three arrays side by side."""
+
+    def __init__(self, part: Path, stack: ExitStack, *, target: FileTarget) -> None:
+        facts = {
+            "sensor_resolution": [target.size.height, target.size.width],
+            "texvent": json.loads(metadata_to_json(target.metadata)),
+        }
+        (part / FACTS).write_text(json.dumps(facts) + "\n", encoding="utf-8")
+        self._times = NpyFile(part / TIMES, stack, dtype="<f8")
+        self._places = NpyFile(part / PLACES, stack, dtype="<u2", columns=2)
+        self._polarities = NpyFile(part / POLARITIES, stack, dtype="?")
+
+    def write(self, columns: Columns) -> None:
+        """Add events."""
+        self._times.append(columns["t"] / MICROSECONDS)
+        self._places.append(np.stack([columns["x"], columns["y"]], axis=1))
+        self._polarities.append(columns["p"].astype(bool))
+
+    def finish(self) -> None:
+        """Write the lengths."""
+        for file in (self._times, self._places, self._polarities):
+            file.finish()
+
+
+def _is_own(path: Path) -> bool:
+    return path.name in OWN
+
+
+def _read_facts(path: Path) -> tuple[tuple[int, int] | None, dict[str, Any]]:
+    facts = path / FACTS
+    if not facts.is_file():
+        return None, {}
+    values = metadata_from_json(facts, facts.read_bytes())
+    metadata = values.get("texvent")
+    sides = values.get("sensor_resolution")
+    stored = None
+    if sides is not None:
+        if not (isinstance(sides, list) and len(sides) == 2 and all(map(_is_whole, sides))):
+            raise FileFormatError(f"{facts} states a sensor_resolution of {sides!r}")
+        stored = sides[1], sides[0]
+    return stored, metadata if isinstance(metadata, dict) else {}
+
+
+def _is_whole(value: Any) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool)
+
+
+def _map_arrays(path: Path) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
+    """Times [n], places [n, 2] and polarities [n]."""
+    missing = [name for name in (TIMES, PLACES, POLARITIES) if not (path / name).is_file()]
+    if missing:
+        raise FileFormatError(f"{path} has no {missing[0]}; EVREAL's folders have one")
+    times = map_array(path / TIMES)
+    places, polarities = map_array(path / PLACES), map_array(path / POLARITIES)
+    if times.ndim == 2 and times.shape[1] == 1:
+        times, polarities = times[:, 0], polarities.reshape(-1)
+    count = times.shape[0] if times.ndim == 1 else -1
+    if places.shape != (count, 2) or polarities.shape != (count,):
+        raise FileFormatError(
+            f"{path}: its arrays have shapes {times.shape}, {places.shape}, {polarities.shape}; "
+            "they must be [n], [n, 2] and [n]"
+        )
+    if times.dtype.kind not in "fiu" or places.dtype.kind not in "fiu":
+        raise FileFormatError(f"{path}: its arrays hold {times.dtype} and {places.dtype}")
+    if polarities.dtype.kind not in "biuf":
+        raise FileFormatError(f"{path}: its polarities are {polarities.dtype}")
+    return times, places, polarities
+
+
+def _read_blocks(path: Path) -> Iterator[Columns]:
+    times, places, polarities = _map_arrays(path)
+    for start in range(0, len(times), PACKET_EVENTS):
+        part = slice(start, start + PACKET_EVENTS)
+        seconds = np.asarray(times[part], dtype=np.float64)
+        if not (np.abs(seconds) < STOP_US / MICROSECONDS).all():
+            raise FileFormatError(f"{path / TIMES} holds times that are not seconds")
+        xy = _whole(places[part], path / PLACES)
+        yield {
+            "x": xy[:, 0],
+            "y": xy[:, 1],
+            "t": np.rint(seconds * MICROSECONDS).astype(np.int64),
+            "p": _whole(polarities[part], path / POLARITIES),
+        }
+
+
+def _whole(values: NDArray[Any], path: Path) -> NDArray[np.int64]:
+    """Integers, of any type they are stored as."""
+    if values.dtype.kind == "f" and not (np.abs(values) < 2**31).all():
+        raise FileFormatError(f"{path} holds values that are no pixels or polarities")
+    whole = np.asarray(values).astype(np.int64)
+    if (whole != values).any():
+        raise FileFormatError(f"{path} holds fractions; texvent reads whole pixels and polarities")
+    return whole

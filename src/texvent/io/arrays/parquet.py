@@ -1,0 +1,136 @@
+"""Parquet: columns t int64 (µs), x uint16, y uint16, p uint8, compressed with zstd.
+
+The schema's metadata holds width, height and texvent (all metadata as JSON). Read too: columns in
+any order under the names that CSV files have. Needs pyarrow: the extra `parquet`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from functools import partial
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+
+from texvent._require import require
+from texvent.errors import FileFormatError, InputError, MissingDependencyError
+from texvent.events import EventPackets
+from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
+from texvent.io.columns import (
+    existing_file,
+    metadata_from_json,
+    metadata_to_json,
+    stored_or_given_size,
+)
+from texvent.io.limits import FormatLimits
+from texvent.io.text.csv import NAMES
+from texvent.sensor import SensorSize
+
+TYPES = {"t": "int64", "x": "uint16", "y": "uint16", "p": "uint8"}
+PACKET_EVENTS = 2**18
+EXTRA = "parquet"
+
+
+class ParquetCodec:
+    """Apache Parquet tables."""
+
+    name: ClassVar[str] = "parquet"
+    extensions: ClassVar[tuple[str, ...]] = (".parquet",)
+    limits: ClassVar[FormatLimits] = FormatLimits("Parquet", 1 << 16, 1 << 63)
+
+    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
+        """Events of a file, block by block.
+
+        Raises:
+            InputError: no such file, or it stores no sensor size and none is given.
+            FileFormatError: it is damaged, or a column is missing.
+            MissingDependencyError: pyarrow is not installed.
+        """
+        path = existing_file(path)
+        with _open_table(path) as table:
+            order = _column_names(path, table.schema_arrow.names)
+            facts = table.schema_arrow.metadata or {}
+        stored = None
+        try:
+            if b"width" in facts and b"height" in facts:
+                stored = int(facts[b"width"]), int(facts[b"height"])
+        except ValueError as error:
+            raise FileFormatError(f"{path}: its schema states no sensor size") from error
+        metadata: dict[str, Any] = {}
+        if b"texvent" in facts:
+            metadata = metadata_from_json(path, facts[b"texvent"])
+        final_size = stored_or_given_size(path, stored, size)
+        blocks = partial(_read_blocks, path, order)
+        return EventPackets(BlockPackets(path, blocks, final_size, metadata), final_size, metadata)
+
+    def open_writer(
+        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
+    ) -> BlockWriter:
+        """Start a file; see `EventCodec.open_writer`."""
+        require("pyarrow.parquet", extra=EXTRA)
+        target = FileTarget(path, size, metadata, overwrite)
+        return BlockWriter(target, partial(ParquetSink, target=target), limits=self.limits)
+
+
+class ParquetSink:
+    """Writes one row group per block."""
+
+    def __init__(self, part: Path, stack: ExitStack, *, target: FileTarget) -> None:
+        self._arrow = require("pyarrow", extra=EXTRA)
+        parquet = require("pyarrow.parquet", extra=EXTRA)
+        self._schema = self._arrow.schema(
+            [(name, getattr(self._arrow, kind)()) for name, kind in TYPES.items()],
+            metadata={
+                "width": str(target.size.width),
+                "height": str(target.size.height),
+                "texvent": metadata_to_json(target.metadata),
+            },
+        )
+        self._file = stack.enter_context(
+            parquet.ParquetWriter(part, self._schema, compression="zstd")
+        )
+
+    def write(self, columns: Columns) -> None:
+        """Add events."""
+        arrays = [self._arrow.array(np.asarray(columns[name])) for name in TYPES]
+        self._file.write_table(self._arrow.Table.from_arrays(arrays, schema=self._schema))
+
+    def finish(self) -> None:
+        """The list of row groups is written when the file is closed."""
+
+
+@contextmanager
+def _open_table(path: Path) -> Iterator[Any]:
+    """The file; damage found inside the block becomes a FileFormatError."""
+    arrow = require("pyarrow", extra=EXTRA)
+    parquet = require("pyarrow.parquet", extra=EXTRA)
+    try:
+        with parquet.ParquetFile(path, page_checksum_verification=True) as table:
+            yield table
+    except (InputError, MissingDependencyError):
+        raise
+    except (arrow.ArrowException, OSError, ValueError, KeyError, MemoryError) as error:
+        reason = " ".join(str(error).split())[:200]
+        raise FileFormatError(f"{path} is damaged or not a Parquet file ({reason})") from error
+
+
+def _column_names(path: Path, names: list[str]) -> dict[str, str]:
+    """t, x, y, p → the name of the column in the file."""
+    found = {NAMES[name.lower()]: name for name in names if name.lower() in NAMES}
+    missing = [name for name in TYPES if name not in found]
+    if missing:
+        raise FileFormatError(
+            f"{path} has no column {missing[0]!r} (it has: {', '.join(names)[:80]})"
+        )
+    return found
+
+
+def _read_blocks(path: Path, order: Mapping[str, str]) -> Iterator[Columns]:
+    with _open_table(path) as table:
+        for batch in table.iter_batches(PACKET_EVENTS, columns=list(order.values())):
+            yield {
+                name: batch.column(column).to_numpy(zero_copy_only=False)
+                for name, column in order.items()
+            }

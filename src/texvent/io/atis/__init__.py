@@ -1,0 +1,1 @@
+"""Formats of ATIS recordings: .es and the .bin of N-MNIST."""

@@ -1,0 +1,164 @@
+"""Event Stream (.es), version 2, type 1 (change detection): 5 bytes per event, little-endian.
+
+    file     `Event Stream` · version 2 0 0 · type 1 · u16 width · u16 height
+    event    u8: time since the event before (0..126 µs) << 1 | p · u16 x · u16 y, from the bottom
+    0xFF     127 µs pass · 0xFE  reset, read over
+
+Rows count from the bottom, as faery and the format's cameras have it; programs that do not flip
+them show the picture upside down. Silence takes one byte per 127 µs, so times stay below 2^36 µs
+(19 h), which would be 540 MB of silence: clock times (since 1970) do not fit. How the events
+were made lies beside the file, in `NAME.es.json`.
+
+Source: Neuromorphic Vision, Event Stream specification, version 2.0.
+"""
+
+from __future__ import annotations
+
+import importlib
+import itertools
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack
+from functools import partial
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+
+from texvent.errors import FileFormatError
+from texvent.events import EventPackets
+from texvent.io.block_stream import (
+    BLOCK_BYTES,
+    BlockPackets,
+    BlockWriter,
+    Columns,
+    FileTarget,
+)
+from texvent.io.columns import existing_file, stored_or_given_size
+from texvent.io.limits import FormatLimits
+from texvent.io.magic import begins_with
+from texvent.io.sidecar import read_sidecar
+from texvent.sensor import SensorSize
+
+MAGIC = b"Event Stream"
+VERSION = b"\x02\x00\x00"
+TYPE = 1
+TYPES = {0: "generic", 1: "dvs", 2: "atis", 3: "asynchronous", 4: "color"}
+HEADER_BYTES = len(MAGIC) + len(VERSION) + 1 + 4
+STOP_US = 1 << 36
+EVENT_BYTES = 5
+MAX_SILENCE_US = 1 << 27
+"""Longer silence is written in pieces of a megabyte."""
+OVERFLOW_US = 127
+KERNELS = "texvent.io.atis.es_kernels"
+
+
+class EventStreamCodec:
+    """Event Stream files of change-detection events."""
+
+    name: ClassVar[str] = "es"
+    extensions: ClassVar[tuple[str, ...]] = (".es",)
+    limits: ClassVar[FormatLimits] = FormatLimits("Event Stream", 1 << 16, STOP_US)
+
+    def recognises(self, path: Path) -> bool:
+        """True if the file begins as Event Stream files do."""
+        return begins_with(path, MAGIC)
+
+    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
+        """Events of a file, block by block.
+
+        Raises:
+            InputError: no such file.
+            FileFormatError: the file is damaged, of another format or of another type of events.
+        """
+        path = existing_file(path)
+        final_size = stored_or_given_size(path, _read_size(path), size)
+        _, metadata = read_sidecar(path)
+        blocks = partial(_read_blocks, path, final_size.height - 1)
+        return EventPackets(BlockPackets(path, blocks, final_size, metadata), final_size, metadata)
+
+    def open_writer(
+        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
+    ) -> BlockWriter:
+        """Start a file; see `EventCodec.open_writer`."""
+        target = FileTarget(path, size, metadata, overwrite)
+        return BlockWriter(
+            target, partial(EventStreamSink, size=size), limits=self.limits, sidecar=True
+        )
+
+
+class EventStreamSink:
+    """Writes the header and events."""
+
+    def __init__(self, part: Path, stack: ExitStack, *, size: SensorSize) -> None:
+        self._kernels = importlib.import_module(KERNELS)
+        self._file = stack.enter_context(part.open("wb"))
+        sides = b"".join(side.to_bytes(2, "little") for side in size)
+        self._file.write(MAGIC + VERSION + bytes([TYPE]) + sides)
+        self._top = size.height - 1
+        self._last_us = 0
+
+    def write(self, columns: Columns) -> None:
+        """Add events."""
+        t = columns["t"]
+        silences = np.diff(t, prepend=self._last_us) > MAX_SILENCE_US
+        bounds = [0, *np.flatnonzero(silences).tolist(), len(t)]
+        for start, stop in itertools.pairwise(bounds):
+            if start < stop:
+                self._write_piece({name: columns[name][start:stop] for name in "xytp"})
+
+    def finish(self) -> None:
+        """Nothing follows the last event."""
+
+    def _write_piece(self, columns: Columns) -> None:
+        """Write events with no long silence except before the first."""
+        t = columns["t"]
+        while int(t[0]) - self._last_us > MAX_SILENCE_US:
+            self._file.write(b"\xff" * (MAX_SILENCE_US // OVERFLOW_US))
+            self._last_us += MAX_SILENCE_US // OVERFLOW_US * OVERFLOW_US
+        room = EVENT_BYTES * len(t) + (int(t[-1]) - self._last_us) // OVERFLOW_US
+        data = np.empty(room, dtype=np.uint8)
+        count = self._kernels.encode_events(
+            columns["x"], columns["y"], t, columns["p"], (self._last_us, self._top), data
+        )
+        self._last_us = int(t[-1])
+        self._file.write(data[:count].data)
+
+
+def _read_size(path: Path) -> tuple[int, int]:
+    with path.open("rb") as file:
+        header = file.read(HEADER_BYTES)
+    if not header.startswith(MAGIC):
+        raise FileFormatError(
+            f"{path} is not an Event Stream: it does not begin with {MAGIC.decode()!r}"
+        )
+    if len(header) < HEADER_BYTES - 4:
+        raise FileFormatError(f"{path} ends inside its header; the file was cut off")
+    version, kind = header[12:15], header[15]
+    if version[0] != VERSION[0]:
+        raise FileFormatError(f"{path} is Event Stream version {version[0]}; texvent reads 2")
+    if kind != TYPE:
+        raise FileFormatError(
+            f"{path} holds Event Stream events of type {kind} ({TYPES.get(kind, 'unknown')}); "
+            "texvent reads type 1 (dvs)"
+        )
+    if len(header) < HEADER_BYTES:
+        raise FileFormatError(f"{path} ends inside its header; the file was cut off")
+    return int.from_bytes(header[16:18], "little"), int.from_bytes(header[18:20], "little")
+
+
+def _read_blocks(path: Path, top: int) -> Iterator[Columns]:
+    decode = importlib.import_module(KERNELS).decode_events
+    rest = b""
+    now = 0
+    with path.open("rb") as file:
+        file.seek(HEADER_BYTES)
+        while block := file.read(BLOCK_BYTES):
+            data = np.frombuffer(rest + block, dtype=np.uint8)
+            room = len(data) // EVENT_BYTES
+            x, p = np.empty(room, dtype=np.uint16), np.empty(room, dtype=np.uint8)
+            y, t = np.empty(room, dtype=np.int64), np.empty(room, dtype=np.int64)
+            count, used, now = decode(data, (now, top), (x, y, t, p))
+            rest = data[used:].tobytes()
+            yield {"x": x[:count], "y": y[:count], "t": t[:count], "p": p[:count]}
+    if rest:
+        raise FileFormatError(f"{path} ends inside an event; the file was cut off")

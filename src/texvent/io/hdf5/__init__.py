@@ -1,0 +1,1 @@
+"""HDF5 layouts: ours, DSEC, v2e."""

@@ -1,0 +1,260 @@
+"""HDF5 files of Prophesee's Metavision: events in chunks that their own filter, ECF, compresses.
+
+    /CD/events            x u2, y u2, p i2, t i8 in 16 bytes; chunks of 16384, filter 0x8ECF
+    /CD/indexes           id u8, ts i8, every 2 ms (`texvent.io.prophesee.ecf_index`);
+                          attribute offset = −(time of the first event), as text
+    /EXT_TRIGGER/events   p i2, t i8, id i2; empty
+    /EXT_TRIGGER/indexes  empty
+    root attributes       version, format, geometry (1280x720), …: all text
+
+OpenEB reads every root attribute as ASCII text of variable length and fails on any other kind;
+how the events were made is therefore an attribute of /CD: `texvent` as JSON, `width`, `height`.
+Those are stored in checksummed headers, as in `texvent.io.hdf5.native`. Chunks are coded by texvent
+(`io.prophesee.ecf`) and passed by HDF5 as they are, so no HDF5 filter needs to be installed.
+
+Coordinates below 2048; at most 9.5 hours from the first event to the last, because the index
+grows with the duration: 8 kB per second.
+
+Read are also files whose chunks are not coded, or by a filter that HDF5 knows.
+
+Source: Prophesee, "HDF5 Event Files", and OpenEB.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, ClassVar
+
+import h5py
+import numpy as np
+
+from texvent.errors import FileFormatError
+from texvent.events import EventPackets, EventStream
+from texvent.io.columns import (
+    existing_file,
+    metadata_from_json,
+    stored_or_given_size,
+    stream_from_file,
+)
+from texvent.io.hdf5.damage import check_claims, reporting_damage
+from texvent.io.hdf5.writer import BatchedHdf5Writer
+from texvent.io.limits import FormatLimits
+from texvent.io.prophesee import ecf
+from texvent.io.prophesee.ecf_dataset import ECF_FILTER, check_storage, read_columns, whole_chunks
+from texvent.io.prophesee.ecf_index import ENTRY, TimeIndex
+from texvent.sensor import SensorSize
+
+CHUNK_EVENTS = 16_384
+PACKET_CHUNKS = 16
+MAX_SPAN_US = 1 << 35
+MAX_METADATA_BYTES = 32_768
+"""Longer metadata goes to a dataset: HDF5 allows 64 kB per attribute."""
+EVENT = np.dtype(
+    {
+        "names": ["x", "y", "p", "t"],
+        "formats": ["<u2", "<u2", "<i2", "<i8"],
+        "offsets": [0, 2, 4, 8],
+        "itemsize": 16,
+    }
+)
+TRIGGER = np.dtype(
+    {
+        "names": ["p", "t", "id"],
+        "formats": ["<i2", "<i8", "<i2"],
+        "offsets": [0, 8, 16],
+        "itemsize": 24,
+    }
+)
+
+
+class PropheseeHdf5Codec:
+    """HDF5 files of Metavision."""
+
+    name: ClassVar[str] = "prophesee-hdf5"
+    extensions: ClassVar[tuple[str, ...]] = (".hdf5", ".h5")
+    limits: ClassVar[FormatLimits] = FormatLimits(
+        "Prophesee HDF5", ecf.MAX_SIDE, ecf.MAX_START_US, MAX_SPAN_US
+    )
+
+    def recognises(self, path: Path) -> bool:
+        """True if it is HDF5 with events where Metavision puts them."""
+        try:
+            with reporting_damage(path), h5py.File(path, "r") as file:
+                return "CD/events" in file
+        except FileFormatError:
+            return False
+
+    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
+        """Events of a file, 262,144 at a time; the file is opened anew for each pass.
+
+        Raises:
+            InputError: no such file, or it stores no sensor size and none is given.
+            FileFormatError: the file is damaged or has another layout.
+        """
+        path = existing_file(path)
+        with reporting_damage(path), h5py.File(path, "r") as file:
+            _checked_events(file, path)
+            stored = _stored_size(file)
+            metadata = _read_metadata(file, path)
+        final_size = stored_or_given_size(path, stored, size)
+        return EventPackets(_Packets(path, final_size, metadata), final_size, metadata)
+
+    def open_writer(
+        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
+    ) -> PropheseeHdf5Writer:
+        """Start a file; see `EventCodec.open_writer`."""
+        return PropheseeHdf5Writer(path, size=size, metadata=metadata, overwrite=overwrite)
+
+
+class PropheseeHdf5Writer(BatchedHdf5Writer):
+    """Appends packets to a Metavision file; memory does not grow with the recording.
+
+    Raises:
+        OutputError: the file exists already, its folder refuses it, or the disk is full.
+        InputError: the format cannot hold the sensor or an event; a packet of another size, or
+            before the one before it.
+    """
+
+    chunk_events: ClassVar[int] = CHUNK_EVENTS
+
+    def __init__(
+        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
+    ) -> None:
+        super().__init__(path, size=size, metadata=metadata, overwrite=overwrite)
+        PropheseeHdf5Codec.limits.check_size(path, size)
+        self._index = TimeIndex()
+        self._start_us: int | None = None
+
+    def _check(self, packet: EventStream) -> None:
+        PropheseeHdf5Codec.limits.check_packet(self._path, packet, self._start_us)
+        self._start_us = int(packet.t[0]) if self._start_us is None else self._start_us
+
+    def _create_layout(self) -> None:
+        file = self._file
+        properties = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+        # Optional, as in Metavision: HDF5 then does not ask for the filter itself.
+        properties.set_filter(ECF_FILTER, h5py.h5z.FLAG_OPTIONAL)
+        self._create("CD/events", EVENT, properties)
+        self._create("CD/indexes", ENTRY)
+        self._create("EXT_TRIGGER/events", TRIGGER)
+        self._create("EXT_TRIGGER/indexes", ENTRY)
+        for name, text in {
+            "version": "1.0",
+            "format": "ECF",
+            "geometry": str(self._size),
+            "generation": "0.0",
+            "camera_integrator_name": "Prophesee",
+            "plugin_integrator_name": "Prophesee",
+        }.items():
+            _set_text(file, name, text)
+        group = file["CD"]
+        group.attrs["width"], group.attrs["height"] = self._size
+        # Of fixed length: HDF5 keeps other text in a heap without checksums.
+        fixed = np.bytes_(self._json.encode("ascii"))
+        if len(fixed) <= MAX_METADATA_BYTES:
+            group.attrs["texvent"] = fixed
+        else:
+            file.create_dataset("CD/texvent", data=fixed)
+
+    def _create(self, name: str, dtype: np.dtype[Any], properties: Any = None) -> None:
+        self._file.create_dataset(
+            name,
+            shape=(0,),
+            maxshape=(None,),
+            chunks=(CHUNK_EVENTS,),
+            dtype=dtype,
+            dcpl=properties,
+        )
+
+    def _store(self, events: EventStream, count: int) -> None:
+        dataset = self._file["CD/events"]
+        dataset.resize((self._written + count,))
+        columns = events.columns()
+        for start in range(0, count, CHUNK_EVENTS):
+            piece = slice(start, min(start + CHUNK_EVENTS, count))
+            chunk = ecf.encode_chunk({name: columns[name][piece] for name in "xytp"})
+            dataset.id.write_direct_chunk((self._written + start,), chunk)
+        for entries in self._index.add(events.t[:count]):
+            self._extend("CD/indexes", entries)
+
+    def _complete(self) -> None:
+        if self._start_us is not None:
+            self._extend("CD/indexes", self._index.close())
+            _set_text(self._file["CD/indexes"], "offset", str(-self._start_us))
+
+
+class _Packets:
+    """Re-iterable packets of a checked file."""
+
+    def __init__(self, path: Path, size: SensorSize, metadata: Mapping[str, Any]) -> None:
+        self._path = path
+        self._size = size
+        self._metadata = metadata
+
+    def __iter__(self) -> Iterator[EventStream]:
+        with reporting_damage(self._path):
+            file = h5py.File(self._path, "r")
+        with file:
+            with reporting_damage(self._path):
+                events = _checked_events(file, self._path)
+                count = events.shape[0]
+                step = whole_chunks(events, PACKET_CHUNKS * CHUNK_EVENTS)
+            last_us: int | None = None
+            for start in range(0, count, step):
+                with reporting_damage(self._path):
+                    columns = read_columns(events, start, min(start + step, count))
+                    packet = stream_from_file(self._path, columns, self._size, self._metadata)
+                if last_us is not None and int(packet.t[0]) < last_us:
+                    raise FileFormatError(f"{self._path}: time decreases at event {start}")
+                last_us = int(packet.t[-1])
+                # Outside `reporting_damage`: the caller's own errors are not the file's.
+                yield packet
+
+
+def _checked_events(file: Any, path: Path) -> Any:
+    """The dataset of events, if it has the fields, and the chunks it claims."""
+    events = file.get("CD/events")
+    if not isinstance(events, h5py.Dataset):
+        raise FileFormatError(
+            f"{path} is HDF5 but has no dataset CD/events, where Metavision stores events"
+        )
+    names = events.dtype.names or ()
+    wrong = [name for name in "xypt" if name not in names or events.dtype[name].kind not in "iu"]
+    if wrong or len(events.shape) != 1:
+        raise FileFormatError(
+            f"{path}: CD/events must be a list of x, y, p, t; it holds {events.dtype}"
+        )
+    check_storage(events, path)
+    return events
+
+
+def _stored_size(file: Any) -> tuple[int, int] | None:
+    attributes = file["CD"].attrs
+    if "width" in attributes and "height" in attributes:
+        return int(attributes["width"]), int(attributes["height"])
+    if "geometry" not in file.attrs:
+        return None
+    width, _, height = _text(file.attrs["geometry"]).partition("x")
+    return int(width), int(height)
+
+
+def _read_metadata(file: Any, path: Path) -> dict[str, Any]:
+    group = file["CD"]
+    text = group.attrs.get("texvent")
+    if text is None and isinstance(group.get("texvent"), h5py.Dataset):
+        check_claims(group["texvent"], path)
+        text = group["texvent"][()]
+    if text is not None:
+        return metadata_from_json(path, text)
+    # What Metavision wrote about the recording.
+    return {"header": {name: _text(value) for name, value in file.attrs.items()}}
+
+
+def _text(value: Any) -> str:
+    return value.decode("utf-8", errors="replace") if isinstance(value, bytes) else str(value)
+
+
+def _set_text(node: Any, name: str, text: str) -> None:
+    """ASCII of variable length, the only kind OpenEB reads; h5py's own text is UTF-8."""
+    node.attrs.create(name, text, dtype=h5py.string_dtype("ascii"))

@@ -1,0 +1,116 @@
+"""EVT2.1 words ↔ events; the layout is described in `texvent.io.prophesee.evt21`.
+
+A word of 64 bits is handled as two numbers of 32 bits, upper half first, the way it is written:
+Numba has no type that holds both signed and unsigned 64 bits.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+WORD = "<u4"
+START = (0x8000_0000, 0)
+"""TIME_HIGH 0: see `texvent.io.prophesee.evt2`."""
+DECODER_STATE = (0, -1)
+"""How often TIME_HIGH wrapped, and its value (−1: none yet)."""
+ENCODER_STATE = (0, 0)
+TIME_HIGH = 8
+HALF_TURN = 1 << 27
+"""A fall of TIME_HIGH by more than this is a wrap of its 28 bits."""
+VECTOR = 32
+DE_BRUIJN = 0x077C_B531
+"""Its product with 2^i differs in the upper five bits for every i."""
+LOWEST_BIT = np.zeros(VECTOR, dtype=np.uint8)
+LOWEST_BIT[[(DE_BRUIJN << i & 0xFFFF_FFFF) >> 27 for i in range(VECTOR)]] = np.arange(VECTOR)
+"""Upper five bits of that product → i."""
+
+
+def count_words(times: NDArray[np.int64], state: NDArray[np.int64]) -> int:
+    """Room for the halves of the words of these events."""
+    return 4 * len(times)
+
+
+@numba.njit(cache=True, nogil=True)
+def count_events(words: NDArray[np.uint32]) -> int:
+    """Number of valid bits in ON and OFF words."""
+    count = 0
+    for i in range(0, words.size, 2):
+        if (np.int64(words[i]) >> 28) <= 1:
+            bits = np.int64(words[i + 1])
+            while bits:
+                bits &= bits - 1
+                count += 1
+    return count
+
+
+@numba.njit(cache=True, nogil=True)
+def decode_words(
+    words: NDArray[np.uint32], state: NDArray[np.int64], columns: tuple[NDArray[Any], ...]
+) -> int:
+    """Fill columns x, y, t, p; returns the number of events."""
+    x, y, t, p = columns
+    turns, high = state[0], state[1]
+    count = 0
+    for i in range(0, words.size, 2):
+        upper = np.int64(words[i])
+        kind = upper >> 28
+        if kind <= 1 and high >= 0:
+            bits = np.int64(words[i + 1])
+            time = (((turns << 28) | high) << 6) + ((upper >> 22) & 0x3F)
+            column = (upper >> 11) & 0x7FF
+            while bits:
+                # Without a loop over the bits that are not set, which costs more than all else.
+                lowest = bits & -bits
+                bits ^= lowest
+                x[count] = column + LOWEST_BIT[(lowest * DE_BRUIJN & 0xFFFF_FFFF) >> 27]
+                y[count] = upper & 0x7FF
+                t[count] = time
+                p[count] = kind
+                count += 1
+        elif kind == TIME_HIGH:
+            fresh = upper & 0xFFF_FFFF
+            if high - fresh > HALF_TURN:
+                turns += 1
+            high = fresh
+    state[0], state[1] = turns, high
+    return count
+
+
+@numba.njit(cache=True, nogil=True)
+def encode_events(
+    columns: tuple[NDArray[Any], ...], state: NDArray[np.int64], words: NDArray[np.uint32]
+) -> int:
+    """Fill words from columns x, y, t, p; returns the number of their halves."""
+    x, y, t, p = columns
+    high = state[1]
+    count = 0
+    i = 0
+    while i < t.size:
+        time, row, sign = np.int64(t[i]), np.int64(y[i]), np.int64(p[i])
+        if time >> 6 != high:
+            high = time >> 6
+            words[count] = (TIME_HIGH << 28) | high
+            words[count + 1] = 0
+            count += 2
+        base = np.int64(x[i]) & ~(VECTOR - 1)
+        offset = np.int64(x[i]) - base
+        bits = np.int64(0)
+        # Only neighbours in time whose x rises, so that the order of events is kept.
+        while True:
+            bits |= np.int64(1) << offset
+            i += 1
+            if i == t.size or t[i] != time or y[i] != row or p[i] != sign:
+                break
+            following = np.int64(x[i]) - base
+            if following <= offset or following >= VECTOR:
+                break
+            offset = following
+        words[count] = (sign << 28) | ((time & 0x3F) << 22) | (base << 11) | row
+        words[count + 1] = bits
+        count += 2
+    state[1] = high
+    return count

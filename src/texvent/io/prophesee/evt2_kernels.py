@@ -1,0 +1,84 @@
+"""EVT2 words ↔ events; the layout is described in `texvent.io.prophesee.evt2`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+WORD = "<u4"
+START = (0x8000_0000,)
+"""TIME_HIGH 0: see `texvent.io.prophesee.evt2`."""
+DECODER_STATE = (0, -1)
+"""How often TIME_HIGH wrapped, and its value (−1: none yet)."""
+ENCODER_STATE = (0, 0)
+TIME_HIGH = 8
+HALF_TURN = 1 << 27
+"""A fall of TIME_HIGH by more than this is a wrap of its 28 bits."""
+
+
+def count_words(times: NDArray[np.int64], state: NDArray[np.int64]) -> int:
+    """Room for the words of these events."""
+    return 2 * len(times)
+
+
+@numba.njit(cache=True, nogil=True)
+def count_events(words: NDArray[np.uint32]) -> int:
+    """Number of ON and OFF words."""
+    count = np.int64(0)
+    for i in range(words.size):
+        count += (np.int64(words[i]) >> 28) <= 1
+    return int(count)
+
+
+@numba.njit(cache=True, nogil=True)
+def decode_words(
+    words: NDArray[np.uint32], state: NDArray[np.int64], columns: tuple[NDArray[Any], ...]
+) -> int:
+    """Fill columns x, y, t, p; returns the number of events."""
+    x, y, t, p = columns
+    turns, high = state[0], state[1]
+    # Negative until there is a TIME_HIGH.
+    base = ((turns << 28) | high) << 6
+    count = 0
+    for i in range(words.size):
+        word = np.int64(words[i])
+        kind = word >> 28
+        if kind <= 1:
+            if base >= 0:
+                x[count] = (word >> 11) & 0x7FF
+                y[count] = word & 0x7FF
+                t[count] = base + ((word >> 22) & 0x3F)
+                p[count] = kind
+                count += 1
+        elif kind == TIME_HIGH:
+            fresh = word & 0xFFF_FFFF
+            if high - fresh > HALF_TURN:
+                turns += 1
+            high = fresh
+            base = ((turns << 28) | high) << 6
+    state[0], state[1] = turns, high
+    return count
+
+
+@numba.njit(cache=True, nogil=True)
+def encode_events(
+    columns: tuple[NDArray[Any], ...], state: NDArray[np.int64], words: NDArray[np.uint32]
+) -> int:
+    """Fill words from columns x, y, t, p; returns their number."""
+    x, y, t, p = columns
+    high = state[1]
+    count = 0
+    for i in range(t.size):
+        time = np.int64(t[i])
+        if time >> 6 != high:
+            high = time >> 6
+            words[count] = (TIME_HIGH << 28) | high
+            count += 1
+        place = (np.int64(x[i]) << 11) | np.int64(y[i])
+        words[count] = (np.int64(p[i]) << 28) | ((time & 0x3F) << 22) | place
+        count += 1
+    state[1] = high
+    return count

@@ -1,0 +1,140 @@
+"""EVT3 words ↔ events; the layout is described in `texvent.io.prophesee.evt3`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+WORD = "<u2"
+START = (0x8000,)
+"""TIME_HIGH 0: see `texvent.io.prophesee.evt3`."""
+DECODER_STATE = (0, -1, 0, -1, 0, 0)
+"""Turns, high (−1: none yet) and low of the time; row (−1: none); first column and polarity of
+the next vector word."""
+ENCODER_STATE = (0, 0, -1, -1)
+"""Turns and high of the time; row (−1: to be written); time of the last event, µs (−1: none)."""
+ADDR_Y, OTHER_Y, ADDR_X, VECT_BASE_X, VECT_12, VECT_8, TIME_LOW, TIME_HIGH = 0, 1, 2, 3, 4, 5, 6, 8
+HALF_TURN = 1 << 11
+"""A fall of TIME_HIGH by this much or more is a wrap of its 12 bits."""
+
+
+def count_words(times: NDArray[np.int64], state: NDArray[np.int64]) -> int:
+    """Room for the words of these events: TIME_HIGH, TIME_LOW, y, x, and two for each wrap."""
+    if len(times) == 0:
+        return 0
+    return 4 * len(times) + 2 * ((int(times[-1]) >> 24) - int(state[0]))
+
+
+@numba.njit(cache=True, nogil=True)
+def count_events(words: NDArray[np.uint16]) -> int:
+    """Number of single events and valid bits."""
+    count = 0
+    for i in range(words.size):
+        word = np.int64(words[i])
+        kind = word >> 12
+        if kind == ADDR_X:
+            count += 1
+        elif kind in (VECT_12, VECT_8):
+            bits = word & _vector_mask(kind)
+            while bits:
+                bits &= bits - 1
+                count += 1
+    return count
+
+
+@numba.njit(cache=True, nogil=True)
+def decode_words(
+    words: NDArray[np.uint16], state: NDArray[np.int64], columns: tuple[NDArray[Any], ...]
+) -> int:
+    """Fill columns x, y, t, p; returns the number of events."""
+    x, y, t, p = columns
+    turns, high, low = state[0], state[1], state[2]
+    row, base, sign = state[3], state[4], state[5]
+    # Negative until there is a TIME_HIGH.
+    time = (((turns << 12) | high) << 12) | low
+    count = 0
+    for i in range(words.size):
+        word = np.int64(words[i])
+        kind, value = word >> 12, word & 0xFFF
+        if kind == ADDR_X:
+            if time >= 0 and row >= 0:
+                x[count], y[count], t[count], p[count] = value & 0x7FF, row, time, value >> 11
+                count += 1
+        elif kind in (TIME_LOW, TIME_HIGH):
+            turns, high, low = _next_time(turns, high, low, word)
+            time = (((turns << 12) | high) << 12) | low
+        elif kind in (ADDR_Y, OTHER_Y):
+            row = value & 0x7FF if kind == ADDR_Y else np.int64(-1)
+        elif kind == VECT_BASE_X:
+            base, sign = value & 0x7FF, value >> 11
+        elif kind in (VECT_12, VECT_8):
+            bits = value & _vector_mask(kind) if time >= 0 and row >= 0 else np.int64(0)
+            column = base
+            while bits:
+                if bits & 1:
+                    x[count], y[count], t[count], p[count] = column, row, time, sign
+                    count += 1
+                bits >>= 1
+                column += 1
+            base += 12 if kind == VECT_12 else 8
+    state[0], state[1], state[2] = turns, high, low
+    state[3], state[4], state[5] = row, base, sign
+    return count
+
+
+@numba.njit(cache=True, nogil=True)
+def encode_events(
+    columns: tuple[NDArray[Any], ...], state: NDArray[np.int64], words: NDArray[np.uint16]
+) -> int:
+    """Fill words from columns x, y, t, p; returns their number."""
+    x, y, t, p = columns
+    turns, high, row, last = state[0], state[1], state[2], state[3]
+    count = 0
+    for i in range(t.size):
+        time = np.int64(t[i])
+        if time != last:
+            # One turn of the counter after the other, each with its last and its first value.
+            while turns < time >> 24:
+                words[count] = (TIME_HIGH << 12) | 0xFFF
+                words[count + 1] = TIME_HIGH << 12
+                count += 2
+                turns += 1
+                high = np.int64(0)
+            if (time >> 12) & 0xFFF != high:
+                high = (time >> 12) & 0xFFF
+                words[count] = (TIME_HIGH << 12) | high
+                count += 1
+            words[count] = (TIME_LOW << 12) | (time & 0xFFF)
+            count += 1
+            last = time
+            row = np.int64(-1)
+        if y[i] != row:
+            row = np.int64(y[i])
+            words[count] = (ADDR_Y << 12) | row
+            count += 1
+        words[count] = (ADDR_X << 12) | (np.int64(p[i]) << 11) | np.int64(x[i])
+        count += 1
+    state[0], state[1], state[2], state[3] = turns, high, row, last
+    return count
+
+
+@numba.njit(cache=True, nogil=True, inline="always")
+def _vector_mask(kind: np.int64) -> int:
+    return 0xFFF if kind == VECT_12 else 0xFF
+
+
+@numba.njit(cache=True, nogil=True)
+def _next_time(
+    turns: np.int64, high: np.int64, low: np.int64, word: np.int64
+) -> tuple[np.int64, np.int64, np.int64]:
+    """Turns, high and low of the time after a TIME_LOW or TIME_HIGH word."""
+    value = word & 0xFFF
+    if word >> 12 == TIME_LOW:
+        return turns, high, value
+    if high - value >= HALF_TURN:
+        turns += 1
+    # Until its low half follows, a new high half means its first µs.
+    return turns, value, low if value == high else np.int64(0)

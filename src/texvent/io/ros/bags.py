@@ -1,0 +1,349 @@
+"""ROS bags: rosbag1 (.bag) with dvs_msgs/EventArray, MCAP (.mcap) with EventPacket of EVT3 words.
+
+Topics: `/dvs/events`, one message per 10 ms; `/texvent`, one std_msgs/String with size and
+metadata as JSON, which also keeps recordings without events. Of other programs' bags the first
+topic with such messages is read; messages without events say the size too.
+
+The EVT3 words of an MCAP file go on from message to message, as cameras' do: a reader that starts
+in the middle has to wait for the next change of the high time bits (4 ms).
+
+Needs rosbags: the extra `bags`. A bag whose recorder crashed has no index and is refused.
+"""
+
+from __future__ import annotations
+
+import itertools
+import os
+import struct
+import tempfile
+from abc import abstractmethod
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from functools import partial
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+
+from texvent._require import require
+from texvent.errors import FileFormatError, InputError, MissingDependencyError
+from texvent.events import EventPackets
+from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
+from texvent.io.columns import existing_file, stored_or_given_size
+from texvent.io.limits import FormatLimits
+from texvent.io.prophesee.word_stream import KernelDecoder, KernelEncoder
+from texvent.io.ros.bag_chunks import bound_chunks
+from texvent.io.ros.messages import (
+    EVENT_ARRAY,
+    EVENT_ARRAY_TEXT,
+    EVENT_PACKET,
+    EVENT_PACKET_TEXT,
+    EVENT_TEXT,
+    RawMessage,
+    open_event_array,
+    open_event_packet,
+    pack_event_array,
+    pack_event_packet,
+    unpack_event_array,
+)
+from texvent.io.sidecar import parse_sidecar, sidecar_text
+from texvent.sensor import SensorSize
+
+TOPIC, FACTS_TOPIC = "/dvs/events", "/texvent"
+STRING = "std_msgs/msg/String"
+PACKET_US = 10_000
+NS = 1000
+KERNELS, WORD = "texvent.io.prophesee.evt3_kernels", "<u2"
+ROSBAG1 = "rosbags.rosbag1"
+EXTRA = "bags"
+
+
+class BagCodec:
+    """What both kinds of bag share."""
+
+    name: ClassVar[str]
+    extensions: ClassVar[tuple[str, ...]]
+    limits: ClassVar[FormatLimits]
+
+    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
+        """Events of a bag, message by message.
+
+        Raises:
+            InputError: no such file.
+            FileFormatError: it is damaged, or holds no messages of events.
+            MissingDependencyError: rosbags is not installed.
+        """
+        path = existing_file(path)
+        stored: tuple[int, int] | None = None
+        metadata: dict[str, Any] = {}
+        with self.open_bag(path) as bag:
+            facts = _first_message(bag, STRING, FACTS_TOPIC)
+            if facts is not None:
+                stored, metadata = parse_sidecar(path, self.unpack_text(facts))
+            else:
+                data = _first_message(bag, self.message_type())
+                if data is None:
+                    raise FileFormatError(
+                        f"{path} holds no {self.message_type()}; texvent reads bags with those"
+                    )
+                stored = tuple(self.open_message(data).size)  # type: ignore[assignment]
+        final_size = stored_or_given_size(path, stored, size)
+        blocks = partial(self.read_blocks, path)
+        return EventPackets(BlockPackets(path, blocks, final_size, metadata), final_size, metadata)
+
+    def open_writer(
+        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
+    ) -> BlockWriter:
+        """Start a bag; see `EventCodec.open_writer`."""
+        require("rosbags", extra=EXTRA)
+        target = FileTarget(path, size, metadata, overwrite)
+        return BlockWriter(target, partial(self.start_sink, target), limits=self.limits)
+
+    @abstractmethod
+    def message_type(self) -> str:
+        """Type of the messages that hold events."""
+
+    @abstractmethod
+    def open_bag(self, path: Path) -> Any:
+        """A context manager that gives a reader and reports damage."""
+
+    @abstractmethod
+    def open_message(self, data: bytes) -> RawMessage:
+        """The parts of a message of events."""
+
+    @abstractmethod
+    def unpack_text(self, data: bytes) -> bytes:
+        """The text in a std_msgs/String."""
+
+    @abstractmethod
+    def read_blocks(self, path: Path) -> Iterator[Columns]:
+        """Columns of the bag's events."""
+
+    @abstractmethod
+    def start_sink(self, target: FileTarget, part: Path, stack: ExitStack) -> BagSink:
+        """Open a bag for writing."""
+
+
+class Rosbag1Codec(BagCodec):
+    """ROS 1 bags."""
+
+    name: ClassVar[str] = "rosbag1"
+    extensions: ClassVar[tuple[str, ...]] = (".bag",)
+    limits: ClassVar[FormatLimits] = FormatLimits("rosbag1", 1 << 16, (1 << 32) * 1_000_000)
+
+    def message_type(self) -> str:
+        """Type of the messages that hold events."""
+        return EVENT_ARRAY
+
+    def open_bag(self, path: Path) -> Any:
+        """A context manager that gives a reader and reports damage."""
+        return _open_bag(path, ROSBAG1)
+
+    def open_message(self, data: bytes) -> RawMessage:
+        """The parts of a message of events."""
+        return open_event_array(data)
+
+    def unpack_text(self, data: bytes) -> bytes:
+        """The text in a std_msgs/String: its length and bytes."""
+        return data[4:]
+
+    def read_blocks(self, path: Path) -> Iterator[Columns]:
+        """Columns of the bag's events."""
+        for message in _messages(self, path):
+            yield unpack_event_array(message)
+
+    def start_sink(self, target: FileTarget, part: Path, stack: ExitStack) -> BagSink:
+        """Open a bag for writing."""
+        part.unlink()
+        bag = stack.enter_context(require(ROSBAG1, extra=EXTRA).Writer(part))
+        types = _types(1)
+        text = sidecar_text(target.size, target.metadata).encode("utf-8")
+        facts = bag.add_connection(FACTS_TOPIC, STRING, typestore=types)
+        message = struct.pack("<I", len(text)) + text
+        events = bag.add_connection(TOPIC, EVENT_ARRAY, typestore=types)
+        pack = partial(pack_event_array, size=target.size)
+        start = partial(bag.write, facts, data=message)
+        return BagSink(bag, events, lambda columns, number: pack(columns, sequence=number), start)
+
+
+class McapCodec(BagCodec):
+    """MCAP files of ROS 2."""
+
+    name: ClassVar[str] = "mcap"
+    extensions: ClassVar[tuple[str, ...]] = (".mcap",)
+    limits: ClassVar[FormatLimits] = FormatLimits("MCAP with EVT3", 2048, 1 << 42)
+
+    def message_type(self) -> str:
+        """Type of the messages that hold events."""
+        return EVENT_PACKET
+
+    def open_bag(self, path: Path) -> Any:
+        """A context manager that gives a reader and reports damage."""
+        return _open_bag(path, "rosbags.rosbag2")
+
+    def open_message(self, data: bytes) -> RawMessage:
+        """The parts of a message of events."""
+        return open_event_packet(data)
+
+    def unpack_text(self, data: bytes) -> bytes:
+        """The text in a std_msgs/String: CDR head, length with the final zero, bytes."""
+        return data[8:].rstrip(b"\0")
+
+    def read_blocks(self, path: Path) -> Iterator[Columns]:
+        """Columns of the bag's events."""
+        decoder = KernelDecoder(KERNELS, WORD)
+        for message in _messages(self, path):
+            yield decoder.decode(np.frombuffer(message.payload, dtype=WORD))
+
+    def start_sink(self, target: FileTarget, part: Path, stack: ExitStack) -> BagSink:
+        """Open a bag for writing: rosbags writes a folder, of which the .mcap is kept."""
+        folder = stack.enter_context(
+            tempfile.TemporaryDirectory(prefix=".texvent-", suffix=".part", dir=part.parent)
+        )
+        rosbag2 = require("rosbags.rosbag2", extra=EXTRA)
+        writer = rosbag2.Writer(
+            Path(folder) / "bag", version=9, storage_plugin=rosbag2.StoragePlugin.MCAP
+        )
+        # On a stack of its own: the sink closes the bag before it moves the file.
+        closing = stack.enter_context(ExitStack())
+        bag = closing.enter_context(writer)
+        types = _types(2)
+        text = sidecar_text(target.size, target.metadata).encode("utf-8")
+        facts = bag.add_connection(FACTS_TOPIC, STRING, typestore=types)
+        message = b"\0\1\0\0" + struct.pack("<I", len(text) + 1) + text + b"\0"
+        events = bag.add_connection(TOPIC, EVENT_PACKET, typestore=types)
+        encoder = KernelEncoder(KERNELS)
+
+        def pack(columns: Columns, number: int) -> bytes:
+            words = bytes(encoder.encode(dict(columns)))
+            words = encoder.start() + words if number == 0 else words
+            return pack_event_packet(words, target.size, number, int(columns["t"][0]))
+
+        closing_bag = partial(_close_and_move, closing, Path(folder) / "bag" / "bag.mcap", part)
+        start = partial(bag.write, facts, data=message)
+        return BagSink(bag, events, pack, start, closing_bag)
+
+
+class BagSink:
+    """Writes one message per 10 ms.
+
+    Args:
+        bag: rosbags' writer.
+        connection: its connection for the events.
+        pack: makes a message of columns and its number.
+        start: writes the message of size and metadata, at a time in ns: that of the first event,
+            because players wait from one message to the next.
+        finish: what remains to be done after the last message.
+    """
+
+    def __init__(
+        self,
+        bag: Any,
+        connection: Any,
+        pack: Callable[[Columns, int], bytes],
+        start: Callable[[int], None],
+        finish: Callable[[], None] = lambda: None,
+    ) -> None:
+        self._bag = bag
+        self._connection = connection
+        self._pack = pack
+        self._start = start
+        self._finish = finish
+        self._count = 0
+
+    def write(self, columns: Columns) -> None:
+        """Add events."""
+        if self._count == 0:
+            self._start(int(columns["t"][0]) * NS)
+        windows = columns["t"] // PACKET_US
+        cuts = np.flatnonzero(windows[1:] != windows[:-1]) + 1
+        for start, stop in itertools.pairwise([0, *cuts.tolist(), len(windows)]):
+            part = {name: columns[name][start:stop] for name in "xytp"}
+            self._bag.write(self._connection, int(part["t"][0]) * NS, self._pack(part, self._count))
+            self._count += 1
+
+    def finish(self) -> None:
+        """Do what remains; the index is written when the bag is closed."""
+        if self._count == 0:
+            self._start(0)
+        self._finish()
+
+
+def _close_and_move(closing: ExitStack, source: Path, target: Path) -> None:
+    closing.close()
+    os.replace(source, target)
+
+
+def _types(version: int) -> Any:
+    """The message types of ROS 1 or 2, with those that hold events."""
+    typesys = require("rosbags.typesys", extra=EXTRA)
+    if version == 2:
+        types = typesys.get_typestore(typesys.Stores.ROS2_HUMBLE)
+        types.register(typesys.get_types_from_msg(EVENT_PACKET_TEXT, EVENT_PACKET))
+        return types
+    types = typesys.get_typestore(typesys.Stores.ROS1_NOETIC)
+    types.register(typesys.get_types_from_msg(EVENT_TEXT, "dvs_msgs/msg/Event"))
+    types.register(typesys.get_types_from_msg(EVENT_ARRAY_TEXT, EVENT_ARRAY))
+    return types
+
+
+@contextmanager
+def _open_bag(path: Path, module: str) -> Iterator[Any]:
+    """A reader; whatever a damaged bag makes it raise becomes a FileFormatError."""
+    package = require(module, extra=EXTRA)
+    try:
+        with package.Reader(path) as bag:
+            if module == ROSBAG1:
+                bound_chunks(bag)
+            yield bag
+    except (InputError, MissingDependencyError) as error:
+        if str(path) in str(error) or isinstance(error, MissingDependencyError):
+            raise
+        raise FileFormatError(f"{path}: {error}") from error
+    except (package.ReaderError, *_DAMAGE) as error:
+        reason = " ".join(str(error).split())[:200]
+        raise FileFormatError(
+            f"{path} is damaged or not a bag ({reason or type(error).__name__})"
+        ) from error
+
+
+_DAMAGE = (
+    OSError,
+    ValueError,
+    LookupError,
+    TypeError,
+    AttributeError,
+    AssertionError,
+    EOFError,
+    MemoryError,
+    OverflowError,
+    RuntimeError,
+    struct.error,
+)
+"""rosbags raises any of these on a damaged bag."""
+
+
+def _connections(bag: Any, kind: str, topic: str | None) -> list[Any]:
+    return [one for one in bag.connections if one.msgtype == kind and topic in (None, one.topic)][
+        :1
+    ]
+
+
+def _first_message(bag: Any, kind: str, topic: str | None = None) -> bytes | None:
+    """The first message of a type, or None."""
+    chosen = _connections(bag, kind, topic)
+    for _, _, data in bag.messages(chosen) if chosen else ():
+        message: bytes = data
+        return message
+    return None
+
+
+def _messages(codec: BagCodec, path: Path) -> Iterator[RawMessage]:
+    with codec.open_bag(path) as bag:
+        chosen = _connections(bag, codec.message_type(), None)
+        messages = bag.messages(chosen) if chosen else iter(())
+        while True:
+            entry = next(messages, None)
+            if entry is None:
+                return
+            yield codec.open_message(entry[2])

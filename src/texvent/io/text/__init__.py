@@ -1,0 +1,1 @@
+"""Text formats: CSV, ECD, E2VID."""

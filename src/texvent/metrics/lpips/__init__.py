@@ -1,0 +1,1 @@
+"""LPIPS: how different two images look to a trained network."""

@@ -1,0 +1,1 @@
+"""Metrics of motion: contrast maximisation, flow-warp sharpness, structure."""

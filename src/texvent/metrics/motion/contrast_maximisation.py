@@ -1,0 +1,152 @@
+"""Motion from events alone: the velocity along which their picture is sharpest.
+
+Source: G. Gallego, H. Rebecq, D. Scaramuzza, "A unifying contrast maximization framework for event
+cameras", CVPR 2018. The contrast is the variance of the picture of warped events; on a canvas that
+no event leaves, its mean is fixed, so the sum of squares has the same maximum.
+Deviations: the picture is smoothed by (1 2 1); a grid search on a coarse picture, then a pattern
+search, instead of gradient ascent: there is nothing to initialise, and one result every time.
+"""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.config import check_range
+from texvent.events import EventStream
+from texvent.metrics.motion.splat import splat_events
+from texvent.metrics.windows import bin_index, rate_of_window
+from texvent.video import MICROSECONDS
+
+WINDOW_US = 40_000
+"""Length of the windows in which motion is taken to be constant, µs."""
+LEAST_EVENTS = 300
+"""Windows with fewer events have no velocity."""
+MOST_EVENTS = 5_000
+"""Of more events, evenly spaced ones are used: the peak is as sharp."""
+MOST_SPEED = 1_000.0
+"""Velocities are sought in ±this, px/s, along both axes."""
+COARSE_PX = 2
+"""Pixels of the coarse picture, and steps of the grid in px per window."""
+FINE_STEPS = (1.0, 0.5, 0.25, 0.125)
+"""Steps of the pattern search, px per window."""
+
+FloatPair = tuple[float, float]
+
+
+def estimate_velocity(
+    events: EventStream, *, window_us: int = WINDOW_US, most_speed_px_s: float = MOST_SPEED
+) -> FloatPair | None:
+    """Velocity of all events, as if everything moved as one.
+
+    Args:
+        events: a short span; times count from its first event.
+        window_us: length of the span, µs: what a velocity is worth in px.
+        most_speed_px_s: the search goes to ± this along both axes, px/s.
+
+    Returns:
+        (vx, vy), px/s; None if there are fewer than 300 events.
+
+    Raises:
+        ConfigError: the window or the speed is not above 0.
+    """
+    check_range("window_us", window_us, 1)
+    check_range("most_speed_px_s", most_speed_px_s, 1e-6)
+    if len(events) < LEAST_EVENTS:
+        return None
+    chosen = events[:: -(-len(events) // MOST_EVENTS)]
+    share = (chosen.t - chosen.t[0]) / window_us
+    x, y = chosen.x.astype(np.float64), chosen.y.astype(np.float64)
+    reach = most_speed_px_s * window_us / MICROSECONDS
+    steps = np.arange(-np.floor(reach / COARSE_PX), reach / COARSE_PX + 1) * COARSE_PX
+    grid = itertools.product(steps.tolist(), repeat=2)
+    best = max(grid, key=lambda shift: _coarse_contrast(x, y, share, shift))
+    for step in FINE_STEPS:
+        around = itertools.product((-step, 0.0, step), repeat=2)
+        nearby = [(best[0] + dx, best[1] + dy) for dx, dy in around]
+        best = max(nearby, key=lambda shift: _contrast(x, y, share, shift))
+    return best[0] * MICROSECONDS / window_us, best[1] * MICROSECONDS / window_us
+
+
+def estimate_velocities(
+    events: EventStream, *, window_us: int = WINDOW_US, most_windows: int = 4
+) -> list[FloatPair]:
+    """Velocity of the whole picture in evenly chosen windows.
+
+    Args:
+        events: the stream.
+        window_us: length of a window, µs; windows start at multiples of it.
+        most_windows: how many are used of those that have enough events.
+
+    Returns:
+        One (vx, vy) per window used, px/s; empty if none has enough events.
+    """
+    index = bin_index(events.t, rate_of_window(window_us))
+    numbers, counts = np.unique(index, return_counts=True)
+    usable = numbers[counts >= LEAST_EVENTS]
+    if usable.size > most_windows:
+        usable = usable[np.linspace(0, usable.size - 1, most_windows).round().astype(int)]
+    found = (estimate_velocity(events[index == number], window_us=window_us) for number in usable)
+    return [one for one in found if one is not None]
+
+
+def estimate_patch_flow(
+    events: EventStream,
+    *,
+    patch_px: int = 60,
+    window_us: int = WINDOW_US,
+    most_speed_px_s: float = MOST_SPEED,
+) -> NDArray[np.float64]:
+    """Velocity of each patch of the picture, one per square of `patch_px`.
+
+    Args:
+        events: a short span, as long as the window.
+        patch_px: side of a patch, px; a last row or column narrower than half of it is left out.
+        window_us: length of the span, µs.
+        most_speed_px_s: the search goes to ± this along both axes, px/s.
+
+    Returns:
+        [rows, columns, 2] float64, (vx, vy) in px/s; NaN where a patch has too few events.
+
+    Raises:
+        ConfigError: the patch, the window or the speed is not above 0.
+    """
+    check_range("patch_px", patch_px, 1)
+    rows, columns = (max((side + patch_px // 2) // patch_px, 1) for side in events.size.shape)
+    flow = np.full((rows, columns, 2), np.nan)
+    row, column = events.y // patch_px, events.x // patch_px
+    for place in itertools.product(range(rows), range(columns)):
+        inside = events[(row == place[0]) & (column == place[1])]
+        found = estimate_velocity(inside, window_us=window_us, most_speed_px_s=most_speed_px_s)
+        if found is not None:
+            flow[place] = found
+    return flow
+
+
+def _coarse_contrast(
+    x: NDArray[np.float64], y: NDArray[np.float64], share: NDArray[np.float64], shift: FloatPair
+) -> int:
+    """Sum of squared counts in squares of `COARSE_PX`, of events moved by `shift · share`."""
+    column = ((x - shift[0] * share) / COARSE_PX).astype(np.int64)
+    row = ((y - shift[1] * share) / COARSE_PX).astype(np.int64)
+    column -= column.min()
+    row -= row.min()
+    counts = np.bincount(row * (int(column.max()) + 1) + column)
+    return int(counts @ counts)
+
+
+def _contrast(
+    x: NDArray[np.float64], y: NDArray[np.float64], share: NDArray[np.float64], shift: FloatPair
+) -> float:
+    """Sum of squares of the picture of events moved by `shift · share`, smoothed by (1 2 1)."""
+    moved_x, moved_y = x - shift[0] * share, y - shift[1] * share
+    # Whole pixels, so that how events fall between pixels does not depend on the canvas.
+    left, top = np.floor(moved_x.min()) - 1, np.floor(moved_y.min()) - 1
+    shape = (int(moved_y.max() - top) + 3, int(moved_x.max() - left) + 3)
+    picture = splat_events(moved_x - left, moved_y - top, shape)
+    # Events between two pixels are spread thinner than events on one; smoothing evens that out.
+    picture = picture[:-2] + 2 * picture[1:-1] + picture[2:]
+    picture = picture[:, :-2] + 2 * picture[:, 1:-1] + picture[:, 2:]
+    return float((picture * picture).sum())

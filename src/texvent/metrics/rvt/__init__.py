@@ -1,0 +1,1 @@
+"""EQS and LFS: similarity of the features of a detection network."""

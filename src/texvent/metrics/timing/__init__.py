@@ -1,0 +1,1 @@
+"""Metrics of event times: batches, cadence, soundness of a recording."""

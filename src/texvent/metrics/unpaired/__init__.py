@@ -1,0 +1,1 @@
+"""Metrics for streams of different scenes."""

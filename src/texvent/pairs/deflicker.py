@@ -1,0 +1,100 @@
+"""Global gain jumps of generated video, taken out of its frames.
+
+Text-to-video models change the brightness of a whole picture by a few percent from frame to frame.
+A pixel model answers with events everywhere, and Eq. 4 with more frames. A camera's own fades are
+slow; so the part of the gain that changes fast is divided out and the slow part stays.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from texvent.brightness import Float64Array
+from texvent.pairs.scene_change import Jump, detect_jump
+from texvent.video import UINT16_PER_LEVEL, Frame
+
+SIDE_CELLS = 64
+"""Frames are compared as means over cells, at most this many along the longer side."""
+DARK, BRIGHT = 8.0, 247.0
+"""Levels outside this range are clipped or noise: they do not follow a gain."""
+LEAST_USED = 0.05
+"""Share of the cells that must be inside that range."""
+CELLS_MOVING_TOGETHER = 16
+"""Neighbouring cells change alike when something moves, so this many count as one witness."""
+SIGNIFICANT = 2.5
+"""A median is taken for a gain from this many standard errors on; motion alone stays below."""
+MEDIAN_ERROR = 1.86
+"""Standard error of a median, in median absolute deviations, times the root of the witnesses:
+1.2533 / 0.6745 for a normal distribution."""
+FOLLOW = 0.2
+"""Share of a lasting change that is let through per frame: a real fade lags by five frames."""
+TOLERANCE = 0.002
+"""Corrections below this (log units) are left out, so that steady frames pass untouched."""
+
+
+def steady_frames(frames: Iterator[Frame]) -> Iterator[Frame]:
+    """The frames with fast changes of their global gain divided out.
+
+    A cut or a flash starts anew.
+
+    Args:
+        frames: source frames in time order.
+
+    Yields:
+        One frame per frame, same time and kind: the frame itself where nothing is to be corrected,
+        else its pixels times one number, float32, 0..255 scale.
+    """
+    previous: Frame | None = None
+    gain = followed = 0.0
+    for frame in frames:
+        if previous is not None:
+            if detect_jump(previous, frame) is not Jump.NONE:
+                gain = followed = 0.0
+            else:
+                gain += global_gain(previous, frame)
+            followed += FOLLOW * (gain - followed)
+        previous = frame
+        yield _scaled(frame, followed - gain)
+
+
+def global_gain(first: Frame, second: Frame) -> float:
+    """By how much the whole picture got brighter from one frame to the next, log units.
+
+    Args:
+        first: the earlier frame.
+        second: the later frame, same size.
+
+    Returns:
+        The median of ln(I₂ / I₁) over cells, or 0 if motion explains it as well.
+    """
+    earlier, later = _cells(first), _cells(second)
+    used = (earlier > DARK) & (earlier < BRIGHT) & (later > DARK) & (later < BRIGHT)
+    if used.mean() < LEAST_USED:
+        return 0.0
+    ratio = np.log(later[used] / earlier[used])
+    gain = float(np.median(ratio))
+    witnesses = max(1.0, ratio.size / CELLS_MOVING_TOGETHER)
+    error = MEDIAN_ERROR * float(np.median(np.abs(ratio - gain))) / math.sqrt(witnesses)
+    return gain if abs(gain) >= SIGNIFICANT * error else 0.0
+
+
+def _cells(frame: Frame) -> Float64Array:
+    luma = frame.luma
+    side = max(1, -(-max(luma.shape) // SIDE_CELLS))
+    side = min(side, *luma.shape)
+    rows, columns = luma.shape[0] // side, luma.shape[1] // side
+    cells = luma[: rows * side, : columns * side].reshape(rows, side, columns, side)
+    return np.asarray(cells.mean(axis=(1, 3), dtype=np.float64))
+
+
+def _scaled(frame: Frame, log_factor: float) -> Frame:
+    if abs(log_factor) < TOLERANCE:
+        return frame
+    factor = math.exp(log_factor)
+    if frame.pixels.dtype == np.uint16:
+        factor /= UINT16_PER_LEVEL
+    pixels = np.asarray(frame.pixels * np.float64(factor), dtype=np.float32)
+    return Frame(pixels, frame.t_us, is_source=frame.is_source)

@@ -1,0 +1,124 @@
+"""The pictures between two frames as one rule per pixel, for whoever does not want them whole."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.pairs.instants import check_between, float_luma, position
+from texvent.runtime.background_jit import is_ready, wait_until_ready
+from texvent.sensor import SensorSize
+from texvent.video import Frame
+
+FloatPicture = NDArray[np.float32]
+Flows = tuple[NDArray[np.float32], NDArray[np.float32]]
+
+WARP = "texvent.pairs.warp_cpu"
+DRAWN_BYTES = 16 << 20
+"""Moved pictures are drawn a few at a time, which is faster; this much of them at most."""
+
+
+@dataclass(frozen=True, eq=False)
+class Paths:
+    """Intermediate frames of one pair; iterate for the frames, each made when it is asked for.
+
+    Every pixel of every picture depends on the two source frames and their flow alone. So a
+    simulator that wants the brightness of some pixels can compute just these, with the functions
+    of `interpolate.kernels`, and gets the bits that the frames would have had.
+    """
+
+    earlier: FloatPicture
+    """Luma of the earlier source frame, [H, W], 0..255 scale."""
+    later: FloatPicture
+    """Luma of the later source frame, [H, W]."""
+    flows: Flows | None
+    """Optical flow from earlier to later and back, [H, W, 2] float32 as (x, y), px. None: nothing
+    moves, the frames are blended in place."""
+    times_us: Sequence[int]
+    """Times of the pictures, µs, strictly increasing."""
+    positions: Sequence[float]
+    """τ of each picture, 0 = earlier, 1 = later."""
+
+    def __post_init__(self) -> None:
+        # Numba compiles for arrays that can be written and for those that cannot: one is enough.
+        object.__setattr__(self, "earlier", frozen(self.earlier))
+        object.__setattr__(self, "later", frozen(self.later))
+        if self.flows is not None:
+            object.__setattr__(self, "flows", tuple(frozen(flow) for flow in self.flows))
+
+    @classmethod
+    def between(
+        cls, first: Frame, second: Frame, times_us: Sequence[int], flows: Flows | None
+    ) -> Paths:
+        """Pictures at some times between two source frames.
+
+        Raises:
+            InputError: the frames differ in size, or a time is not between theirs.
+        """
+        check_between(first, second, times_us)
+        places = [position(first, second, t_us) for t_us in times_us]
+        return cls(float_luma(first), float_luma(second), flows, tuple(times_us), places)
+
+    @property
+    def size(self) -> SensorSize:
+        """Width and height, pixels."""
+        height, width = self.earlier.shape
+        return SensorSize(width, height)
+
+    def __len__(self) -> int:
+        return len(self.times_us)
+
+    def __iter__(self) -> Iterator[Frame]:
+        step = max(1, DRAWN_BYTES // max(1, self.earlier.nbytes))
+        for start in range(0, len(self), step):
+            for picture, t_us in zip(
+                self._draw(start, start + step), self.times_us[start:], strict=False
+            ):
+                yield Frame(picture, t_us, is_source=False)
+
+    def picture(self, index: int) -> FloatPicture:
+        """One picture, [H, W] float32 luma.
+
+        Without flow it is `I_1 + τ (I_2 − I_1)` in float32.
+        """
+        return next(self._draw(index, index + 1))
+
+    def _draw(self, start: int, stop: int) -> Iterator[FloatPicture]:
+        places = np.array(self.positions[start:stop], np.float64)
+        if self.flows is not None:
+            yield from load_warp().warp_pair(self.prepared, places)
+            return
+        for place in places.tolist():
+            yield self.earlier + np.float32(place) * (self.later - self.earlier)
+
+    @cached_property
+    def prepared(self) -> Any:
+        """The pair as the compiled kernels look things up, a `kernels.cpu.WarpPair`."""
+        nothing = np.empty((0, 0, 2), np.float32)
+        flows = (nothing, nothing) if self.flows is None else self.flows
+        return load_warp().prepare_pair(self.earlier, self.later, *flows)
+
+
+def frozen(picture: FloatPicture) -> FloatPicture:
+    """A view that cannot be written."""
+    view = picture.view()
+    view.flags.writeable = False
+    return view
+
+
+def load_warp() -> ModuleType:
+    """The compiled kernels; by name, because whoever blends does without Numba."""
+    wait_until_ready(WARP)
+    return importlib.import_module(WARP)
+
+
+def prepare_warp() -> None:
+    """Begin to compile what draws moved pictures."""
+    is_ready(WARP)

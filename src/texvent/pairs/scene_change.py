@@ -1,0 +1,213 @@
+"""Scene cuts and flashes: changes between two frames that are not motion.
+
+Both are judged on thumbnails (at most 64 cells across, each the mean of at least 2×2 pixels), so
+noise and detail hardly count, and in log brightness, so a lamp scales nothing.
+
+* *Structure*: every 8×8-cell block of one thumbnail is looked for within 8 cells in the other, so
+  motion of up to an eighth of the picture, zoom and moving objects keep it. After a cut most
+  blocks are found nowhere, unless the whole picture has moved further than that: a whip pan
+  agrees at some shift (`pan`).
+* *Level*: the median change over the picture. A flash moves most of it by the same step.
+
+A fade moves everything too, but by small steps; near black those are large in log brightness, so
+a jump must also be a jump in intensity.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.brightness import Float64Array, balanced_log
+from texvent.pairs.shift_correlation import shift_agreement
+from texvent.video import Frame
+
+SIDE_CELLS = 64
+"""Cells of a thumbnail along its longer side, at most."""
+LEAST_CELL_PX = 2
+BLOCK_CELLS = 8
+SEARCH_CELLS = 8
+LEAST_SIDE_PX = LEAST_CELL_PX * BLOCK_CELLS
+"""Frames with a side below this have no structure to judge and never jump."""
+LOG_BALANCE = 30.0
+"""Balance of the logarithm that jumps are judged in; the simulator's own does not matter here."""
+
+TEXTURE = 0.03
+"""Standard deviation of log brightness from which a block has structure to be found again."""
+LEAST_TEXTURED = 0.1
+"""A picture with a smaller share of such blocks is flat: black, white, a plain colour."""
+CUT_RESIDUAL = 0.5
+"""After a cut, blocks differ from their best match by more than this share of their variance."""
+CUT_CORRELATION = 0.8
+"""After a cut, half of the blocks correlate with their best match by less than this."""
+CUT_CHANGE_LOG = 0.15
+CUT_CHANGE_LEVELS = 12.0
+"""A cut changes the picture by at least this much on average (log units; intensity levels)."""
+PAN_AGREEMENT = 0.6
+"""Detail that agrees at least this well at one shift of the whole picture is a pan, not a cut."""
+FLASH_CHANGE_LOG = 0.35
+FLASH_CHANGE_LEVELS = 32.0
+"""A flash changes the median by at least this much: 1/8 of the scale within one frame."""
+FLASH_SHARE = 0.75
+"""Share of the picture that a flash moves in one direction."""
+
+
+class Jump(Enum):
+    """What happened between two frames."""
+
+    NONE = "none"
+    """Motion, a fade, noise: nothing that interpolation should not bridge."""
+    CUT = "cut"
+    """Another picture."""
+    FLASH = "flash"
+    """The same picture, or no picture, at another brightness. A flash of one frame is two jumps,
+    up and down."""
+
+
+def detect_jump(first: Frame, second: Frame) -> Jump:
+    """Whether the change between two frames is a jump that no motion explains.
+
+    Args:
+        first: the earlier frame, at least 16×16 px to be judged.
+        second: the later frame, same size.
+
+    Returns:
+        CUT, FLASH, or NONE; NONE for frames too small to judge.
+    """
+    if min(first.size) < LEAST_SIDE_PX:
+        return Jump.NONE
+    earlier, later = _thumbnail(first), _thumbnail(second)
+    change = _Change.between(earlier, later)
+    if not change.is_large:
+        return Jump.NONE
+    one_way, other_way = _match(earlier.log, later.log), _match(later.log, earlier.log)
+    if min(one_way.textured, other_way.textured) < LEAST_TEXTURED:
+        # One picture is flat, so there is no structure to compare.
+        if change.is_flash:
+            return Jump.FLASH
+        return Jump.CUT if change.mean_levels >= FLASH_CHANGE_LEVELS else Jump.NONE
+    is_lost = (
+        min(one_way.residual, other_way.residual) > CUT_RESIDUAL
+        and max(one_way.correlation, other_way.correlation) < CUT_CORRELATION
+    )
+    if is_lost and change.is_cut:
+        is_pan = shift_agreement(earlier.log, later.log) >= PAN_AGREEMENT
+        return Jump.NONE if is_pan else Jump.CUT
+    return Jump.FLASH if change.is_flash and not is_lost else Jump.NONE
+
+
+@dataclass(frozen=True, eq=False)
+class _Thumbnail:
+    """Mean intensity per cell, and its brightness."""
+
+    levels: Float64Array
+    log: Float64Array
+
+
+@dataclass(frozen=True)
+class _Change:
+    """How much two thumbnails differ, cell by cell."""
+
+    mean_levels: float
+    mean_log: float
+    """Mean absolute change once the median change is taken out, log units."""
+    median_levels: float
+    median_log: float
+    same_direction: float
+    """Share of cells that change in the direction of the median."""
+
+    @classmethod
+    def between(cls, first: _Thumbnail, second: _Thumbnail) -> _Change:
+        levels, log = second.levels - first.levels, second.log - first.log
+        median = float(np.median(log))
+        return cls(
+            mean_levels=float(np.abs(levels).mean()),
+            mean_log=float(np.abs(log - median).mean()),
+            median_levels=abs(float(np.median(levels))),
+            median_log=abs(median),
+            same_direction=float(np.mean(np.sign(log) == np.sign(median))),
+        )
+
+    @property
+    def is_cut(self) -> bool:
+        return self.mean_log >= CUT_CHANGE_LOG and self.mean_levels >= CUT_CHANGE_LEVELS
+
+    @property
+    def is_flash(self) -> bool:
+        return (
+            self.median_log >= FLASH_CHANGE_LOG
+            and self.median_levels >= FLASH_CHANGE_LEVELS
+            and self.same_direction >= FLASH_SHARE
+        )
+
+    @property
+    def is_large(self) -> bool:
+        """Whether it is worth looking at the structure."""
+        return self.is_cut or self.is_flash or self.mean_levels >= FLASH_CHANGE_LEVELS
+
+
+@dataclass(frozen=True)
+class _Match:
+    """How well the blocks of one thumbnail are found in another."""
+
+    residual: float
+    """Squared difference to the best matches, as a share of the blocks' variance."""
+    correlation: float
+    """Median over the textured blocks of the best correlation."""
+    textured: float
+    """Share of the blocks that have structure."""
+
+
+def _thumbnail(frame: Frame) -> _Thumbnail:
+    luma = frame.luma
+    height, width = luma.shape
+    cell = max(LEAST_CELL_PX, -(-max(height, width) // SIDE_CELLS))
+    # A long strip keeps at least one block across.
+    cell = min(cell, min(height, width) // BLOCK_CELLS)
+    rows, columns = height // cell, width // cell
+    # Rows first: whole rows add up faster than the cells of a row.
+    strips = luma[: rows * cell, : columns * cell].reshape(rows, cell, columns * cell)
+    sums = strips.sum(axis=1, dtype=np.float64).reshape(rows, columns, cell).sum(axis=2)
+    levels = sums / cell**2
+    return _Thumbnail(levels, balanced_log(levels, LOG_BALANCE))
+
+
+def _match(picture: Float64Array, other: Float64Array) -> _Match:
+    size, area = BLOCK_CELLS, BLOCK_CELLS**2
+    windows = np.lib.stride_tricks.sliding_window_view(other, (size, size))
+    windows = windows - windows.mean(axis=(2, 3), keepdims=True)
+    residuals, variances, correlations = [], [], []
+    for top in range(0, picture.shape[0] - size + 1, size):
+        for left in range(0, picture.shape[1] - size + 1, size):
+            block = picture[top : top + size, left : left + size].ravel()
+            block = block - block.mean()
+            near = _near(windows, top, left).reshape(-1, area)
+            variance, near_variance = float(block @ block) / area, _mean_square(near)
+            product = near @ block / area
+            residuals.append(float((variance + near_variance - 2.0 * product).min()))
+            variances.append(variance)
+            # A hundredth of log brightness is noise: it must not make flat blocks differ.
+            scale = np.sqrt((variance + 1e-4) * (near_variance + 1e-4))
+            correlations.append(float((product / scale).max()))
+    has_texture = np.array(variances) > TEXTURE**2
+    return _Match(
+        residual=sum(residuals) / (sum(variances) + 1e-4 * len(variances)),
+        correlation=(
+            float(np.median(np.array(correlations)[has_texture])) if has_texture.any() else 0.0
+        ),
+        textured=float(has_texture.mean()),
+    )
+
+
+def _near(windows: NDArray[np.float64], top: int, left: int) -> NDArray[np.float64]:
+    return windows[
+        max(0, top - SEARCH_CELLS) : top + SEARCH_CELLS + 1,
+        max(0, left - SEARCH_CELLS) : left + SEARCH_CELLS + 1,
+    ]
+
+
+def _mean_square(rows: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.asarray(np.einsum("ij,ij->i", rows, rows) / rows.shape[1])

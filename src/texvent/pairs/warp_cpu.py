@@ -1,0 +1,368 @@
+"""`reference.warp_between`, compiled by Numba: same steps in the same order, so equal results.
+
+Some rows at a time, in stages: where to look (vector instructions), what lies there (scattered
+loads, which vector instructions would not speed up), how to mix it (vector instructions). Every
+pixel is computed on its own, so the number of threads changes nothing.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.pairs.warp_tolerance import (
+    LOST_PX2,
+    LOST_RELATIVE,
+    MOST_PX2,
+    UNSEEN_WEIGHT,
+    VISIBLE_PX2,
+    VISIBLE_RELATIVE,
+)
+from texvent.runtime.compile_part import compile_part
+
+Floats = NDArray[np.float32]
+Numbers = NDArray[np.int32]
+Words = NDArray[np.uint64]
+"""Two float32 in each, which are fetched together."""
+
+POINTS = 3072
+"""Pixels that are warped at a time, about: what they need stays in the nearest caches."""
+BAND_ROWS = 32
+"""Rows that a thread takes at a time."""
+LANES = 64
+"""Vector loops are fastest over a multiple of so many numbers."""
+
+# As float32: Numba computes with float64 where a constant is one.
+_VISIBLE_RELATIVE, _VISIBLE_PX2 = np.float32(VISIBLE_RELATIVE), np.float32(VISIBLE_PX2)
+_LOST_RELATIVE, _LOST_PX2 = np.float32(LOST_RELATIVE), np.float32(LOST_PX2)
+_UNSEEN, _MOST = np.float32(UNSEEN_WEIGHT), np.float32(MOST_PX2)
+_0, _HALF, _1 = np.float32(0.0), np.float32(0.5), np.float32(1.0)
+_ONE = np.uint64(1)
+
+
+class WarpPair(NamedTuple):
+    """Two frames and their motion, as the kernels look things up."""
+
+    first: Floats
+    """[H, W] the earlier frame, intensity."""
+    second: Floats
+    """[H, W] the later frame."""
+    first_pixels: Words
+    """[(H + 1) · W] each pixel of the earlier frame with its right neighbour; one more row, because
+    the last one has nothing below it."""
+    second_pixels: Words
+    forward: Words
+    """[H · W] flow from first to second, (x, y), px."""
+    backward: Words
+    """[H · W] flow from second to first."""
+
+
+class Points(NamedTuple):
+    """Pixels, and what does not depend on the instant; [n], a multiple of `LANES`."""
+
+    pixel: Numbers
+    """Flat index y · W + x."""
+    x: Floats
+    y: Floats
+    ahead_x: Floats
+    """Forward flow, px."""
+    ahead_y: Floats
+    bend_x: Floats
+    """Forward plus backward flow, px: 0 where they agree."""
+    bend_y: Floats
+    earlier: Floats
+    """Intensity in the earlier frame."""
+    later: Floats
+    """Intensity in the later frame."""
+
+
+class Look(NamedTuple):
+    """What points see in one of the frames; [n]."""
+
+    corner: Numbers
+    """Flat index of the pixel up left of the place."""
+    nearest: Numbers
+    """Flat index of the pixel nearest to it."""
+    u: Floats
+    """How far right of the corner it lies, 0..1."""
+    v: Floats
+    """How far below."""
+    outside: Floats
+    """How far outside the picture, px."""
+    upper: Words
+    """Intensity of the corner and its right neighbour."""
+    lower: Words
+    """The same, a row below."""
+    flow: Words
+    """At the nearest pixel, px."""
+
+
+class Room(NamedTuple):
+    """Memory for some points."""
+
+    points: Points
+    in_first: Look
+    in_second: Look
+
+
+def warp_between(
+    first: Floats, second: Floats, forward: Floats, backward: Floats, position: float
+) -> Floats:
+    """The picture at `position` between two frames whose motion is known.
+
+    Args:
+        first: the earlier frame, [H, W] float32, intensity.
+        second: the later frame, [H, W] float32, intensity.
+        forward: flow from first to second, [H, W, 2] float32 as (x, y), px.
+        backward: flow from second to first, [H, W, 2] float32, px.
+        position: τ, 0 = first, 1 = second.
+
+    Returns:
+        [H, W] float32, intensity; defined by `reference.warp_between`.
+    """
+    pair = prepare_pair(first, second, forward, backward)
+    picture: Floats = warp_pair(pair, np.array([position]))[0]
+    return picture
+
+
+def prepare_pair(first: Floats, second: Floats, forward: Floats, backward: Floats) -> WarpPair:
+    """What all pictures of a pair share; see `warp_between`.
+
+    The arrays may have no pixels at all, where nobody wants a picture.
+    """
+    # Read-only throughout, because Numba compiles for each kind of array again.
+    frames = [read_only(first), read_only(second)]
+    pixels = [read_only(_with_neighbours(frame)) for frame in frames]
+    flows = [
+        read_only(np.ascontiguousarray(flow).reshape(-1).view(np.uint64))
+        for flow in (forward, backward)
+    ]
+    return WarpPair(*frames, *pixels, *flows)
+
+
+def read_only(array: NDArray[Any]) -> NDArray[Any]:
+    """A C-contiguous view (or copy) that cannot be written."""
+    view = np.ascontiguousarray(array).view()
+    view.flags.writeable = False
+    return view
+
+
+def warm_up() -> None:
+    """Compile what draws pictures, or load what was compiled before."""
+    picture, flow = np.zeros((2, 2), np.float32), np.zeros((2, 2, 2), np.float32)
+    warp_pair(prepare_pair(picture, picture, flow, flow), np.array([0.5]))
+
+
+@numba.njit(cache=True, nogil=True)
+def _with_neighbours(picture: Floats) -> Words:
+    height, width = picture.shape
+    levels = np.empty((height + 1, 2 * width), np.float32)
+    for row in range(height + 1):
+        source, target = picture[min(row, height - 1)], levels[row]
+        for x in range(width - 1):
+            target[2 * x], target[2 * x + 1] = source[x], source[x + 1]
+        target[2 * width - 2], target[2 * width - 1] = source[width - 1], source[width - 1]
+    return levels.reshape(-1).view(np.uint64)
+
+
+@numba.njit(cache=True, parallel=True)
+def warp_pair(pair: WarpPair, positions: NDArray[np.float64]) -> Floats:
+    """`warp_between` of a pair that is prepared, at several positions: [n, H, W].
+
+    All pictures of some rows are made together, from what the nearest caches hold.
+    """
+    height, width = pair.first.shape
+    result = np.empty((positions.size, height, width), np.float32)
+    for band in numba.prange((height + BAND_ROWS - 1) // BAND_ROWS):
+        top, bottom = band * BAND_ROWS, min((band + 1) * BAND_ROWS, height)
+        _warp_rows(pair, top, bottom, positions, result)
+    return result
+
+
+@compile_part
+def _warp_rows(
+    pair: WarpPair, top: int, bottom: int, positions: NDArray[np.float64], result: Floats
+) -> None:
+    width = result.shape[2]
+    step = max(POINTS // width, 1)
+    room = make_room(min(step, bottom - top) * width)
+    for row in range(top, bottom, step):
+        end = min(row + step, bottom)
+        take_rows(pair, row, end, room.points)
+        for k in range(positions.size):
+            out = result[k, row:end].reshape(-1)
+            warp_points(pair, room, (end - row) * width, positions[k], out)
+
+
+@numba.njit(cache=True, nogil=True)
+def make_room(number: int) -> Room:
+    """Memory for so many points; all are the first pixel, so that those left over do no harm."""
+    room = (number + LANES - 1) // LANES * LANES
+    points = Points(
+        np.zeros(room, np.int32),
+        np.zeros(room, np.float32),
+        np.zeros(room, np.float32),
+        np.zeros(room, np.float32),
+        np.zeros(room, np.float32),
+        np.zeros(room, np.float32),
+        np.zeros(room, np.float32),
+        np.zeros(room, np.float32),
+        np.zeros(room, np.float32),
+    )
+    return Room(points, _make_look(room), _make_look(room))
+
+
+@compile_part
+def _make_look(room: int) -> Look:
+    return Look(
+        np.empty(room, np.int32),
+        np.empty(room, np.int32),
+        np.empty(room, np.float32),
+        np.empty(room, np.float32),
+        np.empty(room, np.float32),
+        np.empty(room, np.uint64),
+        np.empty(room, np.uint64),
+        np.empty(room, np.uint64),
+    )
+
+
+@numba.njit(cache=True, nogil=True)
+def take_rows(pair: WarpPair, top: int, bottom: int, points: Points) -> None:
+    """Let the points be all pixels of some rows."""
+    pixel, x, y, ahead_x, ahead_y, bend_x, bend_y, earlier, later = points
+    first, second, _, _, forward, backward = pair
+    width = first.shape[1]
+    start, number = top * width, (bottom - top) * width
+    # Everything begins at the first of these pixels: Numba takes an index for possibly negative
+    # where something is added to the loop's own.
+    pixels_first, pixels_second = first[top:bottom].reshape(-1), second[top:bottom].reshape(-1)
+    ahead = forward[start : start + number].view(np.float32)
+    back = backward[start : start + number].view(np.float32)
+    for row in range(bottom - top):
+        columns, rows = x[row * width : (row + 1) * width], y[row * width : (row + 1) * width]
+        for k in range(width):
+            columns[k], rows[k] = k, top + row
+    for k in range(number):
+        pixel[k] = start + k
+        earlier[k], later[k] = pixels_first[k], pixels_second[k]
+    for k in range(number):
+        ahead_x[k], ahead_y[k] = ahead[2 * k], ahead[2 * k + 1]
+    for k in range(number):
+        bend_x[k], bend_y[k] = ahead[2 * k] + back[2 * k], ahead[2 * k + 1] + back[2 * k + 1]
+
+
+@numba.njit(cache=True, nogil=True)
+def take_points(pair: WarpPair, chosen: NDArray[np.int64], points: Points) -> None:
+    """Let the points be some pixels, given by flat index."""
+    pixel, x, y, ahead_x, ahead_y, bend_x, bend_y, earlier, later = points
+    first, second = pair.first.reshape(-1), pair.second.reshape(-1)
+    ahead, back = pair.forward.view(np.float32), pair.backward.view(np.float32)
+    width = np.uint64(pair.first.shape[1])
+    for k in range(chosen.size):
+        i = np.uint64(chosen[k])
+        row = i // width
+        pixel[k], x[k], y[k] = i, i - row * width, row
+        earlier[k], later[k] = first[i], second[i]
+        j = i + i
+        ahead_x[k], ahead_y[k] = ahead[j], ahead[j + _ONE]
+        bend_x[k], bend_y[k] = ahead[j] + back[j], ahead[j + _ONE] + back[j + _ONE]
+
+
+@numba.njit(cache=True, nogil=True)
+def warp_points(pair: WarpPair, room: Room, number: int, position: float, out: Floats) -> None:
+    """What the first `number` of the points show at a position; fills in out[:number]."""
+    points, in_first, in_second = room
+    place, shape = np.float32(position), pair.first.shape
+    padded = (number + LANES - 1) // LANES * LANES
+    _aim(points, padded, shape, (place, -place), in_first)
+    _aim(points, padded, shape, (place, _1 - place), in_second)
+    _fetch(pair.first_pixels, pair.forward, number, shape[1], in_first)
+    _fetch(pair.second_pixels, pair.backward, number, shape[1], in_second)
+    _mix(points, in_first, in_second, number, place, out)
+
+
+@compile_part
+def _aim(
+    points: Points,
+    number: int,
+    shape: tuple[int, int],
+    times: tuple[np.float32, np.float32],
+    look: Look,
+) -> None:
+    """Find where points lie in a frame: the second of the times along their path."""
+    position, share = times
+    pixel, column, row, ahead_x, ahead_y, bend_x, bend_y, _, _ = points
+    corner, nearest, u, v, outside, _, _, _ = look
+    width = np.int32(shape[1])
+    last_column, last_row = np.float32(shape[1] - 1), np.float32(shape[0] - 1)
+    for k in range(number):
+        way_x = share * (ahead_x[k] - position * bend_x[k])
+        way_y = share * (ahead_y[k] - position * bend_y[k])
+        # In this order a flow that is no number leads to the edge, not out of memory.
+        x = min(max(-column[k], way_x), last_column - column[k])
+        y = min(max(-row[k], way_y), last_row - row[k])
+        outside[k] = max(abs(way_x - x), abs(way_y - y))
+        left, up = np.floor(x), np.floor(y)
+        right, down = x - left, y - up
+        u[k], v[k] = right, down
+        here = pixel[k] + np.int32(up) * width + np.int32(left)
+        corner[k] = here
+        nearest[k] = here + (width if down >= _HALF else np.int32(0)) + np.int32(right >= _HALF)
+
+
+@compile_part
+def _fetch(pixels: Words, flows: Words, number: int, width: int, look: Look) -> None:
+    """Fetch what lies where the points look."""
+    corner, nearest, _, _, _, upper, lower, flow = look
+    for k in range(number):
+        # Unsigned, or Numba allows for indices that count from the end.
+        upper[k] = pixels[np.uint64(corner[k])]
+        lower[k] = pixels[np.uint64(corner[k] + width)]
+    for k in range(number):
+        flow[k] = flows[np.uint64(nearest[k])]
+
+
+@compile_part
+def _mix(
+    points: Points, in_first: Look, in_second: Look, number: int, position: np.float32, out: Floats
+) -> None:
+    """Weigh what both frames show."""
+    _, _, _, ahead_x, ahead_y, bend_x, bend_y, earlier, later = points
+    u1, v1, outside1 = in_first.u, in_first.v, in_first.outside
+    u2, v2, outside2 = in_second.u, in_second.v, in_second.outside
+    upper1, lower1 = in_first.upper.view(np.float32), in_first.lower.view(np.float32)
+    upper2, lower2 = in_second.upper.view(np.float32), in_second.lower.view(np.float32)
+    flow1, flow2 = in_first.flow.view(np.float32), in_second.flow.view(np.float32)
+    rest = _1 - position
+    for k in range(number):
+        path_x = ahead_x[k] - position * bend_x[k]
+        path_y = ahead_y[k] - position * bend_y[k]
+        length2 = min(path_x * path_x + path_y * path_y, _MOST)
+        x, y = flow1[2 * k] - path_x, flow1[2 * k + 1] - path_y
+        error1 = min(x * x + y * y, _MOST)
+        x, y = flow2[2 * k] + path_x, flow2[2 * k + 1] + path_y
+        error2 = min(x * x + y * y, _MOST)
+
+        visible = _VISIBLE_RELATIVE * length2 + _VISIBLE_PX2
+        visible = visible * visible
+        doubt1, doubt2 = visible + error1 * error1, visible + error2 * error2
+        seen1 = (visible if outside1[k] <= _HALF else _0) + _UNSEEN * doubt1
+        seen2 = (visible if outside2[k] <= _HALF else _0) + _UNSEEN * doubt2
+        weight1, weight2 = rest * (seen1 * doubt2), position * (seen2 * doubt1)
+        above = upper1[2 * k] + (upper1[2 * k + 1] - upper1[2 * k]) * u1[k]
+        below = lower1[2 * k] + (lower1[2 * k + 1] - lower1[2 * k]) * u1[k]
+        a = above + (below - above) * v1[k]
+        above = upper2[2 * k] + (upper2[2 * k + 1] - upper2[2 * k]) * u2[k]
+        below = lower2[2 * k] + (lower2[2 * k + 1] - lower2[2 * k]) * u2[k]
+        b = above + (below - above) * v2[k]
+        warped = a + (b - a) * (weight2 / (weight1 + weight2))
+
+        lost = _LOST_RELATIVE * length2 + _LOST_PX2
+        lost = lost * lost
+        error = min(error1, error2)
+        confidence = lost / (lost + error * error)
+        blended = earlier[k] + (later[k] - earlier[k]) * position
+        out[k] = blended + (warped - blended) * confidence

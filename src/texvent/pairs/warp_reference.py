@@ -1,0 +1,110 @@
+"""Motion-compensated mixing of two frames, as it is defined (NumPy, float32)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.pairs.warp_tolerance import (
+    LOST_PX2,
+    LOST_RELATIVE,
+    MOST_PX2,
+    UNSEEN_WEIGHT,
+    VISIBLE_PX2,
+    VISIBLE_RELATIVE,
+)
+
+FloatArray = NDArray[Any]
+"""float32; float64 where the rounding of float32 is to be seen."""
+
+
+def warp_between(
+    first: FloatArray,
+    second: FloatArray,
+    forward: FloatArray,
+    backward: FloatArray,
+    position: float,
+) -> FloatArray:
+    """The picture at `position` between two frames whose motion is known.
+
+    Everything is computed in the type of the frames; in float32, the order of the operations is
+    part of the definition.
+
+    Args:
+        first: the earlier frame, [H, W], intensity.
+        second: the later frame, [H, W], intensity.
+        forward: flow from first to second, [H, W, 2] as (x, y), px.
+        backward: flow from second to first, [H, W, 2], px.
+        position: τ, 0 = first, 1 = second.
+
+    Returns:
+        [H, W], intensity.
+
+    Source: flows to the intermediate frame as in Jiang et al., Super SloMo (CVPR 2018), eq. 4,
+        which are −τ and 1 − τ times the path below; the weights are ours: see `tolerance.py`.
+    """
+    position = first.dtype.type(position)
+    rest = first.dtype.type(1.0) - position
+    path = forward - position * (forward + backward)
+    length2 = np.minimum(_squared(path), MOST_PX2)
+
+    a, path_first, is_in_first = look_along(first, forward, -position * path)
+    b, path_second, is_in_second = look_along(second, backward, rest * path)
+    error_first = np.minimum(_squared(path_first - path), MOST_PX2)
+    error_second = np.minimum(_squared(path_second + path), MOST_PX2)
+
+    # A frame's weight is its share of the time, times (how well it sees the point + UNSEEN_WEIGHT);
+    # both over one denominator, which cancels.
+    visible = _squared_number(VISIBLE_RELATIVE * length2 + VISIBLE_PX2)
+    doubt_first = visible + error_first * error_first
+    doubt_second = visible + error_second * error_second
+    seen_first = np.where(is_in_first, visible, 0) + UNSEEN_WEIGHT * doubt_first
+    seen_second = np.where(is_in_second, visible, 0) + UNSEEN_WEIGHT * doubt_second
+    weight_first = rest * (seen_first * doubt_second)
+    weight_second = position * (seen_second * doubt_first)
+    warped = a + (b - a) * (weight_second / (weight_first + weight_second))
+
+    lost = _squared_number(LOST_RELATIVE * length2 + LOST_PX2)
+    confidence = lost / (lost + _squared_number(np.minimum(error_first, error_second)))
+    blended = first + (second - first) * position
+    return np.asarray(blended + (warped - blended) * confidence)
+
+
+def look_along(
+    picture: FloatArray, flow: FloatArray, way: FloatArray
+) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
+    """What lies some way off each pixel; outside the picture, what lies at its nearest edge.
+
+    Args:
+        picture: [H, W].
+        flow: [H, W, 2].
+        way: [H, W, 2] as (x, y), px.
+
+    Returns:
+        The picture there (bilinear), the flow of the nearest pixel, and whether the place is on the
+        picture, whose pixels reach half a pixel past their centres.
+    """
+    height, width = picture.shape
+    row, column = np.mgrid[:height, :width]
+    kind = picture.dtype
+    x = np.clip(way[..., 0], (-column).astype(kind), (width - 1 - column).astype(kind))
+    y = np.clip(way[..., 1], (-row).astype(kind), (height - 1 - row).astype(kind))
+    outside = np.maximum(np.abs(way[..., 0] - x), np.abs(way[..., 1] - y))
+    left, top = np.floor(x), np.floor(y)
+    u, v = x - left, y - top
+    left, top = column + left.astype(np.intp), row + top.astype(np.intp)
+    right, bottom = np.minimum(left + 1, width - 1), np.minimum(top + 1, height - 1)
+    upper = picture[top, left] + (picture[top, right] - picture[top, left]) * u
+    lower = picture[bottom, left] + (picture[bottom, right] - picture[bottom, left]) * u
+    nearest = np.where(v >= 0.5, bottom, top), np.where(u >= 0.5, right, left)
+    return upper + (lower - upper) * v, flow[nearest], outside <= 0.5
+
+
+def _squared(vectors: FloatArray) -> FloatArray:
+    return np.asarray(vectors[..., 0] * vectors[..., 0] + vectors[..., 1] * vectors[..., 1])
+
+
+def _squared_number(number: FloatArray) -> FloatArray:
+    return number * number

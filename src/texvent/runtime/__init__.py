@@ -1,0 +1,1 @@
+"""Threads, prefetching, compilation, memory and signals: what every stage runs on."""

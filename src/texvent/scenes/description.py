@@ -1,0 +1,288 @@
+"""What a prompt means to the embedded generator: things, motions, camera, place and light."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from texvent.scenes.language.words import pluralise
+from texvent.scenes.model import Colour
+
+
+@dataclass(frozen=True)
+class Paint:
+    """A colour as the prompt names it."""
+
+    name: str
+    """Such as "dark red"."""
+    rgb: Colour
+    """Linear-light RGB, 1.0 = white."""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """How a thing moves."""
+
+    kind: str
+    """What it does: "drive", "walk", "run", "fly", "swim", "sail", "spin", "roll", "bounce",
+    "fall", "rise", "orbit", "swing", "jump", "hover", "throw", "sway", "slide" or "stand"."""
+    direction: str | None = None
+    """"left", "right", "towards", "away", "up", "down", "across", "circle" or "to and fro";
+    None = not said."""
+    pace: float = 1.0
+    """Multiple of the usual speed."""
+    speed_m_s: float | None = None
+    """Speed that the prompt states, m/s."""
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether the thing leaves its place or turns."""
+        return self.kind != "stand"
+
+
+STANDING = Motion("stand")
+
+
+@dataclass(frozen=True)
+class Thing:
+    """One noun of the prompt with all that is said about it."""
+
+    noun: str
+    """Key of the noun table."""
+    count: int = 1
+    """How many there are."""
+    paint: Paint | None = None
+    """Its colour; None = its usual one."""
+    scale: float = 1.0
+    """Multiple of its usual size."""
+    motion: Motion | None = None
+    """What it does; None = not said."""
+    side: str | None = None
+    """Where in the picture: "left", "right", "centre", "far" or "near"; None = not said."""
+
+
+@dataclass(frozen=True)
+class Relation:
+    """Where one thing is, or goes, with respect to others."""
+
+    kind: str
+    """"beside", "behind", "front", "on", "above", "under", "between", "left of", "right of",
+    "past", "around", "surround", "among", "towards", "follow" or "with"."""
+    subject: int
+    """Index into `SceneDescription.things`."""
+    targets: tuple[int, ...]
+    """Indices into `SceneDescription.things`."""
+
+
+@dataclass(frozen=True)
+class CameraMove:
+    """One thing the camera does."""
+
+    kind: str
+    """"static", "pan", "tilt", "zoom", "dolly", "truck", "pedestal", "orbit", "follow" or
+    "handheld"."""
+    direction: str | None = None
+    """"left", "right", "up", "down", "in", "out"; for follow: "behind", "front" or "side"."""
+    pace: float = 1.0
+    """Multiple of the usual rate."""
+
+
+@dataclass(frozen=True)
+class Shot:
+    """How the camera looks at the scene."""
+
+    moves: tuple[CameraMove, ...] = ()
+    """Moves, which add up; empty = static."""
+    view: str | None = None
+    """"aerial", "top", "low", "side", "front" or "back"; None = a little above eye level."""
+    framing: str | None = None
+    """"close" or "wide"; None = all things fit."""
+    target: int | None = None
+    """Index of the thing the camera follows or looks at; None = the first one."""
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether the camera moves."""
+        return any(move.kind != "static" for move in self.moves)
+
+
+@dataclass(frozen=True)
+class Light:
+    """Time of day and lamps."""
+
+    kind: str | None = None
+    """"day", "sunny", "overcast", "dusk", "dawn", "night", "moonlight" or "lamp"; None = not
+    said."""
+    flicker_hz: float | None = None
+    """Frequency at which all light is modulated, Hz; None = steady."""
+    shadows: bool | None = None
+    """Whether shadows are asked for; None = as the light gives."""
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """Where the scene is."""
+
+    place: str | None = None
+    """Key of `lexicon_scene.PLACES`; never None after
+    `parse_prompt`."""
+    paint: Paint | None = None
+    """Colour of the ground, where the place has a ground to paint."""
+    sky: Paint | None = None
+    """Colour of the sky; None = as the light gives."""
+    weather: str | None = None
+    """"fog", "rain" or "snow"; None = fair."""
+    clouds: float | None = None
+    """0 = none .. 1 = covered; None = as the light gives."""
+    backdrops: tuple[str, ...] = ()
+    """"mountain", "forest" or "city": what stands around a road, a field or a lake. A slope is
+    shown as mountains around; the ground itself stays flat."""
+    has_snow: bool = False
+    """Whether snow lies on the ground."""
+    has_dust: bool = False
+    """Whether dust flies up behind what moves on the ground."""
+
+
+@dataclass(frozen=True)
+class SceneDescription:
+    """A prompt, understood as far as it could be."""
+
+    prompt: str
+    things: tuple[Thing, ...] = ()
+    relations: tuple[Relation, ...] = ()
+    shot: Shot = field(default_factory=Shot)
+    light: Light = field(default_factory=Light)
+    surroundings: Surroundings = field(default_factory=Surroundings)
+    absent: tuple[str, ...] = ()
+    """Nouns that the prompt excludes; no scenery shows them."""
+    not_understood: tuple[str, ...] = ()
+    """Words that had no effect on the scene, in order, each once."""
+    understood_nothing: bool = False
+    """Whether no word had an effect, so that a default scene stands in."""
+    notes: tuple[str, ...] = ()
+    """What the parser decided or left out, as sentences."""
+
+    def summary(self) -> list[str]:
+        """What will be shown, line by line, for a person to check.
+
+        Example:
+            >>> SceneDescription("a car", things=(Thing("car", motion=Motion("drive", "left")),)
+            ... ).summary()
+            ['1 car, drives left', 'place: what suits the things', 'light: day', 'camera: static']
+        """
+        lines = [self._say_thing(index) for index in range(len(self.things))]
+        lines.append(f"place: {_say_surroundings(self.surroundings)}")
+        lines.append(f"light: {_say_light(self.light)}")
+        lines.append(f"camera: {_say_shot(self.shot)}")
+        if self.absent:
+            lines.append(f"left out as asked: {', '.join(self.absent)}")
+        lines.extend(self.notes)
+        if self.not_understood:
+            lines.append(f"not understood: {', '.join(self.not_understood)}")
+        return lines
+
+    def _say_thing(self, index: int) -> str:
+        thing = self.things[index]
+        words = [_say_count(thing)]
+        if thing.paint is not None:
+            words.append(thing.paint.name)
+        if thing.scale != 1.0:
+            words.append(f"{thing.scale:g} times its usual size")
+        if thing.motion is not None:
+            words.append(_say_motion(thing.motion, is_plural=thing.count > 1))
+        if thing.side is not None:
+            words.append(_SIDES[thing.side])
+        for relation in self.relations:
+            if relation.subject == index:
+                targets = " and ".join(
+                    _say_count(self.things[target]) for target in relation.targets
+                )
+                words.append(f"{_RELATIONS.get(relation.kind, relation.kind)} {targets}")
+        return ", ".join(words)
+
+
+_SIDES = {
+    "left": "on the left",
+    "right": "on the right",
+    "centre": "in the middle",
+    "far": "far away",
+    "near": "in the foreground",
+}
+_RELATIONS = {
+    "front": "in front of",
+    "surround": "surrounded by",
+    "follow": "following",
+    "above": "above",
+}
+_BACKDROPS = {
+    "mountain": "mountains around (the ground itself stays flat)",
+    "forest": "forest around",
+    "city": "buildings around",
+}
+_DIRECTIONS = {
+    "towards": "towards the camera",
+    "circle": "in a circle",
+    "across": "across the picture",
+}
+
+
+def _say_count(thing: Thing) -> str:
+    return f"{thing.count} {thing.noun if thing.count == 1 else pluralise(thing.noun)}"
+
+
+def _say_motion(motion: Motion, *, is_plural: bool) -> str:
+    verb, *rest = _PHRASES.get(motion.kind, motion.kind).split()
+    words = [verb if is_plural else _third_person(verb), *rest]
+    if motion.direction is not None:
+        words.append(_DIRECTIONS.get(motion.direction, motion.direction))
+    if motion.speed_m_s is not None:
+        words.append(f"at {motion.speed_m_s:.3g} m/s")
+    elif motion.pace != 1.0:
+        words.append(f"at {motion.pace:.2g} times its usual speed")
+    return " ".join(words)
+
+
+_PHRASES = {"throw": "fly through the air", "work": "move in place", "stand": "stand still"}
+
+
+def _third_person(verb: str) -> str:
+    if verb.endswith("y") and verb[-2:-1] not in "aeiou":
+        return f"{verb[:-1]}ies"
+    return f"{verb}s"
+
+
+def _say_surroundings(surroundings: Surroundings) -> str:
+    words = [surroundings.place or "what suits the things"]
+    if surroundings.paint is not None:
+        words.append(surroundings.paint.name)
+    if surroundings.sky is not None:
+        words.append(f"{surroundings.sky.name} sky")
+    if surroundings.weather is not None:
+        words.append(surroundings.weather)
+    if surroundings.clouds is not None:
+        words.append("clouds" if surroundings.clouds > 0 else "no clouds")
+    words.extend(_BACKDROPS[backdrop] for backdrop in surroundings.backdrops)
+    if surroundings.has_snow and surroundings.place != "snow":
+        words.append("snow on the ground")
+    if surroundings.has_dust:
+        words.append("dust")
+    return ", ".join(words)
+
+
+def _say_light(light: Light) -> str:
+    words = [light.kind or "day"]
+    if light.flicker_hz is not None:
+        words.append(f"flickering at {light.flicker_hz:g} Hz")
+    if light.shadows is not None:
+        words.append("with shadows" if light.shadows else "without shadows")
+    return ", ".join(words)
+
+
+def _say_shot(shot: Shot) -> str:
+    words = [" ".join(filter(None, (move.kind, move.direction))) for move in shot.moves]
+    if not words:
+        words = ["static"]
+    if shot.view is not None:
+        words.append(f"{shot.view} view")
+    if shot.framing is not None:
+        words.append(f"{shot.framing} shot")
+    return ", ".join(words)

@@ -1,0 +1,1 @@
+"""3-D models of nouns, built from solids."""

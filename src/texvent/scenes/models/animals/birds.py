@@ -1,0 +1,173 @@
+"""Birds: fliers with flapping wings, floating ducks, and the walking ostrich."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import partial
+
+from texvent.scenes.model import Colour, Noun, Part, Pose
+from texvent.scenes.models.paint import BLACK, WHITE, Paint, mottled, shade
+from texvent.scenes.models.people.figure import Figure
+from texvent.scenes.models.shaping import (
+    Point,
+    ball,
+    blade,
+    limb,
+    moved,
+    spike,
+    turn_x,
+    turn_z,
+)
+from texvent.scenes.models.variation import choose, fraction
+
+
+@dataclass(frozen=True)
+class Plumage:
+    """Proportions, in body lengths, and colours of a bird in flight."""
+
+    length: float
+    """Beak to tail, m."""
+    span: float
+    """Of both wings, body lengths."""
+    chord: float
+    """Width of a wing, body lengths."""
+    flap_hz: float
+    flap: float
+    """Swing of a wing to either side, radians."""
+    bodies: tuple[Colour, ...]
+    wing: Colour
+    head: Colour
+    beak: Colour
+
+
+SMALL = Plumage(
+    0.45, 1.9, 0.42, 4.0, 0.75, ((0.05, 0.14, 0.40), (0.25, 0.07, 0.04), (0.22, 0.16, 0.10)),
+    (0.06, 0.07, 0.10), (0.03, 0.04, 0.06), (0.55, 0.30, 0.02),
+)  # fmt: skip
+EAGLE = Plumage(
+    0.95, 2.4, 0.46, 1.6, 0.42, ((0.075, 0.038, 0.018),),
+    (0.060, 0.032, 0.016), (0.75, 0.73, 0.68), (0.70, 0.42, 0.03),
+)  # fmt: skip
+GULL = Plumage(
+    0.60, 2.5, 0.32, 2.2, 0.50, ((0.78, 0.78, 0.77),),
+    (0.42, 0.44, 0.47), (0.80, 0.80, 0.79), (0.70, 0.40, 0.03),
+)  # fmt: skip
+
+
+def build_flier(plumage: Plumage, *, colour: Colour | None, scale: float, seed: int) -> Figure:
+    """Make a bird in flight; `colour` is its body and wings."""
+    size = plumage.length
+    body = Paint(colour if colour is not None else choose(seed, "body", plumage.bodies))
+    wing = mottled(shade(colour, 0.8) if colour is not None else plumage.wing, contrast=0.3)
+    head, beak = Paint(plumage.head), Paint(plumage.beak)
+    rigid = [
+        limb(body, (-0.28 * size, 0.0, 0.0), (0.22 * size, 0.0, 0.02 * size), 0.13 * size),
+        ball(head, (0.34 * size, 0.0, 0.06 * size), (0.22 * size, 0.18 * size, 0.18 * size)),
+        spike(beak, (0.42 * size, 0.0, 0.05 * size), (0.56 * size, 0.0, 0.02 * size), 0.04 * size),
+        ball(
+            Paint(BLACK), (0.39 * size, 0.0, 0.09 * size), (0.04 * size, 0.19 * size, 0.04 * size)
+        ),
+        blade(
+            wing,
+            (-0.22 * size, 0.0, 0.01 * size),
+            (-0.58 * size, 0.0, 0.0),
+            chord=(0.0, 0.30 * size, 0.0),
+            thickness=(0.0, 0.0, 0.04 * size),
+        ),
+    ]
+    start = fraction(seed, "flap")
+
+    def articulate(pose: Pose) -> list[Part]:
+        if pose.activity in ("stand", "sit"):
+            return [*_folded(plumage, wing, 1.0), *_folded(plumage, wing, -1.0)]
+        turn = 2.0 * math.pi * (plumage.flap_hz * pose.time_s + start)
+        inner = plumage.flap * math.sin(turn) + 0.12
+        outer = 0.8 * plumage.flap * math.sin(turn - 0.9) - 0.10
+        return [
+            *_wing(plumage, wing, 1.0, (inner, outer)),
+            *_wing(plumage, wing, -1.0, (inner, outer)),
+        ]
+
+    return Figure(rigid, scale=scale, articulate=articulate, is_centred=True)
+
+
+def _wing(plumage: Plumage, paint: Paint, side: float, lift: tuple[float, float]) -> list[Part]:
+    """A spread wing; angles from horizontal at the shoulder, then at the wrist."""
+    shoulder, wrist, arm, hand = _spread(plumage, paint, side)
+    inner, outer = lift
+    bent = moved([hand], turn_x(side * outer, wrist))
+    return moved([arm, *bent], turn_x(side * inner, shoulder))
+
+
+def _folded(plumage: Plumage, paint: Paint, side: float) -> list[Part]:
+    """A wing at rest along the body: the hand lies back over the arm."""
+    shoulder, wrist, arm, hand = _spread(plumage, paint, side)
+    closed = [arm, *moved([hand], turn_z(-3.05 * side, wrist))]
+    along = moved(closed, turn_z(1.45 * side, shoulder))
+    return moved(along, turn_x(-0.7 * side, shoulder))
+
+
+def _spread(plumage: Plumage, paint: Paint, side: float) -> tuple[Point, Point, Part, Part]:
+    """Shoulder, wrist, and the inner and outer half of a flat wing."""
+    size, half = plumage.length, 0.5 * plumage.span * plumage.length
+    shoulder: Point = (0.08 * size, side * 0.07 * size, 0.06 * size)
+    wrist: Point = (0.12 * size, side * (0.07 * size + 0.48 * half), 0.06 * size)
+    tip: Point = (-0.10 * size, side * half, 0.06 * size)
+    chord, thin = plumage.chord * size, 0.035 * size
+    arm = blade(
+        paint,
+        _towards(shoulder, wrist, -0.1),
+        _towards(shoulder, wrist, 1.15),
+        chord=(chord, 0.0, 0.0),
+        thickness=(0.0, 0.0, 1.3 * thin),
+    )
+    hand = blade(
+        paint,
+        _towards(wrist, tip, -0.2),
+        tip,
+        chord=(0.8 * chord, 0.0, 0.0),
+        thickness=(0.0, 0.0, thin),
+    )
+    return shoulder, wrist, arm, hand
+
+
+def _towards(start: Point, end: Point, share: float) -> Point:
+    x, y, z = (a + share * (b - a) for a, b in zip(start, end, strict=True))
+    return (x, y, z)
+
+
+def build_duck(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+    """Make a duck afloat, its origin on the waterline; it rocks a little."""
+    body = mottled(colour if colour is not None else (0.30, 0.22, 0.14), contrast=0.3)
+    head = Paint((0.02, 0.16, 0.06) if colour is None else colour)
+    parts = [
+        limb(body, (-0.20, 0.0, 0.05), (0.16, 0.0, 0.05), 0.12, side_radius=0.13),
+        spike(Paint(BLACK), (-0.22, 0.0, 0.08), (-0.38, 0.0, 0.18), 0.06),
+        limb(Paint(WHITE), (0.17, 0.0, 0.10), (0.21, 0.0, 0.21), 0.046),
+        limb(head, (0.19, 0.0, 0.17), (0.22, 0.0, 0.28), 0.052),
+        ball(head, (0.23, 0.0, 0.29), (0.15, 0.12, 0.12)),
+        ball(Paint((0.70, 0.38, 0.02)), (0.33, 0.0, 0.275), (0.14, 0.07, 0.035)),
+        ball(Paint(BLACK), (0.26, 0.0, 0.31), (0.025, 0.122, 0.025)),
+        ball(mottled((0.16, 0.12, 0.09)), (-0.05, 0.0, 0.10), (0.36, 0.27, 0.15)),
+    ]
+    start = 2.0 * math.pi * fraction(seed, "rock")
+
+    def articulate(pose: Pose) -> list[Part]:
+        return moved(parts, turn_x(0.06 * math.sin(4.0 * pose.time_s + start)))
+
+    return Figure([], scale=scale, articulate=articulate)
+
+
+NOUNS = (
+    Noun(
+        "bird", partial(build_flier, SMALL), "air", 5.0, "fly",
+        ("swallow", "sparrow", "pigeon", "songbird", "parrot", "robin", "dove"), ("swallows",),
+    ),
+    Noun(
+        "eagle", partial(build_flier, EAGLE), "air", 9.0, "fly",
+        ("hawk", "falcon", "vulture", "bird of prey", "condor"), ("birds of prey",),
+    ),
+    Noun("gull", partial(build_flier, GULL), "air", 8.0, "fly", ("seagull", "albatross", "tern")),
+    Noun("duck", build_duck, "water", 0.6, "paddle", ("mallard", "duckling", "rubber duck")),
+)  # fmt: skip

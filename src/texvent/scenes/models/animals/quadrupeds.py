@@ -1,0 +1,346 @@
+"""Four-legged animals from one table of proportions: dog to elephant."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import partial
+
+from texvent.scenes.model import Colour, Noun
+from texvent.scenes.models.animals.four_legs import Build, Coat, draw_animal
+from texvent.scenes.models.paint import (
+    BLACK,
+    WHITE,
+    Paint,
+    checked,
+    mottled,
+    shade,
+    striped,
+)
+from texvent.scenes.models.people.figure import Figure
+from texvent.scenes.models.variation import choose
+
+
+@dataclass(frozen=True)
+class Animal:
+    """One kind of four-legged animal."""
+
+    build: Build
+    colours: tuple[Colour, ...]
+    """Usual coats; the seed picks one."""
+    pattern: str = "plain"
+    """ "plain", "stripes", "checks"."""
+    second_colour: Colour = BLACK
+    """Of stripes or checks."""
+    checks: float = 2.6
+    """Repeats of the checks per half body part."""
+    dark: Colour | None = None
+    """Muzzle, mane and tail; None = a darker shade of the coat."""
+    hoof: Colour = (0.03, 0.025, 0.02)
+
+
+def build_animal(animal: Animal, *, colour: Colour | None, scale: float, seed: int) -> Figure:
+    """Make a four-legged animal; `colour` is its coat."""
+    hue = colour if colour is not None else choose(seed, "coat", animal.colours)
+    fur = mottled(hue, contrast=0.25, scale=3.0)
+    trunk, limbs = fur, fur
+    if animal.pattern == "stripes":
+        trunk = striped(hue, animal.second_colour, 4.5)
+        limbs = striped(hue, animal.second_colour, 3.0)
+    elif animal.pattern == "checks":
+        trunk = checked(hue, animal.second_colour, animal.checks)
+    dark = animal.dark if animal.dark is not None else shade(hue, 0.45)
+    coat = Coat(trunk=trunk, limbs=limbs, dark=Paint(dark), hoof=Paint(animal.hoof))
+    return draw_animal(animal.build, coat, scale=scale, seed=seed)
+
+
+DOG = Animal(
+    Build(0.55, (0.62, 0.21, 0.27), 0.22, 0.9, (0.20, 0.15), tail=(0.30, 0.9), ear=(0.09, "flop")),
+    ((0.34, 0.18, 0.07), (0.50, 0.38, 0.22), (0.09, 0.06, 0.045)),
+)
+CAT = Animal(
+    Build(
+        0.27, (0.42, 0.12, 0.14), 0.10, 0.9, (0.105, 0.035), tail=(0.24, 0.7), ear=(0.05, "prick")
+    ),
+    ((0.45, 0.22, 0.07), (0.20, 0.20, 0.21), (0.025, 0.025, 0.028)),
+)
+FOX = Animal(
+    Build(
+        0.38,
+        (0.55, 0.15, 0.17),
+        0.17,
+        0.7,
+        (0.14, 0.14),
+        tail=(0.40, -0.2),
+        ear=(0.08, "prick"),
+        bushy_tail=True,
+    ),
+    ((0.55, 0.17, 0.03),),
+    dark=(0.06, 0.03, 0.02),
+)
+WOLF = Animal(
+    Build(
+        0.75,
+        (0.90, 0.25, 0.30),
+        0.28,
+        0.6,
+        (0.22, 0.20),
+        tail=(0.42, -0.6),
+        ear=(0.10, "prick"),
+        bushy_tail=True,
+    ),
+    ((0.24, 0.22, 0.20),),
+)
+HORSE = Animal(
+    Build(
+        1.45,
+        (1.55, 0.46, 0.58),
+        0.80,
+        0.95,
+        (0.34, 0.30),
+        tail=(0.70, -1.1),
+        ear=(0.13, "prick"),
+        stride=2.6,
+        mane="ridge",
+        bushy_tail=True,
+    ),
+    ((0.20, 0.085, 0.035), (0.10, 0.05, 0.025), (0.55, 0.52, 0.48)),
+    dark=(0.03, 0.018, 0.012),
+)
+ZEBRA = Animal(
+    Build(
+        1.30,
+        (1.40, 0.44, 0.56),
+        0.62,
+        0.85,
+        (0.32, 0.26),
+        tail=(0.50, -1.2),
+        ear=(0.14, "prick"),
+        stride=2.2,
+        mane="ridge",
+    ),
+    ((0.74, 0.72, 0.68),),
+    pattern="stripes",
+    second_colour=(0.02, 0.02, 0.02),
+    dark=BLACK,
+)
+COW = Animal(
+    Build(
+        1.35,
+        (1.75, 0.62, 0.74),
+        0.42,
+        0.35,
+        (0.36, 0.26),
+        tail=(0.80, -1.45),
+        ear=(0.16, "side"),
+        stride=1.7,
+        horns="short",
+        patches=True,
+    ),
+    (WHITE,),
+    dark=(0.55, 0.36, 0.30),
+)
+ELEPHANT = Animal(
+    Build(
+        2.75,
+        (2.90, 1.35, 1.60),
+        0.45,
+        0.35,
+        (0.95, 0.10),
+        tail=(0.90, -1.3),
+        ear=(0.95, "fan"),
+        stride=2.4,
+        thick=2.2,
+        trunk=1.9,
+        horns="tusks",
+    ),
+    ((0.21, 0.20, 0.20),),
+)
+DEER = Animal(
+    Build(
+        1.00,
+        (1.05, 0.30, 0.36),
+        0.50,
+        1.0,
+        (0.22, 0.18),
+        tail=(0.13, -0.4),
+        ear=(0.13, "side"),
+        stride=1.7,
+        thick=0.75,
+        horns="antlers",
+    ),
+    ((0.32, 0.17, 0.07),),
+    dark=(0.08, 0.05, 0.03),
+)
+LION = Animal(
+    Build(
+        1.00,
+        (1.45, 0.40, 0.48),
+        0.28,
+        0.55,
+        (0.34, 0.18),
+        tail=(0.85, -0.7),
+        ear=(0.09, "prick"),
+        stride=1.8,
+        thick=1.15,
+        mane="full",
+    ),
+    ((0.52, 0.33, 0.13),),
+    dark=(0.16, 0.065, 0.02),
+)
+TIGER = Animal(
+    Build(
+        0.98,
+        (1.50, 0.38, 0.46),
+        0.26,
+        0.5,
+        (0.32, 0.16),
+        tail=(0.85, -0.6),
+        ear=(0.09, "prick"),
+        stride=1.8,
+        thick=1.15,
+    ),
+    ((0.62, 0.24, 0.03),),
+    pattern="stripes",
+    second_colour=(0.03, 0.02, 0.015),
+    dark=WHITE,
+)
+CHEETAH = Animal(
+    Build(
+        0.82,
+        (1.25, 0.28, 0.34),
+        0.24,
+        0.5,
+        (0.24, 0.11),
+        tail=(0.75, -0.5),
+        ear=(0.07, "round"),
+        stride=1.9,
+    ),
+    ((0.60, 0.38, 0.13),),
+    pattern="checks",
+    second_colour=(0.10, 0.05, 0.02),
+    checks=6.0,
+)
+GOAT = Animal(
+    Build(
+        0.72,
+        (0.88, 0.30, 0.36),
+        0.24,
+        0.8,
+        (0.18, 0.15),
+        tail=(0.12, 0.8),
+        ear=(0.12, "side"),
+        horns="short",
+    ),
+    ((0.60, 0.55, 0.48), (0.20, 0.13, 0.08)),
+)
+GIRAFFE = Animal(
+    Build(
+        2.70,
+        (1.75, 0.62, 0.80),
+        2.10,
+        1.12,
+        (0.40, 0.32),
+        tail=(0.80, -1.4),
+        ear=(0.18, "side"),
+        stride=3.2,
+        horns="knobs",
+    ),
+    ((0.66, 0.46, 0.20),),
+    pattern="checks",
+    second_colour=(0.24, 0.10, 0.03),
+    dark=(0.20, 0.10, 0.04),
+)
+SHEEP = Animal(
+    Build(
+        0.72,
+        (0.95, 0.50, 0.52),
+        0.16,
+        0.5,
+        (0.20, 0.15),
+        tail=(0.14, -1.0),
+        ear=(0.11, "side"),
+        fleece=True,
+    ),
+    ((0.72, 0.69, 0.62),),
+    dark=(0.05, 0.045, 0.04),
+)
+PIG = Animal(
+    Build(
+        0.62,
+        (1.00, 0.42, 0.46),
+        0.10,
+        0.2,
+        (0.27, 0.17),
+        tail=(0.14, 0.6),
+        ear=(0.12, "flop"),
+        thick=1.3,
+    ),
+    ((0.72, 0.40, 0.36),),
+    dark=(0.62, 0.28, 0.26),
+)
+BEAR = Animal(
+    Build(
+        1.05,
+        (1.55, 0.62, 0.72),
+        0.24,
+        0.45,
+        (0.38, 0.24),
+        tail=(0.10, -0.5),
+        ear=(0.12, "round"),
+        stride=1.7,
+        thick=1.7,
+    ),
+    ((0.11, 0.055, 0.025),),
+    dark=(0.20, 0.12, 0.07),
+)
+POLAR_BEAR = replace(BEAR, colours=((0.76, 0.73, 0.64),), dark=(0.05, 0.045, 0.04))
+RABBIT = Animal(
+    Build(
+        0.20,
+        (0.34, 0.15, 0.17),
+        0.06,
+        0.9,
+        (0.11, 0.06),
+        tail=(0.05, 0.8),
+        ear=(0.15, "long"),
+        stride=0.75,
+        thick=1.2,
+        hop=0.10,
+        bushy_tail=True,
+    ),
+    ((0.36, 0.27, 0.18), (0.66, 0.64, 0.60)),
+    dark=(0.60, 0.50, 0.46),
+)
+
+
+def _noun(
+    name: str,
+    animal: Animal,
+    speed: float,
+    synonyms: tuple[str, ...] = (),
+    plurals: tuple[str, ...] = (),
+) -> Noun:
+    return Noun(name, partial(build_animal, animal), "ground", speed, "walk", synonyms, plurals)
+
+
+NOUNS = (
+    _noun("dog", DOG, 1.6, ("puppy", "hound", "labrador", "retriever"), ("puppies",)),
+    _noun("cat", CAT, 1.0, ("kitten", "kitty"), ("kitties",)),
+    _noun("fox", FOX, 1.4, (), ("foxes",)),
+    _noun("wolf", WOLF, 1.8, ("husky", "coyote"), ("wolves", "huskies")),
+    _noun("horse", HORSE, 2.0, ("pony", "stallion", "mare", "foal"), ("ponies",)),
+    _noun("zebra", ZEBRA, 1.8),
+    _noun("cow", COW, 1.1, ("bull", "calf", "ox"), ("cattle", "calves", "oxen")),
+    _noun("elephant", ELEPHANT, 1.8, ("mammoth",)),
+    _noun("deer", DEER, 1.6, ("stag", "antelope", "gazelle", "reindeer"), ("deer", "reindeer")),
+    _noun("lion", LION, 1.5),
+    _noun("tiger", TIGER, 1.5),
+    _noun("cheetah", CHEETAH, 2.0, ("leopard", "jaguar")),
+    _noun("goat", GOAT, 1.0),
+    _noun("giraffe", GIRAFFE, 1.8),
+    _noun("sheep", SHEEP, 0.9, ("lamb", "ewe"), ("sheep",)),
+    _noun("pig", PIG, 0.9, ("boar", "piglet")),
+    _noun("bear", BEAR, 1.3, ("grizzly", "brown bear"), ("grizzlies",)),
+    _noun("polar bear", POLAR_BEAR, 1.3),
+    _noun("rabbit", RABBIT, 1.2, ("bunny", "hare"), ("bunnies",)),
+)

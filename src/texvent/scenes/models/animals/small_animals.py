@@ -1,0 +1,181 @@
+"""Butterfly, bee, dragonfly, snake and snail."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import partial
+
+from texvent.scenes.model import Colour, Noun, Part, Pose
+from texvent.scenes.models.paint import (
+    BLACK,
+    ORANGE,
+    YELLOW,
+    Paint,
+    mottled,
+    shade,
+    striped,
+)
+from texvent.scenes.models.people.figure import Figure
+from texvent.scenes.models.shaping import (
+    Point,
+    ball,
+    blade,
+    limb,
+    moved,
+    turn_x,
+)
+from texvent.scenes.models.variation import choose, fraction
+
+
+@dataclass(frozen=True)
+class Insect:
+    """Proportions of a flying insect, m."""
+
+    body: tuple[float, float]
+    """Length and thickness."""
+    wings: tuple[tuple[float, float, float], ...]
+    """For each pair: x of its root, its span, its chord."""
+    flap_hz: float
+    flap: float
+    colours: tuple[Colour, ...]
+    """Of the wings (butterfly) or the body."""
+    striped_body: bool = False
+    clear_wings: bool = False
+
+
+BUTTERFLY = Insect(
+    (0.10, 0.018), ((0.015, 0.115, 0.10), (-0.03, 0.085, 0.085)), 3.5, 1.0,
+    (ORANGE, (0.04, 0.18, 0.55), (0.75, 0.60, 0.08)),
+)  # fmt: skip
+BEE = Insect(
+    (0.055, 0.032), ((0.006, 0.055, 0.026), (-0.008, 0.04, 0.02)), 12.0, 0.7,
+    (YELLOW,), striped_body=True, clear_wings=True,
+)  # fmt: skip
+DRAGONFLY = Insect(
+    (0.14, 0.013), ((0.045, 0.095, 0.026), (0.015, 0.09, 0.028)), 9.0, 0.5,
+    ((0.04, 0.30, 0.35), (0.45, 0.06, 0.04)), clear_wings=True,
+)  # fmt: skip
+
+
+def build_insect(kind: Insect, *, colour: Colour | None, scale: float, seed: int) -> Figure:
+    """Make a flying insect; `colour` is a butterfly's wings or another's body."""
+    hue = colour if colour is not None else choose(seed, "colour", kind.colours)
+    length, thick = kind.body
+    body = Paint(BLACK)
+    if kind.striped_body:
+        body = striped(hue, BLACK, 1.6)
+    elif kind.clear_wings:
+        body = Paint(hue)
+    wing = Paint((0.62, 0.66, 0.70)) if kind.clear_wings else Paint(hue)
+    rigid = [
+        limb(body, (-0.45 * length, 0.0, 0.0), (0.22 * length, 0.0, 0.0), 0.5 * thick),
+        ball(Paint(BLACK), (0.36 * length, 0.0, 0.0), (0.24 * length, 1.3 * thick, 1.1 * thick)),
+    ]
+    for side in (1.0, -1.0):
+        start: Point = (0.44 * length, side * 0.2 * thick, 0.4 * thick)
+        end: Point = (0.62 * length, side * 0.6 * thick, 0.9 * thick)
+        rigid.append(limb(Paint(BLACK), start, end, 0.02 * thick + 0.0005))
+    phase = fraction(seed, "flap")
+
+    def articulate(pose: Pose) -> list[Part]:
+        beat = math.sin(2.0 * math.pi * (kind.flap_hz * pose.time_s + phase))
+        parts: list[Part] = []
+        for pair in kind.wings:
+            for side in (1.0, -1.0):
+                lift = side * (0.35 + kind.flap * beat)
+                parts += moved(_wing(kind, wing, pair, side), turn_x(lift))
+        return parts
+
+    return Figure(rigid, scale=scale, articulate=articulate, is_centred=True)
+
+
+def _wing(kind: Insect, paint: Paint, pair: tuple[float, float, float], side: float) -> list[Part]:
+    """A wing, and for a butterfly a dark rim under it and a pale spot on it."""
+    x, span, chord = pair
+    root = (x, 0.0, 0.004)
+    lean = 0.35 * span if x > 0.0 else -0.45 * span
+    tip = (x + (0.0 if kind.clear_wings else lean), side * span, 0.004)
+    thin = (0.0, 0.0, 0.003)
+    parts = [blade(paint, root, tip, chord=(chord, 0.0, 0.0), thickness=thin)]
+    if not kind.clear_wings:
+        far = (1.10 * tip[0] - 0.10 * x, 1.10 * tip[1], 0.004)
+        wide, flat = (1.2 * chord, 0.0, 0.0), (0.0, 0.0, 0.0015)
+        rim = blade(Paint(BLACK), root, far, chord=wide, thickness=flat)
+        spot = (0.4 * x + 0.6 * tip[0], 0.6 * tip[1], 0.004)
+        light = Paint(shade(paint.colour, 2.2))
+        parts += [rim, ball(light, spot, (0.3 * chord, 0.3 * chord, 0.0045))]
+    return parts
+
+
+def build_snake(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+    """Make a snake, 1.6 m, that slithers along its own track; `colour` is its skin."""
+    hue = (
+        colour
+        if colour is not None
+        else choose(seed, "skin", ((0.12, 0.26, 0.05), (0.30, 0.16, 0.06)))
+    )
+    skin = striped(hue, shade(hue, 0.4), 2.0)
+    count, step, thick = 14, 0.12, 0.045
+
+    def track(s: float) -> Point:
+        return (s, 0.13 * math.sin(2.0 * math.pi * s / 0.75), 0.0)
+
+    def articulate(pose: Pose) -> list[Part]:
+        # The body follows one wave fixed to the ground: every point passes the same places.
+        parts = []
+        for index in range(count):
+            near, far = (0.84 - (index + k) * step for k in (0, 1))
+            a, b = track(near + pose.distance_m), track(far + pose.distance_m)
+            radius = thick * (1.0 - 0.75 * (index / count) ** 2)
+            start, end = (near, a[1], radius), (far, b[1], radius)
+            parts.append(limb(skin, start, end, radius))
+        tip = track(0.84 + pose.distance_m)
+        ahead = (0.92, tip[1], 1.1 * thick)
+        parts.append(ball(skin, ahead, (0.20, 0.11, 0.09)))
+        for side in (0.035, -0.035):
+            parts.append(ball(Paint(BLACK), (0.96, ahead[1] + side, 0.08), (0.022, 0.022, 0.022)))
+        return parts
+
+    return Figure([], scale=scale, articulate=articulate)
+
+
+def build_snail(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+    """Make a snail, 8 cm; `colour` is its shell."""
+    hue = colour if colour is not None else (0.36, 0.17, 0.06)
+    shell, body = striped(hue, shade(hue, 0.45), 3.0), mottled((0.40, 0.33, 0.22), contrast=0.2)
+    start = 2.0 * math.pi * fraction(seed, "creep")
+    rigid = [
+        blade(shell, (-0.012, -0.020, 0.034), (-0.012, 0.020, 0.034), chord=(0.056, 0.0, 0.0),
+              thickness=(0.0, 0.0, 0.056)),
+        ball(Paint(shade(hue, 0.5)), (-0.010, 0.0, 0.036), (0.022, 0.046, 0.022)),
+    ]  # fmt: skip
+
+    def articulate(pose: Pose) -> list[Part]:
+        creep = 0.004 * math.sin(2.0 * math.pi * pose.distance_m / 0.03 + start)
+        parts = [
+            ball(body, (0.0, 0.0, 0.008), (0.090 + creep, 0.030, 0.016)),
+            limb(body, (0.030 + creep, 0.0, 0.010), (0.044 + creep, 0.0, 0.028), 0.010),
+        ]
+        for side in (0.006, -0.006):
+            eye = (0.056 + creep, 1.6 * side, 0.052)
+            parts.append(limb(body, (0.046 + creep, side, 0.032), eye, 0.002))
+            parts.append(ball(Paint(BLACK), eye, (0.006, 0.006, 0.006)))
+        return parts
+
+    return Figure(rigid, scale=scale, articulate=articulate)
+
+
+NOUNS = (
+    Noun(
+        "butterfly", partial(build_insect, BUTTERFLY), "air", 0.8, "fly",
+        ("moth",), ("butterflies",),
+    ),
+    Noun("bee", partial(build_insect, BEE), "air", 1.2, "fly", ("bumblebee", "wasp", "honeybee")),
+    Noun(
+        "dragonfly", partial(build_insect, DRAGONFLY), "air", 1.5, "fly",
+        ("damselfly",), ("dragonflies", "damselflies"),
+    ),
+    Noun("snake", build_snake, "ground", 0.5, "walk", ("python", "serpent")),
+    Noun("snail", build_snail, "ground", 0.02, "walk", ()),
+)  # fmt: skip

@@ -1,0 +1,1 @@
+"""Models of buildings, plants, furniture, toys and street furniture."""

@@ -1,0 +1,138 @@
+"""Colour of what z = 0 is made of, and of the walls of a room (compiled by Numba)."""
+
+from __future__ import annotations
+
+import math
+
+from texvent.scenes.raycast.kernel import kernel
+from texvent.scenes.raycast.noise import (
+    band,
+    fractal_2d,
+    keep,
+    noise_2d,
+    smooth,
+    square_wave,
+)
+from texvent.scenes.raycast.records import Record
+from texvent.scenes.raycast.sky import Colour, mix, triple
+
+_WHITE_PAINT = (0.75, 0.75, 0.72)
+_PAVEMENT = (0.34, 0.33, 0.32)
+_DASH_M = 6.0
+_LINE_M = 0.14
+
+
+@kernel
+def _scaled(colour: Colour, factor: float) -> Colour:
+    return (colour[0] * factor, colour[1] * factor, colour[2] * factor)
+
+
+@kernel
+def _meadow(instant: Record, x: float, y: float, footprint: float) -> Colour:
+    """Grass: patches, tufts and blades."""
+    patches = fractal_2d(0.23 * x, 0.23 * y, 3, 0.23 * footprint)
+    blades = fractal_2d(3.1 * x, 3.1 * y, 3, 3.1 * footprint)
+    colour = mix(triple(instant.colour), triple(instant.second_colour), smooth(0.5 + 0.6 * patches))
+    return _scaled(colour, 1.0 + 0.45 * blades)
+
+
+@kernel
+def _speckled(colour: Colour, x: float, y: float, footprint: float, contrast: float) -> Colour:
+    """A rough plain surface: asphalt, soil, snow."""
+    coarse = fractal_2d(0.6 * x, 0.6 * y, 3, 0.6 * footprint)
+    fine = fractal_2d(7.0 * x, 7.0 * y, 2, 7.0 * footprint)
+    return _scaled(colour, 1.0 + contrast * (0.6 * coarse + 0.5 * fine))
+
+
+@kernel
+def _asphalt(instant: Record, along: float, across: float, feet: Colour) -> Colour:
+    """Carriageway with a dashed middle line and edge lines.
+
+    `feet` are metres that a pixel covers along and across, and the pixel's longest side.
+    """
+    half = instant.road[2]
+    foot_along, foot_across, pixel = feet
+    colour = _speckled(triple(instant.second_colour), along, across, pixel, 0.18)
+    edge = band(abs(across), half - 3.0 * _LINE_M, half - 2.0 * _LINE_M, foot_across)
+    middle = band(across, -0.5 * _LINE_M, 0.5 * _LINE_M, foot_across)
+    dashes = square_wave(along / _DASH_M, foot_along / _DASH_M)
+    return mix(colour, _WHITE_PAINT, max(edge, middle * dashes))
+
+
+@kernel
+def _road(instant: Record, x: float, y: float, foot: Colour) -> Colour:
+    """ROAD, DIRT_ROAD and CITY: a strip along `road`, and what lies beside it."""
+    cosine, sine, half, x0, y0 = instant.road
+    along = (x - x0) * cosine + (y - y0) * sine
+    across = (y - y0) * cosine - (x - x0) * sine
+    foot_along = abs(foot[0] * cosine) + abs(foot[1] * sine)
+    foot_across = abs(foot[1] * cosine) + abs(foot[0] * sine)
+    if instant.ground == 3:
+        wobble = 0.35 * noise_2d(0.35 * along, 0.0, 3) + 0.12 * noise_2d(1.3 * along, 9.0, 4)
+        soil = _speckled(triple(instant.second_colour), along, across, foot[2], 0.55)
+        track = smooth(1.6 - abs(abs(across + 0.3 * wobble) - 0.85) / 0.35)
+        soil = _scaled(soil, 1.0 - 0.28 * track * keep(foot_across / 1.5))
+        inside = smooth((half + wobble - abs(across)) / max(0.6, 1.5 * foot_across) + 0.5)
+        return mix(_meadow(instant, x, y, foot[2]), soil, inside)
+    inside = band(across, -half, half, foot_across)
+    if instant.ground == 2:
+        beside = _meadow(instant, x, y, foot[2])
+    else:
+        slabs = square_wave(along / 2.4, foot_along / 2.4) - 0.5
+        rows = square_wave(across / 2.4, foot_across / 2.4) - 0.5
+        beside = _speckled(_PAVEMENT, x, y, foot[2], 0.12)
+        beside = _scaled(beside, 1.0 + 0.5 * slabs * rows)
+        kerb = band(abs(across), half, half + 0.3, foot_across)
+        beside = mix(beside, (0.5, 0.5, 0.48), kerb)
+    surface = _asphalt(instant, along, across, (foot_along, foot_across, foot[2]))
+    return mix(beside, surface, inside)
+
+
+@kernel
+def _floor(instant: Record, x: float, y: float, foot: Colour) -> Colour:
+    """Boards along x."""
+    row = math.floor(y / 0.22)
+    shade = 0.5 + 0.5 * noise_2d(7.3 * row, 0.7 * x + 3.7 * row, 5)
+    shade = 0.5 + (shade - 0.5) * keep(foot[1] / 0.22)
+    grain = fractal_2d(1.2 * x, 14.0 * y, 2, max(1.2 * foot[0], 14.0 * foot[1]))
+    colour = mix(triple(instant.colour), triple(instant.second_colour), shade)
+    gap = band(y - 0.22 * row, 0.0, 0.012, foot[1]) + band(y - 0.22 * row, 0.22, 0.232, foot[1])
+    return _scaled(colour, (1.0 + 0.15 * grain) * (1.0 - 0.55 * min(gap, 1.0)))
+
+
+@kernel
+def ground_colour(instant: Record, x: float, y: float, foot: Colour) -> Colour:
+    """Reflectance of the ground at (x, y), metres.
+
+    Args:
+        instant: the surroundings.
+        x: metres east.
+        y: metres north.
+        foot: metres that one pixel covers in x and in y, and the longest side of its patch.
+    """
+    kind = instant.ground
+    if kind == 1:
+        return _meadow(instant, x, y, foot[2])
+    if kind in (2, 3, 5):
+        return _road(instant, x, y, foot)
+    if kind == 6:
+        return _floor(instant, x, y, foot)
+    if kind == 7 or kind == 9:
+        bend = 0.8 * noise_2d(0.5 * x, 0.5 * y, 7)
+        ripple = math.sin(2.0 * math.pi * (1.4 * y + 0.4 * x + bend)) * keep(1.5 * foot[2])
+        base = _speckled(triple(instant.colour), x, y, foot[2], 0.25)
+        return mix(base, triple(instant.second_colour), 0.5 + 0.22 * ripple)
+    if kind == 8:
+        return _speckled(triple(instant.colour), x, y, foot[2], 0.12)
+    return _speckled(triple(instant.colour), x, y, foot[2], 0.2)
+
+
+@kernel
+def wall_colour(instant: Record, point: Colour, face: int, foot: float) -> Colour:
+    """Reflectance of a room's wall or ceiling; walls have a skirting board."""
+    plain = mix(triple(instant.second_colour), (0.85, 0.83, 0.78), 0.75)
+    if face == 2:
+        return (0.8, 0.8, 0.78)
+    skirting = band(point[2], 0.0, 0.14, foot)
+    spread = fractal_2d(0.4 * (point[0] + point[1]), 0.4 * point[2], 2, 0.4 * foot)
+    return mix(_scaled(plain, 1.0 + 0.06 * spread), (0.3, 0.24, 0.2), skirting)

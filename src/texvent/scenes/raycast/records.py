@@ -1,0 +1,140 @@
+"""One instant of a scene as the kernels read it: flat records, filled from the value types.
+
+Records, not named tuples of arrays: a kernel passes them on as one pointer, without counting
+references, which makes a picture many times faster.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.scenes.camera import Rays
+from texvent.scenes.primitives import Environment, Float64Array, Primitives
+
+NIGHT_SKY = 0.06
+"""Stars show where the sky at the zenith is darker than this (linear luma)."""
+SUN_RADIUS = 0.022
+"""Angular radius of the sun or moon, radians: about five times life, as pictures show it."""
+
+INSTANT_RECORD = np.dtype(
+    [
+        # Rays: see camera.Rays; `step` is the angle that one pixel covers, radians.
+        ("origin", "f8", 3),
+        ("corner", "f8", 3),
+        ("right", "f8", 3),
+        ("down", "f8", 3),
+        ("step", "f8"),
+        # Lists of shapes: screen tile c owns lists[lists[c] : lists[c + 1]], front to back; the sun
+        # grid's cells follow from `sun_cells` on; its last cell lists the big shapes.
+        # `sun_plane`: two axes facing the sun; `sun_grid`: corner of the grid along them (metres),
+        # then cells per metre.
+        ("tile_columns", "i8"),
+        ("tile_rows", "i8"),
+        ("sun_cells", "i8"),
+        ("sun_plane", "f8", (2, 3)),
+        ("sun_grid", "f8", 4),
+        # Surroundings: see primitives.Environment.
+        ("ground", "i8"),
+        ("colour", "f8", 3),
+        ("second_colour", "f8", 3),
+        ("road", "f8", 5),  # cosine and sine of its direction, half width, x and y on it
+        ("sky_top", "f8", 3),
+        ("sky_horizon", "f8", 3),
+        ("clouds", "f8"),
+        ("stars", "f8"),  # 0 by day .. 1 at night
+        ("sun", "f8", 3),
+        ("sun_colour", "f8", 3),
+        ("sun_radius", "f8"),
+        ("ambient", "f8", 3),
+        ("shadows", "i8"),
+        ("fog", "f8"),  # 1 / fog distance, per metre; 0 = clear
+        ("fog_colour", "f8", 3),
+        ("exposure", "f8"),
+        ("room", "f8"),  # half the side of the room, metres
+        ("time", "f8"),
+    ],
+    align=True,
+)
+"""Camera, surroundings and where the lists of shapes are."""
+
+Record = Any
+"""One element of a record array; its fields are read as attributes in kernels."""
+
+SHAPE_RECORD = np.dtype(
+    [
+        ("inverse", "f8", (3, 4)),  # world → unit-shape coordinates
+        ("eye", "f8", 3),  # the camera's position in unit-shape coordinates
+        ("sun", "f8", 3),  # direction towards the sun in unit-shape coordinates
+        ("shrink", "f8", 3),  # factors <= 1 that make a thin shape wide enough to find
+        ("window", "f8", 4),  # where it may be seen: lowest, highest x, lowest, highest y, pixels
+        ("depth", "f8"),  # no point of the shape is nearer than this, metres
+        # What its shadow may fall on: lowest and highest place along each axis of the plane facing
+        # the sun, and highest place towards the sun, metres.
+        ("sun_window", "f8", 5),
+        ("kind", "i8"),
+        ("is_thin", "i8"),
+        ("texture", "i8"),
+        ("texture_scale", "f8"),
+        ("emission", "f8"),
+        ("colour", "f8", 3),
+        ("second_colour", "f8", 3),
+    ],
+    align=True,
+)
+"""One shape: geometry and material."""
+
+
+class World(NamedTuple):
+    """One instant, as the kernels read it."""
+
+    instant: NDArray[Any]
+    """[1] `INSTANT_RECORD`."""
+    shapes: NDArray[Any]
+    """[n] `SHAPE_RECORD`."""
+    lists: NDArray[np.int32]
+    """Shape numbers by screen tile and by sun cell; see `INSTANT_RECORD`."""
+    lamps: Float64Array
+    """[m, 7] as in `Environment.lamps`."""
+
+
+def describe_rays(instant: NDArray[Any], rays: Rays) -> None:
+    """Write the camera into the record."""
+    instant["origin"], instant["corner"] = rays.origin, rays.corner
+    instant["right"], instant["down"] = rays.right, rays.down
+    instant["step"] = np.linalg.norm(rays.right)
+
+
+def describe_surroundings(instant: NDArray[Any], environment: Environment, shadows: bool) -> None:
+    """Write the surroundings into the record; `shadows` False turns shadows off."""
+    sun = np.asarray(environment.sun_direction, dtype=np.float64)
+    luma = float(np.dot([0.2126, 0.7152, 0.0722], environment.sky_top))
+    angle = float(environment.road_angle)
+    instant["ground"] = int(environment.ground)
+    instant["colour"] = environment.ground_colour
+    instant["second_colour"] = environment.ground_second_colour
+    instant["road"] = (
+        math.cos(angle),
+        math.sin(angle),
+        environment.road_half_width,
+        *environment.road_offset,
+    )
+    instant["stars"] = np.clip(1.5 * (1.0 - luma / NIGHT_SKY), 0.0, 1.0)
+    instant["sun"] = sun / np.linalg.norm(sun)
+    instant["sun_radius"] = SUN_RADIUS
+    instant["shadows"] = int(environment.shadows and shadows)
+    instant["fog"] = 1.0 / float(environment.fog_distance)
+    instant["room"] = environment.room_half_size
+    instant["time"] = environment.time_s
+    for name in ("sky_top", "sky_horizon", "clouds", "sun_colour", "ambient", "fog_colour"):
+        instant[name] = getattr(environment, name)
+    instant["exposure"] = environment.exposure
+
+
+def describe_materials(shapes: NDArray[Any], primitives: Primitives) -> None:
+    """Write what shapes are made of into their records."""
+    for name in ("texture", "texture_scale", "emission", "colour", "second_colour"):
+        shapes[name] = getattr(primitives, name)

@@ -1,0 +1,215 @@
+"""Ray caster: which surface a ray meets first, and whether the sun reaches it (Numba kernels)."""
+
+from __future__ import annotations
+
+import math
+
+from texvent.scenes.raycast.arrange import NEAR_M, SUN_CELLS, TILE
+from texvent.scenes.raycast.intersect import hit_shape, local_normal
+from texvent.scenes.raycast.kernel import kernel
+from texvent.scenes.raycast.records import Record, World
+
+GROUND = -1
+SKY = -2
+ROOM = -3
+"""What a ray may meet besides shape number 0, 1, ...."""
+_NO_GROUND = 10
+_FLOOR = 6
+_SHADOW_BIAS_M = 2e-3
+"""A shadow ray starts this far off the surface, so that rounding does not shade it."""
+
+Vector = tuple[float, float, float]
+
+
+@kernel
+def ray_direction(rays: Record, x: float, y: float) -> Vector:
+    """Direction through picture point (x, y); its component along the optical axis is 1."""
+    return (
+        rays.corner[0] + x * rays.right[0] + y * rays.down[0],
+        rays.corner[1] + x * rays.right[1] + y * rays.down[1],
+        rays.corner[2] + x * rays.right[2] + y * rays.down[2],
+    )
+
+
+@kernel
+def _hit_one(shape: Record, direction: Vector) -> tuple[float, int, Vector]:
+    """Where a camera ray meets one shape: depth, face, and the local direction."""
+    m = shape.inverse
+    d = (
+        m[0, 0] * direction[0] + m[0, 1] * direction[1] + m[0, 2] * direction[2],
+        m[1, 0] * direction[0] + m[1, 1] * direction[1] + m[1, 2] * direction[2],
+        m[2, 0] * direction[0] + m[2, 1] * direction[1] + m[2, 2] * direction[2],
+    )
+    eye = shape.eye
+    t, face = hit_shape(shape.kind, (eye[0], eye[1], eye[2]), d, NEAR_M)
+    return t, face, d
+
+
+@kernel
+def hit_again(world: World, x: float, y: float, number: int) -> tuple[float, int]:
+    """(depth, face) where the ray through (x, y) meets shape `number`, as if it stood alone."""
+    t, face, _ = _hit_one(world.shapes[number], ray_direction(world.instant[0], x, y))
+    return t, face
+
+
+@kernel
+def _widened_hit(shape: Record, d: Vector) -> float:
+    """Depth at which a ray meets a thin shape, widened; inf if even that misses."""
+    s, eye = shape.shrink, shape.eye
+    wide_eye = (eye[0] * s[0], eye[1] * s[1], eye[2] * s[2])
+    wide_d = (d[0] * s[0], d[1] * s[1], d[2] * s[2])
+    return hit_shape(shape.kind, wide_eye, wide_d, NEAR_M)[0]
+
+
+@kernel
+def first_hit(world: World, x: float, y: float) -> tuple[float, int, int, bool]:
+    """What the ray through picture point (x, y) meets first.
+
+    Returns:
+        (depth in metres, shape number or GROUND / SKY / ROOM, face, whether a thin shape is near).
+    """
+    instant, lists = world.instant[0], world.lists
+    direction = ray_direction(instant, x, y)
+    column = min(max(int(x) // TILE, 0), instant.tile_columns - 1)
+    row = min(max(int(y) // TILE, 0), instant.tile_rows - 1)
+    cell = row * instant.tile_columns + column
+    best, found, best_face = background_hit(instant, direction)
+    thin = math.inf
+    for index in range(lists[cell], lists[cell + 1]):
+        shape = world.shapes[lists[index]]
+        if shape.depth >= best:
+            break
+        window = shape.window
+        if x < window[0] or x > window[1] or y < window[2] or y > window[3]:
+            continue
+        t, face, d = _hit_one(shape, direction)
+        if t < best:
+            best, found, best_face = t, int(lists[index]), face
+        if shape.is_thin:
+            thin = min(thin, _widened_hit(shape, d))
+    return best, found, best_face, thin < math.inf and thin <= best
+
+
+@kernel
+def background_hit(instant: Record, direction: Vector) -> tuple[float, int, int]:
+    """(depth, GROUND / SKY / ROOM, face) of what lies behind all shapes."""
+    origin = instant.origin
+    if instant.ground == _NO_GROUND:
+        return math.inf, SKY, 0
+    depth, what, face = math.inf, SKY, 0
+    if direction[2] < 0.0 and origin[2] > 0.0:
+        depth, what = -origin[2] / direction[2], GROUND
+    if instant.ground == _FLOOR:
+        for axis in range(3):
+            side = instant.room if axis < 2 else 0.6 * instant.room
+            if axis < 2 or direction[2] > 0.0:
+                wall = side if direction[axis] > 0.0 else -side
+                step = direction[axis] if direction[axis] != 0.0 else 1e-300
+                t = (wall - origin[axis]) / step
+                if NEAR_M < t < depth:
+                    depth, what, face = t, ROOM, axis
+    return depth, what, face
+
+
+@kernel
+def _cell_blocks(world: World, cell: int, point: Vector, place: Vector) -> tuple[bool, bool]:
+    """As `sun_blocked`, by the shapes that one cell of the sun grid lists.
+
+    `place` is the point along the sun plane's axes and towards the sun.
+    """
+    lists = world.lists
+    thin = False
+    for index in range(lists[cell], lists[cell + 1]):
+        shape = world.shapes[lists[index]]
+        window = shape.sun_window
+        if place[0] < window[0] or place[0] > window[1] or place[2] > window[4]:
+            continue
+        if place[1] < window[2] or place[1] > window[3]:
+            continue
+        m, d = shape.inverse, shape.sun
+        o = (
+            m[0, 0] * point[0] + m[0, 1] * point[1] + m[0, 2] * point[2] + m[0, 3],
+            m[1, 0] * point[0] + m[1, 1] * point[1] + m[1, 2] * point[2] + m[1, 3],
+            m[2, 0] * point[0] + m[2, 1] * point[1] + m[2, 2] * point[2] + m[2, 3],
+        )
+        if hit_shape(shape.kind, o, (d[0], d[1], d[2]), 0.0)[0] < math.inf:
+            return True, thin
+        if shape.is_thin and not thin:
+            s = shape.shrink
+            wide_o = (o[0] * s[0], o[1] * s[1], o[2] * s[2])
+            wide_d = (d[0] * s[0], d[1] * s[1], d[2] * s[2])
+            thin = hit_shape(shape.kind, wide_o, wide_d, 0.0)[0] < math.inf
+    return False, thin
+
+
+@kernel
+def sun_blocked(world: World, point: Vector) -> tuple[bool, bool]:
+    """Whether a shape stands between a point and the sun, and whether a thin one is close to."""
+    instant = world.instant[0]
+    plane, sun, grid = instant.sun_plane, instant.sun, instant.sun_grid
+    place = (
+        plane[0, 0] * point[0] + plane[0, 1] * point[1] + plane[0, 2] * point[2],
+        plane[1, 0] * point[0] + plane[1, 1] * point[1] + plane[1, 2] * point[2],
+        sun[0] * point[0] + sun[1] * point[1] + sun[2] * point[2],
+    )
+    column = math.floor((place[0] - grid[0]) * grid[2])
+    row = math.floor((place[1] - grid[1]) * grid[3])
+    thin = False
+    if 0.0 <= column < SUN_CELLS and 0.0 <= row < SUN_CELLS:
+        cell = instant.sun_cells + int(row) * SUN_CELLS + int(column)
+        blocked, thin = _cell_blocks(world, cell, point, place)
+        if blocked:
+            return True, thin
+    last = instant.sun_cells + SUN_CELLS * SUN_CELLS
+    blocked, big_thin = _cell_blocks(world, last, point, place)
+    return blocked, thin or big_thin
+
+
+@kernel
+def surface_normal(world: World, number: int, face: int, point: Vector) -> Vector:
+    """Unit normal of what was hit at `point`, metres."""
+    if number == GROUND:
+        return (0.0, 0.0, 1.0)
+    if number == ROOM:
+        inward = -1.0 if point[face] > 0.0 else 1.0
+        return (
+            inward if face == 0 else 0.0,
+            inward if face == 1 else 0.0,
+            -1.0 if face == 2 else 0.0,
+        )
+    m = world.shapes[number].inverse
+    x, y, z = local_normal(world.shapes[number].kind, face, local_point(world, number, point))
+    nx = m[0, 0] * x + m[1, 0] * y + m[2, 0] * z
+    ny = m[0, 1] * x + m[1, 1] * y + m[2, 1] * z
+    nz = m[0, 2] * x + m[1, 2] * y + m[2, 2] * z
+    scale = 1.0 / math.sqrt(nx * nx + ny * ny + nz * nz + 1e-300)
+    return (nx * scale, ny * scale, nz * scale)
+
+
+@kernel
+def local_point(world: World, number: int, point: Vector) -> Vector:
+    """A world point in the unit-shape coordinates of shape `number`."""
+    m = world.shapes[number].inverse
+    return (
+        m[0, 0] * point[0] + m[0, 1] * point[1] + m[0, 2] * point[2] + m[0, 3],
+        m[1, 0] * point[0] + m[1, 1] * point[1] + m[1, 2] * point[2] + m[1, 3],
+        m[2, 0] * point[0] + m[2, 1] * point[1] + m[2, 2] * point[2] + m[2, 3],
+    )
+
+
+@kernel
+def sun_reaches(world: World, point: Vector, normal: Vector) -> tuple[bool, bool]:
+    """Whether direct light falls on a surface, and whether a thin shape's shadow is near."""
+    sun = world.instant[0].sun
+    facing = sun[0] * normal[0] + sun[1] * normal[1] + sun[2] * normal[2]
+    if facing <= 0.0:
+        return False, False
+    if not world.instant[0].shadows:
+        return True, False
+    start = (
+        point[0] + _SHADOW_BIAS_M * normal[0],
+        point[1] + _SHADOW_BIAS_M * normal[1],
+        point[2] + _SHADOW_BIAS_M * normal[2],
+    )
+    blocked, thin = sun_blocked(world, start)
+    return not blocked, thin

@@ -1,0 +1,1 @@
+"""A description becomes a scene: places, placement, motion, camera, weather."""

@@ -1,0 +1,76 @@
+"""Bodies on the stage: a model on a trajectory."""
+
+from __future__ import annotations
+
+import zlib
+from dataclasses import dataclass
+
+import numpy as np
+
+from texvent.scenes.model import Model, Noun, Part, Pose
+from texvent.scenes.models.table import AFLOAT
+from texvent.scenes.primitives import Float64Array
+from texvent.scenes.staging.assemble import Placed
+from texvent.scenes.staging.motion import Trajectory
+
+
+def seeded(seed: int, *role: object) -> np.random.Generator:
+    """A generator of its own for every role, so that no draw depends on the order of others."""
+    words = "/".join(str(part) for part in role)
+    return np.random.default_rng([seed, zlib.crc32(words.encode())])
+
+
+def is_centred(noun: Noun) -> bool:
+    """Whether its models have their origin at their middle: what flies or dives, not boats."""
+    return noun.habitat in ("air", "water") and noun.name not in AFLOAT
+
+
+@dataclass(frozen=True)
+class Actor:
+    """One copy of a thing of the prompt."""
+
+    thing: int
+    """Index into `SceneDescription.things`."""
+    noun: Noun
+    model: Model
+    trajectory: Trajectory
+    is_mover: bool
+    instance: int
+    """Ground-truth id, from 1."""
+    lead_m: float = 0.0
+    """Head start of its gait, m, so that a herd does not walk in step."""
+    extras: tuple[Part, ...] = ()
+    """Parts that are not the model's, such as the rope it hangs from; body coordinates."""
+
+    @property
+    def is_centred(self) -> bool:
+        """Whether its origin is at its middle, not on the ground below."""
+        return is_centred(self.noun)
+
+    def place(self, time_s: float) -> Placed:
+        """Its parts in the world at that instant."""
+        state = self.trajectory.at(time_s)
+        pose = Pose(
+            time_s + 0.37 * self.lead_m,
+            state.distance_m + self.lead_m,
+            state.speed_m_s,
+            state.activity,
+        )
+        parts = [*self.model.parts(pose), *self.extras]
+        return Placed(parts, state.to_world(), self.instance)
+
+    def middle(self, time_s: float) -> Float64Array:
+        """[3] world position of its middle, m."""
+        lift = 0.0 if self.is_centred else 0.5 * self.model.height
+        to_world = self.trajectory.at(time_s).to_world()
+        return np.asarray(to_world @ np.array([0.0, 0.0, lift, 1.0]))
+
+    def corners(self, time_s: float, limit_m: float = np.inf) -> Float64Array:
+        """[8, 3] corners of its box in the world, m; extents above `limit_m` are cut to it."""
+        extents = (self.model.length, self.model.width, self.model.height)
+        half_x, half_y, half_z = (0.5 * min(extent, limit_m) for extent in extents)
+        low = -half_z if self.is_centred else 0.0
+        signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (0, 1)])
+        points = signs * [half_x, half_y, 2.0 * half_z] + [0.0, 0.0, low]
+        to_world = self.trajectory.at(time_s).to_world()
+        return np.asarray(points @ to_world[:, :3].T + to_world[:, 3])

@@ -1,0 +1,67 @@
+"""Parts of models in body coordinates → the arrays of shapes that the renderer reads."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from texvent.scenes.model import Part
+from texvent.scenes.primitives import Float64Array, Primitives
+
+
+@dataclass(frozen=True)
+class Placed:
+    """Parts of one thing with the pose of its body in the world."""
+
+    parts: Sequence[Part]
+    to_world: Float64Array
+    """[3, 4] body → world."""
+    instance: int
+    """Ground-truth id; 0 = scenery."""
+
+
+def assemble(placed: Sequence[Placed]) -> Primitives:
+    """All parts as one structure of arrays, in the order given.
+
+    Args:
+        placed: things with their parts.
+
+    Returns:
+        n primitives, where n is the total number of parts; `to_world` is body-to-world times
+        part-to-body.
+    """
+    parts = [part for thing in placed for part in thing.parts]
+    sizes = [len(thing.parts) for thing in placed]
+    to_body = np.array([part.to_body for part in parts], dtype=np.float64).reshape(-1, 3, 4)
+    body = np.array([thing.to_world for thing in placed], dtype=np.float64).reshape(-1, 3, 4)
+    body = np.repeat(body, sizes, axis=0)
+    to_world = body[:, :, :3] @ to_body
+    to_world[:, :, 3] += body[:, :, 3]
+    colours = np.array([part.colour for part in parts], dtype=np.float32).reshape(-1, 3)
+    seconds = np.array([part.second_colour for part in parts], dtype=np.float32).reshape(-1, 3)
+    return Primitives(
+        shape=np.array([part.shape for part in parts], dtype=np.int8),
+        to_world=to_world,
+        colour=colours,
+        second_colour=seconds,
+        texture=np.array([part.texture for part in parts], dtype=np.int8),
+        texture_scale=np.array([part.texture_scale for part in parts], dtype=np.float32),
+        emission=np.array([part.emission for part in parts], dtype=np.float32),
+        instance=np.repeat(np.array([p.instance for p in placed], dtype=np.int32), sizes),
+    )
+
+
+def join_primitives(first: Primitives, second: Primitives) -> Primitives:
+    """Two lots of shapes as one, in order."""
+    return Primitives(
+        shape=np.concatenate([first.shape, second.shape]),
+        to_world=np.concatenate([first.to_world, second.to_world]),
+        colour=np.concatenate([first.colour, second.colour]),
+        second_colour=np.concatenate([first.second_colour, second.second_colour]),
+        texture=np.concatenate([first.texture, second.texture]),
+        texture_scale=np.concatenate([first.texture_scale, second.texture_scale]),
+        emission=np.concatenate([first.emission, second.emission]),
+        instance=np.concatenate([first.instance, second.instance]),
+    )

@@ -1,0 +1,120 @@
+"""Where the camera stands so that everything that matters fits the picture."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from texvent.scenes.primitives import Camera, Float64Array
+
+
+@dataclass(frozen=True)
+class Framing:
+    """A camera station: looks from `target + distance · offset` at the target."""
+
+    target: Float64Array
+    """[3] m."""
+    azimuth: float
+    """Of the camera around the target: 0 = south of it, looking north; radians, anticlockwise."""
+    elevation: float
+    """Of the camera above the target, radians."""
+    distance_m: float
+    focal: float
+
+    @property
+    def offset(self) -> Float64Array:
+        """[3] unit vector from the target to the camera."""
+        return direction(self.azimuth, self.elevation)
+
+    @property
+    def position(self) -> Float64Array:
+        """[3] m."""
+        return np.asarray(self.target + self.distance_m * self.offset)
+
+
+def direction(azimuth: float, elevation: float) -> Float64Array:
+    """[3] unit vector; azimuth 0 and elevation 0 point south (towards the default viewer)."""
+    flat = math.cos(elevation)
+    return np.array([flat * math.sin(azimuth), -flat * math.cos(azimuth), math.sin(elevation)])
+
+
+def look(position: Float64Array, target: Float64Array, focal: float) -> Camera:
+    """A camera at `position` that looks at `target`, the horizon level."""
+    forward = np.asarray(target - position, dtype=np.float64)
+    forward = forward / np.linalg.norm(forward)
+    right = np.array([forward[1], -forward[0], 0.0])
+    right = right / max(float(np.linalg.norm(right)), 1e-9)
+    return Camera(
+        np.asarray(position, dtype=np.float64),
+        np.stack([right, np.cross(forward, right), forward]),
+        focal,
+    )
+
+
+def project(camera: Camera, points: Float64Array, aspect: float) -> Float64Array:
+    """Where points appear.
+
+    Args:
+        camera: the camera.
+        points: [n, 3] world positions, m.
+        aspect: picture height over width.
+
+    Returns:
+        [n, 3]: x and y in half picture widths and heights from the middle (-1..1 is inside),
+        and depth, m.
+    """
+    local = (points - camera.position) @ camera.rotation.T
+    depth = local[:, 2]
+    safe = np.where(np.abs(depth) < 1e-9, 1e-9, depth)
+    x = 2.0 * camera.focal * local[:, 0] / safe
+    y = 2.0 * camera.focal * local[:, 1] / safe / aspect
+    return np.column_stack([x, y, depth])
+
+
+def fit(
+    points: Float64Array, *, azimuth: float, elevation: float, aspect: float, fill: float,
+    lift: float = 0.0, focal: float = 1.1,
+) -> Framing:  # fmt: skip
+    """The nearest station from which all points appear.
+
+    A point (r right, u up, f further than the target) is inside when |r| is at most
+    fill · (distance + f) / (2 · focal), and likewise for u with the picture's height: each point
+    asks for a distance, the largest wins.
+
+    Args:
+        points: [n, 3] what must be seen, m.
+        azimuth: where the camera stands around them.
+        elevation: how high it stands, radians.
+        aspect: picture height over width.
+        fill: share of the picture that they may fill, 0..1.
+        lift: how far above their middle the camera looks, in half picture heights, as far as
+            they still fit: puts them into the lower part of the picture, under the sky.
+        focal: focal length over picture width.
+    """
+    back = direction(azimuth, elevation)
+    right = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
+    up = np.cross(back, right)
+    target = 0.5 * (points.min(axis=0) + points.max(axis=0))
+    distance = 1.0
+    for _ in range(3):
+        local = points - target
+        sideways, upwards, further = local @ right, local @ up, -(local @ back)
+        wide = 2.0 * focal / fill
+        distance = float(
+            np.max(np.maximum(np.abs(sideways), np.abs(upwards) / aspect) * wide - further)
+        )
+        distance = max(distance, 0.3)
+        depth = np.maximum(distance + further, 1e-3)
+        shift_right = 0.5 * ((sideways / depth).min() + (sideways / depth).max()) * distance
+        shift_up = 0.5 * ((upwards / depth).min() + (upwards / depth).max()) * distance
+        target = target + shift_right * right + shift_up * up
+    local = points - target
+    asked = np.maximum(np.abs(local @ right), np.abs(local @ up) / aspect) * 2.0 * focal / fill
+    distance = max(float(np.max(asked + local @ back)), 0.3)
+    half_height = 0.5 * aspect / focal
+    lowest = float(np.min((local @ up) / (distance - local @ back))) / half_height
+    raised = min(lift, max(fill + lowest, 0.0))
+    target = target + raised * half_height * distance * up
+    return Framing(target, azimuth, elevation, distance, focal)

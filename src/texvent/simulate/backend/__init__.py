@@ -1,0 +1,1 @@
+"""Which kernels compute, and the elementary functions that all of them share."""

@@ -1,0 +1,1 @@
+"""Threshold crossings that several pixel models share: ramps and trigger levels."""

@@ -1,0 +1,1 @@
+"""ESIM: every threshold crossing of linearly interpolated log intensity."""

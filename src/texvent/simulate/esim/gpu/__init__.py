@@ -1,0 +1,1 @@
+"""ESIM as Triton kernels."""

@@ -1,0 +1,206 @@
+"""ESIM's pixel model as Triton kernels; `esim_pixels` launches them.
+
+As with Texvent, a program owns a block of pixels and walks all intervals of a call, once to count
+and once to write down; `stamp_crossings` then gives the events their times.
+"""
+
+from __future__ import annotations
+
+import triton
+import triton.language as tl
+
+from texvent.simulate.esim.gpu import rules as esim_rules
+from texvent.simulate.gpu import kernel_types
+from texvent.simulate.gpu.blocks_triton import (
+    count_bad,
+    find_cell,
+    own_pixels,
+    pack_event,
+    place_in,
+    read,
+    read_before,
+    read_now,
+    skip_frames,
+    write_events,
+)
+
+_FORGET = tl.constexpr(kernel_types.FORGET)
+_THRESHOLD_ON = tl.constexpr(esim_rules.THRESHOLD_ON)
+_THRESHOLD_OFF = tl.constexpr(esim_rules.THRESHOLD_OFF)
+_LOG_EPS = tl.constexpr(esim_rules.LOG_EPS)
+_WHITE = tl.constexpr(esim_rules.WHITE)
+
+
+@triton.jit
+def walk_ramp(
+    frames: tl.tuple,
+    intervals: tl.tuple,
+    rules: tl.tuple,
+    state: tl.tuple,
+    tally: tl.tuple,
+    records: tl.tuple,
+    ALIGN: tl.constexpr,
+    BLOCK: tl.constexpr,
+) -> None:
+    """Find every threshold that a straight line of log intensity crosses in every interval.
+
+    Arguments as for `texvent_triton.walk_levels`, but `rules` are `esim_rules.Rules`, and `state`,
+    an `esim_rules.State`, is brought up to date in pass 2.
+
+    Source: as `kernels.ramp_reference.cross_ramp`, whose events these are.
+    """
+    clip, at, inside, home, pixels = own_pixels(frames, ALIGN, BLOCK)
+    threshold_on, threshold_off = _thresholds_of(rules, home, inside)
+    intensity = read(frames.previous + home, inside)
+    before = log_intensity(intensity, rules)
+    level = tl.load(state.level + home, mask=inside, other=0.0)
+    fired_us = tl.zeros([BLOCK], tl.int64)
+    if state.fired_us is not None:
+        fired_us = tl.load(state.fired_us + home, mask=inside, other=0)
+    bad = count_bad(intensity, inside)
+    for interval in range(frames.intervals):
+        segment = clip * frames.intervals + interval
+        intensity = read(pixels + skip_frames(frames, interval, ALIGN), inside)
+        now = log_intensity(intensity, rules)
+        if tl.load(intervals.policy + segment) == _FORGET:
+            level = before
+        is_on = now > level
+        threshold = tl.where(is_on, threshold_on, threshold_off)
+        first, last = _towards(is_on, before - level, now - level)
+        cell = find_cell(tally, segment)
+        place = tl.full([], 0, tl.int64)
+        if records is not None:
+            place = tl.load(cell)
+        line = tl.where(inside, first, 0.0), tl.where(inside, last, 0.0), threshold
+        place, passed, fired_us = _cross(
+            line, place, fired_us, (intervals, segment, rules, at, level), records
+        )
+        if records is None:
+            tl.store(cell, place)
+            bad += count_bad(intensity, inside)
+        moved = passed.to(tl.float64) * threshold
+        level = tl.where(is_on, level + moved, level - moved)
+        before = now
+    if records is None:
+        tl.atomic_add(tally.bad, tl.sum(bad))
+    else:
+        tl.store(state.level + home, level, mask=inside)
+        if state.fired_us is not None:
+            tl.store(state.fired_us + home, fired_us, mask=inside)
+
+
+@triton.jit
+def _cross(
+    line: tl.tuple, place: tl.tensor, fired_us: tl.tensor, where: tl.tuple, records: tl.tuple
+) -> tl.tuple:
+    """Follow lines over their thresholds.
+
+    Args:
+        line: change at the start and at the end, and the distance of thresholds, log units.
+        place: where the events go among the records.
+        fired_us: when each pixel fired last; not looked at without a refractory period.
+        where: intervals, segment, rules, pixels and their reference levels.
+        records: `kernel_types.Records`, or None to count only.
+
+    Returns:
+        `place` behind the events, how many thresholds each line passed, and `fired_us` after.
+    """
+    first, last, threshold = line
+    intervals, segment, rules, at, level = where
+    order = 1
+    passed = tl.zeros(last.shape, tl.int32)
+    reached = last >= threshold
+    while tl.max(reached.to(tl.int32)) > 0:
+        fires = reached
+        if rules.rests is not None:
+            share = crossing_share(first, last, order * threshold)
+            t = place_in(intervals, segment, share) - tl.load(intervals.origin_us + segment)
+            fires = reached & (t - fired_us >= tl.load(rules.rests))
+            fired_us = tl.where(fires, t, fired_us)
+        if records is not None:
+            write_events(records, place, fires, (at, order, level))
+        place += tl.sum(fires.to(tl.int32))
+        passed += reached.to(tl.int32)
+        order += 1
+        reached = last >= order * threshold
+    return place, passed, fired_us
+
+
+@triton.jit
+def stamp_crossings(
+    frames: tl.tuple,
+    intervals: tl.tuple,
+    rules: tl.tuple,
+    records: tl.tuple,
+    ends: tl.tensor,
+    words: tl.tensor,
+    BLOCK: tl.constexpr,
+) -> None:
+    """Give every crossing its time, and write it down as one word.
+
+    Args:
+        frames: `kernel_types.Frames`.
+        intervals: `kernel_types.Intervals`.
+        rules: `esim_rules.Rules`.
+        records: `kernel_types.Records`.
+        ends: [S + 1] int64, where the records of each segment begin, and their number.
+        words: [n] int64, see `blocks_triton.pack_event`.
+        BLOCK: records that a program takes at a time.
+    """
+    segment = tl.program_id(0).to(tl.int64)
+    clip = segment // frames.intervals
+    start = tl.load(ends + segment) + tl.program_id(1) * BLOCK
+    stop = tl.load(ends + segment + 1)
+    for begin in range(start, stop, tl.num_programs(1) * BLOCK):
+        at = begin + tl.arange(0, BLOCK)
+        inside = at < stop
+        pixel = tl.load(records.pixel + at, mask=inside, other=0)
+        order = tl.load(records.order + at, mask=inside, other=1)
+        level = tl.load(records.reference + at, mask=inside, other=0.0)
+        before = log_intensity(read_before(frames, segment, pixel, inside), rules)
+        now = log_intensity(read_now(frames, segment, pixel, inside), rules)
+        is_on = now > level
+        threshold_on, threshold_off = _thresholds_of(rules, clip * frames.area + pixel, inside)
+        threshold = tl.where(is_on, threshold_on, threshold_off)
+        first, last = _towards(is_on, before - level, now - level)
+        share = crossing_share(first, last, order * threshold)
+        t = place_in(intervals, segment, share)
+        tl.store(words + at, pack_event(t, pixel, is_on, 0, frames.area), mask=inside)
+
+
+@triton.jit
+def log_intensity(intensity: tl.tensor, rules: tl.tuple) -> tl.tensor:
+    """`ln(I / 255 + ε)`, float64: of bytes from the host's table, else the GPU's logarithm."""
+    if intensity.dtype == tl.int32:
+        brightness = tl.load(rules.logs + intensity)
+    else:
+        share = intensity.to(tl.float64) / _WHITE
+        brightness = tl.log(share + tl.load(rules.numbers + _LOG_EPS))
+    return brightness
+
+
+@triton.jit
+def _thresholds_of(rules: tl.tuple, at: tl.tensor, inside: tl.tensor) -> tl.tuple:
+    """ON and OFF thresholds of pixels: from the sensor's maps, or the same for all."""
+    if rules.threshold_on is not None:
+        on = tl.load(rules.threshold_on + at, mask=inside, other=1.0)
+        off = tl.load(rules.threshold_off + at, mask=inside, other=1.0)
+    else:
+        on = tl.load(rules.numbers + _THRESHOLD_ON)
+        off = tl.load(rules.numbers + _THRESHOLD_OFF)
+    return on, off
+
+
+@triton.jit
+def _towards(is_on: tl.tensor, start: tl.tensor, stop: tl.tensor) -> tl.tuple:
+    """Both changes counted in the direction in which the pixel may fire."""
+    return tl.where(is_on, start, -start), tl.where(is_on, stop, -stop)
+
+
+@triton.jit
+def crossing_share(first: tl.tensor, last: tl.tensor, level: tl.tensor) -> tl.tensor:
+    """Where a line from `first` to `last` reaches `level`, 0..1; 0 if it starts beyond."""
+    # A pixel that has not reached the level may rest, and nothing may be divided by 0.
+    slope = tl.where(first < last, last - first, 1.0)
+    share = tl.minimum((level - first) / slope, 1.0)
+    return tl.where(first < level, share, 0.0)

@@ -1,0 +1,150 @@
+"""ESIM's pixel model on the GPU: its options, its state, and which kernels it launches."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from texvent._require import require
+from texvent.errors import ConfigError
+from texvent.simulate.esim.gpu import crossings_triton as esim_triton
+from texvent.simulate.esim.gpu import rules as esim_rules
+from texvent.simulate.esim.simulator import WHITE, EsimConfig, log_intensity
+from texvent.simulate.gpu.device import EXTRA, LAUNCH
+from texvent.simulate.gpu.intervals import Int64Array, Span
+from texvent.simulate.gpu.kernel_types import FORGET, KEEP, Call, Records, Tally, Tensor
+from texvent.simulate.gpu.launch import (
+    Walk,
+    choose_walk,
+    make_records,
+    segment_grid,
+    to_device,
+    walk_grid,
+)
+from texvent.simulate.random.mismatch import LONG_AGO_US, draw_threshold_pair, sensor_key
+
+_BLOCK = 512
+RAMP_WALK = Walk(512, 4)
+
+
+class EsimPixels:
+    """The pixels of a batch of clips under ESIM."""
+
+    def __init__(self, config: EsimConfig, seeds: Sequence[int]) -> None:
+        """Pixels that have seen no frame.
+
+        Args:
+            config: the options.
+            seeds: one per clip.
+
+        Raises:
+            ConfigError: an option that only the CPU has.
+        """
+        check_options(config)
+        self.config = config
+        self._seeds = tuple(seeds)
+        self._walk = choose_walk(RAMP_WALK)
+
+    @property
+    def contrast_threshold(self) -> float:
+        """The smallest contrast threshold, log units."""
+        return min(self.config.contrast_threshold_on, self.config.contrast_threshold_off)
+
+    @property
+    def balance(self) -> float:
+        """`255 · log_eps`: with it, Eq. 4's logarithm is the model's own."""
+        return WHITE * self.config.log_eps
+
+    @property
+    def block(self) -> int:
+        """Pixels that a program walks."""
+        return self._walk.block
+
+    def begin(self, frames: Tensor) -> None:
+        """Make room for the state and put the options on the device of `frames`, [B, H, W]."""
+        torch = require("torch", extra=EXTRA)
+        config, device, shape = self.config, frames.device, frames.shape
+        rests = config.refractory_period_us > 0
+        self._state = esim_rules.State(
+            # What it holds does not matter: the first interval begins at its own start.
+            torch.zeros(shape, dtype=torch.float64, device=device),
+            torch.full(shape, LONG_AGO_US, dtype=torch.int64, device=device) if rests else None,
+        )
+        maps: tuple[Tensor, Tensor] = (None, None)
+        if config.threshold_sigma > 0:
+            pairs = [
+                draw_threshold_pair(shape[1:], sensor_key(seed), config) for seed in self._seeds
+            ]
+            on, off = (to_device(np.stack(one), device) for one in zip(*pairs, strict=True))
+            maps = on, off
+        numbers = np.empty(3)
+        numbers[esim_rules.THRESHOLD_ON] = config.contrast_threshold_on
+        numbers[esim_rules.THRESHOLD_OFF] = config.contrast_threshold_off
+        numbers[esim_rules.LOG_EPS] = config.log_eps
+        logs = log_intensity(np.arange(256, dtype=np.uint8), config.log_eps)
+        self._rules = esim_rules.Rules(
+            to_device(numbers, device),
+            to_device(logs, device),
+            *maps,
+            to_device(np.array([config.refractory_period_us]), device) if rests else None,
+        )
+
+    def keys(self, span: Span) -> Int64Array:
+        """Nothing is drawn per interval; [B, T]."""
+        return np.zeros_like(span.start_us)
+
+    def policy(self, span: Span) -> Int64Array:
+        """References begin at the first frame and are never forgotten; [B, T]."""
+        policy = np.full_like(span.start_us, KEEP)
+        if span.is_new:
+            policy[:, 0] = FORGET
+        return policy
+
+    def advance(self, span: Span) -> None:
+        """Nothing is kept on the host."""
+
+    def walk(self, call: Call, tally: Tally, records: Records | None) -> None:
+        """Count the events of all intervals (`records` None), or write them down and move on."""
+        esim_triton.walk_ramp[walk_grid(call, self.block)](
+            call.frames,
+            call.intervals,
+            self._rules,
+            self._state,
+            tally,
+            records,
+            ALIGN=call.align,
+            BLOCK=self.block,
+            num_warps=self._walk.warps,
+            **LAUNCH,
+        )
+
+    def records(self, count: int) -> Records:
+        """Room for `count` events."""
+        return make_records(count, self._state.level, has_order=True)
+
+    def stamp(self, call: Call, records: Records, ends: Tensor, words: Tensor) -> None:
+        """Give every record its time; see `esim_triton.stamp_crossings`."""
+        esim_triton.stamp_crossings[segment_grid(call, len(records.pixel), _BLOCK)](
+            call.frames,
+            call.intervals,
+            self._rules,
+            records,
+            ends,
+            words,
+            BLOCK=_BLOCK,
+            **LAUNCH,
+        )
+
+
+def check_options(config: EsimConfig) -> None:
+    """Refuse what the GPU kernels do not do.
+
+    Raises:
+        ConfigError: thresholds that are drawn anew for every frame.
+    """
+    if config.threshold_sigma > 0 and config.threshold_redraw == "frame":
+        raise ConfigError(
+            "threshold_redraw 'frame' draws two normal numbers for every pixel and frame, which "
+            "backend gpu does not do; use threshold_redraw 'never', or backend cpu"
+        )

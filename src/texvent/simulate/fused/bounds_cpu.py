@@ -1,0 +1,229 @@
+"""Bounds of what a pixel can show between two frames, to leave out those that cannot fire.
+
+Every intermediate picture is, pixel by pixel, a mean of bilinear samples of both frames, at most
+the length of the flow away (`pairs.warp_reference.warp_between`: the way to a frame is
+τ or 1 − τ times a mean of one flow and the other turned around). So what a pixel shows lies between
+the darkest and the brightest that both frames have within that distance.
+
+* Up to 1 px of flow, a bilinear sample differs from the pixel itself by less than
+  `|dx|` times the steps to its left and right neighbours (in the rows it may touch) plus `|dy|`
+  times those up and down.
+* Further out, the extremes over cells of `CELL` pixels that the flow of the pixel's cell reaches.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.simulate.fused.interface import MARGIN, Levels, Pictures
+
+CELL = 8
+"""Side of a cell, px."""
+FARTHEST = 8
+"""Cells further away than this are not looked up: such a cell counts as reaching everything."""
+SLACK = 8.0 * MARGIN
+"""Relative room that trigger levels are given for rounding."""
+_1 = np.float32(1.0)
+ROUNDING = np.float32(1e-6)
+"""By how much rounding may take a picture past what it is a mean of, as a share of the brightest;
+ten times the error of mixing float32."""
+
+
+@numba.njit(cache=True, nogil=True)
+def find_reachable(
+    earlier: NDArray[np.float32],
+    later: NDArray[np.float32],
+    forward: NDArray[np.float32],
+    backward: NDArray[np.float32],
+) -> NDArray[np.float32]:
+    """Darkest and brightest luma that the pixels of each cell can reach.
+
+    Returns:
+        [2, rows, W] float32: the lowest and the highest of each cell, for each of its columns;
+        empty without flow.
+    """
+    height, width = earlier.shape
+    down, across = (height + CELL - 1) // CELL, (width + CELL - 1) // CELL
+    reached = np.empty((2, down if forward.size else 0, width), np.float32)
+    if forward.size == 0:
+        return reached
+    own = np.empty((down, across, 2), np.float32)
+    reach = np.empty((down, across, 2), np.int64)
+    for i in range(down):
+        rows = slice(i * CELL, min((i + 1) * CELL, height))
+        flows = forward[rows], backward[rows]
+        _look_at_cells(earlier[rows], later[rows], flows, own[i], reach[i])
+    for i in range(down):
+        for j in range(across):
+            aside, above = reach[i, j]
+            low, high = own[i, j, 0], own[i, j, 1]
+            if max(aside, above) > FARTHEST:
+                low, high, aside, above = np.float32(0.0), np.float32(np.inf), 0, 0
+            for y in range(max(i - above, 0), min(i + above + 1, down)):
+                for x in range(max(j - aside, 0), min(j + aside + 1, across)):
+                    low, high = min(low, own[y, x, 0]), max(high, own[y, x, 1])
+            for column in range(j * CELL, min((j + 1) * CELL, width)):
+                reached[0, i, column], reached[1, i, column] = low, high
+    return reached
+
+
+@numba.njit(cache=True, nogil=True)
+def _look_at_cells(
+    earlier: NDArray[np.float32],
+    later: NDArray[np.float32],
+    flows: tuple[NDArray[np.float32], NDArray[np.float32]],
+    own: NDArray[np.float32],
+    reach: NDArray[np.int64],
+) -> None:
+    """Extremes of one row of cells, and how many cells away their flow leads along x and y."""
+    forward, backward = flows
+    height, width = earlier.shape
+    low, high = np.minimum(earlier[0], later[0]), np.maximum(earlier[0], later[0])
+    farthest = np.zeros(2 * width, np.float32)
+    for y in range(height):
+        first, second = earlier[y], later[y]
+        for x in range(width):
+            low[x] = min(low[x], min(first[x], second[x]))
+            high[x] = max(high[x], max(first[x], second[x]))
+        ahead, back = forward[y].reshape(-1), backward[y].reshape(-1)
+        for x in range(2 * width):
+            farthest[x] = max(farthest[x], max(abs(ahead[x]), abs(back[x])))
+    for j in range(len(own)):
+        start, stop = j * CELL, min((j + 1) * CELL, width)
+        own[j, 0], own[j, 1] = low[start], high[start]
+        aside, above = farthest[2 * start], farthest[2 * start + 1]
+        for x in range(start + 1, stop):
+            own[j, 0], own[j, 1] = min(own[j, 0], low[x]), max(own[j, 1], high[x])
+            aside, above = max(aside, farthest[2 * x]), max(above, farthest[2 * x + 1])
+        reach[j, 0], reach[j, 1] = _count_cells(aside), _count_cells(above)
+
+
+@numba.njit(cache=True, nogil=True)
+def _count_cells(way: np.float32) -> int:
+    """How many cells away a flow leads."""
+    if way > CELL * FARTHEST:
+        return FARTHEST + 1
+    # A bilinear sample touches the pixel behind its position too.
+    return (math.ceil(way) + CELL) // CELL
+
+
+@numba.njit(cache=True, nogil=True)
+def list_active(
+    pictures: Pictures,
+    levels: Levels,
+    cells: NDArray[np.float32],
+    row: int,
+    active: NDArray[np.int64],
+) -> int:
+    """Find the pixels of a row that may fire; none of the pictures of the others can.
+
+    Args:
+        pictures: the pair.
+        levels: what the pixels compare with.
+        cells: of `find_reachable`.
+        row: which row.
+        active: [W], filled in with their columns.
+
+    Returns:
+        How many there are.
+    """
+    earlier, later, forward, backward = pictures
+    height, width = earlier.shape
+    low, high = np.minimum(earlier[row], later[row]), np.maximum(earlier[row], later[row])
+    if forward.size:
+        above, below = max(row - 1, 0), min(row + 1, height - 1)
+        first = earlier[above], earlier[row], earlier[below]
+        second = later[above], later[row], later[below]
+        reached = cells[0, row // CELL], cells[1, row // CELL]
+        _bound_row(first, second, (forward[row], backward[row]), reached, low, high)
+    level = levels.reference[row] if levels.reference.size else earlier[row] + levels.balance
+    marks = np.empty(width, np.uint8)
+    _mark(low, high, level, levels, marks)
+    number = 0
+    for x in range(width):
+        active[number] = x
+        number += marks[x]
+    return number
+
+
+@numba.njit(cache=True, nogil=True)
+def _mark(
+    low: NDArray[np.float32],
+    high: NDArray[np.float32],
+    level: NDArray[np.float64],
+    levels: Levels,
+    marks: NDArray[np.uint8],
+) -> None:
+    """Set 1 where a pixel may fire, else 0."""
+    balance, up, down = levels.balance, levels.up * (1.0 - SLACK), levels.down * (1.0 + SLACK)
+    for x in range(low.size):
+        room = ROUNDING * high[x]
+        is_up = high[x] + room + balance >= level[x] * up
+        is_down = low[x] - room + balance <= level[x] * down
+        marks[x] = is_up | is_down
+
+
+Rows = tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]
+
+
+@numba.njit(cache=True, nogil=True)
+def _bound_row(
+    first: Rows,
+    second: Rows,
+    flows: tuple[NDArray[np.float32], NDArray[np.float32]],
+    reached: tuple[NDArray[np.float32], NDArray[np.float32]],
+    low: NDArray[np.float32],
+    high: NDArray[np.float32],
+) -> None:
+    """Bounds of a row with flow: near ones where the flow is at most a pixel, else the cell's."""
+    width = low.size
+    work = np.empty((4, width), np.float32)
+    dx, dy, room_first, room_second = work[0], work[1], work[2], work[3]
+    ahead, back = flows[0].reshape(-1), flows[1].reshape(-1)
+    least, most = reached
+    for x in range(width):
+        dx[x] = max(abs(ahead[2 * x]), abs(back[2 * x]))
+        dy[x] = max(abs(ahead[2 * x + 1]), abs(back[2 * x + 1]))
+    _find_room(first, dx, dy, room_first)
+    _find_room(second, dx, dy, room_second)
+    a, b = first[1], second[1]
+    for x in range(width):
+        is_near = (dx[x] <= _1) & (dy[x] <= _1)
+        near = min(a[x] - room_first[x], b[x] - room_second[x])
+        far = max(a[x] + room_first[x], b[x] + room_second[x])
+        low[x] = near if is_near else least[x]
+        high[x] = far if is_near else most[x]
+
+
+@numba.njit(cache=True, nogil=True)
+def _find_room(
+    rows: Rows, dx: NDArray[np.float32], dy: NDArray[np.float32], room: NDArray[np.float32]
+) -> None:
+    """By how much a sample at most (dx, dy) away differs from a row's pixels, at most."""
+    above, here, below = rows
+    last = here.size - 1
+    for x in range(0, last + 1, max(last, 1)):  # the edges
+        left, right = max(x - 1, 0), min(x + 1, last)
+        aside = _step(above[left], above[x], above[right])
+        aside = max(aside, _step(here[left], here[x], here[right]))
+        aside = max(aside, _step(below[left], below[x], below[right]))
+        room[x] = dx[x] * aside + dy[x] * _step(above[x], here[x], below[x])
+    # Arrays that begin where they are read: Numba takes other indices for possibly negative.
+    above_1, here_1, below_1 = above[1:], here[1:], below[1:]
+    above_2, here_2, below_2 = above[2:], here[2:], below[2:]
+    dx, dy, room = dx[1:], dy[1:], room[1:]
+    for x in range(last - 1):
+        aside = _step(above[x], above_1[x], above_2[x])
+        aside = max(aside, _step(here[x], here_1[x], here_2[x]))
+        aside = max(aside, _step(below[x], below_1[x], below_2[x]))
+        room[x] = dx[x] * aside + dy[x] * _step(above_1[x], here_1[x], below_1[x])
+
+
+@numba.njit(cache=True, nogil=True, inline="always")
+def _step(before: np.float32, here: np.float32, after: np.float32) -> np.float32:
+    """The larger step from a pixel to its neighbours."""
+    return max(abs(before - here), abs(after - here))

@@ -1,0 +1,60 @@
+"""What a kernel gets and gives when brightness runs in straight pieces of each pixel's own.
+
+The pixel is ESIM's: it compares brightness with a reference, fires at every threshold crossed, at
+the time at which the line crosses it, and its reference follows in steps.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.simulate.fused.interface import Float64Array, Int64Array
+
+
+class Pieces(NamedTuple):
+    """Straight lines, a row per piece, by pixel and then in time; pieces may be left out."""
+
+    pixel: Int64Array
+    """[n] flat index y · W + x."""
+    start_us: Int64Array
+    """[n] µs."""
+    stop_us: Int64Array
+    """[n] µs, after the start."""
+    before: Float64Array
+    """[n] brightness at the start, log units."""
+    now: Float64Array
+    """[n] brightness at the stop, log units."""
+
+
+class LineRules(NamedTuple):
+    """When a pixel fires."""
+
+    threshold_on: float
+    """Log units, above 0."""
+    threshold_off: float
+    """Log units, above 0."""
+    refractory_us: int
+    """Time after an event in which crossings are lost; 0 is none."""
+
+
+class LineState(NamedTuple):
+    """What pixels remember; a kernel changes it in place."""
+
+    reference: Float64Array
+    """[H · W] reference brightness, log units."""
+    fired_us: Int64Array
+    """[H · W] time of the last event, µs."""
+
+
+class LineCrossings(NamedTuple):
+    """Events, by pixel and then in time."""
+
+    row: Int64Array
+    """[n] number of the piece that the event lies on."""
+    t: Int64Array
+    """[n] µs."""
+    p: NDArray[np.uint8]
+    """[n] 1 = ON, 0 = OFF."""

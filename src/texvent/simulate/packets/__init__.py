@@ -1,0 +1,1 @@
+"""Events of one interval, from unsorted columns to a sorted packet."""

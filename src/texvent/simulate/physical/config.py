@@ -1,0 +1,167 @@
+"""Options of the `physical` pixel model, and what is known of real sensors."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from texvent.config import check_range
+from texvent.errors import ConfigError
+from texvent.simulate.physical.noise_curve import DAVIS346_NOISE, parse_noise_curve
+from texvent.simulate.physical.readout import ReadoutRules
+from texvent.simulate.random.mismatch import LOWEST_THRESHOLD
+
+
+@dataclass(frozen=True, kw_only=True)
+class PhysicalConfig:
+    """Options of the physical pixel model.
+
+    Raises:
+        ConfigError: an option is out of range, or two contradict each other.
+    """
+
+    gamma: float = 2.2
+    """Exponent that turns the levels of ordinary video into linear light; 1 for frames that are
+    linear already, such as those of a DAVIS."""
+    balance: float = 10.0
+    """Balance α, in linear levels of 0..255: what is added to intensities before the logarithm,
+    as the current that flows in the dark."""
+    contrast_threshold: float = 0.2
+    """Contrast threshold δ: change of brightness ln(α + I) that fires an event; the mean over
+    pixels, and the geometric mean of ON and OFF."""
+    on_off_ratio: float = 1.0
+    """ON threshold divided by OFF threshold."""
+    threshold_sigma: float = 0.03
+    """Standard deviation of both thresholds between pixels, log units; none is below 0.01."""
+    initial_phase: Literal["random", "zero"] = "random"
+    """How far each pixel is from its next event at the first frame: anywhere between its
+    thresholds (random), or just reset (zero)."""
+    residual_decay_hz: float = 0.0
+    """Rate at which a pixel forgets change that has not fired yet, per second; 0 is never, 2.5
+    does what a cache leak of 0.1 per frame does at 24 frames per second."""
+    cutoff_hz: float = 250.0
+    """Bandwidth of the photoreceptor at white; proportionally less at lower intensity. 0 is
+    unlimited."""
+    refractory_period_us: int = 300
+    """Time for which an event holds its pixel in reset; changes in it are lost."""
+    leak_rate_hz: float = 0.01
+    """ON events per pixel and second from junction leakage: the mean over pixels."""
+    leak_rate_decades: float = 0.1
+    """Standard deviation of log10 of the leak rate between pixels."""
+    noise_curve: str = DAVIS346_NOISE
+    """Noise events per pixel and second by linear intensity, as points LEVEL:RATE; log-linear
+    between them."""
+    noise_scale: float = 1.0
+    """Sensor factor on the noise rate; 0 is no noise."""
+    noise_decades: float = 0.25
+    """Standard deviation of log10 of the noise rate between pixels."""
+    noise_on_fraction: float = 0.53
+    """Share of ON among noise events, 0..1."""
+    noise_resets: bool = True
+    """A noise event resets its pixel, as any event does."""
+    hot_pixel_fraction: float = 0.0
+    """Share of pixels that fire all the time, 0..1."""
+    hot_pixel_rate_hz: float = 20.0
+    """Noise events per second of such a pixel."""
+    sensor_seed: int | None = None
+    """Seed of everything fixed to a pixel (thresholds, noise and leak rates, hot pixels); without
+    it, the run's seed. Set it to record many clips with one sensor."""
+    readout_latency_us: int = 0
+    """Delay between an event and its time stamp."""
+    readout_jitter_us: int = 0
+    """Longest random delay that is added to the latency."""
+    clock_step_us: int = 1
+    """Period of the time stamp clock; events get the time of its next tick."""
+    rate_limit_hz: float = 0.0
+    """Events per second of the whole sensor above which events are dropped at random; 0 is
+    never."""
+    rate_limit_window_us: int = 1000
+    """Window of the rate limit: what was counted in one decides how many are dropped in the
+    next."""
+
+    def __post_init__(self) -> None:
+        for name, (low, high) in RANGES.items():
+            check_range(name, getattr(self, name), low, high)
+        if self.initial_phase not in ("random", "zero"):
+            raise ConfigError(f"initial_phase is {self.initial_phase!r}; allowed: random, zero")
+        if self.sensor_seed is not None:
+            check_range("sensor_seed", self.sensor_seed, 0, 2**63 - 1)
+        parse_noise_curve(self.noise_curve)
+
+    @property
+    def contrast_threshold_on(self) -> float:
+        """Mean ON threshold, log units."""
+        return max(self.contrast_threshold * math.sqrt(self.on_off_ratio), LOWEST_THRESHOLD)
+
+    @property
+    def contrast_threshold_off(self) -> float:
+        """Mean OFF threshold, log units."""
+        return max(self.contrast_threshold / math.sqrt(self.on_off_ratio), LOWEST_THRESHOLD)
+
+    @property
+    def readout(self) -> ReadoutRules:
+        """The readout's share of the options."""
+        return ReadoutRules(
+            latency_us=self.readout_latency_us,
+            jitter_us=self.readout_jitter_us,
+            clock_us=self.clock_step_us,
+            rate_limit_hz=self.rate_limit_hz,
+            rate_limit_window_us=self.rate_limit_window_us,
+        )
+
+
+RANGES: Mapping[str, tuple[float, float]] = {
+    "gamma": (0.1, 10.0),
+    "balance": (1e-3, 1e6),
+    "contrast_threshold": (LOWEST_THRESHOLD, 10.0),
+    "on_off_ratio": (0.1, 10.0),
+    "threshold_sigma": (0.0, 10.0),
+    "residual_decay_hz": (0.0, 1e6),
+    "cutoff_hz": (0.0, 1e6),
+    "refractory_period_us": (0, 10**9),
+    "leak_rate_hz": (0.0, 1e3),
+    "leak_rate_decades": (0.0, 1.0),
+    "noise_scale": (0.0, 1e3),
+    "noise_decades": (0.0, 1.0),
+    "noise_on_fraction": (0.0, 1.0),
+    "hot_pixel_fraction": (0.0, 1.0),
+    "hot_pixel_rate_hz": (0.0, 1e5),
+    "readout_latency_us": (0, 10**6),
+    "readout_jitter_us": (0, 10**6),
+    "clock_step_us": (1, 10**6),
+    "rate_limit_hz": (0.0, 1e12),
+    "rate_limit_window_us": (1, 10**6),
+}
+"""Lowest and highest value of every numeric option."""
+
+PRESETS: Mapping[str, PhysicalConfig] = {
+    "default": PhysicalConfig(),
+    # δ and α: k1 and k2 of DVS-Voltmeter (Lin et al., ECCV 2022), which were fitted to recordings
+    # of both cameras. Noise: our curve, which contains the leak. Unmeasured: mismatch, cutoff and
+    # refractory period, which stay at the defaults (v2e's, rounded).
+    "davis346": PhysicalConfig(contrast_threshold=0.19, balance=20.0, leak_rate_hz=0.0),
+    # Unmeasured besides: the noise, which is the DAVIS346's.
+    "davis240c": PhysicalConfig(contrast_threshold=0.226, balance=23.0, leak_rate_hz=0.0),
+    # What `texvent calibrate` found on slider_depth of the Event-Camera Dataset: one specimen at
+    # its biases, frames interpolated by flow. Unmeasured: mismatch and refractory period.
+    "davis240c-ecd": PhysicalConfig(
+        contrast_threshold=0.49,
+        on_off_ratio=1.45,
+        balance=8.0,
+        cutoff_hz=500.0,
+        leak_rate_hz=0.06,
+        noise_curve="1:2.6 3.5:0.020 7.5:0.019 15:0.0075 25:0.0089 37.5:0.0077 57.5:0.0006",
+        noise_on_fraction=0.5,
+    ),
+    "clean": PhysicalConfig(
+        threshold_sigma=0.0,
+        initial_phase="zero",
+        cutoff_hz=0.0,
+        refractory_period_us=0,
+        leak_rate_hz=0.0,
+        noise_scale=0.0,
+    ),
+}
+"""Name → options. "clean" is an ideal sensor: linear light, exact crossings, nothing else."""

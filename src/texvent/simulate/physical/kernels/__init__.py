@@ -1,0 +1,1 @@
+"""Kernels of the physical model: the pixel circuit and its threshold crossings."""

@@ -1,0 +1,170 @@
+"""The `physical` pixel model: what a DVS pixel does, from linear light to the readout.
+
+Per frame interval, for every pixel:
+
+1. intensity I = 255 · (luma / 255)^gamma, brightness L = ln(α + I), a straight line between
+   frames;
+2. the photoreceptor follows L as a first-order low-pass whose corner grows with I;
+3. the change since the last reset, leak included, fires where it crosses a threshold of the
+   pixel's own, at that very time, as often as it does; the event resets the pixel;
+4. noise events come at a rate that depends on intensity, and reset the pixel too;
+5. the readout delays events, limits their rate and rounds their times, if asked to.
+
+Rates are per second and the low-pass is integrated exactly, so neither the frame rate nor the
+number of intermediate frames changes what is simulated. docs/simulators.md gives the equations.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.simulate.packets.order import Columns
+from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.physical.config import PRESETS, PhysicalConfig
+from texvent.simulate.physical.kernels.circuit import (
+    WHITE,
+    Light,
+    NoiseEvents,
+    Pixels,
+    ResetRules,
+    load_advance_pixels,
+    new_state,
+)
+from texvent.simulate.physical.noise_curve import parse_noise_curve
+from texvent.simulate.physical.photoreceptor import Sight
+from texvent.simulate.physical.readout import Readout
+from texvent.simulate.random.draws import Purpose, draw_uniforms
+from texvent.simulate.random.mismatch import (
+    draw_chosen,
+    draw_rate_factors,
+    draw_threshold_pair,
+    sensor_key,
+)
+from texvent.simulate.random.rate_noise import Float64Array, NoiseRates
+from texvent.simulate.streaming import IntensityArray, StreamingSimulator
+from texvent.video import MICROSECONDS
+
+HOT = 1
+"""The stream of noise of hot pixels."""
+
+
+class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
+    """A DVS pixel on video frames; see `simulate.protocol.Simulator`.
+
+    Example:
+        >>> from texvent.video import Frame
+        >>> simulator = PhysicalSimulator(PhysicalSimulator.presets["clean"], backend="reference")
+        >>> dark, bright = np.array([[100]], np.uint8), np.array([[160]], np.uint8)
+        >>> len(simulator.step(Frame(dark, t_us=0)))  # nothing to compare with yet
+        0
+        >>> events = simulator.step(Frame(bright, t_us=1000))  # I: 32.5 → 91.5, L rises by 0.870
+        >>> events.t.tolist(), events.polarity.tolist()
+        ([229, 459, 689, 919], [1, 1, 1, 1])
+    """
+
+    config_type: ClassVar[type] = PhysicalConfig
+    presets: ClassVar[Mapping[str, PhysicalConfig]] = PRESETS
+
+    @property
+    def contrast_threshold(self) -> float:
+        """The smaller threshold divided by gamma: what Eq. 4 should count with, log units.
+
+        Eq. 4 looks at gamma-coded frames, where the logarithm is smaller by that factor.
+        """
+        config = self.config
+        return min(config.contrast_threshold_on, config.contrast_threshold_off) / config.gamma
+
+    @property
+    def balance(self) -> float:
+        """The gamma-coded level of the balance: with it, Eq. 4 sees about the model's changes."""
+        return WHITE * math.pow(self.config.balance / WHITE, 1.0 / self.config.gamma)
+
+    def _begin(self, intensity: IntensityArray) -> None:
+        config, shape = self.config, intensity.shape
+        self._draw_sensor(shape)
+        self._readout = Readout(config.readout, first_us=self._last_us, width=shape[1])
+        self._sight = Sight(
+            intensity, gamma=config.gamma, balance=config.balance, cutoff_hz=config.cutoff_hz
+        )
+        output = self._sight.brightness()
+        level = output.copy()
+        if config.initial_phase == "random":
+            y, x = np.ogrid[: shape[0], : shape[1]]
+            phase = draw_uniforms(sensor_key(self._seed), y, x, Purpose.PHASE.draw()).reshape(-1)
+            on, off = self._pixels[:2]
+            level -= phase * (on + off) - off
+        self._state = new_state(output, level, self._last_us)
+
+    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings | Columns:
+        light = self._sight.towards(intensity)
+        noise = self._draw_noise(light, interval)
+        rules = ResetRules(self.config.refractory_period_us, self.config.noise_resets)
+        fired = load_advance_pixels(light.now.dtype, self._backend)(
+            light, self._pixels, self._state, noise, rules, (interval.start_us, interval.stop_us)
+        )
+        self._forget(interval)
+        if self.config.readout.is_ideal:
+            return fired
+        if not isinstance(fired, Firings):
+            fired = Firings.of(fired, intensity.shape[1])
+        return self._readout.read(fired, interval)
+
+    def _draw_sensor(self, shape: tuple[int, ...]) -> None:
+        """What is fixed to a pixel: thresholds, leak, noise factor, additional noise if hot."""
+        config = self.config
+        key = sensor_key(self._seed if config.sensor_seed is None else config.sensor_seed)
+        on, off = draw_threshold_pair(shape, key, config)
+        leak = config.leak_rate_hz * _factors_of_mean_1(
+            shape, key, Purpose.LEAK_RATE, config.leak_rate_decades
+        )
+        leak_per_us = leak * on / MICROSECONDS
+        self._pixels = Pixels(
+            *(column.reshape(-1).astype(np.float32) for column in (on, off, leak_per_us))
+        )
+        self._noise_curve = parse_noise_curve(config.noise_curve)
+        factor = _factors_of_mean_1(shape, key, Purpose.NOISE_RATE, config.noise_decades)
+        self._noise = NoiseRates(config.noise_scale * self._noise_curve.highest_hz * factor)
+        hot = draw_chosen(shape, key, Purpose.HOT_PIXEL, fraction=config.hot_pixel_fraction)
+        self._hot_noise = NoiseRates(config.hot_pixel_rate_hz * hot, stream=HOT)
+
+    def _draw_noise(self, light: Light, interval: Interval) -> NoiseEvents:
+        curve, sight = self._noise_curve, self._sight
+
+        def share(pixel: NDArray[np.int64]) -> Float64Array:
+            """The noise curve at the pixels, the mean over both frames, relative to its top."""
+            start, stop = (
+                curve.rate_at(sight.intensity(luma[pixel])) for luma in (light.before, light.now)
+            )
+            return np.asarray((start + stop) / (2.0 * curve.highest_hz))
+
+        on_fraction, backend = self.config.noise_on_fraction, self._backend
+        noise = self._noise.draw(interval, share=share, on_fraction=on_fraction, backend=backend)
+        if not self._hot_noise.is_silent:
+            hot = self._hot_noise.draw(interval, on_fraction=on_fraction, backend=backend)
+            noise = noise.joined(hot)
+        order = np.lexsort((noise.p, noise.t, noise.pixel))
+        return NoiseEvents(noise.pixel[order], noise.t[order], noise.p[order])
+
+    def _forget(self, interval: Interval) -> None:
+        """Let change that has not fired decay, what leaked and what light made alike."""
+        if self.config.residual_decay_hz > 0:
+            kept = math.exp(-self.config.residual_decay_hz * interval.duration_s)
+            state, stop_us = self._state, interval.stop_us
+            state.level[:] += (1.0 - kept) * (state.output - state.level)
+            age = np.rint(kept * (stop_us - state.since_us)).astype(np.int64)
+            is_free = state.since_us <= stop_us
+            state.since_us[is_free] = stop_us - age[is_free]
+            state.calm_until_us[:] = stop_us
+
+
+def _factors_of_mean_1(
+    shape: tuple[int, ...], key: np.uint64, purpose: Purpose, decades: float
+) -> Float64Array:
+    """Log-normal factors between pixels that keep the mean rate what the option says."""
+    factors = draw_rate_factors(shape, key, purpose, decades=decades)
+    return factors / math.exp((math.log(10) * decades) ** 2 / 2)

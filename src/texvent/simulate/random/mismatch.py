@@ -1,0 +1,139 @@
+"""What differs from pixel to pixel of one sensor: drawn once, the same in every frame of a seed."""
+
+from __future__ import annotations
+
+import math
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.simulate.random.draws import Purpose, draw_normals, draw_uniforms, frame_key
+
+Float64Array = NDArray[np.float64]
+Shape = tuple[int, ...]
+
+LOWEST_THRESHOLD = 0.01
+"""Floor of drawn thresholds, log units: v2e's and ESIM's, so that no pixel fires without end."""
+LONG_AGO_US = -(2**62)
+"""Time of the last event of a pixel that has not fired yet, µs."""
+SENSOR = -1
+"""Stands for the frame in keys of draws that belong to the sensor; frames count from 0."""
+
+
+def draw_thresholds(
+    shape: Shape, key: np.uint64, purpose: Purpose, *, mean: float, sigma: float
+) -> Float64Array:
+    """Contrast thresholds with Gaussian mismatch between pixels.
+
+    Args:
+        shape: (height, width).
+        key: of `sensor_key`, or of a frame for thresholds that change in time.
+        purpose: `THRESHOLD_ON` or `THRESHOLD_OFF`.
+        mean: nominal threshold, log units.
+        sigma: standard deviation, log units; 0 gives every pixel the nominal one.
+
+    Returns:
+        [H, W] float64, at least `LOWEST_THRESHOLD`.
+    """
+    y, x = np.ogrid[: shape[0], : shape[1]]
+    return np.broadcast_to(_thresholds_at(y, x, key, purpose, (mean, sigma)), shape).copy()
+
+
+def _thresholds_at(
+    y: NDArray[np.int64],
+    x: NDArray[np.int64],
+    key: np.uint64,
+    purpose: Purpose,
+    normal: tuple[float, float],
+) -> Float64Array:
+    mean, sigma = normal
+    if sigma == 0:
+        return np.full(np.broadcast_shapes(y.shape, x.shape), float(mean))
+    return np.maximum(mean + sigma * draw_normals(key, y, x, purpose.draw()), LOWEST_THRESHOLD)
+
+
+class NominalThresholds(Protocol):
+    """The options that say what a sensor's thresholds are."""
+
+    @property
+    def contrast_threshold_on(self) -> float:
+        """Mean of the ON thresholds, log units."""
+        ...
+
+    @property
+    def contrast_threshold_off(self) -> float:
+        """Mean of the OFF thresholds, log units."""
+        ...
+
+    @property
+    def threshold_sigma(self) -> float:
+        """Standard deviation of both, log units."""
+        ...
+
+
+def draw_threshold_pair(
+    shape: Shape, key: np.uint64, nominal: NominalThresholds
+) -> tuple[Float64Array, Float64Array]:
+    """ON and OFF thresholds of every pixel, two of [H, W]; see `draw_thresholds`."""
+    on, off = nominal.contrast_threshold_on, nominal.contrast_threshold_off
+    sigma = nominal.threshold_sigma
+    return (
+        draw_thresholds(shape, key, Purpose.THRESHOLD_ON, mean=on, sigma=sigma),
+        draw_thresholds(shape, key, Purpose.THRESHOLD_OFF, mean=off, sigma=sigma),
+    )
+
+
+def draw_threshold_pair_at(
+    y: NDArray[np.int64], x: NDArray[np.int64], key: np.uint64, nominal: NominalThresholds
+) -> tuple[Float64Array, Float64Array]:
+    """What `draw_threshold_pair` has at some pixels.
+
+    Args:
+        y: rows, [n].
+        x: columns, [n].
+        key: as there.
+        nominal: as there.
+
+    Returns:
+        ON and OFF thresholds, [n] each.
+    """
+    on, off = nominal.contrast_threshold_on, nominal.contrast_threshold_off
+    sigma = nominal.threshold_sigma
+    return (
+        _thresholds_at(y, x, key, Purpose.THRESHOLD_ON, (on, sigma)),
+        _thresholds_at(y, x, key, Purpose.THRESHOLD_OFF, (off, sigma)),
+    )
+
+
+def draw_rate_factors(
+    shape: Shape, key: np.uint64, purpose: Purpose, *, decades: float
+) -> Float64Array:
+    """Log-normal factors on a rate, median 1.
+
+    Args:
+        shape: (height, width).
+        key: of `sensor_key`.
+        purpose: what the rate is of.
+        decades: standard deviation of log10 of the factor; 0 gives 1 everywhere.
+
+    Returns:
+        [H, W] float64, above 0.
+    """
+    if decades == 0:
+        return np.ones(shape)
+    y, x = np.ogrid[: shape[0], : shape[1]]
+    return np.asarray(np.exp(math.log(10) * decades * draw_normals(key, y, x, purpose.draw())))
+
+
+def draw_chosen(
+    shape: Shape, key: np.uint64, purpose: Purpose, *, fraction: float
+) -> NDArray[np.bool_]:
+    """Pixels chosen at random, each with probability `fraction`; [H, W] bool."""
+    y, x = np.ogrid[: shape[0], : shape[1]]
+    return np.asarray(draw_uniforms(key, y, x, purpose.draw()) < fraction)
+
+
+def sensor_key(seed: int) -> np.uint64:
+    """Key of the draws that are made once for the sensor."""
+    return frame_key(seed, SENSOR)

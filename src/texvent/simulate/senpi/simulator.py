@@ -1,0 +1,208 @@
+"""SENPI's pixel model: photons to voltage, at most one event per pixel and frame.
+
+Source: J. L. Greene et al., "A PyTorch-enabled tool for synthetic event camera data generation and
+algorithm development", SPIE 2025, and the parameters its program (SENPI) documents.
+docs/simulators.md gives the equations and where this model departs from the program: noise above
+all.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from texvent.config import check_range
+from texvent.simulate.crossing.levels import Curve
+from texvent.simulate.crossing.trigger_levels import (
+    TriggerLevels,
+    sensor_thresholds,
+    thresholds_at,
+)
+from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.random.draws import Purpose
+from texvent.simulate.random.mismatch import (
+    LONG_AGO_US,
+    LOWEST_THRESHOLD,
+    Float64Array,
+    draw_chosen,
+    sensor_key,
+)
+from texvent.simulate.random.rate_noise import NoiseRates
+from texvent.simulate.streaming import IntensityArray, StreamingSimulator
+
+WHITE = 255.0
+DARKEST = 1.0
+"""Intensity below which all pixels count as equally dark, levels of 0..255."""
+FULL_SCALE = 0.9616
+"""SENPI's threshold of 0.1 in its unit of ln(15000): 0.96158 in natural-log units."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SenpiConfig:
+    """Options of the SENPI pixel model; the defaults are those of its program, per second.
+
+    Raises:
+        ConfigError: an option is out of range.
+    """
+
+    contrast_threshold_on: float = FULL_SCALE
+    """Rise of ln(photons) that fires an ON event: the mean over pixels."""
+    contrast_threshold_off: float = FULL_SCALE
+    """Fall of ln(photons) that fires an OFF event: the mean over pixels."""
+    threshold_sigma: float = 0.0
+    """Standard deviation of both thresholds between pixels, log units; none is below 0.01."""
+    well_capacity: float = 15_000.0
+    """Photons of a white pixel."""
+    noise_rate_hz: float = 1.2
+    """Noise events per pixel and second; SENPI's 0.05 per frame, at 24 frames per second."""
+    hot_fraction: float = 0.0
+    """Share of hot pixels, 0..1."""
+    hot_rate_hz: float = 10.0
+    """Noise events per second of a hot pixel."""
+    shot_noise: bool = False
+    """Add the noise events that photon statistics cause."""
+    dark_electrons: float = 2.0
+    """Rms of the dark noise, electrons; counts with shot noise only."""
+    exposure_us: int = 41_667
+    """Time between independent samples of the photon number: how often shot noise can fire."""
+    refractory_period_us: int = 50
+    """Time after an event in which a change cannot fire the pixel."""
+
+    def __post_init__(self) -> None:
+        check_range("contrast_threshold_on", self.contrast_threshold_on, LOWEST_THRESHOLD, 10.0)
+        check_range("contrast_threshold_off", self.contrast_threshold_off, LOWEST_THRESHOLD, 10.0)
+        check_range("threshold_sigma", self.threshold_sigma, 0.0, 10.0)
+        check_range("well_capacity", self.well_capacity, WHITE, 1e9)
+        check_range("noise_rate_hz", self.noise_rate_hz, 0.0, 1e4)
+        check_range("hot_fraction", self.hot_fraction, 0.0, 1.0)
+        check_range("hot_rate_hz", self.hot_rate_hz, 0.0, 1e4)
+        check_range("dark_electrons", self.dark_electrons, 0.0, 1e6)
+        check_range("exposure_us", self.exposure_us, 1, 10**9)
+        check_range("refractory_period_us", self.refractory_period_us, 0, 10**9)
+
+
+class SenpiSimulator(StreamingSimulator[SenpiConfig]):
+    """SENPI on video frames; see `simulate.protocol.Simulator`.
+
+    Example:
+        >>> from texvent.video import Frame
+        >>> simulator = SenpiSimulator(SenpiSimulator.presets["peer-common"], backend="reference")
+        >>> len(simulator.step(Frame(np.array([[40]], np.uint8), t_us=0)))
+        0
+        >>> events = simulator.step(Frame(np.array([[90]], np.uint8), t_us=1000))
+        >>> list(zip(events.t.tolist(), events.polarity.tolist()))  # once, however large
+        [(999, 1)]
+    """
+
+    config_type: ClassVar[type] = SenpiConfig
+    presets: ClassVar[Mapping[str, SenpiConfig]] = {
+        "default": SenpiConfig(),
+        "peer-common": SenpiConfig(
+            contrast_threshold_on=0.2,
+            contrast_threshold_off=0.2,
+            noise_rate_hz=0.0,
+            refractory_period_us=0,
+        ),
+    }
+
+    @property
+    def contrast_threshold(self) -> float:
+        """The smaller threshold, log units."""
+        return min(self.config.contrast_threshold_on, self.config.contrast_threshold_off)
+
+    @property
+    def balance(self) -> float:
+        """1: the logarithm of `1 + I` is about as steep at black as that of `max(I, 1)`."""
+        return DARKEST
+
+    def _begin(self, intensity: IntensityArray) -> None:
+        config = self.config
+        key, shape = sensor_key(self._seed), intensity.shape
+        self._thresholds = sensor_thresholds(shape, self._seed, config)
+        is_hot = draw_chosen(shape, key, Purpose.HOT_PIXEL, fraction=config.hot_fraction)
+        self._rate_hz = np.where(is_hot, config.hot_rate_hz, config.noise_rate_hz)
+        self._noise = NoiseRates(self._rate_hz)
+        self._reference = np.log(photons(intensity, config.well_capacity)).reshape(-1)
+        self._fired_us = np.full(intensity.size, LONG_AGO_US)
+        # Below the darkest level all voltages are equal, so one that is lower is never reached.
+        darkest = math.log(DARKEST / WHITE * config.well_capacity)
+        curve = Curve(WHITE / config.well_capacity, 0.0, darkest)
+        self._levels = TriggerLevels(intensity, curve, backend=self._backend)
+        self._levels.set_all(self._reference, self._thresholds)
+
+    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
+        fired = self._compare(intensity, interval)
+        noise = self._draw_noise(intensity, interval)
+        # What fired memorises the present voltage, whatever the reason.
+        pixel = np.concatenate([fired.pixel, noise.pixel])
+        self._reference[pixel] = self._voltage(intensity.reshape(-1)[pixel])
+        # The last of a pixel's events stays: noise comes in time, and a change fires at the end.
+        for events in (noise, fired):
+            self._fired_us[events.pixel] = events.t
+        self._levels.set(pixel, self._reference, thresholds_at(pixel, self._thresholds))
+        return fired.joined(noise)
+
+    def _compare(self, intensity: IntensityArray, interval: Interval) -> Firings:
+        """At most one event per pixel, in the interval's last microsecond."""
+        t_us = interval.stop_us - 1
+        pixel, _, now = self._levels.find_outside(intensity)
+        change = self._voltage(now) - self._reference[pixel]
+        threshold = np.where(change > 0, *thresholds_at(pixel, self._thresholds))
+        is_rested = t_us - self._fired_us[pixel] >= self.config.refractory_period_us
+        fires = (np.abs(change) >= threshold) & is_rested
+        pixel, is_on = pixel[fires], change[fires] > 0
+        return Firings.signal(pixel, np.full(len(pixel), t_us), is_on.astype(np.uint8))
+
+    def _voltage(self, intensity: IntensityArray) -> Float64Array:
+        return np.asarray(np.log(photons(intensity, self.config.well_capacity)))
+
+    def _draw_noise(self, intensity: IntensityArray, interval: Interval) -> Firings:
+        if not self.config.shot_noise:
+            return self._noise.draw(interval, backend=self._backend)
+        electrons = photons(intensity, self.config.well_capacity)
+        on, off = (
+            shot_noise_rate_hz(electrons.reshape(-1), threshold, self.config).reshape(
+                electrons.shape
+            )
+            for threshold in self._thresholds
+        )
+        total = self._rate_hz + on + off
+        on_fraction = (self._rate_hz / 2 + on) / np.maximum(total, np.finfo(np.float64).tiny)
+        return NoiseRates(total).draw(interval, on_fraction=on_fraction, backend=self._backend)
+
+
+def photons(intensity: IntensityArray, well_capacity: float) -> Float64Array:
+    """Photons that pixels receive, `max(I, 1) / 255 · well capacity`, float64.
+
+    Example:
+        >>> photons(np.array([[0, 1, 255]], np.uint8), 15_000.0).round(2).tolist()
+        [[58.82, 58.82, 15000.0]]
+    """
+    exact = intensity.astype(np.float64, copy=False)
+    return np.asarray(np.maximum(exact, DARKEST) / WHITE * well_capacity)
+
+
+def shot_noise_rate_hz(
+    electrons: Float64Array, threshold: Float64Array, config: SenpiConfig
+) -> Float64Array:
+    """Events per second of one polarity that photon and dark noise fire at a resting pixel.
+
+    One sample of ln(electrons) has the variance `(N + dark²) / N²`, the difference of two samples
+    twice that; each new sample, one per exposure, passes the threshold with that tail's
+    probability.
+
+    Args:
+        electrons: mean number N, [H, W], above 0.
+        threshold: of that polarity, [H, W], log units.
+        config: exposure and dark noise.
+
+    Returns:
+        [H, W].
+    """
+    variance = (electrons + config.dark_electrons**2) / electrons**2
+    tail = np.frompyfunc(math.erfc, 1, 1)(threshold / (2.0 * np.sqrt(variance)))
+    return np.asarray(tail, np.float64) / 2 / (config.exposure_us * 1e-6)

@@ -1,0 +1,1 @@
+"""The paper's pixel model (Eqs. 5-7)."""

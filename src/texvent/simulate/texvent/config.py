@@ -1,0 +1,107 @@
+"""Options of the paper's pixel model."""
+
+from __future__ import annotations
+
+import typing
+from dataclasses import dataclass
+from typing import Literal
+
+from texvent._registry import suggest
+from texvent.config import check_range
+from texvent.errors import ConfigError
+from texvent.simulate.texvent.brightness_cache import CachePolicy, ResetRule
+from texvent.simulate.texvent.noise import NoiseKind
+from texvent.simulate.texvent.timestamps import StampRule
+
+
+@dataclass(frozen=True, kw_only=True)
+class TexventConfig:
+    """Options of the Texvent pixel model.
+
+    The defaults are the paper's, or our choice where it gives none; docs/equations.md says which.
+
+    Raises:
+        ConfigError: an option is out of range, or two contradict each other.
+    """
+
+    contrast_threshold: float = 0.2
+    """Contrast threshold δ: change of brightness ln(α + I) that fires an event."""
+    balance: float = 30.0
+    """Balance α, in levels of 0..255: what is added to intensities before the logarithm, so that
+    dark pixels do not fire more easily than bright ones."""
+    cache: CachePolicy = "local"
+    """How long a pixel that has not fired remembers its reference brightness: within a pair of
+    source frames (local), for the whole video (global), not at all (none), or with a loss at each
+    source frame (leaky)."""
+    cache_reset_pairs: int = 0
+    """With --cache global or leaky: forget all references every this many pairs of source frames;
+    0 is never. (Local forgets at every pair by itself.)"""
+    cache_leak: float = 0.1
+    """With --cache leaky: share of the way, 0..1, by which a reference moves to the brightness of
+    each source frame; 0 is global, 1 is local."""
+    reset: ResetRule = "current"
+    """Where a pixel fires, its reference becomes the current brightness (current), or moves by one
+    threshold per event, as in the circuit (step)."""
+    multi_event: bool = False
+    """Fire one event per threshold crossed, not one per frame; needs a --stamp other than eq7."""
+    noise: NoiseKind = "adaptive"
+    """Background activity: in dark, resting pixels (adaptive, Eq. 6); as Gaussian noise on the
+    brightness (gaussian); at any pixel (random); or none."""
+    noise_rate_hz: float = 0.1
+    """Noise events per pixel and second, where there is noise (λ1)."""
+    noise_scale: float = 1.0
+    """Sensor factor on the noise rate, such as the ratio of two fill factors (in λ2)."""
+    noise_intensity: float = 80.0
+    """Pixels darker than this level of 0..255 are low-light (σ); with --noise adaptive."""
+    noise_on_fraction: float = 0.5
+    """Share of ON among noise events, 0..1; Gaussian noise decides polarity by itself."""
+    stamp: StampRule = "eq7"
+    """Time of an event between two frames: larger change earlier (eq7), random, where a straight
+    line crosses the threshold (linear), where a ramp from the reference does (hyperbolic), evenly
+    spaced (even), or at the end (end)."""
+    stamp_scale: float = 1.0
+    """Scale γ of --stamp eq7, above 0 up to 1: the share of the interval that events
+    spread over."""
+
+    def __post_init__(self) -> None:
+        check_range("contrast_threshold", self.contrast_threshold, 1e-4, 10.0)
+        check_range("balance", self.balance, 0.0, 1e6)
+        check_range("cache_reset_pairs", self.cache_reset_pairs, 0)
+        check_range("cache_leak", self.cache_leak, 0.0, 1.0)
+        check_range("noise_rate_hz", self.noise_rate_hz, 0.0, 1e4)
+        check_range("noise_scale", self.noise_scale, 0.0, 1e3)
+        check_range("noise_intensity", self.noise_intensity, 0.0, 1e6)
+        check_range("noise_on_fraction", self.noise_on_fraction, 0.0, 1.0)
+        check_range("stamp_scale", self.stamp_scale, 1e-6, 1.0)
+        self._check_choices()
+        if self.cache_reset_pairs > 0 and self.cache in ("local", "none"):
+            raise ConfigError(
+                f"cache_reset_pairs is {self.cache_reset_pairs}, but cache {self.cache!r} forgets "
+                "at every pair already; use cache 'global' or 'leaky', or leave it 0"
+            )
+        if self.multi_event and self.stamp == "eq7":
+            raise ConfigError(
+                "stamp 'eq7' gives a pixel one time per frame, but multi_event lets it fire "
+                "several times; use stamp 'linear', 'hyperbolic', 'even', 'random' or 'end'"
+            )
+
+    def _check_choices(self) -> None:
+        for name, hint in typing.get_type_hints(type(self)).items():
+            allowed = typing.get_args(hint)
+            if typing.get_origin(hint) is Literal and getattr(self, name) not in allowed:
+                value = getattr(self, name)
+                raise ConfigError(f"{name} is {value!r}; {suggest(str(value), allowed)}")
+
+    @property
+    def reset_step(self) -> float | None:
+        """By how much an event moves its reference, log units; None: to the current brightness."""
+        return self.contrast_threshold if self.reset == "step" else None
+
+    @property
+    def has_added_noise(self) -> bool:
+        """Whether noise events are added to the others (Eq. 6), not only to the brightness."""
+        return self.noise in ("adaptive", "random") and self.noise_rate_hz * self.noise_scale > 0
+
+    def expected_noise(self, duration_s: float) -> float:
+        """λ1 · λ2: noise events per pixel in a sub-interval of so many seconds."""
+        return self.noise_rate_hz * (self.noise_scale * duration_s)

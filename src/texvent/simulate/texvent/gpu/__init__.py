@@ -1,0 +1,1 @@
+"""The Texvent model as Triton kernels."""

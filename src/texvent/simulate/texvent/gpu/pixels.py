@@ -1,0 +1,184 @@
+"""Texvent's pixel model on the GPU: its options, its state, and which kernels it launches."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from texvent._require import require
+from texvent.errors import ConfigError
+from texvent.simulate.gpu.device import EXTRA, LAUNCH
+from texvent.simulate.gpu.intervals import Int64Array, Span
+from texvent.simulate.gpu.kernel_types import (
+    FORGET,
+    KEEP,
+    LEAK,
+    Call,
+    Records,
+    Tally,
+    Tensor,
+)
+from texvent.simulate.gpu.launch import (
+    Walk,
+    choose_walk,
+    make_records,
+    segment_grid,
+    to_device,
+    walk_grid,
+)
+from texvent.simulate.random.draws import frame_keys
+from texvent.simulate.texvent.config import TexventConfig
+from texvent.simulate.texvent.gpu import rules as texvent_rules
+from texvent.simulate.texvent.gpu import scan_triton as texvent_triton
+
+_BLOCK = 512
+LEVELS_WALK = Walk(128, 1)
+"""One warp: nothing waits at a barrier, and a quiet one has little to do."""
+BRIGHTNESS_WALK = Walk(512, 4)
+
+
+class TexventPixels:
+    """The pixels of a batch of clips under Eqs. 5 and 7."""
+
+    def __init__(self, config: TexventConfig, seeds: Sequence[int]) -> None:
+        """Pixels that have seen no frame.
+
+        Args:
+            config: the options.
+            seeds: one per clip.
+
+        Raises:
+            ConfigError: an option that only the CPU has.
+        """
+        check_options(config)
+        self.config = config
+        self._seeds = tuple(seeds)
+        self._pairs_seen = np.zeros((len(seeds), 1), np.int64)
+        self._tracks_intensity = texvent_rules.tracks_intensity(config)
+        self._walk = choose_walk(LEVELS_WALK if self._tracks_intensity else BRIGHTNESS_WALK)
+
+    @property
+    def contrast_threshold(self) -> float:
+        """The smallest contrast threshold, log units."""
+        return self.config.contrast_threshold
+
+    @property
+    def balance(self) -> float:
+        """α, on the 0..255 scale."""
+        return self.config.balance
+
+    @property
+    def block(self) -> int:
+        """Pixels that a program walks."""
+        return self._walk.block
+
+    def begin(self, frames: Tensor) -> None:
+        """Make room for the state and put the options on the device of `frames`, [B, H, W]."""
+        torch = require("torch", extra=EXTRA)
+        dtype = frames.dtype if self._tracks_intensity else torch.float64
+        # What it holds does not matter: the first interval forgets.
+        self._reference = torch.zeros(frames.shape, dtype=dtype, device=frames.device)
+        brightness = texvent_rules.byte_brightness(self.config.balance)
+        levels = texvent_rules.byte_trigger_levels(brightness, self.config.contrast_threshold)
+        self._rules = texvent_rules.Rules(
+            to_device(texvent_rules.list_numbers(self.config), frames.device),
+            to_device(levels, frames.device),
+            to_device(brightness, frames.device),
+            int(self.config.reset == "step"),
+            int(self.config.multi_event),
+        )
+
+    def keys(self, span: Span) -> Int64Array:
+        """Keys of the random draws of every interval, as bits, [B, T]."""
+        keys = [
+            frame_keys(seed, times_us)
+            for seed, times_us in zip(self._seeds, span.stop_us, strict=True)
+        ]
+        return np.stack(keys).view(np.int64)
+
+    def policy(self, span: Span) -> Int64Array:
+        """What references do before every interval, [B, T]; see `cache.BrightnessCache`."""
+        config, pair_starts = self.config, span.from_source
+        policy = np.where(pair_starts & (config.cache == "leaky"), LEAK, KEEP)
+        if config.cache == "none":
+            forgets = np.ones_like(pair_starts)
+        elif config.cache == "local":
+            forgets = pair_starts.copy()
+        else:
+            pairs = self._pairs_seen + np.cumsum(pair_starts, axis=1)
+            every = config.cache_reset_pairs
+            forgets = pair_starts & (every > 0) & ((pairs - 1) % max(every, 1) == 0)
+        if span.is_new:
+            forgets[:, 0] = True
+        return np.where(forgets, FORGET, policy)
+
+    def advance(self, span: Span) -> None:
+        """Take the intervals for passed."""
+        self._pairs_seen += span.from_source.sum(axis=1, keepdims=True)
+
+    def walk(self, call: Call, tally: Tally, records: Records | None) -> None:
+        """Count the events of all intervals (`records` None), or write them down and move on."""
+        if self._tracks_intensity:
+            kernel = texvent_triton.walk_levels
+            # Exact: float32 holds every byte.
+            self._reference = self._reference.to(call.frames.pixels.dtype)
+        else:
+            kernel = texvent_triton.walk_brightness
+        kernel[walk_grid(call, self.block)](
+            call.frames,
+            call.intervals,
+            self._rules,
+            self._reference,
+            tally,
+            records,
+            ALIGN=call.align,
+            BLOCK=self.block,
+            num_warps=self._walk.warps,
+            **LAUNCH,
+        )
+
+    def records(self, count: int) -> Records:
+        """Room for `count` events."""
+        return make_records(count, self._reference, has_order=self.config.multi_event)
+
+    def stamp(self, call: Call, records: Records, ends: Tensor, words: Tensor) -> None:
+        """Give every record its time; see `texvent_triton.stamp_events`."""
+        torch = require("torch", extra=EXTRA)
+        grid = segment_grid(call, len(records.pixel), _BLOCK)
+        extremes = None
+        if self.config.stamp == "eq7":
+            extremes = torch.empty(call.segments, 2, dtype=torch.float64, device=words.device)
+            extremes[:, 0], extremes[:, 1] = torch.inf, -torch.inf
+            texvent_triton.find_extremes[grid](
+                call.frames, self._rules, records, ends, extremes, BLOCK=_BLOCK, **LAUNCH
+            )
+        texvent_triton.stamp_events[grid](
+            call.frames,
+            call.intervals,
+            self._rules,
+            records,
+            (ends, extremes),
+            words,
+            STAMP=texvent_rules.STAMPS[self.config.stamp],
+            BLOCK=_BLOCK,
+            **LAUNCH,
+        )
+
+
+def check_options(config: TexventConfig) -> None:
+    """Refuse what the GPU kernels do not do.
+
+    Raises:
+        ConfigError: Gaussian noise, or a balance of 0.
+    """
+    if config.noise == "gaussian":
+        raise ConfigError(
+            "noise 'gaussian' draws a normal number for every pixel and frame, which backend gpu "
+            "does not do; use noise 'adaptive', 'random' or 'none', or backend cpu"
+        )
+    if config.balance <= 0:
+        raise ConfigError(
+            "balance is 0, and backend gpu does not look for black pixels, which then have no "
+            "logarithm; use a balance above 0, or backend cpu"
+        )

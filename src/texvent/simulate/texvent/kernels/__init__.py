@@ -1,0 +1,1 @@
+"""Kernels of the Texvent model: scan, noise, time stamps."""

@@ -1,0 +1,271 @@
+"""Trigger levels compiled by Numba: one pass over the frame, close work only at candidates.
+
+Tile by tile the frame is scanned (`marks_cpu`), and what may fire is settled by the exact
+logarithms of the definition: from a table for integers, from NumPy for floats, which takes a pass
+of its own.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.simulate.crossing.bitmask_cpu import (
+    LARGEST_FLOAT,
+    RUN,
+    Marks,
+    largest_word,
+    mark_bytes,
+    mark_levels,
+    number_of,
+)
+from texvent.simulate.packets.order import read_only
+from texvent.simulate.random.draws_cpu import allow_wrap_around
+from texvent.simulate.texvent.kernels import scan_numpy as texvent_numpy
+from texvent.simulate.texvent.kernels.scan import (
+    Fired,
+    FireRule,
+    Float64Array,
+    Intensity,
+    Levels,
+    Memory,
+)
+
+Int64Array = NDArray[np.int64]
+_0, _1 = np.uint64(0), np.uint64(1)
+_CHUNK = 1 << 14
+"""Pixels of float frames that are looked at together, twice: they stay in a near cache."""
+
+
+class Pictures(NamedTuple):
+    """All arrays as large as a frame."""
+
+    frame: Intensity
+    reference: Intensity
+    renewed: Intensity
+    """[0] unless all references are renewed."""
+    previous: Intensity
+    """[0] unless events need it."""
+
+
+class _Logs(NamedTuple):
+    """Balanced intensities of the candidates of float frames, [n], and their logarithms."""
+
+    balanced: Float64Array
+    now: Float64Array
+    then: Float64Array
+    before: Float64Array
+    """[0] unless events need it."""
+
+
+class _Work(NamedTuple):
+    """Room for the worst case, all pixels; the system gives memory only to what is used."""
+
+    fired: Fired
+    candidates: Int64Array
+    """[n], or [0] where tables serve; so are the logarithms."""
+    logs: _Logs
+
+
+def find_fired(frame: Intensity, memory: Memory, levels: Levels, rule: FireRule) -> Fired | None:
+    """See `texvent_numpy.find_fired`."""
+    work: _Work = memory.work or _make_room(memory)
+    memory.work = work
+    renewed = memory.renewed if rule.is_renewed else memory.renewed[:0]
+    pictures = Pictures(frame, memory.reference, renewed, memory.previous)
+    if not memory.table.size:
+        return _find_fired_floats(pictures, memory, levels, rule)
+    fire = _fire_bytes if frame.dtype == np.uint8 else _fire_words
+    table, fired = memory.table, work.fired
+    if table.flags.writeable:
+        # Of a copied simulator; Numba would compile for it again.
+        table = memory.table = read_only(table)
+    with allow_wrap_around():
+        found = fire(pictures, table, levels, rule.threshold, fired)
+    if rule.is_renewed:
+        memory.reference, memory.renewed = memory.renewed, memory.reference
+    return fired.first(found)
+
+
+def _find_fired_floats(
+    pictures: Pictures, memory: Memory, levels: Levels, rule: FireRule
+) -> Fired | None:
+    work: _Work = memory.work
+    fired, candidates, logs = work
+    with allow_wrap_around():
+        count = _find_candidates(pictures, levels, candidates)
+    if count < 0:
+        # Rare enough to be looked at in NumPy: −0 is possible, negative numbers are not.
+        return texvent_numpy.find_fired(pictures.frame, memory, levels, rule)
+    candidates = candidates[:count]
+    _take_logs(pictures.frame, candidates, rule, logs.balanced, logs.now)
+    if memory.level.size == 0:
+        _take_logs(memory.reference, candidates, rule, logs.balanced, logs.then)
+    if rule.has_line:
+        _take_logs(memory.previous, candidates, rule, logs.balanced, logs.before)
+    found = _settle_floats(pictures, candidates, logs, memory.level, rule, fired)
+    if rule.has_line:
+        memory.previous[:] = pictures.frame
+    if rule.is_renewed:
+        memory.reference, memory.renewed = memory.renewed, memory.reference
+    return fired.first(found)
+
+
+def _take_logs(
+    intensity: Intensity,
+    pixel: Int64Array,
+    rule: FireRule,
+    balanced: Float64Array,
+    brightness: Float64Array,
+) -> None:
+    """Brightness of some pixels as `balanced_log` computes it, by NumPy's own logarithm."""
+    _add_balance(read_only(intensity), pixel, rule.balance, balanced)
+    np.log(balanced[: pixel.size], out=brightness[: pixel.size])
+
+
+def warm_up(dtype: str) -> None:
+    """Compile for one type of frames, or load what was compiled before."""
+    picture, number, byte = np.ones(1, dtype), np.float32(1.0), np.uint8(1)
+    table = np.zeros(0 if picture.dtype.kind == "f" else np.iinfo(dtype).max + 1)
+    memory = Memory(picture, picture.copy(), picture[:0].copy(), np.empty(0), table)
+    levels = Levels(number, number, number, number, byte)
+    rule = FireRule(1.0, 1.0, False, False, True, False)
+    find_fired(read_only(picture), memory, levels, rule)
+
+
+def _make_room(memory: Memory) -> _Work:
+    pixels, lines = memory.reference.size, memory.previous.size
+    start, stop, reference = (np.empty(lines) for _ in range(3))
+    places, change = np.empty(pixels, np.int64), np.empty(pixels)
+    fired = Fired(places, change, start, stop, reference, memory.origin)
+    floats = 0 if memory.table.size else pixels
+    logs = (np.empty(size) for size in (floats, floats, floats, lines))
+    return _Work(fired, np.empty(floats, np.int64), _Logs(*logs))
+
+
+@numba.njit(cache=True, nogil=True)
+def _add_balance(
+    intensity: Intensity, pixel: Int64Array, balance: float, balanced: Float64Array
+) -> None:
+    for k in range(pixel.size):
+        balanced[k] = np.float64(intensity[pixel[k]]) + balance
+
+
+@numba.njit(cache=True, nogil=True)
+def _settle_floats(
+    pictures: Pictures,
+    candidates: Int64Array,
+    logs: _Logs,
+    level: Float64Array,
+    rule: FireRule,
+    out: Fired,
+) -> int:
+    """List the candidates that fire, and move what those pixels remember; how many there are."""
+    # Arrays are taken out of their tuples once: counting references to them in the loop is slow.
+    frame, reference, _, _ = pictures
+    _, nows, thens, befores = logs
+    pixel, changes, start, stop, at_start, _ = out
+    found = 0
+    for k in range(candidates.size):
+        i, now = candidates[k], nows[k]
+        then = level[i] if level.size else thens[k]
+        change = now - then
+        if abs(change) < rule.threshold:
+            continue
+        pixel[found], changes[found] = i, change
+        if rule.has_line:
+            start[found], stop[found], at_start[found] = befores[k], now, then
+        found += 1
+        if level.size:
+            level[i] = now if not rule.is_step else _step(then, change, rule)
+            reference[i] = np.float32(math.exp(level[i]))
+        elif not rule.is_renewed:
+            reference[i] = frame[i]
+    return found
+
+
+@numba.njit(cache=True, nogil=True, inline="always")
+def _step(level: float, change: float, rule: FireRule) -> float:
+    """The reference after its events: a threshold further for each."""
+    number = math.floor(abs(change) / rule.threshold) if rule.multi_event else 1.0
+    moved = number * rule.threshold
+    return level + moved if change > 0 else level - moved
+
+
+@numba.njit(cache=True, nogil=True)
+def _find_candidates(pictures: Pictures, levels: Levels, pixel: Int64Array) -> int:
+    """List the pixels of float frames that may fire; −1 if an intensity has a sign or no end."""
+    found = 0
+    for first in range(0, pictures.frame.size, _CHUNK):
+        last = first + _CHUNK
+        frame, reference = pictures.frame[first:last], pictures.reference[first:last]
+        if largest_word(frame.view(np.uint32)) > LARGEST_FLOAT:
+            return -1
+        runs, words = mark_levels(frame, reference, levels)
+        for k in range(runs.size):
+            bits = words[k]
+            while bits != _0:
+                bit = bits & (~bits + _1)
+                bits ^= bit
+                pixel[found] = first + runs[k] * RUN + number_of(bit)
+                found += 1
+    _copy(pictures.frame, pictures.renewed)
+    return found
+
+
+@numba.njit(cache=True, nogil=True)
+def _fire_integers(
+    pictures: Pictures, marks: Marks, table: Float64Array, threshold: float, out: Fired
+) -> int:
+    """Let the marked pixels of uint8 or uint16 frames fire; how many did."""
+    frame, reference, renewed, previous = pictures
+    pixel, change, start, stop, at_start, _ = out
+    runs, words = marks
+    is_renewed, has_line, found = renewed.size > 0, previous.size > 0, 0
+    for k in range(runs.size):
+        bits = words[k]
+        while bits != _0:
+            bit = bits & (~bits + _1)
+            bits ^= bit
+            i = runs[k] * RUN + number_of(bit)
+            now, then = table[frame[i]], table[reference[i]]
+            # Written always, kept if it fires: without a branch that cannot be foreseen.
+            pixel[found], change[found] = i, now - then
+            if has_line:
+                start[found], stop[found], at_start[found] = table[previous[i]], now, then
+            fires = abs(now - then) >= threshold
+            if fires and not is_renewed:
+                reference[i] = frame[i]
+            found += int(fires)
+    _copy(frame, renewed)
+    _copy(frame, previous)
+    return found
+
+
+@numba.njit(cache=True, nogil=True)
+def _fire_bytes(
+    pictures: Pictures, table: Float64Array, levels: Levels, threshold: float, out: Fired
+) -> int:
+    """Let the pixels of uint8 frames fire; how many did."""
+    marks = mark_bytes(pictures.frame, pictures.reference, levels)
+    return _fire_integers(pictures, marks, table, threshold, out)
+
+
+@numba.njit(cache=True, nogil=True)
+def _fire_words(
+    pictures: Pictures, table: Float64Array, levels: Levels, threshold: float, out: Fired
+) -> int:
+    """Let the pixels of uint16 frames fire; how many did."""
+    marks = mark_levels(pictures.frame, pictures.reference, levels)
+    return _fire_integers(pictures, marks, table, threshold, out)
+
+
+@numba.njit(cache=True, nogil=True)
+def _copy(source: Intensity, target: Intensity) -> None:
+    """Copy a picture, if there is anything to copy it to."""
+    for i in range(target.size):
+        target[i] = source[i]

@@ -1,0 +1,43 @@
+"""What a kernel takes that turns fired pixels and noise into a packet: times, order, columns."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, TypeAlias, cast
+
+from texvent.simulate.backend.select import load_kernel_when_ready
+from texvent.simulate.packets.order import Columns
+from texvent.simulate.packets.unsorted_events import Interval
+from texvent.simulate.texvent.kernels.noise_blocks import NoisePlaces
+from texvent.simulate.texvent.kernels.scan import Fired
+from texvent.simulate.texvent.timestamps import StampRule
+
+
+class Timing(NamedTuple):
+    """How events get their times (Eq. 7), and how many a pixel fires."""
+
+    stamp: StampRule
+    scale: float
+    """γ of Eq. 7."""
+    threshold: float
+    """δ, log units."""
+    multi_event: bool
+    """Whether a pixel fires floor(Δ / δ) times."""
+    noise_at_rest: bool
+    """Whether noise is dropped where the pixel fired (Eq. 6)."""
+
+
+StampEvents: TypeAlias = Callable[
+    [Sequence[Fired], NoisePlaces, Timing, Interval, tuple[int, int]], Columns
+]
+"""`stamp_events(bands, noise, timing, span, (height, width))`, see `stamp_numpy.stamp_events`."""
+
+
+def load_stamp_events(backend: str) -> StampEvents:
+    """The function of a backend. All return equal bits.
+
+    Raises:
+        ConfigError: no backend has that name.
+        MissingDependencyError: what the backend needs is not installed.
+    """
+    return cast("StampEvents", load_kernel_when_ready(__name__, "stamp_events", backend))

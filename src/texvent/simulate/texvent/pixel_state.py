@@ -1,0 +1,155 @@
+"""What the pixels of the fast Texvent model remember, made from frames; see `kernels.texvent`."""
+
+from __future__ import annotations
+
+import functools
+import math
+
+import numpy as np
+
+from texvent.brightness import Float64Array, balanced_log
+from texvent.simulate.packets.order import read_only
+from texvent.simulate.texvent.brightness_cache import Renewal
+from texvent.simulate.texvent.config import TexventConfig
+from texvent.simulate.texvent.kernels.scan import (
+    SCAN_FLOOR,
+    SCAN_MARGIN,
+    Intensity,
+    Levels,
+    Memory,
+)
+from texvent.video import UINT16_PER_LEVEL
+
+_CHUNK = 1 << 16
+"""Pixels whose logarithms are taken at a time where all levels move."""
+_NOTHING = np.empty(0)
+
+
+def remember(first: Intensity, config: TexventConfig) -> Memory:
+    """The memory of pixels that have seen one frame.
+
+    Args:
+        first: its intensity, [n]: uint8, uint16 (0..65535 scale) or float32.
+        config: options; they decide what has to be remembered.
+    """
+    has_levels = needs_levels(config)
+    if has_levels:
+        first = as_luma(first)
+    # The kernels write to these, so none may be the caller's array.
+    memory = Memory(
+        reference=first.copy(),
+        renewed=np.empty(0 if has_levels or not may_renew(config) else first.size, first.dtype),
+        previous=np.empty(0, first.dtype) if config.stamp != "linear" else first.copy(),
+        level=np.empty(first.size if has_levels else 0),
+        table=_NOTHING if has_levels else brightness_table(first.dtype.str, config.balance),
+    )
+    if has_levels:
+        move_levels(memory, first, config, "renew")
+    return memory
+
+
+def resume(first: Intensity, level: Float64Array, config: TexventConfig) -> Memory:
+    """The memory of pixels whose references somebody else has kept until a frame.
+
+    Args:
+        first: luma of the frame, [n] float32.
+        level: reference brightness, [n]; kept, and moved along.
+        config: options.
+    """
+    return Memory(
+        reference=np.exp(level).astype(np.float32),
+        renewed=np.empty(0, np.float32),
+        previous=first.copy() if config.stamp == "linear" else np.empty(0, np.float32),
+        level=level,
+        table=_NOTHING,
+    )
+
+
+def needs_levels(config: TexventConfig) -> bool:
+    """Whether references lie between intensities, so that their brightness has to be kept."""
+    if config.cache == "none":
+        return False
+    return config.reset == "step" or (config.cache == "leaky" and config.cache_leak > 0)
+
+
+def may_renew(config: TexventConfig) -> bool:
+    """Whether all references are ever renewed at once."""
+    return config.cache in ("none", "local") or config.cache_reset_pairs > 0
+
+
+def as_luma(intensity: Intensity) -> Intensity:
+    """The float32 luma on the 0..255 scale, as `Frame.luma` computes it, [n]."""
+    if intensity.dtype == np.uint16:
+        return np.asarray(intensity / np.float32(UINT16_PER_LEVEL), np.float32)
+    return np.asarray(intensity, np.float32)
+
+
+def turn_to_float(memory: Memory) -> None:
+    """Go over to float32 intensities, which hold those of both integer types exactly."""
+    memory.reference = as_luma(memory.reference)
+    memory.previous = as_luma(memory.previous)
+    memory.renewed = np.empty(memory.renewed.size, np.float32)
+    memory.table = _NOTHING
+    memory.work, memory.band_work = None, {}
+
+
+def move_levels(memory: Memory, luma: Intensity, config: TexventConfig, renewal: Renewal) -> None:
+    """Let every pixel's reference become the brightness of a frame, or leak towards it.
+
+    Args:
+        memory: of pixels whose references lie between intensities.
+        luma: of the frame, [n] float32.
+        config: options.
+        renewal: "renew" or "leak".
+    """
+    for first in range(0, luma.size, _CHUNK):
+        part = slice(first, first + _CHUNK)
+        brightness = balanced_log(luma[part], config.balance)
+        level = memory.level[part]
+        if renewal == "renew":
+            level[:] = brightness
+        else:
+            level += config.cache_leak * (brightness - level)
+        memory.reference[part] = np.exp(level)
+
+
+@functools.lru_cache(maxsize=16)
+def brightness_table(dtype: str, balance: float) -> Float64Array:
+    """Brightness of every intensity of an integer type; empty for float32.
+
+    Returns:
+        [256] or [65536], −∞ for black without a balance; read-only.
+    """
+    if np.dtype(dtype).kind == "f":
+        return _NOTHING
+    luma = as_luma(np.arange(np.iinfo(dtype).max + 1).astype(dtype))
+    lit = luma[1:] if balance == 0 else luma
+    dark = [-math.inf] if balance == 0 else []
+    return read_only(np.concatenate([dark, balanced_log(lit, balance)]))
+
+
+def scan_levels(config: TexventConfig, memory: Memory) -> Levels:
+    """How the scan compares this memory with frames."""
+    is_full_scale = memory.reference.dtype == np.uint16
+    balance = config.balance * (UINT16_PER_LEVEL if is_full_scale else 1.0)
+    in_reference = 0.0 if memory.level.size else balance
+    up = math.exp(config.contrast_threshold) * (1 - SCAN_MARGIN)
+    down = math.exp(-config.contrast_threshold) * (1 + SCAN_MARGIN)
+    room = balance * SCAN_MARGIN + SCAN_FLOOR
+    return Levels(
+        up=np.float32(up),
+        up_offset=np.float32(in_reference * up - balance - room),
+        down=np.float32(down),
+        down_offset=np.float32(in_reference * down - balance + room),
+        least=least_difference(config.contrast_threshold, config.balance),
+    )
+
+
+@functools.lru_cache(maxsize=16)
+def least_difference(threshold: float, balance: float) -> np.uint8:
+    """Smallest difference of two uint8 intensities above 0 that fires; 255 if none does."""
+    table = brightness_table("uint8", balance)[0 if balance > 0 else 1 :]
+    for difference in range(1, len(table)):
+        if np.max(table[difference:] - table[:-difference]) >= threshold:
+            return np.uint8(difference)
+    return np.uint8(255)

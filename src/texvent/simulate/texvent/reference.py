@@ -1,0 +1,138 @@
+"""The definition of the paper's pixel model, on whole frames in NumPy float64.
+
+It reads as the paper does, makes several arrays as large as the frame at every step, and is what
+`texvent_pixels`, which makes none, is tested against. Gaussian noise, an ablation that shakes
+every pixel, runs here on every backend.
+"""
+
+from __future__ import annotations
+
+from texvent.brightness import Float64Array, balanced_log
+from texvent.events import NOISE, EventStream
+from texvent.simulate.packets.interval import SubInterval
+from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.texvent.brightness_cache import BrightnessCache
+from texvent.simulate.texvent.config import TexventConfig
+from texvent.simulate.texvent.event_frame import EventFrame, generate_event_frame, list_activations
+from texvent.simulate.texvent.noise import (
+    draw_noise,
+    draw_voltage_noise,
+    is_background,
+    low_light_background,
+)
+from texvent.simulate.texvent.timestamps import reconstruct_timestamps
+from texvent.video import Frame, check_intensity
+
+
+class DensePixels:
+    """All pixels of a sensor, as whole frames of brightness."""
+
+    def __init__(self, config: TexventConfig, backend: str, frame: Frame, where: str) -> None:
+        """Begin with the first frame.
+
+        Args:
+            config: options.
+            backend: which kernels draw noise and sort; the rest is NumPy.
+            frame: the first frame.
+            where: which frame that is, for messages.
+        """
+        check_intensity(frame.pixels, where)
+        self._config, self._backend = config, backend
+        self._brightness = balanced_log(frame.luma, config.balance)
+        self._is_source = frame.is_source
+        self._cache = BrightnessCache(
+            self._brightness,
+            policy=config.cache,
+            leak=config.cache_leak,
+            reset_pairs=config.cache_reset_pairs,
+        )
+
+    def advance(self, frame: Frame, span: Interval, where: str) -> EventStream:
+        """What fires until this frame.
+
+        Args:
+            frame: the next frame, of the same size.
+            span: time since the frame before, and the key of its random draws.
+            where: which frame it is, for messages.
+
+        Raises:
+            InputError: an intensity is NaN, infinite or negative, or Gaussian noise would fire
+                every time; the pixels are then as they were.
+            ConfigError: the balance is 0 and a pixel is black; the same.
+        """
+        check_intensity(frame.pixels, where)
+        brightness = balanced_log(frame.luma, self._config.balance)
+        interval = self._compare_with_cache(brightness, span)  # κ ⋄ I^{j−1}
+        events = self._generate_event_frame(interval.brightness, interval)  # Eq. 5
+        noise = self._add_noise(frame, events, span)  # Eq. 6
+        signal = self._without_voltage_noise(events, brightness, interval)
+        timed = self._reconstruct_timestamps(events, signal, interval)  # Eq. 7
+        self._cache.update(signal, brightness, step=self._config.reset_step)
+        self._brightness, self._is_source = brightness, frame.is_source
+        return timed.joined(noise).packet(span, frame.size, self._backend)
+
+    def _compare_with_cache(self, brightness: Float64Array, span: Interval) -> SubInterval:
+        """Set the calibrated frame `κ ⋄ I^{j−1}` against this one, with voltage noise if asked."""
+        if self._config.noise == "gaussian":
+            brightness = brightness + draw_voltage_noise(
+                brightness.shape,
+                span.key,
+                threshold=self._config.contrast_threshold,
+                mean=self._config.expected_noise(span.duration_s),
+            )
+        reference = self._cache.calibrate(self._brightness, is_source=self._is_source)
+        return SubInterval(span, self._brightness, brightness, reference)
+
+    def _generate_event_frame(self, brightness: Float64Array, interval: SubInterval) -> EventFrame:
+        """Eq. 5."""
+        return generate_event_frame(
+            brightness,
+            interval.reference,
+            threshold=self._config.contrast_threshold,
+            multi_event=self._config.multi_event,
+        )
+
+    def _add_noise(self, frame: Frame, events: EventFrame, span: Interval) -> Firings:
+        """Eq. 6, or its ablation E11 ("random"). E10 ("gaussian") has shaken the brightness."""
+        config = self._config
+        if not config.has_added_noise:
+            return Firings.none()
+        noise = draw_noise(
+            frame.luma.size,
+            span,
+            mean=config.expected_noise(span.duration_s),
+            on_fraction=config.noise_on_fraction,
+            backend=self._backend,
+        )
+        if config.noise == "random":
+            return noise
+        return noise.where(
+            low_light_background(
+                frame.luma, noise.pixel, events.pixel, intensity=config.noise_intensity
+            )
+        )
+
+    def _without_voltage_noise(
+        self, events: EventFrame, brightness: Float64Array, interval: SubInterval
+    ) -> EventFrame:
+        """What would have fired without Gaussian noise: only this renews the reference."""
+        if self._config.noise != "gaussian":
+            return events
+        return self._generate_event_frame(brightness, interval)
+
+    def _reconstruct_timestamps(
+        self, events: EventFrame, signal: EventFrame, interval: SubInterval
+    ) -> Firings:
+        """Eq. 7. Events that only voltage noise let fire are labelled as noise."""
+        activations = list_activations(events)
+        t = reconstruct_timestamps(
+            activations,
+            interval,
+            stamp=self._config.stamp,
+            threshold=self._config.contrast_threshold,
+            scale=self._config.stamp_scale,
+        )
+        fired = Firings.signal(activations.pixel, t, activations.polarity)
+        if signal is not events:
+            fired.label[is_background(activations.pixel, signal.pixel)] = NOISE
+        return fired

@@ -1,0 +1,1 @@
+"""V2CE: a published network, and its sampling of event times (LDATI)."""

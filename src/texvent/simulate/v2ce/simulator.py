@@ -1,0 +1,169 @@
+"""V2CE: a 3-D U-Net turns pairs of frames into voxel grids, and LDATI those into events.
+
+Source: Z. Zhang et al., "V2CE: Video to Continuous Events Simulator", ICRA 2024.
+docs/simulators.md gives the steps, and where they depart from the program (V2CE-Toolbox).
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import ClassVar
+
+import numpy as np
+
+from texvent.config import check_range
+from texvent.events import EventStream
+from texvent.runtime.network_files import describe_file
+from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.streaming import IntensityArray, StreamingSimulator
+from texvent.simulate.v2ce import ldati, ldati_reference
+from texvent.simulate.v2ce.ldati import Rounding
+from texvent.simulate.v2ce.network import Device, Float32Array, load_network
+from texvent.simulate.v2ce.weights import check_weights_path
+from texvent.video import Frame
+
+WHITE = 255.0
+MEAN, SPREAD = 0.153, 0.165
+"""Mean and standard deviation of the training frames, of full scale: the network's unit."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class V2ceConfig:
+    """Options of V2CE; the defaults are those of its program.
+
+    Raises:
+        ConfigError: an option is out of range.
+    """
+
+    weights: Path | None = None
+    """File with the network's weights, v2ce_3d.pt; it is never downloaded."""
+    device: Device = "auto"
+    """Where the network runs: cpu, cuda (an NVIDIA GPU), or auto for a GPU if there is one."""
+    sequence_length: int = 16
+    """Frame pairs that the network sees at once; it was trained on 16."""
+    rounding: Rounding = "published"
+    """What becomes of parts of an event: published rounds each pixel's number up or down by where
+    the part is; stochastic rounds it by chance, right on average."""
+    bidirectional: bool = False
+    """Infer times from both ends of the interval instead of from its start."""
+
+    def __post_init__(self) -> None:
+        check_range("sequence_length", self.sequence_length, 1, 1024)
+
+
+class V2ceSimulator(StreamingSimulator[V2ceConfig]):
+    """V2CE on video frames; see `simulate.protocol.Simulator`.
+
+    The network answers for a pair of frames by those around it, before and after. `steps` gives it
+    whole sequences, as its authors do, and is what a run uses. `step` cannot wait: it answers from
+    the last `sequence_length` pairs, so its events differ a little, and each costs a sequence.
+    """
+
+    config_type: ClassVar[type] = V2ceConfig
+    presets: ClassVar[Mapping[str, V2ceConfig]] = {"default": V2ceConfig()}
+    default_interpolate: ClassVar[str] = "none"
+    """The network was made for the frames of the video itself."""
+
+    def __init__(
+        self, config: V2ceConfig | None = None, *, seed: int = 0, backend: str = "auto"
+    ) -> None:
+        """Load the network; no frame is seen yet.
+
+        Args:
+            config: options; its `weights` must be given.
+            seed: of the times that are drawn, 0..2⁶³−1.
+            backend: "reference" infers times pixel by pixel; the events are the same.
+
+        Raises:
+            ConfigError: no weights, no such device, or the seed out of range.
+            InputError: there is no such file, or it does not hold this network.
+            MissingDependencyError: torch is not installed.
+        """
+        super().__init__(config, seed=seed, backend=backend)
+        path = check_weights_path(self.config.weights)
+        self._network = load_network(path, self.config.device)
+
+    @staticmethod
+    def provenance(config: V2ceConfig) -> dict[str, str]:
+        """Name and sha256 of the weights file; stored with the events.
+
+        Raises:
+            ConfigError: no file was named.
+            InputError: there is no such file.
+        """
+        return describe_file(check_weights_path(config.weights))
+
+    @property
+    def contrast_threshold(self) -> float:
+        """The Texvent model's: the network has none, but intermediate frames may be asked for."""
+        return 0.2
+
+    @property
+    def balance(self) -> float:
+        """The Texvent model's, likewise."""
+        return 30.0
+
+    def steps(self, frames: Iterable[Frame]) -> Iterator[tuple[Frame, EventStream]]:
+        """Every frame with its packet, a sequence at a time.
+
+        Sequences follow one another without overlap; only the last reaches back into the one
+        before it, to be as long. Up to `sequence_length` + 1 frames are held.
+
+        Raises:
+            InputError: as `step`.
+        """
+        waiting: list[tuple[Frame, Interval]] = []
+        for frame in frames:
+            interval = self._enter(frame)
+            if interval.duration_us == 0:
+                self._begin(frame.luma)
+                yield frame, Firings.none().packet(interval, frame.size)
+                continue
+            self._recent.append(normalise(frame.luma))
+            waiting.append((frame, interval))
+            if len(waiting) == self.config.sequence_length:
+                yield from self._answer(waiting)
+                waiting = []
+        if waiting:
+            yield from self._answer(waiting)
+
+    def _answer(self, waiting: list[tuple[Frame, Interval]]) -> Iterator[tuple[Frame, EventStream]]:
+        grids = self._predict()[-len(waiting) :]
+        for (frame, interval), grid in zip(waiting, grids, strict=True):
+            yield frame, self._sample(grid, interval).packet(interval, frame.size)
+
+    def _begin(self, intensity: IntensityArray) -> None:
+        self._recent: deque[Float32Array] = deque(
+            [normalise(intensity)], maxlen=self.config.sequence_length + 1
+        )
+
+    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
+        self._recent.append(normalise(intensity))
+        return self._sample(self._predict()[-1], interval)
+
+    def _predict(self) -> Float32Array:
+        """Voxel grids of the recent pairs, [N, 2, 10, H, W]."""
+        recent = np.stack(self._recent)
+        return self._network.predict(np.stack([recent[:-1], recent[1:]], axis=1))
+
+    def _sample(self, grid: Float32Array, interval: Interval) -> Firings:
+        is_reference = self._backend == "reference"
+        sample_events = ldati_reference.sample_events if is_reference else ldati.sample_events
+        config = self.config
+        return sample_events(
+            grid, interval, rounding=config.rounding, bidirectional=config.bidirectional
+        )
+
+
+def normalise(intensity: IntensityArray) -> Float32Array:
+    """Intensity in the network's unit, [H, W] float32.
+
+    Example:
+        >>> normalise(np.array([[39.015, 81.09]])).round(3).tolist()
+        [[0.0, 1.0]]
+    """
+    exact = intensity.astype(np.float64) / WHITE
+    return np.asarray((exact - MEAN) / SPREAD, np.float32)

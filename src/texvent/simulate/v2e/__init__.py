@@ -1,0 +1,1 @@
+"""v2e's pixel model."""

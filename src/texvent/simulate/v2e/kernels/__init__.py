@@ -1,0 +1,1 @@
+"""Kernels of v2e: photoreceptor low-pass, emit and reset."""

@@ -1,0 +1,1 @@
+"""DVS-Voltmeter: first passages of Brownian motion with drift."""

@@ -1,0 +1,1 @@
+"""Kernels of DVS-Voltmeter: first-passage times."""

@@ -1,0 +1,1 @@
+"""Films of events, with the video beside them."""

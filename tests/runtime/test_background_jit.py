@@ -1,0 +1,94 @@
+"""Kernels that become ready while a slower twin works."""
+
+import logging
+import sys
+import threading
+import types
+
+import pytest
+
+from texvent.runtime import background_jit as readiness
+from texvent.simulate.backend.select import load_kernel_when_ready
+from texvent.simulate.packets import order, order_cpu, order_reference
+
+
+@pytest.fixture(autouse=True)
+def _fresh():
+    for forget in (readiness._prepare.cache_clear, readiness._ready.clear):
+        forget()
+    yield
+    for forget in (readiness._prepare.cache_clear, readiness._ready.clear):
+        forget()
+
+
+@pytest.fixture
+def slow_module(monkeypatch):
+    """A kernel that is compiled once its event is set."""
+    module = types.ModuleType("slow_kernel")
+    module.go_on, module.calls = threading.Event(), []
+
+    def warm_up(*variant):
+        module.calls.append(variant)
+        assert module.go_on.wait(10)
+
+    module.warm_up = warm_up
+    monkeypatch.setitem(sys.modules, "slow_kernel", module)
+    return module
+
+
+def test_a_kernel_is_ready_when_it_was_warmed_up_and_not_before(slow_module):
+    assert not readiness.is_ready("slow_kernel", "uint8")
+    assert not readiness.is_ready("slow_kernel", "uint8")
+    slow_module.go_on.set()
+    readiness.wait_until_ready("slow_kernel", "uint8")
+    assert readiness.is_ready("slow_kernel", "uint8")
+    assert slow_module.calls == [("uint8",)]
+
+
+def test_whoever_waits_learns_whether_something_is_still_being_prepared(slow_module):
+    readiness.is_ready("slow_kernel")
+    assert not readiness.wait_until_idle(0.01)
+    slow_module.go_on.set()
+    assert readiness.wait_until_idle()
+    readiness._compiler().shutdown()
+    readiness._compiler.cache_clear()
+    assert readiness.wait_until_idle(0.0)  # and starts no thread to find out
+    assert readiness._compiler.cache_info().currsize == 0
+
+
+def test_a_kernel_that_cannot_be_compiled_is_never_ready_and_says_why_once(monkeypatch, caplog):
+    module = types.ModuleType("broken_kernel")
+
+    def warm_up():
+        raise RuntimeError("no folder to keep compiled code in")
+
+    module.warm_up = warm_up
+    monkeypatch.setitem(sys.modules, "broken_kernel", module)
+    with caplog.at_level(logging.WARNING):
+        readiness.wait_until_ready("broken_kernel")
+        assert not readiness.is_ready("broken_kernel")
+        assert not readiness.is_ready("broken_kernel")
+    assert [record.message for record in caplog.records] == [
+        "kernels stay uncompiled, events are the same: no folder to keep compiled code in"
+    ]
+
+
+def test_without_numba_no_kernel_is_ready_and_nobody_is_warned(monkeypatch, caplog):
+    monkeypatch.setitem(sys.modules, "numba", None)
+    with caplog.at_level(logging.WARNING):
+        readiness.wait_until_ready("texvent.simulate.packets.order_cpu")
+    assert not readiness.is_ready("texvent.simulate.packets.order_cpu")
+    assert not caplog.records
+    assert (
+        load_kernel_when_ready(order.__name__, "order_events", "auto")
+        is order_reference.order_events
+    )
+
+
+def test_auto_changes_to_the_compiled_kernel_when_it_is_ready():
+    readiness.wait_until_ready("texvent.simulate.packets.order_cpu")
+    assert load_kernel_when_ready(order.__name__, "order_events", "auto") is order_cpu.order_events
+    assert (
+        load_kernel_when_ready(order.__name__, "order_events", "numpy")
+        is order_reference.order_events
+    )

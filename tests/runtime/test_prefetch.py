@@ -1,0 +1,122 @@
+"""Work in another thread: the same items and errors, and an end when it is no longer wanted."""
+
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+
+from texvent.runtime.prefetch import read_ahead
+
+
+def own_threads():
+    return [one for one in threading.enumerate() if one.name.startswith("texvent-ahead")]
+
+
+class Counted:
+    """Whole numbers that know how many of them were made, by which threads, and their end."""
+
+    def __init__(self, stop):
+        self.made = []
+        self.threads = set()
+        self.is_closed = False
+        self._stop = stop
+
+    def __iter__(self):
+        try:
+            for number in range(self._stop):
+                self.made.append(number)
+                self.threads.add(threading.current_thread())
+                yield number
+        finally:
+            self.is_closed = True
+
+
+@pytest.mark.parametrize("depth", [1, 2, 7])
+@pytest.mark.parametrize("count", [0, 1, 5, 100])
+def test_every_item_comes_in_order_from_one_other_thread(count, depth):
+    items = Counted(count)
+    assert list(read_ahead(items, depth=depth)) == list(range(count))
+    assert len(items.threads) <= 1
+    assert threading.main_thread() not in items.threads
+    assert not own_threads()
+
+
+def test_no_more_is_made_than_was_asked_for_and_the_depth():
+    items = Counted(100)
+    ahead = read_ahead(items, depth=3)
+    assert next(ahead) == 0
+    time.sleep(0.05)
+    # One was given, three are ready.
+    assert items.made == [0, 1, 2, 3]
+    ahead.close()
+    assert items.made == [0, 1, 2, 3]
+    assert items.is_closed
+    assert not own_threads()
+
+
+def test_nothing_is_made_before_the_first_item_is_asked_for():
+    items = Counted(3)
+    read_ahead(items, depth=2)
+    assert items.made == []
+
+
+def test_an_error_comes_after_the_items_before_it():
+    def failing():
+        yield 1
+        yield 2
+        raise ValueError("the third is broken")
+
+    ahead = read_ahead(failing(), depth=2)
+    assert next(ahead) == 1
+    assert next(ahead) == 2
+    with pytest.raises(ValueError, match="the third is broken"):
+        next(ahead)
+    assert list(ahead) == []
+    assert not own_threads()
+
+
+def test_an_error_of_the_reader_ends_the_work():
+    items = Counted(1000)
+
+    def read_until_interrupted():
+        for number in read_ahead(items, depth=2):
+            if number == 5:
+                raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        read_until_interrupted()
+    assert items.is_closed
+    assert not own_threads()
+    assert len(items.made) <= 9
+
+
+def test_two_stages_end_together():
+    items = Counted(1000)
+    doubled = (2 * number for number in read_ahead(items, depth=2))
+    outer = read_ahead(doubled, depth=2)
+    assert [next(outer) for _ in range(10)] == list(range(0, 20, 2))
+    outer.close()
+    del doubled
+    assert items.is_closed
+    assert not own_threads()
+
+
+def test_a_plain_iterator_needs_no_close():
+    assert list(read_ahead(iter([1, 2, 3]), depth=2)) == [1, 2, 3]
+
+
+def test_a_process_that_forgets_a_reader_still_ends():
+    script = (
+        "import itertools, time\n"
+        "from texvent.runtime.prefetch import read_ahead\n"
+        "ahead = read_ahead((time.sleep(0.01) for _ in itertools.count()), depth=2)\n"
+        "next(ahead)\n"
+        "print('done')\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, timeout=30, check=True
+    )
+    assert done.stdout == "done\n"
+    assert done.stderr == ""

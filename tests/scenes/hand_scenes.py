@@ -1,0 +1,171 @@
+"""Scenes made by hand, so that the renderer is tested without the words that make scenes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from texvent.scenes.primitives import (
+    Camera,
+    Environment,
+    Float64Array,
+    Ground,
+    Primitives,
+    Shape,
+    Texture,
+)
+
+
+@dataclass(frozen=True)
+class Thing:
+    """One shape: where it is at each instant, and what it looks like."""
+
+    shape: Shape
+    scale: tuple[float, float, float]
+    place: Callable[[float], tuple[float, float, float]]
+    colour: tuple[float, float, float] = (0.8, 0.1, 0.05)
+    second: tuple[float, float, float] = (0.9, 0.9, 0.9)
+    texture: Texture = Texture.PLAIN
+    texture_scale: float = 1.0
+    spin: float = 0.0
+    emission: float = 0.0
+    instance: int = 0
+
+
+def still(x: float, y: float, z: float) -> Callable[[float], tuple[float, float, float]]:
+    return lambda time: (x, y, z)
+
+
+def moving(
+    start: tuple[float, float, float], velocity: tuple[float, float, float]
+) -> Callable[[float], tuple[float, float, float]]:
+    return lambda time: (
+        start[0] + time * velocity[0],
+        start[1] + time * velocity[1],
+        start[2] + time * velocity[2],
+    )
+
+
+def look_at(position: tuple[float, float, float], target: tuple[float, float, float]) -> Camera:
+    forward = np.subtract(target, position).astype(np.float64)
+    forward /= np.linalg.norm(forward)
+    right = np.cross(forward, [0.0, 0.0, 1.0])
+    right /= np.linalg.norm(right)
+    return Camera(
+        np.array(position, dtype=np.float64),
+        np.stack([right, np.cross(forward, right), forward]),
+        1.0,
+    )
+
+
+def day(ground: Ground = Ground.GRASS) -> Environment:
+    sun = np.array([-0.5, -0.6, 0.7])
+    return Environment(
+        ground=ground,
+        ground_colour=np.array([0.09, 0.2, 0.04], dtype=np.float32),
+        ground_second_colour=np.array([0.16, 0.25, 0.06], dtype=np.float32),
+        road_angle=0.0,
+        road_half_width=3.5,
+        road_offset=np.zeros(2),
+        sky_top=np.array([0.12, 0.3, 0.75], dtype=np.float32),
+        sky_horizon=np.array([0.6, 0.75, 0.9], dtype=np.float32),
+        clouds=0.0,
+        sun_direction=sun / np.linalg.norm(sun),
+        sun_colour=np.array([1.0, 0.95, 0.85], dtype=np.float32),
+        ambient=np.array([0.3, 0.35, 0.42], dtype=np.float32),
+        shadows=True,
+        fog_distance=np.inf,
+        fog_colour=np.array([0.7, 0.75, 0.8], dtype=np.float32),
+        exposure=1.0,
+        lamps=np.zeros((0, 7)),
+        time_s=0.0,
+    )
+
+
+def turned(angle: float) -> Float64Array:
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+
+
+@dataclass(frozen=True)
+class HandScene:
+    """A scene of `Thing`s."""
+
+    things: tuple[Thing, ...] = ()
+    camera_at: Callable[[float], Camera] = field(
+        default=lambda time: look_at((0.0, -8.0, 1.7), (0.0, 0.0, 1.0))
+    )
+    environment_base: Environment = field(default_factory=day)
+    class_names: dict[int, str] = field(default_factory=dict)
+
+    def primitives(self, time_s: float) -> Primitives:
+        maps = np.zeros((len(self.things), 3, 4))
+        for row, thing in enumerate(self.things):
+            maps[row, :, :3] = turned(thing.spin * time_s) * thing.scale
+            maps[row, :, 3] = thing.place(time_s)
+        things = self.things
+        return Primitives(
+            shape=np.array([thing.shape for thing in things], dtype=np.int8),
+            to_world=maps,
+            colour=np.array([t.colour for t in things], dtype=np.float32).reshape(-1, 3),
+            second_colour=np.array([t.second for t in things], dtype=np.float32).reshape(-1, 3),
+            texture=np.array([thing.texture for thing in things], dtype=np.int8),
+            texture_scale=np.array([thing.texture_scale for thing in things], dtype=np.float32),
+            emission=np.array([thing.emission for thing in things], dtype=np.float32),
+            instance=np.array([thing.instance for thing in things], dtype=np.int32),
+        )
+
+    def camera(self, time_s: float) -> Camera:
+        return self.camera_at(time_s)
+
+    def environment(self, time_s: float) -> Environment:
+        return replace(self.environment_base, time_s=time_s)
+
+
+def showcase(ground: Ground = Ground.ROAD) -> HandScene:
+    """One of each shape and texture."""
+    return HandScene(
+        (
+            Thing(Shape.ELLIPSOID, (0.9, 0.9, 0.9), still(-2.6, 0.0, 0.9), instance=1),
+            Thing(
+                Shape.BOX,
+                (1.4, 0.7, 0.5),
+                moving((0.0, 0.5, 0.6), (2.0, 0.0, 0.0)),
+                instance=2,
+                colour=(0.05, 0.2, 0.7),
+                texture=Texture.CHECKS,
+                texture_scale=4.0,
+            ),
+            Thing(
+                Shape.CYLINDER,
+                (0.4, 0.4, 1.0),
+                still(2.6, 0.0, 1.0),
+                instance=3,
+                texture=Texture.STRIPES,
+                texture_scale=4.0,
+            ),
+            Thing(
+                Shape.CONE,
+                (0.8, 0.8, 1.2),
+                still(-1.0, 2.5, 1.2),
+                instance=4,
+                colour=(0.02, 0.25, 0.05),
+                texture=Texture.MOTTLED,
+                texture_scale=5.0,
+            ),
+            Thing(Shape.CYLINDER, (0.02, 0.02, 2.0), still(1.2, -1.0, 2.0), instance=5),
+            Thing(
+                Shape.BOX,
+                (3.0, 2.0, 4.0),
+                still(5.0, 14.0, 4.0),
+                instance=6,
+                colour=(0.45, 0.3, 0.2),
+                second=(0.05, 0.07, 0.1),
+                texture=Texture.WINDOWS,
+                texture_scale=3.0,
+            ),
+        ),
+        environment_base=day(ground),
+    )

@@ -1,0 +1,203 @@
+"""The fused pass gives the events of the readable path, bit for bit."""
+
+from __future__ import annotations
+
+import gc
+import itertools
+import weakref
+
+import numba
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.engine.fused import UndrawnFrame
+from texvent.pairs.motion_interpolation import Paths
+from texvent.simulate.fused import candidates
+from texvent.simulate.fused import load as engine_kernels
+from texvent.simulate.fused.candidates import CandidateFinder
+from texvent.video import Frame, Video
+
+from .clips import fused, panning, readable
+
+NOISY = {"noise_rate_hz": 20.0, "seed": 3}
+TEXVENT = {
+    "the paper's": {},
+    "without noise": {"noise": "none"},
+    "noise anywhere": {"noise": "random"},
+    "global cache": {"cache": "global"},
+    "cache reset every other pair": {"cache": "global", "cache_reset_pairs": 2},
+    "no cache": {"cache": "none"},
+    "leaky cache, steps": {"cache": "leaky", "reset": "step"},
+    "accurate": {"cache": "leaky", "reset": "step", "multi_event": True, "stamp": "linear"},
+    "steps": {"reset": "step"},
+    "random times": {"stamp": "random"},
+    "hyperbolic times": {"stamp": "hyperbolic"},
+    "many events": {"multi_event": True, "stamp": "even", "contrast_threshold": 0.06},
+    "times at the end": {"stamp": "end", "stamp_scale": 0.5},
+    "scaled times": {"stamp_scale": 0.5},
+}
+ESIM = {
+    "default": {},
+    "two thresholds": {"contrast_threshold_on": 0.1, "contrast_threshold_off": 0.3},
+    "refractory": {"refractory_period_us": 9000, "contrast_threshold_on": 0.05},
+}
+
+
+def assert_equal(video, **options):
+    wanted, got = readable(video, options), fused(video, options)
+    assert [frame.t_us for frame, _ in got] == [frame.t_us for frame, _ in wanted]
+    for (frame, packet), (true_frame, true_packet) in zip(got, wanted, strict=True):
+        assert packet.equals(true_packet)
+        assert (frame.size, frame.is_source) == (true_frame.size, true_frame.is_source)
+        np.testing.assert_array_equal(frame.luma, true_frame.luma)
+    return sum(len(packet) for _, packet in got)
+
+
+INTERPOLATE = ["flow", "blend", "none"]
+
+
+@pytest.fixture(autouse=True)
+def _busy_pairs_are_not_drawn(monkeypatch):
+    # Small test clips are all motion; what is chosen otherwise has tests of its own.
+    monkeypatch.setattr(candidates, "BUSY", 2.0)
+
+
+@pytest.mark.parametrize("interpolate", ["flow", "none"])
+@pytest.mark.parametrize("name", TEXVENT)
+def test_texvent_pairs_may_be_drawn_or_not_without_a_difference(name, interpolate, monkeypatch):
+    monkeypatch.setattr(CandidateFinder, "survey", _every_other(CandidateFinder.survey))
+    options = {**NOISY, "max_intermediate": 5, "interpolate": interpolate, **TEXVENT[name]}
+    assert assert_equal(panning(6), **options) > 300
+
+
+@pytest.mark.parametrize("name", ESIM)
+def test_esim_pairs_may_be_drawn_or_not_without_a_difference(name, monkeypatch):
+    monkeypatch.setattr(CandidateFinder, "survey", _every_other(CandidateFinder.survey))
+    options = {"simulator": "esim", "max_intermediate": 5, **ESIM[name]}
+    assert assert_equal(panning(6), **options) > 300
+
+
+def _every_other(survey):
+    """The survey for two pairs, then "draw it" for two, and so on."""
+    calls = itertools.count()
+
+    def survey_some(*arguments):
+        return survey(*arguments) if next(calls) // 2 % 2 == 0 else None
+
+    return survey_some
+
+
+@pytest.mark.parametrize(("covered", "is_drawn"), [(0.5, False), (1.0, True)])
+def test_a_pair_is_drawn_where_nearly_all_of_it_may_fire(covered, is_drawn, monkeypatch):
+    monkeypatch.undo()
+    moving = panning(2, size=(96, 96), step=3.0).pixels
+    moving[:, int(96 * covered) :] = 80
+    moving[:, :10, :20] = moving[0, 10, 0]
+    surveys = []
+    monkeypatch.setattr(CandidateFinder, "survey", _recorded(CandidateFinder.survey, surveys))
+    assert assert_equal(Video(moving, panning(2).times_us)) > 100
+    assert [found is None for found in surveys] == [is_drawn]
+
+
+def _recorded(survey, results):
+    def survey_and_keep(*arguments):
+        results.append(survey(*arguments))
+        return results[-1]
+
+    return survey_and_keep
+
+
+@pytest.mark.parametrize("name", TEXVENT)
+def test_texvent_events_are_those_of_the_readable_path(name):
+    options = {**NOISY, "max_intermediate": 9, **TEXVENT[name]}
+    # Every way of filling the time between frames is seen by several of the options.
+    options["interpolate"] = INTERPOLATE[list(TEXVENT).index(name) % 3]
+    assert assert_equal(panning(4), **options) > 300
+
+
+@pytest.mark.parametrize("interpolate", INTERPOLATE)
+@pytest.mark.parametrize("name", ["the paper's", "accurate"])
+def test_any_interpolator_gives_the_same_events(name, interpolate):
+    assert assert_equal(panning(3), **NOISY, interpolate=interpolate, **TEXVENT[name]) > 200
+
+
+@pytest.mark.parametrize("interpolate", INTERPOLATE)
+@pytest.mark.parametrize("name", ESIM)
+def test_esim_events_are_those_of_the_readable_path(name, interpolate):
+    options = {"simulator": "esim", "max_intermediate": 9, **ESIM[name]}
+    assert assert_equal(panning(3), interpolate=interpolate, **options) > 200
+
+
+@pytest.mark.parametrize("simulator", ["texvent", "esim"])
+@pytest.mark.parametrize("dtype", [np.uint16, np.float32, np.float64])
+def test_deep_and_float_frames_are_the_same_too(simulator, dtype):
+    video = panning(3, dtype=dtype)
+    if dtype is np.uint16:
+        video = Video(video.pixels * np.uint16(257), video.times_us)
+    assert assert_equal(video, simulator=simulator, max_intermediate=9) > 300
+
+
+def test_colour_frames_are_the_same_too():
+    grey = panning(3).pixels
+    colour = np.stack([grey, grey[:, ::-1], grey[..., ::-1]], axis=-1)
+    assert assert_equal(Video(colour, panning(3).times_us)) > 300
+
+
+@pytest.mark.parametrize("simulator", ["texvent", "esim"])
+def test_cuts_pairs_without_pictures_and_short_pairs_are_the_same_too(simulator):
+    moving = panning(3, size=(64, 64)).pixels
+    other = np.random.default_rng(0).integers(0, 255, (64, 64), np.uint8)
+    frames = np.stack([moving[0], moving[0], moving[1], other, other, moving[2]])
+    video = Video(frames, [0, 10, 40_000, 80_000, 80_003, 80_004])
+    assert_equal(video, simulator=simulator, max_intermediate=9)
+
+
+def test_one_frame_alone_gives_one_empty_packet():
+    assert assert_equal(panning(1)) == 0
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.integers(0, 2**32), st.sampled_from(["texvent", "esim"]), st.floats(0, 40))
+def test_any_frames_give_the_same_events(seed, simulator, spread):
+    rng = np.random.default_rng(seed)
+    frames = np.clip(90 + np.cumsum(rng.normal(0, spread, (4, 5, 9)), axis=0), 0, 255)
+    video = Video(frames.astype(np.float32), [0, 1000, 1007, 5000])
+    assert_equal(video, simulator=simulator, seed=seed % 1000, max_intermediate=9)
+
+
+@pytest.mark.parametrize("interpolate", ["flow", "blend"])
+@pytest.mark.parametrize("simulator", ["texvent", "esim"])
+def test_until_kernels_are_compiled_the_events_are_the_same(simulator, interpolate, monkeypatch):
+    monkeypatch.setattr(engine_kernels, "is_ready", lambda module: False)
+    options = {"simulator": simulator, "interpolate": interpolate, "max_intermediate": 5}
+    assert assert_equal(panning(3), **options) > 200
+
+
+@pytest.mark.parametrize("simulator", ["texvent", "esim"])
+def test_the_number_of_threads_changes_nothing(simulator):
+    video, threads = panning(3, size=(40, 150)), numba.get_num_threads()
+    packets = []
+    try:
+        for count in (1, min(2, numba.config.NUMBA_NUM_THREADS)):
+            numba.set_num_threads(count)
+            options = {"simulator": simulator, "max_intermediate": 9}
+            packets.append([packet for _, packet in fused(video, options)])
+    finally:
+        numba.set_num_threads(threads)
+    assert all(one.equals(other) for one, other in zip(*packets, strict=True))
+
+
+def test_an_undrawn_frame_lets_the_source_frames_go_once_it_is_drawn():
+    first, second = (np.full((4, 6), level, np.float32) for level in (10, 30))
+    paths = Paths.between(Frame(first, 0), Frame(second, 100), [25], None)
+    watched = weakref.ref(paths)
+    frame = UndrawnFrame(paths, 0)
+    del paths
+    assert (frame.size, frame.t_us, frame.is_source) == ((6, 4), 25, False)
+    assert watched() is not None
+    np.testing.assert_array_equal(frame.luma, np.full((4, 6), 15))
+    gc.collect()
+    assert watched() is None
+    assert frame.pixels is frame.pixels
