@@ -3,6 +3,7 @@
 import pytest
 
 from texvent.errors import ConfigError, InputError
+from texvent.option_fields import RenamedOptionWarning
 from texvent.sensor import SENSORS, SensorSize
 from texvent.settings import base_settings, read_config, resolve, unmeasured_sensor
 
@@ -121,3 +122,12 @@ def test_a_single_option_is_stronger_than_the_config_file(tmp_path):
 def test_a_missing_config_file_is_named(tmp_path):
     with pytest.raises(InputError, match=r"nope\.toml"):
         read_config(tmp_path / "nope.toml")
+
+
+def test_a_former_name_still_works_as_keyword_and_in_a_stored_config(tmp_path):
+    with pytest.warns(RenamedOptionWarning, match="'flicker_guard' is now 'deflicker'"):
+        assert resolve("simulate", {"flicker_guard": True}).interpolate.deflicker
+    path = tmp_path / "run.toml"
+    path.write_text("[interpolate]\nflicker_guard = true\n", encoding="utf-8")
+    with pytest.warns(RenamedOptionWarning, match=r"config file .*run\.toml"):
+        assert resolve("simulate", {}, config=path).interpolate.deflicker

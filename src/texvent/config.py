@@ -3,28 +3,19 @@
 A field is one option. Its name is the flag (`max_intermediate` → `--max-intermediate`), the key
 in a TOML or YAML file and the keyword in Python; its default is written once, here or in the
 part's own file (every generator and simulator declares its `config_type` beside its code); the
-text under it is its help. Field names are therefore unique across stages.
+text under it is its help. Field names are therefore unique across stages. `option_fields.py` reads
+the fields, `option_values.py` converts their values.
 """
 
 from __future__ import annotations
 
-import ast
-import dataclasses
-import inspect
-import itertools
-import textwrap
-import types
-import typing
-from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, Literal, TypeVar, cast
+from typing import Literal
 
-from texvent._registry import suggest
 from texvent.errors import ConfigError
-
-Config = TypeVar("Config")
+from texvent.option_fields import renamed
 
 
 def check_range(name: str, value: float, low: float, high: float = float("inf")) -> None:
@@ -138,7 +129,7 @@ class InterpolateConfig:
     max_frames_per_second: float | None = None
     """Upper limit of frames per second after interpolation: a budget, whatever else asks for
     more. Source frames always stay."""
-    flicker_guard: bool = False
+    deflicker: bool = renamed(False, was="flicker_guard")
     """Divide fast changes of the whole picture's brightness out of the frames, before they are
     counted and simulated: generated video flickers. Fades stay, a little later."""
     detect_cuts: bool = True
@@ -163,9 +154,9 @@ class InterpolateConfig:
     def __post_init__(self) -> None:
         if self.max_frames_per_second is not None:
             check_range("max_frames_per_second", self.max_frames_per_second, 1e-3, 1e6)
-        if self.flicker_guard and self.interpolate == "exact":
+        if self.deflicker and self.interpolate == "exact":
             raise ConfigError(
-                "flicker_guard corrects the frames of a video, and exact frames are rendered; "
+                "deflicker corrects the frames of a video, and exact frames are rendered; "
                 "leave it out, or choose another interpolate"
             )
         check_range("interpolator_tile", self.interpolator_tile, 0, 100_000)
@@ -176,133 +167,3 @@ class InterpolateConfig:
             check_range("count_threshold", self.count_threshold, 1e-4, 10.0)
         if self.count_balance is not None:
             check_range("count_balance", self.count_balance, 0.0, 1e6)
-
-
-def option_names(config_type: type) -> tuple[str, ...]:
-    """Names of the options of a config dataclass, in order."""
-    return tuple(field.name for field in dataclasses.fields(config_type))
-
-
-def option_help(config_type: type) -> dict[str, str]:
-    """Option name → the text under its field, on one line; also what `--help` shows."""
-    texts: dict[str, str] = {}
-    for owner in reversed(config_type.__mro__):
-        if not dataclasses.is_dataclass(owner):
-            continue
-        body = cast("ast.ClassDef", ast.parse(textwrap.dedent(inspect.getsource(owner))).body[0])
-        for field, text in itertools.pairwise(body.body):
-            if (
-                isinstance(field, ast.AnnAssign)
-                and isinstance(field.target, ast.Name)
-                and isinstance(text, ast.Expr)
-                and isinstance(text.value, ast.Constant)
-            ):
-                texts[field.target.id] = " ".join(str(text.value.value).split())
-    return texts
-
-
-def with_options(config: Config, options: Mapping[str, Any], *, where: str) -> Config:
-    """A copy of `config` with some options replaced, each converted to its declared type.
-
-    Args:
-        config: an instance of a config dataclass.
-        options: name → value; text such as "30000/1001" is accepted where the type allows.
-        where: what to call the source of the options in messages, such as "config file run.toml".
-
-    Raises:
-        ConfigError: an unknown name, a value of the wrong type, or one out of range.
-    """
-    config_type = type(config)
-    names = option_names(config_type)
-    hints = typing.get_type_hints(config_type)
-    converted: dict[str, Any] = {}
-    for name, value in options.items():
-        if name not in names:
-            raise ConfigError(f"{where}: unknown option {name!r}; {suggest(name, names)}")
-        converted[name] = _convert(value, hints[name], f"{where}: {name}")
-    return dataclasses.replace(config, **converted)  # type: ignore[type-var]
-
-
-def plain(value: Any) -> Any:
-    """A config (or a nesting of them) as JSON- and TOML-ready values, without None entries."""
-    if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        named = {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
-        return plain(named)
-    if isinstance(value, Mapping):
-        return {str(key): plain(item) for key, item in value.items() if item is not None}
-    if isinstance(value, (list, tuple)):
-        return [plain(item) for item in value]
-    if isinstance(value, Fraction):
-        return int(value) if value.denominator == 1 else str(value)
-    if isinstance(value, Path):
-        return str(value)
-    return value
-
-
-def _convert(value: Any, hint: Any, where: str) -> Any:
-    """`value` as type `hint`; bool, int, float, str, Path, Fraction, Literal and unions of them."""
-    origin, arguments = typing.get_origin(hint), typing.get_args(hint)
-    if origin is Literal:
-        if value not in arguments:
-            allowed = tuple(str(argument) for argument in arguments)
-            raise ConfigError(f"{where} is {value!r}; {suggest(str(value), allowed)}")
-        return value
-    if origin in (typing.Union, types.UnionType):
-        if value is None and type(None) in arguments:
-            return None
-        return _convert(value, next(one for one in arguments if one is not type(None)), where)
-    try:
-        return _SCALARS[hint](value)
-    except KeyError:
-        return value
-    except (TypeError, ValueError, ZeroDivisionError):
-        raise ConfigError(f"{where} is {value!r}; it must be {_SCALAR_NAMES[hint]}") from None
-
-
-def _bool(value: Any) -> bool:
-    if not isinstance(value, bool):
-        raise TypeError
-    return value
-
-
-def _int(value: Any) -> int:
-    if isinstance(value, bool) or int(value) != value:
-        raise TypeError
-    return int(value)
-
-
-def _float(value: Any) -> float:
-    if isinstance(value, (bool, str)):
-        raise TypeError
-    return float(value)
-
-
-def _text(value: Any) -> str:
-    if not isinstance(value, str):
-        raise TypeError
-    return value
-
-
-def parse_fraction(value: Any) -> Fraction:
-    """A rate from 24, 29.97, "29.97" or "30000/1001", exactly as written in decimal."""
-    if isinstance(value, bool):
-        raise TypeError
-    return Fraction(str(value)) if isinstance(value, float) else Fraction(value)
-
-
-_SCALARS: dict[Any, Any] = {
-    bool: _bool,
-    int: _int,
-    float: _float,
-    str: _text,
-    Path: Path,
-    Fraction: parse_fraction,
-}
-_SCALAR_NAMES = {
-    bool: "true or false",
-    int: "a whole number",
-    float: "a number",
-    str: "text",
-    Path: "a path",
-    Fraction: "a number or a fraction such as 30000/1001",
-}

@@ -14,15 +14,10 @@ from pathlib import Path
 from typing import Any, Literal
 
 from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS, suggest
-from texvent.config import (
-    CaptureConfig,
-    InterpolateConfig,
-    RunConfig,
-    option_names,
-    plain,
-    with_options,
-)
+from texvent.config import CaptureConfig, InterpolateConfig, RunConfig
 from texvent.errors import ConfigError, InputError
+from texvent.option_fields import option_names, with_current_names
+from texvent.option_values import plain, with_options
 from texvent.sensor import SENSORS, Sensor, SensorSize, parse_sensor
 from texvent.simulate.thresholds import with_contrast_threshold
 
@@ -223,11 +218,11 @@ def apply_options(settings: Settings, options: Mapping[str, Any], *, where: str)
         "interpolate": settings.interpolate,
         "simulate": settings.simulate,
     }
+    options = with_current_names(options, map(type, groups.values()), where=where)
     owners = {name: key for key, group in groups.items() for name in option_names(type(group))}
     changed: dict[str, dict[str, Any]] = {}
     if "contrast_threshold" in options and "contrast_threshold" not in owners:
         # One number for models that have one threshold for ON and one for OFF.
-        options = dict(options)
         threshold = _as_number(options.pop("contrast_threshold"), where)
         groups["simulate"] = with_contrast_threshold(settings.simulate, threshold)
         changed["simulate"] = {}

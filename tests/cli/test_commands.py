@@ -194,6 +194,15 @@ def test_unknown_commands_flags_presets_and_parts_are_named(folder, capsys):
     assert not list(folder.iterdir())
 
 
+@pytest.mark.parametrize("flag", ["--flicker-guard", "--no-flicker-guard"])
+def test_the_former_name_of_a_flag_works_and_says_the_new_one(folder, capsys, flag):
+    assert run("simulate", CLIP, "--print-config", flag) == 0
+    said = capsys.readouterr()
+    assert f"deflicker = {'false' if 'no' in flag else 'true'}" in said.out
+    assert said.err.startswith(f"note: {flag} is now --")
+    assert said.err.count("\n") == 1
+
+
 def test_a_prompt_without_quotes_is_told_to_take_them(folder, capsys):
     assert "put all of it in quotes" in fails(capsys, "generate", "a", "ball")
     assert "did you mean --help" not in fails(capsys, "generate", "a ball", "--nosuch", "1")

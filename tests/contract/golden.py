@@ -77,7 +77,7 @@ MORE_CASES: list[dict[str, Any]] = [
     {**FLOW, "simulator": "texvent", "motion_floor": True},
     {**FLOW, "simulator": "texvent", "max_frames_per_second": 60.0},
     {**FLOW, "simulator": "texvent", "detect_cuts": False},
-    {**FLOW, "simulator": "texvent", "flicker_guard": True},
+    {**FLOW, "simulator": "texvent", "deflicker": True},
 ]
 INTERPOLATIONS = ("none", "blend", "flow")
 BACKENDS = ("cpu", "reference")

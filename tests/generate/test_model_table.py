@@ -7,11 +7,11 @@ import pytest
 
 from texvent._registry import GENERATORS
 from texvent.cli.app import main
-from texvent.config import option_help, option_names
 from texvent.errors import ConfigError
 from texvent.generate.models.names import MODEL_TABLE
 from texvent.generate.models.table import MODELS
 from texvent.generate.video_config import DiffusersConfig
+from texvent.option_fields import option_help, option_names
 from texvent.settings import default_settings, resolve
 
 

@@ -113,7 +113,7 @@ def test_the_guard_acts_before_the_count(moving_texture):
     video = Video(np.stack([frame.pixels for frame in frames]), [0, 40_000, 80_000, 120_000])
     counts = {}
     for guard in (False, True):
-        config = InterpolateConfig(interpolate="blend", flicker_guard=guard)
+        config = InterpolateConfig(interpolate="blend", deflicker=guard)
         interpolator = INTERPOLATORS.load("blend")(config, video)
         dense = densify(video, interpolator, config, balance=30.0, contrast_threshold=0.1)
         counts[guard] = sum(not frame.is_source for frame in dense)
@@ -121,5 +121,5 @@ def test_the_guard_acts_before_the_count(moving_texture):
 
 
 def test_exact_frames_cannot_be_guarded():
-    with pytest.raises(ConfigError, match="flicker_guard corrects the frames of a video"):
-        InterpolateConfig(interpolate="exact", flicker_guard=True)
+    with pytest.raises(ConfigError, match="deflicker corrects the frames of a video"):
+        InterpolateConfig(interpolate="exact", deflicker=True)

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from texvent._registry import SIMULATORS
-from texvent.config import option_help, option_names
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
+from texvent.option_fields import option_help, option_names
 from texvent.simulate.esim.simulator import EsimSimulator
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.simulate.senpi.simulator import SenpiSimulator

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import io
 import os
 import sys
-from collections.abc import Sequence
+import warnings
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 from texvent._registry import suggest
 from texvent._version import __version__
 from texvent.cli.shutdown import leave
 from texvent.errors import ConfigError, OutputError, TexventError
+from texvent.option_fields import RenamedOptionWarning
 
 COMMANDS = {
     "generate": ("texvent.cli.make.generate", "Events, film, picture and page from a text prompt."),
@@ -90,7 +94,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(words: list[str]) -> int:
     """Exit code of a command; every error becomes one line."""
     try:
-        return _dispatch(words)
+        with _notices():
+            return _dispatch(words)
     except TexventError as error:
         _say(f"error: {error}")
         return error.exit_code
@@ -105,6 +110,23 @@ def _run(words: list[str]) -> int:
         where = f" ({error.filename})" if error.filename else ""
         _say(f"error: the system refused{where}: {error.strerror or error}")
         return OutputError.exit_code
+
+
+@contextlib.contextmanager
+def _notices() -> Iterator[None]:
+    """Show former names of options as one line each on stderr."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", RenamedOptionWarning)
+        show = warnings.showwarning
+
+        def show_notice(message: Warning | str, category: type[Warning], *rest: Any) -> None:
+            if issubclass(category, RenamedOptionWarning):
+                _say(f"note: {message}")
+            else:
+                show(message, category, *rest)
+
+        warnings.showwarning = show_notice  # type: ignore[assignment]
+        yield
 
 
 def _allow_any_text() -> None:

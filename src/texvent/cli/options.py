@@ -9,15 +9,17 @@ import itertools
 import re
 import types
 import typing
-from collections.abc import Mapping, Sequence
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Annotated, Any
 
 import tyro
 
-from texvent.config import option_help, parse_fraction
 from texvent.errors import ConfigError
+from texvent.option_fields import RenamedOptionWarning, former_names, option_help
+from texvent.option_values import parse_fraction
 
 _SCALARS: dict[Any, tuple[str, Any]] = {
     int: ("INT", int),
@@ -51,12 +53,13 @@ def parse_options(
     form = dataclasses.make_dataclass(
         "Form", [(title.replace(" ", "_"), _group(group)) for title, group in groups.items()]
     )
+    words = _current_flags(arguments, groups.values())
     complaint = io.StringIO()
     try:
         with _registry, contextlib.redirect_stderr(complaint):
             parsed: Any = tyro.cli(
                 form,
-                args=list(arguments),
+                args=words,
                 prog=prog,
                 description=description,
                 config=(tyro.conf.OmitArgPrefixes,),
@@ -86,6 +89,26 @@ def peek_options(arguments: Sequence[str], names: Sequence[str]) -> dict[str, st
             # A value may begin with a hyphen ("-3x5"); the parser would take it, so it counts.
             values[flags[flag]] = following
     return values
+
+
+def _current_flags(arguments: Sequence[str], groups: Iterable[Any]) -> list[str]:
+    """The words with former names of flags replaced by those of today; each gives a notice."""
+    former: dict[str, str] = {}
+    for old, new in former_names(map(type, groups)).items():
+        old, new = old.replace("_", "-"), new.replace("_", "-")
+        former |= {f"--{old}": f"--{new}", f"--no-{old}": f"--no-{new}"}
+    words = []
+    for word in arguments:
+        flag, has_value, value = word.partition("=")
+        if flag in former:
+            warnings.warn(
+                f"{flag} is now {former[flag]}; the former name goes with the next release",
+                RenamedOptionWarning,
+                stacklevel=2,
+            )
+            word = f"{former[flag]}{has_value}{value}"
+        words.append(word)
+    return words
 
 
 def _group(config: Any) -> Any:

@@ -14,8 +14,9 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from texvent._version import __version__
-from texvent.config import check_range, plain
+from texvent.config import check_range
 from texvent.errors import ConfigError, InputError
+from texvent.option_values import plain
 from texvent.sensor import SENSORS, SensorSize
 from texvent.video import MICROSECONDS, Frame, frame_time_us
 

@@ -110,7 +110,7 @@ def pair_up(
     """
     previous: Frame | None = None
     checked = map(StreamChecker().check, frames)
-    for frame in steady_frames(checked) if config.flicker_guard else checked:
+    for frame in steady_frames(checked) if config.deflicker else checked:
         jump = Jump.NONE if previous is None else _jump(previous, frame, config)
         times_us: Sequence[int] = ()
         between: Iterable[Frame] = ()

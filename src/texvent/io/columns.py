@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.config import plain
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
+from texvent.option_values import plain
 from texvent.sensor import SensorSize, checked_size
 
 

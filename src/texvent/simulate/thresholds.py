@@ -6,8 +6,8 @@ import dataclasses
 import math
 from typing import Any, TypeVar
 
-from texvent.config import option_names
 from texvent.errors import ConfigError
+from texvent.option_fields import option_names
 
 Config = TypeVar("Config")
 

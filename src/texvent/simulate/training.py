@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar
 
 from texvent._registry import suggest
-from texvent.config import option_names
 from texvent.errors import ConfigError
+from texvent.option_fields import option_names
 from texvent.simulate.random.draws import draw_normals, draw_uniforms, frame_key
 from texvent.simulate.thresholds import with_contrast_threshold
 

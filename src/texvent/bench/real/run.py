@@ -20,12 +20,12 @@ from texvent.bench.fidelity.run import NULL, compare_all, fit_threshold
 from texvent.bench.jobs import check_jobs, run_jobs
 from texvent.bench.real.scene import RealScene
 from texvent.bench.selftest.perturbations import perturb
-from texvent.config import option_names
 from texvent.errors import ConfigError, TexventError
 from texvent.events import EventStream
 from texvent.metrics.compare import load_metric
 from texvent.metrics.motion.contrast_maximisation import estimate_patch_flow
 from texvent.metrics.protocol import Metric
+from texvent.option_fields import option_names
 from texvent.settings import Settings, apply_options
 
 TARGET = "recorded"

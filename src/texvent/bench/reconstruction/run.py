@@ -25,9 +25,10 @@ from texvent.bench.reconstruction.image_scores import (
     score_pictures,
 )
 from texvent.calibrate.rate import match_rate
-from texvent.config import check_range, option_names
+from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.events import EventStream
+from texvent.option_fields import option_names
 from texvent.pipeline import Simulation, video_to_events
 from texvent.reconstruct.packet_slices import slice_between
 from texvent.reconstruct.reconstructor import Intensity, Reconstructor

@@ -11,9 +11,9 @@ from typing import ClassVar
 from texvent.cli.files.source_overlay import AUTOMATIC, frames_beside
 from texvent.cli.files.time_range import keep_time_range
 from texvent.cli.options import REQUIRED, parse_options
-from texvent.config import option_names
 from texvent.errors import InputError
 from texvent.io.files import open_events
+from texvent.option_fields import option_names
 from texvent.sensor import parse_sensor
 from texvent.view.render import RenderConfig, render_events
 

@@ -17,10 +17,11 @@ from texvent.calibrate.preset import describe_fit, write_preset
 from texvent.calibrate.recording import Recording
 from texvent.capture.open import open_frames
 from texvent.cli.options import REQUIRED, parse_options
-from texvent.config import CaptureConfig, InterpolateConfig, check_range, option_names
+from texvent.config import CaptureConfig, InterpolateConfig, check_range
 from texvent.errors import ConfigError, InputError
 from texvent.io.atomic import check_output
 from texvent.io.files import load
+from texvent.option_fields import option_names
 from texvent.sensor import parse_sensor
 from texvent.simulate.physical.config import PRESETS, PhysicalConfig
 

@@ -12,8 +12,9 @@ from typing import ClassVar
 
 from texvent._registry import GENERATORS
 from texvent.cli.options import parse_options
-from texvent.config import check_range, option_names
+from texvent.config import check_range
 from texvent.errors import ConfigError
+from texvent.option_fields import option_names
 from texvent.web.app import AppPage
 from texvent.web.limits import Limits
 from texvent.web.workspace import Workspace

@@ -15,7 +15,6 @@ from fractions import Fraction
 from typing import Any, ClassVar
 
 from texvent._version import __version__
-from texvent.config import plain
 from texvent.errors import ConfigError, InputError
 from texvent.generate.diffusers_models.latents import Latents
 from texvent.generate.diffusers_models.model_run import ModelRun
@@ -28,6 +27,7 @@ from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.videos.attempts import generate_checked
 from texvent.generate.videos.cache import VideoCache, content_key
 from texvent.generate.videos.stored_video import StoredVideo
+from texvent.option_values import plain
 from texvent.video import PixelArray
 
 PIXEL_OPTIONS = (

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any, ClassVar, Literal
 
 from texvent._version import __version__
-from texvent.config import check_range, plain
+from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.generate.opensora.external_program import run_program
 from texvent.generate.protocol import Watch
@@ -26,6 +26,7 @@ from texvent.generate.video_config import GeneratedVideoConfig
 from texvent.generate.videos.attempts import generate_checked
 from texvent.generate.videos.cache import VideoCache, content_key
 from texvent.generate.videos.stored_video import StoredVideo, open_stored
+from texvent.option_values import plain
 from texvent.sensor import SensorSize
 
 ROOT_VARIABLE = "OPENSORA_ROOT"

@@ -18,11 +18,11 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from texvent.config import plain
 from texvent.errors import OutputError
 from texvent.generate.videos.check import ClipMeasurer, measure_clip
 from texvent.generate.videos.stored_video import EXTENSION, StoredVideo, write_video
 from texvent.io.atomic import atomic_file
+from texvent.option_values import plain
 from texvent.runtime.cache_folder import CACHE_VARIABLE, cache_folder
 from texvent.sensor import SensorSize
 from texvent.video import PixelArray

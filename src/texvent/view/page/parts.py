@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from texvent.config import plain
 from texvent.events import EventStream
+from texvent.option_values import plain
 from texvent.video import MICROSECONDS
 from texvent.view.page.filmstrip import FrameStrip
 from texvent.view.page.sample import RateCurve

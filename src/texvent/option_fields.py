@@ -1,0 +1,97 @@
+"""The options that a config dataclass declares: their names, former names and help."""
+
+from __future__ import annotations
+
+import ast
+import dataclasses
+import inspect
+import itertools
+import textwrap
+import warnings
+from collections.abc import Iterable, Mapping
+from typing import Any, cast
+
+from texvent.errors import ConfigError
+
+
+class RenamedOptionWarning(FutureWarning):
+    """An option was given by its former name, which works for one more release."""
+
+
+def renamed(default: Any, *, was: str) -> Any:
+    """A field whose option had another name in the release before.
+
+    Example:
+        >>> @dataclasses.dataclass(frozen=True)
+        ... class Example:
+        ...     deflicker: bool = renamed(False, was="flicker_guard")
+        >>> former_names([Example])
+        {'flicker_guard': 'deflicker'}
+    """
+    return dataclasses.field(default=default, metadata={"was": was})
+
+
+def option_names(config_type: type) -> tuple[str, ...]:
+    """Names of the options of a config dataclass, in order."""
+    return tuple(field.name for field in dataclasses.fields(config_type))
+
+
+def option_help(config_type: type) -> dict[str, str]:
+    """Option name → the text under its field, on one line; also what `--help` shows."""
+    texts: dict[str, str] = {}
+    for owner in reversed(config_type.__mro__):
+        if not dataclasses.is_dataclass(owner):
+            continue
+        body = cast("ast.ClassDef", ast.parse(textwrap.dedent(inspect.getsource(owner))).body[0])
+        for field, text in itertools.pairwise(body.body):
+            if (
+                isinstance(field, ast.AnnAssign)
+                and isinstance(field.target, ast.Name)
+                and isinstance(text, ast.Expr)
+                and isinstance(text.value, ast.Constant)
+            ):
+                texts[field.target.id] = " ".join(str(text.value.value).split())
+    return texts
+
+
+def former_names(config_types: Iterable[type]) -> dict[str, str]:
+    """Former name → name, of the options that have one."""
+    return {
+        field.metadata["was"]: field.name
+        for config_type in config_types
+        for field in dataclasses.fields(config_type)
+        if "was" in field.metadata
+    }
+
+
+def with_current_names(
+    options: Mapping[str, Any], config_types: Iterable[type], *, where: str
+) -> dict[str, Any]:
+    """The options by their names of today; a former name is taken with a `RenamedOptionWarning`.
+
+    Args:
+        options: name → value.
+        config_types: config dataclasses that declare the options.
+        where: what to call the source of the options in messages.
+
+    Raises:
+        ConfigError: an option is given by both of its names.
+    """
+    former = former_names(config_types)
+    current: dict[str, Any] = {}
+    for name, value in options.items():
+        now = former.get(name, name)
+        if now != name:
+            if now in options:
+                raise ConfigError(
+                    f"{where}: {name!r} is the former name of {now!r}, which is given too; "
+                    f"leave {name!r} out"
+                )
+            warnings.warn(
+                f"{where}: option {name!r} is now {now!r}; the former name goes with the next "
+                "release",
+                RenamedOptionWarning,
+                stacklevel=2,
+            )
+        current[now] = value
+    return current

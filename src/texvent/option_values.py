@@ -1,0 +1,125 @@
+"""Values of options: converted to their declared types, and back to plain values for files."""
+
+from __future__ import annotations
+
+import dataclasses
+import types
+import typing
+from collections.abc import Mapping
+from fractions import Fraction
+from pathlib import Path
+from typing import Any, Literal, TypeVar
+
+from texvent._registry import suggest
+from texvent.errors import ConfigError
+from texvent.option_fields import option_names, with_current_names
+
+Config = TypeVar("Config")
+
+
+def with_options(config: Config, options: Mapping[str, Any], *, where: str) -> Config:
+    """A copy of `config` with some options replaced, each converted to its declared type.
+
+    Args:
+        config: an instance of a config dataclass.
+        options: name → value; text such as "30000/1001" is accepted where the type allows.
+        where: what to call the source of the options in messages, such as "config file run.toml".
+
+    Raises:
+        ConfigError: an unknown name, a value of the wrong type, or one out of range.
+    """
+    config_type = type(config)
+    names = option_names(config_type)
+    hints = typing.get_type_hints(config_type)
+    converted: dict[str, Any] = {}
+    options = with_current_names(options, [config_type], where=where)
+    for name, value in options.items():
+        if name not in names:
+            raise ConfigError(f"{where}: unknown option {name!r}; {suggest(name, names)}")
+        converted[name] = _convert(value, hints[name], f"{where}: {name}")
+    return dataclasses.replace(config, **converted)  # type: ignore[type-var]
+
+
+def plain(value: Any) -> Any:
+    """A config (or a nesting of them) as JSON- and TOML-ready values, without None entries."""
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        named = {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
+        return plain(named)
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items() if item is not None}
+    if isinstance(value, (list, tuple)):
+        return [plain(item) for item in value]
+    if isinstance(value, Fraction):
+        return int(value) if value.denominator == 1 else str(value)
+    if isinstance(value, Path):
+        return str(value)
+    return value
+
+
+def _convert(value: Any, hint: Any, where: str) -> Any:
+    """`value` as type `hint`; bool, int, float, str, Path, Fraction, Literal and unions of them."""
+    origin, arguments = typing.get_origin(hint), typing.get_args(hint)
+    if origin is Literal:
+        if value not in arguments:
+            allowed = tuple(str(argument) for argument in arguments)
+            raise ConfigError(f"{where} is {value!r}; {suggest(str(value), allowed)}")
+        return value
+    if origin in (typing.Union, types.UnionType):
+        if value is None and type(None) in arguments:
+            return None
+        return _convert(value, next(one for one in arguments if one is not type(None)), where)
+    try:
+        return _SCALARS[hint](value)
+    except KeyError:
+        return value
+    except (TypeError, ValueError, ZeroDivisionError):
+        raise ConfigError(f"{where} is {value!r}; it must be {_SCALAR_NAMES[hint]}") from None
+
+
+def _bool(value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise TypeError
+    return value
+
+
+def _int(value: Any) -> int:
+    if isinstance(value, bool) or int(value) != value:
+        raise TypeError
+    return int(value)
+
+
+def _float(value: Any) -> float:
+    if isinstance(value, (bool, str)):
+        raise TypeError
+    return float(value)
+
+
+def _text(value: Any) -> str:
+    if not isinstance(value, str):
+        raise TypeError
+    return value
+
+
+def parse_fraction(value: Any) -> Fraction:
+    """A rate from 24, 29.97, "29.97" or "30000/1001", exactly as written in decimal."""
+    if isinstance(value, bool):
+        raise TypeError
+    return Fraction(str(value)) if isinstance(value, float) else Fraction(value)
+
+
+_SCALARS: dict[Any, Any] = {
+    bool: _bool,
+    int: _int,
+    float: _float,
+    str: _text,
+    Path: Path,
+    Fraction: parse_fraction,
+}
+_SCALAR_NAMES = {
+    bool: "true or false",
+    int: "a whole number",
+    float: "a number",
+    str: "text",
+    Path: "a path",
+    Fraction: "a number or a fraction such as 30000/1001",
+}
