@@ -90,7 +90,7 @@ GENERATORS = Registry(
         "procedural": "texvent.generate.procedural:ProceduralGenerator",
         "opensora": "texvent.generate.opensora.generator:OpenSoraGenerator",
     },
-    table="texvent.generate.models.names:MODEL_TABLE",
+    table="texvent.generate.models.lookup:MODEL_LOOKUP",
 )
 INTERPOLATORS = Registry(
     "interpolator",

@@ -22,7 +22,7 @@ from texvent.config import CaptureConfig, RunConfig
 from texvent.engine.planning import plan_pairs
 from texvent.engine.select import advance, check_engine
 from texvent.events import NOISE, SIGNAL, EventPackets, EventStream
-from texvent.generate.protocol import Watch
+from texvent.generate.protocol import Progress
 from texvent.interpolate.densify import OnCut
 from texvent.settings import Settings
 from texvent.simulate.protocol import Simulator
@@ -30,27 +30,33 @@ from texvent.simulate.training import draw_training_config
 from texvent.video import Frame, FrameStream
 
 
-def text_to_events(prompt: str, settings: Settings, *, watch: Watch | None = None) -> Simulation:
+def text_to_events(
+    prompt: str, settings: Settings, *, progress: Progress | None = None
+) -> Simulation:
     """Events for a text prompt (Eq. 2); none is computed before the result is iterated.
 
     Args:
         prompt: what to show.
         settings: all options.
-        watch: told how a slow generator gets on: a learned model makes its video here.
+        progress: receives the progress of a slow generator: a learned model makes its video here.
 
     Raises:
         InputError: the prompt is empty, or the model cannot be had.
         ConfigError: the engine cannot run the simulator.
     """
     check_engine(settings)
-    return video_to_events(text_to_video(prompt, settings, watch=watch), settings, prompt=prompt)
+    return video_to_events(
+        text_to_video(prompt, settings, progress=progress), settings, prompt=prompt
+    )
 
 
-def text_to_video(prompt: str, settings: Settings, *, watch: Watch | None = None) -> FrameStream:
+def text_to_video(
+    prompt: str, settings: Settings, *, progress: Progress | None = None
+) -> FrameStream:
     """The video for a text prompt (Eq. 3), fitted to the sensor; see `text_to_events`."""
     generator_class = GENERATORS.load(settings.generator or "procedural")
     generator = generator_class(settings.source, seed=settings.run.seed, size=settings.size)
-    video: FrameStream = generator.generate(prompt, watch=watch)
+    video: FrameStream = generator.generate(prompt, progress=progress)
     if settings.size in (None, video.size):
         return video
     fit = CaptureConfig(fit=getattr(settings.source, "fit", CaptureConfig.fit))

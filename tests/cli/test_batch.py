@@ -50,10 +50,10 @@ def test_a_prompt_that_fails_does_not_end_the_others(folder, capsys, monkeypatch
 
     whole = ProceduralGenerator.generate
 
-    def picky(self, prompt, *, watch=None):
+    def picky(self, prompt, *, progress=None):
         if "bad" in prompt:
             raise InputError("the guardrail blocks this prompt")
-        return whole(self, prompt, watch=watch)
+        return whole(self, prompt, progress=progress)
 
     monkeypatch.setattr(ProceduralGenerator, "generate", picky)
     (folder / "p.txt").write_text("a bad thing\na dog runs\n")

@@ -53,7 +53,7 @@ class TinyGenerator:
     def __init__(self, config, *, seed, size):
         self.size = size
 
-    def generate(self, prompt: str, *, watch=None) -> Video:
+    def generate(self, prompt: str, *, progress=None) -> Video:
         levels = np.frombuffer(prompt.encode(), np.uint8)
         shape = (len(levels), *self.size.shape, 3)
         pixels = np.broadcast_to(levels[:, None, None, None], shape).copy()

@@ -12,7 +12,7 @@ import torch
 import transformers
 from tokenizers.pre_tokenizers import ByteLevel
 
-from texvent.generate.diffusers_models.torchvision_stand_in import stand_in_for_torchvision
+from texvent.generate.diffusers_models.torchvision_stub import install_torchvision_stub
 
 TEXT = {"d_model": 32, "d_kv": 8, "d_ff": 37, "num_layers": 2, "num_heads": 4}
 
@@ -116,7 +116,7 @@ def cogvideox15(folder):
 
 
 def cosmos_transformer(**facts):
-    stand_in_for_torchvision()
+    install_torchvision_stub()
     return diffusers.CosmosTransformer3DModel(
         num_attention_heads=2,
         attention_head_dim=16,

@@ -17,7 +17,7 @@ from rich.progress import (
 )
 
 
-class ConsoleWatch:
+class ConsoleProgress:
     """Lines and one bar per stage on stderr; the bar only where stderr is a terminal.
 
     Args:

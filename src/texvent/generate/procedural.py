@@ -21,7 +21,7 @@ from texvent.sensor import SENSORS, SensorSize
 from texvent.video import MICROSECONDS, Frame, frame_time_us
 
 if TYPE_CHECKING:
-    from texvent.generate.protocol import Watch
+    from texvent.generate.protocol import Progress
     from texvent.scenes.ground_truth import GroundTruth
     from texvent.scenes.primitives import Scene
 
@@ -133,12 +133,12 @@ class ProceduralGenerator:
         self.seed = seed
         self.size = size if size is not None else DEFAULT_SIZE
 
-    def generate(self, prompt: str, *, watch: Watch | None = None) -> ProceduralVideo:
+    def generate(self, prompt: str, *, progress: Progress | None = None) -> ProceduralVideo:
         """The video for `prompt`.
 
         Args:
             prompt: English sentences, such as "a red car drives left past two trees at dusk".
-            watch: told nothing: frames are rendered when they are asked for.
+            progress: unused: frames are rendered on demand.
 
         Returns:
             A stream of float RGB frames. Its metadata say what was understood and which words
@@ -147,7 +147,7 @@ class ProceduralGenerator:
         Raises:
             InputError: the prompt is empty.
         """
-        del watch
+        del progress
         if not prompt.strip():
             raise InputError(
                 "the prompt is empty; describe a scene, such as 'a red car drives left at dusk'"

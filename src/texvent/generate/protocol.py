@@ -8,16 +8,26 @@ from typing import Any, ClassVar, Protocol
 from texvent.video import FrameStream
 
 
-class Watch(Protocol):
-    """Who is told how a slow generator gets on. Either method may raise to stop it cleanly."""
+class Progress(Protocol):
+    """Receives the progress of a slow generator. Either method may raise to stop it cleanly."""
 
     def announce(self, line: str) -> None:
-        """Take one line to show, such as the licence before a download."""
+        """Receive one line to show, such as the licence before a download."""
         ...
 
     def advance(self, stage: str, done: int, total: int) -> None:
-        """Take progress: `done` of `total` steps of a stage, such as "denoise"."""
+        """Receive a step: `done` of `total` steps of a stage, such as "denoise"."""
         ...
+
+
+class NoProgress:
+    """Progress that is shown nowhere."""
+
+    def announce(self, line: str) -> None:
+        """Ignore a line."""
+
+    def advance(self, stage: str, done: int, total: int) -> None:
+        """Ignore a step."""
 
 
 class Generator(Protocol):
@@ -32,16 +42,16 @@ class Generator(Protocol):
     default_interpolate: ClassVar[str]
     """Interpolator that suits its videos: "exact" if they can be rendered at any instant."""
 
-    def generate(self, prompt: str, *, watch: Watch | None = None) -> FrameStream:
+    def generate(self, prompt: str, *, progress: Progress | None = None) -> FrameStream:
         """The video for `prompt`.
 
-        Frames are made as they are asked for where the generator can, all at once before this
-        returns where it cannot (learned models). Their size is the generator's own; the pipeline
+        Frames are made on demand where the generator can, all at once before this returns where
+        it cannot (learned models). Their size is the generator's own; the pipeline
         fits them to the sensor.
 
         Args:
             prompt: what to show.
-            watch: told about progress; may stop it.
+            progress: receives progress; may stop the run.
 
         Raises:
             InputError: the prompt is empty.

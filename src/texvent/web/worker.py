@@ -58,7 +58,7 @@ def simulate(job: SimulateJob, tell: Tell) -> Answer:
         ConfigError: an unknown option, or a value out of range.
     """
     tell(Answer(kind="progress", text="starting"))
-    simulation = _prepare(job, _Watch(tell))
+    simulation = _prepare(job, _JobProgress(tell))
     _check_size(simulation.video.size, job.limits)
     folder = Path(job.folder)
     events = folder / "events.h5"
@@ -123,7 +123,7 @@ def extension_of(format: str) -> str:
     return ""
 
 
-class _Watch:
+class _JobProgress:
     """Passes on what a slow generator reports."""
 
     def __init__(self, tell: Tell) -> None:
@@ -137,7 +137,7 @@ class _Watch:
         self._tell(Answer(kind="progress", share=share, text=stage))
 
 
-def _prepare(job: SimulateJob, watch: _Watch) -> Simulation:
+def _prepare(job: SimulateJob, progress: _JobProgress) -> Simulation:
     options = dict(job.options)
     if job.video is None:
         if float(options.get("duration") or 0) > job.limits.max_seconds:
@@ -146,7 +146,7 @@ def _prepare(job: SimulateJob, watch: _Watch) -> Simulation:
             )
         settings = resolve("generate", options)
         _check_size(settings.size or SensorSize(1, 1), job.limits)
-        return text_to_events(job.prompt or "", settings, watch=watch)
+        return text_to_events(job.prompt or "", settings, progress=progress)
     settings = resolve("simulate", options)
     video = open_frames(job.video, settings.source, size=settings.size)
     _check_length(video, job.limits)

@@ -14,7 +14,7 @@ from texvent.cli.command import resolve_command
 from texvent.cli.make.generate import detail
 from texvent.cli.options import REQUIRED
 from texvent.cli.outputs import OutputOptions
-from texvent.cli.progress import ConsoleWatch
+from texvent.cli.progress import ConsoleProgress
 from texvent.cli.run import execute, print_settings
 from texvent.errors import (
     ConfigError,
@@ -23,7 +23,7 @@ from texvent.errors import (
     OutputError,
     TexventError,
 )
-from texvent.generate.prompts.files import PromptLine, read_prompts
+from texvent.generate.prompts.prompt_files import PromptLine, read_prompts
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.pipeline import text_to_video, video_to_events
 from texvent.settings import Settings, apply_options
@@ -59,16 +59,16 @@ def run(arguments: Sequence[str]) -> int:
     targets = _name_results(lines, folder)
     folder.mkdir(parents=True, exist_ok=True)
     failed = 0
-    with ConsoleWatch(is_quiet=output.quiet) as watch:
+    with ConsoleProgress(is_quiet=output.quiet) as progress:
         for line, target in zip(lines, targets, strict=True):
-            watch.announce(f"[{line.line}] {line.prompt}")
+            progress.announce(f"[{line.line}] {line.prompt}")
             if target.exists() and not output.overwrite:
-                watch.announce(f"kept     {target}")
+                progress.announce(f"kept     {target}")
                 continue
             try:
                 one = dataclasses.replace(output, out=target)
-                prompt = detail(line.prompt, own, watch)
-                _run_one(line, prompt, settings, output=one, watch=watch)
+                prompt = detail(line.prompt, own, progress)
+                _run_one(line, prompt, settings, output=one, progress=progress)
             except (ConfigError, OutputError, MissingDependencyError):
                 raise
             except TexventError as error:
@@ -81,13 +81,18 @@ def run(arguments: Sequence[str]) -> int:
 
 
 def _run_one(
-    line: PromptLine, prompt: str, settings: Settings, *, output: OutputOptions, watch: ConsoleWatch
+    line: PromptLine,
+    prompt: str,
+    settings: Settings,
+    *,
+    output: OutputOptions,
+    progress: ConsoleProgress,
 ) -> None:
     """Events of a line; `prompt` is what the generator is given for it."""
     if line.seed is not None:
         settings = apply_options(settings, {"seed": line.seed}, where=f"line {line.line}")
     output.check(line.prompt)
-    video = text_to_video(prompt, settings, watch=watch)
+    video = text_to_video(prompt, settings, progress=progress)
     execute(video_to_events(video, settings, prompt=line.prompt), output, subject=line.prompt)
 
 

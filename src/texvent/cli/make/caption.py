@@ -15,7 +15,7 @@ from texvent._registry import load_object
 from texvent.cli.options import REQUIRED, parse_options
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
-from texvent.generate.prompts.caption import INSTRUCTION, find_pictures
+from texvent.generate.prompts.caption import INSTRUCTION, find_images
 from texvent.io.atomic import atomic_file, check_output
 
 DESCRIPTION = """Describe pictures with an image-and-text model of yours (LLaVA and its kin, run by
@@ -68,7 +68,7 @@ def run(arguments: Sequence[str]) -> int:
     options = CaptionOptions(**values)
     if options.out is not None:
         check_output(options.out, overwrite=options.overwrite)
-    pictures = find_pictures(options.pictures)
+    pictures = find_images(options.pictures)
     console = Console(stderr=True, quiet=options.quiet, highlight=False)
     captioner = load_object("texvent.generate.prompts.caption:Captioner")(
         options.model, device=options.generator_device

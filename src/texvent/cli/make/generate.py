@@ -13,7 +13,7 @@ from texvent.capture.open import open_frames
 from texvent.cli.command import resolve_command
 from texvent.cli.options import REQUIRED, peek_options
 from texvent.cli.outputs import OutputOptions
-from texvent.cli.progress import ConsoleWatch
+from texvent.cli.progress import ConsoleProgress
 from texvent.cli.run import execute, print_settings
 from texvent.errors import ConfigError, InputError
 from texvent.generate.prompts.upsample_config import UpsampleConfig
@@ -75,8 +75,8 @@ def run(arguments: Sequence[str]) -> int:
         sys.stdout.write(f"{plan}\n")
         return 0
     output.check(own.prompt)
-    with ConsoleWatch(is_quiet=output.quiet) as watch:
-        video = text_to_video(detail(own.prompt, own, watch), settings, watch=watch)
+    with ConsoleProgress(is_quiet=output.quiet) as progress:
+        video = text_to_video(detail(own.prompt, own, progress), settings, progress=progress)
     simulation = video_to_events(video, settings, prompt=own.prompt)
     return execute(simulation, output, subject=own.prompt)
 
@@ -89,14 +89,14 @@ def _plan(prompt: str, settings: Settings) -> str | None:
     return None if plan is None else plan(prompt)
 
 
-def detail(prompt: str, options: UpsampleConfig, watch: ConsoleWatch) -> str:
+def detail(prompt: str, options: UpsampleConfig, progress: ConsoleProgress) -> str:
     """The prompt that the generator is given: the user's, made detailed if that is wanted."""
     if options.upsample is None:
         return prompt
     detailed: str = load_object("texvent.generate.prompts.upsample:upsample_prompt")(
         prompt, options
     )
-    watch.announce(f"prompt   {detailed}")
+    progress.announce(f"prompt   {detailed}")
     return detailed
 
 
@@ -126,8 +126,8 @@ def _write_video(own: PromptOptions, settings: Settings, output: OutputOptions) 
             f"{path} is to hold a lossless video; its name must end in {VIDEO_EXTENSION}"
         )
     check_output(path, overwrite=output.overwrite)
-    with ConsoleWatch(is_quiet=output.quiet) as watch:
-        video = text_to_video(detail(own.prompt, own, watch), settings, watch=watch)
+    with ConsoleProgress(is_quiet=output.quiet) as progress:
+        video = text_to_video(detail(own.prompt, own, progress), settings, progress=progress)
         load_object(f"{STORED_VIDEO}:write_stream")(video, path, overwrite=output.overwrite)
     if not output.quiet:
         sys.stdout.write(f"{path}\n")

@@ -11,7 +11,7 @@ from rich.table import Table
 
 from texvent._registry import GENERATORS, load_object
 from texvent.errors import ConfigError, FileFormatError
-from texvent.generate.models.table import MODELS, VideoModel
+from texvent.generate.models.known_models import MODELS, VideoModel
 
 HUB_PACKAGE = "huggingface_hub"
 PIPELINE_PACKAGE = "diffusers"
@@ -77,7 +77,7 @@ def _is_here(model: VideoModel) -> str:
     if find_spec(HUB_PACKAGE) is None:
         return ""
     try:
-        found = load_object("texvent.generate.models.source:find_downloaded")(model)
+        found = load_object("texvent.generate.models.download:find_downloaded")(model)
     except FileFormatError:
         return "damaged"
     return "yes" if found is not None else ""

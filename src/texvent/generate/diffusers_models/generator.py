@@ -9,6 +9,7 @@ into a lossless 16-bit file, a few at a time where the decoder allows it, and ar
 
 from __future__ import annotations
 
+import functools
 import hashlib
 from collections.abc import Iterator
 from fractions import Fraction
@@ -18,15 +19,14 @@ from texvent._version import __version__
 from texvent.errors import ConfigError, InputError
 from texvent.generate.diffusers_models.latents import Latents
 from texvent.generate.diffusers_models.model_run import ModelRun
-from texvent.generate.models.source import find_downloaded
-from texvent.generate.models.table import VideoModel
+from texvent.generate.models.download import find_downloaded
+from texvent.generate.models.known_models import VideoModel
 from texvent.generate.models.weight_files import CONFIG, check_part, fingerprint
-from texvent.generate.protocol import Watch
-from texvent.generate.silence import Silence
+from texvent.generate.protocol import NoProgress, Progress
 from texvent.generate.video_config import DiffusersConfig
-from texvent.generate.videos.attempts import generate_checked
-from texvent.generate.videos.cache import VideoCache, content_key
+from texvent.generate.videos.retries import generate_checked
 from texvent.generate.videos.stored_video import StoredVideo
+from texvent.generate.videos.video_cache import VideoCache, content_key
 from texvent.option_values import plain
 from texvent.video import PixelArray
 
@@ -34,7 +34,7 @@ PIXEL_OPTIONS = (
     *("frames", "width", "height", "steps", "guidance"),
     *("negative_prompt", "dtype", "quantize"),
 )
-"""Options that decide the pixels, beside model, prompt, seed and picture."""
+"""Options that decide the pixels, beside model, prompt, seed and image."""
 NETWORK_OPTIONS = ("decoder", "motion_adapter")
 """Options that name a folder with a network."""
 
@@ -58,13 +58,13 @@ class DiffusersGenerator:
         self.seed = seed
         self._run: ModelRun | None = None
 
-    def generate(self, prompt: str, *, watch: Watch | None = None) -> StoredVideo:
+    def generate(self, prompt: str, *, progress: Progress | None = None) -> StoredVideo:
         """The video for `prompt`, made now unless it was made before.
 
         Args:
             prompt: what to show.
-            watch: told the licence before a download, and every denoising step; an exception from
-                it, like Ctrl-C, stops the run and leaves nothing behind.
+            progress: receives the licence before a download, and every denoising step; an exception
+                from it, like Ctrl-C, stops the run and leaves nothing behind.
 
         Raises:
             InputError: the prompt is empty or blocked, or the model is not on this machine and
@@ -74,16 +74,15 @@ class DiffusersGenerator:
             MissingDependencyError: a package is not installed.
         """
         self._check(prompt)
-        told = watch or Silence()
         return generate_checked(
-            lambda seed: self._find_or_make(prompt, seed, told),
+            functools.partial(self._find_or_make, prompt),
             self.config,
             prompt=prompt,
             seed=self.seed,
-            watch=told,
+            progress=progress,
         )
 
-    def generate_latents(self, prompt: str, *, watch: Watch | None = None) -> Latents:
+    def generate_latents(self, prompt: str, *, progress: Progress | None = None) -> Latents:
         """What the model denoises for `prompt`, with the scale and shift of its decoder.
 
         Raises:
@@ -91,11 +90,11 @@ class DiffusersGenerator:
                 see finished frames; and what `generate` raises.
         """
         self._check(prompt)
-        return self._loaded(watch or Silence()).latents(prompt, self.seed)
+        return self._loaded(progress or NoProgress()).latents(prompt, self.seed)
 
     def decode(self, latents: Latents) -> Iterator[PixelArray]:
         """Frames of latents, [H, W, 3] float32 in 0..1, a few at a time in memory."""
-        return self._loaded(Silence()).decode(latents)
+        return self._loaded(NoProgress()).decode(latents)
 
     def plan(self, prompt: str) -> str | None:
         """What making the video would take, or None if it was made before. Touches no network."""
@@ -132,7 +131,7 @@ class DiffusersGenerator:
             raise InputError("the prompt is empty; describe a scene, such as 'a car drives left'")
         image = self.config.image
         if image is not None and not image.is_file():
-            raise InputError(f"there is no picture {image}")
+            raise InputError(f"there is no image {image}")
         for option in NETWORK_OPTIONS:
             folder = getattr(self.config, option)
             if folder is None:
@@ -142,20 +141,20 @@ class DiffusersGenerator:
             check_part(folder)
         self.fps  # noqa: B018  (an unknown rate is refused before anything is loaded)
 
-    def _loaded(self, watch: Watch) -> ModelRun:
+    def _loaded(self, progress: Progress) -> ModelRun:
         if self._run is None:
-            self._run = ModelRun(self.model, self.config, fps=self.fps, watch=watch)
-        self._run.watch = watch
+            self._run = ModelRun(self.model, self.config, fps=self.fps, progress=progress)
+        self._run.progress = progress
         return self._run
 
-    def _find_or_make(self, prompt: str, seed: int, watch: Watch) -> StoredVideo:
+    def _find_or_make(self, prompt: str, seed: int, progress: Progress) -> StoredVideo:
         cache = VideoCache(is_kept=self.config.reuse_video)
         key = content_key(self._pixel_facts(prompt, seed))
         found = cache.find(key, self.fps)
         if found is not None:
-            watch.announce(f"this video was generated before: {found.path}")
+            progress.announce(f"this video was generated before: {found.path}")
             return found
-        run = self._loaded(watch)
+        run = self._loaded(progress)
         frames = run.frames(prompt, seed)
         facts = {
             "generator": self.model.name,
@@ -167,7 +166,7 @@ class DiffusersGenerator:
         }
         video = cache.store(key, frames, self.fps, facts)
         if self.config.frames not in (None, video.frame_count):
-            watch.announce(
+            progress.announce(
                 f"the model made {video.frame_count} frames, not {self.config.frames}: it can "
                 "make certain numbers only"
             )

@@ -10,7 +10,11 @@ from pathlib import Path
 from typing import Any
 
 from texvent.errors import InputError
-from texvent.generate.diffusers_models.decoder_tap import TAPPED_PIPELINES, tap_decoder
+from texvent.generate.diffusers_models.decoder_input import (
+    SINGLE_DECODE_PIPELINES,
+    capture_decoder_input,
+)
+from texvent.generate.diffusers_models.device_placement import Placement, place
 from texvent.generate.diffusers_models.guardrail import (
     PART,
     check_prompt,
@@ -37,19 +41,18 @@ from texvent.generate.diffusers_models.pipeline_loading import (
     load_pipeline,
     resolve_device,
 )
-from texvent.generate.diffusers_models.placement import Placement, place
 from texvent.generate.diffusers_models.prompt_embeddings import (
     EMBEDDING_PIPELINES,
     embed_prompt,
     find_embeddings,
 )
 from texvent.generate.diffusers_models.streamed_decoding import can_stream
-from texvent.generate.models.source import ModelFiles, find_files
-from texvent.generate.models.table import VideoModel
+from texvent.generate.models.download import ModelFiles, find_files
+from texvent.generate.models.known_models import VideoModel
 from texvent.generate.models.weight_files import fingerprint, read_pipeline_index
-from texvent.generate.protocol import Watch
+from texvent.generate.protocol import Progress
 from texvent.generate.video_config import DiffusersConfig
-from texvent.generate.videos.cache import content_key
+from texvent.generate.videos.video_cache import content_key
 from texvent.video import PixelArray
 
 PACKAGES = ("diffusers", "transformers", "torch")
@@ -63,21 +66,21 @@ class ModelRun:
         model: where the weights are.
         config: options.
         fps: frame rate, for models that take it as an input.
-        watch: told about downloads and denoising steps.
+        progress: receives downloads and denoising steps.
 
     Raises:
-        InputError, FileFormatError, MissingDependencyError: see `model_source.find_files`.
+        InputError, FileFormatError, MissingDependencyError: see `download.find_files`.
     """
 
     def __init__(
-        self, model: VideoModel, config: DiffusersConfig, *, fps: Fraction, watch: Watch
+        self, model: VideoModel, config: DiffusersConfig, *, fps: Fraction, progress: Progress
     ) -> None:
         self._model = model
         self._config = config
         self._fps = fps
-        self.watch = watch
-        """Told about loading and denoising; replace it to tell somebody else."""
-        self._files: ModelFiles = find_files(model, watch.announce)
+        self.progress = progress
+        """Receives loading and denoising; may be replaced between prompts."""
+        self._files: ModelFiles = find_files(model, progress.announce)
         self._index = read_pipeline_index(self._files.folder)
         self._pipe: Pipeline | None = None
 
@@ -93,10 +96,10 @@ class ModelRun:
         """
         pipe, arguments = self._prepare(prompt)
         # The guardrail looks at decoded frames, inside the pipeline: it must decode them itself.
-        is_streamed = self._class_name in TAPPED_PIPELINES and can_stream(pipe.vae)
+        is_streamed = self._class_name in SINGLE_DECODE_PIPELINES and can_stream(pipe.vae)
         if not is_streamed or self.has_guardrail:
             return iter(self._call(pipe, arguments, seed, "np"))
-        with tap_decoder(pipe) as taken:
+        with capture_decoder_input(pipe) as taken:
             self._call(pipe, arguments, seed, "np")
         return stream_frames(pipe, *taken[0])
 
@@ -179,7 +182,9 @@ class ModelRun:
             if find_kept(request) is None:
                 # Before minutes of loading.
                 check_options(find_pipeline_class(request), self._config)
-                self.watch.announce(f"loading {self._model.source} ({self._describe_placement()})")
+                self.progress.announce(
+                    f"loading {self._model.source} ({self._describe_placement()})"
+                )
             self._pipe = load_pipeline(request)
         pipe = self._pipe
         if self.has_guardrail:
@@ -228,5 +233,5 @@ class ModelRun:
             fps=self._fps,
             seed=seed,
             output_type=kind,
-            watch=self.watch,
+            progress=self.progress,
         )

@@ -10,7 +10,7 @@ from typing import Any
 
 from texvent._require import require
 from texvent.errors import ConfigError, InputError, TexventError
-from texvent.generate.protocol import Watch
+from texvent.generate.protocol import Progress
 from texvent.generate.video_config import DiffusersConfig
 
 EXTRA = "generate"
@@ -37,7 +37,7 @@ def call_pipeline(
     fps: Fraction,
     seed: int,
     output_type: str,
-    watch: Watch,
+    progress: Progress,
 ) -> Any:
     """Run a pipeline once.
 
@@ -48,7 +48,7 @@ def call_pipeline(
         fps: passed where the model takes the rate as an input (it changes the pixels).
         seed: of a CPU generator, which gives the same noise on every device.
         output_type: "np" for frames [F, H, W, 3] float32 in 0..1, "latent" for latents.
-        watch: told about every denoising step.
+        progress: receives every denoising step.
 
     Returns:
         The first result of the batch of one: frames, or the latent tensor with its batch axis.
@@ -69,7 +69,7 @@ def call_pipeline(
     if "image" in accepted:
         arguments.update(_image(config))
     if STEP_CALLBACK in accepted:
-        arguments[STEP_CALLBACK] = _step_callback(watch)
+        arguments[STEP_CALLBACK] = _step_callback(progress)
     output = _run(pipe, {**arguments, "output_type": output_type}, seed)
     return output if output_type == "latent" else output[0]
 
@@ -153,10 +153,10 @@ def _fit_image(images: Any, operations: Any, path: Path, config: DiffusersConfig
     return operations.fit(picture, (config.width, config.height))
 
 
-def _step_callback(watch: Watch) -> Any:
+def _step_callback(progress: Progress) -> Any:
     def report(pipe: Any, step: int, time: Any, tensors: dict[str, Any]) -> dict[str, Any]:
         del time
-        watch.advance("denoise", step + 1, int(pipe.num_timesteps))
+        progress.advance("denoise", step + 1, int(pipe.num_timesteps))
         return tensors
 
     return report

@@ -9,15 +9,15 @@ from typing import Any, TypeAlias
 
 from texvent._require import require
 from texvent.errors import ConfigError, InputError
+from texvent.generate.diffusers_models.device_placement import Placement
 from texvent.generate.diffusers_models.guardrail import (
     PART,
     check_wiring,
     load_guardrail,
     needs_guardrail,
 )
-from texvent.generate.diffusers_models.placement import Placement
 from texvent.generate.diffusers_models.streamed_decoding import LTX
-from texvent.generate.diffusers_models.torchvision_stand_in import stand_in_for_torchvision
+from texvent.generate.diffusers_models.torchvision_stub import install_torchvision_stub
 from texvent.generate.models.loading import loading, quiet_libraries
 from texvent.generate.models.weight_files import read_pipeline_index
 
@@ -133,7 +133,7 @@ def _load(request: LoadRequest) -> Pipeline:
     pipeline_class = find_pipeline_class(request)
     parts: dict[str, Any] = {}
     if needs_guardrail(read_pipeline_index(request.folder)):
-        stand_in_for_torchvision()
+        install_torchvision_stub()
         parts[PART] = load_guardrail()
     if not request.has_text_encoder:
         parts.update(dict.fromkeys(TEXT_PARTS))

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent._require import require
-from texvent.generate.videos.cache import made_folder
+from texvent.generate.videos.video_cache import made_folder
 from texvent.io.atomic import atomic_file
 
 EXTRA = "generate"

@@ -8,6 +8,7 @@ ordinary 8-bit mp4, which is kept byte by byte.
 from __future__ import annotations
 
 import csv
+import functools
 import os
 import shutil
 import tempfile
@@ -20,12 +21,11 @@ from texvent._version import __version__
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.generate.opensora.external_program import run_program
-from texvent.generate.protocol import Watch
-from texvent.generate.silence import Silence
+from texvent.generate.protocol import Progress
 from texvent.generate.video_config import GeneratedVideoConfig
-from texvent.generate.videos.attempts import generate_checked
-from texvent.generate.videos.cache import VideoCache, content_key
+from texvent.generate.videos.retries import generate_checked
 from texvent.generate.videos.stored_video import StoredVideo, open_stored
+from texvent.generate.videos.video_cache import VideoCache, content_key
 from texvent.option_values import plain
 from texvent.sensor import SensorSize
 
@@ -126,12 +126,12 @@ class OpenSoraGenerator:
                 )
         return None
 
-    def generate(self, prompt: str, *, watch: Watch | None = None) -> StoredVideo:
+    def generate(self, prompt: str, *, progress: Progress | None = None) -> StoredVideo:
         """The video for `prompt`, made now unless it was made before.
 
         Args:
             prompt: what to show.
-            watch: told when it starts.
+            progress: receives a line when it starts.
 
         Raises:
             InputError: the prompt is empty.
@@ -139,13 +139,12 @@ class OpenSoraGenerator:
         """
         if not prompt.strip():
             raise InputError("the prompt is empty; describe a scene, such as 'a car drives left'")
-        told = watch or Silence()
         return generate_checked(
-            lambda seed: self._find_or_make(prompt, seed, told),
+            functools.partial(self._find_or_make, prompt),
             self.config,
             prompt=prompt,
             seed=self.seed,
-            watch=told,
+            progress=progress,
         )
 
     def plan(self, prompt: str) -> str | None:
@@ -165,14 +164,14 @@ class OpenSoraGenerator:
         facts = {name: getattr(self.config, name) for name in names}
         return content_key({**facts, "source": "open-sora 2", "prompt": prompt, "seed": seed})
 
-    def _find_or_make(self, prompt: str, seed: int, watch: Watch) -> StoredVideo:
+    def _find_or_make(self, prompt: str, seed: int, progress: Progress) -> StoredVideo:
         config = self.config
         fps = Fraction(config.fps or 24)
         key = self._key(prompt, seed)
         cache = VideoCache(is_kept=config.reuse_video)
         found = cache.find(key, fps)
         if found is not None:
-            watch.announce(f"this video was generated before: {found.path}")
+            progress.announce(f"this video was generated before: {found.path}")
             return found
         missing = self.find_missing(config)
         if missing is not None:
@@ -185,7 +184,7 @@ class OpenSoraGenerator:
             "options": plain(config),
         }
         with tempfile.TemporaryDirectory(prefix="texvent-opensora-") as folder:
-            watch.announce(f"running Open-Sora ({config.resolution}, {config.steps} steps)")
+            progress.announce(f"running Open-Sora ({config.resolution}, {config.steps} steps)")
             made = self._run(prompt, seed, Path(folder))
             return cache.adopt(key, open_stored(made, fps, origin))
 

@@ -21,7 +21,7 @@ INSTRUCTION = "Caption the image in detail."
 PLAIN_CHAT = "USER: <image>\n{} ASSISTANT:"
 """LLaVA 1.5's way to ask, for models that bring no chat template."""
 HUB = "hub:"
-PICTURES = (".png", ".jpg", ".jpeg", ".webp", ".bmp")
+IMAGE_EXTENSIONS = (".png", ".jpg", ".jpeg", ".webp", ".bmp")
 
 
 class Captioner:
@@ -83,7 +83,7 @@ class Captioner:
         return asked
 
 
-def find_pictures(path: Path) -> list[Path]:
+def find_images(path: Path) -> list[Path]:
     """The picture, or all pictures right in the folder, in order of name.
 
     Raises:
@@ -92,10 +92,10 @@ def find_pictures(path: Path) -> list[Path]:
     if path.is_file():
         return [path]
     found = sorted(
-        one for one in path.glob("*") if one.suffix.lower() in PICTURES and one.is_file()
+        one for one in path.glob("*") if one.suffix.lower() in IMAGE_EXTENSIONS and one.is_file()
     )
     if not found:
-        raise InputError(f"there is no picture at {path} ({', '.join(PICTURES)})")
+        raise InputError(f"there is no picture at {path} ({', '.join(IMAGE_EXTENSIONS)})")
     return found
 
 

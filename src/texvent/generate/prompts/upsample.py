@@ -19,7 +19,7 @@ from texvent._require import require
 from texvent.errors import InputError, TexventError
 from texvent.generate.models.loading import loading
 from texvent.generate.prompts.upsample_config import UpsampleConfig
-from texvent.generate.videos.cache import content_key, made_folder
+from texvent.generate.videos.video_cache import content_key, made_folder
 from texvent.io.atomic import atomic_file
 
 EXTRA = "generate"

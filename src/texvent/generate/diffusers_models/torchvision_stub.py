@@ -19,7 +19,7 @@ TRANSFORMER = "diffusers.models.transformers.transformer_cosmos"
 PREDICT = "diffusers.pipelines.cosmos.pipeline_cosmos2_5_predict"
 
 
-def stand_in_for_torchvision() -> None:
+def install_torchvision_stub() -> None:
     """Give the Cosmos modules what they need, where torchvision is not installed."""
     functions = SimpleNamespace(resize=_resize, to_tensor=_to_tensor)
     modes = SimpleNamespace(NEAREST="nearest")

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent.errors import OutputError
-from texvent.generate.videos.check import ClipMeasurer, measure_clip
+from texvent.generate.videos.failure_filter import VideoMeasurer, measure_video
 from texvent.generate.videos.stored_video import EXTENSION, StoredVideo, write_video
 from texvent.io.atomic import atomic_file
 from texvent.option_values import plain
@@ -100,7 +100,7 @@ class VideoCache:
 
         The failure filter's measures are taken while the frames pass by and are noted too.
         """
-        measurer = ClipMeasurer()
+        measurer = VideoMeasurer()
         path = self._path(key, EXTENSION)
         video = write_video(
             frames, path, fps, metadata, overwrite=True, on_frame=measurer.add
@@ -114,7 +114,7 @@ class VideoCache:
         with atomic_file(path, overwrite=True) as part:
             part.write_bytes(video.path.read_bytes())
         kept = dataclasses.replace(video, path=path)
-        kept = kept.with_metadata(**{MEASURES: measure_clip(kept)})
+        kept = kept.with_metadata(**{MEASURES: measure_video(kept)})
         self._note(kept)
         return kept
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from texvent.errors import ConfigError
-from texvent.generate.models.table import MODELS, VideoModel
+from texvent.generate.models.known_models import MODELS, VideoModel
 from texvent.generate.video_config import DiffusersConfig
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ class ModelGenerator:
         return DiffusersGenerator(config, model=self.model, seed=seed)
 
 
-class ModelTable:
+class ModelLookup:
     """Generators outside the registry's own table: rows, local folders, repositories."""
 
     def names(self) -> tuple[str, ...]:
@@ -104,5 +104,5 @@ def _row_like(last_name: str) -> VideoModel:
     return VideoModel(name=last_name)
 
 
-MODEL_TABLE = ModelTable()
+MODEL_LOOKUP = ModelLookup()
 """What the registry asks for names it does not know itself."""

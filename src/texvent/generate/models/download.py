@@ -11,7 +11,7 @@ from pathlib import Path
 
 from texvent._require import require
 from texvent.errors import InputError, TexventError
-from texvent.generate.models.table import VideoModel
+from texvent.generate.models.known_models import VideoModel
 from texvent.generate.models.weight_files import CONFIG, INDEX, check_part, check_weight_files
 
 EXTRA = "generate"

@@ -14,14 +14,14 @@ pytest.importorskip("diffusers")
 
 from texvent.errors import FileFormatError, InputError  # noqa: E402
 from texvent.generate.diffusers_models import pipeline_loading  # noqa: E402
-from texvent.generate.diffusers_models.decoder_tap import TAPPED_PIPELINES  # noqa: E402
+from texvent.generate.diffusers_models.decoder_input import SINGLE_DECODE_PIPELINES  # noqa: E402
+from texvent.generate.diffusers_models.device_placement import Placement  # noqa: E402
 from texvent.generate.diffusers_models.pipeline_call import call_pipeline  # noqa: E402
-from texvent.generate.diffusers_models.placement import Placement  # noqa: E402
-from texvent.generate.silence import Silence  # noqa: E402
+from texvent.generate.protocol import NoProgress  # noqa: E402
 from texvent.generate.video_config import DiffusersConfig  # noqa: E402
 
-from . import tiny_pipelines  # noqa: E402
-from .tiny_models import PROMPT, build, pixels  # noqa: E402
+from .. import tiny_pipelines  # noqa: E402
+from ..tiny_models import PROMPT, build, pixels  # noqa: E402
 
 STREAMED = ("wan", "wan22", "cogvideox", "cogvideox15", "ltx")
 
@@ -117,7 +117,7 @@ def test_the_decoder_is_itself_again_after_a_run_and_after_an_error(models):
     vae = generator._run._pipe.vae
     assert "decode" not in vars(vae)
     with pytest.raises(KeyboardInterrupt):
-        build(models("wan"), seed=9, reuse_video=False).generate(PROMPT, watch=Interrupter())
+        build(models("wan"), seed=9, reuse_video=False).generate(PROMPT, progress=Interrupter())
     assert "decode" not in vars(vae)
 
 
@@ -132,7 +132,7 @@ class Interrupter:
 def test_tapped_pipelines_exist_and_decode_once():
     import inspect
 
-    for name in TAPPED_PIPELINES:
+    for name in SINGLE_DECODE_PIPELINES:
         source = inspect.getsource(getattr(tiny_pipelines.diffusers, name))
         calls = source.count("self.vae.decode(")
         assert calls == 1 or (calls == 2 and name == "MotifVideoPipeline"), name
@@ -170,6 +170,6 @@ def test_no_sound_is_made_for_events():
         fps=Fraction(24),
         seed=0,
         output_type="np",
-        watch=Silence(),
+        progress=NoProgress(),
     )
     assert frames is False

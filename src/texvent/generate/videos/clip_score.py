@@ -27,7 +27,7 @@ STD = (0.26862954, 0.26130258, 0.27577711)
 """Of CLIP's training pictures, RGB in 0..1 (Radford 2021)."""
 
 
-def measure_agreement(video: StoredVideo, prompt: str, folder: Path) -> float:
+def measure_clip_score(video: StoredVideo, prompt: str, folder: Path) -> float:
     """Mean cosine between the prompt and frames of a video, -1..1.
 
     Args:

@@ -3,9 +3,9 @@
 import pytest
 
 from texvent.errors import ConfigError
-from texvent.generate.diffusers_models import placement
-from texvent.generate.diffusers_models.placement import GB, place
-from texvent.generate.models.table import MODELS
+from texvent.generate.diffusers_models import device_placement
+from texvent.generate.diffusers_models.device_placement import GB, place
+from texvent.generate.models.known_models import MODELS
 from texvent.generate.video_config import DiffusersConfig
 
 COSMOS = MODELS["cosmos-7b"]  # 74 GB on the device, 24.4 GB with offload
@@ -32,25 +32,25 @@ def test_quantised_weights_need_less():
 def test_weights_are_quantised_only_where_layers_would_have_to_wait(
     monkeypatch, free_gb, quantize, offload
 ):
-    monkeypatch.setattr(placement, "find_spec", lambda name: name == "bitsandbytes" or None)
+    monkeypatch.setattr(device_placement, "find_spec", lambda name: name == "bitsandbytes" or None)
     placed = place(COSMOS, DiffusersConfig(), "cuda", int(free_gb * GB))
     assert (placed.quantize, placed.offload) == (quantize, offload)
 
 
 @pytest.mark.parametrize("options", [{"quantize": "none"}, {"offload": "sequential"}])
 def test_weights_keep_all_bits_where_the_user_decided(monkeypatch, options):
-    monkeypatch.setattr(placement, "find_spec", lambda name: name == "bitsandbytes" or None)
+    monkeypatch.setattr(device_placement, "find_spec", lambda name: name == "bitsandbytes" or None)
     placed = place(COSMOS, DiffusersConfig(**options), "cuda", int(20 * GB))
     assert (placed.quantize, placed.offload) == ("none", "sequential")
 
 
 def test_weights_keep_all_bits_without_the_package(monkeypatch):
-    monkeypatch.setattr(placement, "find_spec", lambda name: None)
+    monkeypatch.setattr(device_placement, "find_spec", lambda name: None)
     assert place(COSMOS, DiffusersConfig(), "cuda", int(20 * GB)).quantize == "none"
 
 
 def test_nothing_helps_where_even_four_bits_are_too_many(monkeypatch):
-    monkeypatch.setattr(placement, "find_spec", lambda name: name == "bitsandbytes" or None)
+    monkeypatch.setattr(device_placement, "find_spec", lambda name: name == "bitsandbytes" or None)
     placed = place(COSMOS, DiffusersConfig(), "cuda", int(4 * GB))
     assert (placed.quantize, placed.offload) == ("none", "sequential")
 

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError, OutputError
-from texvent.generate.videos.cache import VideoCache, content_key, made_folder
-from texvent.generate.videos.check import measure_clip
+from texvent.generate.videos.failure_filter import measure_video
 from texvent.generate.videos.stored_video import open_stored, to_16_bits, write_video
+from texvent.generate.videos.video_cache import VideoCache, content_key, made_folder
 
 FPS = Fraction(30_000, 1001)
 
@@ -145,4 +145,4 @@ def test_a_cache_folder_that_cannot_be_made_is_named(tmp_path, monkeypatch):
 def test_the_measures_of_the_filter_are_taken_while_writing_and_kept(cache):
     cache.store("abc", noise(), FPS, {})
     found = cache.find("abc", FPS)
-    assert found.metadata["measures"] == measure_clip(found)
+    assert found.metadata["measures"] == measure_video(found)

@@ -21,19 +21,19 @@ from texvent.errors import (  # noqa: E402
     InputError,
     MissingDependencyError,
 )
+from texvent.generate.diffusers_models.device_placement import Placement  # noqa: E402
 from texvent.generate.diffusers_models.pipeline_call import check_options  # noqa: E402
 from texvent.generate.diffusers_models.pipeline_loading import (  # noqa: E402
     LoadRequest,
     load_pipeline,
     place_pipeline,
 )
-from texvent.generate.diffusers_models.placement import Placement  # noqa: E402
 from texvent.generate.models.loading import quiet_libraries  # noqa: E402
 from texvent.generate.video_config import DiffusersConfig  # noqa: E402
-from texvent.generate.videos.agreement import measure_agreement  # noqa: E402
+from texvent.generate.videos.clip_score import measure_clip_score  # noqa: E402
 
-from . import tiny_pipelines  # noqa: E402
-from .tiny_models import PROMPT, build  # noqa: E402
+from .. import tiny_pipelines  # noqa: E402
+from ..tiny_models import PROMPT, build  # noqa: E402
 
 
 def change_weights(folder, change):
@@ -85,7 +85,7 @@ def test_a_model_of_transformers_that_lacks_weights_is_refused(models, tmp_path)
     change_weights(folder, lambda tensors: tensors.pop("text_projection.weight"))
     video = build(models("wan")).generate(PROMPT)
     with pytest.raises(FileFormatError, match=r"a CLIP model: .*lacks text_projection\.weight"):
-        measure_agreement(video, PROMPT, folder)
+        measure_clip_score(video, PROMPT, folder)
 
 
 def test_a_decoder_of_another_family_is_refused(models):

@@ -7,30 +7,30 @@ import hashlib
 from collections.abc import Callable
 
 from texvent.errors import TexventError
-from texvent.generate.protocol import Watch
+from texvent.generate.protocol import NoProgress, Progress
 from texvent.generate.video_config import GeneratedVideoConfig
-from texvent.generate.videos.agreement import check_clip_folder, measure_agreement
-from texvent.generate.videos.cache import MEASURES
-from texvent.generate.videos.check import ClipReport, check_clip, judge_measures
+from texvent.generate.videos.clip_score import check_clip_folder, measure_clip_score
+from texvent.generate.videos.failure_filter import FailureReport, check_video, judge_measures
 from texvent.generate.videos.stored_video import StoredVideo
+from texvent.generate.videos.video_cache import MEASURES
 
 
 def generate_checked(
-    make: Callable[[int], StoredVideo],
+    make: Callable[[int, Progress], StoredVideo],
     config: GeneratedVideoConfig,
     *,
     prompt: str,
     seed: int,
-    watch: Watch,
+    progress: Progress | None,
 ) -> StoredVideo:
     """A video that passes the failure filter, or what `on_failure` says instead.
 
     Args:
-        make: seed → video.
+        make: (seed, progress) → video.
         config: what to do about a failed video, and how often to try again.
         prompt: what the video should show.
         seed: the first seed; the others follow from it.
-        watch: told what is wrong.
+        progress: receives what is wrong.
 
     Returns:
         The video, with the filter's findings in its metadata.
@@ -39,38 +39,39 @@ def generate_checked(
         InputError: there is no CLIP model where `agreement_model` says; nothing was generated.
         TexventError: the video failed and `on_failure` is "reject", or every seed failed.
     """
+    progress = progress or NoProgress()
     if config.on_failure == "ignore":
-        return make(seed)
+        return make(seed, progress)
     if config.agreement_model is not None:
         check_clip_folder(config.agreement_model)
     tries = config.retries + 1 if config.on_failure == "retry" else 1
     for attempt in range(tries):
         attempt_seed = nth_seed(seed, attempt)
-        video = make(attempt_seed)
+        video = make(attempt_seed, progress)
         report = _judge(video, prompt, config)
         if report.is_fine or config.on_failure == "warn":
             if not report.is_fine:
-                watch.announce(f"warning: the generated video looks failed: {report.summary}")
+                progress.announce(f"warning: the generated video looks failed: {report.summary}")
             return _with_findings(video, report)
-        watch.announce(f"seed {attempt_seed} is refused: {report.summary}")
+        progress.announce(f"seed {attempt_seed} is refused: {report.summary}")
     raise TexventError(_refusal(report, tries))
 
 
-def _judge(video: StoredVideo, prompt: str, config: GeneratedVideoConfig) -> ClipReport:
+def _judge(video: StoredVideo, prompt: str, config: GeneratedVideoConfig) -> FailureReport:
     """What is wrong with the video itself, and whether it shows the prompt."""
     measures = video.metadata.get(MEASURES)
-    report = check_clip(video) if measures is None else judge_measures(dict(measures))
+    report = check_video(video) if measures is None else judge_measures(dict(measures))
     if config.agreement_model is None:
         return report
-    score = measure_agreement(video, prompt, config.agreement_model)
+    score = measure_clip_score(video, prompt, config.agreement_model)
     low = config.min_agreement is not None and score < config.min_agreement
-    return ClipReport(
+    return FailureReport(
         problems=(*report.problems, *((f"agreement {score:.3f}",) if low else ())),
         measures={**report.measures, "agreement": score},
     )
 
 
-def _with_findings(video: StoredVideo, report: ClipReport) -> StoredVideo:
+def _with_findings(video: StoredVideo, report: FailureReport) -> StoredVideo:
     """The video with the findings in place of the bare measures."""
     facts = {name: fact for name, fact in video.metadata.items() if name != MEASURES}
     return dataclasses.replace(video, metadata={**facts, "check": report.as_facts()})
@@ -91,7 +92,7 @@ def nth_seed(seed: int, attempt: int) -> int:
     return int.from_bytes(digest[:4], "big") >> 1
 
 
-def _refusal(report: ClipReport, tries: int) -> str:
+def _refusal(report: FailureReport, tries: int) -> str:
     seeds = "the video" if tries == 1 else f"all {tries} videos, each of another seed,"
     return (
         f"{seeds} failed the check of generated videos: {report.summary}. Reword the prompt, try "

@@ -44,7 +44,7 @@ NOISE_CORRELATION = 0.4
 
 
 @dataclass(frozen=True)
-class ClipReport:
+class FailureReport:
     """What the checks found."""
 
     problems: tuple[str, ...]
@@ -67,17 +67,17 @@ class ClipReport:
         return {"problems": list(self.problems), **rounded}
 
 
-def check_clip(frames: Iterable[Frame]) -> ClipReport:
+def check_video(frames: Iterable[Frame]) -> FailureReport:
     """Look through a clip once.
 
     Args:
         frames: a video; at least two frames, else it has no motion.
     """
-    return judge_measures(measure_clip(frames))
+    return judge_measures(measure_video(frames))
 
 
-def judge_measures(measures: dict[str, float]) -> ClipReport:
-    """The problems that the numbers of `ClipMeasurer` amount to."""
+def judge_measures(measures: dict[str, float]) -> FailureReport:
+    """The problems that the numbers of `VideoMeasurer` amount to."""
     found = {
         "frozen": measures["still_share"] > FROZEN_SHARE,
         "no motion": measures["motion"] < MOTION_LEVELS,
@@ -88,18 +88,18 @@ def judge_measures(measures: dict[str, float]) -> ClipReport:
         "saturated": measures["dark_end"] > BRIGHT_LEVEL,
         "noise": measures["correlation"] < NOISE_CORRELATION,
     }
-    return ClipReport(tuple(name for name, is_found in found.items() if is_found), measures)
+    return FailureReport(tuple(name for name, is_found in found.items() if is_found), measures)
 
 
-def measure_clip(frames: Iterable[Frame]) -> dict[str, float]:
-    """The numbers behind the checks; see `ClipMeasurer.measures`."""
-    measurer = ClipMeasurer()
+def measure_video(frames: Iterable[Frame]) -> dict[str, float]:
+    """The numbers behind the checks; see `VideoMeasurer.measures`."""
+    measurer = VideoMeasurer()
     for frame in frames:
         measurer.add(frame)
     return measurer.measures()
 
 
-class ClipMeasurer:
+class VideoMeasurer:
     """Takes the measures of a clip while its frames pass by; keeps block means only."""
 
     def __init__(self) -> None:

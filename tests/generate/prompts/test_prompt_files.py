@@ -3,7 +3,7 @@
 import pytest
 
 from texvent.errors import FileFormatError, InputError
-from texvent.generate.prompts.files import PromptLine, read_prompts
+from texvent.generate.prompts.prompt_files import PromptLine, read_prompts
 
 
 def written(tmp_path, name, text):

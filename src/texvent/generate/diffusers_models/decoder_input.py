@@ -14,7 +14,7 @@ from typing import Any
 from texvent._require import require
 
 EXTRA = "generate"
-TAPPED_PIPELINES = frozenset(
+SINGLE_DECODE_PIPELINES = frozenset(
     {
         "AnyFlowPipeline",
         "CogVideoXImageToVideoPipeline",
@@ -34,11 +34,11 @@ TAPPED_PIPELINES = frozenset(
 
 
 @contextlib.contextmanager
-def tap_decoder(pipe: Any) -> Iterator[list[tuple[Any, ...]]]:
+def capture_decoder_input(pipe: Any) -> Iterator[list[tuple[Any, ...]]]:
     """Inside, `pipe` denoises and does not decode.
 
     Args:
-        pipe: one of `TAPPED_PIPELINES`.
+        pipe: one of `SINGLE_DECODE_PIPELINES`.
 
     Yields:
         A list that receives the arguments of the decoder: latents [1, C, T, h, w], and what else

@@ -15,12 +15,12 @@ from PIL import Image  # noqa: E402
 
 from texvent.cli.app import main  # noqa: E402
 from texvent.errors import FileFormatError, InputError, TexventError  # noqa: E402
-from texvent.generate.prompts.caption import Captioner, find_pictures  # noqa: E402
-from texvent.generate.prompts.files import read_prompts  # noqa: E402
+from texvent.generate.prompts.caption import Captioner, find_images  # noqa: E402
+from texvent.generate.prompts.prompt_files import read_prompts  # noqa: E402
 from texvent.generate.prompts.upsample import upsample_prompt  # noqa: E402
 from texvent.generate.prompts.upsample_config import UpsampleConfig  # noqa: E402
 
-from . import tiny_pipelines  # noqa: E402
+from .. import tiny_pipelines  # noqa: E402
 
 TEMPLATE = (
     "{% for m in messages %}ASK: {% for c in m['content'] %}"
@@ -47,7 +47,7 @@ def pictures(tmp_path):
 
 def test_a_caption_repeats_and_follows_the_picture_and_the_instruction(model, pictures):
     captioner = Captioner(str(model), device="cpu")
-    first, second = (captioner.caption(one, longest=12) for one in find_pictures(pictures))
+    first, second = (captioner.caption(one, longest=12) for one in find_images(pictures))
     assert first
     assert captioner.caption(pictures / "p1.png", longest=12) == first
     other = captioner.caption(pictures / "p1.png", longest=12, instruction="Name the colours.")
@@ -103,7 +103,7 @@ def test_mistakes_are_named(model, pictures, tmp_path, capsys):
     with pytest.raises(TexventError, match="hf download someone/model"):
         Captioner("hub:someone/model")
     with pytest.raises(InputError, match="there is no picture at"):
-        find_pictures(tmp_path / "none")
+        find_images(tmp_path / "none")
     captioner = Captioner(str(model), device="cpu")
     with pytest.raises(InputError, match="cannot be read as a picture"):
         captioner.caption(pictures / "notes.txt")

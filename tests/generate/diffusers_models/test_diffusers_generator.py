@@ -36,15 +36,15 @@ from texvent.generate.diffusers_models import guardrail, model_run, pipeline_loa
 from texvent.generate.diffusers_models.pipeline_loading import (  # noqa: E402
     forget_pipeline,
 )
-from texvent.generate.models.table import MODELS  # noqa: E402
-from texvent.generate.videos.agreement import measure_agreement  # noqa: E402
-from texvent.generate.videos.cache import made_folder  # noqa: E402
+from texvent.generate.models.known_models import MODELS  # noqa: E402
+from texvent.generate.videos.clip_score import measure_clip_score  # noqa: E402
 from texvent.generate.videos.stored_video import write_video  # noqa: E402
+from texvent.generate.videos.video_cache import made_folder  # noqa: E402
 from texvent.pipeline import text_to_events  # noqa: E402
 from texvent.settings import resolve  # noqa: E402
 
-from . import tiny_pipelines  # noqa: E402
-from .tiny_models import OPTIONS, PROMPT, build, pixels  # noqa: E402
+from .. import tiny_pipelines  # noqa: E402
+from ..tiny_models import OPTIONS, PROMPT, build, pixels  # noqa: E402
 
 ALL = tuple(tiny_pipelines.BUILDERS)
 
@@ -66,7 +66,9 @@ class Watcher:
 def test_prompt_to_events_and_a_second_run_does_not_call_the_pipeline(name, models, monkeypatch):
     options = {**OPTIONS, "generator": str(models(name)), "seed": 3, "interpolate": "blend"}
     watcher = Watcher()
-    events = text_to_events(PROMPT, resolve("generate", options), watch=watcher).packets.collect()
+    events = text_to_events(
+        PROMPT, resolve("generate", options), progress=watcher
+    ).packets.collect()
     assert watcher.steps == [("denoise", 1, 2), ("denoise", 2, 2)]
     source = events.metadata["source"]
     assert source["prompt"] == PROMPT
@@ -116,7 +118,7 @@ def test_a_seed_repeats_and_another_seed_prompt_or_negative_prompt_differs(name,
 )
 def test_the_real_frame_count_is_used_and_reported(name, asked, made, models):
     watcher = Watcher()
-    video = build(models(name), frames=asked).generate(PROMPT, watch=watcher)
+    video = build(models(name), frames=asked).generate(PROMPT, progress=watcher)
     assert video.frame_count == len(list(video)) == made
     is_told = any(f"made {made} frames, not {asked}" in line for line in watcher.lines)
     assert is_told == (made != asked)
@@ -126,7 +128,7 @@ def test_the_real_frame_count_is_used_and_reported(name, asked, made, models):
 def test_cancelling_between_steps_leaves_nothing_and_the_next_run_works(name, models, model_cache):
     generator = build(models(name))
     with pytest.raises(KeyboardInterrupt):
-        generator.generate(PROMPT, watch=Watcher(stop_at=1))
+        generator.generate(PROMPT, progress=Watcher(stop_at=1))
     assert list((model_cache / "videos").glob("*")) == []
     assert generator.generate(PROMPT).frame_count >= 5
 
@@ -152,7 +154,7 @@ def test_a_batch_of_new_and_known_prompts_loads_its_model_once(models, monkeypat
     )
     watcher = Watcher()
     for prompt, seed in ((PROMPT, 3), (PROMPT, 4), ("a blue dog", 3), (PROMPT, 5)):
-        build(models("wan"), seed=seed).generate(prompt, watch=watcher)
+        build(models("wan"), seed=seed).generate(prompt, progress=watcher)
     assert len(loaded) == 1
     assert [line.split()[0] for line in watcher.lines] == ["loading"]
 
@@ -197,7 +199,7 @@ def test_a_picture_starts_the_video_where_the_pipeline_can(models, tmp_path):
     )
     watcher = Watcher()
     with pytest.raises(ConfigError, match="starts from text alone"):
-        build(models("wan"), image=tmp_path / "start.png").generate(PROMPT, watch=watcher)
+        build(models("wan"), image=tmp_path / "start.png").generate(PROMPT, progress=watcher)
     assert watcher.lines == [], "refused before anything was loaded"
     with pytest.raises(InputError, match="there is no picture"):
         build(models("cosmos25"), image=tmp_path / "none.png").generate(PROMPT)
@@ -241,7 +243,7 @@ def test_the_guardrail_sees_the_prompt_and_every_frame(models):
 def test_an_error_inside_the_guardrail_counts_as_a_refusal(models):
     watcher = Watcher()
     with pytest.raises(TexventError, match="guardrail failed"):
-        build(models("cosmos")).generate("break it", watch=watcher)
+        build(models("cosmos")).generate("break it", progress=watcher)
     assert watcher.steps == []
 
 
@@ -277,11 +279,11 @@ def test_a_failed_video_is_refused_or_tried_again_with_other_seeds(name, models)
     """Random weights give noise that stands still: exactly what the filter is for."""
     watcher = Watcher()
     with pytest.raises(TexventError, match="all 3 videos"):
-        build(models(name), on_failure="retry", retries=2).generate(PROMPT, watch=watcher)
+        build(models(name), on_failure="retry", retries=2).generate(PROMPT, progress=watcher)
     assert len({line for line in watcher.lines if "is refused" in line}) == 3
     with pytest.raises(TexventError, match="the video failed the check"):
         build(models(name), on_failure="reject").generate(PROMPT)
-    warned = build(models(name), on_failure="warn").generate(PROMPT, watch=watcher)
+    warned = build(models(name), on_failure="warn").generate(PROMPT, progress=watcher)
     assert warned.metadata["check"]["problems"]
     assert "looks failed" in watcher.lines[-1]
 
@@ -302,11 +304,11 @@ def test_offline_the_missing_file_and_its_place_are_named_after_the_licence(caps
     part = GENERATORS.load("wan-1.3b")
     generator = part(part.config_type(), seed=0, size=None)
     with pytest.raises(TexventError, match=r"model_index.json and .*put them into") as caught:
-        generator.generate(PROMPT, watch=watcher)
+        generator.generate(PROMPT, progress=watcher)
     assert "--generator ./FOLDER" in str(caught.value)
     assert "licence: Apache-2.0 (from general knowledge" in watcher.lines[0]
     with pytest.raises(TexventError):
-        build("hub:org/name").generate(PROMPT, watch=watcher)
+        build("hub:org/name").generate(PROMPT, progress=watcher)
     assert watcher.lines[1].endswith("licence: not known to texvent; read the model's page")
     assert "stacktrace" not in str(caught.value)
     assert capsys.readouterr() == ("", "")
@@ -325,12 +327,12 @@ def test_the_agreement_of_video_and_prompt_is_measured_and_can_refuse(models, tm
     video = build(models("wan"), on_failure="warn", agreement_model=folder).generate(PROMPT)
     score = video.metadata["check"]["agreement"]
     assert -1 < score < 1
-    assert score != measure_agreement(video, "a house by the sea", folder)
+    assert score != measure_clip_score(video, "a house by the sea", folder)
     strict = {"agreement_model": folder, "min_agreement": 0.99, "on_failure": "reject"}
     with pytest.raises(TexventError, match=r"agreement -?0\.\d+"):
         build(models("wan"), **strict).generate(PROMPT)
     with pytest.raises(InputError, match="no CLIP model"):
-        measure_agreement(video, PROMPT, tmp_path / "none")
+        measure_clip_score(video, PROMPT, tmp_path / "none")
     with pytest.raises(ConfigError, match="no agreement_model"):
         build(models("wan"), min_agreement=0.2)
 
@@ -349,7 +351,7 @@ def test_agreement_equals_the_library_on_a_frame_of_the_models_own_size(tmp_path
     with torch.no_grad():
         expected = model(**words, pixel_values=torch.from_numpy(normalised)).logits_per_text
     scale = model.logit_scale.exp().item()
-    measured = measure_agreement(video, PROMPT, folder)
+    measured = measure_clip_score(video, PROMPT, folder)
     assert measured == pytest.approx(expected.mean().item() / scale, abs=1e-4)
 
 

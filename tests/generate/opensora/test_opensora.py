@@ -102,14 +102,14 @@ class Told:
 
 def test_a_prompt_becomes_the_frames_of_its_mp4_and_is_kept(root):
     told = Told()
-    video = build().generate(PROMPT, watch=told)
+    video = build().generate(PROMPT, progress=told)
     assert (video.fps, video.size, video.frame_count) == (24, (96, 64), 9)
     assert len(list(video)) == 9
     assert video.metadata["prompt"] == PROMPT
     assert video.metadata["check"]["problems"] == []
     assert told.lines == ["running Open-Sora (256px, 50 steps)"]
     (root / ".venv/bin/torchrun").unlink()
-    again = build().generate(PROMPT, watch=told)
+    again = build().generate(PROMPT, progress=told)
     assert again.path == video.path
     assert "generated before" in told.lines[-1]
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 
 from texvent.errors import ConfigError
-from texvent.generate.models.table import VideoModel
+from texvent.generate.models.known_models import VideoModel
 from texvent.generate.video_config import DiffusersConfig
 
 GB = 1e9

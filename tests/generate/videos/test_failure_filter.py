@@ -12,13 +12,13 @@ from texvent.config import CaptureConfig
 from texvent.errors import InputError, TexventError
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.generate.video_config import GeneratedVideoConfig
-from texvent.generate.videos.attempts import generate_checked, nth_seed
-from texvent.generate.videos.check import block_means, check_clip, neighbour_correlation
+from texvent.generate.videos.failure_filter import block_means, check_video, neighbour_correlation
+from texvent.generate.videos.retries import generate_checked, nth_seed
 from texvent.generate.videos.stored_video import write_video
 from texvent.sensor import SensorSize
 from texvent.video import Frame
 
-CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
+CLIP = Path(__file__).parents[2] / "clips" / "bigbuckbunny_excerpt.mp4"
 RNG = np.random.default_rng(0)
 
 
@@ -36,17 +36,17 @@ def clip():
 
 
 def problems(pictures) -> set[str]:
-    return set(check_clip(frames(pictures)).problems)
+    return set(check_video(frames(pictures)).problems)
 
 
 def test_a_moving_picture_is_fine(clip):
-    report = check_clip(frames(clip))
+    report = check_video(frames(clip))
     assert report.is_fine, report
     assert report.summary == "nothing found"
 
 
 def test_a_real_clip_is_fine():
-    assert check_clip(open_frames(CLIP, CaptureConfig())).problems == ()
+    assert check_video(open_frames(CLIP, CaptureConfig())).problems == ()
 
 
 @pytest.mark.parametrize(
@@ -55,7 +55,7 @@ def test_a_real_clip_is_fine():
 def test_embedded_scenes_are_fine(prompt):
     config = ProceduralConfig(duration=0.5, samples=1)
     video = ProceduralGenerator(config, seed=1, size=SensorSize(86, 65)).generate(prompt)
-    assert check_clip(video).problems == ()
+    assert check_video(video).problems == ()
 
 
 def test_one_picture_all_the_time_is_frozen(clip):
@@ -113,7 +113,7 @@ def test_block_means_and_correlation_by_hand():
 
 
 def test_the_report_goes_into_metadata_as_plain_values(clip):
-    facts = check_clip(frames([clip[0]] * 3)).as_facts()
+    facts = check_video(frames([clip[0]] * 3)).as_facts()
     assert facts["problems"] == ["frozen", "no motion"]
     assert all(isinstance(value, float) for name, value in facts.items() if name != "problems")
 
@@ -131,7 +131,7 @@ def make(tmp_path, clip):
     """Seed 0 and its first successor freeze; every other seed moves."""
     asked = []
 
-    def make_video(seed):
+    def make_video(seed, progress):
         asked.append(seed)
         is_bad = seed in (0, nth_seed(0, 1))
         luma = np.stack([clip[0]] * 8) if is_bad else clip[:8]
@@ -151,7 +151,7 @@ def make(tmp_path, clip):
 def test_retrying_takes_the_first_seed_that_passes(make):
     told = Told()
     config = GeneratedVideoConfig(on_failure="retry", retries=3)
-    video = generate_checked(make, config, prompt="a pan", seed=0, watch=told)
+    video = generate_checked(make, config, prompt="a pan", seed=0, progress=told)
     assert make.asked == [0, nth_seed(0, 1), nth_seed(0, 2)]
     assert video.metadata["seed"] == nth_seed(0, 2)
     assert video.metadata["check"]["problems"] == []
@@ -161,28 +161,28 @@ def test_retrying_takes_the_first_seed_that_passes(make):
 def test_a_missing_clip_model_is_named_before_anything_is_generated(make, tmp_path):
     config = GeneratedVideoConfig(agreement_model=tmp_path / "none")
     with pytest.raises(InputError, match=r"there is no CLIP model in .*none"):
-        generate_checked(make, config, prompt="a pan", seed=0, watch=Told())
+        generate_checked(make, config, prompt="a pan", seed=0, progress=Told())
     assert make.asked == []
 
 
 def test_retrying_gives_up_after_the_last_seed(make):
     config = GeneratedVideoConfig(on_failure="retry", retries=1)
     with pytest.raises(TexventError, match="all 2 videos, each of another seed, failed"):
-        generate_checked(make, config, prompt="a pan", seed=0, watch=Told())
+        generate_checked(make, config, prompt="a pan", seed=0, progress=Told())
 
 
 def test_rejecting_warning_and_ignoring(make):
     told = Told()
     with pytest.raises(TexventError, match=r"failed the check .*frozen, no motion"):
         generate_checked(
-            make, GeneratedVideoConfig(on_failure="reject"), prompt="a pan", seed=0, watch=told
+            make, GeneratedVideoConfig(on_failure="reject"), prompt="a pan", seed=0, progress=told
         )
     warned = generate_checked(
-        make, GeneratedVideoConfig(on_failure="warn"), prompt="a pan", seed=0, watch=told
+        make, GeneratedVideoConfig(on_failure="warn"), prompt="a pan", seed=0, progress=told
     )
     assert warned.metadata["check"]["problems"] == ["frozen", "no motion"]
     assert told.lines[-1] == "warning: the generated video looks failed: frozen, no motion"
     ignored = generate_checked(
-        make, GeneratedVideoConfig(on_failure="ignore"), prompt="a pan", seed=0, watch=told
+        make, GeneratedVideoConfig(on_failure="ignore"), prompt="a pan", seed=0, progress=told
     )
     assert "check" not in ignored.metadata
