@@ -22,7 +22,7 @@ import texvent
 from texvent._registry import REPRESENTATIONS
 from texvent._require import require
 from texvent.events import EventStream
-from texvent.represent.arrays import Events
+from texvent.represent.array_ops import Events
 from texvent.represent.named import represent
 from texvent.represent.tensors import EventTensors
 from texvent.sensor import SensorSize

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from texvent.capture.levels import usable_pixels
+from texvent.capture.intensity_scale import usable_pixels
 from texvent.capture.times import FrameTimes, listed_times
 from texvent.errors import FileFormatError
 from texvent.io.arrays.npy_file import map_array

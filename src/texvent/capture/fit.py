@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.capture.levels import float_levels
+from texvent.capture.intensity_scale import float_levels
 from texvent.sensor import SensorSize
 from texvent.video import PixelArray
 

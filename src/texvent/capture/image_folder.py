@@ -11,7 +11,7 @@ from typing import Any
 import cv2
 import numpy as np
 
-from texvent.capture.levels import usable_pixels
+from texvent.capture.intensity_scale import usable_pixels
 from texvent.capture.times import FrameTimes
 from texvent.capture.timestamps import Timestamps, read_timestamps
 from texvent.errors import FileFormatError, InputError

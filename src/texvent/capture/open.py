@@ -13,7 +13,7 @@ import numpy as np
 
 from texvent._registry import load_object
 from texvent.capture.aedat4_frames import Aedat4Frames, is_aedat4
-from texvent.capture.arrays import ArrayFrames
+from texvent.capture.array_frames import ArrayFrames
 from texvent.capture.dsec_layout import is_dsec
 from texvent.capture.evreal_frames import EvrealFrames, is_evreal
 from texvent.capture.prepare import PreparedFrames

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from texvent._registry import load_object
-from texvent.capture.levels import refuse_unit_range, scale_to_levels
+from texvent.capture.intensity_scale import refuse_unit_range, scale_to_levels
 from texvent.config import CaptureConfig
 from texvent.errors import InputError
 from texvent.sensor import SensorSize

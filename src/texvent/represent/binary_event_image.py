@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from texvent.represent.arrays import Array, Events, columns_of
+from texvent.represent.array_ops import Array, Events, columns_of
 from texvent.sensor import checked_size
 
 

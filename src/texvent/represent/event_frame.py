@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from texvent._registry import suggest
 from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.represent.arrays import Array, Events, columns_of
+from texvent.represent.array_ops import Array, Events, columns_of
 
 EventFrameKind = Literal["signed", "binary", "count", "polarity"]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from texvent.config import check_range
 from texvent.errors import InputError
-from texvent.represent.arrays import Array, Axis, Columns, Events, columns_of
+from texvent.represent.array_ops import Array, Axis, Columns, Events, columns_of
 from texvent.represent.voxel_grid import MAX_BINS
 
 

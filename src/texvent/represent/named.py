@@ -8,7 +8,7 @@ from typing import Any
 
 from texvent._registry import REPRESENTATIONS, suggest
 from texvent.errors import ConfigError
-from texvent.represent.arrays import Array, Events
+from texvent.represent.array_ops import Array, Events
 from texvent.represent.tensors import put_events
 
 

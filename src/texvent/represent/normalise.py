@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from texvent.represent.arrays import Array, ArrayOps
+from texvent.represent.array_ops import Array, ArrayOps
 
 
 def normalise_nonzero(grid: Array, ops: ArrayOps) -> Array:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from texvent.config import check_range
-from texvent.represent.arrays import Array, Events, columns_of
+from texvent.represent.array_ops import Array, Events, columns_of
 from texvent.represent.voxel_grid import MAX_BINS
 
 

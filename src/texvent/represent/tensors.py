@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from texvent._require import require
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.represent.arrays import Columns, DType, Events
+from texvent.represent.array_ops import Columns, DType, Events
 from texvent.sensor import SensorSize
 
 Tensor: TypeAlias = Any

@@ -7,7 +7,7 @@ from typing import Literal, get_args
 from texvent._registry import suggest
 from texvent.config import check_range
 from texvent.errors import ConfigError
-from texvent.represent.arrays import Array, Events, columns_of, flat_index
+from texvent.represent.array_ops import Array, Events, columns_of, flat_index
 
 Decay = Literal["exponential", "linear"]
 MAX_TAU_US = 10**12

@@ -23,7 +23,15 @@ from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.errors import InputError
-from texvent.represent.arrays import Array, Axis, Columns, Events, columns_of, flat_index, sides_of
+from texvent.represent.array_ops import (
+    Array,
+    Axis,
+    Columns,
+    Events,
+    columns_of,
+    flat_index,
+    sides_of,
+)
 from texvent.represent.normalise import normalise_nonzero
 
 MAX_BINS = 4096

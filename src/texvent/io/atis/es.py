@@ -52,7 +52,7 @@ OVERFLOW_US = 127
 KERNELS = "texvent.io.atis.es_kernels"
 
 
-class EventStreamCodec:
+class EsCodec:
     """Event Stream files of change-detection events."""
 
     name: ClassVar[str] = "es"
@@ -81,12 +81,10 @@ class EventStreamCodec:
     ) -> BlockWriter:
         """Start a file; see `EventCodec.open_writer`."""
         target = FileTarget(path, size, metadata, overwrite)
-        return BlockWriter(
-            target, partial(EventStreamSink, size=size), limits=self.limits, sidecar=True
-        )
+        return BlockWriter(target, partial(EsSink, size=size), limits=self.limits, sidecar=True)
 
 
-class EventStreamSink:
+class EsSink:
     """Writes the header and events."""
 
     def __init__(self, part: Path, stack: ExitStack, *, size: SensorSize) -> None:

@@ -43,7 +43,7 @@ OVERFLOW_US = 8192
 STOP_US = 1 << 23
 
 
-class AtisCodec:
+class NMnistCodec:
     """N-Caltech101 and N-MNIST files."""
 
     name: ClassVar[str] = "atis"

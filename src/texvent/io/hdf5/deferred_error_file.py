@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from _typeshed import ReadableBuffer, WriteableBuffer
 
 
-class PatientFile(io.RawIOBase):
+class DeferredErrorFile(io.RawIOBase):
     """Reads and writes an existing file at a position; writes never fail.
 
     After a failure nothing more is written, and parts that are missing read as zeros.

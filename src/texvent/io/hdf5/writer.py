@@ -15,7 +15,7 @@ from texvent.errors import InputError, OutputError
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, check_output
 from texvent.io.columns import metadata_to_json
-from texvent.io.hdf5.deferred_error_file import PatientFile
+from texvent.io.hdf5.deferred_error_file import DeferredErrorFile
 from texvent.runtime.interrupts import delay_interrupts
 from texvent.sensor import SensorSize
 
@@ -54,7 +54,7 @@ class BatchedHdf5Writer(ABC):
     def __enter__(self) -> Self:
         with delay_interrupts(), ExitStack() as stack:
             part = stack.enter_context(atomic_file(self._path, overwrite=self._overwrite))
-            self._disk = stack.enter_context(PatientFile(part))
+            self._disk = stack.enter_context(DeferredErrorFile(part))
             # v110: object headers and chunk indexes then carry checksums.
             self._file = h5py.File(self._disk, "w", libver=("v110", "v110"))
             stack.callback(self._file.close)

@@ -23,7 +23,7 @@ from texvent.events import EventPackets
 from texvent.io.columns import existing_file, stored_or_given_size
 from texvent.io.limits import FormatLimits
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header
-from texvent.io.prophesee.word_stream import Columns, WordPackets, WordWriter
+from texvent.io.prophesee.word_coding import Columns, WordPackets, WordWriter
 from texvent.sensor import SensorSize
 
 EVENT_TYPES = (0x0C, 0x00)

@@ -10,7 +10,7 @@
 OpenEB reads every root attribute as ASCII text of variable length and fails on any other kind;
 how the events were made is therefore an attribute of /CD: `texvent` as JSON, `width`, `height`.
 Those are stored in checksummed headers, as in `texvent.io.hdf5.native`. Chunks are coded by texvent
-(`io.prophesee.ecf`) and passed by HDF5 as they are, so no HDF5 filter needs to be installed.
+(`io.prophesee.ecf_chunks`) and passed by HDF5 as they are, so no HDF5 filter needs to be installed.
 
 Coordinates below 2048; at most 9.5 hours from the first event to the last, because the index
 grows with the duration: 8 kB per second.
@@ -40,7 +40,7 @@ from texvent.io.columns import (
 from texvent.io.hdf5.damage import check_claims, reporting_damage
 from texvent.io.hdf5.writer import BatchedHdf5Writer
 from texvent.io.limits import FormatLimits
-from texvent.io.prophesee import ecf
+from texvent.io.prophesee import ecf_chunks
 from texvent.io.prophesee.ecf_dataset import ECF_FILTER, check_storage, read_columns, whole_chunks
 from texvent.io.prophesee.ecf_index import ENTRY, TimeIndex
 from texvent.sensor import SensorSize
@@ -74,7 +74,7 @@ class PropheseeHdf5Codec:
     name: ClassVar[str] = "prophesee-hdf5"
     extensions: ClassVar[tuple[str, ...]] = (".hdf5", ".h5")
     limits: ClassVar[FormatLimits] = FormatLimits(
-        "Prophesee HDF5", ecf.MAX_SIDE, ecf.MAX_START_US, MAX_SPAN_US
+        "Prophesee HDF5", ecf_chunks.MAX_SIDE, ecf_chunks.MAX_START_US, MAX_SPAN_US
     )
 
     def recognises(self, path: Path) -> bool:
@@ -173,7 +173,7 @@ class PropheseeHdf5Writer(BatchedHdf5Writer):
         columns = events.columns()
         for start in range(0, count, CHUNK_EVENTS):
             piece = slice(start, min(start + CHUNK_EVENTS, count))
-            chunk = ecf.encode_chunk({name: columns[name][piece] for name in "xytp"})
+            chunk = ecf_chunks.encode_chunk({name: columns[name][piece] for name in "xytp"})
             dataset.id.write_direct_chunk((self._written + start,), chunk)
         for entries in self._index.add(events.t[:count]):
             self._extend("CD/indexes", entries)

@@ -1,4 +1,4 @@
-"""Bodies of ECF chunks ↔ events; the layout is described in `texvent.io.prophesee.ecf`.
+"""Bodies of ECF chunks ↔ events; the layout is described in `texvent.io.prophesee.ecf_chunks`.
 
 Decoders return how many bytes they used, or −1 where the body is damaged. They never read beyond
 the body nor write beyond the columns, whatever the bytes say.

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from texvent.io.limits import FormatLimits
 from texvent.io.prophesee.evt import INTEGRATOR, MAX_SIDE, EvtCodec
 from texvent.io.prophesee.text_header import TextHeader
-from texvent.io.prophesee.word_stream import Columns, KernelDecoder
+from texvent.io.prophesee.word_coding import Columns, KernelDecoder
 
 LEGACY = "legacy"
 FIRST_LITTLE_SYSTEM = 0x37

@@ -31,7 +31,7 @@ from texvent.events import EventPackets
 from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
 from texvent.io.columns import existing_file, stored_or_given_size
 from texvent.io.limits import FormatLimits
-from texvent.io.prophesee.word_stream import KernelDecoder, KernelEncoder
+from texvent.io.prophesee.word_coding import KernelDecoder, KernelEncoder
 from texvent.io.ros.bag_chunks import bound_chunks
 from texvent.io.ros.messages import (
     EVENT_ARRAY,

@@ -189,7 +189,7 @@ def test_a_disk_that_fills_up_leaves_nothing(
     place = {
         "dat": "texvent.io.prophesee.dat.DatEncoder.encode",
         "prophesee-hdf5": "os.pwrite",
-    }.get(format, "texvent.io.prophesee.word_stream.KernelEncoder.encode")
+    }.get(format, "texvent.io.prophesee.word_coding.KernelEncoder.encode")
     monkeypatch.setattr(place, fail)
     with pytest.raises(OutputError, match="the disk is full") as caught:
         save(tmp_path / f"e{EXTENSIONS[format]}", at_times(1, 2), format=format)

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.errors import FileFormatError
-from texvent.io.prophesee import ecf
+from texvent.io.prophesee import ecf_chunks
 
 from .ecf_bodies import Event, make_chunk
 
@@ -26,14 +26,14 @@ events_lists = st.lists(
 ).map(lambda rows: sorted(rows, key=lambda row: row[2]))
 
 
-def columns_of(events: list[Event]) -> ecf.Columns:
+def columns_of(events: list[Event]) -> ecf_chunks.Columns:
     table = np.array(events, dtype=np.int64).reshape(-1, 4)
     types = {"x": np.uint16, "y": np.uint16, "t": np.int64, "p": np.uint8}
     return {name: table[:, "xytp".index(name)].astype(types[name]) for name in "xytp"}
 
 
 def events_in(chunk: bytes) -> list[Event]:
-    columns = ecf.decode_chunk(chunk)
+    columns = ecf_chunks.decode_chunk(chunk)
     return list(zip(*(columns[name].tolist() for name in "xytp"), strict=True))
 
 
@@ -50,7 +50,7 @@ def test_a_packed_chunk_worked_out_by_hand() -> None:
         (word >> 1 & 2047, word >> 12, time, word & 1)
         for word, time in zip(words, times, strict=True)
     ]
-    assert ecf.encode_chunk(columns_of(events_in(chunk))) == chunk
+    assert ecf_chunks.encode_chunk(columns_of(events_in(chunk))) == chunk
 
 
 def test_a_masked_chunk_worked_out_by_hand() -> None:
@@ -84,7 +84,7 @@ def test_every_legal_body_is_read(kind: str, events: list[Event]) -> None:
 @settings(max_examples=60, deadline=None)
 @given(events=events_lists)
 def test_what_is_written_is_the_packed_body(events: list[Event]) -> None:
-    chunk = ecf.encode_chunk(columns_of(events))
+    chunk = ecf_chunks.encode_chunk(columns_of(events))
     assert chunk == make_chunk(events, "packed")
     assert events_in(chunk) == events
 
@@ -94,7 +94,7 @@ def test_what_is_written_is_the_packed_body(events: list[Event]) -> None:
 def test_runs_longer_than_their_nibbles_are_read(kind: str, count: int) -> None:
     events = [(8, 9, 5, 1)] * count + [(9, 10, 5 + 2**35, 0)]
     assert events_in(make_chunk(events, kind)) == events
-    assert ecf.encode_chunk(columns_of(events)) == make_chunk(events, "packed")
+    assert ecf_chunks.encode_chunk(columns_of(events)) == make_chunk(events, "packed")
 
 
 def test_bits_beyond_the_last_event_are_ignored_as_in_the_reference_filter() -> None:
@@ -115,7 +115,7 @@ def test_a_chunk_cut_anywhere_is_refused(kind: str) -> None:
     chunk = make_chunk(events, kind)
     for length in range(len(chunk)):
         with pytest.raises(FileFormatError):
-            ecf.decode_chunk(chunk[:length])
+            ecf_chunks.decode_chunk(chunk[:length])
 
 
 @pytest.mark.parametrize(
@@ -132,7 +132,7 @@ def test_a_chunk_cut_anywhere_is_refused(kind: str) -> None:
 )
 def test_absurd_numbers_are_refused(chunk: bytes) -> None:
     with pytest.raises(FileFormatError):
-        ecf.decode_chunk(chunk)
+        ecf_chunks.decode_chunk(chunk)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -143,7 +143,7 @@ def test_flipped_bytes_are_refused_or_give_some_events(kind: str, data: st.DataO
     chunk = bytearray(make_chunk(events, kind))
     for _ in range(data.draw(st.integers(1, 4))):
         chunk[data.draw(st.integers(0, len(chunk) - 1))] = data.draw(st.integers(0, 255))
-    columns: ecf.Columns = {}
+    columns: ecf_chunks.Columns = {}
     with contextlib.suppress(FileFormatError):
-        columns = ecf.decode_chunk(bytes(chunk))
+        columns = ecf_chunks.decode_chunk(bytes(chunk))
     assert len({len(column) for column in columns.values()}) <= 1

@@ -26,7 +26,7 @@ from texvent.events import EventPackets, EventStream
 from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
 from texvent.io.columns import existing_file, metadata_to_json, stored_or_given_size
 from texvent.io.hdf5.damage import check_claims, reporting_damage
-from texvent.io.hdf5.deferred_error_file import PatientFile
+from texvent.io.hdf5.deferred_error_file import DeferredErrorFile
 from texvent.io.hdf5.native import check_filters, read_metadata, stored_size, write_metadata
 from texvent.io.limits import FormatLimits
 from texvent.runtime.interrupts import delay_interrupts
@@ -103,7 +103,7 @@ class V2eSink:
     """Appends rows to the dataset."""
 
     def __init__(self, part: Path, stack: ExitStack, *, target: FileTarget) -> None:
-        self._disk = stack.enter_context(PatientFile(part))
+        self._disk = stack.enter_context(DeferredErrorFile(part))
         self._file = h5py.File(self._disk, "w", libver=("v110", "v110"))
         stack.callback(self._file.close)
         self._file.attrs["width"], self._file.attrs["height"] = target.size

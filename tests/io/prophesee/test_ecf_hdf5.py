@@ -10,13 +10,13 @@ import pytest
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.io.files import codec_for, codec_that_reads, load, open_events, save
-from texvent.io.prophesee import ecf_hdf5 as prophesee_hdf5
+from texvent.io.prophesee import ecf_hdf5
 from texvent.io.prophesee.ecf_dataset import ECF_FILTER
 from texvent.io.prophesee.ecf_hdf5 import CHUNK_EVENTS, EVENT
 
 from .ecf_bodies import make_chunk
 from .prophesee_files import SIZE, at_times, events_of, row_bursts
-from .test_prophesee_index import by_definition
+from .test_ecf_index import by_definition
 
 
 def write(path: Path, events: EventStream) -> Path:
@@ -139,7 +139,7 @@ def test_packets_end_with_whole_chunks_and_memory_stays_flat(
 ) -> None:
     events = row_bursts(4000)
     path = write(tmp_path / "e.hdf5", events)
-    monkeypatch.setattr(prophesee_hdf5, "PACKET_CHUNKS", 1)
+    monkeypatch.setattr(ecf_hdf5, "PACKET_CHUNKS", 1)
     packets = list(open_events(path))
     assert [len(packet) for packet in packets[:-1]] == [CHUNK_EVENTS] * (len(packets) - 1)
     assert EventStream.concat(packets).equals(events)
@@ -206,7 +206,7 @@ def test_a_damaged_file_is_one_clear_line(tmp_path: Path, change: str, message: 
 def test_time_that_decreases_between_packets_is_noticed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(prophesee_hdf5, "PACKET_CHUNKS", 1)
+    monkeypatch.setattr(ecf_hdf5, "PACKET_CHUNKS", 1)
     path = write(tmp_path / "e.hdf5", at_times(*[100] * (CHUNK_EVENTS + 3)))
     with h5py.File(path, "r+") as file:
         early = make_chunk([(0, 0, 99, 0)] * 3, "packed")

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from texvent.events import EventStream
 from texvent.io.files import load, open_events, save
-from texvent.io.prophesee import word_stream
-from texvent.io.prophesee.word_stream import KernelDecoder
+from texvent.io.prophesee import word_coding
+from texvent.io.prophesee.word_coding import KernelDecoder
 
 from .prophesee_files import SIZE, at_times, events_of, row_bursts, write_words
 from .slow_words import decode_evt3
@@ -59,7 +59,7 @@ def test_blocks_that_cut_a_vector_group_change_nothing(
 ) -> None:
     path = write_words(tmp_path, "evt3", BY_HAND)
     for block in (2, 4, 6):
-        monkeypatch.setattr(word_stream, "BLOCK_BYTES", block)
+        monkeypatch.setattr(word_coding, "BLOCK_BYTES", block)
         packets = list(open_events(path))
         assert len(packets) > 1
         assert events_of(EventStream.concat(packets)) == MEANING

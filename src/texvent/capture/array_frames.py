@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.capture.levels import refuse_unit_range, usable_pixels
+from texvent.capture.intensity_scale import refuse_unit_range, usable_pixels
 from texvent.capture.times import FrameTimes
 from texvent.errors import InputError
 from texvent.sensor import SensorSize, checked_size

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from texvent.io.hdf5.deferred_error_file import PatientFile
+from texvent.io.hdf5.deferred_error_file import DeferredErrorFile
 
 
 @pytest.fixture
@@ -17,7 +17,7 @@ def path(tmp_path: Path) -> Path:
 
 
 def test_it_reads_back_what_was_written_anywhere(path: Path) -> None:
-    with PatientFile(path) as file:
+    with DeferredErrorFile(path) as file:
         file.seek(4)
         assert file.write(b"abcd") == 4
         file.seek(-2, os.SEEK_END)
@@ -35,7 +35,7 @@ def test_a_failed_write_is_remembered_and_ends_writing(
     def refuse(*_: object) -> int:
         raise OSError(errno.ENOSPC, "full")
 
-    with PatientFile(path) as file:
+    with DeferredErrorFile(path) as file:
         file.write(b"ab")
         monkeypatch.setattr(os, "pwrite", refuse)
         assert file.write(b"cd") == 2

@@ -12,7 +12,7 @@ from texvent.io.files import load, save
 from texvent.io.ros import bag_chunks
 from texvent.sensor import SensorSize
 
-from .format_cases import random_events
+from ..format_cases import random_events
 
 
 @pytest.fixture(params=["BZ2", "LZ4"])
