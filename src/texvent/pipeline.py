@@ -22,8 +22,8 @@ from texvent.config import CaptureConfig, RunConfig
 from texvent.engine.planning import plan_pairs
 from texvent.engine.select import advance, check_engine
 from texvent.events import NOISE, SIGNAL, EventPackets, EventStream
-from texvent.generate.protocol import Progress
 from texvent.interpolate.densify import OnCut
+from texvent.progress import Progress
 from texvent.settings import Settings
 from texvent.simulate.protocol import Simulator
 from texvent.simulate.training import draw_training_config

@@ -21,7 +21,7 @@ from texvent.sensor import SENSORS, SensorSize
 from texvent.video import MICROSECONDS, Frame, frame_time_us
 
 if TYPE_CHECKING:
-    from texvent.generate.protocol import Progress
+    from texvent.progress import Progress
     from texvent.scenes.ground_truth import GroundTruth
     from texvent.scenes.primitives import Scene
 

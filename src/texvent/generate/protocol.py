@@ -5,29 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, ClassVar, Protocol
 
+from texvent.progress import Progress
 from texvent.video import FrameStream
-
-
-class Progress(Protocol):
-    """Receives the progress of a slow generator. Either method may raise to stop it cleanly."""
-
-    def announce(self, line: str) -> None:
-        """Receive one line to show, such as the licence before a download."""
-        ...
-
-    def advance(self, stage: str, done: int, total: int) -> None:
-        """Receive a step: `done` of `total` steps of a stage, such as "denoise"."""
-        ...
-
-
-class NoProgress:
-    """Progress that is shown nowhere."""
-
-    def announce(self, line: str) -> None:
-        """Ignore a line."""
-
-    def advance(self, stage: str, done: int, total: int) -> None:
-        """Ignore a step."""
 
 
 class Generator(Protocol):

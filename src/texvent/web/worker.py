@@ -132,7 +132,7 @@ class _JobProgress:
     def announce(self, line: str) -> None:
         self._tell(Answer(kind="progress", text=line))
 
-    def advance(self, stage: str, done: int, total: int) -> None:
+    def advance(self, stage: str, done: int, total: int | None) -> None:
         share = done / total if total else None
         self._tell(Answer(kind="progress", share=share, text=stage))
 

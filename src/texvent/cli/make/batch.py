@@ -14,8 +14,8 @@ from texvent.cli.command import resolve_command
 from texvent.cli.make.generate import detail
 from texvent.cli.options import REQUIRED
 from texvent.cli.outputs import OutputOptions
-from texvent.cli.progress import ConsoleProgress
 from texvent.cli.run import execute, print_settings
+from texvent.console_progress import ConsoleProgress
 from texvent.errors import (
     ConfigError,
     InputError,

@@ -13,8 +13,8 @@ from texvent.capture.open import open_frames
 from texvent.cli.command import resolve_command
 from texvent.cli.options import REQUIRED, peek_options
 from texvent.cli.outputs import OutputOptions
-from texvent.cli.progress import ConsoleProgress
 from texvent.cli.run import execute, print_settings
+from texvent.console_progress import ConsoleProgress
 from texvent.errors import ConfigError, InputError
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.io.atomic import check_output

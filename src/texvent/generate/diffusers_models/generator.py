@@ -22,12 +22,12 @@ from texvent.generate.diffusers_models.model_run import ModelRun
 from texvent.generate.models.download import find_downloaded
 from texvent.generate.models.known_models import VideoModel
 from texvent.generate.models.weight_files import CONFIG, check_part, fingerprint
-from texvent.generate.protocol import NoProgress, Progress
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.videos.retries import generate_checked
 from texvent.generate.videos.stored_video import StoredVideo
 from texvent.generate.videos.video_cache import VideoCache, content_key
 from texvent.option_values import plain
+from texvent.progress import NoProgress, Progress
 from texvent.video import PixelArray
 
 PIXEL_OPTIONS = (

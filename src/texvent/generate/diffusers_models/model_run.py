@@ -50,9 +50,9 @@ from texvent.generate.diffusers_models.streamed_decoding import can_stream
 from texvent.generate.models.download import ModelFiles, find_files
 from texvent.generate.models.known_models import VideoModel
 from texvent.generate.models.weight_files import fingerprint, read_pipeline_index
-from texvent.generate.protocol import Progress
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.videos.video_cache import content_key
+from texvent.progress import Progress
 from texvent.video import PixelArray
 
 PACKAGES = ("diffusers", "transformers", "torch")

@@ -10,8 +10,8 @@ from typing import Any
 
 from texvent._require import require
 from texvent.errors import ConfigError, InputError, TexventError
-from texvent.generate.protocol import Progress
 from texvent.generate.video_config import DiffusersConfig
+from texvent.progress import Progress
 
 EXTRA = "generate"
 ARGUMENTS: Mapping[str, tuple[str, ...]] = {

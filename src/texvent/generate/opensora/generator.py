@@ -21,12 +21,12 @@ from texvent._version import __version__
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.generate.opensora.external_program import run_program
-from texvent.generate.protocol import Progress
 from texvent.generate.video_config import GeneratedVideoConfig
 from texvent.generate.videos.retries import generate_checked
 from texvent.generate.videos.stored_video import StoredVideo, open_stored
 from texvent.generate.videos.video_cache import VideoCache, content_key
 from texvent.option_values import plain
+from texvent.progress import Progress
 from texvent.sensor import SensorSize
 
 ROOT_VARIABLE = "OPENSORA_ROOT"

@@ -7,12 +7,12 @@ import hashlib
 from collections.abc import Callable
 
 from texvent.errors import TexventError
-from texvent.generate.protocol import NoProgress, Progress
 from texvent.generate.video_config import GeneratedVideoConfig
 from texvent.generate.videos.clip_score import check_clip_folder, measure_clip_score
 from texvent.generate.videos.failure_filter import FailureReport, check_video, judge_measures
 from texvent.generate.videos.stored_video import StoredVideo
 from texvent.generate.videos.video_cache import MEASURES
+from texvent.progress import NoProgress, Progress
 
 
 def generate_checked(

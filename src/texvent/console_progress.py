@@ -1,0 +1,86 @@
+"""Progress in a terminal or a notebook."""
+
+from __future__ import annotations
+
+import importlib.util
+import time
+from types import TracebackType
+from typing import Self
+
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TaskID,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
+
+PATIENCE_SECONDS = 0.5
+"""Work that ends sooner shows no bar."""
+
+
+class ConsoleProgress:
+    """Lines, and one bar per stage of longer work, on stderr.
+
+    The bar shows where stderr is a terminal or a notebook.
+
+    Args:
+        is_quiet: show nothing.
+        is_forced: show the bar at once, and wherever stderr leads.
+    """
+
+    def __init__(self, *, is_quiet: bool = False, is_forced: bool = False) -> None:
+        self._console = Console(
+            stderr=True, quiet=is_quiet, highlight=False, force_terminal=is_forced or None
+        )
+        self._has_bar = not is_quiet and (is_forced or _can_show_bar(self._console))
+        self._patience = 0.0 if is_forced else PATIENCE_SECONDS
+        self._bar = Progress(
+            TextColumn("{task.description}"),
+            BarColumn(),
+            MofNCompleteColumn(),
+            TimeElapsedColumn(),
+            TimeRemainingColumn(),
+            console=self._console,
+            transient=True,
+        )
+        self._tasks: dict[str, TaskID] = {}
+        self._started = time.monotonic()
+        self._is_shown = False
+
+    def __enter__(self) -> Self:
+        self._started = time.monotonic()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if self._is_shown:
+            self._bar.stop()
+
+    def announce(self, line: str) -> None:
+        """Print a line."""
+        self._console.print(line, markup=False, soft_wrap=True)
+
+    def advance(self, stage: str, done: int, total: int | None) -> None:
+        """Move the bar of a stage."""
+        if not self._has_bar or time.monotonic() - self._started < self._patience:
+            return
+        if not self._is_shown:
+            self._bar.start()
+            self._is_shown = True
+        if stage not in self._tasks:
+            self._tasks[stage] = self._bar.add_task(stage, total=total)
+        self._bar.update(self._tasks[stage], completed=done, total=total)
+
+
+def _can_show_bar(console: Console) -> bool:
+    if console.is_jupyter:  # rich draws bars there by ipywidgets
+        return importlib.util.find_spec("ipywidgets") is not None
+    return console.is_terminal

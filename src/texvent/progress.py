@@ -1,0 +1,72 @@
+"""How slow work reports its progress, and how callers choose what becomes of it."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Protocol, TypeAlias
+
+ProgressCallback: TypeAlias = Callable[[int, int | None, str], object]
+"""Called with steps done, steps in all (None where that is unknown) and what is being done."""
+ProgressOption: TypeAlias = bool | ProgressCallback | None
+"""True: a bar on stderr. False: nothing. None: a bar where stderr is a terminal or a notebook. A
+function is called at every step; an exception that it raises stops the work."""
+
+
+class Progress(Protocol):
+    """Receives the progress of slow work. Either method may raise to stop it cleanly."""
+
+    def announce(self, line: str) -> None:
+        """Receive one line to show, such as the licence before a download."""
+        ...
+
+    def advance(self, stage: str, done: int, total: int | None) -> None:
+        """Receive a step: `done` of `total` steps of a stage, such as "denoise"."""
+        ...
+
+
+class NoProgress:
+    """Progress that is shown nowhere."""
+
+    def announce(self, line: str) -> None:
+        """Ignore a line."""
+
+    def advance(self, stage: str, done: int, total: int | None) -> None:
+        """Ignore a step."""
+
+
+class CallbackProgress:
+    """Progress that goes to a function; a line to show comes with the latest step."""
+
+    def __init__(self, callback: ProgressCallback) -> None:
+        self._callback = callback
+        self._latest: tuple[int, int | None] = (0, None)
+
+    def announce(self, line: str) -> None:
+        """Pass on a line."""
+        self._callback(*self._latest, line)
+
+    def advance(self, stage: str, done: int, total: int | None) -> None:
+        """Pass on a step."""
+        self._latest = (done, total)
+        self._callback(done, total, stage)
+
+
+@contextmanager
+def open_progress(option: ProgressOption) -> Iterator[Progress]:
+    """The progress that an option asks for; a bar disappears with the `with` block."""
+    if callable(option):
+        yield CallbackProgress(option)
+    elif option or (option is None and _is_interactive()):
+        from texvent.console_progress import ConsoleProgress  # rich takes 50 ms to import
+
+        with ConsoleProgress(is_forced=option is True) as progress:
+            yield progress
+    else:
+        yield NoProgress()
+
+
+def _is_interactive() -> bool:
+    """Whether stderr is a terminal, or this process is the kernel of a notebook."""
+    return "ipykernel" in sys.modules or (sys.stderr is not None and sys.stderr.isatty())
