@@ -9,7 +9,7 @@ import pytest
 
 from texvent.runtime import background_jit as readiness
 from texvent.simulate.backend.select import load_kernel_when_ready
-from texvent.simulate.packets import order, order_cpu, order_reference
+from texvent.simulate.packets import sorting, sorting_cpu, sorting_reference
 
 
 @pytest.fixture(autouse=True)
@@ -76,19 +76,21 @@ def test_a_kernel_that_cannot_be_compiled_is_never_ready_and_says_why_once(monke
 def test_without_numba_no_kernel_is_ready_and_nobody_is_warned(monkeypatch, caplog):
     monkeypatch.setitem(sys.modules, "numba", None)
     with caplog.at_level(logging.WARNING):
-        readiness.wait_until_ready("texvent.simulate.packets.order_cpu")
-    assert not readiness.is_ready("texvent.simulate.packets.order_cpu")
+        readiness.wait_until_ready("texvent.simulate.packets.sorting_cpu")
+    assert not readiness.is_ready("texvent.simulate.packets.sorting_cpu")
     assert not caplog.records
     assert (
-        load_kernel_when_ready(order.__name__, "order_events", "auto")
-        is order_reference.order_events
+        load_kernel_when_ready(sorting.__name__, "sort_events", "auto")
+        is sorting_reference.sort_events
     )
 
 
 def test_auto_changes_to_the_compiled_kernel_when_it_is_ready():
-    readiness.wait_until_ready("texvent.simulate.packets.order_cpu")
-    assert load_kernel_when_ready(order.__name__, "order_events", "auto") is order_cpu.order_events
+    readiness.wait_until_ready("texvent.simulate.packets.sorting_cpu")
     assert (
-        load_kernel_when_ready(order.__name__, "order_events", "numpy")
-        is order_reference.order_events
+        load_kernel_when_ready(sorting.__name__, "sort_events", "auto") is sorting_cpu.sort_events
+    )
+    assert (
+        load_kernel_when_ready(sorting.__name__, "sort_events", "numpy")
+        is sorting_reference.sort_events
     )

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from texvent.errors import ConfigError, InputError
-from texvent.simulate.packets.unsorted_events import Interval
+from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.v2ce import ldati, ldati_reference
 from texvent.simulate.v2ce.ldati import (
@@ -121,7 +121,7 @@ voxels = arrays(
 @given(voxels, st.integers(1, 10**6), st.sampled_from(["published", "stochastic"]), st.booleans())
 @CHECKED
 def test_the_reference_gives_equal_events(voxel, duration_us, rounding, bidirectional):
-    interval = Interval(-7, duration_us - 7, frame_key(5, duration_us))
+    interval = FrameInterval(-7, duration_us - 7, frame_key(5, duration_us))
     options = {"rounding": rounding, "bidirectional": bidirectional}
     fast, slow = (
         rule.sample_events(voxel, interval, **options) for rule in (ldati, ldati_reference)
@@ -186,7 +186,7 @@ def test_stochastic_rounding_is_right_on_average(bidirectional):
 def test_the_published_rounding_is_biased_upwards_and_stochastic_is_not():
     random = np.random.default_rng(2)
     voxel = np.maximum(random.normal(-1.0, 0.6, (2, 10, 60, 60)), 0)
-    interval = Interval(0, 33_333, KEY)
+    interval = FrameInterval(0, 33_333, KEY)
     published, stochastic = (
         len(sample_events(voxel, interval, rounding=rounding).t)
         for rounding in ("published", "stochastic")

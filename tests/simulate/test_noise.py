@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from texvent.events import SIGNAL, EventStream
-from texvent.simulate.packets.unsorted_events import Interval
+from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.texvent.noise import (
     draw_noise,
@@ -173,7 +173,7 @@ def test_poisson_table_has_the_mean_and_variance_of_its_distribution(mean):
 def test_noise_counts_are_poisson_numbers_of_every_pixel(mean, backend):
     """Although they are drawn per block of pixels; the last block is a partial one."""
     pixels = 40_000
-    span = Interval(1000, 2000, frame_key(0, 0))
+    span = FrameInterval(1000, 2000, frame_key(0, 0))
     noise = draw_noise(pixels, span, mean=mean, on_fraction=0.5, backend=backend)
     per_pixel = np.bincount(noise.pixel, minlength=pixels)
     assert len(per_pixel) == pixels
@@ -188,7 +188,7 @@ def test_noise_counts_are_poisson_numbers_of_every_pixel(mean, backend):
 
 
 def test_noise_is_independent_between_places_times_and_polarities():
-    span = Interval(0, SECOND, frame_key(7, 3))
+    span = FrameInterval(0, SECOND, frame_key(7, 3))
     noise = draw_noise(64 * 4096, span, mean=0.2, on_fraction=0.5)
     columns = [noise.pixel % 4096, noise.pixel // 4096, noise.t, noise.p]
     correlation = np.corrcoef(np.array(columns, np.float64))
@@ -197,7 +197,7 @@ def test_noise_is_independent_between_places_times_and_polarities():
 
 def test_blocks_draw_the_same_noise_whatever_the_size_of_the_frame(backend):
     """So bands of a frame can be simulated apart."""
-    span = Interval(0, 1000, frame_key(1, 1))
+    span = FrameInterval(0, 1000, frame_key(1, 1))
     small, large = (
         draw_noise(pixels, span, mean=0.1, on_fraction=0.3, backend=backend)
         for pixels in (5000, 20_000)

@@ -6,14 +6,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.events import NOISE
-from texvent.simulate.packets.unsorted_events import Interval
+from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.random import arrivals_cpu
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.random.rate_noise import NoiseRates
 
 
-def interval(seconds: float, frame: int = 1) -> Interval:
-    return Interval(1000, 1000 + round(seconds * 1e6), frame_key(0, frame))
+def interval(seconds: float, frame: int = 1) -> FrameInterval:
+    return FrameInterval(1000, 1000 + round(seconds * 1e6), frame_key(0, frame))
 
 
 def counts(rate_hz, seconds, **options):

@@ -6,17 +6,18 @@ import math
 import numpy as np
 import pytest
 
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.physical.readout import Readout, ReadoutRules
 from texvent.simulate.random.draws import frame_key
 
 WIDTH = 20
 
 
-def events_at(times, pixel=None) -> Firings:
+def events_at(times, pixel=None) -> UnsortedEvents:
     t = np.sort(np.asarray(times, np.int64))
     pixel = np.arange(len(t)) % (WIDTH * WIDTH) if pixel is None else np.asarray(pixel, np.int64)
-    return Firings.signal(pixel, t, (np.arange(len(t)) % 2).astype(np.uint8))
+    return UnsortedEvents.signal(pixel, t, (np.arange(len(t)) % 2).astype(np.uint8))
 
 
 def read_all(rules: ReadoutRules, times, *, step_us: int, first_us: int = 0, stop_us: int) -> list:
@@ -25,7 +26,7 @@ def read_all(rules: ReadoutRules, times, *, step_us: int, first_us: int = 0, sto
     times = np.asarray(times)
     packets = []
     for start, stop in itertools.pairwise(range(first_us, stop_us + 1, step_us)):
-        interval = Interval(start, stop, frame_key(0, stop - first_us))
+        interval = FrameInterval(start, stop, frame_key(0, stop - first_us))
         inside = times[(times >= start) & (times < stop)]
         packet = readout.read(events_at(inside), interval)
         assert ((packet.t >= start) & (packet.t < stop)).all()
@@ -40,7 +41,8 @@ def times_of(packets) -> list[int]:
 def test_an_ideal_readout_changes_nothing():
     fired = events_at([3, 5, 900])
     assert (
-        Readout(ReadoutRules(), first_us=0, width=WIDTH).read(fired, Interval(0, 1000, 0)) is fired
+        Readout(ReadoutRules(), first_us=0, width=WIDTH).read(fired, FrameInterval(0, 1000, 0))
+        is fired
     )
 
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from texvent.simulate.packets.interval import SubInterval
-from texvent.simulate.packets.unsorted_events import Interval
+from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.texvent.event_frame import EventFrame, list_activations
+from texvent.simulate.texvent.sub_interval import SubInterval
 from texvent.simulate.texvent.timestamps import larger_change_earlier, reconstruct_timestamps
 
 THRESHOLD = 0.2
@@ -14,7 +14,7 @@ THRESHOLD = 0.2
 
 def interval(previous, brightness, reference, stop_us=10_000) -> SubInterval:
     images = (np.array([one], np.float64) for one in (previous, brightness, reference))
-    return SubInterval(Interval(0, stop_us, frame_key(0, 0)), *images)
+    return SubInterval(FrameInterval(0, stop_us, frame_key(0, 0)), *images)
 
 
 def activations(changes, numbers=None):

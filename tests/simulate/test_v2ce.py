@@ -19,7 +19,8 @@ from texvent.option_values import with_options
 from texvent.pipeline import video_to_events
 from texvent.settings import default_settings, resolve
 from texvent.simulate.look_ahead import step_through
-from texvent.simulate.packets.unsorted_events import Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import make_packet
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.v2ce import ldati
 from texvent.simulate.v2ce.simulator import V2ceConfig, V2ceSimulator, normalise
@@ -88,8 +89,8 @@ def test_every_packet_is_the_voxel_grid_of_its_own_pair(model):
     for pair, start in ((1, 0), (4, 0), (5, 2), (6, 2)):
         grid = network.predict(pairs[start : start + 5])[pair - start]
         before, after = frames[pair].t_us, frames[pair + 1].t_us
-        interval = Interval(before, after, frame_key(0, after - frames[0].t_us))
-        expected = ldati.sample_events(grid, interval).packet(interval, frames[0].size)
+        interval = FrameInterval(before, after, frame_key(0, after - frames[0].t_us))
+        expected = make_packet(ldati.sample_events(grid, interval), interval, frames[0].size)
         assert found[pair + 1].equals(expected)
         assert len(expected) > 0
 

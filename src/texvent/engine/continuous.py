@@ -25,7 +25,9 @@ from texvent.pairs.motion_interpolation import Paths
 from texvent.pairs.scene_change import Jump
 from texvent.simulate.fused.candidates import CandidateFinder, one_grid
 from texvent.simulate.fused.interface import Grids, Int64Array
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import make_packet
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.video import Frame
 
 PIECE_PX = 0.5
@@ -46,7 +48,7 @@ class LinePixelModel(Protocol):
 
     def fire(
         self, finder: CandidateFinder, paths: Paths, grids: Grids, edges_us: Int64Array
-    ) -> Firings:
+    ) -> UnsortedEvents:
         """Events between two source frames, noise included.
 
         Args:
@@ -72,18 +74,18 @@ def step_continuously(
         for pair in pairs:
             tell_jump(pair, on_cut)
             start_us = pair.second.t_us if pair.first is None else pair.first.t_us
-            span = Interval(start_us, pair.second.t_us, np.uint64(0))
+            span = FrameInterval(start_us, pair.second.t_us, np.uint64(0))
             if pair.first is None:
                 pixels.begin(pair.second)
-                fired = Firings.none()
+                fired = UnsortedEvents.none()
             else:
                 paths = paths_of(pair)
                 grids, edges_us = _pieces(pair, paths, span)
                 fired = pixels.fire(finder, paths, grids, edges_us)
-            yield pair.second, fired.packet(span, pair.second.size)
+            yield pair.second, make_packet(fired, span, pair.second.size)
 
 
-def _pieces(pair: Pair, paths: Paths, span: Interval) -> tuple[Grids, Int64Array]:
+def _pieces(pair: Pair, paths: Paths, span: FrameInterval) -> tuple[Grids, Int64Array]:
     """The grids of a pair, and their edges."""
     if pair.jump is not Jump.NONE or not len(paths):
         edges = np.array([[span.start_us, *paths.times_us, span.stop_us]])
@@ -91,7 +93,7 @@ def _pieces(pair: Pair, paths: Paths, span: Interval) -> tuple[Grids, Int64Array
     return own_pieces(span)
 
 
-def own_pieces(span: Interval) -> tuple[Grids, Int64Array]:
+def own_pieces(span: FrameInterval) -> tuple[Grids, Int64Array]:
     """Grids of 1, 2, 4, ... equal pieces from which every pixel takes what it needs.
 
     Args:

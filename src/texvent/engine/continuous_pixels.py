@@ -15,7 +15,8 @@ from texvent.simulate.fused.candidates import CandidateFinder
 from texvent.simulate.fused.interface import Grids, Int64Array
 from texvent.simulate.fused.line_pixels import LinePixels, esim_pixels
 from texvent.simulate.fused.segments import LineRules
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.texvent.brightness_cache import BrightnessCache
 from texvent.simulate.texvent.config import TexventConfig
@@ -36,7 +37,7 @@ class ContinuousEsim:
 
     def fire(
         self, finder: CandidateFinder, paths: Paths, grids: Grids, edges_us: Int64Array
-    ) -> Firings:
+    ) -> UnsortedEvents:
         """Events between two source frames."""
         return _joined(self._pixels.cross(finder, paths, grids, edges_us))
 
@@ -71,7 +72,7 @@ class ContinuousTexvent:
 
     def fire(
         self, finder: CandidateFinder, paths: Paths, grids: Grids, edges_us: Int64Array
-    ) -> Firings:
+    ) -> UnsortedEvents:
         """Events between two source frames, noise included."""
         self._calibrate(paths)
         fired = _joined(self._pixels.cross(finder, paths, grids, edges_us))
@@ -84,26 +85,28 @@ class ContinuousTexvent:
         brightness = self._brightness_of(paths.earlier)
         self._pixels.adopt(self._cache.calibrate(brightness, is_source=True))
 
-    def _draw_noise(self, paths: Paths, fired: Firings, edges_us: Int64Array) -> Firings:
+    def _draw_noise(
+        self, paths: Paths, fired: UnsortedEvents, edges_us: Int64Array
+    ) -> UnsortedEvents:
         """Eq. 6."""
         config, stop_us = self._config, int(edges_us[0, -1])
-        span = Interval(int(edges_us[0, 0]), stop_us, frame_key(self._seed, stop_us))
+        span = FrameInterval(int(edges_us[0, 0]), stop_us, frame_key(self._seed, stop_us))
         mean = config.noise_rate_hz * (config.noise_scale * span.duration_s)
         if config.noise == "none" or mean == 0:
-            return Firings.none()
+            return UnsortedEvents.none()
         noise = draw_noise(paths.later.size, span, mean=mean, on_fraction=config.noise_on_fraction)
         if config.noise == "random":
             return noise
         kept = low_light_background(
             paths.later, noise.pixel, fired.pixel, intensity=config.noise_intensity
         )
-        return noise.where(kept)
+        return noise.take(kept)
 
     def _brightness_of(self, luma: NDArray[Any]) -> Float64Array:
         return balanced_log(luma, self._config.balance)
 
 
-def _joined(bands: Iterable[tuple[Firings, Any]]) -> Firings:
+def _joined(bands: Iterable[tuple[UnsortedEvents, Any]]) -> UnsortedEvents:
     """The events of all bands."""
     columns = zip(*(fired for fired, _ in bands), strict=True)
-    return Firings(*(np.concatenate(column) for column in columns))
+    return UnsortedEvents(*(np.concatenate(column) for column in columns))

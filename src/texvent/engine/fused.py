@@ -19,7 +19,9 @@ from texvent.pairs.motion_interpolation import Paths
 from texvent.sensor import SensorSize
 from texvent.simulate.fused.candidates import CandidateFinder
 from texvent.simulate.fused.interface import Int64Array
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import make_packet
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.video import Frame
 
 
@@ -62,8 +64,8 @@ def step_fused(
             tell_jump(pair, on_cut)
             if pair.first is None:
                 pixels.begin(pair.second)
-                nothing = Interval(pair.second.t_us, pair.second.t_us, np.uint64(0))
-                yield pair.second, Firings.none().packet(nothing, pair.second.size)
+                nothing = FrameInterval(pair.second.t_us, pair.second.t_us, np.uint64(0))
+                yield pair.second, make_packet(UnsortedEvents.none(), nothing, pair.second.size)
                 continue
             yield from pixels.fire(finder, pair)
 

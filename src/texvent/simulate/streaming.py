@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from texvent.config import check_range
 from texvent.events import EventStream
 from texvent.simulate.backend.select import AUTO, check_backend
-from texvent.simulate.packets.order import Columns
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import SortedEvents, make_packet
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import frame_key
 from texvent.video import Frame, StreamChecker
 
@@ -67,18 +68,18 @@ class StreamingSimulator(abc.ABC, Generic[Config]):
                 that is NaN, infinite or negative.
         """
         interval = self._enter(frame)
-        fired: Firings | Columns
+        fired: UnsortedEvents | SortedEvents
         if interval.duration_us:
             fired = self._advance(frame.luma, interval)
         else:
             self._begin(frame.luma)
-            fired = Firings.none()
-        if isinstance(fired, Firings):
-            return fired.packet(interval, frame.size)
+            fired = UnsortedEvents.none()
+        if isinstance(fired, UnsortedEvents):
+            return make_packet(fired, interval, frame.size)
         x, y, t, p, label = fired
         return EventStream.unchecked(x, y, t, p, size=frame.size, label=label)
 
-    def _enter(self, frame: Frame) -> Interval:
+    def _enter(self, frame: Frame) -> FrameInterval:
         """The interval that a frame ends, an empty one for the first; bad frames are refused."""
         self._checker.check(frame)
         if self._first_us is None:
@@ -87,14 +88,16 @@ class StreamingSimulator(abc.ABC, Generic[Config]):
         self._last_us = frame.t_us
         return interval
 
-    def _interval(self, stop_us: int) -> Interval:
+    def _interval(self, stop_us: int) -> FrameInterval:
         key = frame_key(self._seed, stop_us - (self._first_us or 0))
-        return Interval(self._last_us, stop_us, key)
+        return FrameInterval(self._last_us, stop_us, key)
 
     @abc.abstractmethod
     def _begin(self, intensity: IntensityArray) -> None:
         """Set up every pixel from the first frame."""
 
     @abc.abstractmethod
-    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings | Columns:
+    def _advance(
+        self, intensity: IntensityArray, interval: FrameInterval
+    ) -> UnsortedEvents | SortedEvents:
         """What fires between the frame before and this one; moves every pixel's state along."""

@@ -17,7 +17,8 @@ from texvent.engine.fused import paths_of
 from texvent.events import EventStream
 from texvent.simulate.esim.simulator import EsimConfig
 from texvent.simulate.fused.candidates import CandidateFinder, one_grid
-from texvent.simulate.packets.unsorted_events import Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import make_packet
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.video import Video
 
@@ -79,8 +80,8 @@ def test_on_the_pictures_of_the_frame_engine_it_gives_the_frame_engines_events(s
             paths = paths_of(pair)
             edges = np.array([[pair.first.t_us, *paths.times_us, pair.second.t_us]])
             fired = pixels.fire(finder, paths, one_grid(paths.positions), edges)
-            span = Interval(pair.first.t_us, pair.second.t_us, np.uint64(0))
-            packets.append(fired.packet(span, pair.second.size))
+            span = FrameInterval(pair.first.t_us, pair.second.t_us, np.uint64(0))
+            packets.append(make_packet(fired, span, pair.second.size))
     assert EventStream.concat(packets).equals(wanted)
 
 
@@ -105,7 +106,7 @@ def test_it_comes_close_to_the_frame_engine_with_many_frames():
 
 
 def test_pieces_are_dyadic_and_last_at_least_a_microsecond():
-    grids, edges = own_pieces(Interval(100, 105, np.uint64(0)))
+    grids, edges = own_pieces(FrameInterval(100, 105, np.uint64(0)))
     assert grids.parts.tolist() == [1, 2, 4]
     assert edges.tolist() == [
         [100, 105, 105, 105, 105],

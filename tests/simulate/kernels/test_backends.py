@@ -8,7 +8,7 @@ from texvent.errors import ConfigError, MissingDependencyError
 from texvent.simulate.backend import select
 from texvent.simulate.backend.select import load_kernel
 from texvent.simulate.crossing import ramp, ramp_cpu, ramp_reference
-from texvent.simulate.packets import order, order_reference
+from texvent.simulate.packets import sorting, sorting_reference
 
 
 @pytest.fixture
@@ -29,7 +29,7 @@ def test_auto_falls_back_to_the_reference_without_numba():
 
 
 def test_the_reference_serves_as_numpy_where_a_model_has_no_other():
-    assert load_kernel(order.__name__, "order_events", "numpy") is order_reference.order_events
+    assert load_kernel(sorting.__name__, "sort_events", "numpy") is sorting_reference.sort_events
 
 
 @pytest.mark.usefixtures("without_numba")

@@ -5,15 +5,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent.simulate.packets import order_cpu, order_reference
-from texvent.simulate.packets.order import Unordered
+from texvent.simulate.packets import sorting_cpu, sorting_reference
+from texvent.simulate.packets.sorting import UnsortedEvents
 
 DURATIONS = (1, 2, 255, 5000, 8192, 41_667, 3_000_000, 2**40)
 
 
 def events(seed: int, count: int, shape: tuple[int, int], duration_us: int, *, start_us: int):
     rng = np.random.default_rng(seed)
-    return Unordered(
+    return UnsortedEvents(
         rng.integers(0, shape[0] * shape[1], count),
         start_us + rng.integers(0, duration_us, count),
         rng.integers(0, 2, count).astype(np.uint8),
@@ -21,9 +21,9 @@ def events(seed: int, count: int, shape: tuple[int, int], duration_us: int, *, s
     )
 
 
-def by_pixel(unordered: Unordered) -> Unordered:
+def by_pixel(unordered: UnsortedEvents) -> UnsortedEvents:
     order = np.lexsort((unordered.label, unordered.p, unordered.pixel))
-    return Unordered(*(column[order] for column in unordered))
+    return UnsortedEvents(*(column[order] for column in unordered))
 
 
 @settings(max_examples=200, deadline=None)
@@ -34,14 +34,15 @@ def by_pixel(unordered: Unordered) -> Unordered:
     st.sampled_from(DURATIONS),
     st.booleans(),
 )
-def test_backends_order_events_alike(seed, count, shape, duration_us, is_by_pixel):
+def test_backends_sort_events_alike(seed, count, shape, duration_us, is_by_pixel):
     start_us = seed - 2**31
     given_events = events(seed, count, shape, duration_us, start_us=start_us)
     if is_by_pixel:
         given_events = by_pixel(given_events)
     span_us = (start_us, start_us + duration_us)
     one, two = (
-        module.order_events(given_events, span_us, shape) for module in (order_reference, order_cpu)
+        module.sort_events(given_events, span_us, shape)
+        for module in (sorting_reference, sorting_cpu)
     )
     assert [column.dtype for column in one] == [column.dtype for column in two]
     assert all(np.array_equal(a, b) for a, b in zip(one, two, strict=True))
@@ -53,18 +54,19 @@ def test_many_events_are_ordered_alike(duration_us):
     unordered = by_pixel(events(3, 70_000, (40, 50), duration_us, start_us=7))
     span_us = (7, 7 + duration_us)
     one, two = (
-        module.order_events(unordered, span_us, (40, 50)) for module in (order_reference, order_cpu)
+        module.sort_events(unordered, span_us, (40, 50))
+        for module in (sorting_reference, sorting_cpu)
     )
     assert all(np.array_equal(a, b) for a, b in zip(one, two, strict=True))
 
 
-@pytest.mark.parametrize("module", [order_reference, order_cpu])
+@pytest.mark.parametrize("module", [sorting_reference, sorting_cpu])
 def test_every_pixel_of_an_odd_width_keeps_its_place(module):
     """Rows are found by a product with 1 / width, which must not miss at a row's ends."""
     shape = (3, 65_535)
     pixel = np.arange(shape[0] * shape[1])
     byte = np.zeros(len(pixel), np.uint8)
-    columns = module.order_events(Unordered(pixel, pixel * 0 + 7, byte, byte), (7, 8), shape)
+    columns = module.sort_events(UnsortedEvents(pixel, pixel * 0 + 7, byte, byte), (7, 8), shape)
     assert np.array_equal(columns.y, pixel // shape[1])
     assert np.array_equal(columns.x, pixel % shape[1])
 
@@ -72,5 +74,5 @@ def test_every_pixel_of_an_odd_width_keeps_its_place(module):
 def test_sorting_changes_nothing_that_was_given():
     given_events = events(1, 100, (10, 10), 50, start_us=0)
     kept = [column.copy() for column in given_events]
-    order_cpu.order_events(given_events, (0, 50), (10, 10))
+    sorting_cpu.sort_events(given_events, (0, 50), (10, 10))
     assert all(np.array_equal(a, b) for a, b in zip(kept, given_events, strict=True))

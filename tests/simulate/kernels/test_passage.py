@@ -5,9 +5,10 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from texvent.events import NOISE, SIGNAL
-from texvent.simulate.packets.order import Columns, Unordered
-from texvent.simulate.packets.order_reference import order_events
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import SortedEvents
+from texvent.simulate.packets.sorting_reference import sort_events
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.voltmeter.kernels.first_passage import (
     Constants,
@@ -33,15 +34,15 @@ class Sensor:
         self.constants, self.seen = constants, np.array(light, np.float32)
         self.voltage, self.start_us = new_voltage(np.array(residual, np.float64)), 7000
 
-    def see(self, light, *, seed=0) -> Columns:
+    def see(self, light, *, seed=0) -> SortedEvents:
         now = np.array(light, np.float32)
         span = self.start_us, self.start_us + 1000
-        interval = Interval(*span, frame_key(seed, self.start_us))
+        interval = FrameInterval(*span, frame_key(seed, self.start_us))
         found = self.step(Light(self.seen, now, self.constants), self.voltage, interval, 7000)
         assert np.array_equal(self.seen, now)
         self.start_us = span[1]
-        if isinstance(found, Firings):
-            return order_events(Unordered(*found), span, now.shape)
+        if isinstance(found, UnsortedEvents):
+            return sort_events(found, span, now.shape)
         return found
 
 

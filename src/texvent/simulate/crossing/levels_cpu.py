@@ -27,7 +27,7 @@ from texvent.simulate.crossing.levels import (
     Outside,
     Thresholds,
 )
-from texvent.simulate.packets.order import read_only
+from texvent.simulate.packets.sorting import read_only
 from texvent.simulate.random.draws_cpu import allow_wrap_around
 
 BLOCK = 128

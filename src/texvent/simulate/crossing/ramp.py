@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from texvent.simulate.backend.select import AUTO, load_kernel_when_ready
 from texvent.simulate.crossing.levels import Thresholds
-from texvent.simulate.packets.order import Columns
+from texvent.simulate.packets.sorting import SortedEvents
 
 Float64Array: TypeAlias = NDArray[np.float64]
 
@@ -84,7 +84,7 @@ class Levels(NamedTuple):
 
 
 CrossLevels: TypeAlias = Callable[
-    [Candidates, Levels, tuple[int, int], Rest, tuple[int, int]], Columns
+    [Candidates, Levels, tuple[int, int], Rest, tuple[int, int]], SortedEvents
 ]
 """`cross_levels(candidates, levels, (start_us, stop_us), rest, (height, width))`, see
 `ramp_reference.cross_levels`."""

@@ -1,7 +1,7 @@
 """Threshold crossings on a straight line, compiled by Numba: the reference's bits.
 
-Pixels are counted first and listed then, each crossing as one key of `order_cpu`: a packet needs no
-columns but its own.
+Crossings are counted first, then listed, each as one 64-bit key of `packets.sorting_cpu`. The keys
+are sorted into the packet without further columns.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ from texvent.simulate.crossing.ramp import (
     Levels,
     Rest,
 )
-from texvent.simulate.packets.order import Columns
-from texvent.simulate.packets.order_cpu import (
+from texvent.simulate.packets.sorting import SortedEvents
+from texvent.simulate.packets.sorting_cpu import (
     KEY_USES,
     has_room_for_keys,
     key_bits,
-    order_keys,
+    sort_keyed_events,
 )
 
 _1, _2 = np.uint64(1), np.uint64(2)
@@ -63,7 +63,7 @@ def cross_levels(
     span_us: tuple[int, int],
     rest: Rest,
     shape: tuple[int, int],
-) -> Columns:
+) -> SortedEvents:
     """See `ramp_reference.cross_levels`."""
     clock = clock_of(span_us, shape)
     if clock is None:
@@ -78,7 +78,7 @@ def cross_levels(
     count_steps(lines, thresholds)
     keys = list_events(pixel, lines, levels.fired_us, clock, rest)
     _step(pixel, lines, levels.reference)
-    return order_keys(keys, span_us, shape)
+    return sort_keyed_events(keys, span_us, shape)
 
 
 def warm_up(dtype: str) -> None:

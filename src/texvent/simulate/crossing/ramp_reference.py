@@ -7,8 +7,9 @@ from numpy.typing import NDArray
 
 from texvent.events import SIGNAL
 from texvent.simulate.crossing.ramp import Candidates, Levels, Ramp, RampCrossings, Rest
-from texvent.simulate.packets.order import Columns, Unordered
-from texvent.simulate.packets.order_reference import order_events
+from texvent.simulate.packets.sorting import SortedEvents
+from texvent.simulate.packets.sorting_reference import sort_events
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 
 
 def cross_ramp(
@@ -73,7 +74,7 @@ def cross_levels(
     span_us: tuple[int, int],
     rest: Rest,
     shape: tuple[int, int],
-) -> Columns:
+) -> SortedEvents:
     """As `cross_ramp`, for the brightness of candidates; the references make their steps.
 
     Args:
@@ -97,4 +98,4 @@ def cross_levels(
     levels.reference[pixel] = reference + steps * np.where(steps > 0, on, off)
     fired, t, p, _ = crossings
     label = np.full(len(t), SIGNAL, np.uint8)
-    return order_events(Unordered(fired, t, p, label), span_us, shape)
+    return sort_events(UnsortedEvents(fired, t, p, label), span_us, shape)

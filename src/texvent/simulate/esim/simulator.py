@@ -26,8 +26,8 @@ from texvent.simulate.crossing.trigger_levels import (
     sensor_thresholds,
     thresholds_at,
 )
-from texvent.simulate.packets.order import Columns
-from texvent.simulate.packets.unsorted_events import Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.random.mismatch import (
     LONG_AGO_US,
     LOWEST_THRESHOLD,
@@ -161,7 +161,7 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         self._triggers = TriggerLevels(intensity, curve, backend=self._backend)
         self._triggers.set_all(reference, self._fixed, of_luma=of_luma)
 
-    def _advance(self, intensity: IntensityArray, interval: Interval) -> Columns:
+    def _advance(self, intensity: IntensityArray, interval: FrameInterval) -> SortedEvents:
         pixel, before, now = self._triggers.find_outside(intensity)
         table = self._table if now.dtype == np.uint8 else None
         if table is None:

@@ -27,7 +27,9 @@ from texvent.simulate.fused.interface import (
 )
 from texvent.simulate.fused.load import load_kernels
 from texvent.simulate.fused.segments import LineCrossings, LineRules, LineState, Pieces
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import make_packet
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.mismatch import LONG_AGO_US
 from texvent.video import Frame
 
@@ -92,7 +94,7 @@ class LinePixels:
         edges_us: Int64Array,
         *,
         cells: Cells | None = None,
-    ) -> Iterator[tuple[Firings, NDArray[np.int16]]]:
+    ) -> Iterator[tuple[UnsortedEvents, NDArray[np.int16]]]:
         """What fires between two source frames, in bands of rows from the top.
 
         Args:
@@ -107,14 +109,14 @@ class LinePixels:
         """
         levels = self.levels()
 
-        def settle(found: Candidates) -> tuple[Firings, NDArray[np.int16]]:
+        def settle(found: Candidates) -> tuple[UnsortedEvents, NDArray[np.int16]]:
             return self._settle(found, levels.reference, edges_us)
 
         yield from finder.map(settle, paths, grids=grids, levels=levels, cells=cells)
 
     def _settle(
         self, found: Candidates, level: Float64Array, edges_us: Int64Array
-    ) -> tuple[Firings, NDArray[np.int16]]:
+    ) -> tuple[UnsortedEvents, NDArray[np.int16]]:
         """What the candidates of a band fire; moves their references and levels [H, W]."""
         pixel, grid, piece, before, now = found
         pieces = Pieces(
@@ -129,7 +131,7 @@ class LinePixels:
         # Candidates come by pixel: the last one of each says where it is now.
         moved = pixel[np.flatnonzero(np.diff(pixel, append=-1))]
         level.reshape(-1)[moved] = self._unit * np.exp(self._state.reference[moved])
-        fired = Firings.signal(pixel[crossings.row], crossings.t, crossings.p)
+        fired = UnsortedEvents.signal(pixel[crossings.row], crossings.t, crossings.p)
         return fired, piece[crossings.row]
 
 
@@ -174,8 +176,8 @@ class FusedEsim:
         spans = itertools.pairwise(edges_us.tolist())
         for piece, (frame, span_us) in enumerate(zip(undrawn_frames(pair), spans, strict=True)):
             parts = zip(*(band[piece] for band in bands), strict=True)
-            fired = Firings(*(np.concatenate(column) for column in parts))
-            yield frame, fired.packet(Interval(*span_us, np.uint64(0)), paths.size)
+            fired = UnsortedEvents(*(np.concatenate(column) for column in parts))
+            yield frame, make_packet(fired, FrameInterval(*span_us, np.uint64(0)), paths.size)
 
     def _watch(self, pair: Pair) -> Iterator[tuple[Frame, EventStream]]:
         """The same from pictures."""
@@ -187,10 +189,12 @@ class FusedEsim:
             yield frame, watching.step(frame)
 
 
-def _cut_by_piece(fired: Firings, piece_of: NDArray[np.int16], pieces: int) -> list[Firings]:
+def _cut_by_piece(
+    fired: UnsortedEvents, piece_of: NDArray[np.int16], pieces: int
+) -> list[UnsortedEvents]:
     """The events of each piece."""
     order = np.argsort(piece_of, kind="stable")
     cuts = np.searchsorted(piece_of[order], np.arange(pieces + 1)).tolist()
     pixel, t, p = fired.pixel[order], fired.t[order], fired.p[order]
     rows = (slice(*cut) for cut in itertools.pairwise(cuts))
-    return [Firings.signal(pixel[part], t[part], p[part]) for part in rows]
+    return [UnsortedEvents.signal(pixel[part], t[part], p[part]) for part in rows]

@@ -1,91 +1,48 @@
-"""One sub-interval as the Texvent model sees it: its time and the brightness at both ends."""
+"""The time between two neighbouring frames, and times inside it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.packets.unsorted_events import Interval
 
-Float64Array = NDArray[np.float64]
+class FrameInterval(NamedTuple):
+    """The time between two neighbouring frames, `[start_us, stop_us)`."""
 
-
-class FiredPixels(Protocol):
-    """What the times of events are made from: brightness at both ends where pixels fired."""
-
-    @property
-    def span(self) -> Interval:
-        """Time of both frames, and the key of the random draws between them."""
-        ...
+    start_us: int
+    """Time of the earlier frame, µs (included)."""
+    stop_us: int
+    """Time of the later frame, µs (excluded)."""
+    key: np.uint64
+    """Key of the random draws of this interval; see `draws.frame_key`."""
 
     @property
-    def width(self) -> int:
-        """Of the frame, pixels."""
-        ...
-
-    def at(self, pixel: NDArray[np.int64]) -> tuple[Float64Array, Float64Array, Float64Array]:
-        """Previous brightness, brightness and reference of some pixels that fired, [n] each."""
-        ...
-
-
-@dataclass(frozen=True, eq=False)
-class SubInterval:
-    """What is compared with what between two neighbouring frames, and when."""
-
-    span: Interval
-    """Time of both frames, and the key of the random draws between them."""
-    previous: Float64Array
-    """Brightness at the start, L(α + I^{j−1}), [H, W], log units."""
-    brightness: Float64Array
-    """Brightness at the end, L(α + I^j), [H, W], log units."""
-    reference: Float64Array
-    """Reference brightness the pixels compare with, L(α + κ ⋄ I^{j−1}), [H, W], log units."""
+    def duration_us(self) -> int:
+        """Length, µs."""
+        return self.stop_us - self.start_us
 
     @property
-    def width(self) -> int:
-        """Of the frame, pixels."""
-        return int(self.brightness.shape[1])
-
-    def at(self, pixel: NDArray[np.int64]) -> tuple[Float64Array, Float64Array, Float64Array]:
-        """Previous brightness, brightness and reference of some pixels, [n] each."""
-        images = (self.previous, self.brightness, self.reference)
-        previous, brightness, reference = (image.reshape(-1)[pixel] for image in images)
-        return previous, brightness, reference
+    def duration_s(self) -> float:
+        """Length, seconds."""
+        return self.duration_us * 1e-6
 
 
-class SparseInterval(NamedTuple):
-    """The same where only the brightness of the pixels that fired is known."""
-
-    span: Interval
-    width: int
-    pixel: NDArray[np.int64]
-    """[n] flat index y · W + x of the pixels that fired, ascending."""
-    brightness: tuple[Float64Array, Float64Array, Float64Array]
-    """Previous brightness, brightness and reference of each, [n] log units."""
-
-    def at(self, pixel: NDArray[np.int64]) -> tuple[Float64Array, Float64Array, Float64Array]:
-        """See `FiredPixels`."""
-        row = np.searchsorted(self.pixel, pixel)
-        previous, brightness, reference = (column[row] for column in self.brightness)
-        return previous, brightness, reference
-
-
-def place_in(span: Interval, fraction: Float64Array) -> NDArray[np.int64]:
+def place_in(interval: FrameInterval, fraction: NDArray[np.float64]) -> NDArray[np.int64]:
     """Times at fractions 0..1 of an interval, rounded down; never its end itself.
 
     Args:
-        span: the interval.
+        interval: the interval.
         fraction: [n].
 
     Returns:
         [n] µs, in `[start_us, stop_us)`.
 
     Example:
-        >>> place_in(Interval(0, 10_000, np.uint64(0)), np.array([0.0, 0.75, 1.0])).tolist()
+        >>> interval = FrameInterval(0, 10_000, np.uint64(0))
+        >>> place_in(interval, np.array([0.0, 0.75, 1.0])).tolist()
         [0, 7500, 9999]
     """
-    offset = np.floor(fraction * span.duration_us).astype(np.int64)
-    return np.asarray(np.minimum(span.start_us + offset, span.stop_us - 1))
+    offset = np.floor(fraction * interval.duration_us).astype(np.int64)
+    return np.asarray(np.minimum(interval.start_us + offset, interval.stop_us - 1))

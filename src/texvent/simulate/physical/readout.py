@@ -11,11 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import Purpose, draw_uniforms
 from texvent.video import MICROSECONDS
-
-BoolArray = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,10 +56,10 @@ class Readout:
         self._rules = rules
         self._first_us = first_us
         self._width = width
-        self._waiting = Firings.none()
+        self._waiting = UnsortedEvents.none()
         self._window, self._count_before, self._count = 0, 0, 0
 
-    def read(self, fired: Firings, interval: Interval) -> Firings:
+    def read(self, fired: UnsortedEvents, interval: FrameInterval) -> UnsortedEvents:
         """Events that leave the sensor in an interval, given those that fired in it.
 
         Events that would leave after the last frame are never read out.
@@ -70,10 +69,10 @@ class Readout:
         late = self._delay(_in_order(fired), interval)
         late = late.joined(self._waiting)
         leaves = late.t < interval.stop_us
-        self._waiting = _take(late, ~leaves)
-        return self._limit(_in_order(_take(late, leaves)), interval)
+        self._waiting = late.take(~leaves)
+        return self._limit(_in_order(late.take(leaves)), interval)
 
-    def _delay(self, fired: Firings, interval: Interval) -> Firings:
+    def _delay(self, fired: UnsortedEvents, interval: FrameInterval) -> UnsortedEvents:
         """Latency, jitter and clock; draws by pixel and by its events in the interval."""
         rules = self._rules
         delay = np.full(len(fired.t), rules.latency_us, np.int64)
@@ -83,7 +82,7 @@ class Readout:
         ticks = -((self._first_us - (fired.t + delay)) // rules.clock_us)
         return fired._replace(t=self._first_us + ticks * rules.clock_us)
 
-    def _limit(self, fired: Firings, interval: Interval) -> Firings:
+    def _limit(self, fired: UnsortedEvents, interval: FrameInterval) -> UnsortedEvents:
         """Drop events with the probability that the window before asks for.
 
         Source: the event rate controller of Prophesee's sensors, which estimates the rate over
@@ -105,21 +104,18 @@ class Readout:
         self._window, self._count = int(window[-1]), int(counts[-1])
         self._count_before = int(counts[-2]) if len(counts) > 1 else before
         kept = self._draw(fired, interval, Purpose.RATE_LIMIT) * np.maximum(seen, 1) < allowed
-        return _take(fired, kept)
+        return fired.take(kept)
 
-    def _draw(self, fired: Firings, interval: Interval, purpose: Purpose) -> NDArray[np.float64]:
+    def _draw(
+        self, fired: UnsortedEvents, interval: FrameInterval, purpose: Purpose
+    ) -> NDArray[np.float64]:
         y, x = np.divmod(fired.pixel, self._width)
         return draw_uniforms(interval.key, y, x, purpose.draw(_order_in_pixel(fired.pixel)))
 
 
-def _in_order(fired: Firings) -> Firings:
+def _in_order(fired: UnsortedEvents) -> UnsortedEvents:
     """Events by (t, pixel, p, label): an order that does not depend on where they come from."""
-    return _take(fired, np.lexsort((fired.label, fired.p, fired.pixel, fired.t)))
-
-
-def _take(fired: Firings, index: NDArray[np.int64] | BoolArray) -> Firings:
-    """Some of the events, by number or by mask."""
-    return Firings(fired.pixel[index], fired.t[index], fired.p[index], fired.label[index])
+    return fired.take(np.lexsort((fired.label, fired.p, fired.pixel, fired.t)))
 
 
 def _order_in_pixel(pixel: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -23,8 +23,9 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.packets.order import Columns
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import SortedEvents
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.physical.config import PRESETS, PhysicalConfig
 from texvent.simulate.physical.kernels.circuit import (
     WHITE,
@@ -100,7 +101,9 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
             level -= phase * (on + off) - off
         self._state = new_state(output, level, self._last_us)
 
-    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings | Columns:
+    def _advance(
+        self, intensity: IntensityArray, interval: FrameInterval
+    ) -> UnsortedEvents | SortedEvents:
         light = self._sight.towards(intensity)
         noise = self._draw_noise(light, interval)
         rules = ResetRules(self.config.refractory_period_us, self.config.noise_resets)
@@ -110,8 +113,8 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
         self._forget(interval)
         if self.config.readout.is_ideal:
             return fired
-        if not isinstance(fired, Firings):
-            fired = Firings.of(fired, intensity.shape[1])
+        if not isinstance(fired, UnsortedEvents):
+            fired = fired.unsorted(intensity.shape[1])
         return self._readout.read(fired, interval)
 
     def _draw_sensor(self, shape: tuple[int, ...]) -> None:
@@ -132,7 +135,7 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
         hot = draw_chosen(shape, key, Purpose.HOT_PIXEL, fraction=config.hot_pixel_fraction)
         self._hot_noise = NoiseRates(config.hot_pixel_rate_hz * hot, stream=HOT)
 
-    def _draw_noise(self, light: Light, interval: Interval) -> NoiseEvents:
+    def _draw_noise(self, light: Light, interval: FrameInterval) -> NoiseEvents:
         curve, sight = self._noise_curve, self._sight
 
         def share(pixel: NDArray[np.int64]) -> Float64Array:
@@ -150,7 +153,7 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
         order = np.lexsort((noise.p, noise.t, noise.pixel))
         return NoiseEvents(noise.pixel[order], noise.t[order], noise.p[order])
 
-    def _forget(self, interval: Interval) -> None:
+    def _forget(self, interval: FrameInterval) -> None:
         """Let change that has not fired decay, what leaked and what light made alike."""
         if self.config.residual_decay_hz > 0:
             kept = math.exp(-self.config.residual_decay_hz * interval.duration_s)

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.simulate.backend.select import AUTO
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.arrivals import load_draw_arrivals
 from texvent.simulate.random.draws import Purpose, draw_uniforms
 
@@ -38,12 +39,12 @@ class NoiseRates:
 
     def draw(
         self,
-        interval: Interval,
+        interval: FrameInterval,
         *,
         share: Share | None = None,
         on_fraction: float | Float64Array = 0.5,
         backend: str = AUTO,
-    ) -> Firings:
+    ) -> UnsortedEvents:
         """Noise events of one interval, by exponential gaps between them.
 
         Their number per second does not depend on how time is cut into frames. The cost is that of
@@ -59,7 +60,7 @@ class NoiseRates:
             Events labelled as noise, by pixel and then by time: Poisson in number, uniform in time.
         """
         if self.is_silent:
-            return Firings.none()
+            return UnsortedEvents.none()
         pixel, fraction, order = load_draw_arrivals(backend)(
             self._cumulative_hz, interval.duration_s, interval.key, self._stream
         )
@@ -73,11 +74,11 @@ class NoiseRates:
             on_fraction = on_fraction.reshape(-1)[pixel]
         is_on = self._draw(interval, row, order, Purpose.NOISE_POLARITY) < on_fraction
         offset = np.floor(fraction * interval.duration_us).astype(np.int64)
-        return Firings.noise(pixel, interval.start_us + offset, is_on.astype(np.uint8))
+        return UnsortedEvents.noise(pixel, interval.start_us + offset, is_on.astype(np.uint8))
 
     def _draw(
         self,
-        interval: Interval,
+        interval: FrameInterval,
         row: NDArray[np.int64],
         order: NDArray[np.int64],
         purpose: Purpose,

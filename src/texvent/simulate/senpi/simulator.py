@@ -22,7 +22,8 @@ from texvent.simulate.crossing.trigger_levels import (
     sensor_thresholds,
     thresholds_at,
 )
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import Purpose
 from texvent.simulate.random.mismatch import (
     LONG_AGO_US,
@@ -134,7 +135,7 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         self._levels = TriggerLevels(intensity, curve, backend=self._backend)
         self._levels.set_all(self._reference, self._thresholds)
 
-    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
+    def _advance(self, intensity: IntensityArray, interval: FrameInterval) -> UnsortedEvents:
         fired = self._compare(intensity, interval)
         noise = self._draw_noise(intensity, interval)
         # What fired memorises the present voltage, whatever the reason.
@@ -146,7 +147,7 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         self._levels.set(pixel, self._reference, thresholds_at(pixel, self._thresholds))
         return fired.joined(noise)
 
-    def _compare(self, intensity: IntensityArray, interval: Interval) -> Firings:
+    def _compare(self, intensity: IntensityArray, interval: FrameInterval) -> UnsortedEvents:
         """At most one event per pixel, in the interval's last microsecond."""
         t_us = interval.stop_us - 1
         pixel, _, now = self._levels.find_outside(intensity)
@@ -155,12 +156,12 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         is_rested = t_us - self._fired_us[pixel] >= self.config.refractory_period_us
         fires = (np.abs(change) >= threshold) & is_rested
         pixel, is_on = pixel[fires], change[fires] > 0
-        return Firings.signal(pixel, np.full(len(pixel), t_us), is_on.astype(np.uint8))
+        return UnsortedEvents.signal(pixel, np.full(len(pixel), t_us), is_on.astype(np.uint8))
 
     def _voltage(self, intensity: IntensityArray) -> Float64Array:
         return np.asarray(np.log(photons(intensity, self.config.well_capacity)))
 
-    def _draw_noise(self, intensity: IntensityArray, interval: Interval) -> Firings:
+    def _draw_noise(self, intensity: IntensityArray, interval: FrameInterval) -> UnsortedEvents:
         if not self.config.shot_noise:
             return self._noise.draw(interval, backend=self._backend)
         electrons = photons(intensity, self.config.well_capacity)

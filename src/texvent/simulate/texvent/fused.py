@@ -27,7 +27,7 @@ from texvent.simulate.fused.interface import (
     Int64Array,
     Levels,
 )
-from texvent.simulate.packets.unsorted_events import Interval
+from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.texvent.brightness_cache import BrightnessCache
 from texvent.simulate.texvent.config import TexventConfig
@@ -79,7 +79,7 @@ class FusedTexvent:
         spans = itertools.pairwise(edges_us)
         for piece, (frame, span_us) in enumerate(zip(undrawn_frames(pair), spans, strict=True)):
             fired = [band[piece] for band in bands]
-            span = Interval(*span_us, frame_key(self._seed, span_us[1]))
+            span = FrameInterval(*span_us, frame_key(self._seed, span_us[1]))
             noise = self._draw_noise(paths, piece, span)
             x, y, t, p, label = stamp_events(fired, noise, self._timing, span, size.shape)
             yield frame, EventStream.unchecked(x, y, t, p, size=size, label=label)
@@ -99,7 +99,7 @@ class FusedTexvent:
             first = earlier_of(pair)
             pixels = self._watching = SparsePixels(self._config, AUTO, first, "a frame")
         for frame, span_us in zip(pair.frames, itertools.pairwise(edges_us), strict=True):
-            span = Interval(*span_us, frame_key(self._seed, span_us[1]))
+            span = FrameInterval(*span_us, frame_key(self._seed, span_us[1]))
             seen = last if frame is pair.second else frame
             yield frame, pixels.advance(seen, span, "a frame")
 
@@ -173,7 +173,7 @@ class FusedTexvent:
             reference[pixel] = then + np.sign(change) * (number * threshold)
         return Fired(pixel, change, start, stop, then)
 
-    def _draw_noise(self, paths: Paths, piece: int, span: Interval) -> NoisePlaces:
+    def _draw_noise(self, paths: Paths, piece: int, span: FrameInterval) -> NoisePlaces:
         """Eq. 6."""
         luma_of = functools.partial(show_pixels, paths, piece)
         return draw_noise_places(self._config, span, paths.later.size, luma_of, AUTO)

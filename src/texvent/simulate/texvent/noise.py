@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 
 from texvent.errors import InputError
 from texvent.simulate.backend.select import AUTO
-from texvent.simulate.packets.interval import place_in
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval, place_in
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import UNIT, Purpose, draw_normals
 from texvent.simulate.texvent.kernels.noise_blocks import Block, load_place_noise
 from texvent.simulate.texvent.kernels.scan import NOISE_BLOCK
@@ -32,8 +32,8 @@ _CERTAIN = 1.0 - UNIT
 
 
 def draw_noise(
-    pixels: int, span: Interval, *, mean: float, on_fraction: float, backend: str = AUTO
-) -> Firings:
+    pixels: int, span: FrameInterval, *, mean: float, on_fraction: float, backend: str = AUTO
+) -> UnsortedEvents:
     """Poisson events at every pixel, uniform in time: what `low_light_background` then selects of.
 
     Args:
@@ -52,7 +52,7 @@ def draw_noise(
     """
     noise = Block(span.key, poisson_cumulative(mean * NOISE_BLOCK), float(on_fraction))
     places = load_place_noise(backend)(noise, pixels)
-    return Firings.noise(places.pixel, place_in(span, places.fraction), places.p)
+    return UnsortedEvents.noise(places.pixel, place_in(span, places.fraction), places.p)
 
 
 def low_light_background(

@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from texvent.brightness import Float64Array, balanced_log
-from texvent.simulate.packets.order import read_only
+from texvent.simulate.packets.sorting import read_only
 from texvent.simulate.texvent.brightness_cache import Renewal
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.kernels.scan import (

@@ -18,8 +18,8 @@ from texvent.events import EventStream
 from texvent.runtime.allocator import keep_freed_memory
 from texvent.runtime.threads import count_threads, run_parts, split
 from texvent.sensor import SensorSize
-from texvent.simulate.packets.order import read_only
-from texvent.simulate.packets.unsorted_events import Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import read_only
 from texvent.simulate.texvent.brightness_cache import CacheSchedule, Renewal
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.kernels.noise_blocks import Block, NoisePlaces, load_place_noise
@@ -91,7 +91,7 @@ class SparsePixels:
         self._rule_that_renews = self._rule._replace(is_renewed=True)
         self._timing = timing_of(config)
 
-    def advance(self, frame: Frame, span: Interval, where: str) -> EventStream:
+    def advance(self, frame: Frame, span: FrameInterval, where: str) -> EventStream:
         """What fires until this frame; see `texvent_reference.DensePixels.advance`."""
         intensity = self._read(frame, where)
         renewal = self._schedule.renewal_after(is_source=frame.is_source)
@@ -102,7 +102,7 @@ class SparsePixels:
         return self._stamp([fired], intensity, span, frame.size)
 
     def advance_batch(
-        self, frames: Sequence[Frame], spans: Sequence[Interval], where: Sequence[str]
+        self, frames: Sequence[Frame], spans: Sequence[FrameInterval], where: Sequence[str]
     ) -> list[EventStream]:
         """The same for several frames at once, shared out among threads; all of them or none.
 
@@ -168,7 +168,7 @@ class SparsePixels:
         self,
         fired: Sequence[Sequence[Fired]],
         intensities: Sequence[Intensity],
-        spans: Sequence[Interval],
+        spans: Sequence[FrameInterval],
         size: SensorSize,
     ) -> list[EventStream]:
         """Packets of a few frames, some of the frames per thread."""
@@ -191,7 +191,7 @@ class SparsePixels:
         return fired
 
     def _stamp(
-        self, bands: Sequence[Fired], intensity: Intensity, span: Interval, size: SensorSize
+        self, bands: Sequence[Fired], intensity: Intensity, span: FrameInterval, size: SensorSize
     ) -> EventStream:
         """Eqs. 6 and 7: the packet of one sub-interval."""
         noise = self._draw_noise(intensity, span)
@@ -214,7 +214,7 @@ class SparsePixels:
             self._levels = scan_levels(self._config, self._memory)
         return read_only(as_luma(intensity))
 
-    def _draw_noise(self, intensity: Intensity, span: Interval) -> NoisePlaces:
+    def _draw_noise(self, intensity: Intensity, span: FrameInterval) -> NoisePlaces:
         """Eq. 6."""
 
         def luma_of(pixel: Int64Array) -> Intensity:
@@ -237,7 +237,7 @@ def timing_of(config: TexventConfig) -> Timing:
 
 def draw_noise_places(
     config: TexventConfig,
-    span: Interval,
+    span: FrameInterval,
     size: int,
     luma_of: Callable[[Int64Array], Intensity],
     backend: str,

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from texvent.brightness import Float64Array, balanced_log
 from texvent.events import NOISE, EventStream
-from texvent.simulate.packets.interval import SubInterval
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import make_packet
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.texvent.brightness_cache import BrightnessCache
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.event_frame import EventFrame, generate_event_frame, list_activations
@@ -20,6 +21,7 @@ from texvent.simulate.texvent.noise import (
     is_background,
     low_light_background,
 )
+from texvent.simulate.texvent.sub_interval import SubInterval
 from texvent.simulate.texvent.timestamps import reconstruct_timestamps
 from texvent.video import Frame, check_intensity
 
@@ -47,7 +49,7 @@ class DensePixels:
             reset_pairs=config.cache_reset_pairs,
         )
 
-    def advance(self, frame: Frame, span: Interval, where: str) -> EventStream:
+    def advance(self, frame: Frame, span: FrameInterval, where: str) -> EventStream:
         """What fires until this frame.
 
         Args:
@@ -69,9 +71,9 @@ class DensePixels:
         timed = self._reconstruct_timestamps(events, signal, interval)  # Eq. 7
         self._cache.update(signal, brightness, step=self._config.reset_step)
         self._brightness, self._is_source = brightness, frame.is_source
-        return timed.joined(noise).packet(span, frame.size, self._backend)
+        return make_packet(timed.joined(noise), span, frame.size, self._backend)
 
-    def _compare_with_cache(self, brightness: Float64Array, span: Interval) -> SubInterval:
+    def _compare_with_cache(self, brightness: Float64Array, span: FrameInterval) -> SubInterval:
         """Set the calibrated frame `κ ⋄ I^{j−1}` against this one, with voltage noise if asked."""
         if self._config.noise == "gaussian":
             brightness = brightness + draw_voltage_noise(
@@ -92,11 +94,11 @@ class DensePixels:
             multi_event=self._config.multi_event,
         )
 
-    def _add_noise(self, frame: Frame, events: EventFrame, span: Interval) -> Firings:
+    def _add_noise(self, frame: Frame, events: EventFrame, span: FrameInterval) -> UnsortedEvents:
         """Eq. 6, or its ablation E11 ("random"). E10 ("gaussian") has shaken the brightness."""
         config = self._config
         if not config.has_added_noise:
-            return Firings.none()
+            return UnsortedEvents.none()
         noise = draw_noise(
             frame.luma.size,
             span,
@@ -106,7 +108,7 @@ class DensePixels:
         )
         if config.noise == "random":
             return noise
-        return noise.where(
+        return noise.take(
             low_light_background(
                 frame.luma, noise.pixel, events.pixel, intensity=config.noise_intensity
             )
@@ -122,7 +124,7 @@ class DensePixels:
 
     def _reconstruct_timestamps(
         self, events: EventFrame, signal: EventFrame, interval: SubInterval
-    ) -> Firings:
+    ) -> UnsortedEvents:
         """Eq. 7. Events that only voltage noise let fire are labelled as noise."""
         activations = list_activations(events)
         t = reconstruct_timestamps(
@@ -132,7 +134,7 @@ class DensePixels:
             threshold=self._config.contrast_threshold,
             scale=self._config.stamp_scale,
         )
-        fired = Firings.signal(activations.pixel, t, activations.polarity)
+        fired = UnsortedEvents.signal(activations.pixel, t, activations.polarity)
         if signal is not events:
             fired.label[is_background(activations.pixel, signal.pixel)] = NOISE
         return fired

@@ -13,7 +13,9 @@ from texvent._registry import load_object
 from texvent.config import check_range
 from texvent.events import EventStream
 from texvent.simulate.backend.select import GPU, check_backend
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import make_packet
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.pixels import SparsePixels
@@ -102,10 +104,10 @@ class TexventSimulator:
             is_dense = self._backend == "reference" or self.config.noise == "gaussian"
             pixels_type = DensePixels if is_dense else SparsePixels
             self._pixels = pixels_type(self.config, self._backend, frame, where)
-            span = Interval(frame.t_us, frame.t_us, np.uint64(0))
-            packet = Firings.none().packet(span, frame.size, self._backend)
+            span = FrameInterval(frame.t_us, frame.t_us, np.uint64(0))
+            packet = make_packet(UnsortedEvents.none(), span, frame.size, self._backend)
         else:
-            span = Interval(self._last_us, frame.t_us, frame_key(self._seed, frame.t_us))
+            span = FrameInterval(self._last_us, frame.t_us, frame_key(self._seed, frame.t_us))
             packet = self._pixels.advance(frame, span, where)
         self._checker.accept(frame)
         self._last_us = frame.t_us
@@ -134,7 +136,7 @@ class TexventSimulator:
             checker.accept(frame)
         times = [self._last_us, *(frame.t_us for frame in frames)]
         spans = [
-            Interval(start_us, stop_us, frame_key(self._seed, stop_us))
+            FrameInterval(start_us, stop_us, frame_key(self._seed, stop_us))
             for start_us, stop_us in itertools.pairwise(times)
         ]
         packets += self._pixels.advance_batch(frames, spans, where)

@@ -11,9 +11,10 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.packets.interval import FiredPixels, place_in
+from texvent.simulate.packets.interval import place_in
 from texvent.simulate.random.draws import Purpose, draw_uniforms
 from texvent.simulate.texvent.event_frame import Activations
+from texvent.simulate.texvent.sub_interval import FiredPixels
 
 StampRule = Literal["eq7", "random", "linear", "hyperbolic", "even", "end"]
 Float64Array = NDArray[np.float64]

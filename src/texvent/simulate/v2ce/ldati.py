@@ -27,8 +27,9 @@ from texvent.config import check_range
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.simulate.packets.interval import place_in
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval, place_in
+from texvent.simulate.packets.sorting import make_packet
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import Purpose, draw_uniforms, frame_key
 
 Rounding: TypeAlias = Literal["published", "stochastic"]
@@ -82,18 +83,18 @@ def voxel_to_events(
         raise InputError(
             f"the interval {start_us}..{stop_us} µs is empty; it must last 1 µs or more"
         )
-    interval = Interval(start_us, stop_us, frame_key(seed, stop_us - start_us))
+    interval = FrameInterval(start_us, stop_us, frame_key(seed, stop_us - start_us))
     events = sample_events(voxel, interval, rounding=rounding, bidirectional=bidirectional)
-    return events.packet(interval, SensorSize(voxel.shape[3], voxel.shape[2]))
+    return make_packet(events, interval, SensorSize(voxel.shape[3], voxel.shape[2]))
 
 
 def sample_events(
     voxel: VoxelArray,
-    interval: Interval,
+    interval: FrameInterval,
     *,
     rounding: Rounding = "published",
     bidirectional: bool = False,
-) -> Firings:
+) -> UnsortedEvents:
     """Events of one voxel grid, unsorted.
 
     Args:
@@ -124,7 +125,7 @@ def sample_events(
     )
     fraction = np.concatenate([placed.fraction[lone], fraction])
     t = place_in(interval, (position + fraction) / placed.counts.shape[1])
-    return Firings.signal(row * voxel.shape[3] + column, t, (polarity == 0).astype(np.uint8))
+    return UnsortedEvents.signal(row * voxel.shape[3] + column, t, (polarity == 0).astype(np.uint8))
 
 
 class PlacedCounts(NamedTuple):

@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import draw_uniforms
 from texvent.simulate.v2ce.ldati import (
     JUST_BELOW_ONE,
@@ -21,11 +22,11 @@ from texvent.simulate.v2ce.ldati import (
 
 def sample_events(
     voxel: VoxelArray,
-    interval: Interval,
+    interval: FrameInterval,
     *,
     rounding: Rounding = "published",
     bidirectional: bool = False,
-) -> Firings:
+) -> UnsortedEvents:
     """Events of one voxel grid; arguments, errors and events as `ldati.sample_events`."""
     check_voxel(voxel)
     _, nodes, height, width = voxel.shape
@@ -48,7 +49,7 @@ def sample_events(
                 t = min(interval.start_us + offset, interval.stop_us - 1)
                 rows.append((y * width + x, t, 1 - polarity))
     pixel, t_us, p = np.array(rows, np.int64).reshape(-1, 3).T
-    return Firings.signal(pixel, t_us, p.astype(np.uint8))
+    return UnsortedEvents.signal(pixel, t_us, p.astype(np.uint8))
 
 
 def place_column(

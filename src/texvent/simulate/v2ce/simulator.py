@@ -17,7 +17,9 @@ import numpy as np
 from texvent.config import check_range
 from texvent.events import EventStream
 from texvent.runtime.network_files import describe_file
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import make_packet
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 from texvent.simulate.v2ce import ldati, ldati_reference
 from texvent.simulate.v2ce.ldati import Rounding
@@ -115,12 +117,12 @@ class V2ceSimulator(StreamingSimulator[V2ceConfig]):
         Raises:
             InputError: as `step`.
         """
-        waiting: list[tuple[Frame, Interval]] = []
+        waiting: list[tuple[Frame, FrameInterval]] = []
         for frame in frames:
             interval = self._enter(frame)
             if interval.duration_us == 0:
                 self._begin(frame.luma)
-                yield frame, Firings.none().packet(interval, frame.size)
+                yield frame, make_packet(UnsortedEvents.none(), interval, frame.size)
                 continue
             self._recent.append(normalise(frame.luma))
             waiting.append((frame, interval))
@@ -130,17 +132,19 @@ class V2ceSimulator(StreamingSimulator[V2ceConfig]):
         if waiting:
             yield from self._answer(waiting)
 
-    def _answer(self, waiting: list[tuple[Frame, Interval]]) -> Iterator[tuple[Frame, EventStream]]:
+    def _answer(
+        self, waiting: list[tuple[Frame, FrameInterval]]
+    ) -> Iterator[tuple[Frame, EventStream]]:
         grids = self._predict()[-len(waiting) :]
         for (frame, interval), grid in zip(waiting, grids, strict=True):
-            yield frame, self._sample(grid, interval).packet(interval, frame.size)
+            yield frame, make_packet(self._sample(grid, interval), interval, frame.size)
 
     def _begin(self, intensity: IntensityArray) -> None:
         self._recent: deque[Float32Array] = deque(
             [normalise(intensity)], maxlen=self.config.sequence_length + 1
         )
 
-    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings:
+    def _advance(self, intensity: IntensityArray, interval: FrameInterval) -> UnsortedEvents:
         self._recent.append(normalise(intensity))
         return self._sample(self._predict()[-1], interval)
 
@@ -149,7 +153,7 @@ class V2ceSimulator(StreamingSimulator[V2ceConfig]):
         recent = np.stack(self._recent)
         return self._network.predict(np.stack([recent[:-1], recent[1:]], axis=1))
 
-    def _sample(self, grid: Float32Array, interval: Interval) -> Firings:
+    def _sample(self, grid: Float32Array, interval: FrameInterval) -> UnsortedEvents:
         is_reference = self._backend == "reference"
         sample_events = ldati_reference.sample_events if is_reference else ldati.sample_events
         config = self.config

@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.errors import ConfigError
-from texvent.simulate.packets.order import Columns
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import SortedEvents
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import Purpose, draw_normals
 from texvent.simulate.random.mismatch import (
     LONG_AGO_US,
@@ -185,7 +186,9 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
         leak = factor.reshape(-1) * (config.leak_rate_hz / MICROSECONDS) * threshold_on
         return leak.astype(np.float32)
 
-    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings | Columns:
+    def _advance(
+        self, intensity: IntensityArray, interval: FrameInterval
+    ) -> UnsortedEvents | SortedEvents:
         if self.config.photoreceptor_noise:
             self._shake(intensity.shape, interval)
         restless = self._follow(intensity.reshape(-1), interval)
@@ -200,7 +203,7 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
         self._memorise_noise(noise.pixel, interval)
         return fired
 
-    def _follow(self, luma: IntensityArray, interval: Interval) -> Restless:
+    def _follow(self, luma: IntensityArray, interval: FrameInterval) -> Restless:
         """Move the photoreceptors to the end of the interval; who has reached a threshold then."""
         if luma.dtype != self._seen.dtype:
             # Frames of two types: from now on all are float32, which holds 8-bit levels exactly.
@@ -214,7 +217,7 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
             (float(interval.start_us - self._start_us), float(interval.stop_us - self._start_us)),
         )
 
-    def _shake(self, shape: tuple[int, ...], interval: Interval) -> None:
+    def _shake(self, shape: tuple[int, ...], interval: FrameInterval) -> None:
         """Move the noise of the photoreceptors, if they have any, to the end of the interval."""
         config = self.config
         _, voltage = self._state.voltage or (np.empty(0), np.empty(0))
@@ -227,11 +230,11 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
         now = kept * voltage + rms * math.sqrt(1 - kept * kept) * fresh
         self._state = self._state._replace(voltage=(voltage, now))
 
-    def _draw_shot_noise(self, luma: IntensityArray, interval: Interval) -> Firings:
+    def _draw_shot_noise(self, luma: IntensityArray, interval: FrameInterval) -> UnsortedEvents:
         """Independent noise events."""
         config = self.config
         if config.shot_noise_rate_hz == 0 or config.photoreceptor_noise:
-            return Firings.none()
+            return UnsortedEvents.none()
         return self._noise.draw(
             interval,
             share=lambda pixel: (
@@ -241,7 +244,7 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
             backend=self._backend,
         )
 
-    def _memorise_noise(self, pixel: NDArray[np.int64], interval: Interval) -> None:
+    def _memorise_noise(self, pixel: NDArray[np.int64], interval: FrameInterval) -> None:
         """A noise event makes its pixel memorise the present brightness."""
         leaked, leak = np.zeros(len(pixel)), self._pixels.leak
         if leak is not None:

@@ -14,8 +14,9 @@ import numpy as np
 
 from texvent.config import check_range
 from texvent.errors import ConfigError
-from texvent.simulate.packets.order import Columns
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import SortedEvents
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import Purpose, draw_uniforms
 from texvent.simulate.random.mismatch import sensor_key
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
@@ -110,7 +111,9 @@ class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
         self._voltage = new_voltage(residual)
         self._begin_us = self._last_us
 
-    def _advance(self, intensity: IntensityArray, interval: Interval) -> Firings | Columns:
+    def _advance(
+        self, intensity: IntensityArray, interval: FrameInterval
+    ) -> UnsortedEvents | SortedEvents:
         if intensity.dtype != self._seen.dtype:
             # Frames of two types: from now on all are float32, which holds 8-bit levels exactly.
             self._seen = self._seen.astype(np.float32, copy=False)

@@ -22,7 +22,7 @@ from texvent.simulate.fused.interface import (
     Pictures,
     Surveyed,
 )
-from texvent.simulate.packets.unsorted_events import Interval
+from texvent.simulate.packets.interval import FrameInterval
 
 KERNELS = [candidates_reference.find_candidates, candidates_cpu.find_candidates]
 kernels = pytest.mark.parametrize("find", KERNELS, ids=["reference", "cpu"])
@@ -96,7 +96,7 @@ def test_a_pixel_takes_the_first_grid_that_is_fine_enough(find):
     flow = np.zeros((*shape, 2), np.float32)
     flow[0, 1, 0], flow[0, 2, 1] = 1.5, 5.0
     first, second = np.float32([[0, 0, 0, 0]]), np.float32([[100, 100, 100, 0]])
-    grids, _ = own_pieces(Interval(0, 1000, np.uint64(0)))
+    grids, _ = own_pieces(FrameInterval(0, 1000, np.uint64(0)))
     found = find(
         Pictures(first, second, flow, -flow),
         grids,
@@ -114,7 +114,11 @@ def test_compiled_kernel_lists_what_the_definition_lists(shape, speed):
         pictures = pictures._replace(forward=STILL, backward=STILL)
     spread = np.random.default_rng(1).normal(0, 0.1, shape)
     kept = (pictures.earlier + 30.0) * np.exp(spread)
-    grids = one_grid([]), one_grid([0.2, 0.5, 0.6]), own_pieces(Interval(0, 9, np.uint64(0)))[0]
+    grids = (
+        one_grid([]),
+        one_grid([0.2, 0.5, 0.6]),
+        own_pieces(FrameInterval(0, 9, np.uint64(0)))[0],
+    )
     for grid, rule, reference in itertools.product(
         grids, (FOLLOWS, TAKES, STEPS_ONCE, STEPS), (np.empty((0, 0)), kept)
     ):

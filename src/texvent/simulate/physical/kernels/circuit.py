@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from texvent.simulate.backend.elementary import exponential, natural_log
 from texvent.simulate.backend.select import AUTO, load_kernel_when_ready
-from texvent.simulate.packets.order import Columns
-from texvent.simulate.packets.unsorted_events import Firings
+from texvent.simulate.packets.sorting import SortedEvents
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 
 Float64Array: TypeAlias = NDArray[np.float64]
 Float32Array: TypeAlias = NDArray[np.float32]
@@ -107,7 +107,8 @@ class ResetRules(NamedTuple):
 
 
 AdvancePixels: TypeAlias = Callable[
-    [Light, Pixels, PixelState, NoiseEvents, ResetRules, tuple[int, int]], Firings | Columns
+    [Light, Pixels, PixelState, NoiseEvents, ResetRules, tuple[int, int]],
+    UnsortedEvents | SortedEvents,
 ]
 """`advance_pixels(light, pixels, state, noise, rules, (start_us, stop_us))`, see
 `circuit_reference.advance_pixels`."""

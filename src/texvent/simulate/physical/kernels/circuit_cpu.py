@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from texvent.runtime.threads import count_threads, run_parts, split
 from texvent.simulate.backend.elementary_cpu import decay_and_gain, exponential, natural_log
 from texvent.simulate.backend.lanes_cpu import append_by_lane, is_equal
-from texvent.simulate.packets.order import Columns, read_only
-from texvent.simulate.packets.order_cpu import has_room_for_keys, key_bits, order_keys
-from texvent.simulate.packets.unsorted_events import Firings
+from texvent.simulate.packets.sorting import SortedEvents, read_only
+from texvent.simulate.packets.sorting_cpu import has_room_for_keys, key_bits, sort_keyed_events
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.physical.kernels import circuit_reference
 from texvent.simulate.physical.kernels.circuit import (
     ALMOST_BLACK,
@@ -59,7 +59,7 @@ def advance_pixels(
     noise: NoiseEvents,
     rules: ResetRules,
     span_us: tuple[int, int],
-) -> Firings | Columns:
+) -> UnsortedEvents | SortedEvents:
     """Every event between two frames; see `circuit_reference.advance_pixels`."""
     shape = light.shape
     if not has_room_for_keys(span_us[1] - span_us[0], shape):
@@ -90,7 +90,7 @@ def advance_pixels(
 
     parts = run_parts(advance, split(light.now.size, count_threads(), unit=SHARE))
     keys = parts[0] if len(parts) == 1 else np.concatenate(parts)
-    return order_keys(keys, span_us, shape)
+    return sort_keyed_events(keys, span_us, shape)
 
 
 def warm_up(dtype: str) -> None:

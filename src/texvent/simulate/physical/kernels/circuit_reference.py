@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from texvent.events import NOISE, SIGNAL
 from texvent.simulate.backend.elementary import decay_and_gain, exponential
-from texvent.simulate.packets.unsorted_events import Firings
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.physical.kernels.circuit import (
     DARK_OFFSET,
     Float64Array,
@@ -48,7 +48,7 @@ def advance_pixels(
     noise: NoiseEvents,
     rules: ResetRules,
     span_us: tuple[int, int],
-) -> Firings:
+) -> UnsortedEvents:
     """Every event between two frames; moves the state to the end of the interval.
 
     The output of a photoreceptor is a first-order low-pass of the brightness. The change since the
@@ -252,17 +252,17 @@ class _Fired:
         self._span_us = span_us
         self._found: list[tuple[NDArray[np.int64], ...]] = []
 
-    def events(self) -> Firings:
+    def events(self) -> UnsortedEvents:
         """What was found, by pixel, then in time."""
         nothing = np.empty(0, np.int64)
         columns = [np.concatenate([nothing, *parts]) for parts in zip(*self._found, strict=True)]
         if not columns:
-            return Firings.none()
+            return UnsortedEvents.none()
         pixel, t, p, label = columns
         # Stable, so a pixel's events keep their order.
         order = np.argsort(pixel, kind="stable")
         kinds = p.astype(np.uint8), label.astype(np.uint8)
-        return Firings(pixel[order], t[order], kinds[0][order], kinds[1][order])
+        return UnsortedEvents(pixel[order], t[order], kinds[0][order], kinds[1][order])
 
     def run(self, walk: _Walk, light: Light) -> _Walk:
         """Move every pixel on by one piece, event or release at a time, until all are done."""

@@ -8,8 +8,8 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.packets.order import read_only
-from texvent.simulate.packets.order_cpu import sort_almost_sorted, sort_keys
+from texvent.simulate.packets.sorting import read_only
+from texvent.simulate.packets.sorting_cpu import sort_almost_sorted, sort_keys
 from texvent.simulate.random.draws import Purpose
 from texvent.simulate.random.draws_cpu import allow_wrap_around, draw_uniform, draw_word
 from texvent.simulate.texvent.kernels.noise_blocks import Block, NoisePlaces

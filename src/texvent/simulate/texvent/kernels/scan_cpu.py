@@ -23,7 +23,7 @@ from texvent.simulate.crossing.bitmask_cpu import (
     mark_levels,
     number_of,
 )
-from texvent.simulate.packets.order import read_only
+from texvent.simulate.packets.sorting import read_only
 from texvent.simulate.random.draws_cpu import allow_wrap_around
 from texvent.simulate.texvent.kernels import scan_numpy as texvent_numpy
 from texvent.simulate.texvent.kernels.scan import (

@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeAlias, cast
 
 from texvent.simulate.backend.select import load_kernel_when_ready
-from texvent.simulate.packets.order import Columns
-from texvent.simulate.packets.unsorted_events import Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.texvent.kernels.noise_blocks import NoisePlaces
 from texvent.simulate.texvent.kernels.scan import Fired
 from texvent.simulate.texvent.timestamps import StampRule
@@ -28,7 +28,7 @@ class Timing(NamedTuple):
 
 
 StampEvents: TypeAlias = Callable[
-    [Sequence[Fired], NoisePlaces, Timing, Interval, tuple[int, int]], Columns
+    [Sequence[Fired], NoisePlaces, Timing, FrameInterval, tuple[int, int]], SortedEvents
 ]
 """`stamp_events(bands, noise, timing, span, (height, width))`, see `stamp_numpy.stamp_events`."""
 

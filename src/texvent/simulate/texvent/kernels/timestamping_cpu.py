@@ -1,7 +1,7 @@
 """Fired pixels and noise into a packet, compiled.
 
 Signal and noise both come by pixel, so they are merged into one list of keys in that order, and
-sorting by time (`order_cpu`) is all that is left. The arithmetic of every rule is that of
+sorting by time (`sorting_cpu`) is all that is left. The arithmetic of every rule is that of
 `texvent.simulate.texvent.timestamps`, operation by operation.
 """
 
@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import NOISE
-from texvent.simulate.packets.order import Columns
-from texvent.simulate.packets.order_cpu import MOST_KEY_BITS, key_bits, sort_keys, unpack_keys
-from texvent.simulate.packets.unsorted_events import Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import SortedEvents
+from texvent.simulate.packets.sorting_cpu import MOST_KEY_BITS, key_bits, sort_keys, unpack_keys
 from texvent.simulate.random.draws import Purpose
 from texvent.simulate.random.draws_cpu import allow_wrap_around, draw_uniform
 from texvent.simulate.texvent.kernels import timestamping_numpy as stamp_numpy
@@ -65,9 +65,9 @@ def stamp_events(
     bands: Sequence[Fired],
     noise: NoisePlaces,
     timing: Timing,
-    span: Interval,
+    span: FrameInterval,
     shape: tuple[int, int],
-) -> Columns:
+) -> SortedEvents:
     """See `stamp_numpy.stamp_events`."""
     rule = _Rule.of(timing, shape)
     bits = rule.low + span.duration_us.bit_length()
@@ -75,12 +75,12 @@ def stamp_events(
         return stamp_numpy.stamp_events(bands, noise, timing, span, shape)
     with allow_wrap_around():
         if len(bands) == 1:
-            return Columns(*_stamp_events(bands[0], noise, rule, span, bits))
-        return Columns(*_stamp_bands(bands, noise, rule, span, bits))
+            return SortedEvents(*_stamp_events(bands[0], noise, rule, span, bits))
+        return SortedEvents(*_stamp_bands(bands, noise, rule, span, bits))
 
 
 def _stamp_bands(
-    bands: Sequence[Fired], noise: NoisePlaces, rule: _Rule, span: Interval, bits: int
+    bands: Sequence[Fired], noise: NoisePlaces, rule: _Rule, span: FrameInterval, bits: int
 ) -> Any:
     """The same for several bands, whose columns need not be joined for it."""
     numbers, smallest, largest = zip(*(_measure(band.change, rule) for band in bands), strict=True)
@@ -99,11 +99,13 @@ def warm_up() -> None:
     noise = NoisePlaces(index, real, np.zeros(1, np.uint8))
     timing = Timing("eq7", 1.0, 1.0, multi_event=False, noise_at_rest=True)
     for bands in ([fired], [fired, fired]):
-        stamp_events(bands, noise, timing, Interval(0, 1, np.uint64(0)), (2, 1))
+        stamp_events(bands, noise, timing, FrameInterval(0, 1, np.uint64(0)), (2, 1))
 
 
 @numba.njit(cache=True, nogil=True)
-def _stamp_events(fired: Fired, noise: NoisePlaces, rule: _Rule, span: Interval, bits: int) -> Any:
+def _stamp_events(
+    fired: Fired, noise: NoisePlaces, rule: _Rule, span: FrameInterval, bits: int
+) -> Any:
     number, smallest, largest = _measure(fired.change, rule)
     signal = np.empty(number, np.uint64)
     _list_signal(fired, (smallest, largest), rule, span, signal)
@@ -130,8 +132,10 @@ def _measure(changes: Float64Array, rule: _Rule) -> tuple[int, float, float]:
 
 
 @numba.njit(cache=True, nogil=True)
-def _order(signal: Uint64Array, noise: NoisePlaces, rule: _Rule, span: Interval, bits: int) -> Any:
-    """Columns of the packet."""
+def _order(
+    signal: Uint64Array, noise: NoisePlaces, rule: _Rule, span: FrameInterval, bits: int
+) -> Any:
+    """SortedEvents of the packet."""
     keys = signal
     if noise.pixel.size:
         keys = _merge(signal, _list_noise(noise, rule, span), rule)
@@ -146,7 +150,7 @@ def _number_of(change: float, rule: _Rule) -> Any:
 
 @numba.njit(cache=True, nogil=True)
 def _list_signal(
-    fired: Fired, reach: tuple[float, float], rule: _Rule, span: Interval, keys: Uint64Array
+    fired: Fired, reach: tuple[float, float], rule: _Rule, span: FrameInterval, keys: Uint64Array
 ) -> None:
     """Keys of the events that fired, by pixel; |ΔL| reaches from the one number to the other."""
     # Arrays are taken out of their tuple once: counting references to them in the loop is slow.
@@ -171,7 +175,7 @@ def _list_signal(
 
 
 @numba.njit(cache=True, nogil=True)
-def _list_noise(noise: NoisePlaces, rule: _Rule, span: Interval) -> Uint64Array:
+def _list_noise(noise: NoisePlaces, rule: _Rule, span: FrameInterval) -> Uint64Array:
     """Keys of noise events, by pixel and polarity."""
     pixel, fraction, p = noise
     keys = np.empty(pixel.size, np.uint64)
@@ -204,7 +208,7 @@ def _merge(signal: Uint64Array, noise: Uint64Array, rule: _Rule) -> Uint64Array:
 
 
 @numba.njit(cache=True, nogil=True, inline="always")
-def _key(place: np.uint64, fraction: float, rule: _Rule, span: Interval) -> Any:
+def _key(place: np.uint64, fraction: float, rule: _Rule, span: FrameInterval) -> Any:
     """Time, as `interval.place_in` rounds it, above the place."""
     duration_us = span.stop_us - span.start_us
     offset = np.int64(math.floor(fraction * duration_us))
@@ -229,7 +233,7 @@ def _linear_crossing(start: float, stop: float, level: float, sign: float) -> fl
 
 @numba.njit(cache=True, nogil=True, inline="always")
 def _fraction(
-    pixel: int, size: float, order: int, number: int, rule: _Rule, span: Interval
+    pixel: int, size: float, order: int, number: int, rule: _Rule, span: FrameInterval
 ) -> float:
     """Time of an event as a fraction of the sub-interval; see `timestamps`."""
     if rule.stamp == _HYPERBOLIC:

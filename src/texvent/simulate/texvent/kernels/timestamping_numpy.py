@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from texvent.simulate.packets.interval import SparseInterval, place_in
-from texvent.simulate.packets.order import Columns, Unordered
-from texvent.simulate.packets.order_reference import order_events
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval, place_in
+from texvent.simulate.packets.sorting import SortedEvents
+from texvent.simulate.packets.sorting_reference import sort_events
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.texvent.event_frame import EventFrame, count_events, list_activations
 from texvent.simulate.texvent.kernels.noise_blocks import NoisePlaces
 from texvent.simulate.texvent.kernels.scan import Fired, join_fired
 from texvent.simulate.texvent.kernels.timestamping import Timing
 from texvent.simulate.texvent.noise import is_background
+from texvent.simulate.texvent.sub_interval import SparseInterval
 from texvent.simulate.texvent.timestamps import reconstruct_timestamps
 
 
@@ -20,9 +21,9 @@ def stamp_events(
     bands: Sequence[Fired],
     noise: NoisePlaces,
     timing: Timing,
-    span: Interval,
+    span: FrameInterval,
     shape: tuple[int, int],
-) -> Columns:
+) -> SortedEvents:
     """Give every event its time (Eq. 7) and put signal and noise in the order of a packet.
 
     Args:
@@ -42,8 +43,8 @@ def stamp_events(
         threshold=timing.threshold,
         scale=timing.scale,
     )
-    signal = Firings.signal(activations.pixel, t, activations.polarity)
-    added = Firings.noise(noise.pixel, place_in(span, noise.fraction), noise.p)
+    signal = UnsortedEvents.signal(activations.pixel, t, activations.polarity)
+    added = UnsortedEvents.noise(noise.pixel, place_in(span, noise.fraction), noise.p)
     if timing.noise_at_rest:
-        added = added.where(is_background(noise.pixel, fired.pixel))
-    return order_events(Unordered(*signal.joined(added)), (span.start_us, span.stop_us), shape)
+        added = added.take(is_background(noise.pixel, fired.pixel))
+    return sort_events(signal.joined(added), (span.start_us, span.stop_us), shape)

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.simulate.backend.select import AUTO, load_kernel_when_ready
-from texvent.simulate.packets.order import Columns
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import SortedEvents
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.v2e.kernels.low_pass import Float64Array, Pixels, PixelState, Restless
 
 
@@ -28,14 +29,15 @@ class LastEvents(NamedTuple):
 class Rules(NamedTuple):
     """Where the events are, and how long their pixels rest."""
 
-    interval: Interval
+    interval: FrameInterval
     refractory_us: int
     shape: tuple[int, int]
     """(height, width) of the sensor."""
 
 
 FireAndMemorise: TypeAlias = Callable[
-    [Restless, tuple[Pixels, PixelState], LastEvents, Firings, Rules], Firings | Columns
+    [Restless, tuple[Pixels, PixelState], LastEvents, UnsortedEvents, Rules],
+    UnsortedEvents | SortedEvents,
 ]
 """`fire_and_memorise(restless, (pixels, state), last, noise, rules)`, see
 `memorise_reference.fire_and_memorise`."""

@@ -11,9 +11,10 @@ from texvent.runtime.scratch import take_scratch
 from texvent.simulate.crossing.levels import Thresholds
 from texvent.simulate.crossing.ramp import Rest
 from texvent.simulate.crossing.ramp_cpu import Clock, Lines, clock_of, count_steps, list_events
-from texvent.simulate.packets.order import Columns
-from texvent.simulate.packets.order_cpu import merge_keys, order_keys
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import SortedEvents
+from texvent.simulate.packets.sorting_cpu import merge_keys, sort_keyed_events
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.v2e.kernels import emit_and_reset_reference as memorise_reference
 from texvent.simulate.v2e.kernels.emit_and_reset import LastEvents, Rules
 from texvent.simulate.v2e.kernels.low_pass import (
@@ -33,9 +34,9 @@ def fire_and_memorise(
     restless: Restless,
     circuits: tuple[Pixels, PixelState],
     last: LastEvents,
-    noise: Firings,
+    noise: UnsortedEvents,
     rules: Rules,
-) -> Firings | Columns:
+) -> UnsortedEvents | SortedEvents:
     """See `memorise_reference.fire_and_memorise`."""
     interval = rules.interval
     span_us = interval.start_us, interval.stop_us
@@ -60,16 +61,16 @@ def fire_and_memorise(
     _memorise(keys, (pixel, lines.threshold, lines.steps), state.reference, leak, voltage, times)
     if len(noise.t):
         keys = merge_keys(keys, _keys_of(noise, clock), clock.low)
-    return order_keys(keys, span_us, rules.shape)
+    return sort_keyed_events(keys, span_us, rules.shape)
 
 
 def warm_up() -> None:
     """Compile, or load what was compiled before."""
     one, pixel, threshold = np.ones(1), np.zeros(1, np.int64), np.ones(1, np.float32)
     circuits = Pixels(threshold, threshold, None), PixelState(one, one.copy(), None, one)
-    noise = Firings.noise(pixel, pixel, np.zeros(1, np.uint8))
+    noise = UnsortedEvents.noise(pixel, pixel, np.zeros(1, np.uint8))
     last = LastEvents(pixel.copy(), pixel.copy(), None)
-    rules = Rules(Interval(0, 1, np.uint64(0)), 0, (1, 1))
+    rules = Rules(FrameInterval(0, 1, np.uint64(0)), 0, (1, 1))
     fire_and_memorise(Restless(pixel, one, one), circuits, last, noise, rules)
 
 
@@ -119,7 +120,7 @@ def _memorise(
 
 
 @numba.njit(cache=True, nogil=True)
-def _keys_of(noise: Firings, clock: Clock) -> Uint64Array:
+def _keys_of(noise: UnsortedEvents, clock: Clock) -> Uint64Array:
     pixel, t, p, _ = noise
     keys = np.empty(pixel.size, np.uint64)
     for i in range(pixel.size):

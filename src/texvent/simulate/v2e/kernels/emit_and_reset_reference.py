@@ -7,7 +7,7 @@ import numpy as np
 from texvent.events import NOISE, SIGNAL
 from texvent.simulate.crossing.ramp import Ramp, Rest
 from texvent.simulate.crossing.ramp_reference import cross_ramp
-from texvent.simulate.packets.unsorted_events import Firings
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.v2e.kernels.emit_and_reset import LastEvents, Rules
 from texvent.simulate.v2e.kernels.low_pass import Pixels, PixelState, Restless
 
@@ -16,9 +16,9 @@ def fire_and_memorise(
     restless: Restless,
     circuits: tuple[Pixels, PixelState],
     last: LastEvents,
-    noise: Firings,
+    noise: UnsortedEvents,
     rules: Rules,
-) -> Firings:
+) -> UnsortedEvents:
     """Fire at every threshold that was crossed, and move the references by as many.
 
     Events to which leak and noise of the photoreceptor contributed at least half are noise.
@@ -57,4 +57,4 @@ def fire_and_memorise(
     is_noise = by_noise * np.sign(steps) >= 0.5 * np.abs(moved)
     # A step is an event here, and events come by pixel.
     label = np.repeat(np.where(is_noise, NOISE, SIGNAL).astype(np.uint8), np.abs(steps))
-    return Firings(crossings.pixel, crossings.t, crossings.p, label).joined(noise)
+    return UnsortedEvents(crossings.pixel, crossings.t, crossings.p, label).joined(noise)

@@ -13,7 +13,7 @@ from texvent.runtime.scratch import take_scratch
 from texvent.runtime.threads import count_threads, run_parts, split
 from texvent.simulate.backend.elementary_cpu import natural_log
 from texvent.simulate.backend.lanes_cpu import WORD, is_equal, list_marked
-from texvent.simulate.packets.order import read_only
+from texvent.simulate.packets.sorting import read_only
 from texvent.simulate.v2e.kernels.low_pass import (
     BLOCK,
     DARK_OFFSET,

@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.simulate.backend.select import AUTO, load_kernel_when_ready
-from texvent.simulate.packets.order import Columns
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import SortedEvents
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import Purpose
 
 Float64Array: TypeAlias = NDArray[np.float64]
@@ -73,7 +74,9 @@ class Light(NamedTuple):
     constants: Constants
 
 
-FindPassages: TypeAlias = Callable[[Light, Voltage, Interval, int], Firings | Columns]
+FindPassages: TypeAlias = Callable[
+    [Light, Voltage, FrameInterval, int], UnsortedEvents | SortedEvents
+]
 """`find_passages(light, voltage, interval, first_us)`, see `passage_reference.find_passages`."""
 
 

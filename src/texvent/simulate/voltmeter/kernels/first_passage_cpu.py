@@ -19,9 +19,10 @@ from texvent.events import NOISE
 from texvent.runtime.threads import count_threads, run_parts, split
 from texvent.simulate.backend.elementary_cpu import cosine_of_turns, natural_log
 from texvent.simulate.backend.lanes_cpu import WORD, append_by_lane, list_marked, make_room
-from texvent.simulate.packets.order import Columns, read_only
-from texvent.simulate.packets.order_cpu import has_room_for_keys, key_bits, order_keys
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import SortedEvents, read_only
+from texvent.simulate.packets.sorting_cpu import has_room_for_keys, key_bits, sort_keyed_events
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws_cpu import draw_halves_at, draw_uniform_at, place_of
 from texvent.simulate.voltmeter.kernels import first_passage_reference as passage_reference
 from texvent.simulate.voltmeter.kernels.first_passage import (
@@ -46,7 +47,7 @@ _motion_of = numba.njit(cache=True, nogil=True, error_model="numpy")(passage_ref
 SHARE = 16 * BLOCK
 """Fewest pixels that are worth a thread of their own."""
 ROOM = BLOCK + 8
-"""Columns of `lanes`: rows a power of two apart would share few lines of the nearest cache."""
+"""SortedEvents of `lanes`: rows a power of two apart would share few lines of the nearest cache."""
 WAY, SINCE, DUE, PACE, DRIVEN, SIGNAL, FORWARD, SPEED, SPREAD, SQUARE, CHANCE, DISTANCE = range(12)
 """Rows of `lanes`, [12, BLOCK] float64: what busy pixels do, see `passage_reference._Going`.
 FORWARD is the sign of the drift, SPREAD is σ². It is one array because Numba counts the references
@@ -61,8 +62,8 @@ _NOISE = np.uint64(NOISE)
 
 
 def find_passages(
-    light: Light, voltage: Voltage, interval: Interval, first_us: int
-) -> Firings | Columns:
+    light: Light, voltage: Voltage, interval: FrameInterval, first_us: int
+) -> UnsortedEvents | SortedEvents:
     """Alternate between polarity and time; see `passage_reference.find_passages`."""
     shape = light.now.shape
     if not has_room_for_keys(interval.duration_us, shape):
@@ -91,7 +92,7 @@ def find_passages(
     # A pixel of this model takes as long as several of others: small frames are worth sharing.
     parts = run_parts(find, split(now.size, count_threads(), unit=SHARE))
     keys = parts[0] if len(parts) == 1 else np.concatenate(parts)
-    return order_keys(keys, (interval.start_us, interval.stop_us), shape)
+    return sort_keyed_events(keys, (interval.start_us, interval.stop_us), shape)
 
 
 def warm_up(dtype: str) -> None:
@@ -99,7 +100,7 @@ def warm_up(dtype: str) -> None:
     light = Light(
         np.zeros((1, 1), dtype), np.zeros((1, 1), dtype), Constants(1.0, 1.0, 0.0, 0.0, 0.0, 0.0)
     )
-    find_passages(light, new_voltage(np.zeros(1)), Interval(0, 1, np.uint64(0)), 0)
+    find_passages(light, new_voltage(np.zeros(1)), FrameInterval(0, 1, np.uint64(0)), 0)
 
 
 @numba.njit(cache=True, nogil=True, error_model="numpy")

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from texvent.events import NOISE, SIGNAL
 from texvent.simulate.backend.elementary import cosine_of_turns, natural_log
-from texvent.simulate.packets.unsorted_events import Firings, Interval
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import draw_halves, draw_uniforms
 from texvent.simulate.voltmeter.kernels.first_passage import (
     CERTAIN,
@@ -45,7 +46,9 @@ class _Going(NamedTuple):
     """What the signal drove of the way until then."""
 
 
-def find_passages(light: Light, voltage: Voltage, interval: Interval, first_us: int) -> Firings:
+def find_passages(
+    light: Light, voltage: Voltage, interval: FrameInterval, first_us: int
+) -> UnsortedEvents:
     """Alternate between choosing a polarity and sampling a time, until the interval ends.
 
     Where the light rests, the passage that lies beyond the end is remembered, and its pixel has no
@@ -89,7 +92,7 @@ def find_passages(light: Light, voltage: Voltage, interval: Interval, first_us: 
     # Stable, so a pixel's events keep their order.
     by_pixel = np.argsort(pixel, kind="stable")
     t = interval.start_us + np.floor(after - start).astype(np.int64)
-    return Firings(pixel[by_pixel], t[by_pixel], p[by_pixel], label[by_pixel])
+    return UnsortedEvents(pixel[by_pixel], t[by_pixel], p[by_pixel], label[by_pixel])
 
 
 def _way_gone(voltage: Voltage, time: float) -> Float64Array:

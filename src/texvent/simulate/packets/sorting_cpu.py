@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.scratch import take_scratch
-from texvent.simulate.packets import order_reference
-from texvent.simulate.packets.order import Columns, Unordered, read_only
+from texvent.simulate.packets import sorting_reference
+from texvent.simulate.packets.sorting import SortedEvents, read_only
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 
 Uint64Array = NDArray[np.uint64]
 
@@ -30,15 +31,19 @@ KEY_USES = ("keys", "sorted keys")
 """Of `scratch`: what is sorted, and room to sort it."""
 
 
-def order_events(events: Unordered, span_us: tuple[int, int], shape: tuple[int, int]) -> Columns:
-    """See `order_reference.order_events`."""
+def sort_events(
+    events: UnsortedEvents, span_us: tuple[int, int], shape: tuple[int, int]
+) -> SortedEvents:
+    """See `sorting_reference.sort_events`."""
     duration_us, pixels = span_us[1] - span_us[0], shape[0] * shape[1]
     low, high = key_bits(pixels), duration_us.bit_length()
     if low + high > MOST_KEY_BITS:
-        return order_reference.order_events(events, span_us, shape)
+        return sorting_reference.sort_events(events, span_us, shape)
     keys, spare = (take_scratch(use, len(events.t), np.uint64) for use in KEY_USES)
-    given = Unordered(*(read_only(column) for column in events))
-    return Columns(*_order_events(given, (keys, spare), span_us[0], shape[1], (low, low + high)))
+    given = UnsortedEvents(*(read_only(column) for column in events))
+    return SortedEvents(
+        *_sort_events(given, (keys, spare), span_us[0], shape[1], (low, low + high))
+    )
 
 
 def key_bits(pixels: int) -> int:
@@ -46,8 +51,10 @@ def key_bits(pixels: int) -> int:
     return (pixels - 1).bit_length() + 2
 
 
-def order_keys(keys: Uint64Array, span_us: tuple[int, int], shape: tuple[int, int]) -> Columns:
-    """As `order_events`, of events that are keys already.
+def sort_keyed_events(
+    keys: Uint64Array, span_us: tuple[int, int], shape: tuple[int, int]
+) -> SortedEvents:
+    """As `sort_events`, of events that are keys already.
 
     Args:
         keys: [n] by pixel; used as scratch.
@@ -57,7 +64,7 @@ def order_keys(keys: Uint64Array, span_us: tuple[int, int], shape: tuple[int, in
     low = key_bits(shape[0] * shape[1])
     bits = low + (span_us[1] - span_us[0]).bit_length()
     spare = take_scratch(KEY_USES[1], keys.size, np.uint64)
-    return Columns(*_order_keys(keys, spare, span_us[0], (shape[1], low, bits)))
+    return SortedEvents(*_sort_keyed_events(keys, spare, span_us[0], (shape[1], low, bits)))
 
 
 def has_room_for_keys(duration_us: int, shape: tuple[int, int]) -> bool:
@@ -68,13 +75,13 @@ def has_room_for_keys(duration_us: int, shape: tuple[int, int]) -> bool:
 def warm_up() -> None:
     """Compile, or load what was compiled before."""
     one, byte = np.zeros(1, np.int64), np.zeros(1, np.uint8)
-    order_events(Unordered(one, one, byte, byte), (0, 1), (1, 1))
-    order_keys(np.zeros(1, np.uint64), (0, 1), (1, 1))
+    sort_events(UnsortedEvents(one, one, byte, byte), (0, 1), (1, 1))
+    sort_keyed_events(np.zeros(1, np.uint64), (0, 1), (1, 1))
 
 
 @numba.njit(cache=True, nogil=True)
-def _order_events(
-    events: Unordered,
+def _sort_events(
+    events: UnsortedEvents,
     scratch: tuple[Uint64Array, Uint64Array],
     start_us: int,
     width: int,
@@ -92,7 +99,7 @@ def _order_events(
 
 
 @numba.njit(cache=True, nogil=True)
-def _order_keys(
+def _sort_keyed_events(
     keys: Uint64Array, spare: Uint64Array, start_us: int, layout: tuple[int, int, int]
 ) -> Any:
     width, low, bits = layout
@@ -192,7 +199,7 @@ def count_to_start(place: NDArray[np.uint32]) -> None:
 
 @numba.njit(cache=True, nogil=True)
 def unpack_keys(keys: Uint64Array, start_us: int, width: int, low: int) -> Any:
-    """Columns x, y, t, p, label of sorted keys.
+    """SortedEvents x, y, t, p, label of sorted keys.
 
     Args:
         keys: [n].

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from texvent.simulate.packets.order import Columns, Unordered
+from texvent.simulate.packets.sorting import SortedEvents
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 
 
-def order_events(events: Unordered, span_us: tuple[int, int], shape: tuple[int, int]) -> Columns:
+def sort_events(
+    events: UnsortedEvents, span_us: tuple[int, int], shape: tuple[int, int]
+) -> SortedEvents:
     """Events in the order every packet has: by (t, y, x, p), then labels.
 
     Args:
@@ -27,4 +30,4 @@ def order_events(events: Unordered, span_us: tuple[int, int], shape: tuple[int, 
         order = np.lexsort((label, p, pixel, t))
         t, pixel, p, label = t[order], pixel[order], p[order], label[order]
     y, x = np.divmod(pixel, shape[1])
-    return Columns(x.astype(np.uint16), y.astype(np.uint16), t, p, label)
+    return SortedEvents(x.astype(np.uint16), y.astype(np.uint16), t, p, label)

@@ -1,0 +1,59 @@
+"""Sorts the events of an interval into a packet, for every pixel model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeAlias, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+from texvent.simulate.backend.select import AUTO, load_kernel_when_ready
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
+
+
+class SortedEvents(NamedTuple):
+    """The columns of an `EventStream`, sorted by (t, y, x, p, label)."""
+
+    x: NDArray[np.uint16]
+    y: NDArray[np.uint16]
+    t: NDArray[np.int64]
+    p: NDArray[np.uint8]
+    label: NDArray[np.uint8]
+
+    def unsorted(self, width: int) -> UnsortedEvents:
+        """The same events by flat pixel index; `width` of the sensor, pixels."""
+        return UnsortedEvents(self.y.astype(np.int64) * width + self.x, self.t, self.p, self.label)
+
+
+SortEvents: TypeAlias = Callable[[UnsortedEvents, tuple[int, int], tuple[int, int]], SortedEvents]
+"""`sort_events(events, (start_us, stop_us), (height, width))`, see `sorting_reference`."""
+
+
+def load_sort_events(backend: str = AUTO) -> SortEvents:
+    """The function of a backend; "auto" sorts in NumPy until the compiled one is ready.
+
+    Raises:
+        ConfigError: no backend has that name.
+        MissingDependencyError: what the backend needs is not installed.
+    """
+    return cast("SortEvents", load_kernel_when_ready(__name__, "sort_events", backend))
+
+
+def make_packet(
+    events: UnsortedEvents, interval: FrameInterval, size: SensorSize, backend: str = AUTO
+) -> EventStream:
+    """The events in the order every packet has: by (t, y, x, p), labels included."""
+    span_us = (interval.start_us, interval.stop_us)
+    x, y, t, p, label = load_sort_events(backend)(events, span_us, size.shape)
+    return EventStream.unchecked(x, y, t, p, size=size, label=label)
+
+
+def read_only(array: NDArray[Any]) -> NDArray[Any]:
+    """A flat view that cannot be written, so that Numba compiles for one kind of array only."""
+    view = np.ascontiguousarray(array).reshape(-1).view()
+    view.flags.writeable = False
+    return view
