@@ -26,8 +26,8 @@ from texvent.represent.array_ops import Events
 from texvent.represent.named import represent
 from texvent.represent.tensors import EventTensors
 from texvent.sensor import SensorSize
-from texvent.view.canvas import Picture, blank, draw_text, enlarge, png_bytes
-from texvent.view.palettes import get_palette
+from texvent.view.drawing.canvas import Image, blank, draw_text, enlarge, png_bytes
+from texvent.view.drawing.palettes import get_palette
 
 VGA = SensorSize(640, 480)
 SLICE_US = 50_000
@@ -110,7 +110,7 @@ def measure(call: Callable[[], Any], device: str | None) -> float:
     return min(taken)
 
 
-def draw_figure() -> Picture:
+def draw_figure() -> Image:
     """One tile per representation, all of the same 30 ms."""
     events = texvent.generate(
         SCENE, seed=3, sensor=str(SIZE), duration=0.3, contrast_threshold=0.12, noise="none"
@@ -119,7 +119,7 @@ def draw_figure() -> Picture:
     return np.vstack([np.hstack(tiles[first : first + 3]) for first in range(0, len(tiles), 3)])
 
 
-def draw_tile(events: EventStream, tile: Tile) -> Picture:
+def draw_tile(events: EventStream, tile: Tile) -> Image:
     """One array, ON and OFF in the palette's colours, the 90th percentile in full colour."""
     array = represent(tile.name, events, **tile.options).astype(np.float64)
     values = array[tile.on]
@@ -134,7 +134,7 @@ def draw_tile(events: EventStream, tile: Tile) -> Picture:
     return whole
 
 
-def paint(values: NDArray[np.float64]) -> Picture:
+def paint(values: NDArray[np.float64]) -> Image:
     """−1 .. 1 as OFF .. background .. ON."""
     palette = get_palette("paper")
     strength = np.clip(np.abs(values), 0, 1)[..., None]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from texvent.pipeline import text_to_events
-from texvent.replay import film_again
+from texvent.replay import render_again
 from texvent.settings import resolve
 
 OPTIONS = {"duration": 0.2, "fps": 10, "sensor": "48x36", "seed": 4, "samples": 1}
@@ -16,7 +16,7 @@ def simulation():
 
 
 def test_a_generated_recording_is_filmed_again_from_its_provenance(simulation) -> None:
-    again = film_again(simulation.provenance)
+    again = render_again(simulation.provenance)
     assert again is not None
     assert again.size == (48, 36)
     for first, second in zip(simulation.video, again, strict=True):
@@ -39,4 +39,4 @@ def test_a_generated_recording_is_filmed_again_from_its_provenance(simulation) -
     ],
 )
 def test_other_recordings_cannot_be_filmed_again(simulation, changed: dict[str, object]) -> None:
-    assert film_again({**simulation.provenance, **changed}) is None
+    assert render_again({**simulation.provenance, **changed}) is None

@@ -250,7 +250,7 @@ class EventStream:
             path: where to save the page; then nothing is opened. Default: a temporary file.
             overwrite: whether an existing file may be replaced.
         """
-        shown: Path = load_object("texvent.view.page.page:show")(self, path, overwrite=overwrite)
+        shown: Path = load_object("texvent.view.page.writer:show")(self, path, overwrite=overwrite)
         return shown
 
 

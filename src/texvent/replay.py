@@ -12,7 +12,7 @@ from texvent.settings import resolve
 from texvent.video import FrameStream, RenderableStream
 
 
-def film_again(metadata: Mapping[str, Any]) -> FrameStream | None:
+def render_again(metadata: Mapping[str, Any]) -> FrameStream | None:
     """The video that a generated recording was simulated from, rendered again.
 
     Only generators that render any instant can do it; they also know its ground truth. The

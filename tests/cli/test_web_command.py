@@ -5,7 +5,7 @@ import sys
 import pytest
 
 from texvent.cli.app import main
-from texvent.cli.make.web import LOOPBACK, AppOptions
+from texvent.cli.simulation.web import LOOPBACK, AppOptions
 
 
 def fails(capsys, *words: str, code: int = 2) -> str:

@@ -14,22 +14,23 @@ from texvent.errors import ConfigError, InputError, OutputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Frame
-from texvent.view.film.encode import FilmEncoder
-from texvent.view.film.film import FilmWriter, title_of
+from texvent.view.drawing.caption import title_of
+from texvent.view.video.encoder import VideoEncoder
+from texvent.view.video.writer import VideoWriter
 
 SIZE = SensorSize(32, 24)
 Steps = list[tuple[Frame, EventStream]]
 
 
 def write_film(path: Path, steps: Steps, **options: object) -> Path:
-    with FilmWriter(path, size=SIZE, fps=Fraction(30_000, 1001), **options) as film:
+    with VideoWriter(path, size=SIZE, fps=Fraction(30_000, 1001), **options) as video:
         for frame, packet in steps:
-            film.append(frame, packet)
+            video.append(frame, packet)
     return path
 
 
 def read_film(path: Path) -> tuple[list[int], np.ndarray, av.container.InputContainer]:
-    """Times in µs, pictures, and the container."""
+    """Times in µs, images, and the container."""
     container = av.open(str(path))
     frames = list(container.decode(video=0))
     times = [round(frame.pts * frame.time_base * 1_000_000) for frame in frames]
@@ -64,10 +65,10 @@ def test_the_index_lies_in_front_so_that_browsers_start_at_once(
 
 
 def test_the_frame_is_left_and_its_events_are_right(tmp_path: Path, steps: Steps) -> None:
-    _, pictures, _ = read_film(write_film(tmp_path / "out.mp4", steps, palette="paper"))
-    width = pictures.shape[2]
-    picture = pictures[1].astype(int)
-    row = picture[int(picture.shape[0] * 0.7)]
+    _, images, _ = read_film(write_film(tmp_path / "out.mp4", steps, palette="paper"))
+    width = images.shape[2]
+    image = images[1].astype(int)
+    row = image[int(image.shape[0] * 0.7)]
     left, right = row[: width // 2 - 4], row[width // 2 + 4 :]
     # The bar is orange on dark grey; events are blue and red on white.
     assert (left[:, 0] > left[:, 2] + 100).any()
@@ -92,12 +93,12 @@ def test_events_of_intermediate_frames_count_for_the_next_source_frame(
 
 
 def test_gif_times_are_rounded_but_do_not_drift(tmp_path: Path, steps: Steps) -> None:
-    times, pictures, _ = read_film(write_film(tmp_path / "out.gif", steps))
+    times, images, _ = read_film(write_film(tmp_path / "out.gif", steps))
     source = [frame.t_us for frame, _ in steps if frame.is_source]
     exact = [t - source[0] for t in source[:-1]]
     assert len(times) == len(exact)
     assert all(0 <= want - got < 10_000 for want, got in zip(exact, times, strict=True))
-    right = pictures[1, :, pictures.shape[2] // 2 :].astype(int)
+    right = images[1, :, images.shape[2] // 2 :].astype(int)
     assert (right[..., 2] > right[..., 0] + 100).any()
 
 
@@ -121,8 +122,8 @@ def test_an_exception_midway_leaves_no_film(
     tmp_path: Path, steps: Steps, folder_is_clean: Callable[[], bool]
 ) -> None:
     def interrupt() -> None:
-        with FilmWriter(tmp_path / "out.mp4", size=SIZE, fps=None) as film:
-            film.append(*steps[0])
+        with VideoWriter(tmp_path / "out.mp4", size=SIZE, fps=None) as video:
+            video.append(*steps[0])
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
@@ -144,11 +145,11 @@ def test_an_existing_film_is_kept_unless_overwriting_is_allowed(
 
 def test_other_extensions_are_refused(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match=r"must end in \.mp4 or \.gif"):
-        FilmWriter(tmp_path / "out.avi", size=SIZE, fps=None)
+        VideoWriter(tmp_path / "out.avi", size=SIZE, fps=None)
 
 
 def test_a_writer_outside_its_with_block_says_so(tmp_path: Path) -> None:
-    encoder = FilmEncoder(
+    encoder = VideoEncoder(
         tmp_path / "out.mp4", width=32, height=32, fps=Fraction(30), overwrite=False
     )
     with pytest.raises(OutputError, match="with block"):
@@ -164,7 +165,7 @@ def test_a_full_disk_while_encoding_is_one_clear_line(
     def refuse(*_: object) -> None:
         raise av.error.OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
-    monkeypatch.setattr(FilmEncoder, "_encode", refuse)
+    monkeypatch.setattr(VideoEncoder, "_encode", refuse)
     with pytest.raises(OutputError, match="the disk is full"):
         write_film(tmp_path / "out.mp4", steps)
     assert folder_is_clean()

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from texvent.video import Frame
-from texvent.view.page.filmstrip import STRIP_WIDTH, FrameStrip
+from texvent.view.page.frame_strip import STRIP_WIDTH, FrameStrip
 
 
 def frame(index: int, width: int = 8) -> Frame:
@@ -17,7 +17,7 @@ def test_kept_frames_are_evenly_spread_and_never_too_many(count: int) -> None:
     strip = FrameStrip(limit=4)
     for index in range(count):
         strip.append(frame(index))
-    times = [t for t, _ in strip.pictures]
+    times = [t for t, _ in strip.images]
     assert strip.seen == count
     assert min(count, 2) <= len(times) <= 4
     assert times[0] == 0
@@ -29,12 +29,12 @@ def test_kept_frames_are_evenly_spread_and_never_too_many(count: int) -> None:
 def test_intermediate_frames_are_left_out() -> None:
     strip = FrameStrip()
     strip.append(Frame(np.zeros((6, 8)), 5, is_source=False))
-    assert (strip.seen, strip.pictures) == (0, [])
+    assert (strip.seen, strip.images) == (0, [])
 
 
 def test_large_frames_are_made_small_and_keep_their_shape() -> None:
     strip = FrameStrip()
     strip.append(Frame(np.full((600, 2 * STRIP_WIDTH, 3), 90, dtype=np.uint8), 0))
-    picture = cv2.imdecode(np.frombuffer(strip.pictures[0][1], np.uint8), cv2.IMREAD_COLOR)
-    assert picture.shape == (300, STRIP_WIDTH, 3)
-    assert abs(picture.mean() - 90) < 2
+    image = cv2.imdecode(np.frombuffer(strip.images[0][1], np.uint8), cv2.IMREAD_COLOR)
+    assert image.shape == (300, STRIP_WIDTH, 3)
+    assert abs(image.mean() - 90) < 2

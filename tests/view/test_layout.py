@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from texvent.sensor import SENSORS, SensorSize
-from texvent.view.canvas import blank, fit_text, text_width
-from texvent.view.film.layout import SURROUND, Layout, draw_legend
-from texvent.view.palettes import PALETTES, get_palette
+from texvent.view.drawing.canvas import blank, fit_text, text_width
+from texvent.view.drawing.palettes import PALETTES, get_palette
+from texvent.view.drawing.panels import SURROUND, PanelLayout, draw_legend
 
 SIZES = [
     *(sensor.size for sensor in SENSORS.values()),
@@ -22,13 +22,13 @@ SIZES = [
 def test_every_sensor_gives_an_even_picture_with_both_panels(
     size: SensorSize, side_by_side: bool
 ) -> None:
-    layout = Layout(size, get_palette("paper"), side_by_side=side_by_side)
+    layout = PanelLayout(size, get_palette("paper"), side_by_side=side_by_side)
     frame = blank(size.width, size.height, (10, 200, 30))
     events = blank(size.width, size.height, (0, 0, 255))
-    picture = layout.compose(frame, events, title="a title", facts="0.1 s")
-    assert picture.shape == (layout.height, layout.width, 3)
+    image = layout.compose(frame, events, title="a title", facts="0.1 s")
+    assert image.shape == (layout.height, layout.width, 3)
     assert layout.width % 2 == layout.height % 2 == 0
-    row = picture[layout.caption_height + (layout.height - layout.caption_height) // 2]
+    row = image[layout.caption_height + (layout.height - layout.caption_height) // 2]
     assert (row == (0, 0, 255)).all(axis=1).sum() == size.width * layout.factor
     shown = (row == (10, 200, 30)).all(axis=1).sum()
     assert shown == (size.width * layout.factor if side_by_side else 0)
@@ -39,15 +39,15 @@ def test_every_sensor_gives_an_even_picture_with_both_panels(
     [(SensorSize(346, 260), 2), (SensorSize(64, 48), 10), (SensorSize(1280, 720), 1)],
 )
 def test_small_sensors_are_enlarged_by_a_whole_factor(size: SensorSize, factor: int) -> None:
-    assert Layout(size, get_palette("paper")).factor == factor
+    assert PanelLayout(size, get_palette("paper")).factor == factor
 
 
 def test_events_are_enlarged_without_inventing_colours() -> None:
-    layout = Layout(SensorSize(4, 4), get_palette("paper"), side_by_side=False)
+    layout = PanelLayout(SensorSize(4, 4), get_palette("paper"), side_by_side=False)
     events = blank(4, 4, (255, 255, 255))
     events[1, 2] = (0, 0, 255)
-    picture = layout.compose(None, events, title="", facts="")
-    panel = picture[layout.caption_height :]
+    image = layout.compose(None, events, title="", facts="")
+    panel = image[layout.caption_height :]
     assert {tuple(colour) for colour in panel.reshape(-1, 3).tolist()} <= {
         (255, 255, 255),
         (0, 0, 255),
@@ -74,7 +74,7 @@ def test_long_titles_are_cut_and_unicode_is_drawn() -> None:
     assert cut.endswith("...")
     assert text_width(cut, 10) <= 200
     assert fit_text("anything", 10, 1) == ""
-    layout = Layout(SensorSize(200, 100), get_palette("v2e"))
+    layout = PanelLayout(SensorSize(200, 100), get_palette("v2e"))
     empty = blank(200, 100, (0, 0, 0))
     caption = layout.compose(empty, empty, title="Überfahrt 红色 🚗", facts="")
     assert (caption[: layout.caption_height, : layout.width // 2] != SURROUND).any()

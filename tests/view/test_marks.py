@@ -8,9 +8,15 @@ import pytest
 from texvent.errors import ConfigError, InputError
 from texvent.sensor import SensorSize
 from texvent.video import Video
-from texvent.view.film.interval import Interval
-from texvent.view.film.marks import ARROW_US, BOX_COLOUR, FLOW_COLOUR, Marks, marks_of
-from texvent.view.film.source_overlay import Companion
+from texvent.view.drawing.annotations import (
+    ARROW_US,
+    BOX_COLOUR,
+    FLOW_COLOUR,
+    Annotations,
+    annotations_at,
+)
+from texvent.view.windows.event_window import EventWindow
+from texvent.view.windows.source_overlay import SourceOverlay
 
 SIZE = SensorSize(48, 32)
 
@@ -25,7 +31,7 @@ class Box:
 
 
 @dataclass(frozen=True)
-class Truth:
+class BoxesAndFlow:
     boxes: tuple[Box, ...]
     flow: np.ndarray
 
@@ -33,11 +39,11 @@ class Truth:
 class KnownVideo(Video):
     """The left half moves 3 px right in the time asked for; the right half is unknown."""
 
-    def ground_truth(self, t0_us: int, t1_us: int) -> Truth:
+    def ground_truth(self, t0_us: int, t1_us: int) -> BoxesAndFlow:
         assert t1_us - t0_us == ARROW_US
         flow = np.full((*SIZE.shape, 2), np.nan, dtype=np.float32)
         flow[:, :24] = (3, 0)
-        return Truth((Box(),), flow)
+        return BoxesAndFlow((Box(),), flow)
 
 
 def video(kind: type[Video] = KnownVideo) -> Video:
@@ -45,12 +51,12 @@ def video(kind: type[Video] = KnownVideo) -> Video:
     return kind(pixels, [0, 10_000, 20_000])
 
 
-def is_painted(picture: np.ndarray, colour: tuple[int, int, int]) -> np.ndarray:
-    return (picture == colour).all(axis=2)
+def is_painted(image: np.ndarray, colour: tuple[int, int, int]) -> np.ndarray:
+    return (image == colour).all(axis=2)
 
 
 def test_arrows_stand_where_motion_is_known_and_show_it() -> None:
-    arrows = marks_of(video(), 0, "flow").arrows
+    arrows = annotations_at(video(), 0, "flow").arrows
     assert arrows is not None
     assert len(arrows) > 10
     assert (arrows[:, 0] < 24).all()
@@ -59,44 +65,44 @@ def test_arrows_stand_where_motion_is_known_and_show_it() -> None:
 
 @pytest.mark.parametrize(("overlay", "boxes", "arrows"), [("boxes", 1, 0), ("flow", 0, 1)])
 def test_only_what_was_asked_for_is_marked(overlay, boxes: int, arrows: int) -> None:
-    marks = marks_of(video(), 0, overlay)
-    assert len(marks.boxes) == boxes
-    assert (marks.arrows is not None) == arrows
+    annotations = annotations_at(video(), 0, overlay)
+    assert len(annotations.boxes) == boxes
+    assert (annotations.arrows is not None) == arrows
 
 
 def test_a_box_is_drawn_around_its_pixels_at_any_enlargement() -> None:
-    picture = np.zeros((SIZE.height * 4, SIZE.width * 4, 3), dtype=np.uint8)
-    marks_of(video(), 0, "boxes").draw(picture, 4)
-    rows, columns = np.nonzero(is_painted(picture, BOX_COLOUR))
+    image = np.zeros((SIZE.height * 4, SIZE.width * 4, 3), dtype=np.uint8)
+    annotations_at(video(), 0, "boxes").draw(image, 4)
+    rows, columns = np.nonzero(is_painted(image, BOX_COLOUR))
     assert (columns.min(), rows.max()) == pytest.approx((40, 95), abs=2)
     assert columns.max() == pytest.approx(119, abs=2)
-    assert not is_painted(picture, BOX_COLOUR)[60:80, 60:80].any(), "hollow"
+    assert not is_painted(image, BOX_COLOUR)[60:80, 60:80].any(), "hollow"
 
 
 def test_an_arrow_is_drawn_from_its_tail_along_the_motion() -> None:
-    picture = np.zeros((64, 64, 3), dtype=np.uint8)
-    Marks(arrows=np.array([[2, 8, 10, 0]], dtype=np.float32)).draw(picture, 4)
-    _, columns = np.nonzero(is_painted(picture, FLOW_COLOUR))
+    image = np.zeros((64, 64, 3), dtype=np.uint8)
+    Annotations(arrows=np.array([[2, 8, 10, 0]], dtype=np.float32)).draw(image, 4)
+    _, columns = np.nonzero(is_painted(image, FLOW_COLOUR))
     assert (columns.min(), columns.max()) == pytest.approx((8, 48), abs=2)
 
 
 def test_each_interval_gets_the_frame_that_was_on_show_when_it_began() -> None:
     counts = np.zeros((2, *SIZE.shape), dtype=np.int32)
     starts = [-5, 0, 9_999, 10_000, 25_000]
-    beside = Companion(video(), "none", size=SIZE)
-    shown = beside.add_pictures(Interval(t, t + 1, counts) for t in starts)
-    assert [int(one.picture.mean()) for one in shown] == [0, 0, 0, 50, 100]
+    beside = SourceOverlay(video(), "none", size=SIZE)
+    shown = beside.add_frames(EventWindow(t, t + 1, counts) for t in starts)
+    assert [int(one.image.mean()) for one in shown] == [0, 0, 0, 50, 100]
 
 
 def test_an_overlay_without_ground_truth_is_refused() -> None:
     for frames in (None, video(Video)):
         with pytest.raises(ConfigError, match="embedded generator"):
-            Companion(frames, "both", size=SIZE)
+            SourceOverlay(frames, "both", size=SIZE)
 
 
 def test_a_video_of_another_size_is_refused() -> None:
     with pytest.raises(InputError, match="the video is 48x32, the events are 8x8"):
-        Companion(video(), "none", size=SensorSize(8, 8))
+        SourceOverlay(video(), "none", size=SensorSize(8, 8))
 
 
 @pytest.mark.parametrize(
@@ -111,5 +117,5 @@ def test_a_video_of_another_size_is_refused() -> None:
 )
 def test_a_page_holds_the_frames_that_are_on_during_its_events(extent, times) -> None:
     pixels = np.zeros((3, *SIZE.shape, 3), dtype=np.uint8)
-    beside = Companion(Video(pixels, [0, 100_000, 200_000]), "none", size=SIZE)
+    beside = SourceOverlay(Video(pixels, [0, 100_000, 200_000]), "none", size=SIZE)
     assert [frame.t_us for frame in beside.frames_during(extent)] == times

@@ -14,7 +14,7 @@ import pytest
 from texvent.errors import OutputError
 from texvent.events import EventPackets, EventStream
 from texvent.sensor import SensorSize
-from texvent.view.page.page import PageWriter, show
+from texvent.view.page.writer import PageWriter, show
 
 SIZE = SensorSize(40, 30)
 HOSTILE = '</script><script>alert("x")</script> {{data}} &amp; <img src=https://example.org/x>'

@@ -13,7 +13,7 @@ import pytest
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Video
-from texvent.view.page.page import show
+from texvent.view.page.writer import show
 from texvent.view.render import RenderConfig, render_events
 
 SIZE = SensorSize(64, 48)
@@ -83,7 +83,7 @@ def drag(browser: Any, name: str, start: tuple[float, float], stop: tuple[float,
 
 
 def window_on_the_curve(browser: Any) -> tuple[float, float]:
-    """Ends of the window that the curve marks, in thousandths of its width."""
+    """Ends of the window that the curve annotations, in thousandths of its width."""
     start, width = (
         float(browser.find_element("id", "rate-window").get_attribute(name))
         for name in ("x", "width")
@@ -93,14 +93,14 @@ def window_on_the_curve(browser: Any) -> tuple[float, float]:
 
 def picture_of(browser: Any, name: str) -> np.ndarray:
     png = browser.find_element("id", name).screenshot_as_png
-    picture = cv2.imdecode(np.frombuffer(png, np.uint8), cv2.IMREAD_COLOR)
-    assert picture is not None
-    return picture
+    image = cv2.imdecode(np.frombuffer(png, np.uint8), cv2.IMREAD_COLOR)
+    assert image is not None
+    return image
 
 
-def coloured_pixels(picture: np.ndarray) -> tuple[int, int]:
+def coloured_pixels(image: np.ndarray) -> tuple[int, int]:
     """How many pixels are blue and how many are red."""
-    signed = picture[..., 0].astype(int) - picture[..., 2]
+    signed = image[..., 0].astype(int) - image[..., 2]
     return int((signed > 60).sum()), int((signed < -60).sum())
 
 
@@ -146,7 +146,7 @@ def test_sliders_choose_the_time_and_the_video_follows(browser: Any, page: Path)
     assert text(browser, "length-text") == "199.99 ms"
     assert text(browser, "start-text") == "1.010 s"
     assert text(browser, "shown-text").startswith("2,000 of the cloud's 20,000")
-    grey = picture_of(browser, "film-canvas")[5:-5, 5:-5].mean()
+    grey = picture_of(browser, "video-canvas")[5:-5, 5:-5].mean()
     assert abs(grey - 120) < 4, "the frame that begins at 1.0 s"
 
 

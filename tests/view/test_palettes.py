@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from texvent.errors import ConfigError
-from texvent.view.palettes import PALETTES, get_palette
+from texvent.view.drawing.palettes import PALETTES, get_palette
 
 
 def test_the_default_is_the_papers_on_blue_off_red_on_white() -> None:

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.video import Frame
-from texvent.view.images.event_image import count_ceiling, draw_events, frame_picture
-from texvent.view.palettes import PALETTES, get_palette
+from texvent.view.drawing.event_image import count_ceiling, draw_events, frame_image
+from texvent.view.drawing.palettes import PALETTES, get_palette
 
 PAPER = get_palette("paper")
 
@@ -47,11 +47,11 @@ def test_a_picture_is_never_blank_and_never_outside_its_colours(
     counts = np.random.default_rng(seed).poisson(rate, (2, 12, 16))
     # In v2e's palette, as in v2e, as many ON as OFF give the background's grey.
     counts[:, 3, 3] = (0, 1)
-    picture = draw_events(counts, palette)
+    image = draw_events(counts, palette)
     active = counts.any(axis=0)
     background = np.array(palette.background, dtype=np.uint8)
-    assert (picture[~active] == background).all()
-    distance = np.abs(picture[3, 3].astype(int) - background).max()
+    assert (image[~active] == background).all()
+    distance = np.abs(image[3, 3].astype(int) - background).max()
     assert distance > 10
 
 
@@ -67,6 +67,6 @@ def test_a_picture_is_never_blank_and_never_outside_its_colours(
 def test_frames_of_every_depth_are_shown_as_8_bit_rgb(
     pixels: np.ndarray, expected: list[int]
 ) -> None:
-    picture = frame_picture(Frame(pixels, 0))
-    assert picture.dtype == np.uint8
-    assert picture[0].tolist() == [[value] * 3 for value in expected]
+    image = frame_image(Frame(pixels, 0))
+    assert image.dtype == np.uint8
+    assert image[0].tolist() == [[value] * 3 for value in expected]

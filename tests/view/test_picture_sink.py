@@ -1,4 +1,4 @@
-"""Pictures into films and folders: complete or not at all, and read back as they were."""
+"""Images into videos and folders: complete or not at all, and read back as they were."""
 
 import json
 from fractions import Fraction
@@ -10,39 +10,39 @@ from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import InputError, OutputError
 from texvent.sensor import SensorSize
-from texvent.view.images.image_sink import check_pictures, open_pictures
+from texvent.view.video.image_sink import check_image_output, open_image_sink
 
 SIZE = SensorSize(15, 11)
 
 
-def pictures():
+def images():
     return [(1_000_003 + 40_000 * n, np.full(SIZE.shape, n / 10, np.float32)) for n in range(4)]
 
 
 def write(path, *, overwrite=False, some=None):
-    opened = open_pictures(
+    opened = open_image_sink(
         path, size=SIZE, fps=Fraction(25), facts={"network": "firenet"}, overwrite=overwrite
     )
     with opened as sink:
-        for t_us, picture in pictures() if some is None else some:
-            sink.add(t_us, picture)
+        for t_us, image in images() if some is None else some:
+            sink.add(t_us, image)
 
 
 def test_a_folder_is_read_again_with_its_times(tmp_path):
     write(tmp_path / "frames")
     frames = list(open_frames(str(tmp_path / "frames"), CaptureConfig()))
-    assert [frame.t_us for frame in frames] == [t_us for t_us, _ in pictures()]
-    for frame, (_, picture) in zip(frames, pictures(), strict=True):
+    assert [frame.t_us for frame in frames] == [t_us for t_us, _ in images()]
+    for frame, (_, image) in zip(frames, images(), strict=True):
         assert frame.pixels.dtype == np.uint8
         assert frame.pixels.shape == SIZE.shape
-        np.testing.assert_array_equal(frame.pixels, np.rint(picture * 255))
+        np.testing.assert_array_equal(frame.pixels, np.rint(image * 255))
     facts = json.loads((tmp_path / "frames" / "texvent.json").read_text())
     assert facts == {"network": "firenet"}
 
 
 def test_a_film_has_even_sides_and_the_times_of_the_pictures(tmp_path):
-    write(tmp_path / "film.mp4")
-    frames = list(open_frames(str(tmp_path / "film.mp4"), CaptureConfig()))
+    write(tmp_path / "video.mp4")
+    frames = list(open_frames(str(tmp_path / "video.mp4"), CaptureConfig()))
     assert frames[0].size == SensorSize(16, 12)
     assert [frame.t_us for frame in frames] == [0, 40_000, 80_000, 120_000]
     assert float(frames[3].luma.mean()) == pytest.approx(0.3 * 255, abs=3)
@@ -52,24 +52,24 @@ def test_only_a_folder_of_such_pictures_is_replaced(tmp_path):
     folder = tmp_path / "frames"
     write(folder)
     with pytest.raises(OutputError, match="exists already"):
-        check_pictures(folder, overwrite=False)
-    write(folder, overwrite=True, some=pictures()[:2])
+        check_image_output(folder, overwrite=False)
+    write(folder, overwrite=True, some=images()[:2])
     assert len(list(folder.glob("*.png"))) == 2
     (folder / "notes.txt").write_text("mine")
     with pytest.raises(OutputError, match=r"notes\.txt"):
-        check_pictures(folder, overwrite=True)
+        check_image_output(folder, overwrite=True)
 
 
-@pytest.mark.parametrize("name", ["frames", "film.mp4"])
+@pytest.mark.parametrize("name", ["frames", "video.mp4"])
 def test_without_a_picture_nothing_is_left(name, tmp_path):
-    with pytest.raises(InputError, match="picture"):
+    with pytest.raises(InputError, match="image"):
         write(tmp_path / name, some=[])
     assert list(tmp_path.iterdir()) == []
 
 
 def test_an_error_half_way_leaves_nothing(tmp_path):
     def broken():
-        yield pictures()[0]
+        yield images()[0]
         raise RuntimeError("stop")
 
     with pytest.raises(RuntimeError):

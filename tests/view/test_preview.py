@@ -32,8 +32,8 @@ def test_film_picture_and_page_appear_beside_the_stem(tmp_path: Path, steps: Ste
     names = sorted(path.name for path in tmp_path.iterdir())
     assert names == ["out.v1.html", "out.v1.mp4", "out.v1.png"]
     assert sorted(path.name for path in preview.paths) == names
-    with av.open(str(tmp_path / "out.v1.mp4")) as film:
-        assert len(list(film.decode(video=0))) == 5
+    with av.open(str(tmp_path / "out.v1.mp4")) as video:
+        assert len(list(video.decode(video=0))) == 5
     assert cv2.imread(str(tmp_path / "out.v1.png")) is not None
     page = (tmp_path / "out.v1.html").read_text("utf-8")
     assert "data:image/png;base64," in page

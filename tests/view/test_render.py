@@ -24,8 +24,8 @@ def moving_dot(seconds: float = 0.5) -> EventStream:
 
 
 def film_times(path: Path) -> list[int]:
-    with av.open(str(path)) as film:
-        return [round(one.pts * one.time_base * 1_000_000) for one in film.decode(video=0)]
+    with av.open(str(path)) as video:
+        return [round(one.pts * one.time_base * 1_000_000) for one in video.decode(video=0)]
 
 
 def test_a_film_shows_all_events_at_the_asked_rate(tmp_path: Path) -> None:
@@ -52,10 +52,10 @@ def test_a_picture_shows_the_liveliest_window(tmp_path: Path) -> None:
     )
     later = EventStream(burst.x, burst.y, burst.t + 400_000, burst.p, SIZE)
     path = render_events(EventPackets([quiet, later], SIZE), tmp_path / "out.png")
-    picture = cv2.imread(str(path))
+    image = cv2.imread(str(path))
     # ON is blue; OpenCV's order is blue, green, red.
-    assert (picture == (255, 0, 0)).all(axis=2).sum() > 100
-    legend_only = (picture == (0, 0, 255)).all(axis=2).sum()
+    assert (image == (255, 0, 0)).all(axis=2).sum() > 100
+    legend_only = (image == (0, 0, 255)).all(axis=2).sum()
     assert legend_only < 400, "the burst has no OFF event, so red is in the legend alone"
 
 
@@ -126,11 +126,11 @@ def test_the_video_is_shown_on_the_left(tmp_path: Path, extension: str, panels: 
         frames=Video(green, [0, 100_000, 200_000]),
     )
     if extension == ".mp4":
-        with av.open(str(path)) as film:
-            picture = next(film.decode(video=0)).to_ndarray(format="bgr24")
+        with av.open(str(path)) as video:
+            image = next(video.decode(video=0)).to_ndarray(format="bgr24")
     else:
-        picture = cv2.imread(str(path))
-    is_green = (picture[..., 1] > 180) & (picture[..., [0, 2]].max(axis=2) < 30)
+        image = cv2.imread(str(path))
+    is_green = (image[..., 1] > 180) & (image[..., [0, 2]].max(axis=2) < 30)
     assert 0.3 < is_green.mean() < 0.5
 
 

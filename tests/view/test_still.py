@@ -6,7 +6,7 @@ import numpy as np
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Frame
-from texvent.view.images.still import StillPicker
+from texvent.view.stills.busiest_window import BusiestWindow
 
 SIZE = SensorSize(32, 24)
 
@@ -19,23 +19,23 @@ def picture_of(png: bytes | None) -> np.ndarray:
 
 
 def test_the_interval_with_the_most_events_is_shown_with_its_frame() -> None:
-    picker = StillPicker(size=SIZE)
+    picker = BusiestWindow(size=SIZE)
     for index, count in enumerate([0, 1, 20, 3]):
         pixels = np.full((*SIZE.shape, 3), 50 * index, dtype=np.uint8)
         rows = np.arange(count)
         times = np.full(count, index * 1000 - 1)
         packet = EventStream(np.full(count, 9), rows, times, np.ones(count, int), SIZE)
         picker.append(Frame(pixels, index * 1000), packet)
-    picture = picture_of(picker.png())
+    image = picture_of(picker.png())
     # 20 events lie between frames 1 and 2; the video shows frame 1 during that time.
-    assert (picture[-5, 5] == 50).all()
-    assert (picture == (0, 0, 255)).all(axis=2).sum() > 20
+    assert (image[-5, 5] == 50).all()
+    assert (image == (0, 0, 255)).all(axis=2).sum() > 20
 
 
 def test_a_lone_frame_is_shown_with_no_events() -> None:
-    picker = StillPicker(size=SIZE)
+    picker = BusiestWindow(size=SIZE)
     assert picker.png() is None
     picker.append(Frame(np.full(SIZE.shape, 99, dtype=np.uint8), 0), EventStream.empty(SIZE))
-    picture = picture_of(picker.png())
-    assert (picture[-5, 5] == 99).all()
-    assert (picture[-5, -5] == 255).all()
+    image = picture_of(picker.png())
+    assert (image[-5, 5] == 99).all()
+    assert (image[-5, -5] == 255).all()

@@ -12,7 +12,13 @@ from texvent.errors import ConfigError
 from texvent.events import EventPackets, EventStream
 from texvent.represent.time_surface import time_surface
 from texvent.sensor import SensorSize
-from texvent.view.windows import cut_counts, cut_fading, cut_windows, still_window_us, time_range
+from texvent.view.windows.cut import (
+    cut_counts,
+    cut_fading,
+    cut_windows,
+    still_window_us,
+    time_range,
+)
 
 SIZE = SensorSize(4, 4)
 
@@ -93,23 +99,23 @@ def test_events_fade_as_the_time_surface_does() -> None:
     events = busy_stream()
     step_us, tau_us = Fraction(10_000, 3), 2_000
     parts = (events[start : start + 17] for start in range(0, len(events), 17))
-    intervals = list(cut_fading(parts, size=events.size, step_us=step_us, tau_us=tau_us))
-    assert len(intervals) > 3
-    for interval in intervals:
-        past = events.between(0, interval.stop_us)
-        surface = time_surface(past, tau_us=tau_us, at_us=interval.stop_us - 1)
-        np.testing.assert_allclose(interval.fading, surface, atol=1e-6)
+    windows = list(cut_fading(parts, size=events.size, step_us=step_us, tau_us=tau_us))
+    assert len(windows) > 3
+    for window in windows:
+        past = events.between(0, window.stop_us)
+        surface = time_surface(past, tau_us=tau_us, at_us=window.stop_us - 1)
+        np.testing.assert_allclose(window.fading, surface, atol=1e-6)
 
 
 @pytest.mark.parametrize("packet", [1, 7, 1000])
 def test_slices_of_equal_count_hold_that_many_events_and_leave_none_out(packet: int) -> None:
     events = busy_stream()
     parts = (events[start : start + packet] for start in range(0, len(events), packet))
-    intervals = list(cut_counts(parts, size=events.size, count=60))
-    counts = [interval.event_count for interval in intervals]
+    windows = list(cut_counts(parts, size=events.size, count=60))
+    counts = [window.event_count for window in windows]
     assert counts[:-1] == [60] * (len(counts) - 1)
     assert sum(counts) == len(events)
-    for before, after in pairwise(intervals):
+    for before, after in pairwise(windows):
         assert before.stop_us == after.start_us
 
 

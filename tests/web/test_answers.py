@@ -4,7 +4,7 @@ import html
 import re
 from pathlib import Path
 
-from texvent.web.answers import failure_html, progress_html, summary_html, viewer_html
+from texvent.web.answer_html import failure_html, progress_html, summary_html, viewer_html
 from texvent.web.examples import examples
 from texvent.web.job import Answer
 from texvent.web.workspace import Workspace

@@ -18,37 +18,46 @@ from texvent.errors import ConfigError, OutputError, TexventError
 from texvent.option_fields import RenamedOptionWarning
 
 COMMANDS = {
-    "generate": ("texvent.cli.make.generate", "Events, film, picture and page from a text prompt."),
-    "batch": ("texvent.cli.make.batch", "Events for every prompt of a file."),
+    "generate": (
+        "texvent.cli.simulation.generate",
+        "Events, film, picture and page from a text prompt.",
+    ),
+    "batch": ("texvent.cli.simulation.batch", "Events for every prompt of a file."),
     "caption": (
-        "texvent.cli.make.caption",
+        "texvent.cli.simulation.caption",
         "Prompts from pictures, by an image-and-text model of yours.",
     ),
-    "simulate": ("texvent.cli.make.simulate", "Events from a video, an image folder or a camera."),
-    "render": ("texvent.cli.files.render", "A film, GIF or picture of an event file."),
+    "simulate": (
+        "texvent.cli.simulation.simulate",
+        "Events from a video, an image folder or a camera.",
+    ),
+    "render": ("texvent.cli.event_files.render", "A film, GIF or picture of an event file."),
     "view": (
-        "texvent.cli.files.view",
+        "texvent.cli.event_files.view",
         "Open an event file in the browser: cloud, playback, region, rate, video.",
     ),
     "app": (
-        "texvent.cli.make.web",
+        "texvent.cli.simulation.web",
         "The web page: type a prompt or drop a video, see and download the events.",
     ),
-    "info": ("texvent.cli.files.info", "What an event file or video holds, and how it was made."),
+    "info": (
+        "texvent.cli.event_files.info",
+        "What an event file or video holds, and how it was made.",
+    ),
     "convert": (
-        "texvent.cli.files.convert",
+        "texvent.cli.event_files.convert",
         "Another event format, a region, a time range, several files in one.",
     ),
     "validate": (
-        "texvent.cli.files.validate",
+        "texvent.cli.event_files.validate",
         "Can this event file be trusted? A verdict and an exit code.",
     ),
     "compare": (
-        "texvent.cli.files.compare",
+        "texvent.cli.event_files.compare",
         "How close an event file is to the true one, by many metrics.",
     ),
     "reconstruct": (
-        "texvent.cli.files.reconstruct",
+        "texvent.cli.event_files.reconstruct",
         "Pictures from events alone, by a published network whose weights are yours.",
     ),
     "bench": (
@@ -56,7 +65,7 @@ COMMANDS = {
         "Benchmarks: which metrics can be trusted, which simulator is closest.",
     ),
     "calibrate": (
-        "texvent.cli.make.calibrate",
+        "texvent.cli.simulation.calibrate",
         "Fit the physical model to a recording of frames and events.",
     ),
     "data": (

@@ -1,1 +1,1 @@
-"""Pictures, films and pages of events."""
+"""Images, videos and pages of events."""

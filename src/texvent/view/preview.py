@@ -1,4 +1,4 @@
-"""Everything to look at beside an event file: film, still picture and page, in one pass."""
+"""Everything to look at beside an event file: video, still image and page, in one pass."""
 
 from __future__ import annotations
 
@@ -15,11 +15,12 @@ from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, check_output
 from texvent.sensor import SensorSize
 from texvent.video import Frame
-from texvent.view.film.film import FilmWriter, title_of
-from texvent.view.film.interval import Interval, IntervalCollector
-from texvent.view.images.still import StillPicker
-from texvent.view.page.page import PageWriter
-from texvent.view.palettes import DEFAULT_PALETTE, Palette, get_palette
+from texvent.view.drawing.caption import title_of
+from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
+from texvent.view.page.writer import PageWriter
+from texvent.view.stills.busiest_window import BusiestWindow
+from texvent.view.video.writer import VideoWriter
+from texvent.view.windows.event_window import EventWindow, WindowCollector
 
 PREVIEW_KINDS = ("mp4", "gif", "png", "html")
 
@@ -68,10 +69,10 @@ class Preview:
         self._overwrite = overwrite
         facts = dict(metadata or {})
         colours, title = get_palette(palette), title_of(facts)
-        self._collector = IntervalCollector(size)
-        self._still = StillPicker(size=size, palette=colours, title=title)
-        self._films = [
-            FilmWriter(path, size=size, fps=fps, palette=colours, overwrite=overwrite, title=title)
+        self._collector = WindowCollector(size)
+        self._still = BusiestWindow(size=size, palette=colours, title=title)
+        self._videos = [
+            VideoWriter(path, size=size, fps=fps, palette=colours, overwrite=overwrite, title=title)
             for kind, path in self._paths.items()
             if kind in ("mp4", "gif")
         ]
@@ -95,8 +96,8 @@ class Preview:
 
     def __enter__(self) -> Self:
         with ExitStack() as stack:
-            for film in self._films:
-                stack.enter_context(film)
+            for video in self._videos:
+                stack.enter_context(video)
             if self._page is not None:
                 stack.enter_context(self._page)
             if "png" in self._paths:
@@ -113,9 +114,9 @@ class Preview:
         if self._page is not None:
             self._page.append(packet)
             self._page.append_frame(frame)
-        interval = self._collector.append(frame, packet)
-        if interval is not None:
-            self._show(interval)
+        window = self._collector.append(frame, packet)
+        if window is not None:
+            self._show(window)
 
     def __exit__(
         self,
@@ -138,11 +139,11 @@ class Preview:
             if self._png_part is not None:
                 self._png_part.write_bytes(png)
 
-    def _show(self, interval: Interval) -> None:
+    def _show(self, window: EventWindow) -> None:
         self._shown += 1
-        for film in self._films:
-            film.show(interval)
-        self._still.consider(interval)
+        for video in self._videos:
+            video.show(window)
+        self._still.consider(window)
 
 
 def preview_path(stem: str | Path, kind: str) -> Path:

@@ -1,4 +1,4 @@
-"""An event file → film, picture, page or rerun recording, with or without its video."""
+"""An event file → video, image, page or rerun recording, with or without its video."""
 
 from __future__ import annotations
 
@@ -11,26 +11,27 @@ from texvent.errors import ConfigError, InputError
 from texvent.events import EventPackets, EventStream
 from texvent.io.atomic import atomic_file, check_output
 from texvent.video import MICROSECONDS, FrameStream
-from texvent.view.canvas import png_bytes
-from texvent.view.film.encode import FILM_EXTENSIONS
-from texvent.view.film.film import FilmWriter, title_of
-from texvent.view.film.interval import Interval
-from texvent.view.film.source_overlay import Companion
-from texvent.view.images.contact_sheet import draw_sheet
-from texvent.view.images.still import StillPicker
-from texvent.view.page.page import PageWriter
+from texvent.view.drawing.canvas import png_bytes
+from texvent.view.drawing.caption import title_of
+from texvent.view.page.writer import PageWriter
 from texvent.view.render_config import RenderConfig
-from texvent.view.windows import (
+from texvent.view.stills.busiest_window import BusiestWindow
+from texvent.view.stills.contact_sheet import draw_contact_sheet
+from texvent.view.video.encoder import VIDEO_EXTENSIONS
+from texvent.view.video.writer import VideoWriter
+from texvent.view.windows.cut import (
     cut_counts,
     cut_fading,
     cut_windows,
     still_window_us,
     time_range,
 )
+from texvent.view.windows.event_window import EventWindow
+from texvent.view.windows.source_overlay import SourceOverlay
 
 __all__ = ["RENDER_EXTENSIONS", "RenderConfig", "render_events"]
 
-RENDER_EXTENSIONS = (*FILM_EXTENSIONS, ".png", ".html", ".rrd")
+RENDER_EXTENSIONS = (*VIDEO_EXTENSIONS, ".png", ".html", ".rrd")
 # By name: rerun is an extra.
 RERUN_EXPORT = "texvent.view.rerun_export:write_rrd"
 
@@ -43,10 +44,10 @@ def render_events(
     frames: FrameStream | None = None,
     overwrite: bool = False,
 ) -> Path:
-    """Show events as a film (.mp4, .gif), a picture (.png), a page (.html) or for rerun (.rrd).
+    """Show events as a video (.mp4, .gif), an image (.png), a page (.html) or for rerun (.rrd).
 
     Args:
-        events: a recording, whole or packet by packet; pictures read packets twice.
+        events: a recording, whole or packet by packet; images read packets twice.
         path: what to write; the extension decides.
         config: how to show them.
         frames: the video beside them, of the same size and clock.
@@ -69,10 +70,10 @@ def render_events(
         )
     check_output(path, overwrite=overwrite)
     packets = events if isinstance(events, EventPackets) else _as_packets(events)
-    beside = Companion(frames, config.overlay, size=packets.size)
+    beside = SourceOverlay(frames, config.overlay, size=packets.size)
     if kind == ".png":
-        picture = _contact_sheet if config.panels > 1 else _still
-        data = picture(packets, config, beside)
+        image = _contact_sheet if config.panels > 1 else _still
+        data = image(packets, config, beside)
         with atomic_file(path, overwrite=overwrite) as part:
             part.write_bytes(data)
     elif kind == ".html":
@@ -80,7 +81,7 @@ def render_events(
     elif kind == ".rrd":
         load_object(RERUN_EXPORT)(packets, path, config, frames=frames, overwrite=overwrite)
     else:
-        _film(packets, path, config, beside, overwrite=overwrite)
+        _video(packets, path, config, beside, overwrite=overwrite)
     return path
 
 
@@ -94,7 +95,7 @@ def _no_events() -> InputError:
 
 def _cut(
     packets: EventPackets, config: RenderConfig, step_us: Fraction, window_us: int
-) -> Iterator[Interval]:
+) -> Iterator[EventWindow]:
     """Intervals as the config gathers events: by count, fading, or by time (the default)."""
     size = packets.size
     if config.events_per_picture is not None:
@@ -104,12 +105,17 @@ def _cut(
     return cut_windows(packets, size=size, step_us=step_us, window_us=window_us)
 
 
-def _film(
-    packets: EventPackets, path: Path, config: RenderConfig, beside: Companion, *, overwrite: bool
+def _video(
+    packets: EventPackets,
+    path: Path,
+    config: RenderConfig,
+    beside: SourceOverlay,
+    *,
+    overwrite: bool,
 ) -> None:
     step_us = config.step_us
-    intervals = _cut(packets, config, step_us, config.window_us or max(1, round(step_us)))
-    film = FilmWriter(
+    windows = _cut(packets, config, step_us, config.window_us or max(1, round(step_us)))
+    video = VideoWriter(
         path,
         size=packets.size,
         fps=config.render_fps,
@@ -119,56 +125,56 @@ def _film(
         title=title_of(packets.metadata),
     )
     shown = 0
-    with film:
-        for interval in beside.add_pictures(intervals):
+    with video:
+        for window in beside.add_frames(windows):
             start_us = round(shown * MICROSECONDS / config.render_fps)
-            film.show(beside.add_marks(interval), film_start_us=start_us)
+            video.show(beside.add_annotations(window), video_start_us=start_us)
             shown += 1
         if shown == 0:
             raise _no_events()
 
 
-def _still(packets: EventPackets, config: RenderConfig, beside: Companion) -> bytes:
+def _still(packets: EventPackets, config: RenderConfig, beside: SourceOverlay) -> bytes:
     extent = time_range(packets)
     if extent is None:
         raise _no_events()
     window_us = config.window_us or still_window_us(extent)
-    picker = StillPicker(
+    picker = BusiestWindow(
         size=packets.size,
         palette=config.palette,
         side_by_side=beside.frames is not None,
         title=title_of(packets.metadata),
     )
-    intervals = _cut(packets, config, Fraction(window_us), window_us)
-    best: Interval | None = None
-    for interval in beside.add_pictures(intervals):
-        # Slices of equal count are equally lively by number; the shortest is the liveliest.
-        if best is None or _liveliness(interval, config) > _liveliness(best, config):
-            best = interval
+    windows = _cut(packets, config, Fraction(window_us), window_us)
+    best: EventWindow | None = None
+    for window in beside.add_frames(windows):
+        # Slices of equal count are equally lively by number; the shortest is the busiest.
+        if best is None or _activity(window, config) > _activity(best, config):
+            best = window
     if best is None:
         raise _no_events()
-    return picker.draw(beside.add_marks(best))
+    return picker.draw(beside.add_annotations(best))
 
 
-def _liveliness(interval: Interval, config: RenderConfig) -> tuple[int, int]:
+def _activity(window: EventWindow, config: RenderConfig) -> tuple[int, int]:
     if config.events_per_picture is None:
-        return interval.event_count, 0
-    return interval.event_count, interval.start_us - interval.stop_us
+        return window.event_count, 0
+    return window.event_count, window.start_us - window.stop_us
 
 
-def _contact_sheet(packets: EventPackets, config: RenderConfig, beside: Companion) -> bytes:
+def _contact_sheet(packets: EventPackets, config: RenderConfig, beside: SourceOverlay) -> bytes:
     """Moments evenly spaced over the recording, in reading order."""
     extent = time_range(packets)
     if extent is None:
         raise _no_events()
     step_us = Fraction(extent[1] - extent[0], config.panels)
     window_us = config.window_us or min(still_window_us(extent) * 2, max(1, int(step_us)))
-    intervals = _evenly_spaced(
-        beside.add_pictures(_cut(packets, config, step_us, window_us)), config, extent[0], step_us
+    windows = _evenly_spaced(
+        beside.add_frames(_cut(packets, config, step_us, window_us)), config, extent[0], step_us
     )
-    marked = (beside.add_marks(interval) for interval in intervals)
+    marked = (beside.add_annotations(window) for window in windows)
     return png_bytes(
-        draw_sheet(
+        draw_contact_sheet(
             marked,
             config.panels,
             size=packets.size,
@@ -179,21 +185,26 @@ def _contact_sheet(packets: EventPackets, config: RenderConfig, beside: Companio
 
 
 def _evenly_spaced(
-    intervals: Iterator[Interval], config: RenderConfig, first_us: int, step_us: Fraction
-) -> Iterator[Interval]:
-    """One interval per panel: of slices of equal count, the first that reaches its moment."""
+    windows: Iterator[EventWindow], config: RenderConfig, first_us: int, step_us: Fraction
+) -> Iterator[EventWindow]:
+    """One window per panel: of slices of equal count, the first that reaches its moment."""
     given = 0
-    for interval in intervals:
+    for window in windows:
         if given == config.panels:
             return
         due_us = first_us + round(given * step_us)
-        if config.events_per_picture is None or interval.stop_us > due_us:
+        if config.events_per_picture is None or window.stop_us > due_us:
             given += 1
-            yield interval
+            yield window
 
 
 def _page(
-    packets: EventPackets, path: Path, config: RenderConfig, beside: Companion, *, overwrite: bool
+    packets: EventPackets,
+    path: Path,
+    config: RenderConfig,
+    beside: SourceOverlay,
+    *,
+    overwrite: bool,
 ) -> None:
     extent = time_range(packets)
     still = _still(packets, config, beside) if extent is not None else None

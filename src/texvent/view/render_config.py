@@ -8,9 +8,9 @@ from fractions import Fraction
 from texvent.config import check_range
 from texvent.errors import ConfigError
 from texvent.video import MICROSECONDS
-from texvent.view.film.marks import Overlay
+from texvent.view.drawing.annotations import Overlay
+from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
 from texvent.view.page.sample import SAMPLE_EVENTS
-from texvent.view.palettes import DEFAULT_PALETTE, get_palette
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,21 +18,21 @@ class RenderConfig:
     """How events are made visible."""
 
     render_fps: Fraction = Fraction(30)
-    """Pictures per second of film."""
+    """Images per second of video."""
     window: float | None = None
-    """Time that one picture gathers, in ms of the recording. Without it, films show every event
-    once and pictures show at most 40 ms."""
+    """Time that one image gathers, in ms of the recording. Without it, videos show every event
+    once and images show at most 40 ms."""
     events_per_picture: int | None = None
-    """Fixed count instead of fixed time: every picture gathers this many events, however long
-    that takes; a film shows one such slice after the other."""
+    """Fixed count instead of fixed time: every image gathers this many events, however long
+    that takes; a video shows one such slice after the other."""
     decay: float | None = None
     """Let events fade instead of counting them: exp(-age / decay), decay in ms (30 is usual)."""
     speed: float = 1.0
-    """Speed of the film: 0.1 is ten times slower than the recording."""
+    """Speed of the video: 0.1 is ten times slower than the recording."""
     palette: str = DEFAULT_PALETTE
     """Colours of ON and OFF events."""
     panels: int = 1
-    """Pictures on a PNG: 1 shows the liveliest moment, more show moments evenly spaced."""
+    """Images on a PNG: 1 shows the busiest moment, more show moments evenly spaced."""
     overlay: Overlay = "none"
     """Boxes with class names, optical flow (arrows as long as the motion in 50 ms), or both, for
     scenes that the embedded generator renders again."""
@@ -66,7 +66,7 @@ class RenderConfig:
 
     @property
     def step_us(self) -> Fraction:
-        """Time of the recording from one film frame to the next, µs, exact."""
+        """Time of the recording from one video frame to the next, µs, exact."""
         return Fraction(self.speed) * MICROSECONDS / self.render_fps
 
     @property

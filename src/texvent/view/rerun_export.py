@@ -13,12 +13,12 @@ from texvent.errors import InputError
 from texvent.events import EventPackets, EventStream
 from texvent.io.atomic import atomic_file
 from texvent.video import MICROSECONDS, FrameStream
-from texvent.view.film.film import title_of
-from texvent.view.images.event_image import frame_picture
+from texvent.view.drawing.caption import title_of
+from texvent.view.drawing.event_image import frame_image
+from texvent.view.drawing.palettes import Palette, get_palette
 from texvent.view.page.sample import UniformSample
-from texvent.view.palettes import Palette, get_palette
 from texvent.view.render_config import RenderConfig
-from texvent.view.windows import cut_streams, time_range
+from texvent.view.windows.cut import cut_streams, time_range
 
 TIMELINE = "time"
 WINDOWS = 400
@@ -67,7 +67,7 @@ def write_rrd(
         for frame in frames or ():
             if frame.t_us >= extent[1]:
                 break
-            log.frame(frame_picture(frame), frame.t_us)
+            log.frame(frame_image(frame), frame.t_us)
         sample = UniformSample(packets.size, limit=config.points)
         windows = cut_streams(packets, packets.size, Fraction(window_us), window_us)
         for start_us, events in windows:
@@ -92,9 +92,9 @@ class _Log:
         text = f"{title_of(packets.metadata) or 'events'}\n\nsensor {packets.size}"
         self._recording.log("run", self._rerun.TextDocument(text), static=True)
 
-    def frame(self, picture: Any, t_us: int) -> None:
+    def frame(self, image: Any, t_us: int) -> None:
         self._at(t_us)
-        self._recording.log("plane/video", self._rerun.Image(picture).compress(jpeg_quality=85))
+        self._recording.log("plane/video", self._rerun.Image(image).compress(jpeg_quality=85))
 
     def window(self, events: EventStream, start_us: int, window_us: int) -> None:
         self._at(start_us)

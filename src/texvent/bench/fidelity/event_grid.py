@@ -12,9 +12,9 @@ from texvent.bench.oracle.recording import oracle_scene, record
 from texvent.events import EventStream
 from texvent.represent.event_frame import event_frame
 from texvent.video import MICROSECONDS
-from texvent.view.canvas import Picture, blank, draw_text, enlarge, png_bytes
-from texvent.view.images.event_image import count_ceiling, draw_events
-from texvent.view.palettes import get_palette
+from texvent.view.drawing.canvas import Image, blank, draw_text, enlarge, png_bytes
+from texvent.view.drawing.event_image import count_ceiling, draw_events
+from texvent.view.drawing.palettes import get_palette
 
 START_US, STOP_US = 250_000, 260_000
 """The 10 ms that are shown."""
@@ -54,7 +54,7 @@ def _cut(events: EventStream) -> EventStream:
     return events.between(START_US, STOP_US)
 
 
-def _panel(title: str, picture: Picture) -> Picture:
+def _panel(title: str, picture: Image) -> Image:
     large = enlarge(picture, ENLARGE, how="blocks")
     height, width = large.shape[:2]
     panel = blank(width + 2 * MARGIN_PX, height + TEXT_PX + 3 * MARGIN_PX, (236, 238, 242))
@@ -65,7 +65,7 @@ def _panel(title: str, picture: Picture) -> Picture:
     return panel
 
 
-def _arrange(panels: list[Picture]) -> Picture:
+def _arrange(panels: list[Image]) -> Image:
     height, width = panels[0].shape[:2]
     rows = -(-len(panels) // COLUMNS)
     whole = blank(COLUMNS * width, rows * height, (236, 238, 242))

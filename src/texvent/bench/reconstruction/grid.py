@@ -9,7 +9,7 @@ import numpy as np
 from texvent.bench.real.frame_recording import FrameRecording
 from texvent.bench.reconstruction.image_scores import true_picture
 from texvent.reconstruct.reconstructor import Intensity
-from texvent.view.canvas import Picture, blank, draw_text, png_bytes
+from texvent.view.drawing.canvas import Image, blank, draw_text, png_bytes
 
 TITLE_PX, MARGIN_PX = 11, 6
 PAPER, INK = (236, 238, 242), (38, 42, 50)
@@ -60,6 +60,6 @@ class ReconstructionGrid:
         return png_bytes(whole)
 
 
-def _grey(picture: Intensity) -> Picture:
+def _grey(picture: Intensity) -> Image:
     levels = np.rint(np.clip(picture, 0.0, 1.0) * 255.0).astype(np.uint8)
     return np.repeat(levels[..., None], 3, axis=2)

@@ -23,7 +23,7 @@ from texvent.bench.reconstruction.run import (
     run_reconstruction,
 )
 from texvent.bench.reconstruction.table import reconstruction_document, reconstruction_tables
-from texvent.cli.files.time_range import parse_time_range
+from texvent.cli.event_files.time_option import parse_time_range
 from texvent.cli.options import parse_options
 from texvent.errors import ConfigError
 from texvent.io.atomic import atomic_file, check_output

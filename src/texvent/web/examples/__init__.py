@@ -13,10 +13,10 @@ PROMPTS = {
     "ball.jpg": "a yellow ball bounces on the grass, slow zoom",
     "lamp.jpg": "a person walks past a lamp that flickers at 25 Hz, at night",
 }
-"""Picture → prompt."""
+"""Image → prompt."""
 
 
 def examples() -> list[tuple[Path, str]]:
-    """Picture and prompt of every example."""
+    """Image and prompt of every example."""
     folder = Path(str(resources.files(__name__)))
     return [(folder / name, prompt) for name, prompt in PROMPTS.items()]

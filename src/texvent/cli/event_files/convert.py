@@ -1,0 +1,147 @@
+"""`texvent convert IN OUT`: another format, a part of it, several in one."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar
+
+from texvent.cli.event_files.time_option import keep_time_range
+from texvent.cli.options import REQUIRED, parse_options
+from texvent.errors import ConfigError
+from texvent.events import EventPackets, EventStream
+from texvent.io.files import open_events, open_writer
+from texvent.sensor import parse_sensor
+from texvent.transform.merge import merge
+from texvent.transform.packets import add_metadata, map_packets
+from texvent.transform.region import Region, crop, resize
+from texvent.transform.undistort import read_calibration, undistort
+from texvent.transform.window import start_at_zero
+
+DESCRIPTION = """Convert an event file, or a part of it, to another format. Memory stays flat.
+
+texvent convert davis.aedat4 davis.h5
+
+texvent convert davis.aedat4 part.raw --from-zero --time 0.5,2 --crop 100,50,128,128
+
+texvent convert left.h5 both.h5 --merge right.h5
+
+Edits happen in this order: merge, undistort, crop, resize, from-zero, time."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConvertOptions:
+    """What is read, what is written, and what happens in between."""
+
+    positional: ClassVar[tuple[str, ...]] = ("path", "out")
+    short_flags: ClassVar[Mapping[str, str]] = {"crop": "--roi", "quiet": "-q"}
+
+    path: Path = REQUIRED
+    """Event file, or folder of one format, to read."""
+    out: Path = REQUIRED
+    """Event file to write; its extension decides the format."""
+    format: str | None = None
+    """Format to write, where the extension does not say which (`docs/files.md` lists them)."""
+    from_format: str | None = None
+    """Format to read, where neither extension nor content says."""
+    sensor: str | None = None
+    """Sensor size of the input, for formats that do not store it: WIDTHxHEIGHT or a name."""
+    merge: tuple[Path, ...] = ()
+    """More files of the same sensor, whose events are added in time order."""
+    undistort: Path | None = None
+    """Calibration, a text of nine numbers fx fy cx cy k1 k2 p1 p2 k3: take out the lens."""
+    crop: str | None = None
+    """Keep a region of the sensor: X,Y,WIDTH,HEIGHT in pixels."""
+    resize: str | None = None
+    """Put the events on a sensor of WIDTHxHEIGHT; none is added or lost."""
+    from_zero: bool = False
+    """Count time from the first event: for clock times, which many formats cannot hold."""
+    time: str | None = None
+    """Keep START,STOP in seconds, START included; either may be left out."""
+    drop_label: bool = False
+    """Leave out the signal/noise label, for formats that have no place for it."""
+    overwrite: bool = False
+    """Replace the file if it exists already."""
+    quiet: bool = False
+    """Do not print what was written."""
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the command; returns its exit code."""
+    values = parse_options(
+        arguments, {"input": ConvertOptions()}, prog="texvent convert", description=DESCRIPTION
+    )
+    options = ConvertOptions(**values)
+    events = edit(_open_inputs(options), options)
+    count = 0
+    writer = open_writer(
+        options.out,
+        size=events.size,
+        metadata=events.metadata,
+        format=options.format,
+        overwrite=options.overwrite,
+    )
+    with writer:
+        for packet in events:
+            writer.append(packet)
+            count += len(packet)
+    if not options.quiet:
+        sys.stdout.write(f"{options.out}: {count:,} events, {events.size}\n")
+    return 0
+
+
+def edit(events: EventPackets, options: ConvertOptions) -> EventPackets:
+    """The recording after all edits that were asked for; they are noted in its metadata."""
+    if options.undistort is not None:
+        events = undistort(events, read_calibration(options.undistort))
+    if options.crop is not None:
+        events = crop(events, parse_region(options.crop))
+    if options.resize is not None:
+        events = resize(events, parse_sensor(options.resize))
+    if options.from_zero:
+        events = start_at_zero(events)
+    events = keep_time_range(events, options.time)
+    if options.drop_label:
+        events = map_packets(events, EventStream.without_label)
+    edits = _edits(options)
+    if not edits:
+        return events
+    return add_metadata(events, {"edits": [*events.metadata.get("edits", []), edits]})
+
+
+def parse_region(text: str) -> Region:
+    """`X,Y,WIDTH,HEIGHT` as a region.
+
+    Raises:
+        ConfigError: it is not four whole numbers.
+    """
+    words = text.split(",")
+    if len(words) != 4 or not all(word.strip().isdecimal() for word in words):
+        raise ConfigError(
+            f"crop is {text!r}; give X,Y,WIDTH,HEIGHT in pixels, such as 100,50,128,128"
+        )
+    return Region(*(int(word) for word in words))
+
+
+def _open_inputs(options: ConvertOptions) -> EventPackets:
+    size = parse_sensor(options.sensor) if options.sensor else None
+    first = open_events(options.path, format=options.from_format, size=size)
+    if not options.merge:
+        return first
+    more = [open_events(path, format=options.from_format, size=size) for path in options.merge]
+    return merge([first, *more])
+
+
+def _edits(options: ConvertOptions) -> dict[str, Any]:
+    """The edits that were asked for, as they are noted in the file."""
+    asked: dict[str, Any] = {
+        "merge": [path.name for path in options.merge],
+        "undistort": options.undistort.name if options.undistort else None,
+        "crop": options.crop,
+        "resize": options.resize,
+        "from_zero": options.from_zero,
+        "time": options.time,
+    }
+    return {name: value for name, value in asked.items() if value}

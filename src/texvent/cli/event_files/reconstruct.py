@@ -1,0 +1,152 @@
+"""`texvent reconstruct EVENTS -o film.mp4`: pictures from events alone, by a published network."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Any, ClassVar
+
+from rich.console import Console
+from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+from texvent._version import __version__
+from texvent.cli.event_files.time_option import keep_time_range
+from texvent.cli.options import REQUIRED, parse_options
+from texvent.errors import ConfigError, InputError
+from texvent.events import EventPackets, EventStream
+from texvent.io.files import open_events
+from texvent.reconstruct.config import ReconstructConfig
+from texvent.reconstruct.packet_slices import slice_by_count, slice_regularly
+from texvent.reconstruct.reconstructor import Reconstructor, load_reconstructor
+from texvent.sensor import parse_sensor
+from texvent.video import MICROSECONDS
+from texvent.view.video.image_sink import check_image_output, open_image_sink
+
+DESCRIPTION = """Turn events into the pictures that a camera would have taken, by a published
+network whose weights are yours (docs/reconstruction.md says where they come from).
+
+texvent reconstruct out.h5 -o film.mp4 --network firenet --weights firenet.pth
+
+texvent reconstruct out.h5 -o frames/ --network e2vid --weights e2vid.pth --fps 100
+
+texvent reconstruct out.h5 -o film.mp4 --network e2vid --events-per-picture 15000
+
+A folder gets numbered PNG files and their times; texvent simulate reads it again."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReconstructOptions:
+    """Which events, and where the pictures go."""
+
+    positional: ClassVar[tuple[str, ...]] = ("path",)
+    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+
+    path: Path = REQUIRED
+    """Event file."""
+    out: Path = REQUIRED
+    """Film (.mp4 or .gif), or a folder of PNG files."""
+    fps: Fraction = Fraction(30)
+    """Pictures per second of the recording; each is made from the events since the one before."""
+    events_per_picture: int | None = None
+    """Fixed count instead of fixed time: every picture gathers this many events, however long
+    that takes."""
+    time: str | None = None
+    """Use START,STOP alone, in seconds of the recording's clock, START included; either may be
+    left out."""
+    format: str | None = None
+    """Event format, where the extension does not say."""
+    sensor: str | None = None
+    """Sensor size, for event formats that do not store it."""
+    overwrite: bool = False
+    """Replace the file or folder if it exists already."""
+    quiet: bool = False
+    """No progress and no summary."""
+
+    def __post_init__(self) -> None:
+        if not 0 < self.fps <= MICROSECONDS:
+            raise ConfigError(f"fps is {self.fps}; it must be above 0, at most {MICROSECONDS}")
+        if self.events_per_picture is not None and self.events_per_picture < 1:
+            raise ConfigError(
+                f"events_per_picture is {self.events_per_picture}; it must be at least 1"
+            )
+
+    def slices(self, events: EventPackets) -> Iterator[tuple[int, EventStream]]:
+        """The events of each picture, and its time."""
+        if self.events_per_picture is not None:
+            return slice_by_count(events, count=self.events_per_picture, size=events.size)
+        return slice_regularly(events, step_us=MICROSECONDS / self.fps, size=events.size)
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the command; returns its exit code."""
+    values = parse_options(
+        arguments,
+        {"input": ReconstructOptions(), "network": ReconstructConfig()},
+        prog="texvent reconstruct",
+        description=DESCRIPTION,
+    )
+    network = ReconstructConfig.take(values)
+    options = ReconstructOptions(**values)
+    if not options.path.exists():
+        raise InputError(f"no such file: {options.path}")
+    check_image_output(options.out, overwrite=options.overwrite)
+    size = parse_sensor(options.sensor) if options.sensor else None
+    events = keep_time_range(
+        open_events(options.path, format=options.format, size=size), options.time
+    )
+    reconstructor = load_reconstructor(network.network, network.weights, device=network.device)
+    console = Console(stderr=True, quiet=options.quiet, highlight=False)
+    pictures = reconstructor.film(options.slices(events))
+    facts = _provenance(reconstructor, options, events)
+    with _progress(console) as counted:
+        opened = open_image_sink(
+            options.out, size=events.size, fps=options.fps, facts=facts, overwrite=options.overwrite
+        )
+        with opened as sink:
+            for t_us, picture in counted(pictures):
+                sink.add(t_us, picture)
+    if not options.quiet:
+        sys.stdout.write(f"{options.out}\n")
+    return 0
+
+
+def _provenance(
+    reconstructor: Reconstructor, options: ReconstructOptions, events: EventPackets
+) -> dict[str, Any]:
+    """What made these pictures, ready for JSON."""
+    return {
+        "events": {"source": str(options.path), **events.metadata},
+        "network": reconstructor.name,
+        "weights_sha256": reconstructor.sha256,
+        "fps": str(options.fps),
+        "events_per_picture": options.events_per_picture,
+        "time": options.time,
+        "texvent_version": __version__,
+    }
+
+
+@contextmanager
+def _progress(console: Console) -> Iterator[Any]:
+    """A counter on stderr that pictures pass through; silent where it is not a terminal."""
+    bar = Progress(
+        SpinnerColumn(),
+        TextColumn("{task.description}"),
+        TextColumn("{task.completed} pictures"),
+        TimeElapsedColumn(),
+        console=console,
+        disable=console.quiet or not console.is_terminal,
+        transient=True,
+    )
+    with bar:
+        task = bar.add_task("reconstructing", total=None)
+
+        def counted(pictures: Iterable[Any]) -> Iterator[Any]:
+            for picture in pictures:
+                bar.advance(task)
+                yield picture
+
+        yield counted

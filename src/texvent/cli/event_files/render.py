@@ -1,0 +1,89 @@
+"""`texvent render EVENTS -o out.mp4|gif|png|html|rrd`: make an event file visible."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import ClassVar
+
+from texvent.cli.event_files.time_option import keep_time_range
+from texvent.cli.event_files.video_option import AUTOMATIC, frames_for_overlay
+from texvent.cli.options import REQUIRED, parse_options
+from texvent.errors import InputError
+from texvent.io.files import open_events
+from texvent.option_fields import option_names
+from texvent.sensor import parse_sensor
+from texvent.view.render import RenderConfig, render_events
+
+DESCRIPTION = """Make an event file visible: a film (.mp4, .gif), a picture (.png), a page that
+turns under the mouse (.html), or a recording for the rerun viewer (.rrd).
+
+texvent render out.h5 -o slow.mp4 --speed 0.1            ten times slower
+
+texvent render out.h5 -o sheet.png --panels 9            nine moments on one sheet
+
+texvent render out.h5 -o out.mp4 --decay 30              events fade over 30 ms
+
+texvent render out.h5 -o out.mp4 --events-per-picture 5000
+
+texvent render out.h5 -o part.mp4 --time 0.5,1            half a second of it
+
+texvent render out.h5 -o out.mp4 --overlay both          boxes and optical flow (embedded generator)
+
+texvent render clip.raw -o out.mp4 --video clip.mp4      the video on the left"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RenderOptions:
+    """Which events, and where the result goes."""
+
+    positional: ClassVar[tuple[str, ...]] = ("path",)
+    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+
+    path: Path = REQUIRED
+    """Event file."""
+    out: Path = REQUIRED
+    """What to write; the extension decides: .mp4, .gif, .png, .html or .rrd."""
+    video: str = AUTOMATIC
+    """Video beside the events: a file, an image folder, none, or auto, which renders the scene
+    again if the embedded generator made the file."""
+    time: str | None = None
+    """Show START,STOP alone, in seconds of the recording's clock, START included; either may be
+    left out."""
+    format: str | None = None
+    """Event format, where the extension does not say."""
+    sensor: str | None = None
+    """Sensor size, for event formats that do not store it."""
+    overwrite: bool = False
+    """Replace the file if it exists already."""
+    quiet: bool = False
+    """Do not print the name of the file written."""
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the command; returns its exit code."""
+    values = parse_options(
+        arguments,
+        {"input": RenderOptions(), "picture": RenderConfig()},
+        prog="texvent render",
+        description=DESCRIPTION,
+    )
+    config = RenderConfig(**{name: values.pop(name) for name in option_names(RenderConfig)})
+    options = RenderOptions(**values)
+    if not options.path.exists():
+        raise InputError(f"no such file: {options.path}")
+    size = parse_sensor(options.sensor) if options.sensor else None
+    recording = open_events(options.path, format=options.format, size=size)
+    events = keep_time_range(recording, options.time)
+    written = render_events(
+        events,
+        options.out,
+        config=config,
+        frames=frames_for_overlay(options.video, events),
+        overwrite=options.overwrite,
+    )
+    if not options.quiet:
+        sys.stdout.write(f"{written}\n")
+    return 0

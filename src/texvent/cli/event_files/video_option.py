@@ -1,0 +1,38 @@
+"""`--video`: which frames are shown beside the events of a file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from texvent.capture.open import open_frames
+from texvent.config import CaptureConfig
+from texvent.errors import InputError
+from texvent.events import EventPackets
+from texvent.replay import render_again
+from texvent.video import FrameStream
+
+AUTOMATIC = "auto"
+NO_VIDEO = "none"
+
+
+def frames_for_overlay(video: str, events: EventPackets) -> FrameStream | None:
+    """The frames to show beside the events.
+
+    Args:
+        video: a video file or image folder; "none"; or "auto": the scene rendered again if the
+            embedded generator made the file, else nothing.
+        events: what they are shown beside; frames are fitted to its sensor.
+
+    Raises:
+        InputError: there is no such video, or it cannot be read.
+    """
+    if video == NO_VIDEO:
+        return None
+    if video == AUTOMATIC:
+        again = render_again(events.metadata)
+        return again if again is not None and again.size == events.size else None
+    if not Path(video).exists():
+        raise InputError(
+            f"no such video: {video}; give a file, a folder of pictures, {AUTOMATIC} or {NO_VIDEO}"
+        )
+    return open_frames(video, CaptureConfig(), size=events.size)

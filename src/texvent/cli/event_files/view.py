@@ -1,0 +1,98 @@
+"""`texvent view EVENTS`: turn, play and measure a recording in the browser."""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+import webbrowser
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import ClassVar
+
+from texvent.cli.event_files.time_option import keep_time_range
+from texvent.cli.event_files.video_option import AUTOMATIC, frames_for_overlay
+from texvent.cli.options import REQUIRED, parse_options
+from texvent.config import check_range
+from texvent.errors import ConfigError, InputError
+from texvent.io.files import open_events
+from texvent.sensor import parse_sensor
+from texvent.view.drawing.palettes import DEFAULT_PALETTE
+from texvent.view.render import RenderConfig, render_events
+
+DESCRIPTION = """Open an event file in the browser: a cloud over x, y and time that turns under the
+mouse, playback, a region to select, the event rate, and the video beside it.
+
+texvent view out.h5                       a temporary page, opened at once
+
+texvent view out.h5 -o page.html          one file to keep or send; nothing is opened
+
+texvent view clip.aedat4 --video clip.mp4"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ViewOptions:
+    """Which events, and how the page is made."""
+
+    positional: ClassVar[tuple[str, ...]] = ("path",)
+    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+
+    path: Path = REQUIRED
+    """Event file."""
+    out: Path | None = None
+    """Page to save (.html). Without it, a temporary page is made and opened in the browser."""
+    video: str = AUTOMATIC
+    """Video beside the events: a file, an image folder, none, or auto, which renders the scene
+    again if the embedded generator made the file."""
+    points: int = 1_000_000
+    """Most events in the cloud: of a longer recording, that many are drawn uniformly at random,
+    and the page says so. A million make a page of 12 MB."""
+    palette: str = DEFAULT_PALETTE
+    """Colours of ON and OFF events."""
+    time: str | None = None
+    """Show START,STOP alone, in seconds of the recording's clock, START included; either may be
+    left out."""
+    format: str | None = None
+    """Event format, where the extension does not say."""
+    sensor: str | None = None
+    """Sensor size, for event formats that do not store it."""
+    overwrite: bool = False
+    """Replace the page if it exists already."""
+    quiet: bool = False
+    """Do not print the name of the page."""
+
+    def __post_init__(self) -> None:
+        check_range("points", self.points, 1, 20_000_000)
+        if self.out is not None and self.out.suffix.lower() != ".html":
+            raise ConfigError(
+                f"a page must end in .html; got {self.out}. For films and pictures: texvent render"
+            )
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the command; returns its exit code."""
+    values = parse_options(
+        arguments,
+        {"input": ViewOptions()},
+        prog="texvent view",
+        description=DESCRIPTION,
+    )
+    options = ViewOptions(**values)
+    if not options.path.exists():
+        raise InputError(f"no such file: {options.path}")
+    size = parse_sensor(options.sensor) if options.sensor else None
+    recording = open_events(options.path, format=options.format, size=size)
+    events = keep_time_range(recording, options.time)
+    page = options.out or Path(tempfile.mkdtemp(prefix="texvent-")) / "events.html"
+    render_events(
+        events,
+        page,
+        config=RenderConfig(palette=options.palette, points=options.points),
+        frames=frames_for_overlay(options.video, events),
+        overwrite=options.overwrite,
+    )
+    if not options.quiet:
+        sys.stdout.write(f"{page}\n")
+    if options.out is None and not webbrowser.open(page.resolve().as_uri()):
+        sys.stderr.write("no browser could be opened; open that page yourself\n")
+    return 0

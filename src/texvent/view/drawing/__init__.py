@@ -1,0 +1,1 @@
+"""Drawing: RGB images, palettes, panels and annotations."""

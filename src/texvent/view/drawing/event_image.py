@@ -1,0 +1,114 @@
+"""Events → an RGB image whose colours never fill up or fade away."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.video import UINT16_PER_LEVEL, Frame
+from texvent.view.drawing.canvas import Image
+from texvent.view.drawing.palettes import Palette
+
+CEILING_PERCENTILE = 95.0
+"""Pixels with more events than this share of the active ones are shown at full strength."""
+FAINTEST = 0.3
+"""Least strength of an event, where others are many."""
+FADED = 1 / 255
+"""Strength below which a fading event cannot be seen."""
+STRENGTH_EXPONENT = 0.5
+"""Below 1, so that pixels with few events stay easy to see."""
+
+
+def count_ceiling(counts: NDArray[Any]) -> float:
+    """Events per pixel that are shown at full strength: a high percentile over active pixels.
+
+    A fixed ceiling makes short slices blank and long ones one solid colour; this one follows
+    the data. It is at least 1.
+
+    Args:
+        counts: OFF and ON events per pixel, [2, H, W].
+    """
+    total = counts.sum(axis=0)
+    active = total[total > 0]
+    return max(1.0, float(np.percentile(active, CEILING_PERCENTILE))) if active.size else 1.0
+
+
+def draw_events(counts: NDArray[Any], palette: Palette, *, ceiling: float | None = None) -> Image:
+    """Counted events as an RGB image.
+
+    Hue says which polarity (a pixel with both shows the mixture); strength says how many
+    events, at least `FAINTEST`, full colour from `ceiling` on. Where a palette's background lies
+    between its colours (v2e), as many ON as OFF look like none.
+
+    Args:
+        counts: OFF and ON events per pixel, [2, H, W] integers (`event_frame(…, "count")`).
+        palette: the colours.
+        ceiling: events per pixel at full strength; default: `count_ceiling(counts)`.
+
+    Returns:
+        [H, W, 3] uint8.
+    """
+    limit = count_ceiling(counts) if ceiling is None else max(1.0, ceiling)
+    height, width = counts.shape[1:]
+    image = np.empty((height, width, 3), dtype=np.uint8)
+    image[:] = palette.background
+    # Most pixels have no event, so only the active ones are computed.
+    rows, columns = np.nonzero(counts[0] | counts[1])
+    if rows.size == 0:
+        return image
+    off = counts[0, rows, columns].astype(np.float32)
+    on = counts[1, rows, columns].astype(np.float32)
+    total = off + on
+    strength = np.clip((total / limit) ** STRENGTH_EXPONENT, FAINTEST, 1.0)
+    share = (on / total)[:, None]
+    on_colour, off_colour, background = (
+        np.array(colour, dtype=np.float32)
+        for colour in (palette.on, palette.off, palette.background)
+    )
+    colour = share * on_colour + (1 - share) * off_colour
+    mixed = background + strength[:, None] * (colour - background)
+    image[rows, columns] = np.rint(mixed).astype(np.uint8)
+    return image
+
+
+def draw_fading(fading: NDArray[Any], palette: Palette) -> Image:
+    """A time surface as an RGB image: the newer polarity gives the hue, its age the strength.
+
+    Args:
+        fading: strength 0..1 of the last OFF and ON event per pixel, [2, H, W].
+        palette: the colours.
+
+    Returns:
+        [H, W, 3] uint8.
+    """
+    strength = fading.max(axis=0)
+    image = np.empty((*strength.shape, 3), dtype=np.uint8)
+    image[:] = palette.background
+    rows, columns = np.nonzero(strength > FADED)
+    off, on = fading[0, rows, columns], fading[1, rows, columns]
+    on_colour, off_colour, background = (
+        np.array(colour, dtype=np.float32)
+        for colour in (palette.on, palette.off, palette.background)
+    )
+    colour = np.where((on >= off)[:, None], on_colour, off_colour)
+    mixed = background + strength[rows, columns, None] * (colour - background)
+    image[rows, columns] = np.rint(mixed).astype(np.uint8)
+    return image
+
+
+def frame_image(frame: Frame) -> Image:
+    """A frame as people see it: 8-bit RGB, for display only.
+
+    Returns:
+        [H, W, 3] uint8.
+    """
+    pixels = frame.pixels
+    if pixels.dtype == np.uint16:
+        pixels = pixels / np.float32(UINT16_PER_LEVEL)
+    if pixels.dtype != np.uint8:
+        pixels = np.rint(np.clip(pixels, 0, 255)).astype(np.uint8)
+    if pixels.ndim == 2:
+        pixels = np.repeat(pixels[:, :, None], 3, axis=2)
+    return np.ascontiguousarray(pixels, dtype=np.uint8)

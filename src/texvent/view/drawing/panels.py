@@ -1,0 +1,169 @@
+"""One image of everything: the frame on the left, events on the right, a caption above."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from texvent.sensor import SensorSize
+from texvent.view.drawing.annotations import Annotations
+from texvent.view.drawing.canvas import (
+    Image,
+    blank,
+    draw_box,
+    draw_text,
+    enlarge,
+    fit_text,
+    text_width,
+)
+from texvent.view.drawing.palettes import Colour, Palette
+
+TARGET_WIDTH = 1280.0
+MAX_FACTOR = 10
+GAP = 2
+SURROUND: Colour = (24, 26, 31)
+CAPTION_INK: Colour = (236, 238, 242)
+FAINT_INK: Colour = (160, 166, 176)
+
+
+@dataclass(frozen=True)
+class PanelLayout:
+    """Where the panels lie, for one sensor size; every size it gives is even (H.264 needs it)."""
+
+    size: SensorSize
+    palette: Palette
+    side_by_side: bool = True
+    target_width: float = TARGET_WIDTH
+    """Small sensors are enlarged by a whole factor until the image is about this wide, pixels."""
+
+    @property
+    def factor(self) -> int:
+        """Whole-number enlargement of the panels."""
+        across = self.size.width * (2 if self.side_by_side else 1)
+        down = self.size.height
+        # A tall sensor is limited by its height, so that the image fits a screen.
+        wanted = min(self.target_width / across, 0.75 * self.target_width / down)
+        return max(1, min(MAX_FACTOR, round(wanted)))
+
+    @property
+    def text_height(self) -> int:
+        """Height of capitals in the caption, pixels."""
+        return max(7, min(13, self.panels_width // 64))
+
+    @property
+    def caption_height(self) -> int:
+        """Height of the caption, pixels; it makes the whole height even."""
+        height = 3 * self.text_height
+        return height + (height + self.size.height * self.factor) % 2
+
+    @property
+    def panels_width(self) -> int:
+        """Width of the panels together, pixels."""
+        panel = self.size.width * self.factor
+        return 2 * panel + GAP if self.side_by_side else panel
+
+    @property
+    def width(self) -> int:
+        """Width of the whole image, pixels, even."""
+        return self.panels_width + self.panels_width % 2
+
+    @property
+    def height(self) -> int:
+        """Height of the whole image, pixels, even."""
+        return self.size.height * self.factor + self.caption_height
+
+    def compose(
+        self,
+        frame: Image | None,
+        events: Image,
+        *,
+        title: str,
+        facts: str,
+        annotations: Annotations | None = None,
+    ) -> Image:
+        """The whole image.
+
+        Args:
+            frame: RGB image of the sensor's size, [H, W, 3], or None if there is none.
+            events: RGB image of the events, [H, W, 3].
+            title: what is shown; cut if it is too long.
+            facts: time and counts, at the right of the caption.
+            annotations: drawn over both panels.
+
+        Returns:
+            [height, width, 3] uint8.
+        """
+        whole = blank(self.width, self.height, SURROUND)
+        top, panel = self.caption_height, self.size.width * self.factor
+        bottom = top + self.size.height * self.factor
+        if self.side_by_side:
+            if frame is not None:
+                whole[top:bottom, :panel] = self._panel(frame, annotations, "smooth")
+            left = panel + GAP
+        else:
+            left = 0
+        whole[top:bottom, left : left + panel] = self._panel(events, annotations, "blocks")
+        self._caption(whole, title, facts)
+        return whole
+
+    def _panel(
+        self, image: Image, annotations: Annotations | None, how: Literal["smooth", "blocks"]
+    ) -> Image:
+        large = enlarge(image, self.factor, how=how)
+        if annotations is None:
+            return large
+        # A factor of 1 gives the caller's own image back; it is not ours to draw on.
+        large = large.copy()
+        annotations.draw(large, self.factor)
+        return large
+
+    def _caption(self, whole: Image, title: str, facts: str) -> None:
+        """Title left, facts and legend right; what does not fit is left out, title first."""
+        height = self.text_height
+        baseline = (self.caption_height + height) // 2
+        margin = height
+        legend = draw_legend(self.palette, height)
+        right = self.width - legend.shape[1]
+        if right >= 0:
+            whole[: legend.shape[0], right : right + legend.shape[1]] = legend
+        else:
+            right = self.width
+        facts_width = text_width(facts, height)
+        if right - facts_width - margin >= 0:
+            right -= facts_width + margin
+            draw_text(whole, facts, right, baseline, height=height, colour=FAINT_INK)
+        room = right - 3 * margin
+        shown = fit_text(title, height, room) if room > 4 * margin else ""
+        if shown:
+            draw_text(whole, shown, margin, baseline, height=height, colour=CAPTION_INK)
+
+
+def draw_legend(palette: Palette, text_height: int) -> Image:
+    """Which colour is ON and which is OFF, as a strip with the palette's background.
+
+    Args:
+        palette: the colours.
+        text_height: height of capitals, pixels.
+
+    Returns:
+        [3 text_height, about 13 text_height, 3] uint8.
+    """
+    height = 3 * text_height
+    square = text_height + 2
+    entries = (("ON", palette.on), ("OFF", palette.off))
+    words = [text_width(word, text_height) for word, _ in entries]
+    gap = max(3, text_height // 2)
+    strip_width = sum(words) + 2 * (square + gap) + 4 * text_height
+    strip = blank(strip_width, height, SURROUND)
+    pad = max(2, text_height // 2)
+    draw_box(strip, pad, pad, strip_width - 2 * pad, height - 2 * pad, palette.background)
+    x = pad + text_height
+    for (word, colour), word_width in zip(entries, words, strict=True):
+        draw_box(strip, x, (height - square) // 2, square, square, colour)
+        x += square + gap
+        baseline = (height + text_height) // 2
+        draw_text(strip, word, x, baseline, height=text_height, colour=palette.ink)
+        x += word_width + text_height
+    return np.ascontiguousarray(strip)

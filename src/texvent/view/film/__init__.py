@@ -1,1 +1,0 @@
-"""Films of events, with the video beside them."""

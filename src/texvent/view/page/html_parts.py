@@ -1,0 +1,199 @@
+"""Parts of the page as HTML: rate curve, table of facts, escaped data."""
+
+from __future__ import annotations
+
+import base64
+import html
+import json
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from texvent.events import EventStream
+from texvent.option_values import plain
+from texvent.video import MICROSECONDS
+from texvent.view.drawing.palettes import Colour, Palette
+from texvent.view.page.frame_strip import FrameStrip
+from texvent.view.page.sample import RateCurve
+
+LABELS = {
+    "prompt": "Prompt",
+    "texvent_version": "texvent version",
+}
+"""Names of facts that capitalising alone would not make readable."""
+CURVE_WIDTH = 1000
+CURVE_HEIGHT = 200
+
+
+def css_colour(colour: Colour) -> str:
+    """The colour as CSS writes it.
+
+    Example:
+        >>> css_colour((0, 93, 183))
+        'rgb(0 93 183)'
+    """
+    return f"rgb({colour[0]} {colour[1]} {colour[2]})"
+
+
+def count_text(count: float) -> str:
+    """A count as people say it.
+
+    Example:
+        >>> count_text(1_234_567), count_text(950)
+        ('1.23 M', '950')
+    """
+    for size, letter in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
+        if count >= size:
+            return f"{count / size:.3g} {letter}" if count < 1000 * size else f"{count:.2g}"
+    return f"{count:.0f}"
+
+
+def rate_curve_html(curve: RateCurve) -> str:
+    """The event rate over time: ON above the line, OFF below it, as SVG that needs no script."""
+    counts = curve.counts
+    if counts.shape[1] == 0:
+        return '<div class="panel rate"><p>No events.</p></div>'
+    per_second = MICROSECONDS / curve.bin_us
+    peak = int(counts.max())
+    middle = CURVE_HEIGHT / 2
+    on_area, off_area = (
+        _steps(counts[row], scale=direction * 0.96 * middle / peak)
+        for row, direction in ((1, -1), (0, 1))
+    )
+    stop_us = curve.start_us + curve.bin_us * counts.shape[1]
+    label = f"ON and OFF events per second over time; peak {count_text(peak * per_second)}"
+    return (
+        '<figure class="panel rate"><svg id="rate-curve" '
+        f'viewBox="0 0 {CURVE_WIDTH} {CURVE_HEIGHT}" '
+        f'preserveAspectRatio="none" role="img" aria-label="{label}">'
+        f'<path class="on-area" d="{on_area}"/><path class="off-area" d="{off_area}"/>'
+        f'<rect id="rate-window" class="window" x="0" y="0" width="0" height="{CURVE_HEIGHT}"/>'
+        '<path id="rate-region" class="region-line" d=""/>'
+        f'<path class="zero" d="M0 {middle:g}H{CURVE_WIDTH}"/></svg>'
+        f'<div class="scale"><span>{curve.start_us / MICROSECONDS:.3f} s</span>'
+        f"<span>ON above, OFF below the line · peak {count_text(peak * per_second)} events/s · "
+        f"bins of {curve.bin_us / 1000:.3g} ms</span>"
+        f"<span>{stop_us / MICROSECONDS:.3f} s</span></div></figure>"
+        '<p class="note">Drag over the curve to choose a time, click to go there. '
+        '<span id="rate-region-note" hidden>The line is the region alone, estimated from the '
+        "events of the cloud.</span></p>"
+    )
+
+
+def facts_html(facts: Mapping[str, Any]) -> str:
+    """Rows of a table; names and values are escaped."""
+    rows = []
+    for name, value in facts.items():
+        label = LABELS.get(name, name.replace("_", " ").capitalize())
+        rows.append(
+            f'<tr><th scope="row">{html.escape(label)}</th><td>{html.escape(str(value))}</td></tr>'
+        )
+    return "\n".join(rows)
+
+
+def details_html(metadata: Mapping[str, Any]) -> str:
+    """Everything else that is known about the run, folded away."""
+    if not metadata:
+        return ""
+    text = json.dumps(plain(metadata), indent=2, ensure_ascii=False, default=str)
+    return (
+        "<details><summary>All settings of the run</summary>"
+        f"<pre>{html.escape(text)}</pre></details>"
+    )
+
+
+def still_html(png: bytes | None) -> str:
+    """The still image, inside the page itself."""
+    if png is None:
+        return ""
+    return (
+        '<section aria-labelledby="still-heading"><h2 id="still-heading">The busiest moment</h2>'
+        '<figure class="still"><img alt="The moment of the recording with the most events" '
+        f'src="data:image/png;base64,{base64.b64encode(png).decode("ascii")}"></figure></section>'
+    )
+
+
+def video_html(strip: FrameStrip) -> str:
+    """Where the page shows the video's frame beside the cloud; nothing without frames."""
+    if not strip.images:
+        return ""
+    return (
+        '<figure class="plane"><div class="panel">'
+        '<canvas id="video-canvas" role="img" aria-label="The video at the start of the chosen '
+        'time"></canvas><div class="region-mark" hidden></div></div>'
+        f"<figcaption>The video then; {len(strip.images)} of {strip.seen} frames are in this "
+        "page</figcaption></figure>"
+    )
+
+
+def viewer_json(
+    sample: EventStream,
+    curve: RateCurve,
+    strip: FrameStrip,
+    *,
+    palette: Palette,
+    seen: int,
+    stop_us: int,
+) -> str:
+    """All that the viewer shows as JSON that is safe inside a script element.
+
+    Times become shares 0..1 of `[start_us, stop_us]` in float32: finer than a screen can show.
+
+    Args:
+        sample: the events of the cloud.
+        curve: ON and OFF events over time, all of them.
+        strip: frames of the video.
+        palette: the colours.
+        seen: how many events the recording has.
+        stop_us: time of the last event, µs.
+    """
+    start_us = curve.start_us
+    span_us = max(1, stop_us - start_us)
+    share = ((sample.t - start_us) / span_us).astype("<f4")
+    pixels = np.stack([sample.x, sample.y], axis=1).astype("<u2")
+    data = {
+        "width": sample.size.width,
+        "height": sample.size.height,
+        "start_us": start_us,
+        "duration_us": span_us,
+        "count": len(sample),
+        "seen": seen,
+        "rate": {
+            "bins": curve.counts.shape[1],
+            "bin_us": curve.bin_us,
+            "peak": int(curve.counts.max(initial=0)),
+        },
+        "frames": [
+            {
+                "t": (t_us - start_us) / span_us,
+                "src": "data:image/jpeg;base64," + base64.b64encode(jpeg).decode("ascii"),
+            }
+            for t_us, jpeg in strip.images
+        ],
+        "on": palette.on,
+        "off": palette.off,
+        "background": palette.background,
+        "ink": palette.ink,
+        "xy": _base64(pixels),
+        "t": _base64(share),
+        "p": _base64(sample.p),
+    }
+    # "</script>" inside JSON would end the element.
+    return json.dumps(data).replace("<", "\\u003c")
+
+
+def _base64(values: Any) -> str:
+    return base64.b64encode(np.ascontiguousarray(values).tobytes()).decode("ascii")
+
+
+def _steps(counts: Any, *, scale: float) -> str:
+    """Outline of a bar chart on the middle line, as an SVG path."""
+    middle = CURVE_HEIGHT / 2
+    width = CURVE_WIDTH / len(counts)
+    parts = [f"M0 {middle:g}"]
+    parts += [
+        f"V{middle + count * scale:.1f}H{(index + 1) * width:.2f}"
+        for index, count in enumerate(counts.tolist())
+    ]
+    return "".join(parts) + f"V{middle:g}Z"

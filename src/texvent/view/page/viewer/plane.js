@@ -1,0 +1,130 @@
+// The sensor's plane: RGB frame and events of the time window, and the region that is selected.
+
+const makePlane = (state) => {
+  const { data, events } = state;
+  const canvas = element("plane-canvas");
+  canvas.width = data.width;
+  canvas.height = data.height;
+  const context = canvas.getContext("2d");
+  const picture = context.createImageData(data.width, data.height);
+  const words = new Uint32Array(picture.data.buffer);
+  const [on, off] = [new Uint32Array(words.length), new Uint32Array(words.length)];
+  const marks = [...document.querySelectorAll(".region-mark")];
+  const numbers = ["x0", "x1", "y0", "y1"].map((name) => element("region-" + name));
+
+  const count = () => {
+    on.fill(0);
+    off.fill(0);
+    const [first, last] = state.range();
+    const { x0, y0, x1, y1 } = state.region;
+    let inside = 0;
+    for (let i = first; i < last; i++) {
+      const [x, y] = [events.xy[2 * i], events.xy[2 * i + 1]];
+      if (events.p[i] ? state.on : state.off) {
+        (events.p[i] ? on : off)[y * data.width + x]++;
+        if (x >= x0 && x < x1 && y >= y0 && y < y1) inside++;
+      }
+    }
+    return inside;
+  };
+
+  // As in texvent's pictures: hue is the polarity, strength the number of events.
+  const paint = () => {
+    let [sum, active] = [0, 0];
+    for (let i = 0; i < words.length; i++) {
+      const total = on[i] + off[i];
+      if (total) { sum += total; active++; }
+    }
+    const ceiling = Math.max(1, (2 * sum) / Math.max(active, 1));
+    const colour = [0, 0, 0];
+    const bytes = picture.data;
+    for (let i = 0; i < words.length; i++) {
+      const total = on[i] + off[i];
+      const strength = total ? Math.min(1, Math.max(0.3, Math.sqrt(total / ceiling))) : 0;
+      const share = total ? on[i] / total : 0;
+      for (let c = 0; c < 3; c++) {
+        colour[c] = share * data.on[c] + (1 - share) * data.off[c];
+        bytes[4 * i + c] = data.background[c] + strength * (colour[c] - data.background[c]);
+      }
+      bytes[4 * i + 3] = 255;
+    }
+    context.putImageData(picture, 0, 0);
+  };
+
+  const showRegion = (inside) => {
+    const { x0, y0, x1, y1 } = state.region;
+    const part = state.regionIsWhole();
+    for (const mark of marks) {
+      mark.hidden = part;
+      mark.style.left = (100 * x0) / data.width + "%";
+      mark.style.top = (100 * y0) / data.height + "%";
+      mark.style.width = (100 * (x1 - x0)) / data.width + "%";
+      mark.style.height = (100 * (y1 - y0)) / data.height + "%";
+    }
+    // Last column and row, as people count them.
+    [x0, x1 - 1, y0, y1 - 1].forEach((value, i) => {
+      if (numbers[i] !== document.activeElement) numbers[i].value = value;
+    });
+    element("region-clear").disabled = part;
+    element("shown-text").textContent =
+      inside.toLocaleString("en") + " of the cloud's " + data.count.toLocaleString("en") +
+      " events in this time" + (part ? "" : " and region");
+  };
+
+  // The frame that the video showed when the window began.
+  const video = element("video-canvas");
+  const images = video ? data.frames.map(({ src }) => Object.assign(new Image(), { src })) : [];
+  images.forEach((image) => image.addEventListener("load", () => state.changed()));
+  const showFrame = () => {
+    if (!video) return;
+    let index = 0;
+    while (index + 1 < data.frames.length && data.frames[index + 1].t <= state.start + 1e-6) index++;
+    const image = images[index];
+    if (!image.complete || !image.naturalWidth || video.dataset.frame === String(index)) return;
+    if (video.width !== image.naturalWidth) video.width = image.naturalWidth;
+    if (video.height !== image.naturalHeight) video.height = image.naturalHeight;
+    video.getContext("2d").drawImage(image, 0, 0);
+    video.dataset.frame = index;
+  };
+
+  // Turning the cloud changes nothing here, and counting a million events takes longer than a
+  // screen refresh, so it is only done again when something else is shown.
+  let shown = "";
+  state.watch(() => {
+    showFrame();
+    const wanted = JSON.stringify([state.start, state.length, state.on, state.off, state.region]);
+    if (wanted === shown) return;
+    shown = wanted;
+    const inside = count();
+    paint();
+    showRegion(inside);
+  });
+
+  // Drag selects; a click without a drag selects everything again.
+  let corner = null;
+  const at = (event) => {
+    const box = canvas.getBoundingClientRect();
+    return [((event.clientX - box.left) / box.width) * data.width, ((event.clientY - box.top) / box.height) * data.height];
+  };
+  canvas.addEventListener("pointerdown", (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    corner = { place: at(event), x: event.clientX, y: event.clientY, moved: false };
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    if (!corner) return;
+    corner.moved ||= Math.hypot(event.clientX - corner.x, event.clientY - corner.y) > 4;
+    if (corner.moved) state.setRegion(...corner.place, ...at(event));
+  });
+  canvas.addEventListener("pointerup", () => {
+    if (corner && !corner.moved) state.clearRegion();
+    corner = null;
+  });
+  canvas.addEventListener("pointercancel", () => { corner = null; });
+  for (const number of numbers) {
+    number.addEventListener("change", () => {
+      const [x0, x1, y0, y1] = numbers.map((one) => Number(one.value));
+      state.setRegion(x0, y0, x1 + 1, y1 + 1);
+    });
+  }
+  element("region-clear").addEventListener("click", () => state.clearRegion());
+};

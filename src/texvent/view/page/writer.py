@@ -1,0 +1,218 @@
+"""A page about a run in one file: it opens offline and asks nothing of any server."""
+
+from __future__ import annotations
+
+import html
+import re
+import tempfile
+import webbrowser
+from collections.abc import Mapping
+from contextlib import ExitStack
+from importlib import resources
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+from texvent.errors import OutputError
+from texvent.events import EventPackets, EventStream
+from texvent.io.atomic import atomic_file, check_output
+from texvent.sensor import SensorSize
+from texvent.video import MICROSECONDS, Frame
+from texvent.view.drawing.caption import title_of
+from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
+from texvent.view.page import html_parts
+from texvent.view.page.frame_strip import FrameStrip
+from texvent.view.page.sample import SAMPLE_EVENTS, RateCurve, UniformSample
+from texvent.view.stills.busiest_window import busiest_window_png
+
+SCRIPTS = ("state.js", "cloud.js", "plane.js", "rate.js", "controls.js")
+"""Parts of the viewer, in the order in which they build on one another."""
+
+
+class PageWriter:
+    """Gathers a sample and a rate curve while packets come in, and writes the page at the end.
+
+    Memory holds at most twice the sample and 64 small frames, however long the recording is.
+
+    Raises:
+        ConfigError: the palette is unknown.
+        OutputError: the file exists already or cannot be written.
+    """
+
+    def __init__(
+        self,
+        path: str | Path,
+        *,
+        size: SensorSize,
+        metadata: Mapping[str, Any] | None = None,
+        palette: str | Palette = DEFAULT_PALETTE,
+        overwrite: bool = False,
+        sample_limit: int = SAMPLE_EVENTS,
+    ) -> None:
+        """Check the path; the `with` statement opens it.
+
+        Args:
+            path: .html file.
+            size: sensor size, pixels.
+            metadata: facts of the run, shown in the page's table.
+            palette: colours, by name.
+            overwrite: whether an existing file may be replaced.
+            sample_limit: most events shown in the cloud.
+        """
+        check_output(path, overwrite=overwrite)
+        self._path = Path(path)
+        self._size = size
+        self._metadata = dict(metadata or {})
+        self._palette = get_palette(palette)
+        self._overwrite = overwrite
+        self._sample = UniformSample(size, limit=sample_limit)
+        self._curve = RateCurve()
+        self._strip = FrameStrip()
+        self._on_events = 0
+        self._stop_us = 0
+        self._stack = ExitStack()
+        self._part: Path | None = None
+        self.still: bytes | None = None
+        """PNG file shown below the curve; set it before the `with` block ends."""
+
+    def __enter__(self) -> Self:
+        self._part = self._stack.enter_context(atomic_file(self._path, overwrite=self._overwrite))
+        return self
+
+    def append(self, packet: EventStream) -> None:
+        """Add the events of a packet, which starts no earlier than the one before it ended."""
+        if len(packet) == 0:
+            return
+        self._sample.append(packet)
+        self._curve.append(packet)
+        self._on_events += int(packet.p.sum())
+        self._stop_us = int(packet.t[-1]) + 1
+
+    def append_frame(self, frame: Frame) -> None:
+        """Add a frame of the video, to be seen beside the events; the page keeps a few."""
+        self._strip.append(frame)
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if error is not None:
+            self._stack.__exit__(kind, error, trace)
+            return
+        with self._stack:
+            if self._part is None:
+                raise OutputError(f"{self._path} is not open; use the writer in a with block")
+            self._part.write_text(self._page(), encoding="utf-8")
+
+    def _page(self) -> str:
+        seen, sample, palette = self._sample.seen, self._sample.events(), self._palette
+        title = title_of(self._metadata) or "Events"
+        nested = {
+            name: value
+            for name, value in self._metadata.items()
+            if isinstance(value, (Mapping, list, tuple)) and value
+        }
+        note = f"Shows all {seen:,} events."
+        if len(sample) < seen:
+            note = (
+                f"Shows {len(sample):,} of {seen:,} events, drawn uniformly at random: "
+                "the cloud is thinner than the recording."
+            )
+        parts = {
+            "title": html.escape(title),
+            "summary": html.escape(self._summary()),
+            "video": html_parts.video_html(self._strip),
+            "still": html_parts.still_html(self.still),
+            "note": html.escape(note),
+            "rate": html_parts.rate_curve_html(self._curve),
+            "facts": html_parts.facts_html(self._facts()),
+            "details": html_parts.details_html(nested),
+            "data": html_parts.viewer_json(
+                sample,
+                self._curve,
+                self._strip,
+                palette=palette,
+                seen=seen,
+                stop_us=max(self._curve.start_us + 1, self._stop_us - 1),
+            ),
+            **{name: getattr(palette, name) for name in ("on", "off", "background", "ink")},
+        }
+        return _fill_template(
+            {
+                name: value if isinstance(value, str) else html_parts.css_colour(value)
+                for name, value in parts.items()
+            }
+        )
+
+    def _seconds(self) -> float:
+        return max(0, self._stop_us - self._curve.start_us) / MICROSECONDS
+
+    def _summary(self) -> str:
+        seen = self._sample.seen
+        return (
+            f"{self._size.width} × {self._size.height} pixels · {self._seconds():.3f} s · "
+            f"{seen:,} events"
+        )
+
+    def _facts(self) -> dict[str, Any]:
+        seen, seconds = self._sample.seen, self._seconds()
+        share = f" ({self._on_events / seen:.1%} ON)" if seen else ""
+        facts: dict[str, Any] = {
+            name: value
+            for name, value in self._metadata.items()
+            if value is not None and not isinstance(value, (Mapping, list, tuple))
+        }
+        version = {name: facts.pop(name) for name in ("texvent_version",) if name in facts}
+        facts |= {
+            "sensor": f"{self._size.width} × {self._size.height} pixels",
+            "events": f"{seen:,}{share}",
+            "duration": f"{seconds:.6f} s, from {self._curve.start_us:,} µs",
+        }
+        if seconds > 0:
+            facts["mean_rate"] = f"{html_parts.count_text(seen / seconds)} events per second"
+        return facts | version
+
+
+def show(
+    events: EventStream | EventPackets, path: str | Path | None = None, *, overwrite: bool = False
+) -> Path:
+    """Make the page of a recording and, unless a path is given, open it in the browser.
+
+    Args:
+        events: what to show.
+        path: where to save the page; then nothing is opened. Default: a temporary file.
+        overwrite: whether an existing file may be replaced.
+
+    Returns:
+        Where the page is.
+
+    Raises:
+        OutputError: the file exists already or cannot be written.
+    """
+    folder = None if path is not None else tempfile.mkdtemp(prefix="texvent-")
+    page = Path(path) if path is not None else Path(str(folder)) / "events.html"
+    packets = (events,) if isinstance(events, EventStream) else events
+    with PageWriter(
+        page, size=events.size, metadata=events.metadata, overwrite=overwrite
+    ) as writer:
+        for packet in packets:
+            writer.append(packet)
+        if isinstance(events, EventStream):
+            writer.still = busiest_window_png(events, title=title_of(events.metadata))
+    if path is None:
+        webbrowser.open(page.as_uri())
+    return page
+
+
+def _fill_template(parts: Mapping[str, str]) -> str:
+    """The page with every `{{name}}` replaced, in one pass: inserted text is never read again."""
+    folder = resources.files("texvent.view.page").joinpath("viewer")
+
+    def read(name: str) -> str:
+        return folder.joinpath(name).read_text("utf-8")
+
+    texts = {"style": read("page.css"), "script": "\n".join(map(read, SCRIPTS))}
+    known = {**texts, **parts}
+    return re.sub(r"\{\{(\w+)\}\}", lambda match: known[match[1]], read("page.html"))

@@ -1,0 +1,1 @@
+"""Still images: the busiest window, the contact sheet."""

@@ -1,0 +1,81 @@
+"""An image of the busiest moment, found without keeping the clip."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+from texvent.video import Frame
+from texvent.view.drawing.canvas import png_bytes
+from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
+from texvent.view.drawing.panels import PanelLayout
+from texvent.view.windows.cut import cut_windows, still_window_us
+from texvent.view.windows.draw_window import compose_window
+from texvent.view.windows.event_window import EventWindow, WindowCollector
+
+
+class BusiestWindow:
+    """Feed it the run; it remembers the window with the most events and draws it.
+
+    Memory holds one window besides the one being gathered.
+    """
+
+    def __init__(
+        self,
+        *,
+        size: SensorSize,
+        palette: str | Palette = DEFAULT_PALETTE,
+        side_by_side: bool = True,
+        title: str = "",
+    ) -> None:
+        self._layout = PanelLayout(size, get_palette(palette), side_by_side)
+        self._title = title
+        self._collector = WindowCollector(size)
+        self._best: EventWindow | None = None
+
+    def append(self, frame: Frame, packet: EventStream) -> None:
+        """Add a dense frame and the events before it."""
+        window = self._collector.append(frame, packet)
+        if window is not None:
+            self.consider(window)
+
+    def consider(self, window: EventWindow) -> None:
+        """Remember the window if it is the busiest so far; the earlier one wins a tie."""
+        if self._best is None or window.event_count > self._best.event_count:
+            self._best = window
+
+    def pick(self) -> EventWindow | None:
+        """The busiest window, else the only frame, else None."""
+        return self._best or self._collector.lone_frame()
+
+    def draw(self, window: EventWindow) -> bytes:
+        """The image of a window as a PNG file in memory."""
+        return png_bytes(
+            compose_window(window, self._layout, title=self._title, facts=window.caption)
+        )
+
+    def png(self) -> bytes | None:
+        """The image of the busiest window, or None if there was no frame at all."""
+        window = self.pick()
+        return None if window is None else self.draw(window)
+
+
+def busiest_window_png(
+    events: EventStream,
+    *,
+    window_us: int | None = None,
+    palette: str | Palette = DEFAULT_PALETTE,
+    title: str = "",
+) -> bytes | None:
+    """A PNG of the window with the most events, or None without events."""
+    extent = events.time_range
+    if extent is None:
+        return None
+    length_us = window_us or still_window_us(extent)
+    picker = BusiestWindow(size=events.size, palette=palette, side_by_side=False, title=title)
+    for window in cut_windows(
+        (events,), size=events.size, step_us=Fraction(length_us), window_us=length_us
+    ):
+        picker.consider(window)
+    return picker.png()

@@ -1,0 +1,58 @@
+"""A contact sheet: several moments of a recording on one image."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+from texvent.sensor import SensorSize
+from texvent.view.drawing.canvas import Image, blank
+from texvent.view.drawing.palettes import get_palette
+from texvent.view.drawing.panels import SURROUND, TARGET_WIDTH, PanelLayout
+from texvent.view.windows.draw_window import compose_window
+from texvent.view.windows.event_window import EventWindow
+
+GAP = 4
+NARROWEST_PANEL = 360.0
+"""So that the caption of a panel can be read."""
+
+
+def draw_contact_sheet(
+    windows: Iterable[EventWindow],
+    panels: int,
+    *,
+    size: SensorSize,
+    palette: str,
+    side_by_side: bool,
+) -> Image:
+    """The windows in reading order, on a sheet of about 3:2.
+
+    Args:
+        windows: at least one, at most `panels`.
+        panels: how many the sheet is laid out for.
+        size: sensor size, pixels.
+        palette: colours, by name.
+        side_by_side: whether each panel also shows its frame.
+    """
+    across = size.width * (2 if side_by_side else 1)
+    columns = max(1, min(panels, round(math.sqrt(panels * 1.5 * size.height / across))))
+    layout = PanelLayout(
+        size,
+        get_palette(palette),
+        side_by_side=side_by_side,
+        target_width=max(NARROWEST_PANEL, TARGET_WIDTH / columns),
+    )
+    return _grid(
+        [compose_window(window, layout, title=window.caption, facts="") for window in windows],
+        columns,
+    )
+
+
+def _grid(panels: list[Image], columns: int) -> Image:
+    height, width = panels[0].shape[:2]
+    rows = -(-len(panels) // columns)
+    sheet = blank(columns * (width + GAP) - GAP, rows * (height + GAP) - GAP, SURROUND)
+    for index, panel in enumerate(panels):
+        top, left = (index // columns) * (height + GAP), (index % columns) * (width + GAP)
+        sheet[top : top + height, left : left + width] = panel
+    return sheet

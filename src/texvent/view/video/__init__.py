@@ -1,0 +1,1 @@
+"""Videos of events and frames: encoding and layout over time."""

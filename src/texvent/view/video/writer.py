@@ -1,0 +1,123 @@
+"""A video of the run: the video on the left, the events since on the right."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+from fractions import Fraction
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+from texvent.video import Frame
+from texvent.view.drawing.event_image import count_ceiling
+from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
+from texvent.view.drawing.panels import TARGET_WIDTH, PanelLayout
+from texvent.view.video.encoder import VideoEncoder
+from texvent.view.windows.draw_window import compose_window
+from texvent.view.windows.event_window import EventWindow, WindowCollector
+
+GIF_WIDTH = 640.0
+"""A gif compresses badly, so it is kept small."""
+CEILING_MEMORY = 0.9
+"""How slowly the scale recovers after a busy moment, per video frame: no flicker."""
+
+
+class VideoWriter:
+    """Writes an mp4 or gif while frames and packets come in; memory stays flat.
+
+    Each source frame is shown during its own window, beside all events of that window, so
+    the video runs exactly as the video does. Times are kept to the µs (gif: 1/100 s).
+
+    Raises:
+        ConfigError: the extension is not .mp4 or .gif, or the palette is unknown.
+        OutputError: the file exists already or cannot be written.
+    """
+
+    def __init__(
+        self,
+        path: str | Path,
+        *,
+        size: SensorSize,
+        fps: Fraction | None,
+        palette: str | Palette = DEFAULT_PALETTE,
+        side_by_side: bool = True,
+        overwrite: bool = False,
+        title: str = "",
+    ) -> None:
+        """Check the path; the `with` statement opens it.
+
+        Args:
+            path: .mp4 or .gif file.
+            size: sensor size, pixels.
+            fps: nominal rate of the source frames, or None where it is not known.
+            palette: colours, by name.
+            side_by_side: whether the frames are shown, or only the events.
+            overwrite: whether an existing file may be replaced.
+            title: text of the caption, such as the prompt.
+        """
+        width = GIF_WIDTH if Path(path).suffix.lower() == ".gif" else TARGET_WIDTH
+        self._layout = PanelLayout(size, get_palette(palette), side_by_side, width)
+        self._encoder = VideoEncoder(
+            path,
+            width=self._layout.width,
+            height=self._layout.height,
+            fps=fps or Fraction(30),
+            overwrite=overwrite,
+        )
+        self._title = title
+        self._collector = WindowCollector(size)
+        self._stack = ExitStack()
+        self._first_us: int | None = None
+        self._stop_us: int | None = None
+        self._ceiling = 1.0
+
+    def __enter__(self) -> Self:
+        self._stack.enter_context(self._encoder)
+        return self
+
+    def append(self, frame: Frame, packet: EventStream) -> None:
+        """Add a dense frame and the events before it, `[time of the frame before, frame.t_us)`."""
+        window = self._collector.append(frame, packet)
+        if window is not None:
+            self.show(window)
+
+    def show(self, window: EventWindow, *, video_start_us: int | None = None) -> None:
+        """Add one video frame.
+
+        Args:
+            window: what it shows.
+            video_start_us: when it appears, µs from the start of the video; default: as long
+                after the first window as in the recording.
+        """
+        if self._first_us is None:
+            self._first_us = window.start_us
+        start_us = window.start_us - self._first_us if video_start_us is None else video_start_us
+        self._ceiling = max(count_ceiling(window.counts), CEILING_MEMORY * self._ceiling)
+        image = compose_window(
+            window,
+            self._layout,
+            title=self._title,
+            facts=window.caption,
+            ceiling=self._ceiling,
+        )
+        self._encoder.write(image, start_us)
+        # With its own timing, the caller's nominal rate decides how long the last one stays.
+        self._stop_us = window.stop_us - self._first_us if video_start_us is None else None
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if error is not None:
+            self._stack.__exit__(kind, error, trace)
+            return
+        with self._stack:
+            lone = self._collector.lone_frame()
+            if self._first_us is None and lone is not None:
+                self.show(lone)
+            if self._stop_us is not None:
+                self._encoder.end(self._stop_us)

@@ -1,0 +1,1 @@
+"""Windows of events with the frame displayed beside them, and how they look."""
