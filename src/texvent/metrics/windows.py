@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
-from texvent.represent import arrays
+from texvent.represent import array_ops
 from texvent.video import MICROSECONDS
 
 Int64Array = NDArray[np.int64]
@@ -73,7 +73,7 @@ def count_windows(predicted: EventStream, reference: EventStream, rate_hz: Fract
 
 
 def flat_index(*axes: tuple[Any, int]) -> Int64Array:
-    """`represent.arrays.flat_index` of NumPy columns of any integer type."""
+    """`represent.array_ops.flat_index` of NumPy columns of any integer type."""
     (first, side), *rest = axes
-    index: Int64Array = arrays.flat_index((np.asarray(first, np.int64), side), *rest)
+    index: Int64Array = array_ops.flat_index((np.asarray(first, np.int64), side), *rest)
     return index
