@@ -21,7 +21,7 @@ from texvent.pairs.warp_tolerance import (
     VISIBLE_PX2,
     VISIBLE_RELATIVE,
 )
-from texvent.runtime.compile_part import compile_part
+from texvent.runtime.jit import jit
 
 Floats = NDArray[np.float32]
 Numbers = NDArray[np.int32]
@@ -156,7 +156,7 @@ def warm_up() -> None:
     warp_pair(prepare_pair(picture, picture, flow, flow), np.array([0.5]))
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _with_neighbours(picture: Floats) -> Words:
     height, width = picture.shape
     levels = np.empty((height + 1, 2 * width), np.float32)
@@ -168,7 +168,7 @@ def _with_neighbours(picture: Floats) -> Words:
     return levels.reshape(-1).view(np.uint64)
 
 
-@numba.njit(cache=True, parallel=True)
+@jit(nogil=False, parallel=True)
 def warp_pair(pair: WarpPair, positions: NDArray[np.float64]) -> Floats:
     """`warp_between` of a pair that is prepared, at several positions: [n, H, W].
 
@@ -182,7 +182,7 @@ def warp_pair(pair: WarpPair, positions: NDArray[np.float64]) -> Floats:
     return result
 
 
-@compile_part
+@jit(error_model="numpy", inner=True)
 def _warp_rows(
     pair: WarpPair, top: int, bottom: int, positions: NDArray[np.float64], result: Floats
 ) -> None:
@@ -197,7 +197,7 @@ def _warp_rows(
             warp_points(pair, room, (end - row) * width, positions[k], out)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def make_room(number: int) -> Room:
     """Memory for so many points; all are the first pixel, so that those left over do no harm."""
     room = (number + LANES - 1) // LANES * LANES
@@ -215,7 +215,7 @@ def make_room(number: int) -> Room:
     return Room(points, _make_look(room), _make_look(room))
 
 
-@compile_part
+@jit(error_model="numpy", inner=True)
 def _make_look(room: int) -> Look:
     return Look(
         np.empty(room, np.int32),
@@ -229,7 +229,7 @@ def _make_look(room: int) -> Look:
     )
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def take_rows(pair: WarpPair, top: int, bottom: int, points: Points) -> None:
     """Let the points be all pixels of some rows."""
     pixel, x, y, ahead_x, ahead_y, bend_x, bend_y, earlier, later = points
@@ -254,7 +254,7 @@ def take_rows(pair: WarpPair, top: int, bottom: int, points: Points) -> None:
         bend_x[k], bend_y[k] = ahead[2 * k] + back[2 * k], ahead[2 * k + 1] + back[2 * k + 1]
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def take_points(pair: WarpPair, chosen: NDArray[np.int64], points: Points) -> None:
     """Let the points be some pixels, given by flat index."""
     pixel, x, y, ahead_x, ahead_y, bend_x, bend_y, earlier, later = points
@@ -271,7 +271,7 @@ def take_points(pair: WarpPair, chosen: NDArray[np.int64], points: Points) -> No
         bend_x[k], bend_y[k] = ahead[j] + back[j], ahead[j + _ONE] + back[j + _ONE]
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def warp_points(pair: WarpPair, room: Room, number: int, position: float, out: Floats) -> None:
     """What the first `number` of the points show at a position; fills in out[:number]."""
     points, in_first, in_second = room
@@ -284,7 +284,7 @@ def warp_points(pair: WarpPair, room: Room, number: int, position: float, out: F
     _mix(points, in_first, in_second, number, place, out)
 
 
-@compile_part
+@jit(error_model="numpy", inner=True)
 def _aim(
     points: Points,
     number: int,
@@ -313,7 +313,7 @@ def _aim(
         nearest[k] = here + (width if down >= _HALF else np.int32(0)) + np.int32(right >= _HALF)
 
 
-@compile_part
+@jit(error_model="numpy", inner=True)
 def _fetch(pixels: Words, flows: Words, number: int, width: int, look: Look) -> None:
     """Fetch what lies where the points look."""
     corner, nearest, _, _, _, upper, lower, flow = look
@@ -325,7 +325,7 @@ def _fetch(pixels: Words, flows: Words, number: int, width: int, look: Look) -> 
         flow[k] = flows[np.uint64(nearest[k])]
 
 
-@compile_part
+@jit(error_model="numpy", inner=True)
 def _mix(
     points: Points, in_first: Look, in_second: Look, number: int, position: np.float32, out: Floats
 ) -> None:

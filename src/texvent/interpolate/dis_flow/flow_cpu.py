@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import sys
 
-import numba
 import numpy as np
 
 from texvent.interpolate.dis_flow.definitions import MARGIN, Floats, follow_levels, make_pyramid
 from texvent.interpolate.dis_flow.refine_cpu import refine
 from texvent.interpolate.dis_flow.search_cpu import join, search
-from texvent.runtime.compile_part import compile_part
+from texvent.runtime.jit import jit
 
 __all__ = ["double", "halve", "join", "make_level", "refine", "search", "warm_up"]
 
@@ -28,7 +27,7 @@ def warm_up() -> None:
     double(follow_levels(pyramid, pyramid, kernels), picture.shape)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def halve(picture: Floats) -> Floats:
     """Means of 2×2 pixels; an odd last row or column counts twice."""
     height, width = picture.shape
@@ -45,7 +44,7 @@ def halve(picture: Floats) -> Floats:
     return half
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def make_level(picture: Floats) -> Floats:
     """The picture with its edges continued, and its slopes; see `dis`."""
     height, width = picture.shape
@@ -64,7 +63,7 @@ def make_level(picture: Floats) -> Floats:
     return level
 
 
-@compile_part
+@jit(error_model="numpy", inner=True)
 def _find_slopes(
     above: Floats, here: Floats, below: Floats, slope_x: Floats, slope_y: Floats
 ) -> None:
@@ -76,7 +75,7 @@ def _find_slopes(
         slope_y[x] = (outer + _2 * (below[x + 1] - above[x + 1])) * _EIGHTH
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def double(flow: Floats, shape: tuple[int, int]) -> Floats:
     """The flow of a picture of twice the size: bilinear, between the centres of pixels."""
     _, height, width = flow.shape

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,7 +16,7 @@ from texvent.interpolate.dis_flow.definitions import (
     SWEEPS,
     Floats,
 )
-from texvent.runtime.compile_part import compile_part
+from texvent.runtime.jit import jit
 
 # As float32: Numba computes with float64 where a constant is one.
 _0 = np.float32(0.0)
@@ -32,7 +31,7 @@ _LEAST_SLOPE2 = np.float32(LEAST_SLOPE2)
 Numbers = NDArray[np.int32]
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def refine(start: Floats, stop: Floats, flow: Floats) -> Floats:
     """The flow after a few sweeps towards constant brightness and smoothness."""
     _, height, width = flow.shape
@@ -53,7 +52,7 @@ def refine(start: Floats, stop: Floats, flow: Floats) -> Floats:
     return refined
 
 
-@compile_part
+@jit(error_model="numpy", inner=True)
 def _copy(source: Floats, target: Floats, margin: int, new_margin: int) -> None:
     """Copy a flow that has some pixels of margin to where it has others."""
     for axis in range(2):
@@ -63,7 +62,7 @@ def _copy(source: Floats, target: Floats, margin: int, new_margin: int) -> None:
                 new[x + new_margin] = old[x + margin]
 
 
-@compile_part
+@jit(error_model="numpy", inner=True)
 def _linearize(start: Floats, stop: Floats, flow: Floats) -> Floats:
     """The data term: matrix (xx, xy, yy) and right side (x, y) of each pixel, [5, H, W]."""
     _, height, width = flow.shape
@@ -88,7 +87,7 @@ def _linearize(start: Floats, stop: Floats, flow: Floats) -> Floats:
     return terms
 
 
-@compile_part
+@jit(error_model="numpy", inner=True)
 def _aim(
     u: Floats, v: Floats, y: int, shape: tuple[int, int], corner: Numbers, weights: Floats
 ) -> None:
@@ -104,7 +103,7 @@ def _aim(
         corner[x] = (np.int32(top) + np.int32(MARGIN)) * columns + np.int32(left) + np.int32(MARGIN)
 
 
-@compile_part
+@jit(error_model="numpy", inner=True)
 def _mix(corners: Floats, weights: Floats, here: Floats, middle: Floats, change: Floats) -> None:
     """Fill in the mean of both pictures, and by how much the other is brighter."""
     a, b, c, d = corners[0], corners[1], corners[2], corners[3]
@@ -117,7 +116,7 @@ def _mix(corners: Floats, weights: Floats, here: Floats, middle: Floats, change:
         change[x] = there - here[x]
 
 
-@compile_part
+@jit(error_model="numpy", inner=True)
 def _weigh(
     rows: tuple[Floats, Floats, Floats],
     change: Floats,
@@ -150,7 +149,7 @@ def _weigh(
         xy[x], yy[x] = strength * along * across, strength * across * across
 
 
-@compile_part
+@jit(error_model="numpy", inner=True)
 def _bind(flow: Floats, bonds: Floats) -> None:
     """Fill in how much each pixel is drawn to the next one to the right and below, inside only."""
     _, height, width = flow.shape
@@ -170,7 +169,7 @@ def _bind(flow: Floats, bonds: Floats) -> None:
                 down[x] = _0
 
 
-@compile_part
+@jit(error_model="numpy", inner=True)
 def _solve(terms: Floats, bonds: Floats) -> None:
     """Turn each pixel's matrix, with its bonds, into its inverse."""
     for y in range(terms.shape[1]):
@@ -184,7 +183,7 @@ def _solve(terms: Floats, bonds: Floats) -> None:
             xx[x], xy[x], yy[x] = c / determinant, -b / determinant, a / determinant
 
 
-@compile_part
+@jit(error_model="numpy", inner=True)
 def _relax(now: Floats, then: Floats, bonds: Floats, terms: Floats, y: int, colour: int) -> None:
     """Move the fields of one colour in a row towards what their neighbours and the data want."""
     right, left = bonds[0, y + 1, 1:], bonds[0, y + 1]

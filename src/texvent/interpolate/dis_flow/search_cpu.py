@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 
 from texvent.interpolate.dis_flow.definitions import (
@@ -20,7 +19,7 @@ from texvent.interpolate.dis_flow.definitions import (
     Floats,
 )
 from texvent.interpolate.dis_flow.patches_cpu import compare_patch, spread_patch
-from texvent.runtime.compile_part import compile_part
+from texvent.runtime.jit import jit
 
 # As float32: Numba computes with float64 where a constant is one.
 _0 = np.float32(0.0)
@@ -39,7 +38,7 @@ Sums = tuple[np.float32, np.float32, np.float32, np.float32]
 Vector = tuple[np.float32, np.float32]
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def search(start: Floats, stop: Floats, flow: Floats, is_coarsest: bool) -> Floats:
     """Flow of each patch, [rows, columns, 3]: x, y, and how well that fits."""
     _, height, width = flow.shape
@@ -69,7 +68,7 @@ def search(start: Floats, stop: Floats, flow: Floats, is_coarsest: bool) -> Floa
     return found
 
 
-@compile_part
+@jit(error_model="numpy", inner=True)
 def _compare(
     level: Floats, sought: Floats, shape: tuple[int, int], here: tuple[int, int], flow: Vector
 ) -> Sums:
@@ -80,7 +79,7 @@ def _compare(
     return sums[0], sums[1] - sums[0] * sums[0] / _AREA, sums[2], sums[3]
 
 
-@compile_part
+@jit(error_model="numpy", inner=True)
 def _place(shape: tuple[int, int], x: np.float32, y: np.float32) -> tuple[int, Sums]:
     """Flat index of the pixel up left of a place, and bilinear weights of it and the others.
 
@@ -94,7 +93,7 @@ def _place(shape: tuple[int, int], x: np.float32, y: np.float32) -> tuple[int, S
     return corner, ((_1 - u) * (_1 - v), u * (_1 - v), (_1 - u) * v, u * v)
 
 
-@compile_part
+@jit(error_model="numpy", inner=True)
 def _sum_slopes(
     level: Floats, sought: Floats, shape: tuple[int, int], here: tuple[int, int], sums: Floats
 ) -> None:
@@ -114,7 +113,7 @@ def _sum_slopes(
     sums[0], sums[1], sums[2], sums[3], sums[4], sums[5] = xx, xy, yy, x, y, xx * yy - xy * xy
 
 
-@compile_part
+@jit(error_model="numpy", inner=True)
 def _try_around(
     level: Floats, sought: Floats, shape: tuple[int, int], here: tuple[int, int]
 ) -> Vector:
@@ -130,7 +129,7 @@ def _try_around(
     return best
 
 
-@compile_part
+@jit(error_model="numpy", inner=True)
 def _ask(
     level: Floats,
     sought: Floats,
@@ -167,7 +166,7 @@ def _ask(
     return is_better
 
 
-@compile_part
+@jit(error_model="numpy", inner=True)
 def _descend(
     level: Floats,
     sought: Floats,
@@ -209,7 +208,7 @@ def _descend(
             return
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def join(start: Floats, stop: Floats, patches: Floats) -> Floats:
     """Flow of each pixel, [2, H, W], from those of the patches that hold it."""
     _, rows, columns = start.shape

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from texvent.runtime.jit import jit
 
 OVERFLOW = 0xFF
 RESET = 0xFE
@@ -13,7 +14,7 @@ OVERFLOW_US = 127
 EVENT_BYTES = 5
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def encode_events(
     x: NDArray[np.uint16],
     y: NDArray[np.uint16],
@@ -51,7 +52,7 @@ def encode_events(
     return place
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def decode_events(
     data: NDArray[np.uint8],
     start: tuple[int, int],

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from texvent.runtime.jit import jit
 
 Bytes = NDArray[np.uint8]
 DAMAGED = -1
@@ -23,7 +24,7 @@ MASK_BITS = 5
 GROUP = 4
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def encode_times(t: NDArray[np.int64], body: Bytes) -> int:
     """Fill `body` with runs of equal times; returns the number of bytes."""
     count = 0
@@ -53,7 +54,7 @@ def encode_times(t: NDArray[np.int64], body: Bytes) -> int:
     return count
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def encode_packed(columns: tuple[NDArray[Any], ...], body: Bytes) -> int:
     """Fill `body` with 24 bits per event, in groups of four; returns the number of bytes."""
     x, y, p = columns
@@ -75,7 +76,7 @@ def encode_packed(columns: tuple[NDArray[Any], ...], body: Bytes) -> int:
     return count
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def decode_times(body: Bytes, origin: int, t: NDArray[np.int64]) -> int:
     """Fill all times from the runs at the start of `body`."""
     time = np.int64(origin)
@@ -100,7 +101,7 @@ def decode_times(body: Bytes, origin: int, t: NDArray[np.int64]) -> int:
     return at
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def decode_polarities(body: Bytes, p: NDArray[np.uint8]) -> int:
     """Fill all polarities from the runs at the start of `body`."""
     at = 0
@@ -117,7 +118,7 @@ def decode_polarities(body: Bytes, p: NDArray[np.uint8]) -> int:
     return at
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def decode_rows(body: Bytes, y: NDArray[np.uint16]) -> int:
     """Fill all rows from the runs at the start of `body`."""
     at = 0
@@ -140,7 +141,7 @@ def decode_rows(body: Bytes, y: NDArray[np.uint16]) -> int:
     return at
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def decode_masked(body: Bytes, x: NDArray[np.uint16]) -> int:
     """Fill all columns from words of a column and which of the next five follow it."""
     at = 0
@@ -160,7 +161,7 @@ def decode_masked(body: Bytes, x: NDArray[np.uint16]) -> int:
     return at
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def decode_pairs(body: Bytes, columns: tuple[NDArray[Any], ...]) -> int:
     """Fill columns and polarities of 12 bits per event, in groups of four."""
     x, p = columns
@@ -188,7 +189,7 @@ def decode_pairs(body: Bytes, columns: tuple[NDArray[Any], ...]) -> int:
     return end
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def decode_packed(body: Bytes, columns: tuple[NDArray[Any], ...]) -> int:
     """Fill x, y, p of 24 bits per event, in groups of four."""
     x, y, p = columns
@@ -214,7 +215,7 @@ def decode_packed(body: Bytes, columns: tuple[NDArray[Any], ...]) -> int:
     return end
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _read_run(body: Bytes, at: int, run: np.int64, long_run: int) -> tuple[int, np.int64]:
     """Where the run's bytes end, and its length (−1: damaged); 16 bits follow a long run."""
     if run != long_run:
@@ -224,6 +225,6 @@ def _read_run(body: Bytes, at: int, run: np.int64, long_run: int) -> tuple[int, 
     return at + 3, _read_u16(body, at + 1)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _read_u16(body: Bytes, at: int) -> np.int64:
     return np.int64(body[at]) | (np.int64(body[at + 1]) << 8)

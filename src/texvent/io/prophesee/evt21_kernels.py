@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from texvent.runtime.jit import jit
 
 WORD = "<u4"
 START = (0x8000_0000, 0)
@@ -34,7 +35,7 @@ def count_words(times: NDArray[np.int64], state: NDArray[np.int64]) -> int:
     return 4 * len(times)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def count_events(words: NDArray[np.uint32]) -> int:
     """Number of valid bits in ON and OFF words."""
     count = 0
@@ -47,7 +48,7 @@ def count_events(words: NDArray[np.uint32]) -> int:
     return count
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def decode_words(
     words: NDArray[np.uint32], state: NDArray[np.int64], columns: tuple[NDArray[Any], ...]
 ) -> int:
@@ -80,7 +81,7 @@ def decode_words(
     return count
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def encode_events(
     columns: tuple[NDArray[Any], ...], state: NDArray[np.int64], words: NDArray[np.uint32]
 ) -> int:

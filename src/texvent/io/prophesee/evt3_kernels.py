@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from texvent.runtime.jit import jit
 
 WORD = "<u2"
 START = (0x8000,)
@@ -28,7 +29,7 @@ def count_words(times: NDArray[np.int64], state: NDArray[np.int64]) -> int:
     return 4 * len(times) + 2 * ((int(times[-1]) >> 24) - int(state[0]))
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def count_events(words: NDArray[np.uint16]) -> int:
     """Number of single events and valid bits."""
     count = 0
@@ -45,7 +46,7 @@ def count_events(words: NDArray[np.uint16]) -> int:
     return count
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def decode_words(
     words: NDArray[np.uint16], state: NDArray[np.int64], columns: tuple[NDArray[Any], ...]
 ) -> int:
@@ -85,7 +86,7 @@ def decode_words(
     return count
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def encode_events(
     columns: tuple[NDArray[Any], ...], state: NDArray[np.int64], words: NDArray[np.uint16]
 ) -> int:
@@ -121,12 +122,12 @@ def encode_events(
     return count
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def _vector_mask(kind: np.int64) -> int:
     return 0xFFF if kind == VECT_12 else 0xFF
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _next_time(
     turns: np.int64, high: np.int64, low: np.int64, word: np.int64
 ) -> tuple[np.int64, np.int64, np.int64]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from texvent.scenes.raycast.kernel import kernel
+from texvent.runtime.jit import jit
 from texvent.scenes.raycast.noise import (
     band,
     fractal_2d,
@@ -22,12 +22,12 @@ _DASH_M = 6.0
 _LINE_M = 0.14
 
 
-@kernel
+@jit(error_model="numpy")
 def _scaled(colour: Colour, factor: float) -> Colour:
     return (colour[0] * factor, colour[1] * factor, colour[2] * factor)
 
 
-@kernel
+@jit(error_model="numpy")
 def _meadow(instant: Record, x: float, y: float, footprint: float) -> Colour:
     """Grass: patches, tufts and blades."""
     patches = fractal_2d(0.23 * x, 0.23 * y, 3, 0.23 * footprint)
@@ -36,7 +36,7 @@ def _meadow(instant: Record, x: float, y: float, footprint: float) -> Colour:
     return _scaled(colour, 1.0 + 0.45 * blades)
 
 
-@kernel
+@jit(error_model="numpy")
 def _speckled(colour: Colour, x: float, y: float, footprint: float, contrast: float) -> Colour:
     """A rough plain surface: asphalt, soil, snow."""
     coarse = fractal_2d(0.6 * x, 0.6 * y, 3, 0.6 * footprint)
@@ -44,7 +44,7 @@ def _speckled(colour: Colour, x: float, y: float, footprint: float, contrast: fl
     return _scaled(colour, 1.0 + contrast * (0.6 * coarse + 0.5 * fine))
 
 
-@kernel
+@jit(error_model="numpy")
 def _asphalt(instant: Record, along: float, across: float, feet: Colour) -> Colour:
     """Carriageway with a dashed middle line and edge lines.
 
@@ -59,7 +59,7 @@ def _asphalt(instant: Record, along: float, across: float, feet: Colour) -> Colo
     return mix(colour, _WHITE_PAINT, max(edge, middle * dashes))
 
 
-@kernel
+@jit(error_model="numpy")
 def _road(instant: Record, x: float, y: float, foot: Colour) -> Colour:
     """ROAD, DIRT_ROAD and CITY: a strip along `road`, and what lies beside it."""
     cosine, sine, half, x0, y0 = instant.road
@@ -88,7 +88,7 @@ def _road(instant: Record, x: float, y: float, foot: Colour) -> Colour:
     return mix(beside, surface, inside)
 
 
-@kernel
+@jit(error_model="numpy")
 def _floor(instant: Record, x: float, y: float, foot: Colour) -> Colour:
     """Boards along x."""
     row = math.floor(y / 0.22)
@@ -100,7 +100,7 @@ def _floor(instant: Record, x: float, y: float, foot: Colour) -> Colour:
     return _scaled(colour, (1.0 + 0.15 * grain) * (1.0 - 0.55 * min(gap, 1.0)))
 
 
-@kernel
+@jit(error_model="numpy")
 def ground_colour(instant: Record, x: float, y: float, foot: Colour) -> Colour:
     """Reflectance of the ground at (x, y), metres.
 
@@ -127,7 +127,7 @@ def ground_colour(instant: Record, x: float, y: float, foot: Colour) -> Colour:
     return _speckled(triple(instant.colour), x, y, foot[2], 0.2)
 
 
-@kernel
+@jit(error_model="numpy")
 def wall_colour(instant: Record, point: Colour, face: int, foot: float) -> Colour:
     """Reflectance of a room's wall or ceiling; walls have a skirting board."""
     plain = mix(triple(instant.second_colour), (0.85, 0.83, 0.78), 0.75)

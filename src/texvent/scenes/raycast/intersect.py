@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from texvent.scenes.raycast.kernel import kernel
+from texvent.runtime.jit import jit
 
 FACE_SIDE = 0
 FACE_TOP = 1
@@ -17,7 +17,7 @@ _FLAT = 1e-300
 """Replaces a direction component of 0, so that dividing by it gives a huge number, not NaN."""
 
 
-@kernel
+@jit(error_model="numpy")
 def hit_ellipsoid(
     o: tuple[float, float, float], d: tuple[float, float, float], near: float
 ) -> tuple[float, int]:
@@ -34,7 +34,7 @@ def hit_ellipsoid(
     return t, FACE_SIDE
 
 
-@kernel
+@jit(error_model="numpy")
 def hit_box(
     o: tuple[float, float, float], d: tuple[float, float, float], near: float
 ) -> tuple[float, int]:
@@ -56,7 +56,7 @@ def hit_box(
     return MISS, 0
 
 
-@kernel
+@jit(error_model="numpy")
 def _hit_disc(o: tuple[float, float, float], d: tuple[float, float, float], height: float) -> float:
     """Where a ray crosses the unit disc at z = `height`; inf if it passes by."""
     if d[2] == 0.0:
@@ -66,7 +66,7 @@ def _hit_disc(o: tuple[float, float, float], d: tuple[float, float, float], heig
     return t if x * x + y * y <= 1.0 else MISS
 
 
-@kernel
+@jit(error_model="numpy")
 def hit_cylinder(
     o: tuple[float, float, float], d: tuple[float, float, float], near: float
 ) -> tuple[float, int]:
@@ -90,7 +90,7 @@ def hit_cylinder(
     return MISS, FACE_SIDE
 
 
-@kernel
+@jit(error_model="numpy")
 def hit_cone(
     o: tuple[float, float, float], d: tuple[float, float, float], near: float
 ) -> tuple[float, int]:
@@ -114,7 +114,7 @@ def hit_cone(
     return best, face
 
 
-@kernel
+@jit(error_model="numpy")
 def hit_shape(
     shape: int, o: tuple[float, float, float], d: tuple[float, float, float], near: float
 ) -> tuple[float, int]:
@@ -138,7 +138,7 @@ def hit_shape(
     return hit_cone(o, d, near)
 
 
-@kernel
+@jit(error_model="numpy")
 def local_normal(
     shape: int, face: int, p: tuple[float, float, float]
 ) -> tuple[float, float, float]:

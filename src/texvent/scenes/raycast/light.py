@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import math
 
+from texvent.runtime.jit import jit
 from texvent.scenes.primitives import Float64Array
 from texvent.scenes.raycast.ground import ground_colour, wall_colour
-from texvent.scenes.raycast.kernel import kernel
 from texvent.scenes.raycast.noise import smooth
 from texvent.scenes.raycast.records import Record, World
 from texvent.scenes.raycast.sky import Colour, mix, sky_colour, triple
@@ -30,7 +30,7 @@ _FOG_HEIGHT_M = 40.0
 """Fog and water above this height do not count for rays that go up."""
 
 
-@kernel
+@jit(error_model="numpy")
 def _lamp_light(lamps: Float64Array, point: Colour, normal: Colour) -> Colour:
     """Light of all point lamps on a surface."""
     red, green, blue = 0.0, 0.0, 0.0
@@ -53,21 +53,21 @@ def _lamp_light(lamps: Float64Array, point: Colour, normal: Colour) -> Colour:
     return red, green, blue
 
 
-@kernel
+@jit(error_model="numpy")
 def _fogged(instant: Record, colour: Colour, distance: float) -> Colour:
     if instant.fog == 0.0:
         return colour
     return mix(triple(instant.fog_colour), colour, math.exp(-distance * instant.fog))
 
 
-@kernel
+@jit(error_model="numpy")
 def _sky_light(instant: Record, direction: Colour, pixel: float) -> Colour:
     """Sky in a unit direction, behind the fog."""
     path = _FOG_HEIGHT_M / max(abs(direction[2]), 1e-6)
     return _fogged(instant, sky_colour(instant, direction, pixel), path)
 
 
-@kernel
+@jit(error_model="numpy")
 def _reflected(
     world: World, colour: Colour, point: Colour, normal: Colour, foot: float, is_lit: bool
 ) -> Colour:
@@ -88,7 +88,7 @@ def _reflected(
     )
 
 
-@kernel
+@jit(error_model="numpy")
 def _shape_light(
     world: World,
     hit: tuple[float, int, int],
@@ -117,13 +117,13 @@ def _shape_light(
     return red + glow * colour[0], green + glow * colour[1], blue + glow * colour[2]
 
 
-@kernel
+@jit(error_model="numpy")
 def _unit(v: Colour) -> Colour:
     scale = 1.0 / math.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
     return v[0] * scale, v[1] * scale, v[2] * scale
 
 
-@kernel
+@jit(error_model="numpy")
 def _ground_light(
     world: World, depth: float, point: Colour, direction: Colour, is_lit: bool
 ) -> Colour:
@@ -141,7 +141,7 @@ def _ground_light(
     return mix(light, triple(instant.sky_horizon), smooth((depth - 150.0) / 1500.0))
 
 
-@kernel
+@jit(error_model="numpy")
 def light_at(world: World, x: float, y: float, hit: tuple[float, int, int], is_lit: bool) -> Colour:
     """Linear light that reaches picture point (x, y).
 

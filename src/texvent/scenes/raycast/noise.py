@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import math
 
-from texvent.scenes.raycast.kernel import kernel
+from texvent.runtime.jit import jit
 
 
-@kernel
+@jit(error_model="numpy")
 def lattice(x: int, y: int, z: int) -> float:
     """A fixed pseudo-random number in [0, 1) for each lattice point."""
     mixed = x * 0x2545F4914F6CDD1D + y * 0x369DEA0F31A53F85 + z * 0x27BB2EE687B0B0FD
@@ -24,7 +24,7 @@ def lattice(x: int, y: int, z: int) -> float:
     return (mixed & 0xFFFFFF) / 16777216.0
 
 
-@kernel
+@jit(error_model="numpy")
 def smooth(x: float) -> float:
     """0 below 0, 1 above 1, smooth between (continuous second derivative)."""
     if x <= 0.0:
@@ -34,13 +34,13 @@ def smooth(x: float) -> float:
     return x * x * x * (x * (6.0 * x - 15.0) + 10.0)
 
 
-@kernel
+@jit(error_model="numpy")
 def keep(footprint: float) -> float:
     """Share of a pattern of period 1 to show: all if a pixel covers little of it, none from 1/2."""
     return smooth((0.5 - footprint) * 4.0)
 
 
-@kernel
+@jit(error_model="numpy")
 def noise_2d(x: float, y: float, layer: int) -> float:
     """Value noise in [-1, 1], lattice spacing 1."""
     column, row = math.floor(x), math.floor(y)
@@ -51,7 +51,7 @@ def noise_2d(x: float, y: float, layer: int) -> float:
     return 2.0 * (top * (1.0 - v) + bottom * v) - 1.0
 
 
-@kernel
+@jit(error_model="numpy")
 def noise_3d(x: float, y: float, z: float) -> float:
     """Value noise in [-1, 1], lattice spacing 1."""
     floor_z = math.floor(z)
@@ -59,7 +59,7 @@ def noise_3d(x: float, y: float, z: float) -> float:
     return noise_2d(x, y, k) * (1.0 - w) + noise_2d(x, y, k + 1) * w
 
 
-@kernel
+@jit(error_model="numpy")
 def fractal_2d(x: float, y: float, octaves: int, footprint: float) -> float:
     """Sum of noise octaves (each twice as fine and half as strong), about [-1, 1]."""
     total, strength = 0.0, 0.5
@@ -76,21 +76,21 @@ def fractal_2d(x: float, y: float, octaves: int, footprint: float) -> float:
     return 1.6 * total
 
 
-@kernel
+@jit(error_model="numpy")
 def _square_integral(x: float) -> float:
     """Integral from 0 to x of the square wave that is 1 on [0, 1/2) and 0 on [1/2, 1)."""
     whole = math.floor(x)
     return 0.5 * whole + min(x - whole, 0.5)
 
 
-@kernel
+@jit(error_model="numpy")
 def square_wave(x: float, footprint: float) -> float:
     """Average over `footprint` of the wave that is 1 on [0, 1/2), 0 on [1/2, 1), and repeats."""
     width = max(footprint, 1e-6)
     return (_square_integral(x + 0.5 * width) - _square_integral(x - 0.5 * width)) / width
 
 
-@kernel
+@jit(error_model="numpy")
 def band(x: float, low: float, high: float, footprint: float) -> float:
     """Share of the stretch of length `footprint` around x that lies in [low, high]."""
     width = max(footprint, 1e-9)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
+from texvent.runtime.jit import jit
 from texvent.scenes.primitives import Float64Array
-from texvent.scenes.raycast.kernel import kernel
 from texvent.scenes.raycast.noise import fractal_2d, lattice, smooth
 from texvent.scenes.raycast.records import Record
 
@@ -15,13 +15,13 @@ _CLOUD_SPEED = 0.012
 """Drift of the clouds, in cloud heights per second."""
 
 
-@kernel
+@jit(error_model="numpy")
 def triple(values: Float64Array) -> Colour:
     """Three numbers of a record as a tuple."""
     return values[0], values[1], values[2]
 
 
-@kernel
+@jit(error_model="numpy")
 def mix(first: Colour, second: Colour, share: float) -> Colour:
     """`first` at share 0, `second` at share 1."""
     rest = 1.0 - share
@@ -32,7 +32,7 @@ def mix(first: Colour, second: Colour, share: float) -> Colour:
     )
 
 
-@kernel
+@jit(error_model="numpy")
 def _add(first: Colour, second: Colour, share: float) -> Colour:
     return (
         first[0] + second[0] * share,
@@ -41,7 +41,7 @@ def _add(first: Colour, second: Colour, share: float) -> Colour:
     )
 
 
-@kernel
+@jit(error_model="numpy")
 def sky_gradient(instant: Record, height: float) -> Colour:
     """Clear sky where the ray's unit direction has this z: horizon at 0, zenith at 1."""
     return mix(
@@ -49,7 +49,7 @@ def sky_gradient(instant: Record, height: float) -> Colour:
     )
 
 
-@kernel
+@jit(error_model="numpy")
 def _stars(x: float, y: float, z: float, pixel: float) -> float:
     """Light of the stars in a unit direction; each is a soft dot at least a pixel wide."""
     ax, ay, az = abs(x), abs(y), abs(z)
@@ -70,7 +70,7 @@ def _stars(x: float, y: float, z: float, pixel: float) -> float:
     return brightness * math.exp(-(du * du + dv * dv) / (2.0 * width * width))
 
 
-@kernel
+@jit(error_model="numpy")
 def _cloud_cover(instant: Record, x: float, y: float, z: float, pixel: float) -> float:
     """Share of the sky that cloud hides in a unit direction with z > 0."""
     height = max(z, 0.02)
@@ -81,7 +81,7 @@ def _cloud_cover(instant: Record, x: float, y: float, z: float, pixel: float) ->
     return cover * smooth((z - 0.01) / 0.12)
 
 
-@kernel
+@jit(error_model="numpy")
 def sky_colour(instant: Record, direction: Colour, pixel: float) -> Colour:
     """Light from the sky, before fog and exposure.
 

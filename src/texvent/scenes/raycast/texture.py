@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
+from texvent.runtime.jit import jit
 from texvent.scenes.primitives import Float64Array
-from texvent.scenes.raycast.kernel import kernel
 from texvent.scenes.raycast.noise import keep, noise_3d, smooth, square_wave
 from texvent.scenes.raycast.records import Record, World
 from texvent.scenes.raycast.sky import Colour, mix, triple
@@ -15,7 +15,7 @@ _STEEPEST = 0.04
 """A surface seen at less than this slope is taken to be at it, so that its patch stays finite."""
 
 
-@kernel
+@jit(error_model="numpy")
 def surface_patch(
     instant: Record, direction: Vector, depth: float, normal: Vector
 ) -> tuple[Vector, Vector]:
@@ -46,7 +46,7 @@ def surface_patch(
     )
 
 
-@kernel
+@jit(error_model="numpy")
 def patch_extent(patch: tuple[Vector, Vector]) -> Colour:
     """Metres that a patch spans in x and in y, and its longest side."""
     (rx, ry, rz), (dx, dy, dz) = patch
@@ -54,12 +54,12 @@ def patch_extent(patch: tuple[Vector, Vector]) -> Colour:
     return abs(rx) + abs(dx), abs(ry) + abs(dy), math.sqrt(longest)
 
 
-@kernel
+@jit(error_model="numpy")
 def _row(m: Float64Array, row: int, v: Vector) -> float:
     return float(m[row, 0] * v[0] + m[row, 1] * v[1] + m[row, 2] * v[2])
 
 
-@kernel
+@jit(error_model="numpy")
 def surface_colour(
     world: World, number: int, face: int, point: Vector, patch: tuple[Vector, Vector]
 ) -> Colour:
@@ -89,7 +89,7 @@ def surface_colour(
     return mix(plain, triple(shape.second_colour), share)
 
 
-@kernel
+@jit(error_model="numpy")
 def _pattern(texture: int, face: int, p: Colour, steps: Colour) -> float:
     """Share of the second colour at texture coordinates `p`, averaged over `steps`."""
     if texture == 1:

@@ -14,10 +14,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.runtime.jit import jit
 from texvent.scenes.primitives import Float64Array
 from texvent.scenes.raycast.arrange import TILE
 from texvent.scenes.raycast.borrow import borrow
-from texvent.scenes.raycast.kernel import kernel
 from texvent.scenes.raycast.light import light_at
 from texvent.scenes.raycast.records import World
 from texvent.scenes.raycast.sky import Colour
@@ -44,7 +44,7 @@ _SHOULDER = 0.75
 """Light above this share of white is compressed instead of cut off."""
 
 
-@kernel
+@jit(error_model="numpy")
 def _is_lit(world: World, x: float, y: float, hit: tuple[float, int, int]) -> tuple[bool, bool]:
     """Whether the sun reaches what was hit, and whether a thin shadow is near."""
     depth, number, face = hit
@@ -59,7 +59,7 @@ def _is_lit(world: World, x: float, y: float, hit: tuple[float, int, int]) -> tu
     return sun_reaches(world, point, surface_normal(world, number, face, point))
 
 
-@kernel
+@jit(error_model="numpy")
 def _probe(world: World, x: float, y: float) -> int:
     """What is at picture point (x, y), as one number: surface, face, and lit or not."""
     depth, number, face, _ = first_hit(world, x, y)
@@ -67,7 +67,7 @@ def _probe(world: World, x: float, y: float) -> int:
     return (number * 8 + face) * 2 + int(lit)
 
 
-@kernel
+@jit(error_model="numpy")
 def _shoulder(light: float) -> float:
     """Linear light as a share of white: unchanged up to `_SHOULDER`, then bent smoothly to 1."""
     if light <= _SHOULDER:
@@ -76,7 +76,7 @@ def _shoulder(light: float) -> float:
     return _SHOULDER + room * (1.0 - math.exp((_SHOULDER - light) / room))
 
 
-@kernel
+@jit(error_model="numpy")
 def _exposed(world: World, light: Colour) -> Colour:
     exposure = world.instant[0].exposure
     return (
@@ -86,7 +86,7 @@ def _exposed(world: World, light: Colour) -> Colour:
     )
 
 
-@kernel
+@jit(error_model="numpy")
 def _shade(world: World, x: float, y: float, probe: int) -> Colour:
     """Exposed light at picture point (x, y), where the surface `probe` is."""
     number, lit = probe >> 4, bool(probe & 1)
@@ -99,7 +99,7 @@ def _shade(world: World, x: float, y: float, probe: int) -> Colour:
     return _exposed(world, light_at(world, x, y, (depth, number, face), lit))
 
 
-@kernel
+@jit(error_model="numpy")
 def _add_share(
     groups: Float64Array, count: int, probe: int, share: float, place: tuple[float, float]
 ) -> int:
@@ -122,7 +122,7 @@ def _add_share(
     return count
 
 
-@kernel
+@jit(error_model="numpy")
 def _sum_groups(world: World, groups: Float64Array, count: int) -> Colour:
     """Mean light of a pixel that several surfaces share.
 
@@ -140,7 +140,7 @@ def _sum_groups(world: World, groups: Float64Array, count: int) -> Colour:
     return red / total, green / total, blue / total
 
 
-@kernel
+@jit(error_model="numpy")
 def _sample_pixel(
     world: World, column: int, row: int, pattern: Float64Array, groups: Float64Array
 ) -> Colour:
@@ -152,14 +152,14 @@ def _sample_pixel(
     return _sum_groups(world, groups, count)
 
 
-@kernel
+@jit(error_model="numpy")
 def _between(
     start: tuple[float, float], stop: tuple[float, float], share: float
 ) -> tuple[float, float]:
     return start[0] + share * (stop[0] - start[0]), start[1] + share * (stop[1] - start[1])
 
 
-@kernel
+@jit(error_model="numpy")
 def _find_border(
     world: World,
     ends: tuple[tuple[float, float], tuple[float, float]],
@@ -194,7 +194,7 @@ def _find_border(
     return 0.5 * (low + high), _probe(world, x, y)
 
 
-@kernel
+@jit(error_model="numpy")
 def _add_line(
     world: World,
     groups: Float64Array,
@@ -230,7 +230,7 @@ def _add_line(
     return _add_share(groups, count, probes[1], share * (1.0 - low), place)
 
 
-@kernel
+@jit(error_model="numpy")
 def _split_pixel(
     world: World, column: int, row: int, probes: NDArray[np.int64], groups: Float64Array
 ) -> Colour:
@@ -270,7 +270,7 @@ def _split_pixel(
     return _sum_groups(world, groups, count)
 
 
-@kernel
+@jit(error_model="numpy")
 def _probe_tile(
     world: World, edges: tuple[int, int, int, int], samples: int, probes: NDArray[np.int64]
 ) -> None:
@@ -292,7 +292,7 @@ def _probe_tile(
             probes[j, i] = _THIN if thin or thin_shadow else probe + int(lit)
 
 
-@kernel
+@jit(error_model="numpy")
 def _refresh(
     world: World, column: int, row: int, lattice: tuple[int, int], probes: NDArray[np.int64]
 ) -> None:
@@ -307,7 +307,7 @@ def _refresh(
                 probes[j, i] = _probe(world, column + i / last, row + j / last)
 
 
-@kernel
+@jit(error_model="numpy")
 def _agree(probes: NDArray[np.int64], top: int, left: int, samples: int) -> bool:
     """Whether all probes in and around one pixel saw the same surface."""
     first = probes[top, left]
@@ -318,7 +318,7 @@ def _agree(probes: NDArray[np.int64], top: int, left: int, samples: int) -> bool
     return True
 
 
-@kernel
+@jit(error_model="numpy")
 def _any_thin(probes: NDArray[np.int64], top: int, left: int, samples: int) -> bool:
     """Whether something thin is near one pixel."""
     for row in range(top, top + samples + 1):
@@ -328,7 +328,7 @@ def _any_thin(probes: NDArray[np.int64], top: int, left: int, samples: int) -> b
     return False
 
 
-@kernel
+@jit(error_model="numpy")
 def draw_tile_row(
     owner: World, tile_row: int, samples: int, pattern: Float64Array, picture: Float64Array
 ) -> None:

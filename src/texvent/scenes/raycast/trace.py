@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
+from texvent.runtime.jit import jit
 from texvent.scenes.raycast.arrange import NEAR_M, SUN_CELLS, TILE
 from texvent.scenes.raycast.intersect import hit_shape, local_normal
-from texvent.scenes.raycast.kernel import kernel
 from texvent.scenes.raycast.records import Record, World
 
 GROUND = -1
@@ -21,7 +21,7 @@ _SHADOW_BIAS_M = 2e-3
 Vector = tuple[float, float, float]
 
 
-@kernel
+@jit(error_model="numpy")
 def ray_direction(rays: Record, x: float, y: float) -> Vector:
     """Direction through picture point (x, y); its component along the optical axis is 1."""
     return (
@@ -31,7 +31,7 @@ def ray_direction(rays: Record, x: float, y: float) -> Vector:
     )
 
 
-@kernel
+@jit(error_model="numpy")
 def _hit_one(shape: Record, direction: Vector) -> tuple[float, int, Vector]:
     """Where a camera ray meets one shape: depth, face, and the local direction."""
     m = shape.inverse
@@ -45,14 +45,14 @@ def _hit_one(shape: Record, direction: Vector) -> tuple[float, int, Vector]:
     return t, face, d
 
 
-@kernel
+@jit(error_model="numpy")
 def hit_again(world: World, x: float, y: float, number: int) -> tuple[float, int]:
     """(depth, face) where the ray through (x, y) meets shape `number`, as if it stood alone."""
     t, face, _ = _hit_one(world.shapes[number], ray_direction(world.instant[0], x, y))
     return t, face
 
 
-@kernel
+@jit(error_model="numpy")
 def _widened_hit(shape: Record, d: Vector) -> float:
     """Depth at which a ray meets a thin shape, widened; inf if even that misses."""
     s, eye = shape.shrink, shape.eye
@@ -61,7 +61,7 @@ def _widened_hit(shape: Record, d: Vector) -> float:
     return hit_shape(shape.kind, wide_eye, wide_d, NEAR_M)[0]
 
 
-@kernel
+@jit(error_model="numpy")
 def first_hit(world: World, x: float, y: float) -> tuple[float, int, int, bool]:
     """What the ray through picture point (x, y) meets first.
 
@@ -90,7 +90,7 @@ def first_hit(world: World, x: float, y: float) -> tuple[float, int, int, bool]:
     return best, found, best_face, thin < math.inf and thin <= best
 
 
-@kernel
+@jit(error_model="numpy")
 def background_hit(instant: Record, direction: Vector) -> tuple[float, int, int]:
     """(depth, GROUND / SKY / ROOM, face) of what lies behind all shapes."""
     origin = instant.origin
@@ -111,7 +111,7 @@ def background_hit(instant: Record, direction: Vector) -> tuple[float, int, int]
     return depth, what, face
 
 
-@kernel
+@jit(error_model="numpy")
 def _cell_blocks(world: World, cell: int, point: Vector, place: Vector) -> tuple[bool, bool]:
     """As `sun_blocked`, by the shapes that one cell of the sun grid lists.
 
@@ -142,7 +142,7 @@ def _cell_blocks(world: World, cell: int, point: Vector, place: Vector) -> tuple
     return False, thin
 
 
-@kernel
+@jit(error_model="numpy")
 def sun_blocked(world: World, point: Vector) -> tuple[bool, bool]:
     """Whether a shape stands between a point and the sun, and whether a thin one is close to."""
     instant = world.instant[0]
@@ -165,7 +165,7 @@ def sun_blocked(world: World, point: Vector) -> tuple[bool, bool]:
     return blocked, thin or big_thin
 
 
-@kernel
+@jit(error_model="numpy")
 def surface_normal(world: World, number: int, face: int, point: Vector) -> Vector:
     """Unit normal of what was hit at `point`, metres."""
     if number == GROUND:
@@ -186,7 +186,7 @@ def surface_normal(world: World, number: int, face: int, point: Vector) -> Vecto
     return (nx * scale, ny * scale, nz * scale)
 
 
-@kernel
+@jit(error_model="numpy")
 def local_point(world: World, number: int, point: Vector) -> Vector:
     """A world point in the unit-shape coordinates of shape `number`."""
     m = world.shapes[number].inverse
@@ -197,7 +197,7 @@ def local_point(world: World, number: int, point: Vector) -> Vector:
     )
 
 
-@kernel
+@jit(error_model="numpy")
 def sun_reaches(world: World, point: Vector, normal: Vector) -> tuple[bool, bool]:
     """Whether direct light falls on a surface, and whether a thin shape's shadow is near."""
     sun = world.instant[0].sun

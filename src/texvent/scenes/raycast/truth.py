@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.runtime.jit import jit
 from texvent.scenes.primitives import Float64Array
 from texvent.scenes.raycast.arrange import TILE
 from texvent.scenes.raycast.borrow import borrow
-from texvent.scenes.raycast.kernel import kernel
 from texvent.scenes.raycast.records import World
 from texvent.scenes.raycast.trace import (
     background_hit,
@@ -18,7 +18,7 @@ from texvent.scenes.raycast.trace import (
 )
 
 
-@kernel
+@jit(error_model="numpy")
 def look_through(
     owner: World, points: Float64Array, depth: Float64Array, number: NDArray[np.int32]
 ) -> None:
@@ -38,7 +38,7 @@ def look_through(
         depth[index], number[index] = t, found
 
 
-@kernel
+@jit(error_model="numpy")
 def count_alone(
     owner: World, instance: NDArray[np.int32], height: int, width: int, counts: NDArray[np.int64]
 ) -> None:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 
-from texvent.scenes.raycast.kernel import kernel
+from texvent.runtime.jit import jit
 from texvent.scenes.raycast.noise import keep, smooth
 from texvent.scenes.raycast.records import Record
 from texvent.scenes.raycast.sky import Colour, mix, sky_gradient, triple
 
 
-@kernel
+@jit(error_model="numpy")
 def sea_light(instant: Record, point: Colour, view: Colour, foot: Colour) -> Colour:
     """Moving waves that mirror the sky; waves smaller than a pixel fade out."""
     slope_x, slope_y = 0.0, 0.0
@@ -51,7 +51,7 @@ def sea_light(instant: Record, point: Colour, view: Colour, foot: Colour) -> Col
     )
 
 
-@kernel
+@jit(error_model="numpy")
 def caustics(instant: Record, point: Colour, foot: float) -> float:
     """Ripples of light that waves throw on what is under water: a factor around 1."""
     share = keep(1.2 * foot)

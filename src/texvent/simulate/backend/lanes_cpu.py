@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
+
+from texvent.runtime.jit import jit
 
 Uint64Array = NDArray[np.uint64]
 WORD = 8
 """Pixels that are passed over together if none of them is marked."""
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def is_equal(one: NDArray[Any], other: NDArray[Any]) -> bool:
     """Whether two arrays of a size have the same elements."""
     different = 0
@@ -22,7 +23,7 @@ def is_equal(one: NDArray[Any], other: NDArray[Any]) -> bool:
     return different == 0
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def list_marked(
     words: Uint64Array, marks: NDArray[np.uint8], listed: NDArray[np.unsignedinteger[Any]]
 ) -> int:
@@ -43,7 +44,7 @@ def list_marked(
     return found
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def append_by_lane(
     events: Uint64Array, count: NDArray[np.int64], keys: Uint64Array, found: int
 ) -> tuple[Uint64Array, int]:
@@ -72,7 +73,7 @@ def append_by_lane(
     return keys, found
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def make_room(events: Uint64Array, needed: int) -> Uint64Array:
     """The same events, with room for that many."""
     if needed <= events.shape[1]:

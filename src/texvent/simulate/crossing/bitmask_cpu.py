@@ -14,10 +14,10 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.runtime.jit import jit
 from texvent.simulate.texvent.kernels.scan import Intensity, Levels
 
 ByteArray = NDArray[np.uint8]
@@ -44,7 +44,7 @@ _BIT_NUMBER = np.empty(64, np.uint8)
 _BIT_NUMBER[[int(_DE_BRUIJN) << bit >> 58 & 63 for bit in range(64)]] = np.arange(64)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def largest_word(words: NDArray[np.uint32]) -> np.uint32:
     """The bits of floats as integers, whose order is theirs: 0, ..., infinity, NaN, negative."""
     largest = np.uint32(0)
@@ -63,7 +63,7 @@ class Marks(NamedTuple):
     """[m] which of their pixels: bit i for the i-th."""
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def mark_bytes(frame: ByteArray, reference: ByteArray, levels: Levels) -> Marks:
     """Mark pixels whose bytes differ by `levels.least` or more.
 
@@ -89,7 +89,7 @@ def mark_bytes(frame: ByteArray, reference: ByteArray, levels: Levels) -> Marks:
     return Marks(run, bits)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def mark_levels(frame: Intensity, reference: Intensity, levels: Levels) -> Marks:
     """Mark pixels at or beyond their trigger levels."""
     is_marked = make_flags(frame.size)
@@ -110,26 +110,26 @@ def mark_levels(frame: Intensity, reference: Intensity, levels: Levels) -> Marks
     return Marks(run, bits)
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def number_of(bit: np.uint64) -> Any:
     """Which bit of a word is set, of a word in which one is."""
     return _BIT_NUMBER[bit * _DE_BRUIJN >> _58]
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def _differs(intensity: Any, reference: Any, least: np.uint8) -> Any:
     larger, smaller = max(intensity, reference), min(intensity, reference)
     return np.uint8(np.uint8(larger - smaller) >= least)
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def _is_beyond(intensity: Any, reference: Any, levels: Levels) -> Any:
     value, level = np.float32(intensity), np.float32(reference)
     is_on = value >= level * levels.up + levels.up_offset
     return np.uint8(is_on | (value <= level * levels.down + levels.down_offset))
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _mark_bytes(
     frame: ByteArray, reference: ByteArray, first: np.uint64, least: np.uint8, mark: ByteArray
 ) -> np.uint8:
@@ -142,7 +142,7 @@ def _mark_bytes(
     return count
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _mark_levels(
     frame: Intensity, reference: Intensity, first: np.uint64, levels: Levels, mark: ByteArray
 ) -> None:
@@ -150,13 +150,13 @@ def _mark_levels(
         mark[i] = _is_beyond(frame[first + i], reference[first + i], levels)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def make_flags(pixels: int) -> ByteArray:
     """Room for a flag per run; that of a last one that is not whole is set."""
     return np.ones(-(-pixels // RUN), np.uint8)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def list_marked(is_marked: ByteArray) -> Int64Array:
     """The numbers of the flags that are set."""
     run, found = np.empty(is_marked.sum() + 1, np.int64), 0
@@ -167,7 +167,7 @@ def list_marked(is_marked: ByteArray) -> Int64Array:
     return run[:found]
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def as_bits(word: NDArray[np.uint64]) -> np.uint64:
     """One bit for each of eight words of eight bytes that are 0 or 1."""
     bits = _0
@@ -176,7 +176,7 @@ def as_bits(word: NDArray[np.uint64]) -> np.uint64:
     return bits
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _bits_of_rest(frame: Intensity, reference: Intensity, levels: Levels) -> np.uint64:
     """Which pixels after the last whole run are at or beyond their trigger levels."""
     bits, first = _0, frame.size // RUN * RUN

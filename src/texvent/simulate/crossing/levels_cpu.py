@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.runtime.jit import jit
 from texvent.runtime.scratch import take_scratch
 from texvent.simulate.backend.elementary_cpu import exponential
 from texvent.simulate.crossing.bitmask_cpu import (
@@ -67,13 +67,13 @@ def warm_up(dtype: str) -> None:
         look_up(one, one)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _look_up(table: NDArray[Any], luma: NDArray[np.uint8], found: NDArray[Any]) -> None:
     for i in range(luma.size):
         found[i] = table[luma[i]]
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _find_outside(luma: Luma, seen: Luma, low: Luma, high: Luma, found: Outside) -> int:
     pixel, before, now = found
     run, all_bits = _mark_outside(luma, low, high)
@@ -92,7 +92,7 @@ def _find_outside(luma: Luma, seen: Luma, low: Luma, high: Luma, found: Outside)
     return int(count)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _mark_outside(luma: Luma, low: Luma, high: Luma) -> Marks:
     """Mark pixels outside their levels; see `marks_cpu`."""
     is_marked = make_flags(luma.size)
@@ -111,7 +111,7 @@ def _mark_outside(luma: Luma, low: Luma, high: Luma) -> Marks:
     return Marks(run, bits)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _mark_run(
     luma: Luma,
     low: Luma,
@@ -125,7 +125,7 @@ def _mark_run(
     mark[last - first :] = 0
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def _is_outside(luma: Any, low: Any, high: Any) -> Any:
     return np.uint8(luma < low) | np.uint8(luma > high)
 
@@ -143,7 +143,7 @@ def narrow(
         _narrow(pixel, reference, thresholds, curve, low, high)
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _narrow(
     pixel: NDArray[np.int64],
     reference: Float64Array,
@@ -173,7 +173,7 @@ def _narrow(
             low[pixel[first + j]], high[pixel[first + j]] = lowest[j], highest[j]
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _take_exponentials(
     values: Float64Array, sign: float, first: int, size: int, rows: Float64Array
 ) -> None:
@@ -185,7 +185,7 @@ def _take_exponentials(
             rows[j] = exponential(sign * values[first + j])
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def _as_luma(lowest: float, highest: float, kind: Luma) -> Any:
     """Silent levels in the type of the frames: of bytes, those between both numbers."""
     if kind.itemsize > 1:

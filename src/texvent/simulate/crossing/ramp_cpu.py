@@ -9,10 +9,10 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.runtime.jit import jit
 from texvent.runtime.scratch import take_scratch
 from texvent.simulate.crossing import ramp_reference
 from texvent.simulate.crossing.levels import Thresholds
@@ -111,7 +111,7 @@ def list_events(
         return keys[: _list_crossings(pixel, lines, fired_us, clock, rest, keys)]
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _compare(
     candidates: tuple[NDArray[np.int64], NDArray[Any], NDArray[Any]],
     table: Float64Array | None,
@@ -129,7 +129,7 @@ def _compare(
             start[n], stop[n] = before[n] - level, now[n] - level
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def count_steps(lines: Lines, thresholds: Thresholds) -> None:
     """Fill in thresholds and steps."""
     _, stop, threshold, steps = lines
@@ -151,7 +151,7 @@ def count_steps(lines: Lines, thresholds: Thresholds) -> None:
         steps[n] = np.int64(count if stop[n] > 0 else -count)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _add_up(steps: NDArray[np.int64]) -> int:
     """How many thresholds have been passed in all."""
     total = 0
@@ -160,7 +160,7 @@ def _add_up(steps: NDArray[np.int64]) -> int:
     return total
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _list_crossings(
     pixel: NDArray[np.int64],
     lines: Lines,
@@ -198,7 +198,7 @@ def _list_crossings(
     return found
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def _key(level: float, ends: tuple[float, float], duration: float, low: np.uint64) -> Any:
     """When the line from begin to end reaches a level, where the time is in a key."""
     begin, end = ends
@@ -206,7 +206,7 @@ def _key(level: float, ends: tuple[float, float], duration: float, low: np.uint6
     return np.uint64(np.int64(min(np.floor(fraction * duration), duration - 1.0))) << low
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def _is_rested(
     keys: NDArray[np.uint64], count: int, last_us: int, rest: Rest, low: np.uint64
 ) -> bool:
@@ -219,7 +219,7 @@ def _is_rested(
     return is_rested
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _leave_rested(keys: NDArray[np.uint64], last_us: int, rest: Rest, low: np.uint64) -> int:
     """Keep a pixel's events that are not too early; how many those are."""
     found = 0
@@ -231,7 +231,7 @@ def _leave_rested(keys: NDArray[np.uint64], last_us: int, rest: Rest, low: np.ui
     return found
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _step(pixel: NDArray[np.int64], lines: Lines, reference: Float64Array) -> None:
     """Let the references make their steps."""
     _, _, threshold, steps = lines

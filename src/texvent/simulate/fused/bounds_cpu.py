@@ -15,10 +15,10 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.runtime.jit import jit
 from texvent.simulate.fused.interface import MARGIN, Levels, Pictures
 
 CELL = 8
@@ -33,7 +33,7 @@ ROUNDING = np.float32(1e-6)
 ten times the error of mixing float32."""
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def find_reachable(
     earlier: NDArray[np.float32],
     later: NDArray[np.float32],
@@ -71,7 +71,7 @@ def find_reachable(
     return reached
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _look_at_cells(
     earlier: NDArray[np.float32],
     later: NDArray[np.float32],
@@ -102,7 +102,7 @@ def _look_at_cells(
         reach[j, 0], reach[j, 1] = _count_cells(aside), _count_cells(above)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _count_cells(way: np.float32) -> int:
     """How many cells away a flow leads."""
     if way > CELL * FARTHEST:
@@ -111,7 +111,7 @@ def _count_cells(way: np.float32) -> int:
     return (math.ceil(way) + CELL) // CELL
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def list_active(
     pictures: Pictures,
     levels: Levels,
@@ -150,7 +150,7 @@ def list_active(
     return number
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _mark(
     low: NDArray[np.float32],
     high: NDArray[np.float32],
@@ -170,7 +170,7 @@ def _mark(
 Rows = tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _bound_row(
     first: Rows,
     second: Rows,
@@ -199,7 +199,7 @@ def _bound_row(
         high[x] = far if is_near else most[x]
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _find_room(
     rows: Rows, dx: NDArray[np.float32], dy: NDArray[np.float32], room: NDArray[np.float32]
 ) -> None:
@@ -223,7 +223,7 @@ def _find_room(
         room[x] = dx[x] * aside + dy[x] * _step(above_1[x], here_1[x], below_1[x])
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def _step(before: np.float32, here: np.float32, after: np.float32) -> np.float32:
     """The larger step from a pixel to its neighbours."""
     return max(abs(before - here), abs(after - here))

@@ -3,16 +3,12 @@
 Some rows at a time, from the first picture to the last, so no picture is ever written to memory.
 Most pixels of most videos cannot fire at all: what they can show lies between bounds that cost a
 few operations (`reach_cpu`), and they are not followed.
-
-Numba's cache looks at this file only: whoever changes what it calls in `pairs.warp_cpu`
-must touch this one as well.
 """
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
@@ -25,6 +21,7 @@ from texvent.pairs.warp_cpu import (
     take_points,
     warp_points,
 )
+from texvent.runtime.jit import jit
 from texvent.simulate.fused.bounds_cpu import find_reachable, list_active
 from texvent.simulate.fused.interface import (
     FOLLOWS,
@@ -83,7 +80,7 @@ def estimate_active(pictures: Pictures, levels: Levels, cells: Cells) -> float:
     return float(_estimate_active(pictures.frozen(), levels, cells))
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _estimate_active(pictures: Pictures, levels: Levels, cells: Cells) -> float:
     height, width = pictures.earlier.shape
     active = np.empty(width, np.int64)
@@ -127,7 +124,7 @@ class _Followed(NamedTuple):
     """How much further each of the next ones is."""
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _find(
     pictures: Pictures,
     grids: Grids,
@@ -165,14 +162,14 @@ def _find(
     return found, columns
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _list_all(active: NDArray[np.int64]) -> int:
     for column in range(active.size):
         active[column] = column
     return active.size
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _choose_grids(pictures: Pictures, grids: Grids, balance: float, followed: _Followed) -> int:
     """Fill in the grid of each active pixel; return how many pieces they have together."""
     earlier, later = pictures.earlier.reshape(-1), pictures.later.reshape(-1)
@@ -198,7 +195,7 @@ def _choose_grids(pictures: Pictures, grids: Grids, balance: float, followed: _F
     return room
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _show(
     pair: WarpPair,
     grids: Grids,
@@ -234,7 +231,7 @@ def _show(
         filled += number
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _blend(
     earlier: NDArray[np.float32],
     later: NDArray[np.float32],
@@ -245,7 +242,7 @@ def _blend(
         out[k] = earlier[k] + position * (later[k] - earlier[k])
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _follow(
     pictures: Pictures,
     grids: Grids,
@@ -291,7 +288,7 @@ def _follow(
     return found
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _move(
     level: float,
     shifted: float,
@@ -322,7 +319,7 @@ def _move(
     return level, is_unclear
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _columns(size: int) -> Columns:
     return (
         np.empty(size, np.int64),
@@ -333,7 +330,7 @@ def _columns(size: int) -> Columns:
     )
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _grown(columns: Columns, least: int) -> Columns:
     """The same columns with more room."""
     size = columns[0].size
@@ -364,7 +361,7 @@ def show_pixels(
     return shown
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _show_pixels(
     pictures: Pictures, pair: WarpPair, position: float, pixel: NDArray[np.int64]
 ) -> NDArray[np.float32]:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.runtime.jit import jit
 from texvent.simulate.fused.segments import LineCrossings, LineRules, LineState, Pieces
 
 Events = tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.uint8]]
@@ -26,7 +26,7 @@ def warm_up() -> None:
     cross_pieces(Pieces(one - 1, one, one + 1, level, level), LineRules(1.0, 1.0, 0), state)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _cross(pieces: Pieces, rules: LineRules, state: LineState) -> tuple[int, Events]:
     # Unpacked once: Numba counts references to every array that it takes out of a tuple.
     pixel, starts, stops, befores, nows = pieces
@@ -56,12 +56,12 @@ def _cross(pieces: Pieces, rules: LineRules, state: LineState) -> tuple[int, Eve
     return found, (rows, times, polarities)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _events(size: int) -> Events:
     return np.empty(size, np.int64), np.empty(size, np.int64), np.empty(size, np.uint8)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _grown(events: Events, least: int) -> Events:
     """The same events with more room."""
     size = events[0].size

@@ -10,10 +10,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.runtime.jit import jit
 from texvent.runtime.scratch import take_scratch
 from texvent.simulate.packets import sorting_reference
 from texvent.simulate.packets.sorting import SortedEvents, read_only
@@ -79,7 +79,7 @@ def warm_up() -> None:
     sort_keyed_events(np.zeros(1, np.uint64), (0, 1), (1, 1))
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _sort_events(
     events: UnsortedEvents,
     scratch: tuple[Uint64Array, Uint64Array],
@@ -98,7 +98,7 @@ def _sort_events(
     return unpack_keys(keys, start_us, width, low)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _sort_keyed_events(
     keys: Uint64Array, spare: Uint64Array, start_us: int, layout: tuple[int, int, int]
 ) -> Any:
@@ -113,7 +113,7 @@ def _sort_keyed_events(
     return unpack_keys(keys, start_us, width, low)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def sort_almost_sorted(keys: Uint64Array) -> None:
     """Sort keys of which none is far from its place, by insertion."""
     for i in range(1, keys.size):
@@ -124,7 +124,7 @@ def sort_almost_sorted(keys: Uint64Array) -> None:
         keys[j] = key
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def sort_keys(keys: Uint64Array, spare: Uint64Array, first: int, bits: int) -> Uint64Array:
     """Keys in ascending order of their bits `first`..`bits`; equal ones stay in order.
 
@@ -150,7 +150,7 @@ def sort_keys(keys: Uint64Array, spare: Uint64Array, first: int, bits: int) -> U
     return keys
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _sort_by_digit(keys: Uint64Array, target: Uint64Array, first: int, width: int) -> None:
     shift, mask = np.uint64(first), np.uint64((1 << width) - 1)
     place = np.zeros(1 << width, np.uint32)
@@ -166,7 +166,7 @@ def _sort_by_digit(keys: Uint64Array, target: Uint64Array, first: int, width: in
         target[at] = key
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def merge_keys(one: Uint64Array, other: Uint64Array, low: int) -> Uint64Array:
     """Two lists of keys by pixel as one; those of `one` come first at each pixel.
 
@@ -187,7 +187,7 @@ def merge_keys(one: Uint64Array, other: Uint64Array, low: int) -> Uint64Array:
     return keys
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def count_to_start(place: NDArray[np.uint32]) -> None:
     """Turn how many there are of each into where each begins, in place."""
     start = 0
@@ -197,7 +197,7 @@ def count_to_start(place: NDArray[np.uint32]) -> None:
         start += count
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def unpack_keys(keys: Uint64Array, start_us: int, width: int, low: int) -> Any:
     """SortedEvents x, y, t, p, label of sorted keys.
 

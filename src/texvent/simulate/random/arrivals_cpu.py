@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.runtime.jit import jit
 from texvent.simulate.backend.elementary_cpu import natural_log
 from texvent.simulate.random.arrivals import FIRST_DRAW, Arrivals
 from texvent.simulate.random.arrivals_reference import MOST_FRACTION
@@ -40,7 +40,7 @@ def warm_up() -> None:
     draw_arrivals(np.zeros((1, 1)), 1.0, np.uint64(0), 0)
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _draw_arrivals(
     cumulative_hz: NDArray[np.float64],
     duration_s: float,
@@ -74,7 +74,7 @@ def _draw_arrivals(
     return found
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _draw_gaps(
     source: tuple[np.uint64, int], y: int, number: int, per_s: float, gap: NDArray[np.float64]
 ) -> None:
@@ -85,7 +85,7 @@ def _draw_gaps(
         gap[j] = -natural_log(1.0 - chance) * per_s
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _first_above(
     cumulative_hz: NDArray[np.float64], y: int, value: float, first: int, guess: int
 ) -> int:

@@ -10,6 +10,7 @@ from typing import Any
 import numba
 import numpy as np
 
+from texvent.runtime.jit import jit
 from texvent.simulate.random import draws
 
 # Numba turns a sum of uint64 and int64 into a float, so every constant is uint64.
@@ -28,45 +29,45 @@ warn of hashes that wrap around."""
 _11, _16, _27, _30, _31, _32 = (np.uint64(bits) for bits in (11, 16, 27, 30, 31, 32))
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def _mix(word: np.uint64) -> np.uint64:
     word = (word ^ (word >> _30)) * _MULTIPLIER_1
     word = (word ^ (word >> _27)) * _MULTIPLIER_2
     return word ^ (word >> _31)
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def draw_word(key: np.uint64, y: int, x: int, draw: int) -> np.uint64:
     """64 random bits of one pixel; see `draws.draw_words`. `key` must be a uint64."""
     return draw_word_at(key, place_of(y, x), draw)
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def place_of(y: int, x: int) -> np.uint64:
     """Row and column of a pixel in one number, for `draw_word_at`."""
     return (np.uint64(y) << _16) | np.uint64(x)
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def draw_word_at(key: np.uint64, place: np.uint64, draw: int) -> np.uint64:
     """As `draw_word`, of a pixel given by `place_of`."""
     return _mix(_mix(((np.uint64(draw) << _32) | place) * _GOLDEN + key) ^ key)
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def draw_uniform_at(key: np.uint64, place: np.uint64, draw: int) -> float:
     """As `draw_uniform`, of a pixel given by `place_of`."""
     return np.float64(draw_word_at(key, place, draw) >> _11) * _UNIT
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def draw_halves_at(key: np.uint64, place: np.uint64, draw: int) -> tuple[float, float]:
     """Two uniform numbers in [0, 1) of one word; see `draws.draw_halves`."""
     word = draw_word_at(key, place, draw)
     return np.float64(word >> _32) * _HALF_UNIT, np.float64(word & _LOW_HALF) * _HALF_UNIT
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def draw_uniform(key: np.uint64, y: int, x: int, draw: int) -> float:
     """One uniform number in [0, 1); see `draws.draw_uniforms`. `key` must be a uint64."""
     return np.float64(draw_word(key, y, x, draw) >> _11) * _UNIT

@@ -7,10 +7,10 @@ then walk through the interval one by one.
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.runtime.jit import jit
 from texvent.runtime.threads import count_threads, run_parts, split
 from texvent.simulate.backend.elementary_cpu import decay_and_gain, exponential, natural_log
 from texvent.simulate.backend.lanes_cpu import append_by_lane, is_equal
@@ -33,8 +33,6 @@ from texvent.simulate.physical.kernels.circuit import (
     ResetRules,
     new_state,
 )
-
-# Numba's cache looks at this file only: whoever changes these must touch up this one too.
 from texvent.simulate.physical.kernels.circuit_lanes_cpu import (
     LANES,
     Block,
@@ -103,7 +101,7 @@ def warm_up(dtype: str) -> None:
     advance_pixels(light, Pixels(one, one, one), state, noise, ResetRules(0, True), (0, 1))
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _advance_blocks(
     light: tuple[Luma, Luma, Float64Array | None, Optics],
     pixels: Pixels,
@@ -164,7 +162,7 @@ def _advance_blocks(
     return keys[:found]
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _see(
     luma: Luma,
     table: Float64Array | None,
@@ -186,7 +184,7 @@ def _see(
             corner[j] = optics.corner_per_level * (level + DARK_OFFSET)
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _advance_calmly(block: Block, output: Float64Array, duration: float, is_limited: bool) -> None:
     """Where the outputs go if nothing fires, and between which bounds.
 
@@ -208,7 +206,7 @@ def _advance_calmly(block: Block, output: Float64Array, duration: float, is_limi
         block.output[j] = end - (0.0 if abs(lag) < SETTLED else lag)
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _find_restless(
     block: Block, own: tuple[Pixels, PixelState], stop_us: int, noisy: NDArray[np.int64]
 ) -> int:
@@ -235,7 +233,7 @@ def _find_restless(
     return restless
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _calm_until(block: Block, own: tuple[Pixels, PixelState], stop_us: int) -> int:
     """The time up to which no pixel of a block at rest fires by its leak; at once if in motion."""
     pixels, state = own

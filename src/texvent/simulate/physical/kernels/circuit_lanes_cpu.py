@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.runtime.jit import jit
 from texvent.simulate.physical.kernels.circuit import BLOCK, Pixels, PixelState
 from texvent.simulate.physical.kernels.circuit_reference import SETTLED
 from texvent.simulate.physical.kernels.crossing_time_cpu import ROWS
@@ -67,7 +67,7 @@ class Work(NamedTuple):
     """How many events each lane has."""
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def new_block() -> Block:
     """Memory of any content."""
     return Block(
@@ -85,7 +85,7 @@ def new_block() -> Block:
     )
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def new_work() -> Work:
     """Memory of any content."""
     return Work(
@@ -99,7 +99,7 @@ def new_work() -> Work:
     )
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def load_lanes(
     work: Work,
     n: int,
@@ -141,7 +141,7 @@ def load_lanes(
         n += 1
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def leave_lanes(
     lanes: Float64Array,
     names: Int64Array,

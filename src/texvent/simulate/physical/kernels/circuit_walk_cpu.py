@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
 
 from texvent.events import NOISE
+from texvent.runtime.jit import jit
 from texvent.simulate.backend.elementary_cpu import decay_and_gain, exponential
 from texvent.simulate.backend.lanes_cpu import make_room
 from texvent.simulate.physical.kernels.circuit import DARK_OFFSET, Optics, PixelState
@@ -81,7 +81,7 @@ _1, _2 = np.uint64(1), np.uint64(2)
 _NOISE = np.uint64(NOISE)
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def walk_lanes(
     work: Work,
     size: int,
@@ -113,7 +113,7 @@ def walk_lanes(
     return events, made
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _begin_walk(lanes: Float64Array, size: int, duration: float, is_limited: bool) -> None:
     """Cut the interval into pieces; on entry L_CORNER is the corner at the end.
 
@@ -140,7 +140,7 @@ def _begin_walk(lanes: Float64Array, size: int, duration: float, is_limited: boo
         lanes[L_TRANSIENT, j], lanes[L_KEPT, j], lanes[L_LAG, j] = 0.0, 1.0, 0.0
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _enter_piece(
     lanes: Float64Array, size: int, piece: float, duration: float, optics: tuple[float, float]
 ) -> None:
@@ -180,7 +180,7 @@ def _enter_piece(
         lanes[L_LAG, j], lanes[L_CORNER_FROM, j] = lag_to, corner_to
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _move(
     lanes: Float64Array,
     names: Int64Array,
@@ -218,7 +218,7 @@ def _move(
     return found
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _look_up(
     lanes: Float64Array,
     names: Int64Array,
@@ -242,7 +242,7 @@ def _look_up(
         moves[ON, k], moves[OFF, k] = lanes[L_ON, j], lanes[L_OFF, j]
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _set_out(moves: Float64Array, size: int) -> None:
     """How the change goes on from where each lane is; those that were released take their level."""
     for k in range(size):
@@ -261,7 +261,7 @@ def _set_out(moves: Float64Array, size: int) -> None:
         moves[R_WAITS, k] = 1.0 if waits else 0.0
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _skip_noise(
     lanes: Float64Array, names: Int64Array, noise_times: Int64Array, j: int, time: float
 ) -> None:
@@ -273,7 +273,7 @@ def _skip_noise(
     lanes[L_ARRIVAL, j] = float(noise_times[k] >> 1) if k < last else NEVER
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _fire(
     lanes: Float64Array,
     names: Int64Array,

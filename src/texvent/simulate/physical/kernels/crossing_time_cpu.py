@@ -7,10 +7,10 @@ a curve that meets a threshold are solved for, side by side at the end of the sa
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.runtime.jit import jit
 from texvent.simulate.backend.elementary_cpu import exponential, natural_log
 from texvent.simulate.physical.kernels.crossing_time import (
     LAST_STEP,
@@ -46,7 +46,7 @@ def time_to_threshold(
     return rows[WAIT], rows[RISES].astype(np.uint8)
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def find_crossings(
     rows: Float64Array, solving: Float64Array, lane: NDArray[np.int64], size: int
 ) -> None:
@@ -67,7 +67,7 @@ def find_crossings(
         rows[WAIT, lane[k]] = solving[U, k]
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _along_line(rows: Float64Array, size: int) -> None:
     # Here as below, everything is read before it is chosen from: what is read in one case only is
     # a branch, and no vector instruction.
@@ -84,7 +84,7 @@ def _along_line(rows: Float64Array, size: int) -> None:
         rows[WAIT, j], rows[RISES, j] = wait, 1.0 if change >= on else rises
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _turn(rows: Float64Array, size: int) -> None:
     """Where the first arc of a curve ends; see `crossing_time._along_curve`."""
     for j in range(size):
@@ -108,7 +108,7 @@ def _turn(rows: Float64Array, size: int) -> None:
         rows[AT_END, j] = line + rows[TRANSIENT, j] * (1.0 - rows[KEPT, j])
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _meet(rows: Float64Array, size: int) -> None:
     """Which arc of each curve meets a threshold."""
     for j in range(size):
@@ -130,7 +130,7 @@ def _meet(rows: Float64Array, size: int) -> None:
         rows[WAIT, j], rows[MEETS, j] = NEVER if is_curved else wait, meets if is_curved else 0.0
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _list_arcs(
     rows: Float64Array, solving: Float64Array, lane: NDArray[np.int64], size: int
 ) -> int:
@@ -157,7 +157,7 @@ def _list_arcs(
     return busy
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _solve(solving: Float64Array, size: int) -> None:
     """When the changes reach their targets; see `crossing_time._solve`."""
     for j in range(size):
@@ -177,7 +177,7 @@ def _solve(solving: Float64Array, size: int) -> None:
             break
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _step(solving: Float64Array, size: int) -> bool:
     """A step of Halley's method; whether any lane needs another."""
     for j in range(size):

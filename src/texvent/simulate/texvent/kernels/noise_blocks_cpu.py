@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.runtime.jit import jit
 from texvent.simulate.packets.sorting import read_only
 from texvent.simulate.packets.sorting_cpu import sort_almost_sorted, sort_keys
 from texvent.simulate.random.draws import Purpose
@@ -39,7 +39,7 @@ def warm_up() -> None:
     place_noise(Block(np.uint64(0), read_only(np.ones(1)), 0.5), 1)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _place_noise(
     key: np.uint64, cumulative: NDArray[np.float64], on_fraction: float, pixels: int
 ) -> Any:
@@ -62,7 +62,7 @@ def _place_noise(
     return _by_place(keys[:found], fraction, pixels)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _count_up_to(chance: float, cumulative: NDArray[np.float64]) -> int:
     """How many entries are at most `chance`: one by one, because most often it is none or few."""
     count = 0
@@ -71,7 +71,7 @@ def _count_up_to(chance: float, cumulative: NDArray[np.float64]) -> int:
     return count
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _by_place(keys: NDArray[np.uint64], fraction: NDArray[np.float64], pixels: int) -> Any:
     if keys.size * FEW_PIXELS < pixels:
         # Blocks follow each other already.

@@ -10,10 +10,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.runtime.jit import jit
 from texvent.simulate.crossing.bitmask_cpu import (
     LARGEST_FLOAT,
     RUN,
@@ -147,7 +147,7 @@ def _make_room(memory: Memory) -> _Work:
     return _Work(fired, np.empty(floats, np.int64), _Logs(*logs))
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _add_balance(
     intensity: Intensity, pixel: Int64Array, balance: float, balanced: Float64Array
 ) -> None:
@@ -155,7 +155,7 @@ def _add_balance(
         balanced[k] = np.float64(intensity[pixel[k]]) + balance
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _settle_floats(
     pictures: Pictures,
     candidates: Int64Array,
@@ -188,7 +188,7 @@ def _settle_floats(
     return found
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def _step(level: float, change: float, rule: FireRule) -> float:
     """The reference after its events: a threshold further for each."""
     number = math.floor(abs(change) / rule.threshold) if rule.multi_event else 1.0
@@ -196,7 +196,7 @@ def _step(level: float, change: float, rule: FireRule) -> float:
     return level + moved if change > 0 else level - moved
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _find_candidates(pictures: Pictures, levels: Levels, pixel: Int64Array) -> int:
     """List the pixels of float frames that may fire; −1 if an intensity has a sign or no end."""
     found = 0
@@ -217,7 +217,7 @@ def _find_candidates(pictures: Pictures, levels: Levels, pixel: Int64Array) -> i
     return found
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _fire_integers(
     pictures: Pictures, marks: Marks, table: Float64Array, threshold: float, out: Fired
 ) -> int:
@@ -246,7 +246,7 @@ def _fire_integers(
     return found
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _fire_bytes(
     pictures: Pictures, table: Float64Array, levels: Levels, threshold: float, out: Fired
 ) -> int:
@@ -255,7 +255,7 @@ def _fire_bytes(
     return _fire_integers(pictures, marks, table, threshold, out)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _fire_words(
     pictures: Pictures, table: Float64Array, levels: Levels, threshold: float, out: Fired
 ) -> int:
@@ -264,7 +264,7 @@ def _fire_words(
     return _fire_integers(pictures, marks, table, threshold, out)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _copy(source: Intensity, target: Intensity) -> None:
     """Copy a picture, if there is anything to copy it to."""
     for i in range(target.size):

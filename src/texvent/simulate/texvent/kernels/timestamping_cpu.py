@@ -12,11 +12,11 @@ import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import NOISE
+from texvent.runtime.jit import jit
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.sorting_cpu import MOST_KEY_BITS, key_bits, sort_keys, unpack_keys
@@ -102,7 +102,7 @@ def warm_up() -> None:
         stamp_events(bands, noise, timing, FrameInterval(0, 1, np.uint64(0)), (2, 1))
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _stamp_events(
     fired: Fired, noise: NoisePlaces, rule: _Rule, span: FrameInterval, bits: int
 ) -> Any:
@@ -112,7 +112,7 @@ def _stamp_events(
     return _order(signal, noise, rule, span, bits)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _measure(changes: Float64Array, rule: _Rule) -> tuple[int, float, float]:
     """How many events there are, and the smallest and largest |ΔL|."""
     number = changes.size
@@ -131,7 +131,7 @@ def _measure(changes: Float64Array, rule: _Rule) -> tuple[int, float, float]:
     return number, ends[0], ends[1]
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _order(
     signal: Uint64Array, noise: NoisePlaces, rule: _Rule, span: FrameInterval, bits: int
 ) -> Any:
@@ -143,12 +143,12 @@ def _order(
     return unpack_keys(keys, span.start_us, rule.width, rule.low)
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def _number_of(change: float, rule: _Rule) -> Any:
     return np.int64(math.floor(abs(change) / rule.threshold)) if rule.multi_event else 1
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _list_signal(
     fired: Fired, reach: tuple[float, float], rule: _Rule, span: FrameInterval, keys: Uint64Array
 ) -> None:
@@ -174,7 +174,7 @@ def _list_signal(
             found += 1
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _list_noise(noise: NoisePlaces, rule: _Rule, span: FrameInterval) -> Uint64Array:
     """Keys of noise events, by pixel and polarity."""
     pixel, fraction, p = noise
@@ -185,7 +185,7 @@ def _list_noise(noise: NoisePlaces, rule: _Rule, span: FrameInterval) -> Uint64A
     return keys
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _merge(signal: Uint64Array, noise: Uint64Array, rule: _Rule) -> Uint64Array:
     """Both by pixel, p and label; noise of pixels that fired is left out if it must be at rest."""
     mask = (_1 << np.uint64(rule.low)) - _1
@@ -207,7 +207,7 @@ def _merge(signal: Uint64Array, noise: Uint64Array, rule: _Rule) -> Uint64Array:
     return keys[:found]
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def _key(place: np.uint64, fraction: float, rule: _Rule, span: FrameInterval) -> Any:
     """Time, as `interval.place_in` rounds it, above the place."""
     duration_us = span.stop_us - span.start_us
@@ -215,14 +215,14 @@ def _key(place: np.uint64, fraction: float, rule: _Rule, span: FrameInterval) ->
     return np.uint64(min(offset, np.int64(duration_us - 1))) << np.uint64(rule.low) | place
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def _larger_change_earlier(size: float, smallest: float, largest: float) -> float:
     if largest == smallest:
         return 0.5
     return 1.0 - (size - smallest) / (largest - smallest)
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def _linear_crossing(start: float, stop: float, level: float, sign: float) -> float:
     if sign * (start - level) >= 0:
         return 0.0
@@ -231,7 +231,7 @@ def _linear_crossing(start: float, stop: float, level: float, sign: float) -> fl
     return min(max((level - start) / (stop - start), 0.0), 1.0)
 
 
-@numba.njit(cache=True, nogil=True, inline="always")
+@jit(inline="always")
 def _fraction(
     pixel: int, size: float, order: int, number: int, rule: _Rule, span: FrameInterval
 ) -> float:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import NOISE
+from texvent.runtime.jit import jit
 from texvent.runtime.scratch import take_scratch
 from texvent.simulate.crossing.levels import Thresholds
 from texvent.simulate.crossing.ramp import Rest
@@ -74,7 +74,7 @@ def warm_up() -> None:
     fire_and_memorise(Restless(pixel, one, one), circuits, last, noise, rules)
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _take(
     pixel: NDArray[np.int64],
     thresholds: tuple[Float32Array, Float32Array],
@@ -87,7 +87,7 @@ def _take(
         on[n], off[n] = all_on[pixel[n]], all_off[pixel[n]]
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _memorise(
     keys: Uint64Array,
     restless: tuple[NDArray[np.int64], Float64Array, NDArray[np.int64]],
@@ -119,7 +119,7 @@ def _memorise(
         found += count
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _keys_of(noise: UnsortedEvents, clock: Clock) -> Uint64Array:
     pixel, t, p, _ = noise
     keys = np.empty(pixel.size, np.uint64)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.runtime.jit import jit
 from texvent.runtime.scratch import take_scratch
 from texvent.runtime.threads import count_threads, run_parts, split
 from texvent.simulate.backend.elementary_cpu import natural_log
@@ -84,7 +84,7 @@ def warm_up(dtype: str) -> None:
     follow_light(Light(luma.copy(), luma, table, 20.0, 1.0), pixels, state, (0.0, 1.0))
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _follow_light(
     luma: tuple[NDArray[Any], NDArray[Any]],
     table: Float64Array | None,
@@ -133,7 +133,7 @@ def _follow_light(
     return found
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _see(
     luma: NDArray[Any],
     table: Float64Array | None,
@@ -158,7 +158,7 @@ def _see(
             weight[j] = min((np.float64(luma[j]) + DARK_OFFSET) / WHITE_LEVEL * angle, 1.0)
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _move(
     brightness: Float64Array,
     reference: Float64Array,
@@ -184,7 +184,7 @@ def _move(
     return moving
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _calm_until(
     brightness: Float64Array, reference: Float64Array, on: Float32Array, leak: Float32Array
 ) -> float:
@@ -197,13 +197,13 @@ def _calm_until(
     return soonest - 1.0
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _add(target: Float64Array, term: NDArray[Any], factor: float) -> None:
     for j in range(term.size):
         target[j] += np.float64(term[j]) * factor
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _mark(
     stop: Float64Array, on: Float32Array, off: Float32Array, marks: NDArray[np.uint8]
 ) -> None:

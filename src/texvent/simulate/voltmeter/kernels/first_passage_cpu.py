@@ -11,11 +11,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import NOISE
+from texvent.runtime.jit import jit
 from texvent.runtime.threads import count_threads, run_parts, split
 from texvent.simulate.backend.elementary_cpu import cosine_of_turns, natural_log
 from texvent.simulate.backend.lanes_cpu import WORD, append_by_lane, list_marked, make_room
@@ -41,8 +41,7 @@ from texvent.simulate.voltmeter.kernels.first_passage import (
 
 Uint64Array = NDArray[np.uint64]
 
-# Numba's cache looks at this file only: whoever changes `motion_of` must touch this one as well.
-_motion_of = numba.njit(cache=True, nogil=True, error_model="numpy")(passage_reference.motion_of)
+_motion_of = jit(error_model="numpy")(passage_reference.motion_of)
 
 SHARE = 16 * BLOCK
 """Fewest pixels that are worth a thread of their own."""
@@ -103,7 +102,7 @@ def warm_up(dtype: str) -> None:
     find_passages(light, new_voltage(np.zeros(1)), FrameInterval(0, 1, np.uint64(0)), 0)
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _find_passages(
     ends: tuple[NDArray[Any], NDArray[Any]],
     constants: Constants,
@@ -159,7 +158,7 @@ def _find_passages(
     return keys[:found]
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _mark_moves(before: NDArray[Any], now: NDArray[Any], moves: NDArray[np.uint8]) -> bool:
     """1 where the light moves, else 0; whether it rests everywhere."""
     different = 0
@@ -170,7 +169,7 @@ def _mark_moves(before: NDArray[Any], now: NDArray[Any], moves: NDArray[np.uint8
     return different == 0
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _mark_busy(
     due: Float64Array,
     stop: float,
@@ -191,7 +190,7 @@ def _mark_busy(
     marks[due.size :] = 0
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _first_due(due: Float64Array) -> float:
     # As integers, for only their smallest is found in vector registers; none is below 0.
     bits = due.view(np.int64)
@@ -201,7 +200,7 @@ def _first_due(due: Float64Array) -> float:
     return float(np.int64(first).view(np.float64))
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _begin(lanes: Float64Array, n: int, constants: Constants, span: tuple[float, float]) -> None:
     """Motion of the lanes, and the passages that go on: those of pixels whose light rests."""
     start, stop = span
@@ -220,7 +219,7 @@ def _begin(lanes: Float64Array, n: int, constants: Constants, span: tuple[float,
         lanes[DUE, j] = np.inf if lanes[DISTANCE, j] > 0 else lanes[DUE, j]
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _part(due: Float64Array, stop: float, listed: NDArray[np.int64]) -> int:
     """List the lanes that fire before the end, and those that do not; return how many fire."""
     going, left = 0, 0
@@ -232,7 +231,7 @@ def _part(due: Float64Array, stop: float, listed: NDArray[np.int64]) -> int:
     return going
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _draw(lanes: Float64Array, places: Uint64Array, key: np.uint64, order: int) -> None:
     """The next passages; see `passage_reference`."""
     n = places.size
@@ -262,7 +261,7 @@ def _draw(lanes: Float64Array, places: Uint64Array, key: np.uint64, order: int) 
         lanes[PACE, j] *= distance / wait
 
 
-@numba.njit(cache=True, nogil=True, error_model="numpy")
+@jit(error_model="numpy")
 def _decide(lanes: Float64Array, places: Uint64Array, key: np.uint64, order: int) -> None:
     """Let chance send some lanes against the drift; see `passage_reference.chance_along`."""
     for j in range(places.size):
@@ -278,7 +277,7 @@ def _decide(lanes: Float64Array, places: Uint64Array, key: np.uint64, order: int
             lanes[PACE, j], lanes[DISTANCE, j] = -lanes[FORWARD, j], against
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _fire(
     lanes: Float64Array,
     names: Uint64Array,
@@ -312,7 +311,7 @@ def _fire(
     return made + firing.size
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _name(names: Uint64Array, n: int, place: tuple[int, int, int]) -> None:
     """Number the lanes, and find the rows and columns of their pixels."""
     inverse = 1.0 / place[1]

@@ -1,0 +1,85 @@
+"""The decorator of compiled functions; their cache on disk follows the files that they call."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import importlib.util
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar, overload
+
+import numba
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+_IMPORT = re.compile(r"^(?:from ([\w.]+) import (\([^)]*\)|.*)|import ([\w.]+))", re.MULTILINE)
+
+
+@overload
+def jit(function: Function, /) -> Function: ...
+@overload
+def jit(
+    *, nogil: bool = True, inner: bool = False, **options: Any
+) -> Callable[[Function], Function]: ...
+def jit(function: Any = None, /, *, nogil: bool = True, inner: bool = False, **options: Any) -> Any:
+    """Compile a function with Numba at its first call; later processes read it from disk.
+
+    It is compiled again when its file changes, or a file of its package (or of texvent) that its
+    module imports, directly or through others: what a kernel calls and the constants it reads are
+    built into it. Arithmetic is IEEE (no fastmath).
+
+    Args:
+        function: what to compile.
+        nogil: release the interpreter lock, so that threads work at the same time.
+        inner: only other kernels call it: it has no entry for Python and compiles sooner.
+        **options: other options of `numba.njit`, such as `error_model`, `inline` and `parallel`.
+
+    Returns:
+        The compiled function; the function itself with NUMBA_DISABLE_JIT=1.
+    """
+    if inner:
+        options |= {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+
+    def decorate(function: Any) -> Any:
+        kernel: Any = numba.njit(cache=True, nogil=nogil, **options)(function)
+        if hasattr(kernel, "py_func"):  # not with NUMBA_DISABLE_JIT=1
+            # Numba compares this with what it finds on disk. Its own stamp is of one file.
+            file = kernel._cache._cache_file
+            file._source_stamp = (file._source_stamp, _stamp(function.__module__))
+        return kernel
+
+    return decorate if function is None else decorate(function)
+
+
+@functools.cache
+def _stamp(module: str) -> str:
+    """Digest of the files that a module consists of: its own and those that it imports."""
+    packages = {_package(module), _package(__name__)}
+    digests: dict[str, str] = {}
+    pending = [module]
+    while pending:
+        name = pending.pop()
+        path = getattr(sys.modules.get(name), "__file__", None)
+        if path is not None and name not in digests and _package(name) in packages:
+            digests[name], imported = _read(name, path)
+            pending += imported
+    return hashlib.sha256(repr(sorted(digests.items())).encode()).hexdigest()
+
+
+@functools.cache
+def _read(module: str, path: str) -> tuple[str, list[str]]:
+    """Digest of a file, and the names that it imports: of modules, and of what is in them."""
+    source = Path(path).read_text("utf-8")
+    package = getattr(sys.modules[module], "__package__", None)
+    names: list[str] = []
+    for origin, parts, whole in _IMPORT.findall(source):
+        name = importlib.util.resolve_name(origin or whole, package)
+        names += [name, *(f"{name}.{part}" for part in re.findall(r"\w+", parts))]
+    return hashlib.sha256(source.encode()).hexdigest(), names
+
+
+def _package(module: str) -> str:
+    return module.partition(".")[0]

@@ -1,0 +1,110 @@
+"""Compiled kernels are kept on disk, and compiled again when anything they use changes."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+SOURCE = Path(__file__).parents[2] / "src" / "texvent"
+
+ENTRY = """
+import numpy as np
+from texvent.runtime.jit import jit
+from kernels.inner import (
+    add,
+)
+from kernels import limits
+
+@jit
+def run(x):
+    return add(x) + below(x) + limits.LIMIT
+
+@jit(error_model="numpy", inner=True)
+def below(x):
+    return 0 * x
+
+result = run(1)
+print(result, sum(run.stats.cache_hits.values()) if hasattr(run, "stats") else 0)
+"""
+INNER = """
+from texvent.runtime.jit import jit
+from .steps import STEP
+
+@jit(inline="always")
+def add(x):
+    return x + STEP
+"""
+
+
+@pytest.fixture
+def package(tmp_path):
+    folder = tmp_path / "kernels"
+    folder.mkdir()
+    files = {"__init__": "", "entry": ENTRY, "inner": INNER, "steps": "STEP = 10\n"}
+    for name, text in (files | {"limits": "LIMIT = 100\n"}).items():
+        (folder / f"{name}.py").write_text(text)
+    return folder
+
+
+def run(package, **environment):
+    """What the kernel returns in a process of its own, and how often it came from disk."""
+    path = os.pathsep.join(map(str, (package.parent, SOURCE.parent)))
+    command = [sys.executable, "-c", "import kernels.entry"]
+    done = subprocess.run(
+        command,
+        env=os.environ | {"PYTHONPATH": path} | environment,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return tuple(map(int, done.stdout.split()))
+
+
+def edit(path, before, after):
+    text = path.read_text()
+    assert before in text
+    path.write_text(text.replace(before, after))
+
+
+EDITS = (
+    ("inner", "x + STEP", "x - STEP", 91),
+    ("steps", "10", "20", 81),
+    ("limits", "100", "200", 181),
+    ("entry", "0 * x", "5 * x", 186),
+)
+"""File, text before and after, and what the kernel returns from then on."""
+
+
+def test_a_kernel_is_compiled_again_when_a_file_that_it_uses_changes(package):
+    assert run(package) == (111, 0)
+    for name, before, after, result in EDITS:
+        edit(package / f"{name}.py", before, after)
+        assert run(package) == (result, 0)
+
+
+def test_a_kernel_is_read_from_disk_when_other_files_change(package):
+    run(package)
+    (package / "other.py").write_text("A = 2\n")
+    os.utime(package / "inner.py", (0, 0))
+    assert run(package) == (111, 1)
+
+
+def test_a_cache_folder_of_the_users_choice_follows_changes_too(package, tmp_path):
+    cache = {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+    assert run(package, **cache) == (111, 0)
+    edit(package / "inner.py", "x + STEP", "x - STEP")
+    assert run(package, **cache) == (91, 0)
+    assert not list(package.rglob("*.nbi"))
+
+
+def test_without_jit_kernels_stay_python(package):
+    assert run(package, NUMBA_DISABLE_JIT="1") == (111, 0)
+
+
+def test_every_kernel_of_the_library_uses_this_decorator():
+    raw = re.compile(r"numba\.n?jit|from numba import .*jit")
+    files = [file for file in SOURCE.rglob("*.py") if file != SOURCE / "runtime" / "jit.py"]
+    assert [file.name for file in files if raw.search(file.read_text("utf-8"))] == []
