@@ -6,7 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.errors import InputError
-from texvent.events import NOISE, SIGNAL, EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import NOISE, SIGNAL, EventStream
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(8, 6)

@@ -33,7 +33,8 @@ if TYPE_CHECKING:
         OutputError,
         TexventError,
     )
-    from texvent.events import EventPackets, EventStream
+    from texvent.event_packets import EventPackets
+    from texvent.events import EventStream
     from texvent.sensor import SENSORS, Sensor, SensorSize
     from texvent.video import Frame, FrameStream, Video
 
@@ -47,7 +48,8 @@ _HOMES = {
         "OutputError",
         "TexventError",
     ),
-    "events": ("EventPackets", "EventStream"),
+    "event_packets": ("EventPackets",),
+    "events": ("EventStream",),
     "sensor": ("SENSORS", "Sensor", "SensorSize"),
     "video": ("Frame", "FrameStream", "Video"),
 }

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from texvent._registry import load_object
 from texvent.calibrate.rate import reach_target_rate
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.pipeline import Simulation, text_to_events, video_to_events
 from texvent.settings import resolve
 from texvent.video import FrameStream

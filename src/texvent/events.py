@@ -12,7 +12,7 @@ What always holds:
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -20,7 +20,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from texvent._registry import load_object
 from texvent.errors import InputError
 from texvent.sensor import MAX_SIDE, SensorSize, checked_size
 
@@ -64,7 +63,7 @@ class EventStream:
     metadata: Mapping[str, Any] = field(default_factory=dict, repr=False)
     """How the events were made (JSON-serialisable): prompt, config, seed, version."""
     label: NDArray[np.uint8] | None = field(default=None, repr=False)
-    """Where each event comes from, [n] uint8: `SIGNAL` or `NOISE`; None where nobody knows."""
+    """Where each event comes from, [n] uint8: `SIGNAL` or `NOISE`; None where it is not known."""
 
     def __post_init__(self) -> None:
         size = checked_size(*self.size)
@@ -194,20 +193,21 @@ class EventStream:
         """The same events without the signal/noise column."""
         return EventStream(self.x, self.y, self.t, self.p, self.size, self.metadata)
 
-    # These name their implementation by text because it lies above this module.
+    # What lies above this module is imported when it is called: a convenience for users.
     def represent(self, name: str, *, device: str | None = None, **options: Any) -> Any:
         """A dense array of the events: `name` such as "voxel-e2vid", options such as `bins=5`.
 
         See `texvent.represent.named.represent`; with `device`, a torch tensor.
         """
-        return load_object("texvent.represent.named:represent")(
-            name, self, device=device, **options
-        )
+        from texvent.represent.named import represent
+
+        return represent(name, self, device=device, **options)
 
     def to_structured(self) -> NDArray[Any]:
         """One record per event, [n]: x and y uint16, t int64 µs, p uint8, label uint8 if known."""
-        records: NDArray[Any] = load_object("texvent.represent.export:to_structured")(self)
-        return records
+        from texvent.represent.export import to_structured
+
+        return to_structured(self)
 
     def to_tonic(self) -> NDArray[Any]:
         """One record per event, [n], as tonic's transforms take it: x, y int16, t int64, p int8.
@@ -215,8 +215,9 @@ class EventStream:
         Raises:
             InputError: a side of the sensor is above 32768 pixels, so coordinates do not fit.
         """
-        records: NDArray[Any] = load_object("texvent.represent.export:to_tonic")(self)
-        return records
+        from texvent.represent.export import to_tonic
+
+        return to_tonic(self)
 
     def to_dataframe(self) -> Any:
         """A pandas DataFrame with one row per event and the columns and types of `columns()`.
@@ -224,7 +225,9 @@ class EventStream:
         Raises:
             MissingDependencyError: pandas is not installed.
         """
-        return load_object("texvent.represent.export:to_dataframe")(self)
+        from texvent.represent.export import to_dataframe
+
+        return to_dataframe(self)
 
     def to_torch(self, device: str = "cpu") -> dict[str, Any]:
         """Tensors x, y (int32), t (int64, µs), p and, if known, label (int8), each [n].
@@ -233,15 +236,15 @@ class EventStream:
             ConfigError: torch knows or finds no such device.
             MissingDependencyError: torch is not installed.
         """
-        tensors: dict[str, Any] = load_object("texvent.represent.tensors:to_torch")(self, device)
-        return tensors
+        from texvent.represent.tensors import to_torch
+
+        return to_torch(self, device)
 
     def save(self, path: str | Path, *, format: str | None = None, overwrite: bool = False) -> Path:
         """Write to a file, its format taken from the extension unless given; see `texvent.io`."""
-        saved: Path = load_object("texvent.io.files:save")(
-            path, self, format=format, overwrite=overwrite
-        )
-        return saved
+        from texvent.io.files import save
+
+        return save(path, self, format=format, overwrite=overwrite)
 
     def show(self, path: str | Path | None = None, *, overwrite: bool = False) -> Path:
         """Make a self-contained page (x-y-t cloud, rate curve) and open it in the browser.
@@ -250,26 +253,9 @@ class EventStream:
             path: where to save the page; then nothing is opened. Default: a temporary file.
             overwrite: whether an existing file may be replaced.
         """
-        shown: Path = load_object("texvent.view.page.writer:show")(self, path, overwrite=overwrite)
-        return shown
+        from texvent.view.page.writer import show
 
-
-@dataclass(frozen=True, eq=False)
-class EventPackets:
-    """Events packet by packet, for recordings that need not fit in memory."""
-
-    packets: Iterable[EventStream]
-    """Packets in time order; each starts no earlier than the one before it ends."""
-    size: SensorSize
-    metadata: Mapping[str, Any] = field(default_factory=dict)
-
-    def __iter__(self) -> Iterator[EventStream]:
-        return iter(self.packets)
-
-    def collect(self) -> EventStream:
-        """All packets in one stream, in memory."""
-        whole = EventStream.concat([EventStream.empty(self.size), *self.packets])
-        return whole.with_metadata(self.metadata)
+        return show(self, path, overwrite=overwrite)
 
 
 def _checked_label(label: NDArray[Any], count: int) -> NDArray[Any]:

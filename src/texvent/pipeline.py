@@ -21,7 +21,8 @@ from texvent.capture.prepare import PreparedFrames
 from texvent.config import CaptureConfig, RunConfig
 from texvent.engine.planning import plan_pairs
 from texvent.engine.select import advance, check_engine
-from texvent.events import NOISE, SIGNAL, EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import NOISE, SIGNAL, EventStream
 from texvent.interpolate.densify import OnCut
 from texvent.progress import Progress
 from texvent.settings import Settings

@@ -3,7 +3,8 @@
 import numpy as np
 
 from texvent.bench.real.frame_recording import FrameRecording
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Video
 

@@ -12,7 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.errors import InputError, OutputError
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.io.files import load, open_events, open_writer, save
 from texvent.sensor import SensorSize
 

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from texvent.data.pull import pull
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.io.files import load, save
 from texvent.transform.window import start_at_zero
 

@@ -13,7 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.errors import ConfigError, FileFormatError, InputError
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.transform.merge import merge
 from texvent.transform.region import Region, crop, resize

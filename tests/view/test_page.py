@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 
 from texvent.errors import OutputError
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.view.page.writer import PageWriter, show
 

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from texvent.errors import ConfigError, InputError
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Video
 from texvent.view.render import RenderConfig, render_events

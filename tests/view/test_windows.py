@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.errors import ConfigError
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.represent.time_surface import time_surface
 from texvent.sensor import SensorSize
 from texvent.view.windows.cut import (

@@ -16,14 +16,12 @@ from texvent.dataset.targets import Clip, Target, film, target_of
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.pipeline import Simulation, text_to_events, video_to_events
-from texvent.represent.named import load_representation, option_names_of, represent
+from texvent.represent.named import load_representation, represent_window
 from texvent.settings import Settings, resolve
 from texvent.simulate.random.draws import frame_key
 
 Sample: TypeAlias = dict[str, Any]
 MAX_SEED = 2**63 - 1
-WINDOW_OPTIONS: Mapping[str, int] = {"start_us": 0, "stop_us": 1, "at_us": 1}
-"""Options of representations that say where the window lies: 0 = its start, 1 = its end."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -85,10 +83,9 @@ class SimulatedSamples:
             raise ConfigError("every sample has a seed of its own; give seed beside simulation")
         # Refused now, not in a worker process.
         size = self._resolve(0).size
-        options = self._options((0, 1))
-        load_representation(self.representation, options)
+        load_representation(self.representation, self.representation_options)
         if size is not None:
-            represent(self.representation, EventStream.empty(size), **options)
+            self._represent(EventStream.empty(size), (0, 1))
 
     def seed_of(self, number: int) -> int:
         """Seed of the simulation of sample `number`."""
@@ -126,10 +123,12 @@ class SimulatedSamples:
         source = number % len(self.prompts or self.videos)
         return {**arrays, "source": source, "number": number, "seed": self.seed_of(number)}
 
+    def _represent(self, events: EventStream, window: tuple[int, int]) -> Any:
+        return represent_window(self.representation, events, window, **self.representation_options)
+
     def _part(self, clip: Clip, window: tuple[int, int]) -> Sample:
         events = clip.events.between(*window)
-        options = self._options(window)
-        part = {"representation": represent(self.representation, events, **options)}
+        part = {"representation": self._represent(events, window)}
         part |= {target: target_of(clip, target, window) for target in self.targets}
         return {**part, "stop_us": np.int64(window[1])}
 
@@ -148,9 +147,3 @@ class SimulatedSamples:
                 open_frames(source, settings.source, size=settings.size), settings
             )
         return reach_target_rate(run)[0]
-
-    def _options(self, window: tuple[int, int]) -> dict[str, Any]:
-        """The representation's options, with those that name the window."""
-        known = option_names_of(load_representation(self.representation))
-        placed = {name: window[end] for name, end in WINDOW_OPTIONS.items() if name in known}
-        return {**placed, **self.representation_options}

@@ -8,7 +8,8 @@ from typing import Any
 
 from texvent._registry import CODECS, load_object
 from texvent.errors import ConfigError, InputError
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.io.protocol import EventCodec, EventWriter, RecognisingCodec
 from texvent.runtime.background_writer import WriteBehind
 from texvent.sensor import SensorSize, checked_size

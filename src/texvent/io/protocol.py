@@ -7,7 +7,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, ClassVar, Protocol, Self, runtime_checkable
 
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.sensor import SensorSize
 
 

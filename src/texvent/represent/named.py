@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from texvent._registry import REPRESENTATIONS, suggest
 from texvent.errors import ConfigError
 from texvent.represent.array_ops import Array, Events
 from texvent.represent.tensors import put_events
+
+WINDOW_OPTIONS: Mapping[str, int] = {"start_us": 0, "stop_us": 1, "at_us": 1}
+"""Options of representations that say where the window lies: 0 = its start, 1 = its end."""
 
 
 def represent(name: str, events: Events, *, device: str | None = None, **options: Any) -> Array:
@@ -40,6 +43,28 @@ def represent(name: str, events: Events, *, device: str | None = None, **options
     if device is not None:
         events = put_events(events, device)
     return function(events, **options)
+
+
+def represent_window(
+    name: str,
+    events: Events,
+    window_us: tuple[int, int],
+    *,
+    device: str | None = None,
+    **options: Any,
+) -> Array:
+    """As `represent`; options that name the window (`start_us`, `stop_us`, `at_us`) are filled in.
+
+    Args:
+        name: such as "voxel-e2vid".
+        events: those of the window.
+        window_us: its start (included) and its end (excluded), µs.
+        device: as `represent`.
+        **options: further options; they go before the window's.
+    """
+    known = option_names_of(load_representation(name))
+    window = {key: window_us[end] for key, end in WINDOW_OPTIONS.items() if key in known}
+    return represent(name, events, device=device, **{**window, **options})
 
 
 def load_representation(name: str, options: Iterable[str] = ()) -> Callable[..., Array]:

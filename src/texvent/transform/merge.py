@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from texvent.errors import InputError
-from texvent.events import EventPackets, EventStream
-from texvent.transform.packets import LazyPackets
+from texvent.event_packets import EventPackets, LazyPackets
+from texvent.events import EventStream
 
 
 def merge(recordings: Sequence[EventPackets]) -> EventPackets:

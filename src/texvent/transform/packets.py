@@ -2,25 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets, LazyPackets
+from texvent.events import EventStream
 from texvent.sensor import SensorSize
-
-
-@dataclass(frozen=True)
-class LazyPackets:
-    """Packets that a function makes anew for each pass."""
-
-    make: Callable[[], Iterator[EventStream]]
-
-    def __iter__(self) -> Iterator[EventStream]:
-        return self.make()
 
 
 def map_packets(

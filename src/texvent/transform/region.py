@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from texvent.errors import InputError
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.sensor import SensorSize, checked_size
 from texvent.transform.packets import map_packets, move_events
 

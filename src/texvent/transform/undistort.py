@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, InputError
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.transform.packets import map_packets, move_events
 

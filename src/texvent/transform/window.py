@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from texvent.errors import InputError
-from texvent.events import EventPackets, EventStream
-from texvent.transform.packets import LazyPackets, map_packets
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
+from texvent.transform.packets import map_packets
 
 
 def keep_time(events: EventPackets, start_us: int, stop_us: int) -> EventPackets:
@@ -19,14 +18,7 @@ def keep_time(events: EventPackets, start_us: int, stop_us: int) -> EventPackets
         raise InputError(
             f"the time from {start_us} to {stop_us} µs is empty; the stop must be after the start"
         )
-
-    def packets() -> Iterator[EventStream]:
-        for packet in events:
-            if len(packet) and int(packet.t[0]) >= stop_us:
-                return
-            yield packet.between(start_us, stop_us)
-
-    return EventPackets(LazyPackets(packets), events.size, events.metadata)
+    return events.between(start_us, stop_us)
 
 
 def start_at_zero(events: EventPackets) -> EventPackets:

@@ -8,7 +8,8 @@ from pathlib import Path
 
 from texvent._registry import load_object
 from texvent.errors import ConfigError, InputError
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, check_output
 from texvent.video import MICROSECONDS, FrameStream
 from texvent.view.drawing.canvas import png_bytes

@@ -10,7 +10,8 @@ import numpy as np
 
 from texvent._require import require
 from texvent.errors import InputError
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.io.atomic import atomic_file
 from texvent.video import MICROSECONDS, FrameStream
 from texvent.view.drawing.caption import title_of

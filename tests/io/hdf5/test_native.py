@@ -13,7 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.errors import FileFormatError, InputError, MissingDependencyError, OutputError
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.io.files import load, open_events, save
 from texvent.io.hdf5 import native as hdf5
 from texvent.io.hdf5 import writer as hdf5_writer

@@ -12,7 +12,7 @@ from texvent.capture.evreal_frames import is_evreal
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import InputError
-from texvent.events import EventPackets
+from texvent.event_packets import EventPackets
 from texvent.io.files import open_events
 from texvent.video import MICROSECONDS, FrameStream
 

@@ -30,8 +30,8 @@ from texvent.errors import ConfigError, InputError, TexventError
 from texvent.events import EventStream
 from texvent.option_fields import option_names
 from texvent.pipeline import Simulation, video_to_events
-from texvent.reconstruct.packet_slices import slice_between
 from texvent.reconstruct.reconstructor import Intensity, Reconstructor
+from texvent.represent.packet_slices import slice_between
 from texvent.simulate.thresholds import contrast_threshold_of
 from texvent.video import MICROSECONDS
 

@@ -11,7 +11,8 @@ from typing import Any, ClassVar
 from texvent.cli.event_files.time_option import keep_time_range
 from texvent.cli.options import REQUIRED, parse_options
 from texvent.errors import ConfigError
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.io.files import open_events, open_writer
 from texvent.sensor import parse_sensor
 from texvent.transform.merge import merge

@@ -14,7 +14,7 @@ from texvent.capture.open import open_frames
 from texvent.cli.options import REQUIRED, parse_options
 from texvent.config import CaptureConfig
 from texvent.errors import InputError
-from texvent.events import EventPackets
+from texvent.event_packets import EventPackets
 from texvent.io.files import find_folder_codec, open_events
 from texvent.sensor import parse_sensor
 from texvent.video import MICROSECONDS, FrameStream

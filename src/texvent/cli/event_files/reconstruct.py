@@ -17,11 +17,12 @@ from texvent._version import __version__
 from texvent.cli.event_files.time_option import keep_time_range
 from texvent.cli.options import REQUIRED, parse_options
 from texvent.errors import ConfigError, InputError
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.io.files import open_events
 from texvent.reconstruct.config import ReconstructConfig
-from texvent.reconstruct.packet_slices import slice_by_count, slice_regularly
 from texvent.reconstruct.reconstructor import Reconstructor, load_reconstructor
+from texvent.represent.packet_slices import slice_by_count, slice_regularly
 from texvent.sensor import parse_sensor
 from texvent.video import MICROSECONDS
 from texvent.view.video.image_sink import check_image_output, open_image_sink

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from texvent.errors import ConfigError
-from texvent.events import EventPackets
+from texvent.event_packets import EventPackets
 from texvent.transform.window import keep_time
 
 MICROSECONDS = 1_000_000

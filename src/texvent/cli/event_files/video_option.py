@@ -7,7 +7,7 @@ from pathlib import Path
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import InputError
-from texvent.events import EventPackets
+from texvent.event_packets import EventPackets
 from texvent.replay import render_again
 from texvent.video import FrameStream
 

@@ -27,7 +27,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from texvent.errors import FileFormatError, InputError
-from texvent.events import EventPackets
+from texvent.event_packets import EventPackets
 from texvent.io.aedat.aedat2_layouts import (
     CIFAR10_DVS,
     DAVIS346,

@@ -29,7 +29,7 @@ from typing import Any, BinaryIO, ClassVar
 import numpy as np
 
 from texvent.errors import FileFormatError
-from texvent.events import EventPackets
+from texvent.event_packets import EventPackets
 from texvent.io.aedat.header import (
     AEDAT3_END,
     AEDAT3_MAGIC,

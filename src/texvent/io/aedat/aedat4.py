@@ -21,7 +21,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from texvent.errors import FileFormatError
-from texvent.events import EventPackets
+from texvent.event_packets import EventPackets
 from texvent.io.aedat.aedat4_container import (
     MAGIC,
     PACKET_HEAD,

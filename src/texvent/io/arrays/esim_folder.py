@@ -20,7 +20,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from texvent.errors import FileFormatError
-from texvent.events import EventPackets
+from texvent.event_packets import EventPackets
 from texvent.io.arrays.npz import read_arrays
 from texvent.io.atomic import atomic_folder, check_output_folder
 from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget

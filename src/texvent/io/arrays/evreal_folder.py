@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
-from texvent.events import EventPackets
+from texvent.event_packets import EventPackets
 from texvent.io.arrays.npy_file import NpyFile, map_array
 from texvent.io.atomic import atomic_folder, check_output_folder
 from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
-from texvent.events import EventPackets
+from texvent.event_packets import EventPackets
 from texvent.io.arrays.npz import read_arrays, read_whole
 from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
 from texvent.io.columns import (

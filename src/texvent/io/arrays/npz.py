@@ -22,7 +22,8 @@ from typing import Any, ClassVar, Self
 import numpy as np
 
 from texvent.errors import FileFormatError, InputError, OutputError
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.io.arrays.archives import check_archive
 from texvent.io.atomic import atomic_file, check_output
 from texvent.io.columns import (

@@ -16,7 +16,7 @@ import numpy as np
 
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError, MissingDependencyError
-from texvent.events import EventPackets
+from texvent.event_packets import EventPackets
 from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
 from texvent.io.columns import (
     existing_file,

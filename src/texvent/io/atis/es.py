@@ -25,7 +25,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from texvent.errors import FileFormatError
-from texvent.events import EventPackets
+from texvent.event_packets import EventPackets
 from texvent.io.block_stream import (
     BLOCK_BYTES,
     BlockPackets,

@@ -22,7 +22,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from texvent.errors import InputError
-from texvent.events import EventPackets
+from texvent.event_packets import EventPackets
 from texvent.io.block_stream import (
     BlockPackets,
     BlockWriter,

@@ -19,6 +19,7 @@ not fit otherwise.
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import MappingProxyType
@@ -30,7 +31,8 @@ from numpy.typing import NDArray
 
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError, MissingDependencyError
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.io.columns import (
     existing_file,
     metadata_from_json,
@@ -195,28 +197,60 @@ class _Packets:
         self._metadata = metadata
 
     def __iter__(self) -> Iterator[EventStream]:
+        return self._read(None)
+
+    def between(self, start_us: int, stop_us: int) -> Iterator[EventStream]:
+        """The packets of `start_us <= t < stop_us`, found by bisection of the times."""
+        return self._read((start_us, stop_us))
+
+    @property
+    def time_range(self) -> tuple[int, int] | None:
+        """Half-open range [first, last + 1) of the event times, µs, or None without events."""
+        with reporting_damage(self._path), h5py.File(self._path, "r") as file:
+            times = _checked_columns(file, self._path)["t"]
+            offset_us = _time_offset(file, self._path)
+            if not len(times):
+                return None
+            return int(times[0]) + offset_us, int(times[-1]) + offset_us + 1
+
+    def _read(self, window_us: tuple[int, int] | None) -> Iterator[EventStream]:
         with reporting_damage(self._path):
             file = h5py.File(self._path, "r")
         with file:
             with reporting_damage(self._path):
                 columns = _checked_columns(file, self._path)
-                count = columns["t"].shape[0]
                 offset_us = _time_offset(file, self._path)
+                first, end = _find(columns["t"], window_us, offset_us)
             last_us: int | None = None
-            for start in range(0, count, PACKET_EVENTS):
+            for start in range(first, end, PACKET_EVENTS):
                 with reporting_damage(self._path):
-                    packet = self._packet(columns, start, offset_us)
+                    stop = min(start + PACKET_EVENTS, end)
+                    packet = self._packet(columns, slice(start, stop), offset_us)
                 if last_us is not None and int(packet.t[0]) < last_us:
                     raise FileFormatError(f"{self._path}: time decreases at event {start}")
                 last_us = int(packet.t[-1])
                 # Outside `reporting_damage`: the caller's own errors are not the file's.
                 yield packet
 
-    def _packet(self, columns: Mapping[str, Any], start: int, offset_us: int) -> EventStream:
-        stop = start + PACKET_EVENTS
-        part = {name: column[start:stop] for name, column in columns.items()}
+    def _packet(self, columns: Mapping[str, Any], where: slice, offset_us: int) -> EventStream:
+        part = {name: column[where] for name, column in columns.items()}
         part["t"] = part["t"].astype(np.int64) + offset_us
         return stream_from_file(self._path, part, self._size, self._metadata)
+
+
+def _find(times: Any, window_us: tuple[int, int] | None, offset_us: int) -> tuple[int, int]:
+    """Index of the first event of a window, and of the first after it; the column is not read.
+
+    Not by ms_to_idx: files of others lack it or have it in other units.
+    """
+    if window_us is None:
+        return 0, len(times)
+    everything, first = range(len(times)), 0
+    found = []
+    for t_us in window_us:
+        first = bisect_left(everything, t_us - offset_us, lo=first, key=lambda i: int(times[i]))
+        found.append(first)
+    return found[0], found[1]
 
 
 def _checked_columns(file: Any, path: Path) -> dict[str, Any]:

@@ -22,7 +22,8 @@ import h5py
 import numpy as np
 
 from texvent.errors import FileFormatError
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
 from texvent.io.columns import existing_file, metadata_to_json, stored_or_given_size
 from texvent.io.hdf5.damage import check_claims, reporting_damage

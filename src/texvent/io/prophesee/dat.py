@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
-from texvent.events import EventPackets
+from texvent.event_packets import EventPackets
 from texvent.io.columns import existing_file, stored_or_given_size
 from texvent.io.limits import FormatLimits
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header

@@ -30,7 +30,8 @@ import h5py
 import numpy as np
 
 from texvent.errors import FileFormatError
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.io.columns import (
     existing_file,
     metadata_from_json,

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from texvent.errors import FileFormatError
-from texvent.events import EventPackets
+from texvent.event_packets import EventPackets
 from texvent.io.columns import existing_file, stored_or_given_size
 from texvent.io.limits import FormatLimits
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any, BinaryIO, ClassVar, cast
 
 from texvent.errors import FileFormatError, InputError
-from texvent.events import EventPackets
+from texvent.event_packets import EventPackets
 from texvent.io.arrays.archives import check_archive
 from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
 from texvent.io.columns import existing_file, stored_or_given_size

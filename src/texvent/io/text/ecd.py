@@ -20,7 +20,8 @@ from types import TracebackType
 from typing import Any, ClassVar, Self
 
 from texvent.errors import FileFormatError, InputError, OutputError
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, check_output
 from texvent.io.columns import existing_file, stored_or_given_size, stream_from_file
 from texvent.io.sidecar import read_sidecar, sidecar_path, sidecar_text

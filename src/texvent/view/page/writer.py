@@ -14,7 +14,8 @@ from types import TracebackType
 from typing import Any, Self
 
 from texvent.errors import OutputError
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, check_output
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS, Frame

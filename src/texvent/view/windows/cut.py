@@ -8,7 +8,8 @@ from fractions import Fraction
 import numpy as np
 
 from texvent.errors import ConfigError
-from texvent.events import EventPackets, EventStream
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
 from texvent.represent.event_frame import count_events
 from texvent.sensor import SensorSize
 from texvent.view.windows.event_window import EventWindow

@@ -1,13 +1,17 @@
-"""Recordings cut into the slices that a network is shown, packet by packet, with flat memory."""
+"""Recordings cut into slices, packet by packet, with flat memory."""
 
 from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
+from typing import Any
 
 from texvent.errors import ConfigError, InputError
+from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.represent.array_ops import Array
+from texvent.represent.named import load_representation, represent, represent_window
 from texvent.sensor import SensorSize
 
 END_OF_TIME_US = 2**62
@@ -109,6 +113,33 @@ def slice_by_count(
     for part in _counted(packets, count, size):
         end_us = max(int(part.t[-1]), end_us + 1)
         yield end_us, part
+
+
+def represent_slices(
+    name: str,
+    events: EventPackets,
+    *,
+    duration_us: int | None = None,
+    count: int | None = None,
+    device: str | None = None,
+    **options: Any,
+) -> Iterator[Array]:
+    """A dense array for every slice of a recording; see `EventPackets.represent`."""
+    if (duration_us is None) == (count is None):
+        raise ConfigError(
+            "give either duration_us or count, the length of a slice; for one array of the whole "
+            "recording, collect() the packets first"
+        )
+    load_representation(name, options)  # refused here, not when the first array is asked for
+    if count is not None:
+        slices = slice_by_count(events, count=count, size=events.size)
+        return (represent(name, part, device=device, **options) for _, part in slices)
+    length = int(duration_us or 0)
+    timed = slice_regularly(events, step_us=Fraction(length), size=events.size)
+    return (
+        represent_window(name, part, (end - length, end), device=device, **options)
+        for end, part in timed
+    )
 
 
 def _counted(packets: Iterable[EventStream], count: int, size: SensorSize) -> Iterator[EventStream]:

@@ -1,0 +1,190 @@
+"""Recordings as packets of events, which need not fit in memory."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import Any, Protocol, runtime_checkable
+
+from texvent.events import EventStream
+from texvent.progress import Progress, ProgressOption, open_progress
+from texvent.sensor import SensorSize
+
+
+@runtime_checkable
+class SeekablePackets(Protocol):
+    """Packets of a file that finds a time without reading all before it."""
+
+    @property
+    def time_range(self) -> tuple[int, int] | None:
+        """As `EventPackets.time_range`."""
+        ...
+
+    def between(self, start_us: int, stop_us: int) -> Iterator[EventStream]:
+        """The packets of `start_us <= t < stop_us`."""
+        ...
+
+
+@runtime_checkable
+class ReportingPackets(Protocol):
+    """Packets that take long to make, and report how far they are."""
+
+    def report_to(self, progress: Progress) -> Iterator[EventStream]:
+        """The packets; `progress` is told of each step."""
+        ...
+
+
+@dataclass(frozen=True)
+class LazyPackets:
+    """Packets that a function makes anew for each pass."""
+
+    make: Callable[[], Iterator[EventStream]]
+
+    def __iter__(self) -> Iterator[EventStream]:
+        return self.make()
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class EventPackets:
+    """Events packet by packet, for recordings that need not fit in memory.
+
+    Every pass reads or simulates them anew.
+
+    Example:
+        >>> size = SensorSize(8, 6)
+        >>> events = EventStream.from_columns([3, 4], [0, 0], [10, 20], [1, 0], size=size)
+        >>> packets = EventPackets([events[:1], events[1:]], size)
+        >>> packets.time_range, len(packets.between(15, 30).collect())
+        ((10, 21), 1)
+        >>> [int(array.sum()) for array in packets.represent("event-frame", duration_us=8)]
+        [1, -1]
+    """
+
+    packets: Iterable[EventStream]
+    """Packets in time order; each starts no earlier than the one before it ends."""
+    size: SensorSize
+    metadata: Mapping[str, Any] = field(default_factory=dict)
+
+    def __iter__(self) -> Iterator[EventStream]:
+        return iter(self.packets)
+
+    def __repr__(self) -> str:
+        return f"EventPackets({self.size})"
+
+    def collect(self, *, progress: ProgressOption = False) -> EventStream:
+        """All packets in one stream, in memory; for `progress` see `save`."""
+        with open_progress(progress) as shown:
+            packets = list(self._reporting_to(shown))
+        whole = EventStream.concat([EventStream.empty(self.size), *packets])
+        return whole.with_metadata(self.metadata)
+
+    @property
+    def time_range(self) -> tuple[int, int] | None:
+        """Half-open range [first, last + 1) of the event times, µs, or None without events.
+
+        An HDF5 file is asked for its first and last event; all other packets are read.
+        """
+        if isinstance(self.packets, SeekablePackets):
+            return self.packets.time_range
+        ranges = [packet.time_range for packet in self]
+        known = [one for one in ranges if one is not None]
+        return (known[0][0], known[-1][1]) if known else None
+
+    def between(self, start_us: int, stop_us: int) -> EventPackets:
+        """The events with `start_us <= t < stop_us`; what comes later is not read.
+
+        In an HDF5 file, what comes before is not read either.
+        """
+        packets = self.packets
+        if isinstance(packets, SeekablePackets):
+            make = partial(packets.between, start_us, stop_us)
+        else:
+            make = partial(_packets_between, packets, start_us, stop_us)
+        return EventPackets(LazyPackets(make), self.size, self.metadata)
+
+    # What lies above this module is imported when it is called: a convenience for users.
+    def save(
+        self,
+        path: str | Path,
+        *,
+        format: str | None = None,
+        overwrite: bool = False,
+        progress: ProgressOption = None,
+    ) -> Path:
+        """Write to a file with flat memory, its format taken from the extension unless given.
+
+        Args:
+            path: the file; see `texvent.io.files` for the formats.
+            format: its format, where the extension does not say.
+            overwrite: whether an existing file may be replaced.
+            progress: a bar (True), none (False), a function that takes steps done, steps in all or
+                None, and what is done; default: a bar in a terminal or notebook.
+
+        Raises:
+            OutputError: it exists already, its folder cannot be written, or the disk is full.
+            ConfigError: unknown format or extension.
+        """
+        from texvent.io.files import save
+
+        with open_progress(progress) as shown:
+            make = partial(self._reporting_to, shown)
+            packets = EventPackets(LazyPackets(make), self.size, self.metadata)
+            return save(path, packets, format=format, overwrite=overwrite)
+
+    def show(self, path: str | Path | None = None, *, overwrite: bool = False) -> Path:
+        """Make a page of a sample of the events; see `EventStream.show`."""
+        from texvent.view.page.writer import show
+
+        return show(self, path, overwrite=overwrite)
+
+    def represent(
+        self,
+        name: str,
+        *,
+        duration_us: int | None = None,
+        count: int | None = None,
+        device: str | None = None,
+        **options: Any,
+    ) -> Iterator[Any]:
+        """A dense array for every slice of the recording, in time order, with flat memory.
+
+        For one array of everything, use `collect().represent(name)`.
+
+        Args:
+            name: such as "voxel-e2vid".
+            duration_us: length of a slice, µs, from the first event on.
+            count: events per slice. Give either this or `duration_us`.
+            device: give torch tensors on this device.
+            **options: of the representation, such as `bins=5`; those that name its window are
+                filled in.
+
+        Raises:
+            ConfigError: unknown name or option, or both or none of `duration_us` and `count`.
+        """
+        from texvent.represent.packet_slices import represent_slices
+
+        return represent_slices(
+            name, self, duration_us=duration_us, count=count, device=device, **options
+        )
+
+    def _reporting_to(self, progress: Progress) -> Iterator[EventStream]:
+        """The packets; `progress` is told of each."""
+        if isinstance(self.packets, ReportingPackets):
+            yield from self.packets.report_to(progress)
+            return
+        events = 0
+        for packet in self.packets:
+            events += len(packet)
+            progress.advance("events", events, None)
+            yield packet
+
+
+def _packets_between(
+    packets: Iterable[EventStream], start_us: int, stop_us: int
+) -> Iterator[EventStream]:
+    for packet in packets:
+        yield packet.between(start_us, stop_us)
+        if len(packet) and int(packet.t[-1]) >= stop_us:
+            return
