@@ -126,4 +126,4 @@ def test_a_live_source_is_read_only_when_its_next_frame_is_asked_for():
 
 
 def threads_of_the_pipeline():
-    return [one for one in threading.enumerate() if one.name.startswith("texvent-ahead")]
+    return [one for one in threading.enumerate() if one.name.startswith("texvent-prefetch")]

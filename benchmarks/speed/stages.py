@@ -21,7 +21,7 @@ from texvent.interpolate.densify import Pair, dense_frames, pair_up
 from texvent.io.files import open_writer
 from texvent.pipeline import video_to_events
 from texvent.runtime.background_jit import wait_until_idle
-from texvent.runtime.background_writer import WriteBehind
+from texvent.runtime.background_writer import BackgroundWriter
 from texvent.settings import Settings, resolve
 from texvent.simulate.look_ahead import step_through
 from texvent.video import Frame, FrameStream
@@ -204,7 +204,7 @@ def _run_overlapped(video: FrameStream, settings: Settings, pairs: int, path: Pa
     wait_until_idle()
     done = -1
     started = ended = 0.0
-    with open_writer(path, size=video.size) as writer, WriteBehind(writer) as behind:
+    with open_writer(path, size=video.size) as writer, BackgroundWriter(writer) as behind:
         for frame, packet in video_to_events(video, settings).steps():
             behind.append(packet)
             if not frame.is_source:

@@ -33,7 +33,7 @@ def test_a_full_disk_stops_the_run_and_leaves_nothing(tmp_path, monkeypatch, cap
     assert "the disk is full" in said.err.splitlines()[-1]
     assert said.out == ""
     assert not list(tmp_path.iterdir())
-    assert not [one for one in threading.enumerate() if one.name.startswith("texvent-behind")]
+    assert not [one for one in threading.enumerate() if one.name.startswith("texvent-writer")]
 
 
 def test_a_preview_that_fails_leaves_no_event_file_either(tmp_path, monkeypatch, capsys):

@@ -1,4 +1,4 @@
-"""Kernels that become ready while a slower twin works."""
+"""Kernels are compiled in the background while a slower form works."""
 
 import logging
 import sys
@@ -7,18 +7,16 @@ import types
 
 import pytest
 
-from texvent.runtime import background_jit as readiness
+from texvent.runtime import background_jit
 from texvent.simulate.backend.select import load_kernel_when_ready
 from texvent.simulate.packets import sorting, sorting_cpu, sorting_reference
 
 
 @pytest.fixture(autouse=True)
 def _fresh():
-    for forget in (readiness._prepare.cache_clear, readiness._ready.clear):
-        forget()
+    background_jit._prepare.cache_clear()
     yield
-    for forget in (readiness._prepare.cache_clear, readiness._ready.clear):
-        forget()
+    background_jit._prepare.cache_clear()
 
 
 @pytest.fixture
@@ -37,23 +35,23 @@ def slow_module(monkeypatch):
 
 
 def test_a_kernel_is_ready_when_it_was_warmed_up_and_not_before(slow_module):
-    assert not readiness.is_ready("slow_kernel", "uint8")
-    assert not readiness.is_ready("slow_kernel", "uint8")
+    assert not background_jit.is_ready("slow_kernel", "uint8")
+    assert not background_jit.is_ready("slow_kernel", "uint8")
     slow_module.go_on.set()
-    readiness.wait_until_ready("slow_kernel", "uint8")
-    assert readiness.is_ready("slow_kernel", "uint8")
+    background_jit.wait_until_ready("slow_kernel", "uint8")
+    assert background_jit.is_ready("slow_kernel", "uint8")
     assert slow_module.calls == [("uint8",)]
 
 
-def test_whoever_waits_learns_whether_something_is_still_being_prepared(slow_module):
-    readiness.is_ready("slow_kernel")
-    assert not readiness.wait_until_idle(0.01)
+def test_waiting_tells_whether_a_kernel_is_still_being_compiled(slow_module):
+    background_jit.is_ready("slow_kernel")
+    assert not background_jit.wait_until_idle(0.01)
     slow_module.go_on.set()
-    assert readiness.wait_until_idle()
-    readiness._compiler().shutdown()
-    readiness._compiler.cache_clear()
-    assert readiness.wait_until_idle(0.0)  # and starts no thread to find out
-    assert readiness._compiler.cache_info().currsize == 0
+    assert background_jit.wait_until_idle()
+    background_jit._compiler().shutdown()
+    background_jit._compiler.cache_clear()
+    assert background_jit.wait_until_idle(0.0)  # and starts no thread to find out
+    assert background_jit._compiler.cache_info().currsize == 0
 
 
 def test_a_kernel_that_cannot_be_compiled_is_never_ready_and_says_why_once(monkeypatch, caplog):
@@ -65,19 +63,19 @@ def test_a_kernel_that_cannot_be_compiled_is_never_ready_and_says_why_once(monke
     module.warm_up = warm_up
     monkeypatch.setitem(sys.modules, "broken_kernel", module)
     with caplog.at_level(logging.WARNING):
-        readiness.wait_until_ready("broken_kernel")
-        assert not readiness.is_ready("broken_kernel")
-        assert not readiness.is_ready("broken_kernel")
+        background_jit.wait_until_ready("broken_kernel")
+        assert not background_jit.is_ready("broken_kernel")
+        assert not background_jit.is_ready("broken_kernel")
     assert [record.message for record in caplog.records] == [
         "kernels stay uncompiled, events are the same: no folder to keep compiled code in"
     ]
 
 
-def test_without_numba_no_kernel_is_ready_and_nobody_is_warned(monkeypatch, caplog):
+def test_without_numba_no_kernel_is_ready_and_there_is_no_warning(monkeypatch, caplog):
     monkeypatch.setitem(sys.modules, "numba", None)
     with caplog.at_level(logging.WARNING):
-        readiness.wait_until_ready("texvent.simulate.packets.sorting_cpu")
-    assert not readiness.is_ready("texvent.simulate.packets.sorting_cpu")
+        background_jit.wait_until_ready("texvent.simulate.packets.sorting_cpu")
+    assert not background_jit.is_ready("texvent.simulate.packets.sorting_cpu")
     assert not caplog.records
     assert (
         load_kernel_when_ready(sorting.__name__, "sort_events", "auto")
@@ -86,7 +84,7 @@ def test_without_numba_no_kernel_is_ready_and_nobody_is_warned(monkeypatch, capl
 
 
 def test_auto_changes_to_the_compiled_kernel_when_it_is_ready():
-    readiness.wait_until_ready("texvent.simulate.packets.sorting_cpu")
+    background_jit.wait_until_ready("texvent.simulate.packets.sorting_cpu")
     assert (
         load_kernel_when_ready(sorting.__name__, "sort_events", "auto") is sorting_cpu.sort_events
     )

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from texvent.runtime.background_writer import DEPTH, WriteBehind
+from texvent.runtime.background_writer import DEPTH, BackgroundWriter
 
 
 class Slow:
@@ -26,7 +26,7 @@ class Slow:
 
 
 def write(sink, numbers):
-    with WriteBehind(sink) as behind:
+    with BackgroundWriter(sink) as behind:
         for number in numbers:
             behind.append(number)
 
@@ -41,7 +41,7 @@ def test_everything_arrives_in_order_from_one_other_thread():
 
 def test_no_more_waits_than_the_depth():
     sink = Slow(wait_s=0.002)
-    with WriteBehind(sink) as behind:
+    with BackgroundWriter(sink) as behind:
         for number in range(4 * DEPTH):
             behind.append(number)
             # Those that wait, and the one that is being written.
@@ -53,7 +53,7 @@ def test_an_error_of_the_sink_is_raised_where_the_work_is(refused):
     sink = Slow(refused)
     with pytest.raises(OSError, match="disk full"):
         write(sink, range(100))
-    assert not [one for one in threading.enumerate() if one.name.startswith("texvent-behind")]
+    assert not [one for one in threading.enumerate() if one.name.startswith("texvent-writer")]
 
 
 def test_an_error_of_the_sink_stops_the_work_soon():

@@ -7,11 +7,11 @@ import time
 
 import pytest
 
-from texvent.runtime.prefetch import read_ahead
+from texvent.runtime.prefetch import prefetch
 
 
 def own_threads():
-    return [one for one in threading.enumerate() if one.name.startswith("texvent-ahead")]
+    return [one for one in threading.enumerate() if one.name.startswith("texvent-prefetch")]
 
 
 class Counted:
@@ -37,7 +37,7 @@ class Counted:
 @pytest.mark.parametrize("count", [0, 1, 5, 100])
 def test_every_item_comes_in_order_from_one_other_thread(count, depth):
     items = Counted(count)
-    assert list(read_ahead(items, depth=depth)) == list(range(count))
+    assert list(prefetch(items, depth=depth)) == list(range(count))
     assert len(items.threads) <= 1
     assert threading.main_thread() not in items.threads
     assert not own_threads()
@@ -45,7 +45,7 @@ def test_every_item_comes_in_order_from_one_other_thread(count, depth):
 
 def test_no_more_is_made_than_was_asked_for_and_the_depth():
     items = Counted(100)
-    ahead = read_ahead(items, depth=3)
+    ahead = prefetch(items, depth=3)
     assert next(ahead) == 0
     time.sleep(0.05)
     # One was given, three are ready.
@@ -58,7 +58,7 @@ def test_no_more_is_made_than_was_asked_for_and_the_depth():
 
 def test_nothing_is_made_before_the_first_item_is_asked_for():
     items = Counted(3)
-    read_ahead(items, depth=2)
+    prefetch(items, depth=2)
     assert items.made == []
 
 
@@ -68,7 +68,7 @@ def test_an_error_comes_after_the_items_before_it():
         yield 2
         raise ValueError("the third is broken")
 
-    ahead = read_ahead(failing(), depth=2)
+    ahead = prefetch(failing(), depth=2)
     assert next(ahead) == 1
     assert next(ahead) == 2
     with pytest.raises(ValueError, match="the third is broken"):
@@ -81,7 +81,7 @@ def test_an_error_of_the_reader_ends_the_work():
     items = Counted(1000)
 
     def read_until_interrupted():
-        for number in read_ahead(items, depth=2):
+        for number in prefetch(items, depth=2):
             if number == 5:
                 raise KeyboardInterrupt
 
@@ -94,8 +94,8 @@ def test_an_error_of_the_reader_ends_the_work():
 
 def test_two_stages_end_together():
     items = Counted(1000)
-    doubled = (2 * number for number in read_ahead(items, depth=2))
-    outer = read_ahead(doubled, depth=2)
+    doubled = (2 * number for number in prefetch(items, depth=2))
+    outer = prefetch(doubled, depth=2)
     assert [next(outer) for _ in range(10)] == list(range(0, 20, 2))
     outer.close()
     del doubled
@@ -104,14 +104,14 @@ def test_two_stages_end_together():
 
 
 def test_a_plain_iterator_needs_no_close():
-    assert list(read_ahead(iter([1, 2, 3]), depth=2)) == [1, 2, 3]
+    assert list(prefetch(iter([1, 2, 3]), depth=2)) == [1, 2, 3]
 
 
 def test_a_process_that_forgets_a_reader_still_ends():
     script = (
         "import itertools, time\n"
-        "from texvent.runtime.prefetch import read_ahead\n"
-        "ahead = read_ahead((time.sleep(0.01) for _ in itertools.count()), depth=2)\n"
+        "from texvent.runtime.prefetch import prefetch\n"
+        "ahead = prefetch((time.sleep(0.01) for _ in itertools.count()), depth=2)\n"
         "next(ahead)\n"
         "print('done')\n"
     )

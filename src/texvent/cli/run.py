@@ -31,7 +31,7 @@ from texvent.events import EventStream
 from texvent.io.files import open_writer
 from texvent.pairs.scene_change import Jump
 from texvent.pipeline import Simulation
-from texvent.runtime.background_writer import WriteBehind
+from texvent.runtime.background_writer import BackgroundWriter
 from texvent.settings import Settings, unmeasured_sensor
 from texvent.video import MICROSECONDS, Frame
 
@@ -159,10 +159,10 @@ def _open_outputs(
             overwrite=options.overwrite,
             metadata=metadata,
         )
-        sinks.append(outputs.enter_context(WriteBehind(outputs.enter_context(preview))))
+        sinks.append(outputs.enter_context(BackgroundWriter(outputs.enter_context(preview))))
     writer = open_writer(path, size=size, metadata=metadata, overwrite=options.overwrite)
     events = _EventFile(outputs.enter_context(writer))
-    sinks.append(outputs.enter_context(WriteBehind(events)))
+    sinks.append(outputs.enter_context(BackgroundWriter(events)))
     return sinks
 
 

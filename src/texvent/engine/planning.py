@@ -10,7 +10,7 @@ from texvent.config import InterpolateConfig
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.densify import Pair, pair_up
 from texvent.runtime.allocator import release_freed_memory
-from texvent.runtime.prefetch import read_ahead
+from texvent.runtime.prefetch import prefetch
 from texvent.simulate.protocol import Simulator
 from texvent.video import Frame, FrameStream
 
@@ -50,9 +50,9 @@ def plan_pairs(
     )
     if video.is_live:
         return _release_memory(pair_up(video, interpolator, config, policy))
-    frames = threads.enter_context(closing(read_ahead(_with_luma(video), depth=FRAMES_AHEAD)))
+    frames = threads.enter_context(closing(prefetch(_with_luma(video), depth=FRAMES_AHEAD)))
     pairs = pair_up(frames, interpolator, config, policy)
-    ahead = threads.enter_context(closing(read_ahead(pairs, depth=PAIRS_AHEAD)))
+    ahead = threads.enter_context(closing(prefetch(pairs, depth=PAIRS_AHEAD)))
     return _release_memory(ahead)
 
 

@@ -11,7 +11,7 @@ from texvent.errors import ConfigError, InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.protocol import EventCodec, EventWriter, RecognisingCodec
-from texvent.runtime.background_writer import WriteBehind
+from texvent.runtime.background_writer import BackgroundWriter
 from texvent.sensor import SensorSize, checked_size
 
 
@@ -158,7 +158,7 @@ def save(
         with writer:
             writer.append(events)
     else:
-        with writer, WriteBehind(writer) as behind:
+        with writer, BackgroundWriter(writer) as behind:
             for packet in events:
                 behind.append(packet)
     return Path(path)

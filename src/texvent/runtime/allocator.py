@@ -1,9 +1,9 @@
-"""How much freed memory the process keeps, and when it goes back to the system.
+"""The C allocator: how much freed memory the process keeps, and when the system gets it back.
 
-glibc keeps small arrays that are freed for later. Frames that one thread allocates and another one
-frees tear holes into that store, and over a long video it grows to twice what is in use. Large
-arrays go back at once; the system clears every page of the next one, which costs more than filling
-it.
+glibc keeps the memory of small arrays for later ones. Where one thread allocates frames and another
+frees them, this store fragments, and in a long video it grows to twice what is in use. Large arrays
+go back to the system at once; it then clears every page of the next one, which costs more than
+filling it.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from collections.abc import Callable
 import numpy as np
 
 _LARGEST_KEPT = (32 << 20) - (1 << 16)
-"""What glibc calls DEFAULT_MMAP_THRESHOLD_MAX, less what surrounds an array."""
+"""glibc's DEFAULT_MMAP_THRESHOLD_MAX, less an array's header, bytes."""
 
 
 def release_freed_memory() -> None:
@@ -30,9 +30,9 @@ def release_freed_memory() -> None:
 def keep_freed_memory() -> None:
     """Let arrays of up to 32 MB use memory that was freed before, up to 64 MB of it.
 
-    glibc takes the largest array that was ever freed for the size up to which arrays are kept, and
-    twice that for how much is (mallopt(3), M_MMAP_THRESHOLD). So this frees one, and does nothing
-    where some program has freed a larger one already.
+    glibc keeps arrays up to the size of the largest one freed so far, and twice that size in all
+    (mallopt(3), M_MMAP_THRESHOLD). So this frees one of 32 MB. It has no effect where the process
+    has freed a larger one already.
     """
     np.empty(_LARGEST_KEPT, np.uint8)
 

@@ -1,8 +1,8 @@
-"""Kernels that are compiled by a thread, while slower twins work or whoever needs them waits.
+"""Compile kernels in a background thread, while slower forms of them work.
 
-Compiling takes seconds the first time, and loading what was compiled a third of a second. Neither
-holds up a run: a thread does it, and the caller asks at every frame whether it is done. Since all
-backends give equal events, nobody can see when the change comes.
+Compiling takes seconds the first time; loading compiled code takes a third of a second. A run need
+not wait for either: it checks at every frame whether the kernel is ready. All backends give equal
+events, so the moment of the change does not show in the output.
 """
 
 from __future__ import annotations
@@ -17,40 +17,35 @@ from texvent._require import require
 from texvent.errors import MissingDependencyError
 
 _logger = logging.getLogger(__name__)
-_ready: set[tuple[str, tuple[str, ...]]] = set()
 
 
 def is_ready(module: str, *variant: str) -> bool:
-    """Whether a compiled module can be used at once; the first call starts to prepare it.
+    """Whether the kernels of a module are compiled; the first call starts to compile them.
 
     Args:
-        module: name of a module with a function `warm_up(*variant)` that compiles what it has.
+        module: name of a module with a function `warm_up(*variant)` that compiles its kernels.
         variant: what to compile, such as the type of the frames.
 
     Returns:
-        False while it is being prepared, and for good where it cannot be.
+        False until they are compiled, and always where they cannot be.
     """
-    if (module, variant) in _ready:
-        return True
     work = _prepare(module, variant)
-    if work.done() and work.exception() is None:
-        _ready.add((module, variant))
-    return (module, variant) in _ready
+    return work.done() and work.exception() is None
 
 
 def wait_until_ready(module: str, *variant: str) -> None:
-    """Return when the module is compiled, or cannot be."""
+    """Return when the kernels of a module are compiled, or cannot be."""
     _prepare(module, variant).exception()
 
 
 def wait_until_idle(timeout_s: float | None = None) -> bool:
-    """Return when nothing is being prepared any more: what is measured from here on is compiled.
+    """Return when no kernel is being compiled any more, so that timings measure compiled code.
 
     Args:
-        timeout_s: how long to wait at most; default: as long as it takes.
+        timeout_s: how long to wait at most; default: no limit.
 
     Returns:
-        False if there still was something to prepare then.
+        False if the time was over before.
     """
     if _compiler.cache_info().currsize == 0:
         return True
@@ -75,8 +70,8 @@ def _prepare(module: str, variant: tuple[str, ...]) -> Future[None]:
 
 @functools.cache
 def _compiler() -> ThreadPoolExecutor:
-    # One thread: compilers take turns anyway. It ends its work before the process does, so that
-    # even a short run leaves the next one a compiled kernel.
+    # One thread, because Numba compiles under a lock. The process waits for it at exit, so even a
+    # short run leaves compiled kernels for the next one.
     return ThreadPoolExecutor(1, "texvent-compile")
 
 
@@ -87,7 +82,7 @@ def _report(work: Future[None]) -> None:
 
 
 def _forget() -> None:
-    """A forked child has none of its parent's threads."""
+    """Start anew in a forked child, which has none of its parent's threads."""
     _prepare.cache_clear()
     _compiler.cache_clear()
 

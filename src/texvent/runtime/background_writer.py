@@ -1,4 +1,4 @@
-"""Writing behind: what is to be written waits in a short queue, a thread of its own writes it."""
+"""A background writer: a short queue, written by a thread of its own."""
 
 from __future__ import annotations
 
@@ -10,44 +10,43 @@ from typing import Any, Protocol, Self
 from texvent.runtime.interrupts import delay_interrupts
 
 DEPTH = 8
-"""Packets that may wait; they are held in memory."""
+"""Most packets in the queue; they are held in memory."""
 
 
 class Appendable(Protocol):
     """A writer of any kind."""
 
     def append(self, *parts: Any) -> None:
-        """Take what comes next."""
+        """Write the next item."""
         ...
 
 
-class WriteBehind:
-    """Hands everything that is appended to `sink`, in order, from another thread.
+class BackgroundWriter:
+    """Appends to `sink` in another thread, in order.
 
-    To be used in a `with` block inside the sink's own: at the end of the block everything has
-    reached the sink, unless the block ends with an exception, when what still waits is dropped and
-    the sink is left to throw its file away. An error of the sink is raised by a later `append`, or
-    at the latest at the end of the block. The sink must release the interpreter's lock while it
-    works (compression, encoding) for this to gain anything.
+    Use it in a `with` block inside the sink's own. At the end of the block the queue is empty. If
+    the block ends with an exception the queue is dropped, and the sink discards its file. An error
+    of the sink is raised by a later `append`, at the latest at the end of the block. It saves time
+    where the sink releases the interpreter lock (compression, encoding).
     """
 
     def __init__(self, sink: Appendable) -> None:
         self._sink = sink
-        self._waiting: deque[Future[None]] = deque()
-        self._worker = ThreadPoolExecutor(1, thread_name_prefix="texvent-behind")
+        self._queue: deque[Future[None]] = deque()
+        self._worker = ThreadPoolExecutor(1, thread_name_prefix="texvent-writer")
 
     def __enter__(self) -> Self:
         return self
 
     def append(self, *parts: Any) -> None:
-        """Add what comes next; waits while `DEPTH` parts are still to be written.
+        """Queue the next item; waits while the queue is full.
 
         Raises:
-            Exception: what an earlier `append` of the sink raised.
+            Exception: raised by the sink for an earlier item.
         """
-        while self._waiting and (len(self._waiting) >= DEPTH or self._waiting[0].done()):
-            self._waiting.popleft().result()
-        self._waiting.append(self._worker.submit(self._sink.append, *parts))
+        while self._queue and (len(self._queue) >= DEPTH or self._queue[0].done()):
+            self._queue.popleft().result()
+        self._queue.append(self._worker.submit(self._sink.append, *parts))
 
     def __exit__(
         self,
@@ -56,8 +55,8 @@ class WriteBehind:
         trace: TracebackType | None,
     ) -> None:
         try:
-            while error is None and self._waiting:
-                self._waiting.popleft().result()
+            while error is None and self._queue:
+                self._queue.popleft().result()
         finally:
             # A second Ctrl-C must not let the sink close while the thread is still inside it.
             with delay_interrupts():

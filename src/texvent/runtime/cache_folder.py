@@ -1,4 +1,4 @@
-"""Where texvent keeps what can be made or fetched again."""
+"""The cache folder: files that can be made or downloaded again."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ CACHE_VARIABLE = "TEXVENT_CACHE"
 def cache_folder(kind: str) -> Path:
     """Folder of one kind of file: below $TEXVENT_CACHE, else below the user's cache folder.
 
-    The user's cache folder is $XDG_CACHE_HOME/texvent or ~/.cache/texvent. Nothing is made.
+    The user's cache folder is $XDG_CACHE_HOME/texvent or ~/.cache/texvent. It is not created.
 
     Args:
         kind: name of the folder, such as "weights".

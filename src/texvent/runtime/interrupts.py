@@ -1,4 +1,4 @@
-"""Ctrl-C waits while a library that loses exceptions is at work."""
+"""Delay Ctrl-C while a library runs that would lose the exception."""
 
 from __future__ import annotations
 

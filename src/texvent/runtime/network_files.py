@@ -1,4 +1,4 @@
-"""Files of network weights: read without running what they hold, refused by name."""
+"""Files of network weights: read without running their code, and checked tensor by tensor."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ PARALLEL_PREFIX = "module."
 
 
 class StandIn:
-    """In place of an object whose class is not known here: its attributes, and no behaviour."""
+    """Replaces an object of an unknown class: its attributes without its behaviour."""
 
     def __init__(self, *arguments: object) -> None:
-        """Anything may be passed; nothing is done with it."""
+        """Ignore the arguments."""
         del arguments
 
     def __setstate__(self, state: object) -> None:
-        """Keep named attributes; of state in another form nothing."""
+        """Keep named attributes; ignore any other state."""
         if isinstance(state, Mapping):
             vars(self).update(state)
 
@@ -45,14 +45,14 @@ class StandIn:
 def read_mapping(
     path: Path, where_from: str, *, extra: str, stand_ins: Sequence[str] = ()
 ) -> Mapping[str, Any]:
-    """What a weights file holds at its top: names → tensors, or → further mappings.
+    """The top level of a weights file: names → tensors, or → further mappings.
 
     Args:
         path: a `.safetensors` file, or a torch checkpoint of any other name.
-        where_from: where the right file comes from, for messages.
-        extra: the texvent extra that brings what reading needs.
+        where_from: where to get the right file, for messages.
+        extra: the texvent extra that installs torch and safetensors.
         stand_ins: `module.Class` of objects that training left in the file; each becomes a
-            `StandIn`, so none of their code is needed or run.
+            `StandIn`, so their code is neither needed nor run.
 
     Raises:
         FileFormatError: it is damaged, or holds something else.
@@ -63,7 +63,7 @@ def read_mapping(
         if path.suffix.lower() == SAFETENSORS:
             content: Any = _read_safetensors(path, extra)
         else:
-            # Training stores when it saved; a date runs no code.
+            # Training stores the date; a date runs no code.
             known = [datetime.datetime, *map(_make_stand_in, stand_ins)]
             with torch.serialization.safe_globals(known):
                 content = torch.load(path, map_location="cpu", weights_only=True)
@@ -77,14 +77,14 @@ def read_mapping(
 
 
 def describe_file(path: Path) -> dict[str, str]:
-    """What identifies a weights file in the provenance of events: its name and its sha256."""
+    """Name and sha256 of a weights file, for the provenance of events."""
     state = path.stat()
     return {"file": path.name, "sha256": _digest(path, state.st_size, state.st_mtime_ns)}
 
 
 @functools.cache
 def _digest(path: Path, size: int, changed_ns: int) -> str:
-    """Digest of a file; size and time of change are there so that another file is read again."""
+    """Digest of a file; its size and time of change make the cache read a changed file again."""
     del size, changed_ns
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()

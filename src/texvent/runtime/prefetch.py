@@ -1,4 +1,4 @@
-"""Work that runs ahead of whoever needs its result, in a thread of its own."""
+"""Prefetch: make the next items in a thread while earlier ones are used."""
 
 from __future__ import annotations
 
@@ -12,25 +12,24 @@ Item = TypeVar("Item")
 _END: Any = object()
 
 
-def read_ahead(items: Iterable[Item], *, depth: int) -> Generator[Item, None, None]:
-    """The same items in the same order, made in another thread while earlier ones are used.
+def prefetch(items: Iterable[Item], *, depth: int) -> Generator[Item, None, None]:
+    """The same items in the same order, made in another thread before they are needed.
 
-    Worth it where making an item releases the interpreter lock: decoding, optical flow, NumPy on
-    large arrays, compiled kernels. Closing the result (also by an exception in the loop over it,
-    Ctrl-C included) waits for the item that is being made, makes no more and closes `items`.
+    It saves time where making an item releases the interpreter lock: decoding, optical flow, NumPy
+    on large arrays, compiled kernels. Closing the result (also by an exception in the loop over it,
+    Ctrl-C included) waits for the current item, makes no more and closes `items`.
 
     Args:
-        items: what to read; only one thread at a time does.
-        depth: how many items are made before they are asked for, at least 1; they are held in
-            memory.
+        items: where the items come from; read by one thread at a time.
+        depth: how many items are made ahead, at least 1; they are held in memory.
 
     Yields:
         Every item. An exception of `items` is raised in its place, after the items before it.
     """
     source = iter(items)
     pending: deque[Future[Item]] = deque()
-    # One worker takes the calls in the order in which they were made.
-    worker = ThreadPoolExecutor(1, thread_name_prefix="texvent-ahead")
+    # One worker, so items keep their order.
+    worker = ThreadPoolExecutor(1, thread_name_prefix="texvent-prefetch")
     try:
         pending.extend(worker.submit(next, source, _END) for _ in range(depth))
         while (item := pending.popleft().result()) is not _END:

@@ -1,8 +1,8 @@
-"""Memory for what a kernel needs only while it works, kept by each thread from call to call.
+"""Scratch memory of kernels, kept by each thread from call to call.
 
-The system clears every page of a fresh array at its first touch, which costs more than most kernels
-do with it, and memory that was freed goes back to the system at a packet's size. What is kept grows
-to the largest packet that the thread has seen.
+The system clears every page of a new array at its first use, which costs more than most kernels
+spend on it, and arrays of a packet's size go back to the system when freed. What a thread keeps
+grows to its largest packet.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 SLACK = 1.25
-"""By how much more than asked for is taken, so that slowly growing packets do not ask each time."""
+"""Allocate this many times the size asked for, so that slowly growing packets rarely allocate."""
 
 
 class _Kept(threading.local):
@@ -26,11 +26,11 @@ _kept = _Kept()
 
 
 def take_scratch(use: str, size: int, dtype: type[np.generic]) -> NDArray[Any]:
-    """A flat array of a thread's own, of any content, until the thread asks again for that use.
+    """An uninitialised flat array of this thread, valid until its next call for the same use.
 
     Args:
-        use: what it is for; each use has one type.
-        size: how many elements, at least 0.
+        use: name of the use; each has one type.
+        size: number of elements, at least 0.
         dtype: their type.
 
     Returns:

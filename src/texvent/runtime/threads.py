@@ -1,9 +1,9 @@
-"""Work shared out among threads: how many there are, and how a frame is cut for them.
+"""Threads that share the work on a frame: how many there are, and how to split it.
 
-Compiled kernels and NumPy release the interpreter lock, so threads do the work of processes.
-Handing a piece of work to a thread and waiting for it takes about 20 µs, so it pays for pieces of
-several hundred µs: several frames at once, or a model that computes much per pixel. Clips that run
-at the same time, a thread each, need none of this.
+Compiled kernels and NumPy release the interpreter lock, so threads run in parallel. To hand a part
+to a thread and wait for it takes about 20 µs, so it pays for parts of several hundred µs: several
+frames at once, or a model that computes much per pixel. Clips that run in a thread each need none
+of this.
 """
 
 from __future__ import annotations
@@ -55,17 +55,17 @@ def split(size: int, parts: int, *, unit: int = 1) -> list[slice]:
 
 
 def run_parts(work: Callable[[Part], Result], parts: Sequence[Part]) -> list[Result]:
-    """What `work` returns for each part, in order; all but the first run in threads of their own.
+    """The result of `work` for each part, in order; all but the first run in other threads.
 
-    Returns when all are done, also if one raises. Results must not depend on who comes first.
+    Returns when all are done, also if one raises. Results must not depend on the order of work.
     """
-    others = [_crew().submit(work, part) for part in parts[1:]]
+    others = [_workers().submit(work, part) for part in parts[1:]]
     try:
         first = [work(part) for part in parts[:1]]
     finally:
-        for one in others:
-            one.exception()
-    return first + [one.result() for one in others]
+        for other in others:
+            other.exception()
+    return first + [other.result() for other in others]
 
 
 def _count_cores() -> int:
@@ -75,11 +75,11 @@ def _count_cores() -> int:
 
 
 @functools.cache
-def _crew() -> ThreadPoolExecutor:
-    # Threads start when there is work for them, and wait for more at no cost.
+def _workers() -> ThreadPoolExecutor:
+    # Threads start with the first work, and then wait for more at no cost.
     return ThreadPoolExecutor(max(1, count_threads() - 1), "texvent-kernels")
 
 
 if hasattr(os, "register_at_fork"):
     # A forked child has none of its parent's threads.
-    os.register_at_fork(after_in_child=_crew.cache_clear)
+    os.register_at_fork(after_in_child=_workers.cache_clear)
