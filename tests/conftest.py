@@ -1,13 +1,14 @@
-"""A real browser for the tests that need one; Triton's interpreter where there is no GPU."""
+"""A browser, a moving texture; Triton's interpreter where there is no GPU."""
 
 from __future__ import annotations
 
 import json
 import os
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
+import numpy as np
 import pytest
 
 if shutil.which("nvidia-smi") is None:
@@ -80,3 +81,28 @@ def requests_made(browser: Any) -> Any:
         return [url for url in asked if not url.startswith(("data:", "blob:"))]
 
     return addresses
+
+
+def _texture(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Waves of many directions and lengths (6 px and longer): smooth, never the same twice."""
+    rng = np.random.default_rng(7)
+    total = np.zeros_like(x)
+    for _ in range(24):
+        length, angle = rng.uniform(6, 40), rng.uniform(0, 2 * np.pi)
+        phase = rng.uniform(0, 2 * np.pi)
+        total += np.sin(2 * np.pi * (x * np.cos(angle) + y * np.sin(angle)) / length + phase)
+    return 128.0 + 20.0 * total
+
+
+@pytest.fixture(scope="session")
+def moving_texture() -> Callable[..., np.ndarray]:
+    """`moving_texture(dx, dy, width=, height=)`: float32 image of the texture moved by that.
+
+    It is known at every position, so intermediate frames have an exact answer.
+    """
+
+    def render(dx: float, dy: float = 0.0, *, width: int = 160, height: int = 120) -> np.ndarray:
+        y, x = np.mgrid[:height, :width].astype(np.float64)
+        return np.clip(_texture(x - dx, y - dy), 0, 255).astype(np.float32)
+
+    return render

@@ -1,4 +1,4 @@
-"""A moving texture that is known at every position, so in-between frames have an exact answer."""
+"""Frames, streams and options that the tests of all interpolators share."""
 
 from __future__ import annotations
 
@@ -11,28 +11,6 @@ import pytest
 
 from texvent.config import InterpolateConfig
 from texvent.video import Frame, Video
-
-
-def _texture(x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Waves of many directions and lengths (6 px and longer): smooth, and nowhere repeating."""
-    rng = np.random.default_rng(7)
-    total = np.zeros_like(x)
-    for _ in range(24):
-        length, angle = rng.uniform(6, 40), rng.uniform(0, 2 * np.pi)
-        phase = rng.uniform(0, 2 * np.pi)
-        total += np.sin(2 * np.pi * (x * np.cos(angle) + y * np.sin(angle)) / length + phase)
-    return 128.0 + 20.0 * total
-
-
-@pytest.fixture(scope="session")
-def moving_texture() -> Callable[..., np.ndarray]:
-    """`moving_texture(dx, dy, width=, height=)`: float32 picture of the texture moved by that."""
-
-    def render(dx: float, dy: float = 0.0, *, width: int = 160, height: int = 120) -> np.ndarray:
-        y, x = np.mgrid[:height, :width].astype(np.float64)
-        return np.clip(_texture(x - dx, y - dy), 0, 255).astype(np.float32)
-
-    return render
 
 
 @pytest.fixture(scope="session")

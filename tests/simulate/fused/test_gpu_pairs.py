@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.interpolate.rife_files import save_published
+from tests.interpolate.rife.rife_files import save_published
 from tests.simulate.gpu.clips import rows
 
 from texvent.config import InterpolateConfig

@@ -15,7 +15,7 @@ from texvent.interpolate.super_slomo.network import UNet
 from texvent.interpolate.super_slomo.weights import read_checkpoint
 from texvent.video import Frame
 
-from .rife_numpy import warp
+from ..rife.rife_numpy import warp
 
 WIDTH = 2
 """Instead of 32; every name and relation of shapes stays."""
