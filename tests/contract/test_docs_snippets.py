@@ -13,7 +13,7 @@ import pytest
 from texvent.cli.app import main
 
 ROOT = Path(__file__).parents[2]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 FENCE = re.compile(r"^```(\w+)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
@@ -26,7 +26,7 @@ def blocks(page: Path) -> list[tuple[str, str]]:
 
 
 @pytest.mark.parametrize(
-    "page", [page for page in PAGES if blocks(page)], ids=lambda page: page.name
+    "page", [page for page in PAGES if blocks(page)], ids=lambda page: str(page.relative_to(ROOT))
 )
 def test_snippets_run(page, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
@@ -47,5 +47,6 @@ def test_snippets_run(page, tmp_path, monkeypatch, capsys):
 
 def test_every_page_is_linked_from_the_readme():
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    missing = [page.name for page in PAGES[1:] if f"docs/{page.name}" not in readme]
+    pages = sorted((ROOT / "docs").glob("*.md"))
+    missing = [page.name for page in pages if f"docs/{page.name}" not in readme]
     assert not missing, f"README.md does not link docs/{missing}"
