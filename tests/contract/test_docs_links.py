@@ -1,4 +1,7 @@
-"""Every relative link in the pages leads to a file, and to a heading where it names one."""
+"""Every relative link in the pages leads to a file, and to a heading where it names one.
+
+Pages and code name other pages by path too; those paths exist.
+"""
 
 import re
 from pathlib import Path
@@ -9,6 +12,7 @@ ROOT = Path(__file__).parents[2]
 PAGES = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md"))]
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 CODE = re.compile(r"^```.*?^```$|`[^`\n]*`", re.MULTILINE | re.DOTALL)
+MENTION = re.compile(r"\bdocs/[\w/-]+\.md\b")
 HEADING = re.compile(r"^#+ (.+)$", re.MULTILINE)
 
 
@@ -49,3 +53,14 @@ def test_every_page_can_be_reached_from_the_readme():
     assert not {str(page.relative_to(ROOT)) for page in PAGES} - {
         str(page.relative_to(ROOT)) for page in reached
     }
+
+
+@pytest.mark.parametrize("folder", ["src", "benchmarks", "tests", "docs"])
+def test_pages_that_files_name_exist(folder):
+    files = [path for path in (ROOT / folder).rglob("*") if path.suffix in (".py", ".md", ".toml")]
+    named = {
+        (page, str(path.relative_to(ROOT)))
+        for path in files
+        for page in MENTION.findall(path.read_text(encoding="utf-8"))
+    }
+    assert not [(page, file) for page, file in sorted(named) if not (ROOT / page).exists()]

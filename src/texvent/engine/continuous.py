@@ -31,7 +31,7 @@ from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.video import Frame
 
 PIECE_PX = 0.5
-"""Longest way of the flow within one piece, px; docs/engine.md has the figures for others."""
+"""Longest displacement by the flow within one segment, px; figures: docs/design/simulators.md."""
 PIECE_RATIO = 1.5
 """Largest factor by which α + I changes within one piece where a pixel stands: two thresholds of
 0.2. Frames that are mixed change in intensity, not in its logarithm."""

@@ -30,10 +30,10 @@ from texvent.simulate.fused.load import find_compiled
 BAND_PIXELS = 1 << 16
 """How many pixels a thread takes at a time, at most: candidates are held band by band."""
 BUSY = 0.65
-"""From this share of active pixels on, drawing the pictures costs less: each pixel has to be moved
-in each picture either way, scanning whole pictures is faster than following pixels one by one, and
-no list of candidates has to be held. Measured (docs/engine.md): at a share of 0.5 the fused pass
-takes 0.8 to 0.9 of the time of drawing, at 0.7 0.97 to 1.07, at 0.98 1.3."""
+"""From this share of active pixels on, drawing the frames costs less: each pixel has to be warped
+in each frame either way, and scanning whole frames is faster than following pixels one by one.
+Measured (docs/design/simulators.md): at a share of 0.5 the fused pass takes 0.8 to 0.9 of the time
+of drawing, at 0.7 0.97 to 1.07, at 0.98 1.3."""
 
 Settled = TypeVar("Settled")
 
