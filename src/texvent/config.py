@@ -34,12 +34,13 @@ class RunConfig:
     """What decides a run as a whole."""
 
     simulator: str = "texvent"
-    """Pixel model that turns brightness into events."""
+    """Pixel model, such as texvent, esim, v2e, voltmeter or physical. It turns brightness into
+    events."""
     preset: str = "paper"
     """Named set of simulator options; single options override it."""
     sensor: str | None = None
-    """Sensor to imitate: a name such as davis346, WIDTHxHEIGHT, or a file that texvent calibrate
-    wrote. Frames are fitted to its size, and a simulator that knows its measured constants uses
+    """Sensor: a name such as davis346, WIDTHxHEIGHT, or a file of texvent calibrate.
+    Frames are fitted to its size, and a simulator that knows its measured constants uses
     them. Without it, a video keeps its own size and a generated scene is davis346."""
     engine: Literal["frames", "continuous"] = "frames"
     """Simulate the pictures that stand at Eq. 4's instants (frames), or follow each pixel along
@@ -105,10 +106,10 @@ class InterpolateConfig:
     """How many intermediate frames there are, and what they show."""
 
     interpolate: str = "flow"
-    """What fills the time between two source frames: none, blend (mix of both), flow (motion
-    compensation by DIS optical flow), rife (a trained network, the paper's choice), super-slomo
-    (the network of the paper's ablation E8), or exact (the generator renders the instant
-    itself)."""
+    """What fills the time between frames: none, blend, flow, rife, super-slomo or exact.
+    Blend mixes both; flow compensates motion by DIS optical flow; rife (the paper's choice) and
+    super-slomo (its ablation E8) are trained networks; with exact the generator renders the instant
+    itself."""
     count: Literal["brightness", "fixed"] = "brightness"
     """How many intermediate frames: as many as the brightness change needs (Eq. 4), or a fixed
     number."""

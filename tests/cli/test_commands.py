@@ -1,7 +1,6 @@
 """The command line as a user meets it: results, summaries, and one line for every mistake."""
 
 import json
-import os
 import resource
 import signal
 import subprocess
@@ -169,9 +168,7 @@ def test_doctor_and_help_succeed(capsys):
 
 @pytest.mark.parametrize("command", ["generate", "simulate", "render", "info"])
 def test_every_command_explains_its_flags(command, capsys):
-    with pytest.raises(SystemExit) as stop:
-        run(command, "--help")
-    assert stop.value.code == 0
+    assert run(command, "--help", "all") == 0
     said = capsys.readouterr().out
     assert "(default:" in said
 
@@ -213,14 +210,6 @@ def test_a_value_that_begins_with_a_hyphen_is_read(folder, capsys):
     assert "Missing value" in fails(capsys, "simulate", CLIP, "--sensor", "--quiet")
     assert "did you mean 'davis346'" in fails(capsys, "simulate", CLIP, "--sensor=davis34")
     assert not list(folder.iterdir())
-
-
-def test_help_is_readable_where_the_terminal_knows_ascii_only(folder):
-    plain = {**os.environ, "LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0"}
-    words = [sys.executable, "-m", "texvent.cli.app", "generate", "--help"]
-    done = subprocess.run(words, env=plain, capture_output=True, check=False)
-    assert done.returncode == 0, done.stderr.decode()
-    assert b"--contrast-threshold" in done.stdout.replace(b"\n", b"")
 
 
 def test_a_missing_file_and_a_missing_argument_are_named(folder, capsys):

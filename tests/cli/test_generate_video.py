@@ -120,7 +120,7 @@ def test_a_damaged_download_does_not_end_the_list(folder, capsys, monkeypatch):
         raise FileFormatError("x.safetensors is damaged")
 
     monkeypatch.setattr("texvent.cli.setup.generators.find_spec", lambda name: True)
-    monkeypatch.setattr("texvent.cli.setup.generators.load_object", lambda where: damaged)
+    monkeypatch.setattr("texvent.cli.setup.generators.find_downloaded", damaged)
     assert run("generators") == 0
     rows = capsys.readouterr().out.splitlines()
     assert next(line for line in rows if line.startswith("wan-1.3b")).split()[1] == "damaged"

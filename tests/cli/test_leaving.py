@@ -11,14 +11,14 @@ import pytest
 
 COMPILE_FOR_LONG = """
 import sys, threading, types
-from texvent.cli.shutdown import leave
-from texvent.runtime import background_jit as readiness
+from texvent.cli.shutdown import end_process
+from texvent.runtime import background_jit
 module = types.ModuleType("slow_kernel")
 module.warm_up = lambda: threading.Event().wait({seconds})
 sys.modules["slow_kernel"] = module
-readiness.is_ready("slow_kernel")
+background_jit.is_ready("slow_kernel")
 sys.stdout.write("done")
-sys.exit(leave({code}))
+sys.exit(end_process({code}))
 """
 
 

@@ -13,32 +13,32 @@ from typing import Any
 
 from texvent._registry import suggest
 from texvent._version import __version__
-from texvent.cli.shutdown import leave
+from texvent.cli.shutdown import end_process
 from texvent.errors import ConfigError, OutputError, TexventError
 from texvent.option_fields import RenamedOptionWarning
 
 COMMANDS = {
     "generate": (
         "texvent.cli.simulation.generate",
-        "Events, film, picture and page from a text prompt.",
+        "Events, video, image and page from a text prompt.",
     ),
     "batch": ("texvent.cli.simulation.batch", "Events for every prompt of a file."),
     "caption": (
         "texvent.cli.simulation.caption",
-        "Prompts from pictures, by an image-and-text model of yours.",
+        "Prompts from images, by an image-and-text model of yours.",
     ),
     "simulate": (
         "texvent.cli.simulation.simulate",
         "Events from a video, an image folder or a camera.",
     ),
-    "render": ("texvent.cli.event_files.render", "A film, GIF or picture of an event file."),
+    "render": ("texvent.cli.event_files.render", "A video, image or page of an event file."),
     "view": (
         "texvent.cli.event_files.view",
-        "Open an event file in the browser: cloud, playback, region, rate, video.",
+        "Open an event file in the browser: point cloud, playback, rate.",
     ),
     "app": (
         "texvent.cli.simulation.web",
-        "The web page: type a prompt or drop a video, see and download the events.",
+        "The web page: prompt or video in, events out.",
     ),
     "info": (
         "texvent.cli.event_files.info",
@@ -46,7 +46,7 @@ COMMANDS = {
     ),
     "convert": (
         "texvent.cli.event_files.convert",
-        "Another event format, a region, a time range, several files in one.",
+        "Another event format, a region, a time range, files merged.",
     ),
     "validate": (
         "texvent.cli.event_files.validate",
@@ -58,11 +58,11 @@ COMMANDS = {
     ),
     "reconstruct": (
         "texvent.cli.event_files.reconstruct",
-        "Pictures from events alone, by a published network whose weights are yours.",
+        "Images from events alone, by a published network.",
     ),
     "bench": (
         "texvent.cli.bench.bench",
-        "Benchmarks: which metrics can be trusted, which simulator is closest.",
+        "Benchmarks of metrics and simulators.",
     ),
     "calibrate": (
         "texvent.cli.simulation.calibrate",
@@ -75,7 +75,7 @@ COMMANDS = {
     "weights": ("texvent.cli.setup.weights", "Published network weights: list them, fetch them."),
     "generators": (
         "texvent.cli.setup.generators",
-        "Text-to-video generators: the embedded one, learned models, what is here.",
+        "Text-to-video generators: which there are, which are ready.",
     ),
     "doctor": ("texvent.cli.setup.doctor", "What is installed, what is missing, how to get it."),
 }
@@ -96,7 +96,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     _allow_any_text()
     if arguments is None:
-        return leave(_run(sys.argv[1:]))
+        return end_process(_run(sys.argv[1:]))
     return _run(list(arguments))
 
 
@@ -108,11 +108,14 @@ def _run(words: list[str]) -> int:
     except TexventError as error:
         _say(f"error: {error}")
         return error.exit_code
+    except SystemExit as stop:
+        # Help was shown.
+        return int(stop.code or 0)
     except KeyboardInterrupt:
         _say("interrupted; nothing half-written was left behind")
         return INTERRUPTED
     except BrokenPipeError:
-        # The reader of our output (head, less) left; leave as quietly as other tools do.
+        # The reader of the output (head, less) has ended: end without a message, as is usual.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except OSError as error:
@@ -141,8 +144,8 @@ def _notices() -> Iterator[None]:
 def _allow_any_text() -> None:
     """Let output that the terminal's encoding cannot show lose a character, not the run.
 
-    Help has frames and Greek letters, which a plain C locale has not; a path may hold bytes that
-    are not UTF-8, and those are written as they are.
+    Help has Greek letters, which a plain C locale has not; a path may hold bytes that are not
+    UTF-8, and those are written as they are.
     """
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):

@@ -7,27 +7,18 @@ import dataclasses
 import io
 import itertools
 import re
-import types
+import sys
 import typing
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
-from fractions import Fraction
-from pathlib import Path
 from typing import Annotated, Any
 
 import tyro
 
+from texvent.cli.help import ALL, asked_help, render_help
+from texvent.cli.option_types import REQUIRED, SCALARS, without_none
 from texvent.errors import ConfigError
-from texvent.option_fields import RenamedOptionWarning, former_names, option_help
-from texvent.option_values import parse_fraction
-
-_SCALARS: dict[Any, tuple[str, Any]] = {
-    int: ("INT", int),
-    float: ("FLOAT", float),
-    str: ("TEXT", str),
-    Path: ("PATH", Path),
-    Fraction: ("RATE", parse_fraction),
-}
+from texvent.option_fields import RenamedOptionWarning, former_names
 
 
 def parse_options(
@@ -39,9 +30,10 @@ def parse_options(
         arguments: command-line words after the command's name.
         groups: title → config instance whose values are the defaults that `--help` shows; a field
             named in the class attribute `positional` is given without a flag, and one in
-            `short_flags` also has a short one.
+            `short_flags` also has a short one. `main_options` of the first group names the
+            options that `--help` alone shows, if there are too many for one screen.
         prog: how the command is called.
-        description: first lines of its help.
+        description: first lines of its help; indented ones are kept as they are.
 
     Returns:
         Option name → value, every option included.
@@ -50,6 +42,10 @@ def parse_options(
         ConfigError: a flag that does not exist, or a value of the wrong type.
         SystemExit: `--help` was asked for and shown.
     """
+    asked = asked_help(arguments, groups)
+    if asked is not None:
+        sys.stdout.write(render_help(asked, groups, prog=prog, description=description))
+        raise SystemExit(0)
     form = dataclasses.make_dataclass(
         "Form", [(title.replace(" ", "_"), _group(group)) for title, group in groups.items()]
     )
@@ -61,7 +57,7 @@ def parse_options(
                 form,
                 args=words,
                 prog=prog,
-                description=description,
+                add_help=False,
                 config=(tyro.conf.OmitArgPrefixes,),
             )
     except SystemExit as stop:
@@ -73,6 +69,20 @@ def parse_options(
         group = getattr(parsed, part.name)
         values.update({one.name: getattr(group, one.name) for one in dataclasses.fields(group)})
     return values
+
+
+def refuse_arguments(arguments: Sequence[str], *, prog: str, description: str) -> None:
+    """Parse the command line of a command that has no options.
+
+    Raises:
+        ConfigError: there are arguments.
+        SystemExit: `--help` was asked for and shown.
+    """
+    if asked_help(arguments, ()) is not None:
+        sys.stdout.write(render_help(ALL, {}, prog=prog, description=description))
+        raise SystemExit(0)
+    if arguments:
+        raise ConfigError(f"{prog} takes no arguments; got {' '.join(arguments)!r}")
 
 
 def peek_options(arguments: Sequence[str], names: Sequence[str]) -> dict[str, str | None]:
@@ -112,9 +122,8 @@ def _current_flags(arguments: Sequence[str], groups: Iterable[Any]) -> list[str]
 
 
 def _group(config: Any) -> Any:
-    """A copy of a config's class whose fields carry help text and the current values."""
+    """A copy of a config's class whose fields have the current values as defaults."""
     hints = typing.get_type_hints(type(config))
-    helps = option_help(type(config))
     positional = getattr(config, "positional", ())
     annotate: Any = Annotated  # the notes are only known at run time, which mypy cannot follow
     required: list[Any] = []
@@ -124,9 +133,8 @@ def _group(config: Any) -> Any:
         is_positional = field.name in positional
         notes: list[Any] = [
             tyro.conf.arg(
-                help=helps.get(field.name, ""),
                 aliases=[short] if short else None,
-                # Usage lines tell one word from the other: IN OUT, not PATH PATH.
+                # Messages tell one word from the other: IN OUT, not PATH PATH.
                 metavar=field.name.upper() if is_positional else None,
             )
         ]
@@ -143,13 +151,6 @@ def _group(config: Any) -> Any:
     return group
 
 
-class _Required:
-    """Type of the marker for an option that has no default."""
-
-
-REQUIRED: Any = _Required()
-"""Default of a config field that the user must give."""
-
 _registry = tyro.constructors.ConstructorRegistry()
 
 
@@ -158,13 +159,11 @@ def _scalar_rule(
     info: tyro.constructors.PrimitiveTypeInfo,
 ) -> tyro.constructors.PrimitiveConstructorSpec[Any] | None:
     """`FLOAT` instead of `{None}|FLOAT`, exact rates, and messages that say what is expected."""
-    hint, optional = info.type, False
-    if typing.get_origin(hint) in (typing.Union, types.UnionType):
-        inner = [one for one in typing.get_args(hint) if one is not type(None)]
-        hint, optional = inner[0], len(inner) < len(typing.get_args(hint))
-    if hint not in _SCALARS:
+    hint = without_none(info.type)
+    optional = type(None) in typing.get_args(info.type)
+    if hint not in SCALARS:
         return None
-    metavar, convert = _SCALARS[hint]
+    kind, convert = SCALARS[hint]
 
     def read(words: list[str]) -> Any:
         # As a text "none" may be a name: --interpolations none.
@@ -173,11 +172,11 @@ def _scalar_rule(
         try:
             return convert(words[0])
         except (ValueError, ZeroDivisionError):
-            raise ValueError(f"{words[0]!r} is not {_EXPECTED[metavar]}") from None
+            raise ValueError(f"{words[0]!r} is not {_EXPECTED[kind]}") from None
 
     return tyro.constructors.PrimitiveConstructorSpec(
         nargs=1,
-        metavar=metavar,
+        metavar=kind,
         instance_from_str=read,
         is_instance=lambda value: value is None or isinstance(value, (hint, int)),
         str_from_instance=lambda value: ["none" if value is None else str(value)],

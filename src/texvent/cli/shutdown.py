@@ -5,14 +5,14 @@ from __future__ import annotations
 import os
 import sys
 
-PATIENCE_S = 1.0
-"""Kernels that were compiled before are loaded within this time: nothing is said about them."""
+LOADING_S = 1.0
+"""Compiled kernels are loaded within this time; only a longer wait is announced."""
 
 
-def leave(code: int) -> int:
-    """Wait for kernels that are being compiled, with a word, if the run went well; else end now.
+def end_process(code: int) -> int:
+    """Wait for kernels that are being compiled if the run went well, and say so; else end now.
 
-    Python itself waits for threads without a word, and Ctrl-C would not end that.
+    Python itself waits for threads without a message, and Ctrl-C would not end that.
 
     Args:
         code: exit code of the run; everything it opened is closed.
@@ -20,9 +20,10 @@ def leave(code: int) -> int:
     Returns:
         `code`, where nothing is left to wait for; else the process ends here.
     """
-    readiness = sys.modules.get("texvent.runtime.background_jit")
+    background_jit = sys.modules.get("texvent.runtime.background_jit")
     try:
-        if readiness is None or readiness.wait_until_idle(PATIENCE_S if code == 0 else 0.0):
+        wait_s = LOADING_S if code == 0 else 0.0
+        if background_jit is None or background_jit.wait_until_idle(wait_s):
             return code
         if code == 0:
             sys.stderr.write(
@@ -30,7 +31,7 @@ def leave(code: int) -> int:
                 "Ctrl-C leaves it to the next one\n"
             )
             sys.stderr.flush()
-            readiness.wait_until_idle()
+            background_jit.wait_until_idle()
             return code
     except KeyboardInterrupt:
         pass

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
 
-from texvent._registry import load_object
 from texvent.errors import ConfigError, InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
@@ -16,6 +15,7 @@ from texvent.view.drawing.canvas import png_bytes
 from texvent.view.drawing.caption import title_of
 from texvent.view.page.writer import PageWriter
 from texvent.view.render_config import RenderConfig
+from texvent.view.rerun_export import write_rrd
 from texvent.view.stills.busiest_window import BusiestWindow
 from texvent.view.stills.contact_sheet import draw_contact_sheet
 from texvent.view.video.encoder import VIDEO_EXTENSIONS
@@ -33,8 +33,6 @@ from texvent.view.windows.source_overlay import SourceOverlay
 __all__ = ["RENDER_EXTENSIONS", "RenderConfig", "render_events"]
 
 RENDER_EXTENSIONS = (*VIDEO_EXTENSIONS, ".png", ".html", ".rrd")
-# By name: rerun is an extra.
-RERUN_EXPORT = "texvent.view.rerun_export:write_rrd"
 
 
 def render_events(
@@ -80,7 +78,7 @@ def render_events(
     elif kind == ".html":
         _page(packets, path, config, beside, overwrite=overwrite)
     elif kind == ".rrd":
-        load_object(RERUN_EXPORT)(packets, path, config, frames=frames, overwrite=overwrite)
+        write_rrd(packets, path, config, frames=frames, overwrite=overwrite)
     else:
         _video(packets, path, config, beside, overwrite=overwrite)
     return path

@@ -11,11 +11,11 @@ from texvent.errors import ConfigError
 BENCHMARKS: Mapping[str, tuple[str, str]] = {
     "classify": (
         "texvent.cli.bench.classify:run",
-        "how many event streams does N-ImageNet's published classifier recognise?",
+        "how many streams does N-ImageNet's classifier recognise?",
     ),
     "fidelity": (
         "texvent.cli.bench.fidelity:run",
-        "which simulator comes closest to the true events of exact scenes?",
+        "which simulator comes closest to true events of exact scenes?",
     ),
     "page": (
         "texvent.cli.bench.page:run",
@@ -23,23 +23,23 @@ BENCHMARKS: Mapping[str, tuple[str, str]] = {
     ),
     "paper": (
         "texvent.cli.bench.paper:run",
-        "the paper's tables, its ablations E1-E12, or any folder of config files",
+        "the paper's tables, ablations E1-E12, or a folder of configs",
     ),
     "real": (
         "texvent.cli.bench.real:run",
-        "which simulator comes closest to what a real sensor recorded?",
+        "which simulator comes closest to a real sensor?",
     ),
     "reconstruction": (
         "texvent.cli.bench.reconstruction:run",
-        "from whose events does a network make the best pictures?",
+        "whose events give a network the best images?",
     ),
     "selftest": (
         "texvent.cli.bench.selftest:run",
-        "20 perturbations of a recording: which of them does each metric see?",
+        "20 perturbations of a recording: which does a metric see?",
     ),
     "unpaired": (
         "texvent.cli.bench.unpaired:run",
-        "do simulated streams have the statistics of recorded ones of other scenes?",
+        "do simulated streams have the statistics of recorded ones?",
     ),
 }
 """Name → what runs it, by name so that only the chosen one loads; and what it answers."""

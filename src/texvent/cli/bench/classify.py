@@ -15,7 +15,8 @@ from texvent.bench.environment import describe_environment
 from texvent.bench.recognition.classify import classify, list_samples
 from texvent.bench.recognition.resnet34 import ResNetClassifier
 from texvent.bench.recognition.resnet34_weights import read_resnet_weights
-from texvent.cli.options import REQUIRED, parse_options
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import parse_options
 from texvent.io.atomic import check_output
 
 SCHEMA = "texvent-classify-1"

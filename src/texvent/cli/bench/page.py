@@ -12,7 +12,8 @@ from texvent.bench.document import read_document
 from texvent.bench.fidelity.page import page_files
 from texvent.bench.fidelity.results import read_report
 from texvent.bench.fidelity.table import BASELINE, check_baseline
-from texvent.cli.options import REQUIRED, parse_options
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import parse_options
 from texvent.io.atomic import atomic_file, check_output
 
 

@@ -39,6 +39,10 @@ class PaperOptions:
     """Which table, from what, and where to keep the result."""
 
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+    main_options: ClassVar[tuple[str, ...]] = (
+        "table", "scenes", "recordings", "configs", "weights", "match_rate", "seed", "out",
+        "overwrite", "quiet",
+    )  # fmt: skip
 
     table: int | None = None
     """Table of the paper: 1, 2, 4, 5, 7, 8 or 9; default: the ablations of both 4 and 5."""

@@ -48,6 +48,10 @@ class ReconstructionOptions:
 
     positional: ClassVar[tuple[str, ...]] = ("recordings",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+    main_options: ClassVar[tuple[str, ...]] = (
+        "network", "weights", "simulators", "interpolations", "match_rate", "time", "noise", "out",
+        "picture", "overwrite",
+    )  # fmt: skip
 
     recordings: tuple[str, ...] = ("slider_depth",)
     """Names of pulled data sets, or paths of recordings."""

@@ -14,7 +14,8 @@ from texvent.bench.document import write_document
 from texvent.bench.environment import describe_environment
 from texvent.bench.fidelity.results import without_nan
 from texvent.bench.recognition.unpaired import compare_folders
-from texvent.cli.options import REQUIRED, parse_options
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import parse_options
 from texvent.config import check_range
 from texvent.io.atomic import check_output
 

@@ -14,7 +14,8 @@ from rich.console import Console
 from rich.table import Table
 
 from texvent.bench.selftest.controls import CONTROLLED, run_controls
-from texvent.cli.options import REQUIRED, parse_options
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import parse_options
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.io.files import load

@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from texvent.cli.event_files.time_option import keep_time_range
-from texvent.cli.options import REQUIRED, parse_options
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import parse_options
 from texvent.errors import ConfigError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
@@ -23,11 +24,9 @@ from texvent.transform.window import start_at_zero
 
 DESCRIPTION = """Convert an event file, or a part of it, to another format. Memory stays flat.
 
-texvent convert davis.aedat4 davis.h5
-
-texvent convert davis.aedat4 part.raw --from-zero --time 0.5,2 --crop 100,50,128,128
-
-texvent convert left.h5 both.h5 --merge right.h5
+  texvent convert davis.aedat4 davis.h5
+  texvent convert davis.h5 part.raw --time 0.5,2 --crop 100,50,128,128
+  texvent convert left.h5 both.h5 --merge right.h5
 
 Edits happen in this order: merge, undistort, crop, resize, from-zero, time."""
 

@@ -11,7 +11,8 @@ from typing import Any, ClassVar
 
 from texvent._registry import CODECS
 from texvent.capture.open import open_frames
-from texvent.cli.options import REQUIRED, parse_options
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import parse_options
 from texvent.config import CaptureConfig
 from texvent.errors import InputError
 from texvent.event_packets import EventPackets

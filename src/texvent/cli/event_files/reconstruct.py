@@ -1,4 +1,4 @@
-"""`texvent reconstruct EVENTS -o film.mp4`: pictures from events alone, by a published network."""
+"""`texvent reconstruct EVENTS -o out.mp4`: images from events alone, by a published network."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
 from texvent._version import __version__
 from texvent.cli.event_files.time_option import keep_time_range
-from texvent.cli.options import REQUIRED, parse_options
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import parse_options
 from texvent.errors import ConfigError, InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
@@ -27,21 +28,16 @@ from texvent.sensor import parse_sensor
 from texvent.video import MICROSECONDS
 from texvent.view.video.image_sink import check_image_output, open_image_sink
 
-DESCRIPTION = """Turn events into the pictures that a camera would have taken, by a published
-network whose weights are yours (docs/reconstruction.md says where they come from).
+DESCRIPTION = """Reconstruct intensity images from events by a published network whose weights you
+provide (docs/reconstruction.md says where to get them).
 
-texvent reconstruct out.h5 -o film.mp4 --network firenet --weights firenet.pth
-
-texvent reconstruct out.h5 -o frames/ --network e2vid --weights e2vid.pth --fps 100
-
-texvent reconstruct out.h5 -o film.mp4 --network e2vid --events-per-picture 15000
-
-A folder gets numbered PNG files and their times; texvent simulate reads it again."""
+  texvent reconstruct out.h5 -o out.mp4 --network firenet --weights firenet.pth
+  texvent reconstruct out.h5 -o frames/ --weights e2vid.pth --fps 100"""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ReconstructOptions:
-    """Which events, and where the pictures go."""
+    """Which events, and where the images go."""
 
     positional: ClassVar[tuple[str, ...]] = ("path",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
@@ -49,14 +45,14 @@ class ReconstructOptions:
     path: Path = REQUIRED
     """Event file."""
     out: Path = REQUIRED
-    """Film (.mp4 or .gif), or a folder of PNG files."""
+    """Video (.mp4 or .gif), or a folder of PNG files and their times, which texvent simulate reads
+    again."""
     fps: Fraction = Fraction(30)
-    """Pictures per second of the recording; each is made from the events since the one before."""
+    """Images per second of the recording; each is made from the events since the one before."""
     events_per_picture: int | None = None
-    """Fixed count instead of fixed time: every picture gathers this many events, however long
-    that takes."""
+    """Events per image, instead of a fixed time."""
     time: str | None = None
-    """Use START,STOP alone, in seconds of the recording's clock, START included; either may be
+    """Use START,STOP only, in seconds of the recording's clock. START is included; either may be
     left out."""
     format: str | None = None
     """Event format, where the extension does not say."""
@@ -76,7 +72,7 @@ class ReconstructOptions:
             )
 
     def slices(self, events: EventPackets) -> Iterator[tuple[int, EventStream]]:
-        """The events of each picture, and its time."""
+        """The events of each image, and its time."""
         if self.events_per_picture is not None:
             return slice_by_count(events, count=self.events_per_picture, size=events.size)
         return slice_regularly(events, step_us=MICROSECONDS / self.fps, size=events.size)
@@ -101,15 +97,15 @@ def run(arguments: Sequence[str]) -> int:
     )
     reconstructor = load_reconstructor(network.network, network.weights, device=network.device)
     console = Console(stderr=True, quiet=options.quiet, highlight=False)
-    pictures = reconstructor.film(options.slices(events))
+    images = reconstructor.film(options.slices(events))
     facts = _provenance(reconstructor, options, events)
     with _progress(console) as counted:
         opened = open_image_sink(
             options.out, size=events.size, fps=options.fps, facts=facts, overwrite=options.overwrite
         )
         with opened as sink:
-            for t_us, picture in counted(pictures):
-                sink.add(t_us, picture)
+            for t_us, image in counted(images):
+                sink.add(t_us, image)
     if not options.quiet:
         sys.stdout.write(f"{options.out}\n")
     return 0
@@ -118,7 +114,7 @@ def run(arguments: Sequence[str]) -> int:
 def _provenance(
     reconstructor: Reconstructor, options: ReconstructOptions, events: EventPackets
 ) -> dict[str, Any]:
-    """What made these pictures, ready for JSON."""
+    """What made these images, ready for JSON."""
     return {
         "events": {"source": str(options.path), **events.metadata},
         "network": reconstructor.name,
@@ -132,11 +128,11 @@ def _provenance(
 
 @contextmanager
 def _progress(console: Console) -> Iterator[Any]:
-    """A counter on stderr that pictures pass through; silent where it is not a terminal."""
+    """A counter on stderr of the images that pass; silent where it is not a terminal."""
     bar = Progress(
         SpinnerColumn(),
         TextColumn("{task.description}"),
-        TextColumn("{task.completed} pictures"),
+        TextColumn("{task.completed} images"),
         TimeElapsedColumn(),
         console=console,
         disable=console.quiet or not console.is_terminal,
@@ -145,9 +141,9 @@ def _progress(console: Console) -> Iterator[Any]:
     with bar:
         task = bar.add_task("reconstructing", total=None)
 
-        def counted(pictures: Iterable[Any]) -> Iterator[Any]:
-            for picture in pictures:
+        def counted(images: Iterable[Any]) -> Iterator[Any]:
+            for image in images:
                 bar.advance(task)
-                yield picture
+                yield image
 
         yield counted

@@ -10,29 +10,22 @@ from typing import ClassVar
 
 from texvent.cli.event_files.time_option import keep_time_range
 from texvent.cli.event_files.video_option import AUTOMATIC, frames_for_overlay
-from texvent.cli.options import REQUIRED, parse_options
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import parse_options
 from texvent.errors import InputError
 from texvent.io.files import open_events
 from texvent.option_fields import option_names
 from texvent.sensor import parse_sensor
 from texvent.view.render import RenderConfig, render_events
 
-DESCRIPTION = """Make an event file visible: a film (.mp4, .gif), a picture (.png), a page that
-turns under the mouse (.html), or a recording for the rerun viewer (.rrd).
+DESCRIPTION = """Render an event file as a video (.mp4, .gif), an image (.png), an interactive page
+(.html) or a recording for the rerun viewer (.rrd).
 
-texvent render out.h5 -o slow.mp4 --speed 0.1            ten times slower
-
-texvent render out.h5 -o sheet.png --panels 9            nine moments on one sheet
-
-texvent render out.h5 -o out.mp4 --decay 30              events fade over 30 ms
-
-texvent render out.h5 -o out.mp4 --events-per-picture 5000
-
-texvent render out.h5 -o part.mp4 --time 0.5,1            half a second of it
-
-texvent render out.h5 -o out.mp4 --overlay both          boxes and optical flow (embedded generator)
-
-texvent render clip.raw -o out.mp4 --video clip.mp4      the video on the left"""
+  texvent render out.h5 -o slow.mp4 --speed 0.1        ten times slower
+  texvent render out.h5 -o sheet.png --panels 9        contact sheet of nine
+  texvent render out.h5 -o out.mp4 --decay 30          events fade over 30 ms
+  texvent render out.h5 -o out.mp4 --overlay both      boxes and optical flow
+  texvent render clip.raw -o out.mp4 --video clip.mp4  the video on the left"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,16 +34,20 @@ class RenderOptions:
 
     positional: ClassVar[tuple[str, ...]] = ("path",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+    main_options: ClassVar[tuple[str, ...]] = (
+        "out", "video", "time", "speed", "render_fps", "window", "decay", "panels", "overlay",
+        "palette", "overwrite",
+    )  # fmt: skip
 
     path: Path = REQUIRED
     """Event file."""
     out: Path = REQUIRED
-    """What to write; the extension decides: .mp4, .gif, .png, .html or .rrd."""
+    """File to write: .mp4, .gif, .png, .html or .rrd."""
     video: str = AUTOMATIC
-    """Video beside the events: a file, an image folder, none, or auto, which renders the scene
-    again if the embedded generator made the file."""
+    """Source video to show: a file, an image folder, none or auto. Auto renders the scene again if
+    the embedded generator made the file."""
     time: str | None = None
-    """Show START,STOP alone, in seconds of the recording's clock, START included; either may be
+    """Show START,STOP only, in seconds of the recording's clock. START is included; either may be
     left out."""
     format: str | None = None
     """Event format, where the extension does not say."""
@@ -66,7 +63,7 @@ def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
     values = parse_options(
         arguments,
-        {"input": RenderOptions(), "picture": RenderConfig()},
+        {"input": RenderOptions(), "image": RenderConfig()},
         prog="texvent render",
         description=DESCRIPTION,
     )

@@ -10,7 +10,8 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
-from texvent.cli.options import REQUIRED, parse_options
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import parse_options
 from texvent.io.files import open_events
 from texvent.metrics.timing.soundness import SoundnessCheck
 from texvent.sensor import parse_sensor

@@ -33,6 +33,6 @@ def frames_for_overlay(video: str, events: EventPackets) -> FrameStream | None:
         return again if again is not None and again.size == events.size else None
     if not Path(video).exists():
         raise InputError(
-            f"no such video: {video}; give a file, a folder of pictures, {AUTOMATIC} or {NO_VIDEO}"
+            f"no such video: {video}; give a file, a folder of images, {AUTOMATIC} or {NO_VIDEO}"
         )
     return open_frames(video, CaptureConfig(), size=events.size)

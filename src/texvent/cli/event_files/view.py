@@ -12,7 +12,8 @@ from typing import ClassVar
 
 from texvent.cli.event_files.time_option import keep_time_range
 from texvent.cli.event_files.video_option import AUTOMATIC, frames_for_overlay
-from texvent.cli.options import REQUIRED, parse_options
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import parse_options
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError
 from texvent.io.files import open_events
@@ -20,14 +21,12 @@ from texvent.sensor import parse_sensor
 from texvent.view.drawing.palettes import DEFAULT_PALETTE
 from texvent.view.render import RenderConfig, render_events
 
-DESCRIPTION = """Open an event file in the browser: a cloud over x, y and time that turns under the
-mouse, playback, a region to select, the event rate, and the video beside it.
+DESCRIPTION = """Open an event file in the browser: a point cloud over x, y and time, playback, a
+region to select, the event rate and the source video.
 
-texvent view out.h5                       a temporary page, opened at once
-
-texvent view out.h5 -o page.html          one file to keep or send; nothing is opened
-
-texvent view clip.aedat4 --video clip.mp4"""
+  texvent view out.h5                        a temporary page, opened at once
+  texvent view out.h5 -o page.html           a page to keep or send, not opened
+  texvent view clip.aedat4 --video clip.mp4  with the video"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,15 +41,15 @@ class ViewOptions:
     out: Path | None = None
     """Page to save (.html). Without it, a temporary page is made and opened in the browser."""
     video: str = AUTOMATIC
-    """Video beside the events: a file, an image folder, none, or auto, which renders the scene
-    again if the embedded generator made the file."""
+    """Source video to show: a file, an image folder, none or auto. Auto renders the scene again if
+    the embedded generator made the file."""
     points: int = 1_000_000
     """Most events in the cloud: of a longer recording, that many are drawn uniformly at random,
     and the page says so. A million make a page of 12 MB."""
     palette: str = DEFAULT_PALETTE
     """Colours of ON and OFF events."""
     time: str | None = None
-    """Show START,STOP alone, in seconds of the recording's clock, START included; either may be
+    """Show START,STOP only, in seconds of the recording's clock. START is included; either may be
     left out."""
     format: str | None = None
     """Event format, where the extension does not say."""
@@ -65,7 +64,7 @@ class ViewOptions:
         check_range("points", self.points, 1, 20_000_000)
         if self.out is not None and self.out.suffix.lower() != ".html":
             raise ConfigError(
-                f"a page must end in .html; got {self.out}. For films and pictures: texvent render"
+                f"a page must end in .html; got {self.out}. For videos and images: texvent render"
             )
 
 

@@ -2,23 +2,16 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from rich.console import Console
-from rich.table import Table
-
-from texvent._registry import suggest
-from texvent.cli.options import REQUIRED, parse_options
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.setup.downloads import Downloads
 from texvent.data.catalogue import DATA_SETS
-from texvent.data.progress import show_progress
 from texvent.data.pull import find_pulled, pull
-from texvent.errors import ConfigError
 
-ACTIONS = ("list", "pull")
 DESCRIPTION = """Fetch a recording or clip by name: its package's archive is downloaded from the
 package index that pip uses, checked against its sha256, and only the named files are unpacked into
 the cache. `texvent data list` shows the names."""
@@ -41,45 +34,17 @@ class PullOptions:
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
-    if not arguments or arguments[0] in ("-h", "--help"):
-        sys.stdout.write(
-            "usage: texvent data list\n       texvent data pull NAME [OPTIONS]\n\n"
-            "Recordings and clips to try things on; none of them is part of texvent.\n"
-        )
-        return 0 if arguments else 2
-    if arguments[0] not in ACTIONS:
-        raise ConfigError(f"unknown action 'data {arguments[0]}'; {suggest(arguments[0], ACTIONS)}")
-    return _list(arguments[1:]) if arguments[0] == "list" else _pull(arguments[1:])
+    return Downloads(
+        command="data",
+        purpose="Recordings and clips to try things on; none of them is part of texvent.",
+        pull_description=DESCRIPTION,
+        options=PullOptions(),
+        entries=_entries,
+        pull=pull,
+    ).run(arguments)
 
 
-def _list(arguments: Sequence[str]) -> int:
-    if arguments:
-        raise ConfigError(f"texvent data list takes no arguments; got {' '.join(arguments)!r}")
-    table = Table(box=None, pad_edge=False, header_style="bold")
-    for title in ("name", "here", "download", "what it is"):
-        table.add_column(title)
+def _entries() -> Iterator[tuple[str, bool, int, str]]:
     for name, data_set in DATA_SETS.items():
-        here = "yes" if find_pulled(name) else ""
-        megabytes = f"{data_set.archive.size / 2**20:.0f} MB"
-        table.add_row(name, here, megabytes, data_set.description)
-    console = Console(highlight=False)
-    console.print(table)
-    console.print("Terms of use are shown before a download: texvent data pull NAME", style="dim")
-    return 0
-
-
-def _pull(arguments: Sequence[str]) -> int:
-    values = parse_options(
-        arguments, {"input": PullOptions()}, prog="texvent data pull", description=DESCRIPTION
-    )
-    options = PullOptions(**values)
-    console = Console(stderr=True, quiet=options.quiet, highlight=False)
-    shows_bar = console.is_terminal and not options.quiet
-    path = pull(
-        options.name,
-        folder=options.folder,
-        progress=show_progress if shows_bar else None,
-        announce=lambda line: console.print(line, markup=False),
-    )
-    sys.stdout.write(f"{path}\n")
-    return 0
+        is_here = find_pulled(name) is not None
+        yield name, is_here, data_set.archive.size, data_set.description

@@ -18,14 +18,17 @@ from rich.markup import escape
 
 from texvent._registry import REGISTRIES
 from texvent._version import __version__
-from texvent.errors import ConfigError
+from texvent.cli.options import refuse_arguments
+
+DESCRIPTION = """Say what is installed, what is missing, and how to get it. Exit code 1 if something
+needed is missing."""
 
 BASE = {
     "numpy": "arrays",
     "numba": "fast kernels and the scene renderer",
     "h5py": "HDF5 event files",
     "av": "reading and writing video",
-    "opencv-python-headless": "pictures, resizing",
+    "opencv-python-headless": "images, resizing",
     "tyro": "command line",
     "rich": "progress and tables",
     "pyyaml": "YAML config files",
@@ -69,14 +72,7 @@ class Finding:
 
 def run(arguments: Sequence[str]) -> int:
     """Print the report; returns 0 if everything texvent needs is there, else 1."""
-    if set(arguments) & {"-h", "--help"}:
-        sys.stdout.write(
-            "usage: texvent doctor\n\nSay what is installed, what is missing, "
-            "and how to get it. Exit code 1 if something needed is missing.\n"
-        )
-        return 0
-    if arguments:
-        raise ConfigError(f"texvent doctor takes no arguments; got {' '.join(arguments)!r}")
+    refuse_arguments(arguments, prog="texvent doctor", description=DESCRIPTION)
     findings = examine()
     console = Console(highlight=False, soft_wrap=True)
     width = max(len(finding.name) for finding in findings)
@@ -129,7 +125,7 @@ def _extra(name: str, module: str, purpose: str) -> Finding:
 
 
 def _encoder() -> Finding:
-    """Whether films can be written: some builds of FFmpeg have no H.264 encoder."""
+    """Whether videos can be written: some builds of FFmpeg have no H.264 encoder."""
     try:
         av = importlib.import_module("av")
         av.codec.Codec("libx264", "w")

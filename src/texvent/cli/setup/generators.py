@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from importlib.util import find_spec
 
 from rich.console import Console
 from rich.table import Table
 
-from texvent._registry import GENERATORS, load_object
-from texvent.errors import ConfigError, FileFormatError
+from texvent._registry import GENERATORS
+from texvent.cli.options import refuse_arguments
+from texvent.errors import FileFormatError
+from texvent.generate.models.download import find_downloaded
 from texvent.generate.models.known_models import MODELS, VideoModel
 
 HUB_PACKAGE = "huggingface_hub"
@@ -18,25 +19,18 @@ PIPELINE_PACKAGE = "diffusers"
 MAKES_WIDTH = len("121 x 1280x704, 24 fps")
 ROOMY_WIDTH = 120
 """Columns of a terminal in which sentences need not be narrow."""
-USAGE = """usage: texvent generators
-
-The text-to-video generators: what they make, under which licence, and whether they are here.
-
-A name of the list, a folder of a saved diffusers pipeline, any repository of the model hub:
+DESCRIPTION = """List the text-to-video generators: what they make, under which licence, and
+whether they are here. --generator takes a name of the list, a folder of a saved diffusers pipeline,
+or any repository of the model hub.
 
   texvent generate "a red car" --generator wan-1.3b
   texvent generate "a red car" --generator ./my-model --fps 16
-  texvent generate "a red car" --generator hub:org/name --fps 16
-"""
+  texvent generate "a red car" --generator hub:org/name --fps 16"""
 
 
 def run(arguments: Sequence[str]) -> int:
     """Print the table; returns exit code 0."""
-    if set(arguments) & {"-h", "--help"}:
-        sys.stdout.write(USAGE)
-        return 0
-    if arguments:
-        raise ConfigError(f"texvent generators takes no arguments; got {' '.join(arguments)!r}")
+    refuse_arguments(arguments, prog="texvent generators", description=DESCRIPTION)
     console = Console(highlight=False)
     table = Table(box=None, pad_edge=False, header_style="bold")
     for title in ("name", "here", "makes", "GPU GB", "licence"):
@@ -77,7 +71,7 @@ def _is_here(model: VideoModel) -> str:
     if find_spec(HUB_PACKAGE) is None:
         return ""
     try:
-        found = load_object("texvent.generate.models.download:find_downloaded")(model)
+        found = find_downloaded(model)
     except FileFormatError:
         return "damaged"
     return "yes" if found is not None else ""

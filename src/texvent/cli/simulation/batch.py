@@ -11,10 +11,10 @@ from typing import ClassVar
 
 from texvent._registry import GENERATORS
 from texvent.cli.command import resolve_command
-from texvent.cli.options import REQUIRED
+from texvent.cli.option_types import REQUIRED
 from texvent.cli.outputs import OutputOptions
 from texvent.cli.run import execute, print_settings
-from texvent.cli.simulation.generate import detail
+from texvent.cli.simulation.generate import PromptOptions, detail
 from texvent.console_progress import ConsoleProgress
 from texvent.errors import (
     ConfigError,
@@ -30,7 +30,9 @@ from texvent.settings import Settings, apply_options
 
 DESCRIPTION = """Events for every prompt of a file: .txt (one per line), .csv or .jsonl (prompt, and
 perhaps name and seed). Prompts whose event file exists already are skipped, so a batch that was
-stopped goes on where it was. A model is loaded once."""
+stopped goes on where it was. A model is loaded once.
+
+  texvent batch prompts.csv --generator wan-1.3b -o events"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,6 +40,7 @@ class BatchOptions(UpsampleConfig):
     """Which prompts."""
 
     positional: ClassVar[tuple[str, ...]] = ("prompts",)
+    main_options: ClassVar[tuple[str, ...]] = PromptOptions.main_options
 
     prompts: Path = REQUIRED
     """File of prompts: .txt, .csv or .jsonl."""

@@ -16,7 +16,8 @@ from texvent.calibrate.fit import fit_sensor
 from texvent.calibrate.preset import describe_fit, write_preset
 from texvent.calibrate.recording import Recording
 from texvent.capture.open import open_frames
-from texvent.cli.options import REQUIRED, parse_options
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import parse_options
 from texvent.config import CaptureConfig, InterpolateConfig, check_range
 from texvent.errors import ConfigError, InputError
 from texvent.io.atomic import check_output
@@ -27,12 +28,11 @@ from texvent.simulate.physical.config import PRESETS, PhysicalConfig
 
 DESCRIPTION = """Fit the physical model to a sensor that recorded frames and events: thresholds,
 balance, bandwidth, noise and leak. The first half of the recording is fitted, the second tells how
-good the fit is. The result is a config file:
+good the fit is. The result is a config file.
 
-texvent calibrate --frames slider_depth --events slider_depth/events.txt \\
-    --sensor davis240c -o my.toml
-
-texvent simulate video.mp4 --sensor my.toml"""
+  texvent calibrate --frames slider_depth --events slider_depth/events.txt \\
+      --sensor davis240c -o my.toml
+  texvent simulate video.mp4 --sensor my.toml"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,6 +40,10 @@ class CalibrateOptions:
     """Which recording, and where the result goes."""
 
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+    main_options: ClassVar[tuple[str, ...]] = (
+        "frames", "events", "out", "sensor", "start_preset", "frames_gamma", "seconds", "start",
+        "stop", "interpolate", "overwrite",
+    )  # fmt: skip
 
     frames: str = REQUIRED
     """Video file, image folder or AEDAT4 recording, on the clock of the events."""

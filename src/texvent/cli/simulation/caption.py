@@ -12,7 +12,8 @@ from typing import ClassVar
 from rich.console import Console
 
 from texvent._registry import load_object
-from texvent.cli.options import REQUIRED, parse_options
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import parse_options
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.generate.prompts.caption import INSTRUCTION, find_images
@@ -21,9 +22,8 @@ from texvent.io.atomic import atomic_file, check_output
 DESCRIPTION = """Describe pictures with an image-and-text model of yours (LLaVA and its kin, run by
 transformers), one line each. The result of -o is a file for texvent batch:
 
-texvent caption photos/ --model hub:llava-hf/llava-1.5-7b-hf -o prompts.csv
-
-texvent batch prompts.csv --generator wan-1.3b -o events"""
+  texvent caption photos/ --model hub:llava-hf/llava-1.5-7b-hf -o prompts.csv
+  texvent batch prompts.csv --generator wan-1.3b -o events"""
 
 
 @dataclass(frozen=True, kw_only=True)

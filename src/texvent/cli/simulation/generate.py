@@ -11,7 +11,8 @@ from typing import ClassVar
 from texvent._registry import GENERATORS, load_object
 from texvent.capture.open import open_frames
 from texvent.cli.command import resolve_command
-from texvent.cli.options import REQUIRED, peek_options
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import peek_options
 from texvent.cli.outputs import OutputOptions
 from texvent.cli.run import execute, print_settings
 from texvent.console_progress import ConsoleProgress
@@ -21,11 +22,12 @@ from texvent.io.atomic import check_output
 from texvent.pipeline import text_to_video, video_to_events
 from texvent.settings import Settings
 
-DESCRIPTION = """Turn a sentence into the events a camera would see.
+DESCRIPTION = """Turn a sentence into the events that an event camera would record. The embedded
+generator renders simple 3-D shapes, without weights or download; `texvent generators` lists learned
+models, whose videos are cached.
 
-The embedded generator needs no weights and no download: it draws the scene with simple 3-D shapes
-and says which words it did not understand. `texvent generators` lists learned models; their videos
-are kept, so that trying other options of the simulator does not generate again."""
+  texvent generate "a red car drives left past two trees at dusk" -o out.h5
+  texvent generate "a dog runs" --generator wan-1.3b --simulator v2e --seed 3"""
 STORED_VIDEO = "texvent.generate.videos.stored_video"
 VIDEO_EXTENSION = ".avi"
 
@@ -35,12 +37,17 @@ class PromptOptions(UpsampleConfig):
     """What to show."""
 
     positional: ClassVar[tuple[str, ...]] = ("prompt",)
+    main_options: ClassVar[tuple[str, ...]] = (
+        "out", "generator", "duration", "fps", "sensor", "simulator", "preset",
+        "contrast_threshold", "noise", "interpolate", "seed", "events_only", "config", "dry_run",
+        "overwrite",
+    )  # fmt: skip
 
     prompt: str = REQUIRED
     """What to show, in plain English, quoted."""
     generator: str = next(iter(GENERATORS.builtin))
-    """Text-to-video generator: a name of `texvent generators`, the folder of a saved diffusers
-    pipeline (./my-model), or a repository of the model hub (hub:org/name)."""
+    """Text-to-video generator: see texvent generators, ./folder or hub:org/name. A folder holds a
+    saved diffusers pipeline; hub: names a repository of the model hub."""
     video_only: bool = False
     """Write the generated video (.avi, lossless, 16 bits) instead of events, and stop."""
     from_video: Path | None = None

@@ -9,14 +9,14 @@ from typing import ClassVar
 
 from texvent.capture.open import open_frames
 from texvent.cli.command import resolve_command
-from texvent.cli.options import REQUIRED
+from texvent.cli.option_types import REQUIRED
 from texvent.cli.run import execute, print_settings
 from texvent.pipeline import video_to_events
 
-DESCRIPTION = """Turn a video into the events a camera would have seen.
+DESCRIPTION = """Turn a video into the events that an event camera would have recorded.
 
-Any video file, a folder of pictures, a camera (/dev/video0), a network stream (rtsp://...) or
-standard input (-)."""
+  texvent simulate clip.mp4 -o out.h5
+  texvent simulate frames/ --fps 120 --simulator v2e --sensor davis346"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,9 +24,13 @@ class VideoOptions:
     """Which frames."""
 
     positional: ClassVar[tuple[str, ...]] = ("source",)
+    main_options: ClassVar[tuple[str, ...]] = (
+        "out", "sensor", "simulator", "preset", "contrast_threshold", "noise", "interpolate",
+        "fps", "start", "stop", "seed", "events_only", "config", "dry_run", "overwrite",
+    )  # fmt: skip
 
     source: str = REQUIRED
-    """Video file, image folder, camera, network address, or - for standard input."""
+    """Video file, image folder, camera (/dev/video0), stream (rtsp://...), - (standard input)."""
 
 
 def run(arguments: Sequence[str]) -> int:

@@ -45,8 +45,8 @@ class TexventConfig:
     multi_event: bool = False
     """Fire one event per threshold crossed, not one per frame; needs a --stamp other than eq7."""
     noise: NoiseKind = "adaptive"
-    """Background activity: in dark, resting pixels (adaptive, Eq. 6); as Gaussian noise on the
-    brightness (gaussian); at any pixel (random); or none."""
+    """Background activity: adaptive, gaussian, random or none. Adaptive fires dark, resting pixels
+    (Eq. 6); gaussian is noise on the brightness; random fires any pixel."""
     noise_rate_hz: float = 0.1
     """Noise events per pixel and second, where there is noise (λ1)."""
     noise_scale: float = 1.0

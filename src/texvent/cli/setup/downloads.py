@@ -1,0 +1,84 @@
+"""`list` and `pull` of what can be downloaded by name: `texvent data` and `texvent weights`."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+from texvent._registry import suggest
+from texvent.cli.options import parse_options, refuse_arguments
+from texvent.data.progress import show_progress
+from texvent.errors import ConfigError
+
+ACTIONS = ("list", "pull")
+
+
+@dataclass(frozen=True)
+class Downloads:
+    """A command whose entries are listed and pulled by name."""
+
+    command: str
+    """Such as "data"."""
+    purpose: str
+    """What the entries are, in one sentence."""
+    pull_description: str
+    """First lines of the help of `pull`."""
+    options: Any
+    """Config instance of `pull`, with the options `name` and `quiet`."""
+    entries: Callable[[], Iterable[tuple[str, bool, int, str]]]
+    """Name, whether it is here, bytes to download and description of each."""
+    pull: Callable[..., Path]
+    """Takes the options by name, `progress` and `announce`; returns the path."""
+
+    def run(self, arguments: Sequence[str]) -> int:
+        """Run the command; returns its exit code."""
+        if not arguments or arguments[0] in ("-h", "--help"):
+            sys.stdout.write(
+                f"usage: texvent {self.command} list\n"
+                f"       texvent {self.command} pull NAME [OPTIONS]\n\n{self.purpose}\n"
+            )
+            return 0 if arguments else 2
+        action, *rest = arguments
+        if action not in ACTIONS:
+            raise ConfigError(
+                f"unknown action '{self.command} {action}'; {suggest(action, ACTIONS)}"
+            )
+        return self._list(rest) if action == "list" else self._pull(rest)
+
+    def _list(self, arguments: Sequence[str]) -> int:
+        refuse_arguments(arguments, prog=f"texvent {self.command} list", description=self.purpose)
+        table = Table(box=None, pad_edge=False, header_style="bold")
+        for title in ("name", "here", "download", "what it is"):
+            table.add_column(title)
+        for name, is_here, size, description in self.entries():
+            table.add_row(name, "yes" if is_here else "", f"{size / 2**20:.0f} MB", description)
+        console = Console(highlight=False)
+        console.print(table)
+        console.print(
+            f"Terms of use are shown before a download: texvent {self.command} pull NAME",
+            style="dim",
+        )
+        return 0
+
+    def _pull(self, arguments: Sequence[str]) -> int:
+        values = parse_options(
+            arguments,
+            {"input": self.options},
+            prog=f"texvent {self.command} pull",
+            description=self.pull_description,
+        )
+        is_quiet = values.pop("quiet")
+        console = Console(stderr=True, quiet=is_quiet, highlight=False)
+        path = self.pull(
+            **values,
+            progress=show_progress if console.is_terminal and not is_quiet else None,
+            announce=lambda line: console.print(line, markup=False),
+        )
+        sys.stdout.write(f"{path}\n")
+        return 0

@@ -1,0 +1,119 @@
+"""Help fits a screen: what matters first, the rest by section."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from dataclasses import dataclass
+from typing import ClassVar
+
+import pytest
+
+from texvent.cli.app import COMMANDS, main
+from texvent.cli.bench.bench import BENCHMARKS
+from texvent.cli.help import asked_help, first_sentence, render_help
+
+COLUMNS, LINES = 80, 40
+EVERY_COMMAND = [
+    (),
+    *((name,) for name in COMMANDS if name not in ("bench", "data", "weights")),
+    *(("bench", name) for name in BENCHMARKS),
+    ("bench",),
+    ("data",),
+    ("data", "pull"),
+    ("weights",),
+    ("weights", "pull"),
+]
+MATTER = ("--out", "--sensor", "--simulator", "--preset", "--contrast-threshold", "--noise")
+
+
+@pytest.fixture
+def show(capsys, monkeypatch):
+    """What a command line prints in a terminal of 80 columns, which must succeed."""
+    monkeypatch.setenv("COLUMNS", str(COLUMNS))
+
+    def shown(*words):
+        assert main(words) == 0
+        return capsys.readouterr().out
+
+    return shown
+
+
+@pytest.mark.parametrize("command", EVERY_COMMAND, ids=" ".join)
+def test_help_of_every_command_fits_one_screen(show, command):
+    lines = show(*command, "--help").splitlines()
+    assert len(lines) <= LINES
+    assert max(map(len, lines)) <= COLUMNS
+
+
+@pytest.mark.parametrize("command", ["simulate", "generate"])
+def test_help_shows_what_matters_two_examples_and_where_the_rest_is(show, command):
+    said = show(command, "--help")
+    assert all(f"{flag} " in said for flag in MATTER)
+    assert said.count(f"\n  texvent {command} ") == 2
+    assert "--count-percentile" not in said
+    assert f"texvent {command} --help all" in said
+    assert "interpolate or simulate" in said.splitlines()[-1]
+
+
+@pytest.mark.parametrize("command", ["simulate", "generate", "batch"])
+def test_help_all_shows_every_option_in_its_section(show, command):
+    said = show(command, "--help", "all")
+    sections = ("input", "output", "run", "interpolate", "simulate")
+    assert all(f"\n{section}: " in said for section in sections)
+    assert all(flag in said for flag in (*MATTER, "--count-percentile", "--no-detect-cuts"))
+    assert "(default: none)" in said
+
+
+def test_help_of_a_section_shows_that_section_alone(show):
+    said = show("simulate", "--help", "interpolate")
+    assert "--count-percentile" in said
+    assert "--palette" not in said
+    assert show("simulate", "--help=output") == show("simulate", "--help", "output")
+
+
+def test_the_options_of_a_named_simulator_are_shown(show):
+    assert "--cutoff-hz" in show("simulate", "--simulator", "v2e", "--help", "simulator")
+    assert "--cutoff-hz" in show("simulate", "--help", "all", "--simulator", "v2e")
+    assert "--cutoff-hz" not in show("simulate", "--help", "all")
+
+
+def test_a_word_behind_help_that_is_no_section_belongs_to_the_command(show):
+    assert show("simulate", "--help", "clip.mp4") == show("simulate", "-h")
+    assert asked_help(["--out", "all"], ["run"]) is None
+    assert asked_help(["a.mp4", "--help", "--seed", "3"], ["run"]) == "main"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Example:
+    """What to do."""
+
+    main_options: ClassVar[tuple[str, ...]] = ("rate", "not_here")
+
+    rate: float = 2.0
+    """Rate of things (Eq. 4), such as 1.5. Not of others."""
+    sizes: tuple[int, ...] = (1, 2)
+    """Sizes."""
+
+
+def test_brief_help_has_the_first_sentence_and_full_help_all_of_the_text():
+    brief, full = (
+        render_help(asked, {"input": Example()}, prog="x", description="Does it.", width=60)
+        for asked in ("main", "all")
+    )
+    assert "such as 1.5. (default: 2.0)" in " ".join(brief.split())
+    assert "others" not in brief
+    assert "--sizes" not in brief
+    assert "Not of others. (default: 2.0)" in " ".join(full.split())
+    assert "--sizes [INT ...]" in full
+    assert "(default: 1 2)" in full
+    assert first_sentence("See Eq. 4 of v2e. It") == "See Eq. 4 of v2e."
+
+
+def test_help_is_readable_where_the_terminal_knows_ascii_only():
+    plain = {**os.environ, "LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0"}
+    words = [sys.executable, "-m", "texvent.cli.app", "generate", "--help", "all"]
+    done = subprocess.run(words, env=plain, capture_output=True, check=False)
+    assert done.returncode == 0, done.stderr.decode()
+    assert b"--contrast-threshold" in done.stdout
