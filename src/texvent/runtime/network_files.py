@@ -137,6 +137,16 @@ def shapes_of(tensors: Mapping[str, Tensor]) -> dict[str, Shape]:
     return {name: tuple(tensor.shape) for name, tensor in tensors.items()}
 
 
+def convolution_shapes(
+    name: str, channels_out: int, channels_in: int, side: int
+) -> dict[str, Shape]:
+    """Name → shape of the tensors of a convolution."""
+    return {
+        f"{name}.weight": (channels_out, channels_in, side, side),
+        f"{name}.bias": (channels_out,),
+    }
+
+
 def _make_stand_in(name: str) -> type[StandIn]:
     """A class that a pickle finds under that name."""
     module, _, qualname = name.rpartition(".")

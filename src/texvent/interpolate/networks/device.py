@@ -9,11 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from texvent._require import require
 from texvent.brightness import LUMA_WEIGHTS
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError, InputError
-from texvent.interpolate.networks.files import EXTRA, Tensor
+from texvent.interpolate.networks.torch_import import Tensor, import_torch
 from texvent.video import UINT16_PER_LEVEL, Frame
 
 WHITE = 255.0
@@ -36,7 +35,7 @@ def place(config: InterpolateConfig) -> Placement:
         ConfigError: "cuda" without a GPU that torch can use.
         MissingDependencyError: torch is not installed.
     """
-    torch = require("torch", extra=EXTRA)
+    torch = import_torch()
     has_gpu = torch.cuda.is_available()
     wanted = config.interpolator_device
     if wanted == "cuda" and not has_gpu:
@@ -47,16 +46,16 @@ def place(config: InterpolateConfig) -> Placement:
     return Placement(device, getattr(torch, config.interpolator_precision))
 
 
-def picture_tensors(first: Frame, second: Frame) -> tuple[Tensor, Tensor]:
-    """Both pictures of a pair as a network expects them.
+def image_tensors(first: Frame, second: Frame) -> tuple[Tensor, Tensor]:
+    """Both frames of a pair as a network expects them.
 
-    Grey pictures are repeated in all three channels. A pair that is brighter than white is
+    Grey frames are repeated in all three channels. A pair that is brighter than white is
     scaled down together, so that it stays in the range the network knows.
 
     Returns:
         Two tensors [1, 3, H, W] float32, 0..1, on the CPU.
     """
-    torch = require("torch", extra=EXTRA)
+    torch = import_torch()
     levels = [_levels(first), _levels(second)]
     scale = np.float32(1.0 / max(WHITE, *(float(one.max()) for one in levels)))
     earlier, later = (
@@ -99,25 +98,25 @@ def _levels(frame: Frame) -> np.ndarray[Any, np.dtype[np.float32]]:
 
 def luma_tensor(frame: Frame, device: str) -> Tensor:
     """Luma of a frame, [1, 1, H, W] float32, 0..255 scale, on the device."""
-    torch = require("torch", extra=EXTRA)
+    torch = import_torch()
     luma = np.array(frame.luma, dtype=np.float32)
     return torch.from_numpy(luma)[None, None].to(device)
 
 
-def pad_to_multiple(picture: Tensor, multiple: int) -> Tensor:
-    """The picture with its right and lower edges repeated up to a multiple of a number of px."""
-    torch = require("torch", extra=EXTRA)
-    height, width = picture.shape[-2:]
+def pad_to_multiple(image: Tensor, multiple: int) -> Tensor:
+    """The image with its right and lower edges repeated up to a multiple of a number of px."""
+    torch = import_torch()
+    height, width = image.shape[-2:]
     below, right = -height % multiple, -width % multiple
-    return torch.nn.functional.pad(picture, (0, right, 0, below), mode="replicate")
+    return torch.nn.functional.pad(image, (0, right, 0, below), mode="replicate")
 
 
 @contextmanager
 def explain_failures(device: str, *, is_compiled: bool = False) -> Iterator[None]:
-    """Turn the failures of torch that a user can do something about into one line.
+    """Turn the failures of torch that a user can remedy into one line.
 
     Raises:
-        InputError: the pictures do not fit into the device's memory.
+        InputError: the images do not fit into the device's memory.
         ConfigError: torch.compile does not work here.
     """
     try:

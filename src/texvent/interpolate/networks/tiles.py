@@ -1,4 +1,4 @@
-"""Cutting a picture into overlapping tiles, and joining their results without seams."""
+"""Overlapping tiles of an image, and weights that join their results without seams."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from texvent.errors import ConfigError
 
 OVERLAP_PX = 64
-"""What neighbouring tiles share at least."""
+"""Least overlap of neighbouring tiles."""
 
 
 @dataclass(frozen=True)
 class Tile:
-    """A part of a picture."""
+    """A part of an image."""
 
     top: int
     left: int
@@ -24,23 +24,23 @@ class Tile:
 
     @property
     def rows(self) -> slice:
-        """Its rows in the picture."""
+        """Its rows in the image."""
         return slice(self.top, self.top + self.height)
 
     @property
     def columns(self) -> slice:
-        """Its columns in the picture."""
+        """Its columns in the image."""
         return slice(self.left, self.left + self.width)
 
 
 def cut_tiles(height: int, width: int, side: int) -> list[Tile]:
-    """Tiles of at most `side` × `side` px that cover a picture, row by row.
+    """Tiles of at most `side` × `side` px that cover an image, row by row.
 
-    Neighbours overlap by at least `OVERLAP_PX`. A picture that fits is one tile.
+    Neighbours overlap by at least `OVERLAP_PX`. An image that fits is one tile.
 
     Args:
-        height: of the picture, px.
-        width: of the picture, px.
+        height: of the image, px.
+        width: of the image, px.
         side: px; 0 for one tile whatever the size.
 
     Raises:
@@ -76,8 +76,8 @@ def tile_weights(tile: Tile, height: int, width: int) -> NDArray[np.float32]:
 
     Args:
         tile: the tile.
-        height: of the whole picture, px.
-        width: of the whole picture, px.
+        height: of the whole image, px.
+        width: of the whole image, px.
 
     Returns:
         [tile height, tile width] float32, above 0.

@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-from texvent._require import require
-from texvent.interpolate.networks.files import EXTRA, Tensor
+from texvent.interpolate.networks.torch_import import Tensor, import_torch
 
 
-def warp(picture: Tensor, flow: Tensor) -> Tensor:
-    """The picture that `flow` looks up: bilinear, edges repeated.
+def warp(image: Tensor, flow: Tensor) -> Tensor:
+    """The image that `flow` looks up: bilinear, edges repeated.
 
-    float32 even for half-precision pictures: a half cannot tell the columns of a wide picture
-    apart.
+    float32 even for half-precision images: a half cannot tell the columns of a wide image apart.
 
     Args:
-        picture: [N, C, H, W].
+        image: [N, C, H, W].
         flow: from each pixel to where it is looked up, [N, 2, H, W] as (x, y), px.
 
     Returns:
-        [N, C, H, W], of the picture's type.
+        [N, C, H, W], of the image's type.
     """
-    torch = require("torch", extra=EXTRA)
-    height, width = picture.shape[-2:]
+    torch = import_torch()
+    height, width = image.shape[-2:]
     flow = flow.float()
     columns = torch.arange(width, device=flow.device, dtype=torch.float32)
     rows = torch.arange(height, device=flow.device, dtype=torch.float32)
@@ -28,10 +26,10 @@ def warp(picture: Tensor, flow: Tensor) -> Tensor:
     x = (flow[:, 0] + columns) * (2.0 / max(width - 1, 1)) - 1.0
     y = (flow[:, 1] + rows[:, None]) * (2.0 / max(height - 1, 1)) - 1.0
     moved = torch.nn.functional.grid_sample(
-        picture.float(),
+        image.float(),
         torch.stack((x, y), dim=-1),
         mode="bilinear",
         padding_mode="border",
         align_corners=True,
     )
-    return moved.to(picture.dtype)
+    return moved.to(image.dtype)

@@ -6,19 +6,16 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from texvent._require import require
 from texvent.config import InterpolateConfig
 from texvent.interpolate.networks.device import (
     Placement,
     explain_failures,
     pad_to_multiple,
-    picture_tensors,
 )
-from texvent.interpolate.networks.files import EXTRA, Tensor
 from texvent.interpolate.networks.tiles import Tile, cut_tiles, tile_weights
+from texvent.interpolate.networks.torch_import import Tensor, import_torch
 from texvent.interpolate.rife.network import EncodedPair, Motion, RifeNetwork
 from texvent.interpolate.rife.weights import RifeWeights
-from texvent.video import Frame
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +40,7 @@ class RifeEstimator:
             placement: where it runs.
             config: the side of tiles, and whether the network is compiled.
         """
-        torch = require("torch", extra=EXTRA)
+        torch = import_torch()
         tensors = {
             name: tensor.to(placement.device, placement.dtype)
             for name, tensor in weights.tensors.items()
@@ -59,29 +56,24 @@ class RifeEstimator:
             torch.compile(estimate, dynamic=False) if self._is_compiled else estimate
         )
 
-    def prepare(self, first: Frame, second: Frame) -> PreparedPair:
+    def prepare(self, *images: Tensor) -> PreparedPair:
         """What all instants of a pair share.
 
-        Raises:
-            InputError: the frames do not fit into the device's memory.
-        """
-        return self.prepare_pictures(*picture_tensors(first, second))
-
-    def prepare_pictures(self, *pictures: Tensor) -> PreparedPair:
-        """As `prepare`, for two pictures [1, 3, H, W], 0..1, of any device.
+        Args:
+            *images: the earlier and the later one, [1, 3, H, W], 0..1, on any device.
 
         Raises:
-            InputError: the pictures do not fit into the device's memory.
+            InputError: they do not fit into the device's memory.
         """
-        height, width = pictures[0].shape[-2:]
+        height, width = images[0].shape[-2:]
         tiles = []
         with self._running():
             for tile in cut_tiles(height, width, self._tile):
                 parts = (
-                    pad_to_multiple(picture[..., tile.rows, tile.columns], self._layout.pad_to).to(
+                    pad_to_multiple(image[..., tile.rows, tile.columns], self._layout.pad_to).to(
                         self._placement.device, self._placement.dtype
                     )
-                    for picture in pictures
+                    for image in images
                 )
                 tiles.append((tile, self._network.encode(*parts)))
         return PreparedPair(height, width, tuple(tiles))
@@ -96,7 +88,7 @@ class RifeEstimator:
             InputError: the frames do not fit into the device's memory.
             ConfigError: the network cannot be compiled here.
         """
-        torch = require("torch", extra=EXTRA)
+        torch = import_torch()
         instant = torch.tensor(position, dtype=torch.float32, device=self._placement.device)
         with self._running():
             if len(pair.tiles) == 1:

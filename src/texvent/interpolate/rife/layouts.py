@@ -11,9 +11,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TypeAlias
 
-Shape: TypeAlias = tuple[int, ...]
+from texvent.runtime.network_files import Shape, convolution_shapes
 
 BODY_LAYERS = 8
 """Convolutions in the middle of a block."""
@@ -31,7 +30,7 @@ class RifeLayout:
     widths: tuple[int, ...]
     """Channels inside each block."""
     scales: tuple[int, ...]
-    """By how much each block sees the pictures reduced."""
+    """By how much the images are reduced for each block."""
     head_channels: int
     """Channels that come out of a block's last layer, before the pixels are rearranged."""
     shuffles: bool
@@ -41,7 +40,7 @@ class RifeLayout:
     encoded_channels: int = 0
     """Channels of the encoder that all blocks see; 0 without one."""
     features: int = 0
-    """Channels handed from block to block beside flow and mask."""
+    """Channels that each block passes to the next, beside flow and mask."""
     replaces_mask: bool = False
     """True if each block gives the mask anew; else it adds to the one before."""
 
@@ -52,8 +51,8 @@ class RifeLayout:
 
     def input_channels(self, block: int) -> int:
         """Channels that go into a block."""
-        pictures = 2 * (3 + self.encoded_channels) + 1
-        return pictures if block == 0 else pictures + 1 + self.features + FLOW_CHANNELS
+        seen = 2 * (3 + self.encoded_channels) + 1
+        return seen if block == 0 else seen + 1 + self.features + FLOW_CHANNELS
 
     def tensor_shapes(self) -> dict[str, Shape]:
         """Name → shape of every tensor of the network, as published."""
@@ -68,16 +67,16 @@ class RifeLayout:
         shapes: dict[str, Shape] = {}
         for layer, (channels_in, channels_out) in enumerate(((inputs, half), (half, width))):
             at = f"{name}.conv0.{layer}"
-            shapes.update(_convolution(f"{at}.0", channels_out, channels_in, 3))
+            shapes.update(convolution_shapes(f"{at}.0", channels_out, channels_in, 3))
             if self.learned_slopes:
                 shapes[f"{at}.1.weight"] = (channels_out,)
         for layer in range(BODY_LAYERS):
             at = f"{name}.convblock.{layer}"
             if self.learned_slopes:
-                shapes.update(_convolution(f"{at}.0", width, width, 3))
+                shapes.update(convolution_shapes(f"{at}.0", width, width, 3))
                 shapes[f"{at}.1.weight"] = (width,)
             else:
-                shapes.update(_convolution(f"{at}.conv", width, width, 3))
+                shapes.update(convolution_shapes(f"{at}.conv", width, width, 3))
                 shapes[f"{at}.beta"] = (1, width, 1, 1)
         head = f"{name}.lastconv.0" if self.shuffles else f"{name}.lastconv"
         shapes[f"{head}.weight"] = (width, self.head_channels, 4, 4)
@@ -85,19 +84,14 @@ class RifeLayout:
         return shapes
 
     def _encoder_shapes(self) -> dict[str, Shape]:
-        shapes = _convolution("encode.cnn0", ENCODER_CHANNELS, 3, 3)
+        shapes = convolution_shapes("encode.cnn0", ENCODER_CHANNELS, 3, 3)
         for layer in (1, 2):
-            shapes.update(_convolution(f"encode.cnn{layer}", ENCODER_CHANNELS, ENCODER_CHANNELS, 3))
+            shapes.update(
+                convolution_shapes(f"encode.cnn{layer}", ENCODER_CHANNELS, ENCODER_CHANNELS, 3)
+            )
         shapes["encode.cnn3.weight"] = (ENCODER_CHANNELS, self.encoded_channels, 4, 4)
         shapes["encode.cnn3.bias"] = (self.encoded_channels,)
         return shapes
-
-
-def _convolution(name: str, channels_out: int, channels_in: int, side: int) -> dict[str, Shape]:
-    return {
-        f"{name}.weight": (channels_out, channels_in, side, side),
-        f"{name}.bias": (channels_out,),
-    }
 
 
 RIFE_4_0 = RifeLayout(
@@ -133,8 +127,8 @@ LAYOUTS = (RIFE_4_0, RIFE_4_6, RIFE_4_25)
 def recognise_layout(shapes: Mapping[str, Shape]) -> RifeLayout | None:
     """The layout of a set of tensors, or None if it is none of `LAYOUTS`.
 
-    Tensors outside the blocks and the encoder (a training teacher, a refinement network) are not
-    looked at.
+    Tensors outside the blocks and the encoder (a training teacher, a refinement network) are
+    ignored.
 
     Args:
         shapes: name → shape, names without a `module.` in front.

@@ -1,4 +1,4 @@
-"""IFNet for inference: from two pictures and an instant to the flow to both, and a mask."""
+"""IFNet for inference: from two images and an instant to the flow to both, and a mask."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from types import ModuleType
 from typing import Any
 
-from texvent._require import require
-from texvent.interpolate.networks.files import EXTRA, Tensor
+from texvent.interpolate.networks.torch_import import Tensor, import_torch
 from texvent.interpolate.networks.torch_warp import warp
 from texvent.interpolate.rife.layouts import BODY_LAYERS, FLOW_CHANNELS, RifeLayout
 
@@ -30,14 +29,14 @@ class Motion:
 class EncodedPair:
     """What all instants of a pair share."""
 
-    pictures: tuple[Tensor, Tensor]
+    images: tuple[Tensor, Tensor]
     """[1, 3, H, W] each, 0..1, sides a multiple of the layout's `pad_to`."""
     encodings: tuple[Tensor, ...]
     """[1, C, H, W] each, for the first and the second; empty without an encoder."""
 
 
 class RifeNetwork:
-    """A chain of blocks, coarse to fine, each looking at both pictures warped so far.
+    """A chain of blocks, coarse to fine; each sees both images as warped so far.
 
     Deviation: the released 4.0 doubles all scales when the second block finds more than 32 px in
         both directions; here the scales stay, so that a pair's result is continuous in its pixels.
@@ -57,14 +56,14 @@ class RifeNetwork:
     @property
     def _torch(self) -> ModuleType:
         # Not kept as an attribute: a module cannot be copied, an interpolator can.
-        return require("torch", extra=EXTRA)
+        return import_torch()
 
     def encode(self, first: Tensor, second: Tensor) -> EncodedPair:
-        """Prepare a pair: what does not depend on the instant.
+        """Prepare what does not depend on the instant.
 
         Args:
-            first: the earlier picture, [1, 3, H, W], 0..1, sides a multiple of `pad_to`.
-            second: the later picture, alike.
+            first: the earlier image, [1, 3, H, W], 0..1, sides a multiple of `pad_to`.
+            second: the later image, alike.
         """
         encodings: tuple[Tensor, ...] = ()
         if self._layout.encoded_channels:
@@ -75,16 +74,16 @@ class RifeNetwork:
         """The motion at one instant.
 
         Args:
-            pair: what `encode` gave.
-            position: τ, 0 = first picture, 1 = second, as a tensor of one number.
+            pair: from `encode`.
+            position: τ, 0 = first image, 1 = second, as a tensor of one number.
         """
         torch = self._torch
-        first, second = pair.pictures
+        first, second = pair.images
         instant = position.to(first).expand(1, 1, *first.shape[-2:])
         flow: Tensor = None
         mask: Tensor = None
         features: Tensor = None
-        moved = (*pair.pictures, *pair.encodings)
+        moved = (*pair.images, *pair.encodings)
         for block, scale in enumerate(self._layout.scales):
             if flow is None:
                 flow, mask, features = self._block(block, (*moved, instant), None, scale)
@@ -102,7 +101,7 @@ class RifeNetwork:
         return Motion(flow, mask)
 
     def _warped(self, both: tuple[Tensor, Tensor], flow: Tensor) -> tuple[Tensor, ...]:
-        """Both pictures, then both encodings, each warped; a picture goes with its encoding."""
+        """Both images, then both encodings, all warped; an image and its encoding move together."""
         first, second = warp(both[0], flow[:, :2]), warp(both[1], flow[:, 2:])
         if not self._layout.encoded_channels:
             return first, second
@@ -111,7 +110,7 @@ class RifeNetwork:
     def _block(
         self, block: int, inputs: tuple[Tensor, ...], flow: Tensor | None, scale: int
     ) -> tuple[Tensor, Tensor, Tensor]:
-        """Flow step (px), mask and features of one block, at the pictures' size."""
+        """Flow step (px), mask and features of one block, at the images' size."""
         x = self._resize(self._torch.cat(inputs, 1), 1 / scale)
         if flow is not None:
             reduced = self._resize(flow, 1 / scale) / scale
@@ -148,8 +147,8 @@ class RifeNetwork:
                 x = self._leak(step + x)
         return x + start if self._layout.learned_slopes else x
 
-    def _encode(self, picture: Tensor) -> Tensor:
-        x = self._leak(self._convolve(picture, "encode.cnn0", stride=2))
+    def _encode(self, image: Tensor) -> Tensor:
+        x = self._leak(self._convolve(image, "encode.cnn0", stride=2))
         for layer in (1, 2):
             x = self._leak(self._convolve(x, f"encode.cnn{layer}"))
         return self._convolve_up(x, "encode.cnn3")

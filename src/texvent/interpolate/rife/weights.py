@@ -1,4 +1,4 @@
-"""RIFE's weights: where they are, and which network they are of."""
+"""RIFE's weights: the file, and the layout of its network."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError
-from texvent.interpolate.networks.files import EXTRA
+from texvent.interpolate.networks.torch_import import EXTRA
 from texvent.interpolate.rife.layouts import (
     LAYOUTS,
     RifeLayout,
@@ -21,12 +21,14 @@ from texvent.runtime.network_files import (
     Tensor,
     check_finite,
     describe_file,
+    describe_mismatch,
     named_tensors,
     read_mapping,
+    shapes_of,
 )
 
 DEFAULT_FILE = "rife.safetensors"
-"""Name, in the weights folder, of what `texvent weights pull rife` leaves there."""
+"""Name, in the weights folder, of the file that `texvent weights pull rife` writes."""
 WHERE_FROM = (
     "fetch version 4.0 with: texvent weights pull rife; or pass the flownet.pkl of "
     "Practical-RIFE 4.0, 4.6, 4.25 or 4.26 with --interpolator-weights PATH"
@@ -43,7 +45,7 @@ class RifeWeights:
 
 
 def find_rife_weights(path: Path | None) -> Path:
-    """The weights file: the one named, else the one that was pulled.
+    """The weights file: `path`, else the one that was pulled.
 
     Raises:
         InputError: it does not exist.
@@ -67,9 +69,9 @@ def read_rife_weights(path: Path) -> RifeWeights:
     """
     tensors = named_tensors(read_mapping(path, WHERE_FROM, extra=EXTRA), extra=EXTRA)
     inner = {name: tensor for name, tensor in tensors.items() if is_network_tensor(name)}
-    layout = recognise_layout({name: tuple(tensor.shape) for name, tensor in inner.items()})
+    layout = recognise_layout(shapes_of(inner))
     if layout is None:
-        raise FileFormatError(f"{path} {_describe_mismatch(inner)}; {WHERE_FROM}")
+        raise FileFormatError(f"{path} {_describe_layout_mismatch(inner)}; {WHERE_FROM}")
     check_finite(inner, path)
     return RifeWeights(layout, inner)
 
@@ -103,19 +105,12 @@ def write_rife_weights(weights: RifeWeights, path: Path) -> None:
         part.write_bytes(writer.save(tensors, metadata={"layout": weights.layout.name}))
 
 
-def _describe_mismatch(tensors: dict[str, Tensor]) -> str:
+def _describe_layout_mismatch(tensors: dict[str, Tensor]) -> str:
     """How the tensors differ from the layout that they are closest to."""
     if not tensors:
         return "has no tensor of RIFE's network (none is called block0...)"
-    shapes = {name: tuple(tensor.shape) for name, tensor in tensors.items()}
+    shapes = shapes_of(tensors)
     closest = max(LAYOUTS, key=lambda one: len(shapes.items() & one.tensor_shapes().items()))
-    expected = closest.tensor_shapes()
     known = ", ".join(layout.name for layout in LAYOUTS)
-    for name, shape in expected.items():
-        if shapes.get(name) != shape:
-            found = (
-                f"has {name} of shape {list(shapes[name])}" if name in shapes else f"lacks {name}"
-            )
-            return f"{found} (layout {closest.name}: {list(shape)}); known layouts: {known}"
-    extra = min(shapes.keys() - expected.keys())
-    return f"has the unknown {extra} beside the tensors of layout {closest.name}"
+    problem = describe_mismatch(shapes, closest.tensor_shapes())
+    return f"{problem} (closest layout: {closest.name}; known layouts: {known})"

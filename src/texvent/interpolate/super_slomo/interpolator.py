@@ -2,38 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from pathlib import Path
+from collections.abc import Sequence
+from dataclasses import dataclass
 
-from texvent._require import require
 from texvent.config import InterpolateConfig
-from texvent.errors import FileFormatError
-from texvent.interpolate.networks.device import (
-    Placement,
-    explain_failures,
-    luma_tensor,
-    pad_to_multiple,
-    picture_tensors,
-    place,
-)
-from texvent.interpolate.networks.files import EXTRA, Tensor
+from texvent.interpolate.networks.device import pad_to_multiple
+from texvent.interpolate.networks.interpolator import NetworkInterpolator
+from texvent.interpolate.networks.torch_import import Tensor, import_torch
 from texvent.interpolate.networks.torch_warp import warp
 from texvent.interpolate.super_slomo.layout import FLOW_NET, PAD_TO, REFINE_NET
 from texvent.interpolate.super_slomo.network import UNet
 from texvent.interpolate.super_slomo.weights import check_checkpoint_path, read_checkpoint
-from texvent.pairs.instants import check_between, position
 from texvent.runtime.network_files import describe_file
-from texvent.video import Frame, FrameStream
+from texvent.video import FrameStream
 
 MEAN_COLOUR = (0.429, 0.431, 0.397)
-"""Subtracted from the pictures that the networks see, as in training."""
+"""Subtracted from the images that the networks see, as in training."""
 
 
-class SuperSlomoInterpolator:
+@dataclass(frozen=True, eq=False)
+class _Pair:
+    images: Tensor
+    """[1, 6, H, W], padded, less the mean colour."""
+    flows: Tensor
+    """[1, 4, H, W], px: from the first to the second (x, y), and back."""
+
+
+class SuperSlomoInterpolator(NetworkInterpolator):
     """One network estimates the flow of a pair, another corrects it at every instant.
 
     Source: Jiang et al., Super SloMo (CVPR 2018), Eqs. 1, 4 and 5; ablation E8 of the paper.
-    Deviation: pictures are warped exactly, so that zero flow moves nothing (the open
+    Deviation: images are warped exactly, so that zero flow moves nothing (the open
         implementation scales coordinates by the size instead of the size less one), edges are
         repeated instead of black, and float32 luma is moved, not 8-bit colour.
     """
@@ -52,9 +51,8 @@ class SuperSlomoInterpolator:
             FileFormatError: the weights are damaged or of another network.
         """
         del stream
-        require("torch", extra=EXTRA)
-        self._path: Path = check_checkpoint_path(config.interpolator_weights)
-        self._placement: Placement = place(config)
+        import_torch()
+        super().__init__(check_checkpoint_path(config.interpolator_weights), config)
         networks = read_checkpoint(self._path)
         self._flow_net = self._load(networks[FLOW_NET.key])
         self._refine_net = self._load(networks[REFINE_NET.key])
@@ -66,40 +64,8 @@ class SuperSlomoInterpolator:
         Raises:
             MissingDependencyError, ConfigError, InputError: as when it is built.
         """
-        require("torch", extra=EXTRA)
+        import_torch()
         return describe_file(check_checkpoint_path(config.interpolator_weights))
-
-    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
-        """Frames with every point moved along its path from `first` to `second`.
-
-        Args:
-            first: the earlier source frame.
-            second: the later source frame.
-            times_us: times of the intermediate frames, µs.
-
-        Yields:
-            One frame per time, [H, W] float32 luma, 0..255 scale.
-
-        Raises:
-            InputError: the frames differ in size, a time is not between theirs, or they do not
-                fit into the device's memory.
-            FileFormatError: the weights give numbers that are NaN or infinite.
-        """
-        check_between(first, second, times_us)
-        torch = require("torch", extra=EXTRA)
-        device = self._placement.device
-        with torch.inference_mode(), explain_failures(device):
-            lumas = luma_tensor(first, device), luma_tensor(second, device)
-            mean = torch.tensor(MEAN_COLOUR).reshape(1, 3, 1, 1)
-            pictures = torch.cat(
-                [pad_to_multiple(one - mean, PAD_TO) for one in picture_tensors(first, second)], 1
-            ).to(device)
-            flows = self._predict(self._flow_net, pictures)
-        for t_us in times_us:
-            # Not around the yield: the caller must not inherit the mode.
-            with torch.inference_mode(), explain_failures(device):
-                picture = self._picture(lumas, pictures, flows, position(first, second, t_us))
-            yield Frame(picture, t_us, is_source=False)
 
     def _load(self, tensors: dict[str, Tensor]) -> UNet:
         placement = self._placement
@@ -111,17 +77,21 @@ class SuperSlomoInterpolator:
         """The network's output, float32."""
         return network.predict(x.to(self._placement.dtype)).float()
 
-    def _picture(
-        self, lumas: tuple[Tensor, Tensor], pictures: Tensor, flows: Tensor, at: float
-    ) -> Tensor:
-        """Luma at τ = `at`, [H, W] float32 NumPy."""
-        torch = require("torch", extra=EXTRA)
-        forward, backward = flows[:, :2], flows[:, 2:]
+    def _prepare(self, images: Sequence[Tensor]) -> _Pair:
+        torch = import_torch()
+        mean = torch.tensor(MEAN_COLOUR).reshape(1, 3, 1, 1)
+        both = torch.cat([pad_to_multiple(image - mean, PAD_TO) for image in images], 1)
+        both = both.to(self._placement.device)
+        return _Pair(both, self._predict(self._flow_net, both))
+
+    def _luma_at(self, pair: _Pair, lumas: Sequence[Tensor], at: float) -> Tensor:
+        torch = import_torch()
+        forward, backward = pair.flows[:, :2], pair.flows[:, 2:]
         to_first = -(1 - at) * at * forward + at * at * backward
         to_second = (1 - at) * (1 - at) * forward - at * (1 - at) * backward
-        warped_first = warp(pictures[:, :3], to_first)
-        warped_second = warp(pictures[:, 3:], to_second)
-        seen = (pictures, flows, to_second, to_first, warped_second, warped_first)
+        warped_first = warp(pair.images[:, :3], to_first)
+        warped_second = warp(pair.images[:, 3:], to_second)
+        seen = (pair.images, pair.flows, to_second, to_first, warped_second, warped_first)
         correction = self._predict(self._refine_net, torch.cat(seen, 1))
         height, width = lumas[0].shape[-2:]
         correction = correction[..., :height, :width]
@@ -131,10 +101,4 @@ class SuperSlomoInterpolator:
         weight_first = (1 - at) * visible_first
         weight_second = at * (1 - visible_first)
         mixed = weight_first * warp(lumas[0], to_first) + weight_second * warp(lumas[1], to_second)
-        mixed = (mixed / (weight_first + weight_second))[0, 0]
-        if not bool(mixed.isfinite().all()):
-            raise FileFormatError(
-                f"{self._path}: the networks' output is NaN or infinite; with float16 try "
-                "bfloat16 or float32"
-            )
-        return mixed.cpu().numpy()
+        return (mixed / (weight_first + weight_second))[0, 0]

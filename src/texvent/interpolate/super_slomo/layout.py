@@ -7,12 +7,11 @@ checkpoint of the open PyTorch implementation that is commonly used.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
 
-Shape: TypeAlias = tuple[int, ...]
+from texvent.runtime.network_files import Shape, convolution_shapes
 
 DEPTH = 5
-"""How often a U-Net halves the picture."""
+"""How often a U-Net halves the image."""
 PAD_TO = 2**DEPTH
 """Sides are padded to a multiple of this, px."""
 PUBLISHED_WIDTH = 32
@@ -41,28 +40,23 @@ class UNetLayout:
         channels = [width * factor for factor in GROWTH]
         side = FIRST_SIDES[0]
         shapes = {
-            **_convolution("conv1", channels[0], self.inputs, side),
-            **_convolution("conv2", channels[0], channels[0], side),
+            **convolution_shapes("conv1", channels[0], self.inputs, side),
+            **convolution_shapes("conv2", channels[0], channels[0], side),
         }
         for depth in range(1, DEPTH + 1):
             side, wide = FIRST_SIDES[depth], channels[depth]
-            shapes.update(_convolution(f"down{depth}.conv1", wide, channels[depth - 1], side))
-            shapes.update(_convolution(f"down{depth}.conv2", wide, wide, side))
+            shapes.update(convolution_shapes(f"down{depth}.conv1", wide, channels[depth - 1], side))
+            shapes.update(convolution_shapes(f"down{depth}.conv2", wide, wide, side))
         for step in range(1, DEPTH + 1):
             wide = channels[DEPTH - step]
-            shapes.update(_convolution(f"up{step}.conv1", wide, channels[DEPTH - step + 1], 3))
-            shapes.update(_convolution(f"up{step}.conv2", wide, 2 * wide, 3))
-        return {**shapes, **_convolution("conv3", self.outputs, channels[0], 3)}
-
-
-def _convolution(name: str, channels_out: int, channels_in: int, side: int) -> dict[str, Shape]:
-    return {
-        f"{name}.weight": (channels_out, channels_in, side, side),
-        f"{name}.bias": (channels_out,),
-    }
+            shapes.update(
+                convolution_shapes(f"up{step}.conv1", wide, channels[DEPTH - step + 1], 3)
+            )
+            shapes.update(convolution_shapes(f"up{step}.conv2", wide, 2 * wide, 3))
+        return {**shapes, **convolution_shapes("conv3", self.outputs, channels[0], 3)}
 
 
 FLOW_NET = UNetLayout("state_dictFC", inputs=6, outputs=4)
-"""Two pictures → the flow from each to the other."""
+"""Two images → the flow from each to the other."""
 REFINE_NET = UNetLayout("state_dictAT", inputs=20, outputs=5)
-"""Pictures, flows, flows at the instant, warped pictures → corrections of the flows, visibility."""
+"""Images, flows, flows at the instant, warped images → corrections of the flows, visibility."""

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import ModuleType
 
-from texvent._require import require
-from texvent.interpolate.networks.files import EXTRA, Tensor
+from texvent.interpolate.networks.torch_import import Tensor, import_torch
 from texvent.interpolate.super_slomo.layout import DEPTH
 
 LEAK = 0.1
@@ -26,7 +25,7 @@ class UNet:
     @property
     def _torch(self) -> ModuleType:
         # Not kept as an attribute: a module cannot be copied, an interpolator can.
-        return require("torch", extra=EXTRA)
+        return import_torch()
 
     def predict(self, x: Tensor) -> Tensor:
         """[1, inputs, H, W] to [1, outputs, H, W]; H and W are multiples of `PAD_TO`."""

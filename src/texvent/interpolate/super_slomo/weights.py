@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent.errors import ConfigError, FileFormatError, InputError
-from texvent.interpolate.networks.files import EXTRA
+from texvent.interpolate.networks.torch_import import EXTRA
 from texvent.interpolate.super_slomo.layout import FLOW_NET, REFINE_NET, UNetLayout
 from texvent.runtime.network_files import (
     Tensor,
