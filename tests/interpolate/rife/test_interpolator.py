@@ -154,8 +154,8 @@ def test_tiles_are_estimated_one_by_one_and_joined_without_seams(build, monkeypa
 
     def pixelwise(pair, instant):
         """A motion that depends on each pixel alone, so that tiles cannot change it."""
-        sizes.append(tuple(pair.pictures[0].shape[-2:]))
-        level = pair.pictures[0][:, :1]
+        sizes.append(tuple(pair.images[0].shape[-2:]))
+        level = pair.images[0][:, :1]
         return Motion(4 * level.expand(-1, 4, -1, -1), level)
 
     for side in (0, 320, 192):
