@@ -8,8 +8,8 @@ import pytest
 
 from texvent.cli.app import main
 from texvent.errors import OutputError
-from texvent.io.hdf5 import writer as hdf5_writer
-from texvent.io.hdf5.native import Hdf5Writer
+from texvent.io import block_writer
+from texvent.io.hdf5.writer import Hdf5Writer
 from texvent.view.preview import Preview
 
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
@@ -26,7 +26,7 @@ def fail_in_a_thread(*_):
 
 @pytest.mark.parametrize("interpolate", ["none", "flow"])
 def test_a_full_disk_stops_the_run_and_leaves_nothing(tmp_path, monkeypatch, capsys, interpolate):
-    monkeypatch.setattr(hdf5_writer, "BATCH_EVENTS", 100)
+    monkeypatch.setattr(block_writer, "BLOCK_EVENTS", 100)
     monkeypatch.setattr(Hdf5Writer, "_write_pending", lambda *_, final: fail_in_a_thread())
     assert simulate(tmp_path, "--interpolate", interpolate) == OutputError.exit_code
     said = capsys.readouterr()

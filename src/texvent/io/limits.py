@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 from texvent.errors import InputError
 from texvent.events import EventStream
@@ -11,6 +12,8 @@ from texvent.sensor import SensorSize
 
 UNLIMITED = "hdf5 (.h5), npz (.npz) and ecd (.txt)"
 """Formats that hold every sensor size and time."""
+LONGEST = "npz (.npz) or ecd (.txt)"
+"""Formats that hold any span of time."""
 LABELLED = "hdf5 (.h5) and npz (.npz)"
 """Formats that hold the signal/noise label."""
 
@@ -26,7 +29,11 @@ class FormatLimits:
     stop_us: int
     """Events lie before this time, µs."""
     max_span_us: int | None = None
-    """Longest time from the first event to the last, µs, where it is limited."""
+    """Longest time from the origin of the file's times to the last event, µs, where limited."""
+    start_us: int = 0
+    """Events lie at this time or later, µs."""
+    label: Literal["kept", "refused", "left out"] = "refused"
+    """What becomes of the signal/noise label."""
 
     def check_size(self, path: Path, size: SensorSize) -> None:
         """Refuse a sensor that is too large.
@@ -40,33 +47,38 @@ class FormatLimits:
                 f"{self.max_side}x{self.max_side}, not {size}; {UNLIMITED} hold it"
             )
 
-    def check_packet(self, path: Path, packet: EventStream, start_us: int | None = None) -> None:
+    def origin_us(self, first_us: int) -> int:
+        """What the file's times count from, µs, for the span: the time of its first event."""
+        return first_us
+
+    def check_packet(self, path: Path, packet: EventStream, first_us: int) -> None:
         """Refuse times that do not fit, and the signal/noise label.
 
         Args:
             path: the file, for the message.
             packet: at least one event.
-            start_us: time of the first event of the file, µs; None: that of this packet.
+            first_us: time of the first event of the file, µs.
 
         Raises:
             InputError: see above.
         """
-        first, last = int(packet.t[0]), int(packet.t[-1])
-        if first < 0:
-            raise InputError(f"an event has time {first} µs; event files start at 0 or later")
-        if last >= self.stop_us:
+        start_us, last_us = int(packet.t[0]), int(packet.t[-1])
+        if start_us < self.start_us:
+            raise InputError(f"an event has time {start_us} µs; event files start at 0 or later")
+        if last_us >= self.stop_us:
             raise InputError(
-                f"cannot write {path}: an event has time {last} µs; {self.name} holds times below "
-                f"{self.stop_us} µs ({self.stop_us / 3.6e9:.3g} h). {UNLIMITED} hold it; or check "
-                "the time unit, or start the recording near 0 (texvent convert --from-zero)"
+                f"cannot write {path}: an event has time {last_us} µs; {self.name} holds times "
+                f"below {self.stop_us} µs ({self.stop_us / 3.6e9:.3g} h). {UNLIMITED} hold it; or "
+                "check the time unit, or start the recording near 0 (texvent convert --from-zero)"
             )
-        span = last - (first if start_us is None else start_us)
-        if self.max_span_us is not None and span > self.max_span_us:
+        span_us = last_us - self.origin_us(first_us)
+        if self.max_span_us is not None and span_us > self.max_span_us:
             raise InputError(
-                f"cannot write {path}: events span {span / 3.6e9:.3g} h; {self.name} holds up to "
-                f"{self.max_span_us / 3.6e9:.3g} h. Split the recording, or write {UNLIMITED}"
+                f"cannot write {path}: events span {span_us / 3.6e9:.3g} h; {self.name} holds up "
+                f"to {self.max_span_us / 3.6e9:.3g} h. Split the recording, check its time unit, "
+                f"or write {LONGEST}"
             )
-        if packet.label is not None:
+        if packet.label is not None and self.label == "refused":
             raise InputError(
                 f"cannot write {path}: {self.name} has no place for the signal/noise label; "
                 f"{LABELLED} hold it, or drop it with without_label()"

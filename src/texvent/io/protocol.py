@@ -5,11 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
-from typing import Any, ClassVar, Protocol, Self, runtime_checkable
+from typing import Any, ClassVar, Protocol, Self, TypeAlias, runtime_checkable
+
+from numpy.typing import NDArray
 
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
+
+Columns: TypeAlias = Mapping[str, NDArray[Any]]
+"""Name → column of events: x, y, t, p, and label where it is known."""
 
 
 class EventWriter(Protocol):

@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 from texvent.errors import FileFormatError, InputError, MissingDependencyError, OutputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.io import block_writer
 from texvent.io.files import load, open_events, save
-from texvent.io.hdf5 import native as hdf5
-from texvent.io.hdf5 import writer as hdf5_writer
+from texvent.io.hdf5 import damage, native
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(6, 5)
@@ -69,9 +69,9 @@ def test_ms_to_idx_follows_its_definition(
 def test_ms_to_idx_spans_silence_and_batches(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(hdf5.Hdf5Writer, "chunk_events", 4)
-    monkeypatch.setattr(hdf5_writer, "BATCH_EVENTS", 8)
-    monkeypatch.setattr(hdf5, "INDEX_PIECE", 3)
+    monkeypatch.setattr(native, "CHUNK_EVENTS", 4)
+    monkeypatch.setattr(block_writer, "BLOCK_EVENTS", 8)
+    monkeypatch.setattr(native, "INDEX_BATCH", 3)
     times = [0, 1, 999, 1000, 1000, 1001, 30_000, 30_000, 30_500, 31_000, 90_001]
     parts = [at_times(time) for time in times]
     path = save(tmp_path / "events.h5", EventPackets(parts, SIZE))
@@ -182,14 +182,14 @@ def test_order_is_checked_between_packets_too(
     path = save(tmp_path / "events.h5", at_times(10, 11, 12, 13))
     with h5py.File(path, "r+") as file:
         file["events/t"][:] = [10, 11, 5, 6]
-    monkeypatch.setattr(hdf5, "PACKET_EVENTS", 2)
-    with pytest.raises(FileFormatError, match="time decreases at event 2"):
+    monkeypatch.setattr(native, "PACKET_EVENTS", 2)
+    with pytest.raises(FileFormatError, match="time decreases from 11 to 5 µs"):
         load(path)
 
 
 def test_reading_packets_holds_one_packet(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = save(tmp_path / "events.h5", at_times(*range(10)))
-    monkeypatch.setattr(hdf5, "PACKET_EVENTS", 4)
+    monkeypatch.setattr(native, "PACKET_EVENTS", 4)
     assert [len(packet) for packet in open_events(path)] == [4, 4, 2]
 
 
@@ -224,7 +224,7 @@ def test_a_foreign_filter_names_the_package_to_install(
 ) -> None:
     path = save(tmp_path / "events.h5", at_times(1, 2))
     monkeypatch.setattr(h5py.h5z, "filter_avail", lambda code: False)
-    monkeypatch.setattr(hdf5, "require", _no_package)
+    monkeypatch.setattr(damage, "require", _no_package)
     with pytest.raises(MissingDependencyError, match="pip install hdf5plugin"):
         load(path)
 

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
+from texvent.io import block_codec, block_writer
 from texvent.io.files import load, open_events, save
-from texvent.io.prophesee import word_coding
 
 from .prophesee_files import EXTENSIONS, FORMATS, SIZE, WORD_FORMATS, row_bursts
 
@@ -107,8 +107,8 @@ def test_memory_does_not_grow_with_the_file(
 ) -> None:
     events = row_bursts(20_000)
     whole = sum(column.nbytes for column in events.columns().values())
-    monkeypatch.setattr(word_coding, "BLOCK_BYTES", 2**14)
-    monkeypatch.setattr(word_coding, "PIECE_EVENTS", 2**12)
+    monkeypatch.setattr(block_codec, "BLOCK_BYTES", 2**14)
+    monkeypatch.setattr(block_writer, "BLOCK_EVENTS", 2**12)
     path = save(tmp_path / f"warm{EXTENSIONS[format]}", row_bursts(10), format=format)
     assert len(load(path))
     tracemalloc.start()

@@ -46,7 +46,7 @@ def test_a_time_that_wraps_is_unrolled(tmp_path: Path) -> None:
 
 
 def test_a_wrap_between_blocks_is_unrolled(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("texvent.io.prophesee.word_coding.BLOCK_BYTES", 8)
+    monkeypatch.setattr("texvent.io.block_codec.BLOCK_BYTES", 8)
     times = [2**32 - 2, 3, 2**32 - 1, 0]
     path = write_words(tmp_path, "dat", [record(0, 0, time, 1) for time in times])
     assert load(path).t.tolist() == [2**32 - 2, 2**32 + 3, 2**33 - 1, 2**33]
@@ -65,7 +65,7 @@ def test_a_wrap_between_blocks_is_unrolled(tmp_path: Path, monkeypatch: pytest.M
         (HEADERS["dat"].replace("Version 2", "Version 1").encode() + b"\x0c\x08", "version '1'"),
         (HEADERS["dat"].replace("720", "many").encode() + b"\x0c\x08", "size of 'many'"),
         (HEADERS["dat"].replace("720", "0").encode() + b"\x0c\x08", "impossible sensor size"),
-        (HEADERS["dat"].encode() + b"\x0c\x08" + bytes(7), "inside a word of 8 bytes"),
+        (HEADERS["dat"].encode() + b"\x0c\x08" + bytes(7), "inside a record of 8 bytes"),
         (HEADERS["dat"].encode() + b"\x0c\x08" + b"\xff" * 8, "x runs from 16383"),
     ],
 )

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from texvent.errors import FileFormatError, InputError
+from texvent.io import metadata
 from texvent.io.files import codec_for, codec_that_reads, load, save
 from texvent.io.prophesee import text_header
 
@@ -79,7 +80,7 @@ def test_control_bytes_end_a_header_without_an_end_line(tmp_path: Path) -> None:
         (b"% evt 3.0\n% geometry 0x720\n% end\n", "impossible sensor size 0x720"),
         (b"% evt 3.0\n% geometry 99999999999x720\n% end\n", "states a size of '9999"),
         (b"% evt 3.0\n% geometry 4x4\n% texvent {\n% end\n", "damaged metadata"),
-        (b"% evt 3.0\n% geometry 4x4\n% end\n\x00", "ends inside a word of 2 bytes"),
+        (b"% evt 3.0\n% geometry 4x4\n% end\n\x00", "ends inside a record of 2 bytes"),
         (b"% evt 3.0\n% geometry 4x4\n% end\n\x01\x80\x00\x00\x04\x20", "x runs from 4 to 4"),
     ],
 )
@@ -105,7 +106,7 @@ def test_a_header_without_end_is_not_read_into_memory(
 def test_metadata_too_long_for_a_header_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(text_header, "MAX_HEADER_BYTES", 100)
+    monkeypatch.setattr(metadata, "MAX_HEADER_BYTES", 100)
     with pytest.raises(InputError, match=r"metadata of \d+ bytes cannot be stored in a text"):
         save(tmp_path / "e.raw", at_times(1).with_metadata({"prompt": "a" * 60}))
     assert not list(tmp_path.iterdir())

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from texvent.errors import FileFormatError
 from texvent.io.files import load, save
-from texvent.io.prophesee.word_coding import KernelDecoder
+from texvent.io.prophesee.evt2 import Evt2Codec
 
 from .prophesee_files import HEADERS, SIZE, at_times, events_of, write_words
 from .slow_words import decode_evt2
@@ -81,7 +81,7 @@ def test_any_words_mean_what_the_slow_decoder_says(words: list[int]) -> None:
     if (np.diff(array[array >> 28 == 8].astype(np.int64)) < -(2**27)).any():
         # The slow decoder does not know wraps.
         return
-    columns = KernelDecoder("texvent.io.prophesee.evt2_kernels", "<u4").decode(array)
+    columns = Evt2Codec().make_decoder().decode(array)
     rows = zip(*(columns[name].tolist() for name in "xytp"), strict=True)
     assert list(rows) == decode_evt2(array.tobytes())
 

@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.events import EventStream
+from texvent.io import block_codec
 from texvent.io.files import load, open_events, save
-from texvent.io.prophesee import word_coding
-from texvent.io.prophesee.word_coding import KernelDecoder
+from texvent.io.prophesee.evt3 import Evt3Codec
 
 from .prophesee_files import SIZE, at_times, events_of, row_bursts, write_words
 from .slow_words import decode_evt3
@@ -59,7 +59,7 @@ def test_blocks_that_cut_a_vector_group_change_nothing(
 ) -> None:
     path = write_words(tmp_path, "evt3", BY_HAND)
     for block in (2, 4, 6):
-        monkeypatch.setattr(word_coding, "BLOCK_BYTES", block)
+        monkeypatch.setattr(block_codec, "BLOCK_BYTES", block)
         packets = list(open_events(path))
         assert len(packets) > 1
         assert events_of(EventStream.concat(packets)) == MEANING
@@ -110,7 +110,7 @@ def test_twelve_days_of_silence_cost_less_than_half_a_megabyte(tmp_path: Path) -
 )
 def test_any_words_mean_what_the_slow_decoder_says(words: list[int], cut: int) -> None:
     array = np.array(words, dtype="<u2")
-    decoder = KernelDecoder("texvent.io.prophesee.evt3_kernels", "<u2")
+    decoder = Evt3Codec().make_decoder()
     rows = []
     for part in (array[:cut], array[cut:]):
         columns = decoder.decode(part)

@@ -188,9 +188,9 @@ def test_a_disk_that_fills_up_leaves_nothing(
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
     place = {
-        "dat": "texvent.io.prophesee.dat.DatEncoder.encode",
+        "dat": "texvent.io.prophesee.dat._encode",
         "prophesee-hdf5": "os.pwrite",
-    }.get(format, "texvent.io.prophesee.word_coding.KernelEncoder.encode")
+    }.get(format, "texvent.io.prophesee.word_coding.WordEncoder.encode")
     monkeypatch.setattr(place, fail)
     with pytest.raises(OutputError, match="the disk is full") as caught:
         save(tmp_path / f"e{EXTENSIONS[format]}", at_times(1, 2), format=format)

@@ -18,16 +18,15 @@ Source: iniVation, AEDAT 2.0 file format.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from texvent.errors import FileFormatError, InputError
-from texvent.event_packets import EventPackets
 from texvent.io.aedat.aedat2_layouts import (
     CIFAR10_DVS,
     DAVIS346,
@@ -43,11 +42,11 @@ from texvent.io.aedat.header import (
     make_aedat_header,
     read_aedat_header,
 )
-from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget, read_records
-from texvent.io.columns import existing_file, stored_or_given_size
+from texvent.io.block_codec import BlockCodec, FileContents, read_records
+from texvent.io.block_writer import FileTarget
+from texvent.io.input_checks import begins_with
 from texvent.io.limits import FormatLimits
-from texvent.io.magic import begins_with
-from texvent.sensor import SensorSize
+from texvent.io.protocol import Columns
 
 RECORD = np.dtype([("address", ">u4"), ("t", ">u4")])
 STOP_US = 1 << 31
@@ -59,7 +58,7 @@ COMMENTS = (
 )
 
 
-class Aedat2Codec:
+class Aedat2Codec(BlockCodec):
     """AEDAT2 whose layout follows from the header on reading and from the sensor on writing."""
 
     name: ClassVar[str] = "aedat2"
@@ -71,36 +70,33 @@ class Aedat2Codec:
         """True if the file begins as AEDAT2 does."""
         return begins_with(path, AEDAT2_MAGIC.encode())
 
-    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
-        """Events of a file, block by block.
-
-        Raises:
-            InputError: no such file, or the layout is neither named in it nor given.
-            FileFormatError: the file is damaged or of another format.
-        """
-        path = existing_file(path)
+    def inspect(self, path: Path) -> FileContents:
+        """The header names the layout, which has a size, and holds the metadata."""
         header = read_aedat_header(path, AEDAT2_MAGIC, AEDAT2_END)
         layout = self.layout or _named_layout(path, header)
-        final_size = stored_or_given_size(path, layout.size, size)
-        metadata = header.metadata(path)
         blocks = partial(_read_blocks, path, header.length, layout)
-        return EventPackets(BlockPackets(path, blocks, final_size, metadata), final_size, metadata)
+        return FileContents(layout.size, header.metadata(path), blocks)
 
-    def open_writer(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> BlockWriter:
-        """Start a file; see `EventCodec.open_writer`."""
-        layout = self.layout or _layout_for(path, size)
-        if size != layout.size:
-            raise InputError(
-                f"cannot write {path}: {self.name} holds sensors of {layout.size}, not {size}; "
-                "aedat3 (.aedat), aedat4 (.aedat4) and hdf5 (.h5) hold it"
-            )
+    def check_target(self, target: FileTarget) -> None:
+        """Refuse a sensor without a layout."""
+        self._layout_for(target)
+
+    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> Aedat2Sink:
+        """Write the header."""
+        layout = self._layout_for(target)
         lines = (AEDAT2_MAGIC, *COMMENTS, f"# Layout: {layout.name}")
-        header = make_aedat_header(lines, metadata, AEDAT2_END)
-        target = FileTarget(path, size, metadata, overwrite)
-        return BlockWriter(
-            target, partial(Aedat2Sink, header=header, layout=layout), limits=self.limits
+        header = make_aedat_header(lines, target.metadata, AEDAT2_END)
+        return Aedat2Sink(part, stack, header=header, layout=layout)
+
+    def _layout_for(self, target: FileTarget) -> AddressLayout:
+        layouts = (DAVIS346, DVS128) if self.layout is None else (self.layout,)
+        for layout in layouts:
+            if layout.size == target.size:
+                return layout
+        sizes = " and ".join(str(layout.size) for layout in layouts)
+        raise InputError(
+            f"cannot write {target.path}: {self.name} holds sensors of {sizes}, not {target.size}; "
+            "aedat3 (.aedat), aedat4 (.aedat4) and hdf5 (.h5) hold it"
         )
 
 
@@ -151,16 +147,6 @@ class Aedat2Sink:
 
     def finish(self) -> None:
         """Nothing follows the last record."""
-
-
-def _layout_for(path: Path, size: SensorSize) -> AddressLayout:
-    for layout in (DAVIS346, DVS128):
-        if layout.size == size:
-            return layout
-    raise InputError(
-        f"cannot write {path}: AEDAT2 holds sensors of {DAVIS346.size} and {DVS128.size}, not "
-        f"{size}; aedat3 (.aedat), aedat4 (.aedat4) and hdf5 (.h5) hold it"
-    )
 
 
 def _named_layout(path: Path, header: AedatHeader) -> AddressLayout:

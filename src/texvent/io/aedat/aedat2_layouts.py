@@ -16,13 +16,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.io.block_stream import Columns
+from texvent.io.protocol import Columns
 from texvent.sensor import SensorSize
 
 SPECIAL = 1 << 10
 """Bit of a DAVIS address that is no pixel's: an external signal."""
 APS = 1 << 31
-"""Bit of a DAVIS address that is a picture's or an IMU's."""
+"""Bit of a DAVIS address that is an image's or an IMU's."""
 
 
 @dataclass(frozen=True)

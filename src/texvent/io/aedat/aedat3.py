@@ -20,16 +20,15 @@ from __future__ import annotations
 import os
 import re
 import struct
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
-from typing import Any, BinaryIO, ClassVar
+from typing import BinaryIO, ClassVar
 
 import numpy as np
 
 from texvent.errors import FileFormatError
-from texvent.event_packets import EventPackets
 from texvent.io.aedat.header import (
     AEDAT3_END,
     AEDAT3_MAGIC,
@@ -37,11 +36,12 @@ from texvent.io.aedat.header import (
     make_aedat_header,
     read_aedat_header,
 )
-from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
-from texvent.io.columns import existing_file, stored_or_given_size
+from texvent.io.block_codec import BlockCodec, FileContents
+from texvent.io.block_writer import FileTarget
+from texvent.io.input_checks import begins_with
 from texvent.io.limits import FormatLimits
-from texvent.io.magic import begins_with
-from texvent.sensor import SENSORS, SensorSize
+from texvent.io.protocol import Columns
+from texvent.sensor import SENSORS
 
 EVENT = np.dtype([("place", "<u4"), ("t", "<u4")])
 PACKET_EVENTS = 8192
@@ -55,7 +55,7 @@ CAMERAS = {"DVS128": "dvs128", "DAVIS240C": "davis240c", "DAVIS346": "davis346"}
 _HEAD = struct.Struct("<2h6i")
 
 
-class Aedat3Codec:
+class Aedat3Codec(BlockCodec):
     """AEDAT3.1."""
 
     name: ClassVar[str] = "aedat3"
@@ -66,37 +66,26 @@ class Aedat3Codec:
         """True if the file begins as AEDAT3.1 does."""
         return begins_with(path, AEDAT3_MAGIC.encode())
 
-    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
-        """Events of a file, packet by packet.
-
-        Raises:
-            InputError: no such file, or it stores no sensor size and none is given.
-            FileFormatError: the file is damaged or of another format.
-        """
-        path = existing_file(path)
+    def inspect(self, path: Path) -> FileContents:
+        """The header states size and metadata."""
         header = read_aedat_header(path, AEDAT3_MAGIC, AEDAT3_END)
         if header.lines[-1] != AEDAT3_END:
             raise FileFormatError(f"{path}: its header does not end with {AEDAT3_END}")
-        final_size = stored_or_given_size(path, _stored_size(path, header), size)
-        metadata = header.metadata(path)
-        blocks = partial(_read_blocks, path, header.length)
-        return EventPackets(BlockPackets(path, blocks, final_size, metadata), final_size, metadata)
+        size, metadata = _stored_size(path, header), header.metadata(path)
+        return FileContents(size, metadata, partial(_read_blocks, path, header.length))
 
-    def open_writer(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> BlockWriter:
-        """Start a file; see `EventCodec.open_writer`."""
+    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> Aedat3Sink:
+        """Write the header."""
         sizes = {SENSORS[sensor].size: camera for camera, sensor in CAMERAS.items()}
         lines = (
             AEDAT3_MAGIC,
             "#Format: RAW",
-            f"#Source 1: {sizes.get(size, 'texvent')}",
+            f"#Source 1: {sizes.get(target.size, 'texvent')}",
             "#Start-Time: 1970-01-01 00:00:00 (TZ+0000)",
-            f"#Size: {size}",
+            f"#Size: {target.size}",
         )
-        header = make_aedat_header(lines, metadata, AEDAT3_END)
-        target = FileTarget(path, size, metadata, overwrite)
-        return BlockWriter(target, partial(Aedat3Sink, header=header), limits=self.limits)
+        header = make_aedat_header(lines, target.metadata, AEDAT3_END)
+        return Aedat3Sink(part, stack, header=header)
 
 
 class Aedat3Sink:

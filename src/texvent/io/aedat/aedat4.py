@@ -12,7 +12,7 @@ Source: iniVation, AEDAT 4.0 file format; tables in `aedat4_tables`.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
@@ -21,7 +21,6 @@ from typing import Any, ClassVar
 import numpy as np
 
 from texvent.errors import FileFormatError
-from texvent.event_packets import EventPackets
 from texvent.io.aedat.aedat4_container import (
     MAGIC,
     PACKET_HEAD,
@@ -40,23 +39,19 @@ from texvent.io.aedat.aedat4_tables import (
     make_list,
     read_events,
 )
-from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
-from texvent.io.columns import (
-    existing_file,
-    metadata_from_json,
-    metadata_to_json,
-    stored_or_given_size,
-)
+from texvent.io.block_codec import BlockCodec, FileContents
+from texvent.io.block_writer import FileTarget
+from texvent.io.input_checks import begins_with
 from texvent.io.limits import FormatLimits
-from texvent.io.magic import begins_with
-from texvent.sensor import SensorSize
+from texvent.io.metadata import metadata_from_json, metadata_to_json
+from texvent.io.protocol import Columns
 
 PACKET_US = 10_000
 """Time per packet, µs."""
 EVENTS = "EVTS"
 
 
-class Aedat4Codec:
+class Aedat4Codec(BlockCodec):
     """AEDAT4 with LZ4."""
 
     name: ClassVar[str] = "aedat4"
@@ -68,35 +63,25 @@ class Aedat4Codec:
         """True if the file begins as AEDAT4 does."""
         return begins_with(path, MAGIC)
 
-    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
-        """Events of a file, packet by packet.
-
-        Raises:
-            InputError: no such file, or it stores no sensor size and none is given.
-            FileFormatError: the file is damaged, of another format or without events.
-            MissingDependencyError: it is compressed with Zstandard, which is not installed.
-        """
-        path = existing_file(path)
+    def inspect(self, path: Path) -> FileContents:
+        """The header's XML states size and metadata of the first stream of events."""
         container, stream = _open_events(path)
-        attributes = stream.attributes
-        final_size = stored_or_given_size(path, stored_size(path, stream), size)
         metadata: dict[str, Any] = {}
-        if "texvent" in attributes:
-            metadata = metadata_from_json(path, attributes["texvent"])
-        elif attributes.get("source"):
-            metadata = {"source": attributes["source"]}
+        if "texvent" in stream.attributes:
+            metadata = metadata_from_json(path, stream.attributes["texvent"])
+        elif stream.attributes.get("source"):
+            metadata = {"source": stream.attributes["source"]}
         blocks = partial(_read_blocks, container, stream)
-        return EventPackets(BlockPackets(path, blocks, final_size, metadata), final_size, metadata)
+        return FileContents(stored_size(path, stream), metadata, blocks)
 
-    def open_writer(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> BlockWriter:
-        """Start a file; see `EventCodec.open_writer`."""
+    def check_target(self, target: FileTarget) -> None:
+        """Refuse a compression that is not installed."""
         packing_of(self.packing.code)
-        xml = make_info(size, self.packing.name, metadata_to_json(metadata))
-        target = FileTarget(path, size, metadata, overwrite)
-        start = partial(Aedat4Sink, packing=self.packing, xml=xml)
-        return BlockWriter(target, start, limits=self.limits)
+
+    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> Aedat4Sink:
+        """Write the header."""
+        xml = make_info(target.size, self.packing.name, metadata_to_json(target.metadata))
+        return Aedat4Sink(part, stack, packing=self.packing, xml=xml)
 
 
 class Aedat4NoneCodec(Aedat4Codec):

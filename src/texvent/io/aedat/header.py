@@ -12,11 +12,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from texvent.errors import FileFormatError, InputError
-from texvent.io.columns import metadata_from_json, metadata_to_json
+from texvent.errors import FileFormatError
+from texvent.io.metadata import MAX_HEADER_BYTES, header_metadata, metadata_from_json
 
-MAX_HEADER_BYTES = 8 * 2**20
-"""More text than this before the first event is not a header."""
 AEDAT2_MAGIC = "#!AER-DAT2.0"
 AEDAT3_MAGIC = "#!AER-DAT3.1"
 AEDAT2_END = "#End Of ASCII Header"
@@ -92,10 +90,5 @@ def make_aedat_header(lines: Sequence[str], metadata: Mapping[str, Any], end: st
     Raises:
         InputError: the metadata is not JSON-serialisable or too long.
     """
-    text = metadata_to_json(metadata)
-    if len(text) > MAX_HEADER_BYTES // 2:
-        raise InputError(
-            f"metadata of {len(text)} bytes cannot be stored in a text header; "
-            f"at most {MAX_HEADER_BYTES // 2} bytes, or write hdf5 (.h5)"
-        )
+    text = header_metadata(metadata)
     return "".join(f"{line}\r\n" for line in (*lines, METADATA + text, end)).encode("ascii")

@@ -11,7 +11,7 @@ Source: Gehrig et al., Video to Events, CVPR 2020 (rpg_vid2e), and its files.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
@@ -20,71 +20,56 @@ from typing import Any, ClassVar
 import numpy as np
 
 from texvent.errors import FileFormatError
-from texvent.event_packets import EventPackets
 from texvent.io.arrays.npz import read_arrays
-from texvent.io.atomic import atomic_folder, check_output_folder
-from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
-from texvent.io.columns import existing_folder, stored_or_given_size
+from texvent.io.block_codec import FileContents, FolderCodec
+from texvent.io.block_writer import FileTarget
 from texvent.io.limits import FormatLimits
-from texvent.io.sidecar import parse_sidecar, sidecar_text
-from texvent.sensor import SensorSize
+from texvent.io.metadata import parse_sidecar, sidecar_text
+from texvent.io.protocol import Columns
 
 FACTS = "texvent.json"
 NS = 1000
 """Nanoseconds per µs."""
 
 
-class EsimCodec:
+class EsimFolderCodec(FolderCodec):
     """Folders of numbered npz files."""
 
     name: ClassVar[str] = "esim"
-    extensions: ClassVar[tuple[str, ...]] = ()
     limits: ClassVar[FormatLimits] = FormatLimits("ESIM npz", 1 << 16, (1 << 63) // NS)
 
     def recognises(self, path: Path) -> bool:
         """True if it is a folder of npz files with ten-digit names, or of none but texvent's."""
         return path.is_dir() and bool(_numbered(path) or _is_empty_recording(path))
 
-    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
-        """Events of a folder, file by file.
-
-        Raises:
-            InputError: no such folder, or it stores no sensor size and none is given.
-            FileFormatError: a file is damaged, or there is none.
-        """
-        path = existing_folder(path)
+    def inspect(self, path: Path) -> FileContents:
+        """Size and metadata lie in a file of texvent's own."""
         facts = path / FACTS
-        stored: tuple[int, int] | None = None
+        size: tuple[int, int] | None = None
         metadata: dict[str, Any] = {}
         if facts.is_file():
-            stored, metadata = parse_sidecar(facts, facts.read_bytes())
+            size, metadata = parse_sidecar(facts, facts.read_bytes())
         elif not _numbered(path):
             raise FileFormatError(f"{path} holds no files 0000000000.npz, 0000000001.npz …")
-        final_size = stored_or_given_size(path, stored, size)
-        blocks = partial(_read_blocks, path)
-        return EventPackets(BlockPackets(path, blocks, final_size, metadata), final_size, metadata)
+        return FileContents(size, metadata, partial(_read_blocks, path))
 
-    def open_writer(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> BlockWriter:
-        """Start a folder; see `EventCodec.open_writer`."""
-        check_output_folder(path, overwrite=overwrite, is_own=_is_own)
-        target = FileTarget(path, size, metadata, overwrite)
-        return BlockWriter(
-            target,
-            partial(EsimSink, target=target),
-            limits=self.limits,
-            place=partial(atomic_folder, is_own=_is_own),
-        )
+    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> EsimFolderSink:
+        """Write size and metadata."""
+        text = sidecar_text(target.size, target.metadata)
+        (part / FACTS).write_text(text, encoding="utf-8")
+        return EsimFolderSink(part)
+
+    def is_own(self, path: Path) -> bool:
+        """True for numbered archives and texvent's own file."""
+        return path.name == FACTS or re.fullmatch(r"\d{10}\.npz", path.name) is not None
 
 
-class EsimSink:
+class EsimFolderSink:
     """Writes one file per block."""
 
-    def __init__(self, part: Path, stack: ExitStack, *, target: FileTarget) -> None:
-        self._folder = part
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
         self._count = 0
-        (part / FACTS).write_text(sidecar_text(target.size, target.metadata), encoding="utf-8")
 
     def write(self, columns: Columns) -> None:
         """Add events."""
@@ -108,10 +93,6 @@ def _numbered(path: Path) -> list[Path]:
     except OSError:
         return []
     return sorted(files)
-
-
-def _is_own(path: Path) -> bool:
-    return path.name == FACTS or re.fullmatch(r"\d{10}\.npz", path.name) is not None
 
 
 def _is_empty_recording(path: Path) -> bool:

@@ -3,7 +3,7 @@
     events_ts.npy  f8 [n], seconds   events_xy.npy  u2 [n, 2]   events_p.npy  bool [n]
     metadata.json  {"sensor_resolution": [height, width], "texvent": all metadata}
 
-Seconds in f8 keep every µs for 71 years, so times stay below 2^51 µs. Pictures and their times
+Seconds in f8 keep every µs for 71 years, so times stay below 2^51 µs. Images and their times
 (images.npy, images_ts.npy, image_event_indices.npy), which the format may hold too, are neither
 read nor written; a folder that has them is never replaced.
 
@@ -14,7 +14,7 @@ Event-based Video Reconstruction, CVPRW 2023, and its reader.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
@@ -24,18 +24,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
-from texvent.event_packets import EventPackets
 from texvent.io.arrays.npy_file import NpyFile, map_array
-from texvent.io.atomic import atomic_folder, check_output_folder
-from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
-from texvent.io.columns import (
-    existing_folder,
-    metadata_from_json,
-    metadata_to_json,
-    stored_or_given_size,
-)
+from texvent.io.block_codec import FileContents, FolderCodec
+from texvent.io.block_writer import FileTarget
 from texvent.io.limits import FormatLimits
-from texvent.sensor import SensorSize
+from texvent.io.metadata import metadata_from_json, metadata_to_json
+from texvent.io.protocol import Columns
 
 TIMES, PLACES, POLARITIES = "events_ts.npy", "events_xy.npy", "events_p.npy"
 FACTS = "metadata.json"
@@ -45,46 +39,32 @@ MICROSECONDS = 1_000_000
 PACKET_EVENTS = 2**18
 
 
-class EvrealCodec:
+class EvrealFolderCodec(FolderCodec):
     """Folders that EVREAL reads."""
 
     name: ClassVar[str] = "evreal"
-    extensions: ClassVar[tuple[str, ...]] = ()
     limits: ClassVar[FormatLimits] = FormatLimits("EVREAL", 1 << 16, STOP_US)
 
     def recognises(self, path: Path) -> bool:
         """True if it is a folder with the three arrays."""
         return all((path / name).is_file() for name in (TIMES, PLACES, POLARITIES))
 
-    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
-        """Events of a folder, a quarter of a million at a time.
-
-        Raises:
-            InputError: no such folder, or it stores no sensor size and none is given.
-            FileFormatError: a file is missing or damaged.
-        """
-        path = existing_folder(path)
+    def inspect(self, path: Path) -> FileContents:
+        """Size and metadata lie in metadata.json."""
         _map_arrays(path)
-        stored, metadata = _read_facts(path)
-        final_size = stored_or_given_size(path, stored, size)
-        blocks = partial(_read_blocks, path)
-        return EventPackets(BlockPackets(path, blocks, final_size, metadata), final_size, metadata)
+        size, metadata = _read_facts(path)
+        return FileContents(size, metadata, partial(_read_blocks, path))
 
-    def open_writer(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> BlockWriter:
-        """Start a folder; see `EventCodec.open_writer`."""
-        check_output_folder(path, overwrite=overwrite, is_own=_is_own)
-        target = FileTarget(path, size, metadata, overwrite)
-        return BlockWriter(
-            target,
-            partial(EvrealSink, target=target),
-            limits=self.limits,
-            place=partial(atomic_folder, is_own=_is_own),
-        )
+    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> EvrealFolderSink:
+        """Write size and metadata, and open the arrays."""
+        return EvrealFolderSink(part, stack, target=target)
+
+    def is_own(self, path: Path) -> bool:
+        """True for the three arrays and metadata.json."""
+        return path.name in OWN
 
 
-class EvrealSink:
+class EvrealFolderSink:
     """Writes the three arrays side by side."""
 
     def __init__(self, part: Path, stack: ExitStack, *, target: FileTarget) -> None:
@@ -107,10 +87,6 @@ class EvrealSink:
         """Write the lengths."""
         for file in (self._times, self._places, self._polarities):
             file.finish()
-
-
-def _is_own(path: Path) -> bool:
-    return path.name in OWN
 
 
 def _read_facts(path: Path) -> tuple[tuple[int, int] | None, dict[str, Any]]:

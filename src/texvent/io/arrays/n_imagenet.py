@@ -10,33 +10,26 @@ Source: Kim et al., N-ImageNet: Towards Robust, Fine-Grained Object Recognition,
 from __future__ import annotations
 
 import zipfile
-from collections.abc import Iterator, Mapping
 from contextlib import ExitStack
-from functools import partial
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, BinaryIO, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
-from texvent.event_packets import EventPackets
-from texvent.io.arrays.npz import read_arrays, read_whole
-from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
-from texvent.io.columns import (
-    existing_file,
-    metadata_from_json,
-    metadata_to_json,
-    stored_or_given_size,
-)
+from texvent.io.arrays.npz import read_arrays, stored_contents
+from texvent.io.block_codec import BlockCodec, FileContents
+from texvent.io.block_writer import FileTarget
 from texvent.io.limits import FormatLimits
-from texvent.sensor import SensorSize
+from texvent.io.metadata import metadata_to_json
+from texvent.io.protocol import Columns
 
 ARRAY = "event_data"
 EVENT = np.dtype([("x", "<u2"), ("y", "<u2"), ("t", "<i8"), ("p", "?")])
 
 
-class NImageNetCodec:
+class NImageNetCodec(BlockCodec):
     """npz of one structured array."""
 
     name: ClassVar[str] = "n-imagenet"
@@ -51,65 +44,44 @@ class NImageNetCodec:
         except (OSError, ValueError, NotImplementedError, zipfile.BadZipFile):
             return False
 
-    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
-        """Events of an archive, as one packet in memory.
-
-        Raises:
-            InputError: no such file, or it stores no sensor size and none is given.
-            FileFormatError: it is damaged or lacks the array.
-        """
-        path = existing_file(path)
+    def inspect(self, path: Path) -> FileContents:
+        """The archive's arrays, all in memory."""
         arrays = read_arrays(path)
         events = arrays.get(ARRAY)
         names = getattr(getattr(events, "dtype", None), "names", None) or ()
         if events is None or events.ndim != 1 or not {*"xytp"} <= {*names}:
             raise FileFormatError(f"{path} has no array {ARRAY} with fields x, y, t, p")
-        stored = None
-        if "width" in arrays and "height" in arrays:
-            stored = read_whole(path, arrays, "width"), read_whole(path, arrays, "height")
-        metadata: dict[str, Any] = {}
-        if "texvent" in arrays:
-            metadata = metadata_from_json(path, str(arrays["texvent"]))
-        final_size = stored_or_given_size(path, stored, size)
-        blocks = partial(_columns, events)
-        return EventPackets(BlockPackets(path, blocks, final_size, metadata), final_size, metadata)
+        columns = {name: events[name] for name in "xytp"}
+        if columns["p"].dtype.kind == "b":
+            columns["p"] = columns["p"].astype(np.uint8)
+        return stored_contents(path, arrays, columns)
 
-    def open_writer(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> BlockWriter:
-        """Start an archive; see `EventCodec.open_writer`."""
-        target = FileTarget(path, size, metadata, overwrite)
-        return BlockWriter(target, partial(NImageNetSink, target=target), limits=self.limits)
+    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> NImageNetSink:
+        """Collect the events; the archive is written at the end."""
+        return NImageNetSink(stack.enter_context(part.open("wb")), target)
 
 
 class NImageNetSink:
     """Collects events and writes the archive at the end."""
 
-    def __init__(self, part: Path, stack: ExitStack, *, target: FileTarget) -> None:
-        self._file = stack.enter_context(part.open("wb"))
+    def __init__(self, file: BinaryIO, target: FileTarget) -> None:
+        self._file = file
         self._target = target
-        self._pieces: list[NDArray[Any]] = [np.empty(0, dtype=EVENT)]
+        self._blocks: list[NDArray[Any]] = [np.empty(0, dtype=EVENT)]
 
     def write(self, columns: Columns) -> None:
         """Add events."""
-        piece = np.empty(len(columns["t"]), dtype=EVENT)
+        block = np.empty(len(columns["t"]), dtype=EVENT)
         for name in "xytp":
-            piece[name] = columns[name]
-        self._pieces.append(piece)
+            block[name] = columns[name]
+        self._blocks.append(block)
 
     def finish(self) -> None:
         """Write the archive."""
         arrays: dict[str, Any] = {
-            ARRAY: np.concatenate(self._pieces),
+            ARRAY: np.concatenate(self._blocks),
             "width": np.int64(self._target.size.width),
             "height": np.int64(self._target.size.height),
             "texvent": np.array(metadata_to_json(self._target.metadata)),
         }
         np.savez(self._file, **arrays)
-
-
-def _columns(events: NDArray[Any]) -> Iterator[Columns]:
-    columns = {name: events[name] for name in "xytp"}
-    if columns["p"].dtype.kind == "b":
-        columns["p"] = columns["p"].astype(np.uint8)
-    yield columns

@@ -9,9 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
+from texvent.io.input_checks import reporting_damage
 
 HEADER_BYTES = 128
 """The header's text is padded to this, so that the number of rows fits in whatever it is."""
+NPY_DAMAGE = (OSError, ValueError, TypeError, EOFError, SyntaxError, OverflowError)
+"""NumPy raises any of these on a damaged file."""
 _MAGIC = b"\x93NUMPY\x01\x00"
 
 
@@ -58,11 +61,8 @@ def map_array(path: Path) -> NDArray[np.generic]:
     Raises:
         FileFormatError: it is damaged, cut off, or holds Python objects.
     """
-    try:
+    with reporting_damage(path, "a NumPy array", NPY_DAMAGE):
         array: NDArray[np.generic] = np.load(path, mmap_mode="r", allow_pickle=False)
-    except (OSError, ValueError, TypeError, EOFError, SyntaxError, OverflowError) as error:
-        reason = " ".join(str(error).split())[:200]
-        raise FileFormatError(f"{path} is damaged or not a NumPy array ({reason})") from error
     if not isinstance(array, np.ndarray):
         raise FileFormatError(f"{path} is an archive, not a NumPy array")
     return array

@@ -9,68 +9,50 @@ memory (13 bytes per event). Use HDF5 for long recordings.
 
 from __future__ import annotations
 
-import struct
 import tokenize
 import zipfile
-import zlib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
-from types import TracebackType
-from typing import Any, ClassVar, Self
+from typing import Any, BinaryIO, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError, InputError, OutputError
-from texvent.event_packets import EventPackets
-from texvent.events import EventStream
-from texvent.io.arrays.archives import check_archive
-from texvent.io.atomic import atomic_file, check_output
-from texvent.io.columns import (
-    existing_file,
-    metadata_from_json,
-    metadata_to_json,
-    stored_or_given_size,
-    stream_from_file,
-)
-from texvent.io.magic import begins_with
-from texvent.sensor import SensorSize
+from texvent.errors import FileFormatError
+from texvent.events import COLUMN_TYPES
+from texvent.io.block_codec import BlockCodec, FileContents
+from texvent.io.block_writer import FileTarget
+from texvent.io.input_checks import ZIP_DAMAGE, begins_with, check_zip, reporting_damage
+from texvent.io.limits import FormatLimits
+from texvent.io.metadata import metadata_from_json, metadata_to_json
+from texvent.io.protocol import Columns
 
 TIMESTAMP_SCALE_MS = 0.001
 
-_DAMAGE = (
-    OSError,
-    ValueError,
+NPZ_DAMAGE = (
+    *ZIP_DAMAGE,
     KeyError,
     TypeError,
-    EOFError,
-    MemoryError,
     OverflowError,
-    NotImplementedError,
-    RuntimeError,
     SyntaxError,
-    struct.error,
     tokenize.TokenError,
-    zipfile.BadZipFile,
-    zlib.error,
 )
 """NumPy and zipfile raise any of these on a damaged archive."""
 
 
-class NpzCodec:
+class NpzCodec(BlockCodec):
     """NumPy archives."""
 
     name: ClassVar[str] = "npz"
     extensions: ClassVar[tuple[str, ...]] = (".npz",)
+    limits: ClassVar[FormatLimits] = FormatLimits(
+        "NumPy archive", 1 << 16, 1 << 63, start_us=-(1 << 63), label="kept"
+    )
 
-    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
-        """Events of an archive, as one packet in memory.
-
-        Raises:
-            InputError: no such file, or it stores no sensor size and none is given.
-            FileFormatError: it is damaged or lacks a column.
-        """
-        path = existing_file(path)
+    def inspect(self, path: Path) -> FileContents:
+        """The archive's arrays, all in memory."""
         arrays = read_arrays(path)
         missing = [name for name in "xytp" if name not in arrays]
         if missing:
@@ -78,83 +60,40 @@ class NpzCodec:
                 f"{path} has no array {missing[0]!r} (it has: {', '.join(arrays) or 'none'}); "
                 "texvent reads archives of x, y, t, p"
             )
-        stored = None
-        if "width" in arrays and "height" in arrays:
-            stored = read_whole(path, arrays, "width"), read_whole(path, arrays, "height")
         _check_scale(path, arrays)
-        metadata = {}
-        if "texvent" in arrays:
-            metadata = metadata_from_json(path, str(arrays["texvent"]))
-        final_size = stored_or_given_size(path, stored, size)
-        stream = stream_from_file(path, arrays, final_size, metadata)
-        return EventPackets((stream,), final_size, metadata)
+        columns = {name: arrays[name] for name in COLUMN_TYPES if name in arrays}
+        return stored_contents(path, arrays, columns)
 
-    def open_writer(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> NpzWriter:
-        """Start an archive; see `EventCodec.open_writer`."""
-        return NpzWriter(path, size=size, metadata=metadata, overwrite=overwrite)
+    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> NpzSink:
+        """Collect the events; the archive is written at the end."""
+        return NpzSink(stack.enter_context(part.open("wb")), target)
 
 
-class NpzWriter:
-    """Collects packets and writes the archive at the end of its `with` block.
+class NpzSink:
+    """Collects columns and writes the archive at the end."""
 
-    Raises:
-        OutputError: the file exists already, its folder refuses it, or the disk is full.
-        InputError: a packet of another size, or before the one before it.
-    """
+    def __init__(self, file: BinaryIO, target: FileTarget) -> None:
+        self._file = file
+        self._target = target
+        self._blocks: list[Columns] = []
 
-    def __init__(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> None:
-        check_output(path, overwrite=overwrite)
-        self._path = path
-        self._size = size
-        self._overwrite = overwrite
-        self._json = metadata_to_json(metadata)
-        self._packets = [EventStream.empty(size)]
-        self._stack = ExitStack()
-        self._part: Path | None = None
+    def write(self, columns: Columns) -> None:
+        """Add events."""
+        self._blocks.append(columns)
 
-    def __enter__(self) -> Self:
-        self._part = self._stack.enter_context(atomic_file(self._path, overwrite=self._overwrite))
-        return self
-
-    def append(self, packet: EventStream) -> None:
-        """Add the events of a packet, which starts no earlier than the one before it ended."""
-        if self._part is None:
-            raise OutputError(f"{self._path} is not open; append inside the writer's with block")
-        if packet.size != self._size:
-            raise InputError(f"the packet is {packet.size}, the file is {self._size}")
-        if len(packet):
-            self._packets.append(packet)
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        if error is not None:
-            self._stack.__exit__(kind, error, trace)
-            return
-        with self._stack:
-            self._write()
-
-    def _write(self) -> None:
-        whole = EventStream.concat(self._packets)
-        if self._part is None:
-            return
+    def finish(self) -> None:
+        """Write the archive."""
+        size = self._target.size
+        blocks = self._blocks or [{name: np.empty(0, COLUMN_TYPES[name]) for name in "xytp"}]
         arrays: dict[str, Any] = {
-            **whole.columns(),
+            **{name: np.concatenate([block[name] for block in blocks]) for name in blocks[0]},
             # eventcv reads no other integers here.
-            "width": np.uint64(self._size.width),
-            "height": np.uint64(self._size.height),
+            "width": np.uint64(size.width),
+            "height": np.uint64(size.height),
             "timestamp_scale_ms": np.float64(TIMESTAMP_SCALE_MS),
-            "texvent": np.array(self._json),
+            "texvent": np.array(metadata_to_json(self._target.metadata)),
         }
-        with self._part.open("wb") as file:
-            np.savez(file, **arrays)
+        np.savez(self._file, **arrays)
 
 
 def read_arrays(path: Path) -> dict[str, Any]:
@@ -168,32 +107,41 @@ def read_arrays(path: Path) -> dict[str, Any]:
         raise FileFormatError(
             f"{path} is not a NumPy archive: it does not begin as a zip file does"
         )
-    try:
-        # Opened here, because np.load leaves a damaged file open.
-        with path.open("rb") as file:
-            archive = np.load(file, allow_pickle=False)
-            if not isinstance(archive, np.lib.npyio.NpzFile):
-                raise FileFormatError(f"{path} holds a single NumPy array, not an archive")
-            with archive:
-                with zipfile.ZipFile(path) as contents:
-                    check_archive(path, contents)
-                return {name: archive[name] for name in archive.files}
-    except InputError:
-        raise
-    except _DAMAGE as error:
-        reason = " ".join(str(error).split())[:200]
-        raise FileFormatError(f"{path} is damaged or not a NumPy archive ({reason})") from error
+    # Opened here, because np.load leaves a damaged file open.
+    with reporting_damage(path, "a NumPy archive", NPZ_DAMAGE), path.open("rb") as file:
+        archive = np.load(file, allow_pickle=False)
+        if not isinstance(archive, np.lib.npyio.NpzFile):
+            raise FileFormatError(f"{path} holds a single NumPy array, not an archive")
+        with archive:
+            with zipfile.ZipFile(path) as contents:
+                check_zip(path, contents)
+            return {name: archive[name] for name in archive.files}
 
 
-def read_whole(path: Path, arrays: Mapping[str, Any], name: str) -> int:
-    """One whole number.
+def stored_contents(
+    path: Path, arrays: Mapping[str, Any], columns: Mapping[str, NDArray[Any]]
+) -> FileContents:
+    """Contents of an archive with arrays `width`, `height` and `texvent`, where it has them.
 
     Raises:
-        FileFormatError: the array holds something else.
+        FileFormatError: one of them is damaged.
     """
-    value = np.asarray(arrays[name])
+    size = None
+    if "width" in arrays and "height" in arrays:
+        size = _read_whole(path, arrays["width"]), _read_whole(path, arrays["height"])
+    metadata: dict[str, Any] = {}
+    if "texvent" in arrays:
+        metadata = metadata_from_json(path, str(arrays["texvent"]))
+    return FileContents(size, metadata, partial(_one_block, columns))
+
+
+def _one_block(columns: Columns) -> Iterator[Columns]:
+    yield columns
+
+
+def _read_whole(path: Path, value: NDArray[Any]) -> int:
     if value.size != 1 or value.dtype.kind not in "iu":
-        raise FileFormatError(f"{path}: {name} must be one whole number; it is {value!r}")
+        raise FileFormatError(f"{path}: width and height must be whole numbers; one is {value!r}")
     return int(value.reshape(-1)[0])
 
 

@@ -15,63 +15,50 @@ from typing import Any, ClassVar
 import numpy as np
 
 from texvent._require import require
-from texvent.errors import FileFormatError, InputError, MissingDependencyError
-from texvent.event_packets import EventPackets
-from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
-from texvent.io.columns import (
-    existing_file,
-    metadata_from_json,
-    metadata_to_json,
-    stored_or_given_size,
-)
+from texvent.errors import FileFormatError
+from texvent.io.block_codec import BlockCodec, FileContents
+from texvent.io.block_writer import FileTarget
+from texvent.io.input_checks import reporting_damage
 from texvent.io.limits import FormatLimits
+from texvent.io.metadata import metadata_from_json, metadata_to_json
+from texvent.io.protocol import Columns
 from texvent.io.text.csv import NAMES
-from texvent.sensor import SensorSize
 
 TYPES = {"t": "int64", "x": "uint16", "y": "uint16", "p": "uint8"}
 PACKET_EVENTS = 2**18
 EXTRA = "parquet"
 
 
-class ParquetCodec:
+class ParquetCodec(BlockCodec):
     """Apache Parquet tables."""
 
     name: ClassVar[str] = "parquet"
     extensions: ClassVar[tuple[str, ...]] = (".parquet",)
     limits: ClassVar[FormatLimits] = FormatLimits("Parquet", 1 << 16, 1 << 63)
 
-    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
-        """Events of a file, block by block.
-
-        Raises:
-            InputError: no such file, or it stores no sensor size and none is given.
-            FileFormatError: it is damaged, or a column is missing.
-            MissingDependencyError: pyarrow is not installed.
-        """
-        path = existing_file(path)
+    def inspect(self, path: Path) -> FileContents:
+        """The schema states size and metadata."""
         with _open_table(path) as table:
             order = _column_names(path, table.schema_arrow.names)
             facts = table.schema_arrow.metadata or {}
-        stored = None
+        size = None
         try:
             if b"width" in facts and b"height" in facts:
-                stored = int(facts[b"width"]), int(facts[b"height"])
+                size = int(facts[b"width"]), int(facts[b"height"])
         except ValueError as error:
             raise FileFormatError(f"{path}: its schema states no sensor size") from error
         metadata: dict[str, Any] = {}
         if b"texvent" in facts:
             metadata = metadata_from_json(path, facts[b"texvent"])
-        final_size = stored_or_given_size(path, stored, size)
-        blocks = partial(_read_blocks, path, order)
-        return EventPackets(BlockPackets(path, blocks, final_size, metadata), final_size, metadata)
+        return FileContents(size, metadata, partial(_read_blocks, path, order))
 
-    def open_writer(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> BlockWriter:
-        """Start a file; see `EventCodec.open_writer`."""
+    def check_target(self, target: FileTarget) -> None:
+        """Refuse to start without pyarrow."""
         require("pyarrow.parquet", extra=EXTRA)
-        target = FileTarget(path, size, metadata, overwrite)
-        return BlockWriter(target, partial(ParquetSink, target=target), limits=self.limits)
+
+    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> ParquetSink:
+        """Open a table with size and metadata in its schema."""
+        return ParquetSink(part, stack, target=target)
 
 
 class ParquetSink:
@@ -106,14 +93,12 @@ def _open_table(path: Path) -> Iterator[Any]:
     """The file; damage found inside the block becomes a FileFormatError."""
     arrow = require("pyarrow", extra=EXTRA)
     parquet = require("pyarrow.parquet", extra=EXTRA)
-    try:
-        with parquet.ParquetFile(path, page_checksum_verification=True) as table:
-            yield table
-    except (InputError, MissingDependencyError):
-        raise
-    except (arrow.ArrowException, OSError, ValueError, KeyError, MemoryError) as error:
-        reason = " ".join(str(error).split())[:200]
-        raise FileFormatError(f"{path} is damaged or not a Parquet file ({reason})") from error
+    damage = (arrow.ArrowException, OSError, ValueError, KeyError, MemoryError)
+    with (
+        reporting_damage(path, "a Parquet file", damage),
+        parquet.ParquetFile(path, page_checksum_verification=True) as table,
+    ):
+        yield table
 
 
 def _column_names(path: Path, names: list[str]) -> dict[str, str]:

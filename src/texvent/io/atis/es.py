@@ -5,7 +5,7 @@
     0xFF     127 µs pass · 0xFE  reset, read over
 
 Rows count from the bottom, as faery and the format's cameras have it; programs that do not flip
-them show the picture upside down. Silence takes one byte per 127 µs, so times stay below 2^36 µs
+them show the image upside down. Silence takes one byte per 127 µs, so times stay below 2^36 µs
 (19 h), which would be 540 MB of silence: clock times (since 1970) do not fit. How the events
 were made lies beside the file, in `NAME.es.json`.
 
@@ -14,29 +14,22 @@ Source: Neuromorphic Vision, Event Stream specification, version 2.0.
 
 from __future__ import annotations
 
-import importlib
 import itertools
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from texvent.errors import FileFormatError
-from texvent.event_packets import EventPackets
-from texvent.io.block_stream import (
-    BLOCK_BYTES,
-    BlockPackets,
-    BlockWriter,
-    Columns,
-    FileTarget,
-)
-from texvent.io.columns import existing_file, stored_or_given_size
+from texvent.io.block_codec import BLOCK_BYTES, BlockCodec, FileContents
+from texvent.io.block_writer import FileTarget
+from texvent.io.input_checks import begins_with
 from texvent.io.limits import FormatLimits
-from texvent.io.magic import begins_with
-from texvent.io.sidecar import read_sidecar
+from texvent.io.metadata import read_sidecar
+from texvent.io.protocol import Columns
 from texvent.sensor import SensorSize
 
 MAGIC = b"Event Stream"
@@ -49,46 +42,35 @@ EVENT_BYTES = 5
 MAX_SILENCE_US = 1 << 27
 """Longer silence is written in pieces of a megabyte."""
 OVERFLOW_US = 127
-KERNELS = "texvent.io.atis.es_kernels"
 
 
-class EsCodec:
+class EsCodec(BlockCodec):
     """Event Stream files of change-detection events."""
 
     name: ClassVar[str] = "es"
     extensions: ClassVar[tuple[str, ...]] = (".es",)
     limits: ClassVar[FormatLimits] = FormatLimits("Event Stream", 1 << 16, STOP_US)
+    has_sidecar: ClassVar[bool] = True
 
     def recognises(self, path: Path) -> bool:
         """True if the file begins as Event Stream files do."""
         return begins_with(path, MAGIC)
 
-    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
-        """Events of a file, block by block.
-
-        Raises:
-            InputError: no such file.
-            FileFormatError: the file is damaged, of another format or of another type of events.
-        """
-        path = existing_file(path)
-        final_size = stored_or_given_size(path, _read_size(path), size)
+    def inspect(self, path: Path) -> FileContents:
+        """The header states the size; metadata lies beside the file."""
+        width, height = _read_size(path)
         _, metadata = read_sidecar(path)
-        blocks = partial(_read_blocks, path, final_size.height - 1)
-        return EventPackets(BlockPackets(path, blocks, final_size, metadata), final_size, metadata)
+        return FileContents((width, height), metadata, partial(_read_blocks, path, height - 1))
 
-    def open_writer(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> BlockWriter:
-        """Start a file; see `EventCodec.open_writer`."""
-        target = FileTarget(path, size, metadata, overwrite)
-        return BlockWriter(target, partial(EsSink, size=size), limits=self.limits, sidecar=True)
+    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> EsSink:
+        """Write the header."""
+        return EsSink(part, stack, size=target.size)
 
 
 class EsSink:
     """Writes the header and events."""
 
     def __init__(self, part: Path, stack: ExitStack, *, size: SensorSize) -> None:
-        self._kernels = importlib.import_module(KERNELS)
         self._file = stack.enter_context(part.open("wb"))
         sides = b"".join(side.to_bytes(2, "little") for side in size)
         self._file.write(MAGIC + VERSION + bytes([TYPE]) + sides)
@@ -109,13 +91,15 @@ class EsSink:
 
     def _write_piece(self, columns: Columns) -> None:
         """Write events with no long silence except before the first."""
+        from texvent.io.atis.es_kernels import encode_events  # brings Numba
+
         t = columns["t"]
         while int(t[0]) - self._last_us > MAX_SILENCE_US:
             self._file.write(b"\xff" * (MAX_SILENCE_US // OVERFLOW_US))
             self._last_us += MAX_SILENCE_US // OVERFLOW_US * OVERFLOW_US
         room = EVENT_BYTES * len(t) + (int(t[-1]) - self._last_us) // OVERFLOW_US
         data = np.empty(room, dtype=np.uint8)
-        count = self._kernels.encode_events(
+        count = encode_events(
             columns["x"], columns["y"], t, columns["p"], (self._last_us, self._top), data
         )
         self._last_us = int(t[-1])
@@ -145,7 +129,8 @@ def _read_size(path: Path) -> tuple[int, int]:
 
 
 def _read_blocks(path: Path, top: int) -> Iterator[Columns]:
-    decode = importlib.import_module(KERNELS).decode_events
+    from texvent.io.atis.es_kernels import decode_events  # brings Numba
+
     rest = b""
     now = 0
     with path.open("rb") as file:
@@ -155,7 +140,7 @@ def _read_blocks(path: Path, top: int) -> Iterator[Columns]:
             room = len(data) // EVENT_BYTES
             x, p = np.empty(room, dtype=np.uint16), np.empty(room, dtype=np.uint8)
             y, t = np.empty(room, dtype=np.int64), np.empty(room, dtype=np.int64)
-            count, used, now = decode(data, (now, top), (x, y, t, p))
+            count, used, now = decode_events(data, (now, top), (x, y, t, p))
             rest = data[used:].tobytes()
             yield {"x": x[:count], "y": y[:count], "t": t[:count], "p": p[:count]}
     if rest:

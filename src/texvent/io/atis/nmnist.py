@@ -13,7 +13,7 @@ Source: Orchard et al., Converting Static Image Datasets to Spiking Neuromorphic
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
@@ -22,18 +22,11 @@ from typing import Any, ClassVar
 import numpy as np
 
 from texvent.errors import InputError
-from texvent.event_packets import EventPackets
-from texvent.io.block_stream import (
-    BlockPackets,
-    BlockWriter,
-    Columns,
-    FileTarget,
-    RecordSink,
-    read_records,
-)
-from texvent.io.columns import existing_file, stored_or_given_size
+from texvent.io.block_codec import BlockCodec, FileContents, RecordSink, read_records
+from texvent.io.block_writer import FileTarget
 from texvent.io.limits import UNLIMITED, FormatLimits
-from texvent.io.sidecar import read_sidecar
+from texvent.io.metadata import read_sidecar
+from texvent.io.protocol import Columns
 from texvent.sensor import SensorSize
 
 EVENT_BYTES = 5
@@ -43,41 +36,30 @@ OVERFLOW_US = 8192
 STOP_US = 1 << 23
 
 
-class NMnistCodec:
+class NMnistCodec(BlockCodec):
     """N-Caltech101 and N-MNIST files."""
 
     name: ClassVar[str] = "atis"
     extensions: ClassVar[tuple[str, ...]] = (".bin",)
     limits: ClassVar[FormatLimits] = FormatLimits("ATIS .bin", MAX_SIZE.width, STOP_US)
+    has_sidecar: ClassVar[bool] = True
 
-    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
-        """Events of a file, block by block.
-
-        Raises:
-            InputError: no such file, or no size is given and none lies beside it.
-            FileFormatError: the file is damaged or of another format.
-        """
-        path = existing_file(path)
-        stored, metadata = read_sidecar(path)
-        final_size = stored_or_given_size(path, stored, size)
-        blocks = partial(_read_blocks, path)
-        return EventPackets(BlockPackets(path, blocks, final_size, metadata), final_size, metadata)
-
-    def open_writer(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> BlockWriter:
-        """Start a file; see `EventCodec.open_writer`."""
-        if size.height > MAX_SIZE.height:
+    def check_target(self, target: FileTarget) -> None:
+        """Refuse a sensor that is too high."""
+        if target.size.height > MAX_SIZE.height:
             raise InputError(
-                f"cannot write {path}: ATIS .bin holds sensors up to {MAX_SIZE}, not {size}; "
-                f"{UNLIMITED} hold it"
+                f"cannot write {target.path}: ATIS .bin holds sensors up to {MAX_SIZE}, not "
+                f"{target.size}; {UNLIMITED} hold it"
             )
-        target = FileTarget(path, size, metadata, overwrite)
-        return BlockWriter(target, _start, limits=self.limits, sidecar=True)
 
+    def inspect(self, path: Path) -> FileContents:
+        """Size and metadata lie beside the file."""
+        size, metadata = read_sidecar(path)
+        return FileContents(size, metadata, partial(_read_blocks, path))
 
-def _start(part: Path, stack: ExitStack) -> RecordSink:
-    return RecordSink(stack.enter_context(part.open("wb")), _encode)
+    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> RecordSink:
+        """Records begin at once."""
+        return RecordSink(stack.enter_context(part.open("wb")), _encode)
 
 
 def _encode(columns: Columns) -> bytes:

@@ -8,7 +8,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from texvent.errors import FileFormatError, InputError, MissingDependencyError
+import h5py
+
+from texvent._require import require
+from texvent.errors import FileFormatError, MissingDependencyError
+from texvent.io.input_checks import reporting_damage
 
 HDF5_DAMAGE = (OSError, RuntimeError, KeyError, ValueError, TypeError, AttributeError, MemoryError)
 """h5py raises any of these on a damaged file."""
@@ -17,19 +21,14 @@ MAX_CHUNK_BYTES = 256 * 2**20
 
 
 @contextmanager
-def reporting_damage(path: Path) -> Iterator[None]:
-    """Turn what h5py raises inside the block into a FileFormatError that names the file.
+def open_hdf5(path: Path) -> Iterator[Any]:
+    """An HDF5 file to read; what h5py raises inside the block names the file.
 
     Raises:
         FileFormatError: the file is damaged.
     """
-    try:
-        yield
-    except (InputError, MissingDependencyError):
-        raise
-    except HDF5_DAMAGE as error:
-        reason = " ".join(str(error).split())[:200]
-        raise FileFormatError(f"{path} is damaged or not an HDF5 event file ({reason})") from error
+    with reporting_damage(path, "an HDF5 event file", HDF5_DAMAGE), h5py.File(path, "r") as file:
+        yield file
 
 
 def check_claims(dataset: Any, path: Path) -> None:
@@ -56,3 +55,22 @@ def check_claims(dataset: Any, path: Path) -> None:
             f"{path} is damaged: {dataset.name} claims {dataset.size} values and stores at most "
             f"{stored}"
         )
+
+
+def check_filters(dataset: Any, path: Path) -> None:
+    """Load hdf5plugin where a file, such as DSEC's, is compressed with a foreign filter.
+
+    Raises:
+        MissingDependencyError: it is not installed.
+    """
+    properties = dataset.id.get_create_plist()
+    filters = [properties.get_filter(index)[0] for index in range(properties.get_nfilters())]
+    if all(h5py.h5z.filter_avail(code) for code in filters):
+        return
+    try:
+        require("hdf5plugin")
+    except MissingDependencyError as error:
+        raise MissingDependencyError(
+            f"{path} is compressed with an HDF5 filter that h5py does not bring (blosc in DSEC "
+            "files); install it with: pip install hdf5plugin"
+        ) from error

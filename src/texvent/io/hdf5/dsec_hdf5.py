@@ -12,38 +12,32 @@ Source: Gehrig et al., DSEC: A Stereo Event Camera Dataset for Driving Scenarios
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, ClassVar
 
 from numpy.typing import NDArray
 
 from texvent._require import require
-from texvent.io.hdf5.native import Hdf5Codec, Hdf5Writer
-from texvent.sensor import SensorSize
+from texvent.io.block_writer import FileTarget
+from texvent.io.hdf5.native import Hdf5Codec, NativeSink, OffsetLimits
 
 
-class DsecWriter(Hdf5Writer):
-    """Writes times relative to the first millisecond."""
+class DsecSink(NativeSink):
+    """Writes times in 32 bits."""
 
     time_type: ClassVar[str] = "<u4"
-    max_start_us: ClassVar[int] = 0
-    max_span_us: ClassVar[int] = 2**32 - 1
 
 
-class DsecBloscWriter(DsecWriter):
-    """Compresses with blosc (Zstandard, level 1).
-
-    Raises:
-        MissingDependencyError: hdf5plugin is not installed.
-    """
+class DsecBloscSink(DsecSink):
+    """Compresses with blosc (Zstandard, level 1)."""
 
     def __init__(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
+        self, target: FileTarget, part: Path, stack: ExitStack, *, limits: OffsetLimits
     ) -> None:
-        super().__init__(path, size=size, metadata=metadata, overwrite=overwrite)
         plugin = require("hdf5plugin", extra="blosc")
         self.filters = dict(plugin.Blosc(cname="zstd", clevel=1, shuffle=plugin.Blosc.SHUFFLE))
+        super().__init__(target, part, stack, limits=limits)
 
     def _extend_column(self, name: str, values: NDArray[Any]) -> None:
         self._extend(f"events/{name}", values)
@@ -54,17 +48,24 @@ class DsecCodec(Hdf5Codec):
 
     name: ClassVar[str] = "dsec"
     extensions: ClassVar[tuple[str, ...]] = ()
-    writer: ClassVar[type[DsecWriter]] = DsecWriter
+    limits: ClassVar[OffsetLimits] = OffsetLimits(
+        "DSEC HDF5", 1 << 16, 1 << 63, 2**32 - 1, label="kept", max_absolute_us=0
+    )
 
-    def open_writer(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> DsecWriter:
-        """Start a file; see `EventCodec.open_writer`."""
-        return self.writer(path, size=size, metadata=metadata, overwrite=overwrite)
+    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> DsecSink:
+        """Create the empty data sets."""
+        return DsecSink(target, part, stack, limits=self.limits)
 
 
 class DsecBloscCodec(DsecCodec):
     """DSEC files, compressed with blosc as the data set's own."""
 
     name: ClassVar[str] = "dsec-blosc"
-    writer: ClassVar[type[DsecWriter]] = DsecBloscWriter
+
+    def check_target(self, target: FileTarget) -> None:
+        """Refuse to start without hdf5plugin."""
+        require("hdf5plugin", extra="blosc")
+
+    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> DsecSink:
+        """Create the empty data sets."""
+        return DsecBloscSink(target, part, stack, limits=self.limits)

@@ -11,27 +11,24 @@ Source: Hu, Liu and Delbruck, v2e: From Video Frames to Realistic DVS Events, 20
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
-from types import TracebackType
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 import h5py
 import numpy as np
 
 from texvent.errors import FileFormatError
-from texvent.event_packets import EventPackets
-from texvent.events import EventStream
-from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
-from texvent.io.columns import existing_file, metadata_to_json, stored_or_given_size
-from texvent.io.hdf5.damage import check_claims, reporting_damage
-from texvent.io.hdf5.deferred_error_file import DeferredErrorFile
-from texvent.io.hdf5.native import check_filters, read_metadata, stored_size, write_metadata
+from texvent.io.block_codec import BlockCodec, FileContents
+from texvent.io.block_writer import BlockWriter, FileTarget
+from texvent.io.hdf5.damage import check_claims, check_filters, open_hdf5
+from texvent.io.hdf5.native import read_metadata, stored_size, write_metadata
+from texvent.io.hdf5.writer import Hdf5Sink, Hdf5Writer
 from texvent.io.limits import FormatLimits
-from texvent.runtime.interrupts import delay_interrupts
-from texvent.sensor import SensorSize
+from texvent.io.metadata import metadata_to_json
+from texvent.io.protocol import Columns
 
 CHUNK_EVENTS = 65_536
 PACKET_EVENTS = 8 * CHUNK_EVENTS
@@ -39,77 +36,41 @@ STOP_US = 1 << 32
 ORDER = "txyp"
 
 
-class V2eCodec:
+class V2eHdf5Codec(BlockCodec):
     """HDF5 as v2e writes it."""
 
     name: ClassVar[str] = "v2e"
     extensions: ClassVar[tuple[str, ...]] = (".h5", ".hdf5")
     limits: ClassVar[FormatLimits] = FormatLimits("v2e HDF5", 1 << 16, STOP_US)
+    writer: ClassVar[type[BlockWriter]] = Hdf5Writer
 
     def recognises(self, path: Path) -> bool:
         """True if it is HDF5 with a dataset of four columns called events."""
         try:
-            with reporting_damage(path), h5py.File(path, "r") as file:
+            with open_hdf5(path) as file:
                 return isinstance(file.get("events"), h5py.Dataset)
         except FileFormatError:
             return False
 
-    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
-        """Events of a file, half a million at a time; the file is opened anew for each pass.
-
-        Raises:
-            InputError: no such file, or it stores no sensor size and none is given.
-            FileFormatError: the file is damaged or has another layout.
-        """
-        path = existing_file(path)
-        with reporting_damage(path), h5py.File(path, "r") as file:
+    def inspect(self, path: Path) -> FileContents:
+        """Size and metadata are attributes that texvent adds."""
+        with open_hdf5(path) as file:
             _checked_events(file, path)
-            stored = stored_size(file)
-            metadata = read_metadata(file, path)
-        final_size = stored_or_given_size(path, stored, size)
-        blocks = partial(_read_blocks, path)
-        return EventPackets(BlockPackets(path, blocks, final_size, metadata), final_size, metadata)
+            size, metadata = stored_size(file), read_metadata(file, path)
+        return FileContents(size, metadata, partial(_read_blocks, path))
 
-    def open_writer(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> V2eWriter:
-        """Start a file; see `EventCodec.open_writer`."""
-        target = FileTarget(path, size, metadata, overwrite)
-        return V2eWriter(target, partial(V2eSink, target=target), limits=self.limits)
+    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> V2eHdf5Sink:
+        """Create the empty dataset."""
+        return V2eHdf5Sink(target, part, stack)
 
 
-class V2eWriter(BlockWriter):
-    """Keeps Ctrl-C out of HDF5's callbacks; see `delay_interrupts`."""
-
-    def __enter__(self) -> Self:
-        with delay_interrupts():
-            return super().__enter__()
-
-    def append(self, packet: EventStream) -> None:
-        """Add the events of a packet, which starts no earlier than the one before it ended."""
-        with delay_interrupts():
-            super().append(packet)
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        with delay_interrupts():
-            super().__exit__(kind, error, trace)
-
-
-class V2eSink:
+class V2eHdf5Sink(Hdf5Sink):
     """Appends rows to the dataset."""
 
-    def __init__(self, part: Path, stack: ExitStack, *, target: FileTarget) -> None:
-        self._disk = stack.enter_context(DeferredErrorFile(part))
-        self._file = h5py.File(self._disk, "w", libver=("v110", "v110"))
-        stack.callback(self._file.close)
+    def _create_layout(self, target: FileTarget) -> None:
         self._file.attrs["width"], self._file.attrs["height"] = target.size
         write_metadata(self._file, metadata_to_json(target.metadata), {})
-        self._events = self._file.create_dataset(
+        self._file.create_dataset(
             "events",
             shape=(0, 4),
             maxshape=(None, 4),
@@ -120,18 +81,9 @@ class V2eSink:
             shuffle=True,
         )
 
-    def write(self, columns: Columns) -> None:
-        """Add events."""
+    def _store(self, columns: Columns) -> None:
         rows = np.stack([columns[name].astype(np.uint32) for name in ORDER], axis=1)
-        start = self._events.shape[0]
-        self._events.resize((start + len(rows), 4))
-        self._events[start:] = rows
-        self._disk.raise_failure()
-
-    def finish(self) -> None:
-        """Flush what HDF5 holds back, where a full disk still can be reported."""
-        self._file.close()
-        self._disk.raise_failure()
+        self._extend("events", rows)
 
 
 def _checked_events(file: Any, path: Path) -> Any:
@@ -149,13 +101,8 @@ def _checked_events(file: Any, path: Path) -> Any:
 
 
 def _read_blocks(path: Path) -> Iterator[Columns]:
-    with reporting_damage(path):
-        file = h5py.File(path, "r")
-    with file:
-        with reporting_damage(path):
-            events = _checked_events(file, path)
-            count = events.shape[0]
-        for start in range(0, count, PACKET_EVENTS):
-            with reporting_damage(path):
-                rows = events[start : start + PACKET_EVENTS].astype(np.int64)
+    with open_hdf5(path) as file:
+        events = _checked_events(file, path)
+        for start in range(0, events.shape[0], PACKET_EVENTS):
+            rows = events[start : start + PACKET_EVENTS].astype(np.int64)
             yield {name: rows[:, index] for index, name in enumerate(ORDER)}

@@ -11,117 +11,87 @@ Source: Prophesee, "DAT File Format".
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator
+from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
-from texvent.event_packets import EventPackets
-from texvent.io.columns import existing_file, stored_or_given_size
+from texvent.io.block_codec import BlockCodec, FileContents, RecordSink, read_records
+from texvent.io.block_writer import FileTarget
 from texvent.io.limits import FormatLimits
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header
-from texvent.io.prophesee.word_coding import Columns, WordPackets, WordWriter
-from texvent.sensor import SensorSize
+from texvent.io.protocol import Columns
 
 EVENT_TYPES = (0x0C, 0x00)
 """Type byte of contrast events, now and in older files."""
 EVENT_BYTES = 8
 VERSION = "2"
-PLACE_BITS = 14
-PLACE_MASK = (1 << PLACE_BITS) - 1
+PIXEL_BITS = 14
+PIXEL_MASK = (1 << PIXEL_BITS) - 1
 TURN_US = 1 << 32
 
 
-class DatCodec:
+class DatCodec(BlockCodec):
     """DAT files."""
 
     name: ClassVar[str] = "dat"
     extensions: ClassVar[tuple[str, ...]] = (".dat",)
-    limits: ClassVar[FormatLimits] = FormatLimits("DAT", 1 << PLACE_BITS, TURN_US)
+    limits: ClassVar[FormatLimits] = FormatLimits("DAT", 1 << PIXEL_BITS, TURN_US)
 
-    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
-        """Events of a file, block by block.
-
-        Raises:
-            InputError: no such file, or it stores no sensor size and none is given.
-            FileFormatError: the file is damaged or of another format.
-        """
-        path = existing_file(path)
+    def inspect(self, path: Path) -> FileContents:
+        """The header states size and metadata."""
         header = _read_header(path)
-        metadata = header.metadata(path)
-        final_size = stored_or_given_size(path, header.stored_size(path), size)
-        packets = WordPackets(
-            path,
-            start=header.length + 2,
-            decoder=DatDecoder,
-            size=final_size,
-            metadata=metadata,
-        )
-        return EventPackets(packets, final_size, metadata)
+        size, metadata = header.stored_size(path), header.metadata(path)
+        return FileContents(size, metadata, partial(_read_blocks, path, header.length + 2))
 
-    def open_writer(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> WordWriter:
-        """Start a file; see `EventCodec.open_writer`."""
-        fields = {"Height": str(size.height), "Version": VERSION, "Width": str(size.width)}
-        return WordWriter(
-            path,
-            header=make_text_header(fields, metadata, end=False),
-            encoder=DatEncoder,
-            limits=self.limits,
-            size=size,
-            overwrite=overwrite,
-        )
+    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> RecordSink:
+        """Write the header, and type and length of the records."""
+        width, height = target.size
+        fields = {"Height": str(height), "Version": VERSION, "Width": str(width)}
+        header = make_text_header(fields, target.metadata, end=False)
+        file = stack.enter_context(part.open("wb"))
+        file.write(header + bytes((EVENT_TYPES[0], EVENT_BYTES)))
+        return RecordSink(file, _encode)
 
 
-class DatEncoder:
-    """Makes records of events."""
-
-    def start(self) -> bytes:
-        """Type and length of the records."""
-        return bytes((EVENT_TYPES[0], EVENT_BYTES))
-
-    def encode(self, columns: Columns) -> memoryview:
-        """Records of the events in columns x, y, t, p."""
-        records = np.empty((len(columns["t"]), 2), dtype="<u4")
-        records[:, 0] = columns["t"]
-        place = columns["y"].astype(np.uint32) << PLACE_BITS | columns["x"]
-        records[:, 1] = columns["p"].astype(np.uint32) << 2 * PLACE_BITS | place
-        return records.data.cast("B")
+def _encode(columns: Columns) -> memoryview:
+    records = np.empty((len(columns["t"]), 2), dtype="<u4")
+    records[:, 0] = columns["t"]
+    pixel = columns["y"].astype(np.uint32) << PIXEL_BITS | columns["x"]
+    records[:, 1] = columns["p"].astype(np.uint32) << 2 * PIXEL_BITS | pixel
+    return records.data.cast("B")
 
 
-class DatDecoder:
-    """Makes events of records; it adds a turn where the 32 bits of the time wrap."""
-
-    def __init__(self) -> None:
-        self.word = np.dtype("<u8")
-        self._last_us = 0
-
-    def decode(self, words: NDArray[Any]) -> Columns:
-        """Columns x, y, t, p of the events in these records."""
-        records = words.view("<u4").reshape(-1, 2)
-        place = records[:, 1]
-        return {
-            "x": (place & PLACE_MASK).astype(np.uint16),
-            "y": (place >> PLACE_BITS & PLACE_MASK).astype(np.uint16),
-            "t": self._unwrap(records[:, 0].astype(np.int64)),
-            "p": (place >> 2 * PLACE_BITS).astype(np.uint8),
+def _read_blocks(path: Path, start: int) -> Iterator[Columns]:
+    last_us = 0
+    for block in read_records(path, start, EVENT_BYTES):
+        records = np.frombuffer(block, dtype="<u4").reshape(-1, 2)
+        pixel = records[:, 1]
+        t = _unwrap(records[:, 0].astype(np.int64), last_us)
+        last_us = int(t[-1])
+        yield {
+            "x": (pixel & PIXEL_MASK).astype(np.uint16),
+            "y": (pixel >> PIXEL_BITS & PIXEL_MASK).astype(np.uint16),
+            "t": t,
+            "p": (pixel >> 2 * PIXEL_BITS).astype(np.uint8),
         }
 
-    def _unwrap(self, times: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Times without the falls of more than half a turn."""
-        turns, last = divmod(self._last_us, TURN_US)
-        falls = times[:-1] - times[1:] > TURN_US // 2
-        if last - int(times[0]) > TURN_US // 2:
-            turns += 1
-        times += turns * TURN_US
-        if falls.any():
-            times[1:] += np.cumsum(falls) * TURN_US
-        self._last_us = int(times[-1])
-        return times
+
+def _unwrap(times: NDArray[np.int64], last_us: int) -> NDArray[np.int64]:
+    """Times after `last_us`, with a turn added at each fall of more than half a turn."""
+    turns, last = divmod(last_us, TURN_US)
+    falls = times[:-1] - times[1:] > TURN_US // 2
+    if last - int(times[0]) > TURN_US // 2:
+        turns += 1
+    times += turns * TURN_US
+    if falls.any():
+        times[1:] += np.cumsum(falls) * TURN_US
+    return times
 
 
 def _read_header(path: Path) -> TextHeader:

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
-from texvent.io.prophesee.ecf_chunks import MAX_EVENTS, Columns, decode_chunk
+from texvent.io.prophesee.ecf_chunks import MAX_EVENTS, decode_chunk
+from texvent.io.protocol import Columns
 
 ECF_FILTER = 0x8ECF
 MAX_CHUNK_EVENTS = 1 << 22

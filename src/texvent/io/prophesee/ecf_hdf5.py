@@ -22,7 +22,9 @@ Source: Prophesee, "HDF5 Event Files", and OpenEB.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
+from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -30,21 +32,16 @@ import h5py
 import numpy as np
 
 from texvent.errors import FileFormatError
-from texvent.event_packets import EventPackets
-from texvent.events import EventStream
-from texvent.io.columns import (
-    existing_file,
-    metadata_from_json,
-    stored_or_given_size,
-    stream_from_file,
-)
-from texvent.io.hdf5.damage import check_claims, reporting_damage
-from texvent.io.hdf5.writer import BatchedHdf5Writer
+from texvent.io.block_codec import BlockCodec, FileContents
+from texvent.io.block_writer import BlockWriter, FileTarget
+from texvent.io.hdf5.damage import check_claims, open_hdf5
+from texvent.io.hdf5.writer import Hdf5Sink, Hdf5Writer
 from texvent.io.limits import FormatLimits
+from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.prophesee import ecf_chunks
 from texvent.io.prophesee.ecf_dataset import ECF_FILTER, check_storage, read_columns, whole_chunks
 from texvent.io.prophesee.ecf_index import ENTRY, TimeIndex
-from texvent.sensor import SensorSize
+from texvent.io.protocol import Columns
 
 CHUNK_EVENTS = 16_384
 PACKET_CHUNKS = 16
@@ -69,7 +66,7 @@ TRIGGER = np.dtype(
 )
 
 
-class PropheseeHdf5Codec:
+class EcfHdf5Codec(BlockCodec):
     """HDF5 files of Metavision."""
 
     name: ClassVar[str] = "prophesee-hdf5"
@@ -77,61 +74,33 @@ class PropheseeHdf5Codec:
     limits: ClassVar[FormatLimits] = FormatLimits(
         "Prophesee HDF5", ecf_chunks.MAX_SIDE, ecf_chunks.MAX_START_US, MAX_SPAN_US
     )
+    writer: ClassVar[type[BlockWriter]] = Hdf5Writer
 
     def recognises(self, path: Path) -> bool:
         """True if it is HDF5 with events where Metavision puts them."""
         try:
-            with reporting_damage(path), h5py.File(path, "r") as file:
+            with open_hdf5(path) as file:
                 return "CD/events" in file
         except FileFormatError:
             return False
 
-    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
-        """Events of a file, 262,144 at a time; the file is opened anew for each pass.
-
-        Raises:
-            InputError: no such file, or it stores no sensor size and none is given.
-            FileFormatError: the file is damaged or has another layout.
-        """
-        path = existing_file(path)
-        with reporting_damage(path), h5py.File(path, "r") as file:
+    def inspect(self, path: Path) -> FileContents:
+        """Size and metadata are attributes of the root and of /CD."""
+        with open_hdf5(path) as file:
             _checked_events(file, path)
-            stored = _stored_size(file)
-            metadata = _read_metadata(file, path)
-        final_size = stored_or_given_size(path, stored, size)
-        return EventPackets(_Packets(path, final_size, metadata), final_size, metadata)
+            size, metadata = _stored_size(file), _read_metadata(file, path)
+        return FileContents(size, metadata, partial(_read_blocks, path))
 
-    def open_writer(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> PropheseeHdf5Writer:
-        """Start a file; see `EventCodec.open_writer`."""
-        return PropheseeHdf5Writer(path, size=size, metadata=metadata, overwrite=overwrite)
+    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> EcfHdf5Sink:
+        """Create the empty data sets."""
+        return EcfHdf5Sink(target, part, stack)
 
 
-class PropheseeHdf5Writer(BatchedHdf5Writer):
-    """Appends packets to a Metavision file; memory does not grow with the recording.
+class EcfHdf5Sink(Hdf5Sink):
+    """Appends coded chunks, and keeps the time index."""
 
-    Raises:
-        OutputError: the file exists already, its folder refuses it, or the disk is full.
-        InputError: the format cannot hold the sensor or an event; a packet of another size, or
-            before the one before it.
-    """
-
-    chunk_events: ClassVar[int] = CHUNK_EVENTS
-
-    def __init__(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> None:
-        super().__init__(path, size=size, metadata=metadata, overwrite=overwrite)
-        PropheseeHdf5Codec.limits.check_size(path, size)
+    def _create_layout(self, target: FileTarget) -> None:
         self._index = TimeIndex()
-        self._start_us: int | None = None
-
-    def _check(self, packet: EventStream) -> None:
-        PropheseeHdf5Codec.limits.check_packet(self._path, packet, self._start_us)
-        self._start_us = int(packet.t[0]) if self._start_us is None else self._start_us
-
-    def _create_layout(self) -> None:
         file = self._file
         properties = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
         # Optional, as in Metavision: HDF5 then does not ask for the filter itself.
@@ -143,16 +112,16 @@ class PropheseeHdf5Writer(BatchedHdf5Writer):
         for name, text in {
             "version": "1.0",
             "format": "ECF",
-            "geometry": str(self._size),
+            "geometry": str(target.size),
             "generation": "0.0",
             "camera_integrator_name": "Prophesee",
             "plugin_integrator_name": "Prophesee",
         }.items():
             _set_text(file, name, text)
         group = file["CD"]
-        group.attrs["width"], group.attrs["height"] = self._size
+        group.attrs["width"], group.attrs["height"] = target.size
         # Of fixed length: HDF5 keeps other text in a heap without checksums.
-        fixed = np.bytes_(self._json.encode("ascii"))
+        fixed = np.bytes_(metadata_to_json(target.metadata).encode("ascii"))
         if len(fixed) <= MAX_METADATA_BYTES:
             group.attrs["texvent"] = fixed
         else:
@@ -168,49 +137,30 @@ class PropheseeHdf5Writer(BatchedHdf5Writer):
             dcpl=properties,
         )
 
-    def _store(self, events: EventStream, count: int) -> None:
+    def _store(self, columns: Columns) -> None:
+        count = len(columns["t"])
         dataset = self._file["CD/events"]
         dataset.resize((self._written + count,))
-        columns = events.columns()
         for start in range(0, count, CHUNK_EVENTS):
-            piece = slice(start, min(start + CHUNK_EVENTS, count))
-            chunk = ecf_chunks.encode_chunk({name: columns[name][piece] for name in "xytp"})
+            part = slice(start, min(start + CHUNK_EVENTS, count))
+            chunk = ecf_chunks.encode_chunk({name: columns[name][part] for name in "xytp"})
             dataset.id.write_direct_chunk((self._written + start,), chunk)
-        for entries in self._index.add(events.t[:count]):
+        for entries in self._index.add(columns["t"]):
             self._extend("CD/indexes", entries)
 
     def _complete(self) -> None:
-        if self._start_us is not None:
+        if self._index.start_us is not None:
             self._extend("CD/indexes", self._index.close())
-            _set_text(self._file["CD/indexes"], "offset", str(-self._start_us))
+            _set_text(self._file["CD/indexes"], "offset", str(-self._index.start_us))
 
 
-class _Packets:
-    """Re-iterable packets of a checked file."""
-
-    def __init__(self, path: Path, size: SensorSize, metadata: Mapping[str, Any]) -> None:
-        self._path = path
-        self._size = size
-        self._metadata = metadata
-
-    def __iter__(self) -> Iterator[EventStream]:
-        with reporting_damage(self._path):
-            file = h5py.File(self._path, "r")
-        with file:
-            with reporting_damage(self._path):
-                events = _checked_events(file, self._path)
-                count = events.shape[0]
-                step = whole_chunks(events, PACKET_CHUNKS * CHUNK_EVENTS)
-            last_us: int | None = None
-            for start in range(0, count, step):
-                with reporting_damage(self._path):
-                    columns = read_columns(events, start, min(start + step, count))
-                    packet = stream_from_file(self._path, columns, self._size, self._metadata)
-                if last_us is not None and int(packet.t[0]) < last_us:
-                    raise FileFormatError(f"{self._path}: time decreases at event {start}")
-                last_us = int(packet.t[-1])
-                # Outside `reporting_damage`: the caller's own errors are not the file's.
-                yield packet
+def _read_blocks(path: Path) -> Iterator[Columns]:
+    with open_hdf5(path) as file:
+        events = _checked_events(file, path)
+        count = events.shape[0]
+        step = whole_chunks(events, PACKET_CHUNKS * CHUNK_EVENTS)
+        for start in range(0, count, step):
+            yield read_columns(events, start, min(start + step, count))
 
 
 def _checked_events(file: Any, path: Path) -> Any:

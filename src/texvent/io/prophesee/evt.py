@@ -14,17 +14,19 @@ Source: Prophesee, "Data Encoding Formats" of the Metavision documentation.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from abc import abstractmethod
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from texvent.errors import FileFormatError
-from texvent.event_packets import EventPackets
-from texvent.io.columns import existing_file, stored_or_given_size
-from texvent.io.limits import FormatLimits
+from texvent.io.block_codec import BlockCodec, FileContents, RecordSink, read_records
+from texvent.io.block_writer import FileTarget
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header
-from texvent.io.prophesee.word_coding import KernelDecoder, KernelEncoder, WordPackets, WordWriter
-from texvent.sensor import SensorSize
+from texvent.io.prophesee.word_coding import WordDecoder, WordEncoder, WordKernels
+from texvent.io.protocol import Columns
 
 MAX_SIDE = 2048
 """Coordinates have 11 bits."""
@@ -32,19 +34,15 @@ INTEGRATOR = "Prophesee"
 """OpenEB chooses the plug-in that decodes a file by this name."""
 
 
-class EvtCodec:
+class EvtCodec(BlockCodec):
     """Reads and writes RAW files of one event format; the subclasses say which."""
 
-    name: ClassVar[str]
     extensions: ClassVar[tuple[str, ...]] = (".raw",)
     title: ClassVar[str]
     """The format as `% format` names it: `EVT3`."""
     version: ClassVar[str]
     """The format as `% evt` names it: `3.0`."""
-    word: ClassVar[str]
-    """NumPy type of one word."""
-    kernels: ClassVar[str]
-    limits: ClassVar[FormatLimits]
+    word_bytes: ClassVar[int]
     options: ClassVar[Mapping[str, str]] = {}
     """More of the `% format` line; each has a line of its own too, for readers that look there."""
 
@@ -55,14 +53,21 @@ class EvtCodec:
         except (OSError, FileFormatError):
             return False
 
-    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
-        """Events of a file, block by block.
+    @abstractmethod
+    def kernels(self) -> WordKernels:
+        """The compiled loops; importing them brings Numba."""
 
-        Raises:
-            InputError: no such file, or it stores no sensor size and none is given.
-            FileFormatError: the file is damaged or of another format.
-        """
-        path = existing_file(path)
+    def make_decoder(self, header: TextHeader | None = None) -> WordDecoder:
+        """A decoder for a file with this header; None: with the header that texvent writes."""
+        del header
+        return WordDecoder(self.kernels())
+
+    def make_encoder(self) -> WordEncoder:
+        """An encoder for one file."""
+        return WordEncoder(self.kernels())
+
+    def inspect(self, path: Path) -> FileContents:
+        """The header states size and metadata."""
         header = _read_header(path)
         named = _format_name(header)
         if named != self.title:
@@ -72,21 +77,12 @@ class EvtCodec:
             )
         if not header.has_end and path.stat().st_size == header.length:
             raise FileFormatError(f"{path} ends inside its header; the file was cut off")
-        metadata = header.metadata(path)
-        final_size = stored_or_given_size(path, header.stored_size(path), size)
-        packets = WordPackets(
-            path,
-            start=header.length,
-            decoder=lambda: self.make_decoder(header),
-            size=final_size,
-            metadata=metadata,
-        )
-        return EventPackets(packets, final_size, metadata)
+        size, metadata = header.stored_size(path), header.metadata(path)
+        return FileContents(size, metadata, partial(self._read_blocks, path, header))
 
-    def open_writer(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> WordWriter:
-        """Start a file; see `EventCodec.open_writer`."""
+    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> RecordSink:
+        """Write the header and the words before the first event."""
+        size = target.size
         facts = {**self.options, "height": str(size.height), "width": str(size.width)}
         fields = {
             **self.options,
@@ -97,18 +93,15 @@ class EvtCodec:
             "integrator_name": INTEGRATOR,
             "plugin_integrator_name": INTEGRATOR,
         }
-        return WordWriter(
-            path,
-            header=make_text_header(fields, metadata, end=True),
-            encoder=lambda: KernelEncoder(self.kernels),
-            limits=self.limits,
-            size=size,
-            overwrite=overwrite,
-        )
+        encoder = self.make_encoder()
+        file = stack.enter_context(part.open("wb"))
+        file.write(make_text_header(fields, target.metadata, end=True) + encoder.start())
+        return RecordSink(file, encoder.encode)
 
-    def make_decoder(self, header: TextHeader) -> KernelDecoder:
-        """The decoder for a file with this header."""
-        return KernelDecoder(self.kernels, self.word)
+    def _read_blocks(self, path: Path, header: TextHeader) -> Iterator[Columns]:
+        decoder = self.make_decoder(header)
+        for words in read_records(path, header.length, self.word_bytes):
+            yield decoder.decode(words)
 
 
 def _read_header(path: Path) -> TextHeader:

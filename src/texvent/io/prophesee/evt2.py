@@ -17,6 +17,7 @@ from typing import ClassVar
 
 from texvent.io.limits import FormatLimits
 from texvent.io.prophesee.evt import MAX_SIDE, EvtCodec
+from texvent.io.prophesee.word_coding import WordKernels
 
 
 class Evt2Codec(EvtCodec):
@@ -25,6 +26,11 @@ class Evt2Codec(EvtCodec):
     name: ClassVar[str] = "evt2"
     title: ClassVar[str] = "EVT2"
     version: ClassVar[str] = "2.0"
-    word: ClassVar[str] = "<u4"
-    kernels: ClassVar[str] = "texvent.io.prophesee.evt2_kernels"
+    word_bytes: ClassVar[int] = 4
     limits: ClassVar[FormatLimits] = FormatLimits("EVT2", MAX_SIDE, 1 << 34)
+
+    def kernels(self) -> WordKernels:
+        """The compiled loops of EVT2."""
+        from texvent.io.prophesee import evt2_kernels  # brings Numba
+
+        return evt2_kernels

@@ -19,14 +19,15 @@ Source: Prophesee, "EVT 2.1 Format".
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import ClassVar
 
-from numpy.typing import NDArray
+import numpy as np
 
 from texvent.io.limits import FormatLimits
 from texvent.io.prophesee.evt import INTEGRATOR, MAX_SIDE, EvtCodec
 from texvent.io.prophesee.text_header import TextHeader
-from texvent.io.prophesee.word_coding import Columns, KernelDecoder
+from texvent.io.prophesee.word_coding import WordDecoder, WordKernels, Words
+from texvent.io.protocol import Columns
 
 LEGACY = "legacy"
 FIRST_LITTLE_SYSTEM = 0x37
@@ -38,23 +39,29 @@ class Evt21Codec(EvtCodec):
     name: ClassVar[str] = "evt21"
     title: ClassVar[str] = "EVT21"
     version: ClassVar[str] = "2.1"
-    word: ClassVar[str] = "<u8"
-    kernels: ClassVar[str] = "texvent.io.prophesee.evt21_kernels"
+    word_bytes: ClassVar[int] = 8
     limits: ClassVar[FormatLimits] = FormatLimits("EVT2.1", MAX_SIDE, 1 << 34)
     options: ClassVar[Mapping[str, str]] = {"endianness": LEGACY}
 
-    def make_decoder(self, header: TextHeader) -> KernelDecoder:
-        """The decoder for a file with this header: it may have to exchange the halves of words."""
-        kind = KernelDecoder if is_legacy(header) else LittleDecoder
-        return kind(self.kernels, self.word)
+    def kernels(self) -> WordKernels:
+        """The compiled loops of EVT2.1."""
+        from texvent.io.prophesee import evt21_kernels  # brings Numba
+
+        return evt21_kernels
+
+    def make_decoder(self, header: TextHeader | None = None) -> WordDecoder:
+        """A decoder for a file with this header: it may have to exchange the halves of words."""
+        kind = WordDecoder if header is None or is_legacy(header) else LittleDecoder
+        return kind(self.kernels())
 
 
-class LittleDecoder(KernelDecoder):
+class LittleDecoder(WordDecoder):
     """Decodes words whose lower half comes first."""
 
-    def decode(self, words: NDArray[Any]) -> Columns:
+    def decode(self, words: Words) -> Columns:
         """Columns x, y, t, p of the events in these words."""
-        return super().decode(words << 32 | words >> 32)
+        numbers = np.frombuffer(words, "<u8")
+        return super().decode(numbers << 32 | numbers >> 32)
 
 
 def is_legacy(header: TextHeader) -> bool:

@@ -27,6 +27,7 @@ from typing import ClassVar
 
 from texvent.io.limits import FormatLimits
 from texvent.io.prophesee.evt import MAX_SIDE, EvtCodec
+from texvent.io.prophesee.word_coding import WordKernels
 
 
 class Evt3Codec(EvtCodec):
@@ -35,6 +36,11 @@ class Evt3Codec(EvtCodec):
     name: ClassVar[str] = "evt3"
     title: ClassVar[str] = "EVT3"
     version: ClassVar[str] = "3.0"
-    word: ClassVar[str] = "<u2"
-    kernels: ClassVar[str] = "texvent.io.prophesee.evt3_kernels"
+    word_bytes: ClassVar[int] = 2
     limits: ClassVar[FormatLimits] = FormatLimits("EVT3", MAX_SIDE, 1 << 42)
+
+    def kernels(self) -> WordKernels:
+        """The compiled loops of EVT3."""
+        from texvent.io.prophesee import evt3_kernels  # brings Numba
+
+        return evt3_kernels

@@ -14,11 +14,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from texvent.errors import FileFormatError, InputError
-from texvent.io.columns import metadata_from_json, metadata_to_json
+from texvent.errors import FileFormatError
+from texvent.io.metadata import MAX_HEADER_BYTES, header_metadata, metadata_from_json
 
-MAX_HEADER_BYTES = 8 * 2**20
-"""More text than this before the first event is not a header."""
 END = "end"
 METADATA = "texvent"
 _CONTROL = re.compile(rb"[\x00-\x08\x0b\x0c\x0e-\x1f]")
@@ -106,12 +104,7 @@ def make_text_header(fields: Mapping[str, str], metadata: Mapping[str, Any], *, 
     Raises:
         InputError: the metadata is not JSON-serialisable or too long.
     """
-    text = metadata_to_json(metadata)
-    if len(text) > MAX_HEADER_BYTES // 2:
-        raise InputError(
-            f"metadata of {len(text)} bytes cannot be stored in a text header; "
-            f"at most {MAX_HEADER_BYTES // 2} bytes, or write hdf5 (.h5)"
-        )
+    text = header_metadata(metadata)
     lines = [f"% {key} {value}" for key, value in sorted({**fields, METADATA: text}.items())]
     lines += [f"% {END}"] if end else []
     return "".join(f"{line}\n" for line in lines).encode("ascii")

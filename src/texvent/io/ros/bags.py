@@ -17,7 +17,7 @@ import os
 import struct
 import tempfile
 from abc import abstractmethod
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from functools import partial
 from pathlib import Path
@@ -27,11 +27,13 @@ import numpy as np
 
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError, MissingDependencyError
-from texvent.event_packets import EventPackets
-from texvent.io.block_stream import BlockPackets, BlockWriter, Columns, FileTarget
-from texvent.io.columns import existing_file, stored_or_given_size
+from texvent.io.block_codec import BlockCodec, FileContents
+from texvent.io.block_writer import FileTarget
+from texvent.io.input_checks import one_line
 from texvent.io.limits import FormatLimits
-from texvent.io.prophesee.word_coding import KernelDecoder, KernelEncoder
+from texvent.io.metadata import parse_sidecar, sidecar_text
+from texvent.io.prophesee.evt3 import Evt3Codec
+from texvent.io.protocol import Columns
 from texvent.io.ros.bag_chunks import bound_chunks
 from texvent.io.ros.messages import (
     EVENT_ARRAY,
@@ -46,58 +48,38 @@ from texvent.io.ros.messages import (
     pack_event_packet,
     unpack_event_array,
 )
-from texvent.io.sidecar import parse_sidecar, sidecar_text
-from texvent.sensor import SensorSize
 
 TOPIC, FACTS_TOPIC = "/dvs/events", "/texvent"
 STRING = "std_msgs/msg/String"
 PACKET_US = 10_000
 NS = 1000
-KERNELS, WORD = "texvent.io.prophesee.evt3_kernels", "<u2"
 ROSBAG1 = "rosbags.rosbag1"
 EXTRA = "bags"
 
 
-class BagCodec:
+class BagCodec(BlockCodec):
     """What both kinds of bag share."""
 
-    name: ClassVar[str]
-    extensions: ClassVar[tuple[str, ...]]
-    limits: ClassVar[FormatLimits]
-
-    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
-        """Events of a bag, message by message.
-
-        Raises:
-            InputError: no such file.
-            FileFormatError: it is damaged, or holds no messages of events.
-            MissingDependencyError: rosbags is not installed.
-        """
-        path = existing_file(path)
-        stored: tuple[int, int] | None = None
+    def inspect(self, path: Path) -> FileContents:
+        """Size and metadata from the message of texvent, else the size of the first events."""
+        size: tuple[int, int]
         metadata: dict[str, Any] = {}
         with self.open_bag(path) as bag:
             facts = _first_message(bag, STRING, FACTS_TOPIC)
             if facts is not None:
-                stored, metadata = parse_sidecar(path, self.unpack_text(facts))
+                size, metadata = parse_sidecar(path, self.unpack_text(facts))
             else:
                 data = _first_message(bag, self.message_type())
                 if data is None:
                     raise FileFormatError(
                         f"{path} holds no {self.message_type()}; texvent reads bags with those"
                     )
-                stored = tuple(self.open_message(data).size)  # type: ignore[assignment]
-        final_size = stored_or_given_size(path, stored, size)
-        blocks = partial(self.read_blocks, path)
-        return EventPackets(BlockPackets(path, blocks, final_size, metadata), final_size, metadata)
+                size = self.open_message(data).size
+        return FileContents(size, metadata, partial(self.read_blocks, path))
 
-    def open_writer(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> BlockWriter:
-        """Start a bag; see `EventCodec.open_writer`."""
+    def check_target(self, target: FileTarget) -> None:
+        """Refuse to start without rosbags."""
         require("rosbags", extra=EXTRA)
-        target = FileTarget(path, size, metadata, overwrite)
-        return BlockWriter(target, partial(self.start_sink, target), limits=self.limits)
 
     @abstractmethod
     def message_type(self) -> str:
@@ -118,10 +100,6 @@ class BagCodec:
     @abstractmethod
     def read_blocks(self, path: Path) -> Iterator[Columns]:
         """Columns of the bag's events."""
-
-    @abstractmethod
-    def start_sink(self, target: FileTarget, part: Path, stack: ExitStack) -> BagSink:
-        """Open a bag for writing."""
 
 
 class Rosbag1Codec(BagCodec):
@@ -152,7 +130,7 @@ class Rosbag1Codec(BagCodec):
         for message in _messages(self, path):
             yield unpack_event_array(message)
 
-    def start_sink(self, target: FileTarget, part: Path, stack: ExitStack) -> BagSink:
+    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> BagSink:
         """Open a bag for writing."""
         part.unlink()
         bag = stack.enter_context(require(ROSBAG1, extra=EXTRA).Writer(part))
@@ -191,11 +169,11 @@ class McapCodec(BagCodec):
 
     def read_blocks(self, path: Path) -> Iterator[Columns]:
         """Columns of the bag's events."""
-        decoder = KernelDecoder(KERNELS, WORD)
+        decoder = Evt3Codec().make_decoder()
         for message in _messages(self, path):
-            yield decoder.decode(np.frombuffer(message.payload, dtype=WORD))
+            yield decoder.decode(message.payload)
 
-    def start_sink(self, target: FileTarget, part: Path, stack: ExitStack) -> BagSink:
+    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> BagSink:
         """Open a bag for writing: rosbags writes a folder, of which the .mcap is kept."""
         folder = stack.enter_context(
             tempfile.TemporaryDirectory(prefix=".texvent-", suffix=".part", dir=part.parent)
@@ -212,10 +190,10 @@ class McapCodec(BagCodec):
         facts = bag.add_connection(FACTS_TOPIC, STRING, typestore=types)
         message = b"\0\1\0\0" + struct.pack("<I", len(text) + 1) + text + b"\0"
         events = bag.add_connection(TOPIC, EVENT_PACKET, typestore=types)
-        encoder = KernelEncoder(KERNELS)
+        encoder = Evt3Codec().make_encoder()
 
         def pack(columns: Columns, number: int) -> bytes:
-            words = bytes(encoder.encode(dict(columns)))
+            words = bytes(encoder.encode(columns))
             words = encoder.start() + words if number == 0 else words
             return pack_event_packet(words, target.size, number, int(columns["t"][0]))
 
@@ -301,10 +279,7 @@ def _open_bag(path: Path, module: str) -> Iterator[Any]:
             raise
         raise FileFormatError(f"{path}: {error}") from error
     except (package.ReaderError, *_DAMAGE) as error:
-        reason = " ".join(str(error).split())[:200]
-        raise FileFormatError(
-            f"{path} is damaged or not a bag ({reason or type(error).__name__})"
-        ) from error
+        raise FileFormatError(f"{path} is damaged or not a bag ({one_line(error)})") from error
 
 
 _DAMAGE = (

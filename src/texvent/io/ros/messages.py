@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
-from texvent.io.block_stream import Columns
+from texvent.io.protocol import Columns
 from texvent.sensor import SensorSize
 
 EVENT_ARRAY = "dvs_msgs/msg/EventArray"

@@ -7,28 +7,21 @@ size nor metadata: texvent writes both beside the file, in `NAME.csv.json`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from texvent.errors import FileFormatError
-from texvent.event_packets import EventPackets
-from texvent.io.block_stream import (
-    BlockPackets,
-    BlockWriter,
-    Columns,
-    FileTarget,
-    RecordSink,
-)
-from texvent.io.columns import existing_file, stored_or_given_size
+from texvent.io.block_codec import BlockCodec, FileContents, RecordSink
+from texvent.io.block_writer import FileTarget
 from texvent.io.limits import FormatLimits
-from texvent.io.sidecar import read_sidecar
+from texvent.io.metadata import read_sidecar
+from texvent.io.protocol import Columns
 from texvent.io.text.rows import parse_table, read_text_blocks, whole_numbers
-from texvent.sensor import SensorSize
 
 HEADER = "t,x,y,p\n"
 HEADLESS = ("x", "y", "p", "t")
@@ -44,39 +37,25 @@ STOP_US = 1 << 53
 MAX_HEADER = 4096
 
 
-class CsvCodec:
+class CsvCodec(BlockCodec):
     """Comma-separated text."""
 
     name: ClassVar[str] = "csv"
     extensions: ClassVar[tuple[str, ...]] = (".csv",)
     limits: ClassVar[FormatLimits] = FormatLimits("CSV", 1 << 16, STOP_US)
+    has_sidecar: ClassVar[bool] = True
 
-    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
-        """Events of a file, block by block.
-
-        Raises:
-            InputError: no such file, or no size is given and none lies beside it.
-            FileFormatError: a column is missing, or a row is not whole numbers.
-        """
-        path = existing_file(path)
-        stored, metadata = read_sidecar(path)
-        final_size = stored_or_given_size(path, stored, size)
+    def inspect(self, path: Path) -> FileContents:
+        """Size and metadata lie beside the file; its first line names the columns."""
+        size, metadata = read_sidecar(path)
         order, start = _read_header(path)
-        blocks = partial(_read_blocks, path, order, start)
-        return EventPackets(BlockPackets(path, blocks, final_size, metadata), final_size, metadata)
+        return FileContents(size, metadata, partial(_read_blocks, path, order, start))
 
-    def open_writer(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> BlockWriter:
-        """Start a file; see `EventCodec.open_writer`."""
-        target = FileTarget(path, size, metadata, overwrite)
-        return BlockWriter(target, _start, limits=self.limits, sidecar=True)
-
-
-def _start(part: Path, stack: ExitStack) -> RecordSink:
-    file = stack.enter_context(part.open("wb"))
-    file.write(HEADER.encode())
-    return RecordSink(file, _encode)
+    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> RecordSink:
+        """Write the line that names the columns."""
+        file = stack.enter_context(part.open("wb"))
+        file.write(HEADER.encode())
+        return RecordSink(file, _encode)
 
 
 def _encode(columns: Columns) -> bytes:

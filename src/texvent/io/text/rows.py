@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
-from texvent.io.block_stream import Columns
+from texvent.io.protocol import Columns
 
 BLOCK_BYTES = 16 * 2**20
 """Text parsed at once: about 800,000 events."""
@@ -20,13 +20,13 @@ MAX_EXACT_S = 2**33
 """Up to here (272 years) float64 seconds keep every µs."""
 
 
-def make_rows(columns: Columns) -> str:
+def make_rows(columns: Columns) -> bytes:
     """One line per event; times have exactly six decimals: whole µs."""
     lists = [columns[name].tolist() for name in "txyp"]
     return "".join(
         f"{t // MICROSECONDS}.{t % MICROSECONDS:06d} {x} {y} {p}\n"
         for t, x, y, p in zip(*lists, strict=True)
-    )
+    ).encode()
 
 
 def read_text_blocks(file: BinaryIO) -> Iterator[bytes]:

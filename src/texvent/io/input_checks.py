@@ -1,20 +1,38 @@
-"""What all codecs check when columns come in from a file, and how metadata becomes text."""
+"""What all codecs check when a file comes in: that it is there, sound, and holds valid events."""
 
 from __future__ import annotations
 
-import json
 import os
-from collections.abc import Mapping
+import struct
+import zipfile
+import zlib
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError, InputError, MissingDependencyError
 from texvent.events import EventStream
-from texvent.option_values import plain
 from texvent.sensor import SensorSize, checked_size
+
+ZIP_DAMAGE = (
+    OSError,
+    ValueError,
+    EOFError,
+    MemoryError,
+    NotImplementedError,
+    RuntimeError,
+    struct.error,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+"""zipfile raises any of these on a damaged archive."""
+MAX_UNPACKED_BYTES = 256 * 2**20
+"""Zip archives that unpack to less are never refused."""
+MAX_UNPACKED_RATIO = 100
 
 
 def existing_file(path: str | Path) -> Path:
@@ -47,6 +65,57 @@ def existing_folder(path: str | Path) -> Path:
     if not os.access(path, os.R_OK | os.X_OK):
         raise InputError(f"{path} must not be read by this user; change its permissions")
     return path
+
+
+def begins_with(path: Path, magic: bytes) -> bool:
+    """True if the file can be read and begins with these bytes."""
+    try:
+        with path.open("rb") as file:
+            return file.read(len(magic)) == magic
+    except OSError:
+        return False
+
+
+@contextmanager
+def reporting_damage(path: Path, kind: str, damage: tuple[type[Exception], ...]) -> Iterator[None]:
+    """Turn what a library raises on a damaged file into an error that names the file.
+
+    Args:
+        path: the file.
+        kind: what it should be, such as "an HDF5 event file".
+        damage: what the library raises.
+
+    Raises:
+        FileFormatError: one of `damage` was raised inside the block.
+    """
+    try:
+        yield
+    except (InputError, MissingDependencyError):
+        raise
+    except damage as error:
+        raise FileFormatError(f"{path} is damaged or not {kind} ({one_line(error)})") from error
+
+
+def one_line(error: Exception) -> str:
+    """What an error says, as one short line; its type where it says nothing."""
+    return " ".join(str(error).split())[:200] or type(error).__name__
+
+
+def check_zip(path: Path, archive: zipfile.ZipFile) -> None:
+    """Refuse an archive that claims to unpack to more than 100 times its size.
+
+    Columns and text shrink to a half or a tenth; an archive of zeros shrinks to a thousandth.
+
+    Raises:
+        FileFormatError: see above.
+    """
+    packed = path.stat().st_size
+    unpacked = sum(entry.file_size for entry in archive.infolist())
+    if unpacked > max(MAX_UNPACKED_BYTES, MAX_UNPACKED_RATIO * packed):
+        raise FileFormatError(
+            f"{path} has {packed} bytes and claims to unpack to {unpacked}; it is damaged, or "
+            "made to fill the memory"
+        )
 
 
 def binary_polarity(p: NDArray[Any]) -> NDArray[np.uint8]:
@@ -110,40 +179,3 @@ def stored_or_given_size(
             f"{path} was recorded at {size}, not {given[0]}x{given[1]}; leave the size out"
         )
     return size
-
-
-def metadata_to_json(metadata: Mapping[str, Any]) -> str:
-    """Metadata as one line of ASCII JSON.
-
-    Raises:
-        InputError: a value cannot be written as JSON.
-    """
-    try:
-        return json.dumps(plain(metadata), default=_plain_number)
-    except (TypeError, ValueError) as error:
-        raise InputError(
-            f"metadata cannot be stored ({error}); use text, numbers, lists and dictionaries"
-        ) from error
-
-
-def metadata_from_json(path: Path, text: str | bytes) -> dict[str, Any]:
-    """Metadata read back.
-
-    Raises:
-        FileFormatError: the text is not a JSON object.
-    """
-    try:
-        metadata = json.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise FileFormatError(f"{path} holds damaged metadata ({error})") from error
-    if not isinstance(metadata, dict):
-        raise FileFormatError(f"{path} holds damaged metadata (not a table of names and values)")
-    return metadata
-
-
-def _plain_number(value: Any) -> Any:
-    if isinstance(value, np.generic):
-        return value.item()
-    if isinstance(value, np.ndarray):
-        return value.tolist()
-    raise TypeError(f"{type(value).__name__} is not text, a number, a list or a dictionary")

@@ -1,0 +1,223 @@
+"""A codec whose files are read and written block by block: what nearly every format is.
+
+A format states its limits and brings two parts. `inspect` reads the beginning of a file; what it
+returns gives the events block by block. `start` opens a sink that takes them.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any, ClassVar
+
+from texvent.errors import FileFormatError
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
+from texvent.io.block_writer import BlockSink, BlockWriter, FileTarget
+from texvent.io.input_checks import (
+    existing_file,
+    existing_folder,
+    stored_or_given_size,
+    stream_from_file,
+)
+from texvent.io.limits import FormatLimits
+from texvent.io.protocol import Columns
+from texvent.sensor import SensorSize
+
+BLOCK_BYTES = 2**21
+"""Bytes read at once from files of fixed records."""
+
+
+@dataclass(frozen=True)
+class TimeSeek:
+    """How a file finds a time without reading all before it."""
+
+    time_range: Callable[[], tuple[int, int] | None]
+    """Half-open range of the event times, µs; None without events."""
+    blocks: Callable[[int, int], Iterator[Columns]]
+    """Gives the columns of `start_us <= t < stop_us`, block by block."""
+
+
+@dataclass(frozen=True)
+class FileContents:
+    """What a file states, and its events."""
+
+    size: tuple[int, int] | None
+    """Width and height, pixels; None where the file does not state them."""
+    metadata: Mapping[str, Any]
+    blocks: Callable[[], Iterator[Columns]]
+    """Gives columns x, y, t, p, and label if known, block by block, anew at each call."""
+    seek: TimeSeek | None = None
+    """For files that can find a time."""
+
+
+class BlockCodec(ABC):
+    """Reads and writes one format; see `EventCodec`."""
+
+    name: ClassVar[str]
+    extensions: ClassVar[tuple[str, ...]] = ()
+    limits: ClassVar[FormatLimits]
+    has_sidecar: ClassVar[bool] = False
+    """Whether size and metadata are written beside the file."""
+    writer: ClassVar[type[BlockWriter]] = BlockWriter
+
+    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
+        """Events of a file, block by block; the file is opened anew for each pass.
+
+        Raises:
+            InputError: no such file, or it stores no sensor size and none is given.
+            FileFormatError: the file is damaged or of another format.
+            MissingDependencyError: reading it needs a package that is not installed.
+        """
+        path = self.find(path)
+        contents = self.inspect(path)
+        final_size = stored_or_given_size(path, contents.size, size)
+        packets = BlockPackets(path, contents, final_size)
+        if contents.seek is not None:
+            packets = SeekableBlockPackets(path, contents, final_size, contents.seek)
+        return EventPackets(packets, final_size, contents.metadata)
+
+    def open_writer(
+        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
+    ) -> BlockWriter:
+        """Start a file; see `EventCodec.open_writer`."""
+        target = FileTarget(path, size, metadata, overwrite)
+        self.check_target(target)
+        return self.writer(
+            target, partial(self.start, target), limits=self.limits, has_sidecar=self.has_sidecar
+        )
+
+    @abstractmethod
+    def inspect(self, path: Path) -> FileContents:
+        """What an existing file states, and how to read its events.
+
+        Raises:
+            InputError: it does not say enough to be read.
+            FileFormatError: the file is damaged or of another format.
+        """
+
+    @abstractmethod
+    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> BlockSink:
+        """Open a sink that writes to `part`; `stack` closes it after `finish` or an error."""
+
+    def find(self, path: Path) -> Path:
+        """The path of a readable file.
+
+        Raises:
+            InputError: there is none.
+        """
+        return existing_file(path)
+
+    def check_target(self, target: FileTarget) -> None:  # noqa: B027  # most refuse no more
+        """Refuse, before a file is made, what `limits` do not say.
+
+        Raises:
+            InputError: the format cannot hold this sensor.
+            MissingDependencyError: writing needs a package that is not installed.
+        """
+
+
+class FolderCodec(BlockCodec):
+    """A format that is a folder of files."""
+
+    def find(self, path: Path) -> Path:
+        """The path of a readable folder.
+
+        Raises:
+            InputError: there is none.
+        """
+        return existing_folder(path)
+
+    def open_writer(
+        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
+    ) -> BlockWriter:
+        """Start a folder; see `EventCodec.open_writer`."""
+        target = FileTarget(path, size, metadata, overwrite)
+        return self.writer(
+            target, partial(self.start, target), limits=self.limits, is_own=self.is_own
+        )
+
+    @abstractmethod
+    def is_own(self, path: Path) -> bool:
+        """True if a file has a name that this format gives; other files are never replaced."""
+
+
+@dataclass(frozen=True)
+class BlockPackets:
+    """Re-iterable packets of a file."""
+
+    path: Path
+    contents: FileContents
+    size: SensorSize
+
+    def __iter__(self) -> Iterator[EventStream]:
+        return self._packets(self.contents.blocks())
+
+    def _packets(self, blocks: Iterator[Columns]) -> Iterator[EventStream]:
+        last_us: int | None = None
+        for columns in blocks:
+            packet = stream_from_file(self.path, columns, self.size, self.contents.metadata)
+            if len(packet) == 0:
+                continue
+            first = int(packet.t[0])
+            if last_us is not None and first < last_us:
+                raise FileFormatError(f"{self.path}: time decreases from {last_us} to {first} µs")
+            last_us = int(packet.t[-1])
+            yield packet
+
+
+@dataclass(frozen=True)
+class SeekableBlockPackets(BlockPackets):
+    """Packets of a file that finds times; see `SeekablePackets`."""
+
+    seek: TimeSeek
+
+    @property
+    def time_range(self) -> tuple[int, int] | None:
+        """Half-open range [first, last + 1) of the event times, µs, or None without events."""
+        return self.seek.time_range()
+
+    def between(self, start_us: int, stop_us: int) -> Iterator[EventStream]:
+        """The packets of `start_us <= t < stop_us`."""
+        return self._packets(self.seek.blocks(start_us, stop_us))
+
+
+class RecordSink:
+    """A file that is a header followed by records, made by a function of the columns.
+
+    Args:
+        file: open for writing bytes.
+        encode: makes bytes of columns x, y, t, p.
+    """
+
+    def __init__(self, file: Any, encode: Callable[[Columns], bytes | memoryview]) -> None:
+        self._file = file
+        self._encode = encode
+
+    def write(self, columns: Columns) -> None:
+        """Add events."""
+        self._file.write(self._encode(columns))
+
+    def finish(self) -> None:
+        """Nothing follows the last record."""
+
+
+def read_records(path: Path, start: int, record_bytes: int) -> Iterator[bytes]:
+    """The bytes of whole records, from `start` on, a block at a time.
+
+    Raises:
+        FileFormatError: the file ends inside a record.
+    """
+    block_bytes = BLOCK_BYTES // record_bytes * record_bytes
+    with path.open("rb") as file:
+        file.seek(start)
+        while block := file.read(block_bytes):
+            if len(block) % record_bytes:
+                raise FileFormatError(
+                    f"{path} ends inside a record of {record_bytes} bytes; the file was cut off"
+                )
+            yield block

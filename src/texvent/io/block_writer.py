@@ -1,0 +1,179 @@
+"""Write an event file block by block: the checks that every writer makes, made once.
+
+A format brings a sink, which takes columns and knows how its file begins and ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager, ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Protocol, Self
+
+from texvent.errors import InputError, OutputError
+from texvent.events import EventStream
+from texvent.io.atomic import atomic_file, atomic_folder, check_output, check_output_folder
+from texvent.io.limits import FormatLimits
+from texvent.io.metadata import metadata_to_json, sidecar_path, sidecar_text
+from texvent.io.protocol import Columns
+from texvent.sensor import SensorSize
+
+BLOCK_EVENTS = 2**18
+"""Events given to a sink at once, except the last."""
+
+
+@dataclass(frozen=True)
+class FileTarget:
+    """The file that a codec is to write."""
+
+    path: Path
+    size: SensorSize
+    metadata: Mapping[str, Any]
+    overwrite: bool
+
+
+class BlockSink(Protocol):
+    """The open file of one format."""
+
+    def write(self, columns: Columns) -> None:
+        """Add events: columns x, y, t, p, and label if known; at least one event, in time order."""
+        ...
+
+    def finish(self) -> None:
+        """Write what follows the last event; not called after an error."""
+        ...
+
+
+StartSink = Callable[[Path, ExitStack], BlockSink]
+"""Opens the file at a path, on a stack that closes it after `finish` or an error."""
+
+
+class BlockWriter:
+    """Checks packets, gathers them into blocks and hands these to a sink; memory stays flat.
+
+    Args:
+        target: what to write.
+        start: opens the sink when the `with` block is entered.
+        limits: what the format holds.
+        has_sidecar: whether size and metadata are written beside the file.
+        is_own: for formats that are folders: tells from its path whether a file is of the format,
+            so that the folder may be replaced. None: the format is one file.
+
+    Raises:
+        OutputError: the file exists already, its folder refuses it, or the disk is full.
+        InputError: the format cannot hold the sensor or an event; a packet of another size, or
+            before the one before it; only some packets have a label; metadata that is not
+            JSON-serialisable.
+    """
+
+    def __init__(
+        self,
+        target: FileTarget,
+        start: StartSink,
+        *,
+        limits: FormatLimits,
+        has_sidecar: bool = False,
+        is_own: Callable[[Path], bool] | None = None,
+    ) -> None:
+        if is_own is None:
+            check_output(target.path, overwrite=target.overwrite)
+        else:
+            check_output_folder(target.path, overwrite=target.overwrite, is_own=is_own)
+        if has_sidecar:
+            check_output(sidecar_path(target.path), overwrite=target.overwrite)
+        limits.check_size(target.path, target.size)
+        metadata_to_json(target.metadata)
+        self._target = target
+        self._start = start
+        self._limits = limits
+        self._has_sidecar = has_sidecar
+        self._is_own = is_own
+        self._stack = ExitStack()
+        self._sink: BlockSink | None = None
+        self._pending: list[EventStream] = []
+        self._pending_events = 0
+        self._first_us = 0
+        self._last_us: int | None = None
+        self._has_label = False
+
+    def __enter__(self) -> Self:
+        target = self._target
+        with ExitStack() as stack:
+            if self._has_sidecar:
+                beside = stack.enter_context(
+                    atomic_file(sidecar_path(target.path), overwrite=target.overwrite)
+                )
+                beside.write_text(sidecar_text(target.size, target.metadata), encoding="utf-8")
+            part = stack.enter_context(self._place())
+            # On a stack of its own: the file is closed before it gets its name.
+            inner = stack.enter_context(ExitStack())
+            self._sink = self._start(part, inner)
+            self._stack = stack.pop_all()
+        return self
+
+    def append(self, packet: EventStream) -> None:
+        """Add the events of a packet, which starts no earlier than the one before it ended."""
+        if self._sink is None:
+            raise OutputError(
+                f"{self._target.path} is not open; append inside the writer's with block"
+            )
+        if packet.size != self._target.size:
+            raise InputError(f"the packet is {packet.size}, the file is {self._target.size}")
+        if len(packet) == 0:
+            return
+        self._check(packet)
+        self._last_us = int(packet.t[-1])
+        self._pending.append(packet)
+        self._pending_events += len(packet)
+        if self._pending_events >= BLOCK_EVENTS:
+            self._write_pending(self._sink, final=False)
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if error is not None or self._sink is None:
+            self._stack.__exit__(kind, error, trace)
+            return
+        with self._stack:
+            self._write_pending(self._sink, final=True)
+            self._sink.finish()
+
+    def _place(self) -> AbstractContextManager[Path]:
+        path, overwrite = self._target.path, self._target.overwrite
+        if self._is_own is None:
+            return atomic_file(path, overwrite=overwrite)
+        return atomic_folder(path, overwrite=overwrite, is_own=self._is_own)
+
+    def _check(self, packet: EventStream) -> None:
+        first_us, has_label = int(packet.t[0]), packet.label is not None
+        if self._last_us is None:
+            self._first_us, self._has_label = first_us, has_label
+        self._limits.check_packet(self._target.path, packet, self._first_us)
+        if self._last_us is not None and first_us < self._last_us:
+            raise InputError(
+                f"a packet starts at {first_us} µs, before the one before it ends "
+                f"({self._last_us} µs); append packets in time order"
+            )
+        if self._limits.label == "kept" and has_label != self._has_label:
+            raise InputError(
+                "some packets have a signal/noise label and some do not; give all or none one"
+            )
+
+    def _write_pending(self, sink: BlockSink, *, final: bool) -> None:
+        """Write whole blocks, so that how packets were cut does not show in the file."""
+        if not self._pending:
+            return
+        only = self._pending[0] if len(self._pending) == 1 else EventStream.concat(self._pending)
+        columns = only.columns()
+        count = len(only) if final else len(only) // BLOCK_EVENTS * BLOCK_EVENTS
+        for start in range(0, count, BLOCK_EVENTS):
+            block = slice(start, min(start + BLOCK_EVENTS, count))
+            sink.write({name: column[block] for name, column in columns.items()})
+        rest = only[count:]
+        self._pending = [rest] if len(rest) else []
+        self._pending_events = len(rest)
