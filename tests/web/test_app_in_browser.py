@@ -117,7 +117,7 @@ def test_a_prompt_gives_a_film_a_viewer_and_a_download(
     assert "ball" in said
     count = int(said.split()[0].replace(",", ""))
 
-    film = until(page, lambda: page.find_elements("css selector", "#film video"))[0]
+    film = until(page, lambda: page.find_elements("css selector", "#preview video"))[0]
     until(page, lambda: page.execute_script("return arguments[0].videoWidth", film) > 600)
     page.switch_to.frame(until(page, lambda: page.find_elements("id", "texvent-viewer"))[0])
     until(page, lambda: page.find_element("id", "shown-text").text)

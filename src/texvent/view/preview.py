@@ -1,4 +1,4 @@
-"""Everything to look at beside an event file: video, still image and page, in one pass."""
+"""Previews of a run: video, still image and page, written in one pass."""
 
 from __future__ import annotations
 
@@ -128,9 +128,9 @@ class Preview:
             self._stack.__exit__(kind, error, trace)
             return
         with self._stack:
-            lone = self._collector.lone_frame()
-            if self._shown == 0 and lone is not None:
-                self._show(lone)
+            only = self._collector.single_frame()
+            if self._shown == 0 and only is not None:
+                self._show(only)
             png = self._still.png()
             if png is None:
                 raise InputError("no frame was given, so there is nothing to show")

@@ -49,7 +49,7 @@ def render_events(
         events: a recording, whole or packet by packet; images read packets twice.
         path: what to write; the extension decides.
         config: how to show them.
-        frames: the video beside them, of the same size and clock.
+        frames: the source video, of the same size and clock.
         overwrite: whether an existing file may be replaced.
 
     Returns:
@@ -69,18 +69,18 @@ def render_events(
         )
     check_output(path, overwrite=overwrite)
     packets = events if isinstance(events, EventPackets) else _as_packets(events)
-    beside = SourceOverlay(frames, config.overlay, size=packets.size)
+    source = SourceOverlay(frames, config.overlay, size=packets.size)
     if kind == ".png":
-        image = _contact_sheet if config.panels > 1 else _still
-        data = image(packets, config, beside)
+        draw = _contact_sheet if config.panels > 1 else _still
+        data = draw(packets, config, source)
         with atomic_file(path, overwrite=overwrite) as part:
             part.write_bytes(data)
     elif kind == ".html":
-        _page(packets, path, config, beside, overwrite=overwrite)
+        _page(packets, path, config, source, overwrite=overwrite)
     elif kind == ".rrd":
         write_rrd(packets, path, config, frames=frames, overwrite=overwrite)
     else:
-        _video(packets, path, config, beside, overwrite=overwrite)
+        _video(packets, path, config, source, overwrite=overwrite)
     return path
 
 
@@ -95,7 +95,7 @@ def _no_events() -> InputError:
 def _cut(
     packets: EventPackets, config: RenderConfig, step_us: Fraction, window_us: int
 ) -> Iterator[EventWindow]:
-    """Intervals as the config gathers events: by count, fading, or by time (the default)."""
+    """Windows as the config gathers events: by count, fading, or by time (the default)."""
     size = packets.size
     if config.events_per_picture is not None:
         return cut_counts(packets, size=size, count=config.events_per_picture)
@@ -108,7 +108,7 @@ def _video(
     packets: EventPackets,
     path: Path,
     config: RenderConfig,
-    beside: SourceOverlay,
+    source: SourceOverlay,
     *,
     overwrite: bool,
 ) -> None:
@@ -119,40 +119,40 @@ def _video(
         size=packets.size,
         fps=config.render_fps,
         palette=config.palette,
-        side_by_side=beside.frames is not None,
+        side_by_side=source.frames is not None,
         overwrite=overwrite,
         title=title_of(packets.metadata),
     )
     shown = 0
     with video:
-        for window in beside.add_frames(windows):
+        for window in source.add_frames(windows):
             start_us = round(shown * MICROSECONDS / config.render_fps)
-            video.show(beside.add_annotations(window), video_start_us=start_us)
+            video.show(source.add_annotations(window), video_start_us=start_us)
             shown += 1
         if shown == 0:
             raise _no_events()
 
 
-def _still(packets: EventPackets, config: RenderConfig, beside: SourceOverlay) -> bytes:
+def _still(packets: EventPackets, config: RenderConfig, source: SourceOverlay) -> bytes:
     extent = time_range(packets)
     if extent is None:
         raise _no_events()
     window_us = config.window_us or still_window_us(extent)
-    picker = BusiestWindow(
+    still = BusiestWindow(
         size=packets.size,
         palette=config.palette,
-        side_by_side=beside.frames is not None,
+        side_by_side=source.frames is not None,
         title=title_of(packets.metadata),
     )
     windows = _cut(packets, config, Fraction(window_us), window_us)
     best: EventWindow | None = None
-    for window in beside.add_frames(windows):
-        # Slices of equal count are equally lively by number; the shortest is the busiest.
+    for window in source.add_frames(windows):
+        # Windows of equal count differ in length: the shortest is the busiest.
         if best is None or _activity(window, config) > _activity(best, config):
             best = window
     if best is None:
         raise _no_events()
-    return picker.draw(beside.add_annotations(best))
+    return still.draw(source.add_annotations(best))
 
 
 def _activity(window: EventWindow, config: RenderConfig) -> tuple[int, int]:
@@ -161,7 +161,7 @@ def _activity(window: EventWindow, config: RenderConfig) -> tuple[int, int]:
     return window.event_count, window.start_us - window.stop_us
 
 
-def _contact_sheet(packets: EventPackets, config: RenderConfig, beside: SourceOverlay) -> bytes:
+def _contact_sheet(packets: EventPackets, config: RenderConfig, source: SourceOverlay) -> bytes:
     """Moments evenly spaced over the recording, in reading order."""
     extent = time_range(packets)
     if extent is None:
@@ -169,16 +169,16 @@ def _contact_sheet(packets: EventPackets, config: RenderConfig, beside: SourceOv
     step_us = Fraction(extent[1] - extent[0], config.panels)
     window_us = config.window_us or min(still_window_us(extent) * 2, max(1, int(step_us)))
     windows = _evenly_spaced(
-        beside.add_frames(_cut(packets, config, step_us, window_us)), config, extent[0], step_us
+        source.add_frames(_cut(packets, config, step_us, window_us)), config, extent[0], step_us
     )
-    marked = (beside.add_annotations(window) for window in windows)
+    annotated = (source.add_annotations(window) for window in windows)
     return png_bytes(
         draw_contact_sheet(
-            marked,
+            annotated,
             config.panels,
             size=packets.size,
             palette=config.palette,
-            side_by_side=beside.frames is not None,
+            side_by_side=source.frames is not None,
         )
     )
 
@@ -186,7 +186,7 @@ def _contact_sheet(packets: EventPackets, config: RenderConfig, beside: SourceOv
 def _evenly_spaced(
     windows: Iterator[EventWindow], config: RenderConfig, first_us: int, step_us: Fraction
 ) -> Iterator[EventWindow]:
-    """One window per panel: of slices of equal count, the first that reaches its moment."""
+    """One window per panel: of windows of equal count, the first that reaches its moment."""
     given = 0
     for window in windows:
         if given == config.panels:
@@ -201,12 +201,12 @@ def _page(
     packets: EventPackets,
     path: Path,
     config: RenderConfig,
-    beside: SourceOverlay,
+    source: SourceOverlay,
     *,
     overwrite: bool,
 ) -> None:
     extent = time_range(packets)
-    still = _still(packets, config, beside) if extent is not None else None
+    still = _still(packets, config, source) if extent is not None else None
     with PageWriter(
         path,
         size=packets.size,
@@ -217,6 +217,6 @@ def _page(
     ) as page:
         for packet in packets:
             page.append(packet)
-        for frame in beside.frames_during(extent):
+        for frame in source.frames_during(extent):
             page.append_frame(frame)
         page.still = still

@@ -1,4 +1,4 @@
-"""The page itself: what the visitor sees and may choose. The file that knows Gradio."""
+"""The web page: inputs, outputs and what connects them. The file that knows Gradio."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ CSS = """
 #examples .thumbnail-lg img { height: auto; aspect-ratio: 4 / 3; }
 .texvent-error { border-left: 4px solid #c62828; }
 """
-WELCOME = '<div class="texvent-status">Nothing was made yet.</div>'
+WELCOME = '<div class="texvent-status">No events yet.</div>'
 MINUTES_KEPT = 60
 
 
 def prepare_environment(workspace: Workspace) -> None:
-    """Tell Gradio, before it is imported, to report to nobody and where uploads belong."""
+    """Switch off Gradio's reports and set its upload folder, before it is imported."""
     os.environ["GRADIO_ANALYTICS_ENABLED"] = "False"
     os.environ["GRADIO_TEMP_DIR"] = str(workspace.uploads)
     os.environ["HF_HUB_DISABLE_TELEMETRY"] = "1"
@@ -117,7 +117,7 @@ class WebPage:
     def build(self) -> Any:
         """The page, not started."""
         gr = self._gradio
-        # Gradio deletes what it copied for visitors once it is an hour old.
+        # Gradio deletes uploaded and served copies after an hour.
         with gr.Blocks(title="texvent", delete_cache=(600, 60 * MINUTES_KEPT)) as blocks:
             gr.Markdown(
                 "# texvent\nThe events that an event camera would see, from a sentence or a video."
@@ -135,7 +135,7 @@ class WebPage:
         parts: dict[str, Any] = {}
         with gr.Tab("Prompt"):
             parts["prompt"] = gr.Textbox(
-                examples()[0][1], label="What should be seen?", lines=3, elem_id="prompt"
+                examples()[0][1], label="Prompt", lines=3, elem_id="prompt"
             )
             parts["generator"] = gr.Dropdown(
                 list(self._generators), value=self._generators[0], label="Generator"
@@ -181,13 +181,13 @@ class WebPage:
             with gr.Column(scale=5, min_width=200):
                 parts["status"] = gr.HTML(WELCOME, elem_id="status")
             parts["stop"] = gr.Button("Stop", elem_id="stop", scale=1, min_width=80)
-        parts["film"] = gr.Video(
+        parts["preview"] = gr.Video(
             label="Video and events",
             show_label=False,
             autoplay=True,
             loop=True,
             interactive=False,
-            elem_id="film",
+            elem_id="preview",
         )
         with gr.Row():
             parts["format"] = gr.Dropdown(
@@ -202,9 +202,9 @@ class WebPage:
         return parts
 
     def _connect(self, inputs: dict[str, Any], outputs: dict[str, Any]) -> None:
-        """What happens when something is pressed."""
+        """Connect the buttons to their handlers."""
         gr = self._gradio
-        shown = [outputs[name] for name in ("status", "film", "viewer", "download", "events")]
+        shown = [outputs[name] for name in ("status", "preview", "viewer", "download", "events")]
         asked = [
             inputs[name]
             for name in ("generator", "duration", "simulator", "preset", "sensor", "seed")
@@ -229,7 +229,7 @@ class WebPage:
         def chosen(event: Any) -> str:
             return examples()[int(event.index)][1]
 
-        # Gradio finds out by the annotation that the handler wants the event.
+        # Gradio passes the event because of this annotation.
         chosen.__annotations__["event"] = gr.SelectData
         inputs["gallery"].select(chosen, None, inputs["prompt"], **private)
         outputs["prepare"].click(
@@ -240,19 +240,19 @@ class WebPage:
         )
 
     def from_prompt(self, prompt: str, *asked: Any) -> Iterator[list[Any]]:
-        """Run a prompt; gives what status, film, viewer, download and state become."""
+        """Run a prompt; yields the values of status, preview, viewer, download and state."""
         options = _options(asked)
         yield from self._simulate(lambda folder: self._job(folder, options, prompt=prompt))
 
     def from_video(self, video: str | None, *asked: Any) -> Iterator[list[Any]]:
-        """Run an uploaded video; gives the same."""
+        """Run an uploaded video; yields the same."""
         options = _options(asked)
         for name in ("generator", "duration"):
             options.pop(name)
         yield from self._simulate(lambda folder: self._job(folder, options, video=video or ""))
 
     def prepare_download(self, events: str | None, format: str) -> Iterator[list[Any]]:
-        """Convert the visitor's events; gives what status and download become."""
+        """Convert the events; yields the values of status and download."""
         gr = self._gradio
         try:
             if events is None or not os.path.exists(events):
@@ -282,7 +282,7 @@ class WebPage:
                     viewer = viewer_html(files["page"])
                     yield [summary_html(answer), files["film"], viewer, None, files["events"]]
         except TexventError as error:
-            # Results of an earlier job would be taken for those of this one.
+            # Results of an earlier job are removed: they could be mistaken for this one's.
             yield [failure_html(str(error)), None, "", None, None]
 
     def _last(self, job: Job) -> Answer:

@@ -1,4 +1,4 @@
-"""What is asked of a worker process and what it answers, as lines of JSON."""
+"""Jobs for a worker process and its answers, as lines of JSON."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from texvent.web.limits import Limits
 
 @dataclass(frozen=True, kw_only=True)
 class SimulateJob:
-    """Events, film and page of a prompt or of a video."""
+    """Events, preview video and page of a prompt or of a video."""
 
     folder: str
     """Where the results go; it exists and is empty."""
@@ -48,11 +48,11 @@ class Answer:
 
     kind: Literal["progress", "done", "failed"]
     share: float | None = None
-    """Of a progress line: how much is done, 0..1, or None where nobody knows."""
+    """Of a progress line: how much is done, 0..1, or None where it is unknown."""
     text: str = ""
-    """What to tell the visitor."""
+    """What the page shows."""
     files: Mapping[str, str] = field(default_factory=dict)
-    """Of a done line: what → path, such as film, page, events, download."""
+    """Of a done line: name → path, such as video, page, events, download."""
 
 
 def job_line(job: Job) -> str:

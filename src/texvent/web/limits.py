@@ -1,4 +1,4 @@
-"""How much one visitor of the web page may ask for."""
+"""Limits of one job of the web page."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Runs workers and survives them: time limit, crash, cancel."""
+"""Runs jobs in worker processes: time limit, crash, cancellation."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from texvent.errors import InputError
 from texvent.web.job import Answer, Job, job_line, read_answer
 
 WORKER = (sys.executable, "-m", "texvent.web.worker")
-PATIENCE_S = 0.5
-"""How often the clock is looked at while a worker says nothing."""
+POLL_S = 0.5
+"""How often the time limit is checked while a worker writes nothing."""
 
 
 class Supervisor:
@@ -40,19 +40,19 @@ class Supervisor:
             job: what to do.
 
         Raises:
-            InputError: the worker refused the job, crashed, or ran out of time; the message is
-                meant for the visitor.
+            InputError: the worker refused the job, crashed, or ran out of time; the page shows the
+                message.
         """
         worker = self._start()
         try:
-            yield from _follow(worker, job, self._time_limit_s)
+            yield from _read_answers(worker, job, self._time_limit_s)
         finally:
             with self._lock:
                 self._running.discard(worker)
             _end(worker)
 
     def close(self) -> None:
-        """Stop all workers, whoever waits for them; no other job is taken."""
+        """Stop all workers; no other job is taken."""
         with self._lock:
             self._is_closed = True
             for worker in self._running:
@@ -62,7 +62,7 @@ class Supervisor:
         with self._lock:
             if self._is_closed:
                 raise InputError("the page is closing and takes no more jobs")
-            # In a session of its own, so that a Ctrl-C in the terminal is ours to handle.
+            # In a session of its own, so that Ctrl-C in the terminal ends the page, not the worker.
             worker = subprocess.Popen(
                 WORKER,
                 stdin=subprocess.PIPE,
@@ -86,15 +86,15 @@ def _end(worker: subprocess.Popen[str]) -> None:
                 pipe.close()
 
 
-def _follow(worker: subprocess.Popen[str], job: Job, time_limit_s: float) -> Iterator[Answer]:
+def _read_answers(worker: subprocess.Popen[str], job: Job, time_limit_s: float) -> Iterator[Answer]:
     deadline = time.monotonic() + time_limit_s
     lines: queue.Queue[str | None] = queue.Queue()
-    reader = threading.Thread(target=_read, args=(worker, lines), daemon=True)
-    _hand_over(worker, job)
+    reader = threading.Thread(target=_queue_lines, args=(worker, lines), daemon=True)
+    _send(worker, job)
     reader.start()
     while True:
         try:
-            line = lines.get(timeout=PATIENCE_S)
+            line = lines.get(timeout=POLL_S)
         except queue.Empty:
             line = ""
         if line is None:
@@ -116,7 +116,7 @@ def _follow(worker: subprocess.Popen[str], job: Job, time_limit_s: float) -> Ite
             )
 
 
-def _hand_over(worker: subprocess.Popen[str], job: Job) -> None:
+def _send(worker: subprocess.Popen[str], job: Job) -> None:
     if worker.stdin is None:
         raise InputError("the worker takes no jobs")
     # A worker that died already is noticed when its answers end.
@@ -125,7 +125,7 @@ def _hand_over(worker: subprocess.Popen[str], job: Job) -> None:
         worker.stdin.flush()
 
 
-def _read(worker: subprocess.Popen[str], lines: queue.Queue[str | None]) -> None:
+def _queue_lines(worker: subprocess.Popen[str], lines: queue.Queue[str | None]) -> None:
     """Pass on lines until the worker ends, then None."""
     if worker.stdout is not None:
         for line in worker.stdout:

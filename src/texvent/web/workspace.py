@@ -16,7 +16,7 @@ KEPT_JOBS = 20
 class Workspace:
     """A temporary folder with a folder per job.
 
-    Names are random, so that nobody finds the results of somebody else.
+    Names are random, so that one visitor cannot guess another's results.
     """
 
     def __init__(self, *, kept: int = KEPT_JOBS) -> None:

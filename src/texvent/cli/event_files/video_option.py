@@ -1,4 +1,4 @@
-"""`--video`: which frames are shown beside the events of a file."""
+"""`--video`: the source video shown beside the events of a file."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ NO_VIDEO = "none"
 
 
 def frames_for_overlay(video: str, events: EventPackets) -> FrameStream | None:
-    """The frames to show beside the events.
+    """The source frames to show beside the events.
 
     Args:
         video: a video file or image folder; "none"; or "auto": the scene rendered again if the
             embedded generator made the file, else nothing.
-        events: what they are shown beside; frames are fitted to its sensor.
+        events: the recording; frames are fitted to its sensor.
 
     Raises:
         InputError: there is no such video, or it cannot be read.
@@ -29,8 +29,8 @@ def frames_for_overlay(video: str, events: EventPackets) -> FrameStream | None:
     if video == NO_VIDEO:
         return None
     if video == AUTOMATIC:
-        again = render_again(events.metadata)
-        return again if again is not None and again.size == events.size else None
+        rendered = render_again(events.metadata)
+        return rendered if rendered is not None and rendered.size == events.size else None
     if not Path(video).exists():
         raise InputError(
             f"no such video: {video}; give a file, a folder of images, {AUTOMATIC} or {NO_VIDEO}"

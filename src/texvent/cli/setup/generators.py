@@ -63,8 +63,8 @@ def _describe_part(name: str) -> tuple[str, str, str, str]:
 def _describe_model(model: VideoModel) -> tuple[str, str, str, str]:
     makes = f"{model.frames} x {model.width}x{model.height}, {model.fps} fps"
     memory = " / ".join("-" if gb is None else f"{gb:g}" for gb in (model.gpu_gb, model.offload_gb))
-    marks = ("" if model.is_licence_verified else " ?") + ("" if model.is_verified else " *")
-    return _is_here(model), makes, memory, model.licence + marks
+    footnotes = ("" if model.is_licence_verified else " ?") + ("" if model.is_verified else " *")
+    return _is_here(model), makes, memory, model.licence + footnotes
 
 
 def _is_here(model: VideoModel) -> str:

@@ -18,17 +18,17 @@ ARROWS_ACROSS = 24
 ARROW_US = 50_000
 """An arrow is as long as the motion in this time."""
 SHORTEST_ARROW = 0.75
-"""Pixels of the sensor; shorter ones are dots that say nothing."""
+"""Pixels of the sensor; shorter ones are left out."""
 BOX_COLOUR: Colour = (255, 176, 0)
 FLOW_COLOUR: Colour = (0, 170, 90)
 
 
 class LabelledBox(Protocol):
-    """Where a thing is; ends are exclusive, pixels."""
+    """Bounding box of an object; ends are exclusive, pixels."""
 
     @property
     def class_name(self) -> str:
-        """Its noun."""
+        """Its class."""
         ...
 
     @property
@@ -53,11 +53,11 @@ class LabelledBox(Protocol):
 
 
 class BoxesAndFlow(Protocol):
-    """What is known of an instant and the motion after it."""
+    """Ground truth at an instant, and the motion after it."""
 
     @property
     def boxes(self) -> tuple[Any, ...]:
-        """`LabelledBox` of every thing."""
+        """A `LabelledBox` per object."""
         ...
 
     @property
@@ -71,7 +71,7 @@ class GroundTruthStream(FrameStream, Protocol):
     """Frames whose ground truth is known, such as the embedded generator's."""
 
     def ground_truth(self, t0_us: int, t1_us: int) -> BoxesAndFlow:
-        """What is true at `t0_us`, and the motion from there to `t1_us`."""
+        """Ground truth at `t0_us`, and the motion from there to `t1_us`."""
         ...
 
 
@@ -90,7 +90,7 @@ class Annotations:
         for box in self.boxes:
             corners = (box.x0 * factor, box.y0 * factor, box.x1 * factor - 1, box.y1 * factor - 1)
             draw_frame(image, corners, BOX_COLOUR)
-        # Words last, so that no other box's frame runs through them.
+        # Labels last, so that no box is drawn over them.
         for box in self.boxes:
             draw_label(image, box.class_name, (box.x0 * factor, box.y0 * factor), BOX_COLOUR)
 
@@ -99,7 +99,7 @@ def annotations_at(video: GroundTruthStream, t_us: int, overlay: Overlay) -> Ann
     """Boxes and arrows at an instant.
 
     Args:
-        video: who knows the truth.
+        video: frames with ground truth.
         t_us: the instant, µs.
         overlay: which of them.
     """

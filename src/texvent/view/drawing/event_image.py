@@ -1,4 +1,4 @@
-"""Events → an RGB image whose colours never fill up or fade away."""
+"""Events → an RGB image, scaled so that colours neither saturate nor vanish."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ def draw_fading(fading: NDArray[Any], palette: Palette) -> Image:
 
 
 def frame_image(frame: Frame) -> Image:
-    """A frame as people see it: 8-bit RGB, for display only.
+    """A frame as 8-bit RGB, for display only.
 
     Returns:
         [H, W, 3] uint8.

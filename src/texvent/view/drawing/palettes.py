@@ -21,7 +21,7 @@ class Palette:
     off: Colour
     background: Colour
     source: str
-    """Who draws events this way."""
+    """Program or paper that draws events this way."""
 
     @property
     def is_dark(self) -> bool:

@@ -1,4 +1,4 @@
-"""One image of everything: the frame on the left, events on the right, a caption above."""
+"""The layout of frame, events, caption and legend in one image."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ FAINT_INK: Colour = (160, 166, 176)
 
 @dataclass(frozen=True)
 class PanelLayout:
-    """Where the panels lie, for one sensor size; every size it gives is even (H.264 needs it)."""
+    """Where the panels are, for one sensor size; width and height are even, as H.264 needs."""
 
     size: SensorSize
     palette: Palette
@@ -95,18 +95,18 @@ class PanelLayout:
         Returns:
             [height, width, 3] uint8.
         """
-        whole = blank(self.width, self.height, SURROUND)
+        image = blank(self.width, self.height, SURROUND)
         top, panel = self.caption_height, self.size.width * self.factor
         bottom = top + self.size.height * self.factor
         if self.side_by_side:
             if frame is not None:
-                whole[top:bottom, :panel] = self._panel(frame, annotations, "smooth")
+                image[top:bottom, :panel] = self._panel(frame, annotations, "smooth")
             left = panel + GAP
         else:
             left = 0
-        whole[top:bottom, left : left + panel] = self._panel(events, annotations, "blocks")
-        self._caption(whole, title, facts)
-        return whole
+        image[top:bottom, left : left + panel] = self._panel(events, annotations, "blocks")
+        self._caption(image, title, facts)
+        return image
 
     def _panel(
         self, image: Image, annotations: Annotations | None, how: Literal["smooth", "blocks"]
@@ -114,12 +114,12 @@ class PanelLayout:
         large = enlarge(image, self.factor, how=how)
         if annotations is None:
             return large
-        # A factor of 1 gives the caller's own image back; it is not ours to draw on.
+        # A factor of 1 returns the caller's own array, which must not be drawn on.
         large = large.copy()
         annotations.draw(large, self.factor)
         return large
 
-    def _caption(self, whole: Image, title: str, facts: str) -> None:
+    def _caption(self, image: Image, title: str, facts: str) -> None:
         """Title left, facts and legend right; what does not fit is left out, title first."""
         height = self.text_height
         baseline = (self.caption_height + height) // 2
@@ -127,17 +127,17 @@ class PanelLayout:
         legend = draw_legend(self.palette, height)
         right = self.width - legend.shape[1]
         if right >= 0:
-            whole[: legend.shape[0], right : right + legend.shape[1]] = legend
+            image[: legend.shape[0], right : right + legend.shape[1]] = legend
         else:
             right = self.width
         facts_width = text_width(facts, height)
         if right - facts_width - margin >= 0:
             right -= facts_width + margin
-            draw_text(whole, facts, right, baseline, height=height, colour=FAINT_INK)
+            draw_text(image, facts, right, baseline, height=height, colour=FAINT_INK)
         room = right - 3 * margin
         shown = fit_text(title, height, room) if room > 4 * margin else ""
         if shown:
-            draw_text(whole, shown, margin, baseline, height=height, colour=CAPTION_INK)
+            draw_text(image, shown, margin, baseline, height=height, colour=CAPTION_INK)
 
 
 def draw_legend(palette: Palette, text_height: int) -> Image:

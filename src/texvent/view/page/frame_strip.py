@@ -1,4 +1,4 @@
-"""A few frames of a video, evenly spread, small enough to lie inside a page."""
+"""A few frames of a video, evenly spaced and small, for the page."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ LABELS = {
     "prompt": "Prompt",
     "texvent_version": "texvent version",
 }
-"""Names of facts that capitalising alone would not make readable."""
+"""Labels of facts where the capitalised name is not enough."""
 CURVE_WIDTH = 1000
 CURVE_HEIGHT = 200
 
@@ -37,7 +37,7 @@ def css_colour(colour: Colour) -> str:
 
 
 def count_text(count: float) -> str:
-    """A count as people say it.
+    """A count with three digits and k, M or G.
 
     Example:
         >>> count_text(1_234_567), count_text(950)
@@ -93,7 +93,7 @@ def facts_html(facts: Mapping[str, Any]) -> str:
 
 
 def details_html(metadata: Mapping[str, Any]) -> str:
-    """Everything else that is known about the run, folded away."""
+    """All settings of the run, folded."""
     if not metadata:
         return ""
     text = json.dumps(plain(metadata), indent=2, ensure_ascii=False, default=str)
@@ -115,14 +115,14 @@ def still_html(png: bytes | None) -> str:
 
 
 def video_html(strip: FrameStrip) -> str:
-    """Where the page shows the video's frame beside the cloud; nothing without frames."""
+    """The source video's frame beside the cloud; nothing without frames."""
     if not strip.images:
         return ""
     return (
         '<figure class="plane"><div class="panel">'
         '<canvas id="video-canvas" role="img" aria-label="The video at the start of the chosen '
         'time"></canvas><div class="region-mark" hidden></div></div>'
-        f"<figcaption>The video then; {len(strip.images)} of {strip.seen} frames are in this "
+        f"<figcaption>The source video; {len(strip.images)} of {strip.seen} frames are in this "
         "page</figcaption></figure>"
     )
 

@@ -1,4 +1,4 @@
-"""A page about a run in one file: it opens offline and asks nothing of any server."""
+"""The HTML page of a recording, in one file that needs no network."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ class PageWriter:
         self._stop_us = int(packet.t[-1]) + 1
 
     def append_frame(self, frame: Frame) -> None:
-        """Add a frame of the video, to be seen beside the events; the page keeps a few."""
+        """Offer a frame of the source video; the page keeps a few."""
         self._strip.append(frame)
 
     def __exit__(

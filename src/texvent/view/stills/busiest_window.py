@@ -1,4 +1,4 @@
-"""An image of the busiest moment, found without keeping the clip."""
+"""The window with the most events as an image, found in one pass."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from texvent.view.windows.event_window import EventWindow, WindowCollector
 
 
 class BusiestWindow:
-    """Feed it the run; it remembers the window with the most events and draws it.
+    """Keeps the window with the most events and draws it.
 
-    Memory holds one window besides the one being gathered.
+    Memory holds one window and the one being gathered.
     """
 
     def __init__(
@@ -47,7 +47,7 @@ class BusiestWindow:
 
     def pick(self) -> EventWindow | None:
         """The busiest window, else the only frame, else None."""
-        return self._best or self._collector.lone_frame()
+        return self._best or self._collector.single_frame()
 
     def draw(self, window: EventWindow) -> bytes:
         """The image of a window as a PNG file in memory."""
@@ -73,9 +73,9 @@ def busiest_window_png(
     if extent is None:
         return None
     length_us = window_us or still_window_us(extent)
-    picker = BusiestWindow(size=events.size, palette=palette, side_by_side=False, title=title)
+    busiest = BusiestWindow(size=events.size, palette=palette, side_by_side=False, title=title)
     for window in cut_windows(
         (events,), size=events.size, step_us=Fraction(length_us), window_us=length_us
     ):
-        picker.consider(window)
-    return picker.png()
+        busiest.consider(window)
+    return busiest.png()

@@ -1,4 +1,4 @@
-"""A contact sheet: several moments of a recording on one image."""
+"""A contact sheet: several windows of a recording in one image."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A video of the run: the video on the left, the events since on the right."""
+"""The preview video of a run: source frame on the left, events on the right."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ from texvent.view.windows.event_window import EventWindow, WindowCollector
 GIF_WIDTH = 640.0
 """A gif compresses badly, so it is kept small."""
 CEILING_MEMORY = 0.9
-"""How slowly the scale recovers after a busy moment, per video frame: no flicker."""
+"""Share of the colour scale that is kept from one video frame to the next, against flicker."""
 
 
 class VideoWriter:
     """Writes an mp4 or gif while frames and packets come in; memory stays flat.
 
-    Each source frame is shown during its own window, beside all events of that window, so
-    the video runs exactly as the video does. Times are kept to the µs (gif: 1/100 s).
+    Each source frame is shown with all events until the next one, at the speed of the source.
+    Times are kept to the µs (gif: 1/100 s).
 
     Raises:
         ConfigError: the extension is not .mp4 or .gif, or the palette is unknown.
@@ -116,8 +116,8 @@ class VideoWriter:
             self._stack.__exit__(kind, error, trace)
             return
         with self._stack:
-            lone = self._collector.lone_frame()
-            if self._first_us is None and lone is not None:
-                self.show(lone)
+            only = self._collector.single_frame()
+            if self._first_us is None and only is not None:
+                self.show(only)
             if self._stop_us is not None:
                 self._encoder.end(self._stop_us)

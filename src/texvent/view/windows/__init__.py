@@ -1,1 +1,1 @@
-"""Windows of events with the frame displayed beside them, and how they look."""
+"""Windows of events, their source frame and ground truth, and how they are drawn."""

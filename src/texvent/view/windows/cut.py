@@ -1,4 +1,4 @@
-"""Events alone, cut into windows of time: for recordings without a video."""
+"""Events cut into windows: by time, by count, or fading."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def cut_fading(
 def cut_counts(
     packets: Iterable[EventStream], *, size: SensorSize, count: int
 ) -> Iterator[EventWindow]:
-    """Intervals of `count` events each, however long they take; the last may have fewer.
+    """Windows of `count` events each, however long they take; the last may have fewer.
 
     Args:
         packets: events in time order.

@@ -1,4 +1,4 @@
-"""A window → the image of its events, and the whole panelled image."""
+"""A window → the image of its events, and the image with all panels."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from texvent.view.windows.event_window import EventWindow
 
 
 def draw_window(window: EventWindow, palette: Palette, *, ceiling: float | None = None) -> Image:
-    """The events of a window, faded by age where it says so, else counted.
+    """The events of a window, faded by age if it has `fading`, else counted.
 
     Args:
         window: what happened.

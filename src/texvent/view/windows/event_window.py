@@ -1,4 +1,4 @@
-"""Events gathered between source frames: what one video frame shows."""
+"""Events of a stretch of time, with the frame to show beside them."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from texvent.view.drawing.event_image import frame_image
 
 @dataclass(frozen=True, eq=False)
 class EventWindow:
-    """The time `[start_us, stop_us)`, the frame that a video shows during it, and its events."""
+    """The events of `[start_us, stop_us)` and the frame that the video shows during it."""
 
     start_us: int
     stop_us: int
@@ -53,7 +53,7 @@ class EventWindow:
 
 
 class WindowCollector:
-    """Feed it dense frames with their packets; it gives one window per source frame.
+    """Gathers the packets of a dense stream into one window per source frame.
 
     Memory holds one source frame and the events since.
     """
@@ -88,8 +88,8 @@ class WindowCollector:
         self._packets = []
         return ended
 
-    def lone_frame(self) -> EventWindow | None:
-        """The last source frame by itself, without events: for an input of one frame."""
+    def single_frame(self) -> EventWindow | None:
+        """The last source frame, without events: for an input of one frame."""
         if self._start_us is None:
             return None
         counts = np.zeros((2, *self._size.shape), dtype=np.int32)

@@ -1,4 +1,4 @@
-"""Intervals of events with the frame that a video shows at each of them."""
+"""The source video's frames, boxes and optical flow, added to windows of events."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from texvent.view.windows.event_window import EventWindow
 
 
 class SourceOverlay:
-    """What is shown beside and over the events: frames of a video, and its ground truth.
+    """Frames of the source video and its ground truth, shown beside and over the events.
 
     Raises:
         InputError: the video has another size than the events.
-        ConfigError: an overlay is wanted, but nobody knows the truth.
+        ConfigError: the video has no ground truth for the overlay.
     """
 
     def __init__(self, frames: FrameStream | None, overlay: Overlay, *, size: SensorSize) -> None:
@@ -57,7 +57,7 @@ class SourceOverlay:
             yield replace(window, image=image)
 
     def frames_during(self, extent: tuple[int, int] | None) -> Iterator[Frame]:
-        """The frames that are on from start to stop, µs; a video may be longer than the events.
+        """The frames shown from start to stop, µs; a video may be longer than the events.
 
         The first is the last frame that is not after the start. Without an extent, all frames.
         """

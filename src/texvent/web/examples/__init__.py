@@ -1,4 +1,4 @@
-"""Prompts to start from, each with a small picture that the embedded generator rendered."""
+"""Prompts to start from, each with a small image that the embedded generator rendered."""
 
 from __future__ import annotations
 

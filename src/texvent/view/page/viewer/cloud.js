@@ -1,4 +1,4 @@
-// The turnable x-y-t cloud. Events go to the graphics card once; a frame is one draw call over the
+// The x-y-t point cloud. Events go to the graphics card once; a frame is one draw call over the
 // events of the time window, and turning, hiding and selecting only change a few numbers.
 
 const makeCloud = (state, controls) => {
@@ -58,39 +58,39 @@ const makeCloud = (state, controls) => {
     gl.linkProgram(program);
     return program;
   };
-  const placing = `
-    uniform vec4 turn; uniform vec4 fit; uniform float bend;
-    vec4 place(vec3 p) {
-      vec2 a = vec2(turn.x * p.x - turn.y * p.z, turn.y * p.x + turn.x * p.z);
-      vec3 r = vec3(a.x, turn.z * p.y + turn.w * a.y, turn.z * a.y - turn.w * p.y);
-      float w = 1.0 + bend * (r.z + 1.2);
+  const projection = `
+    uniform vec4 rotation; uniform vec4 fit; uniform float perspective;
+    vec4 project(vec3 p) {
+      vec2 a = vec2(rotation.x * p.x - rotation.y * p.z, rotation.y * p.x + rotation.x * p.z);
+      vec3 r = vec3(a.x, rotation.z * p.y + rotation.w * a.y, rotation.z * a.y - rotation.w * p.y);
+      float w = 1.0 + perspective * (r.z + 1.2);
       vec2 s = (r.xy / w - fit.xy) * vec2(fit.z / fit.w, fit.z);
       return vec4(s * w, (r.z / 8.0) * w, w);
     }`;
   const points = link(`
     attribute vec2 xy; attribute float t; attribute float p;
     uniform vec2 size; uniform vec3 halfBox; uniform vec2 shown;
-    uniform vec4 region; uniform float dot; varying float polarity; varying float depth;
-    ${placing}
+    uniform vec4 region; uniform float pointSize; varying float polarity; varying float depth;
+    ${projection}
     void main() {
       vec2 unit = (xy + 0.5) / size * 2.0 - 1.0;
-      gl_Position = place(vec3(unit.x, -unit.y, t * 2.0 - 1.0) * halfBox);
-      gl_PointSize = max(1.0, dot / gl_Position.w);
+      gl_Position = project(vec3(unit.x, -unit.y, t * 2.0 - 1.0) * halfBox);
+      gl_PointSize = max(1.0, pointSize / gl_Position.w);
       polarity = p; depth = gl_Position.w;
       bool outside = xy.x < region.x || xy.y < region.y || xy.x >= region.z || xy.y >= region.w;
       bool hidden = outside || (p > 0.5 ? shown.x : shown.y) < 0.5;
       if (hidden) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     }`, `
     precision mediump float;
-    uniform vec3 onColour; uniform vec3 offColour; uniform vec3 paper;
+    uniform vec3 onColour; uniform vec3 offColour; uniform vec3 background;
     varying float polarity; varying float depth;
     void main() {
       vec3 colour = polarity > 0.5 ? onColour : offColour;
-      gl_FragColor = vec4(mix(colour, paper, clamp((depth - 0.9) * 0.5, 0.0, 0.5)), 1.0);
+      gl_FragColor = vec4(mix(colour, background, clamp((depth - 0.9) * 0.5, 0.0, 0.5)), 1.0);
     }`);
   const lines = link(`
-    attribute vec3 corner; ${placing}
-    void main() { gl_Position = place(corner); }`, `
+    attribute vec3 corner; ${projection}
+    void main() { gl_Position = project(corner); }`, `
     precision mediump float; uniform vec3 ink;
     void main() { gl_FragColor = vec4(ink, 1.0); }`);
 
@@ -120,21 +120,21 @@ const makeCloud = (state, controls) => {
   buffers.frame = gl.createBuffer();
 
   // Names are looked up once: asking the driver again in every frame is slow.
-  const places = new Map();
-  const placeOf = (program, name, ask) => {
-    if (!places.has(program)) places.set(program, {});
-    const known = places.get(program);
-    if (!(name in known)) known[name] = gl[ask](program, name);
+  const locations = new Map();
+  const locationOf = (program, name, method) => {
+    if (!locations.has(program)) locations.set(program, {});
+    const known = locations.get(program);
+    if (!(name in known)) known[name] = gl[method](program, name);
     return known[name];
   };
   const attribute = (program, name, buffer, count, type) => {
-    const place = placeOf(program, name, "getAttribLocation");
+    const location = locationOf(program, name, "getAttribLocation");
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-    gl.enableVertexAttribArray(place);
-    gl.vertexAttribPointer(place, count, type, false, 0, 0);
+    gl.enableVertexAttribArray(location);
+    gl.vertexAttribPointer(location, count, type, false, 0, 0);
   };
   const uniform = (program, name, ...values) =>
-    gl["uniform" + values.length + "f"](placeOf(program, name, "getUniformLocation"), ...values);
+    gl["uniform" + values.length + "f"](locationOf(program, name, "getUniformLocation"), ...values);
   const unit = (colour) => colour.map((value) => value / 255);
   const faded = data.ink.map((value, i) => value + 0.62 * (data.background[i] - value));
 
@@ -182,9 +182,9 @@ const makeCloud = (state, controls) => {
   };
   const common = (program, aspect) => {
     gl.useProgram(program);
-    uniform(program, "turn", Math.cos(camera.yaw), Math.sin(camera.yaw), Math.cos(camera.pitch), Math.sin(camera.pitch));
+    uniform(program, "rotation", Math.cos(camera.yaw), Math.sin(camera.yaw), Math.cos(camera.pitch), Math.sin(camera.pitch));
     uniform(program, "fit", fit.x, fit.y, fit.scale, aspect);
-    uniform(program, "bend", camera.perspective / focal);
+    uniform(program, "perspective", camera.perspective / focal);
   };
 
   const draw = () => {
@@ -229,21 +229,21 @@ const makeCloud = (state, controls) => {
     // Few points may be larger; a point is never larger than a pixel of the sensor.
     const pixel = (canvas.height * fit.scale) / longest;
     const [first, last] = state.range();
-    const crowd = Math.sqrt(60000 / Math.max(last - first, 0.05 * data.count, 1));
-    uniform(points, "dot", Math.min(pixel * 1.1, ratio * Math.min(3, 1.35 * Math.max(1, crowd)) * camera.zoom));
+    const sparsity = Math.sqrt(60000 / Math.max(last - first, 0.05 * data.count, 1));
+    uniform(points, "pointSize", Math.min(pixel * 1.1, ratio * Math.min(3, 1.35 * Math.max(1, sparsity)) * camera.zoom));
     uniform(points, "onColour", ...unit(data.on));
     uniform(points, "offColour", ...unit(data.off));
-    uniform(points, "paper", ...unit(data.background));
+    uniform(points, "background", ...unit(data.background));
     if (last > first) gl.drawArrays(gl.POINTS, first, last - first);
     placeLabels(width, height);
   };
-  state.watch(draw);
+  state.onChange(draw);
 
   for (const button of document.querySelectorAll("[data-view]")) {
     button.addEventListener("click", () => {
       const view = button.dataset.view;
       Object.assign(camera, views[view], { zoom: 1 });
-      // The whole recording in one picture plane is a smear: show 40 ms from its middle.
+      // The whole recording in one image smears: show 40 ms from its middle.
       if (view === "front" && state.length === 1) state.set({ start: 0.5, length: Math.min(0.5, 40000 / data.duration_us) });
       if (view === "space") state.set({ start: 0, length: 1 });
       state.changed();
@@ -260,28 +260,28 @@ const makeCloud = (state, controls) => {
     camera.zoom = Math.max(0.5, Math.min(12, camera.zoom * factor));
     state.changed();
   };
-  const fingers = new Map();
+  const pointers = new Map();
   const spread = () => {
-    const [a, b] = [...fingers.values()];
+    const [a, b] = [...pointers.values()];
     return Math.hypot(a.x - b.x, a.y - b.y);
   };
   canvas.addEventListener("pointerdown", (event) => {
     canvas.setPointerCapture(event.pointerId);
-    fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+    pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
   });
   canvas.addEventListener("pointermove", (event) => {
-    const old = fingers.get(event.pointerId);
+    const old = pointers.get(event.pointerId);
     if (!old) return;
-    const apart = fingers.size === 2 ? spread() : 0;
-    fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
-    if (fingers.size === 2) {
+    const apart = pointers.size === 2 ? spread() : 0;
+    pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+    if (pointers.size === 2) {
       if (apart > 0) zoom(spread() / apart);
     } else {
       turn((event.clientX - old.x) / 200, (event.clientY - old.y) / 200);
     }
   });
   for (const name of ["pointerup", "pointercancel"]) {
-    canvas.addEventListener(name, (event) => fingers.delete(event.pointerId));
+    canvas.addEventListener(name, (event) => pointers.delete(event.pointerId));
   }
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();

@@ -5,7 +5,7 @@ const makeControls = (state) => {
   const [startSlider, lengthSlider, play, speed] = ["start", "length", "play", "speed"].map(element);
   const duration = (us) => (us >= 999e3 ? (us / 1e6).toFixed(3) + " s" : (us / 1e3).toFixed(2) + " ms");
 
-  state.watch(() => {
+  state.onChange(() => {
     startSlider.value = Math.round(state.start * 1000);
     lengthSlider.value = Math.max(1, Math.round(state.length * 1000));
     element("start-text").textContent = state.seconds(state.start).toFixed(3) + " s";

@@ -1,4 +1,4 @@
-// The sensor's plane: RGB frame and events of the time window, and the region that is selected.
+// The image plane: source frame and events of the time window, and the selected region.
 
 const makePlane = (state) => {
   const { data, events } = state;
@@ -6,11 +6,11 @@ const makePlane = (state) => {
   canvas.width = data.width;
   canvas.height = data.height;
   const context = canvas.getContext("2d");
-  const picture = context.createImageData(data.width, data.height);
-  const words = new Uint32Array(picture.data.buffer);
-  const [on, off] = [new Uint32Array(words.length), new Uint32Array(words.length)];
-  const marks = [...document.querySelectorAll(".region-mark")];
-  const numbers = ["x0", "x1", "y0", "y1"].map((name) => element("region-" + name));
+  const imageData = context.createImageData(data.width, data.height);
+  const pixels = new Uint32Array(imageData.data.buffer);
+  const [on, off] = [new Uint32Array(pixels.length), new Uint32Array(pixels.length)];
+  const regionMarks = [...document.querySelectorAll(".region-mark")];
+  const fields = ["x0", "x1", "y0", "y1"].map((name) => element("region-" + name));
 
   const count = () => {
     on.fill(0);
@@ -28,17 +28,17 @@ const makePlane = (state) => {
     return inside;
   };
 
-  // As in texvent's pictures: hue is the polarity, strength the number of events.
+  // As in texvent's images: hue is the polarity, strength the number of events.
   const paint = () => {
     let [sum, active] = [0, 0];
-    for (let i = 0; i < words.length; i++) {
+    for (let i = 0; i < pixels.length; i++) {
       const total = on[i] + off[i];
       if (total) { sum += total; active++; }
     }
     const ceiling = Math.max(1, (2 * sum) / Math.max(active, 1));
     const colour = [0, 0, 0];
-    const bytes = picture.data;
-    for (let i = 0; i < words.length; i++) {
+    const bytes = imageData.data;
+    for (let i = 0; i < pixels.length; i++) {
       const total = on[i] + off[i];
       const strength = total ? Math.min(1, Math.max(0.3, Math.sqrt(total / ceiling))) : 0;
       const share = total ? on[i] / total : 0;
@@ -48,22 +48,22 @@ const makePlane = (state) => {
       }
       bytes[4 * i + 3] = 255;
     }
-    context.putImageData(picture, 0, 0);
+    context.putImageData(imageData, 0, 0);
   };
 
   const showRegion = (inside) => {
     const { x0, y0, x1, y1 } = state.region;
     const part = state.regionIsWhole();
-    for (const mark of marks) {
-      mark.hidden = part;
-      mark.style.left = (100 * x0) / data.width + "%";
-      mark.style.top = (100 * y0) / data.height + "%";
-      mark.style.width = (100 * (x1 - x0)) / data.width + "%";
-      mark.style.height = (100 * (y1 - y0)) / data.height + "%";
+    for (const regionMark of regionMarks) {
+      regionMark.hidden = part;
+      regionMark.style.left = (100 * x0) / data.width + "%";
+      regionMark.style.top = (100 * y0) / data.height + "%";
+      regionMark.style.width = (100 * (x1 - x0)) / data.width + "%";
+      regionMark.style.height = (100 * (y1 - y0)) / data.height + "%";
     }
-    // Last column and row, as people count them.
+    // Last column and row, included.
     [x0, x1 - 1, y0, y1 - 1].forEach((value, i) => {
-      if (numbers[i] !== document.activeElement) numbers[i].value = value;
+      if (fields[i] !== document.activeElement) fields[i].value = value;
     });
     element("region-clear").disabled = part;
     element("shown-text").textContent =
@@ -71,7 +71,7 @@ const makePlane = (state) => {
       " events in this time" + (part ? "" : " and region");
   };
 
-  // The frame that the video showed when the window began.
+  // The source frame at the start of the window.
   const video = element("video-canvas");
   const images = video ? data.frames.map(({ src }) => Object.assign(new Image(), { src })) : [];
   images.forEach((image) => image.addEventListener("load", () => state.changed()));
@@ -90,7 +90,7 @@ const makePlane = (state) => {
   // Turning the cloud changes nothing here, and counting a million events takes longer than a
   // screen refresh, so it is only done again when something else is shown.
   let shown = "";
-  state.watch(() => {
+  state.onChange(() => {
     showFrame();
     const wanted = JSON.stringify([state.start, state.length, state.on, state.off, state.region]);
     if (wanted === shown) return;
@@ -102,27 +102,27 @@ const makePlane = (state) => {
 
   // Drag selects; a click without a drag selects everything again.
   let corner = null;
-  const at = (event) => {
+  const pixelAt = (event) => {
     const box = canvas.getBoundingClientRect();
     return [((event.clientX - box.left) / box.width) * data.width, ((event.clientY - box.top) / box.height) * data.height];
   };
   canvas.addEventListener("pointerdown", (event) => {
     canvas.setPointerCapture(event.pointerId);
-    corner = { place: at(event), x: event.clientX, y: event.clientY, moved: false };
+    corner = { at: pixelAt(event), x: event.clientX, y: event.clientY, moved: false };
   });
   canvas.addEventListener("pointermove", (event) => {
     if (!corner) return;
     corner.moved ||= Math.hypot(event.clientX - corner.x, event.clientY - corner.y) > 4;
-    if (corner.moved) state.setRegion(...corner.place, ...at(event));
+    if (corner.moved) state.setRegion(...corner.at, ...pixelAt(event));
   });
   canvas.addEventListener("pointerup", () => {
     if (corner && !corner.moved) state.clearRegion();
     corner = null;
   });
   canvas.addEventListener("pointercancel", () => { corner = null; });
-  for (const number of numbers) {
-    number.addEventListener("change", () => {
-      const [x0, x1, y0, y1] = numbers.map((one) => Number(one.value));
+  for (const field of fields) {
+    field.addEventListener("change", () => {
+      const [x0, x1, y0, y1] = fields.map((one) => Number(one.value));
       state.setRegion(x0, y0, x1 + 1, y1 + 1);
     });
   }

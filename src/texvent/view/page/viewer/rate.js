@@ -1,13 +1,13 @@
 // The rate curve: a drag on it chooses the time window, a click moves the window there.
 
-const makeRate = (state, chosen) => {
+const makeRate = (state, pausePlayback) => {
   const curve = element("rate-curve");
   if (!curve) return;
   const { data, events } = state;
   const [mark, outline] = [element("rate-window"), element("rate-region")];
   const [width, height] = [1000, 200];
   // The last bin ends after the last event, so the curve is a little longer than the recording.
-  const reach = (width * data.duration_us) / (data.rate.bins * data.rate.bin_us);
+  const span = (width * data.duration_us) / (data.rate.bins * data.rate.bin_us);
 
   // Of the events in the cloud, those in the region, on the scale of the whole curve.
   const outlineOf = ({ x0, y0, x1, y1 }) => {
@@ -27,9 +27,9 @@ const makeRate = (state, chosen) => {
     }).join("");
   };
   let drawn = null;
-  state.watch(() => {
-    mark.setAttribute("x", state.start * reach);
-    mark.setAttribute("width", state.length < 1 ? Math.max(2, (state.stop() - state.start) * reach) : 0);
+  state.onChange(() => {
+    mark.setAttribute("x", state.start * span);
+    mark.setAttribute("width", state.length < 1 ? Math.max(2, (state.stop() - state.start) * span) : 0);
     if (drawn === state.region) return;
     drawn = state.region;
     outline.setAttribute("d", state.regionIsWhole() ? "" : outlineOf(state.region));
@@ -39,7 +39,7 @@ const makeRate = (state, chosen) => {
   let from = null;
   const share = (event) => {
     const box = curve.getBoundingClientRect();
-    return Math.min(Math.max(((event.clientX - box.left) / box.width) * (width / reach), 0), 1);
+    return Math.min(Math.max(((event.clientX - box.left) / box.width) * (width / span), 0), 1);
   };
   curve.addEventListener("pointerdown", (event) => {
     curve.setPointerCapture(event.pointerId);
@@ -50,13 +50,13 @@ const makeRate = (state, chosen) => {
     from.moved ||= Math.abs(event.clientX - from.x) > 4;
     if (!from.moved) return;
     const ends = [from.share, share(event)];
-    chosen();
+    pausePlayback();
     state.set({ start: Math.min(...ends), length: Math.max(0.001, Math.abs(ends[1] - ends[0])) });
   });
   curve.addEventListener("pointerup", (event) => {
     if (from && !from.moved) {
       const length = state.length < 1 ? state.length : 0.06;
-      chosen();
+      pausePlayback();
       state.set({ start: Math.min(Math.max(share(event) - length / 2, 0), 1 - length), length });
     }
     from = null;

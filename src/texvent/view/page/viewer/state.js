@@ -1,4 +1,4 @@
-// What is shown, and the events themselves. Everything else reads this and is told of changes.
+// The state of the view and the events. Every part reads it and is called back after a change.
 
 // Base64 → typed array.
 const decode = (text, type) => {
@@ -21,17 +21,17 @@ const makeState = (data) => {
     // Columns x0 ≤ x < x1 and rows y0 ≤ y < y1.
     region: whole(),
   };
-  const watchers = [];
-  let asked = false;
+  const listeners = [];
+  let isScheduled = false;
 
-  // However many changes come between two screen refreshes, everything is drawn once.
-  state.watch = (draw) => watchers.push(draw);
+  // Drawn once per screen refresh, whatever changed before it.
+  state.onChange = (draw) => listeners.push(draw);
   state.changed = () => {
-    if (asked) return;
-    asked = true;
+    if (isScheduled) return;
+    isScheduled = true;
     requestAnimationFrame(() => {
-      asked = false;
-      watchers.forEach((draw) => draw());
+      isScheduled = false;
+      listeners.forEach((draw) => draw());
     });
   };
   state.set = (values) => {
