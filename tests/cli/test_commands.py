@@ -60,8 +60,8 @@ def test_the_whole_path_on_a_real_video(folder, capsys):
     assert np.all(np.diff(events.t) >= 0)
     # Events at many times inside the frame interval, not clumped at frame times.
     assert len(np.unique(events.t % 40_000)) > 5_000
-    with av.open("out.mp4") as film:
-        assert film.streams.video[0].codec_context.width >= 2 * 320
+    with av.open("out.mp4") as video:
+        assert video.streams.video[0].codec_context.width >= 2 * 320
     assert cv2.imread("out.png") is not None
     page = Path("out.html").read_text(encoding="utf-8")
     assert "http://" not in page
@@ -142,8 +142,8 @@ def test_info_describes_events_and_videos(folder, capsys):
     assert "25" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("name", ["film.mp4", "film.gif", "picture.png", "page.html"])
-def test_render_makes_films_pictures_and_pages(folder, name, capsys):
+@pytest.mark.parametrize("name", ["film.mp4", "film.gif", "image.png", "page.html"])
+def test_render_makes_videos_images_and_pages(folder, name, capsys):
     run("simulate", CLIP, "-q", "--events-only", "-o", "a.h5", *QUICK)
     assert run("render", "a.h5", "-o", name) == 0
     assert capsys.readouterr().out.strip() == name

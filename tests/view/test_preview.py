@@ -25,7 +25,7 @@ def write_preview(stem: Path, steps: Steps, **options: object) -> Preview:
     return preview
 
 
-def test_film_picture_and_page_appear_beside_the_stem(tmp_path: Path, steps: Steps) -> None:
+def test_video_image_and_page_appear_beside_the_stem(tmp_path: Path, steps: Steps) -> None:
     preview = write_preview(
         tmp_path / "out.v1", steps, metadata={"prompt": "a bar moves right", "seed": 0}
     )

@@ -24,21 +24,21 @@ def moving_dot(seconds: float = 0.5) -> EventStream:
     return EventStream(t // 20_000 % 32, t // 500 % 24, t + 7, t // 500 % 2, SIZE)
 
 
-def film_times(path: Path) -> list[int]:
+def video_times(path: Path) -> list[int]:
     with av.open(str(path)) as video:
         return [round(one.pts * one.time_base * 1_000_000) for one in video.decode(video=0)]
 
 
-def test_a_film_shows_all_events_at_the_asked_rate(tmp_path: Path) -> None:
+def test_a_video_shows_all_events_at_the_asked_rate(tmp_path: Path) -> None:
     path = render_events(
         moving_dot(), tmp_path / "out.mp4", config=RenderConfig(render_fps=Fraction(24))
     )
-    assert film_times(path) == [round(index * 1_000_000 / 24) for index in range(12)]
+    assert video_times(path) == [round(index * 1_000_000 / 24) for index in range(12)]
 
 
-def test_slow_motion_gives_proportionally_more_pictures(tmp_path: Path) -> None:
+def test_slow_motion_gives_proportionally_more_images(tmp_path: Path) -> None:
     path = render_events(moving_dot(), tmp_path / "out.mp4", config=RenderConfig(speed=0.25))
-    assert len(film_times(path)) == 60
+    assert len(video_times(path)) == 60
 
 
 def test_a_gif_is_written_by_extension(tmp_path: Path) -> None:
@@ -46,7 +46,7 @@ def test_a_gif_is_written_by_extension(tmp_path: Path) -> None:
     assert path.read_bytes()[:6] == b"GIF89a"
 
 
-def test_a_picture_shows_the_liveliest_window(tmp_path: Path) -> None:
+def test_an_image_shows_the_busiest_window(tmp_path: Path) -> None:
     quiet, busy = moving_dot(0.2), moving_dot(0.01)
     burst = EventStream(
         np.repeat(busy.x, 9), np.repeat(busy.y, 9), np.repeat(busy.t, 9), np.ones(180, int), SIZE
@@ -93,10 +93,10 @@ def test_one_event_can_be_shown_in_every_way(tmp_path: Path, panels: int) -> Non
         assert path.stat().st_size > 300
 
 
-def test_slices_of_equal_count_give_a_picture_each(tmp_path: Path) -> None:
+def test_slices_of_equal_count_give_an_image_each(tmp_path: Path) -> None:
     config = RenderConfig(events_per_picture=100, render_fps=Fraction(20))
     path = render_events(moving_dot(), tmp_path / "out.mp4", config=config)
-    assert film_times(path) == [index * 50_000 for index in range(10)]
+    assert video_times(path) == [index * 50_000 for index in range(10)]
 
 
 def test_fading_events_leave_a_trail(tmp_path: Path) -> None:

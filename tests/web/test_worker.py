@@ -21,7 +21,7 @@ def run(folder: Path, **values: object) -> tuple[Answer, list[Answer]]:
     return simulate(SimulateJob(folder=str(folder), **values), told.append), told
 
 
-def test_a_prompt_gives_events_film_and_page_and_reports_on_its_way(tmp_path: Path) -> None:
+def test_a_prompt_gives_events_video_and_page_and_reports_on_its_way(tmp_path: Path) -> None:
     done, told = run(tmp_path, prompt="a red ball bounces", options=SCENE)
     events = texvent.load(done.files["events"])
     assert done.text.startswith(f"{len(events):,} events on 48x36 pixels")

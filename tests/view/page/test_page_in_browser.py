@@ -91,7 +91,7 @@ def window_on_the_curve(browser: Any) -> tuple[float, float]:
     return start, start + width
 
 
-def picture_of(browser: Any, name: str) -> np.ndarray:
+def image_of(browser: Any, name: str) -> np.ndarray:
     png = browser.find_element("id", name).screenshot_as_png
     image = cv2.imdecode(np.frombuffer(png, np.uint8), cv2.IMREAD_COLOR)
     assert image is not None
@@ -111,7 +111,7 @@ def test_the_cloud_is_drawn_in_both_colours_and_nothing_overflows(
     browser.set_window_size(width, 1100)
     browser.get(page.as_uri())
     run(browser, "")
-    blue, red = coloured_pixels(picture_of(browser, "cloud-canvas"))
+    blue, red = coloured_pixels(image_of(browser, "cloud-canvas"))
     assert min(blue, red) > 3_000
     assert 0.5 < blue / red < 2.0
     assert browser.execute_script(
@@ -131,7 +131,7 @@ def test_the_page_asks_nothing_of_any_server_and_makes_no_complaint(
 def test_polarity_buttons_hide_one_colour(browser: Any, page: Path) -> None:
     browser.get(page.as_uri())
     click(browser, "toggle-off")
-    blue, red = coloured_pixels(picture_of(browser, "cloud-canvas"))
+    blue, red = coloured_pixels(image_of(browser, "cloud-canvas"))
     assert blue > 3_000
     assert red == 0
     assert text(browser, "shown-text").startswith("10,000 of the cloud's 20,000 events")
@@ -146,7 +146,7 @@ def test_sliders_choose_the_time_and_the_video_follows(browser: Any, page: Path)
     assert text(browser, "length-text") == "199.99 ms"
     assert text(browser, "start-text") == "1.010 s"
     assert text(browser, "shown-text").startswith("2,000 of the cloud's 20,000")
-    grey = picture_of(browser, "video-canvas")[5:-5, 5:-5].mean()
+    grey = image_of(browser, "video-canvas")[5:-5, 5:-5].mean()
     assert abs(grey - 120) < 4, "the frame that begins at 1.0 s"
 
 
@@ -167,7 +167,7 @@ def test_playing_moves_the_window_and_space_stops_it(browser: Any, page: Path) -
 
 def test_a_region_is_selected_by_dragging_and_by_typing(browser: Any, page: Path) -> None:
     browser.get(page.as_uri())
-    before = sum(coloured_pixels(picture_of(browser, "cloud-canvas")))
+    before = sum(coloured_pixels(image_of(browser, "cloud-canvas")))
     drag(browser, "plane-canvas", (0.25, 0.25), (0.75, 0.75))
     values = [
         int(browser.find_element("id", f"region-{name}").get_attribute("value"))
@@ -176,7 +176,7 @@ def test_a_region_is_selected_by_dragging_and_by_typing(browser: Any, page: Path
     np.testing.assert_allclose(values, [16, 47, 12, 35], atol=1)
     shown = int(text(browser, "shown-text").split()[0].replace(",", ""))
     assert abs(shown - 5_000) < 500, "a quarter of the plane holds a quarter of the events"
-    assert sum(coloured_pixels(picture_of(browser, "cloud-canvas"))) < 0.6 * before
+    assert sum(coloured_pixels(image_of(browser, "cloud-canvas"))) < 0.6 * before
     assert browser.find_element("id", "rate-region").get_attribute("d").count("V") > 10
     slide(browser, "region-x0", 0, "change")
     slide(browser, "region-x1", 0, "change")
@@ -204,11 +204,11 @@ def test_keys_turn_the_cloud(browser: Any, page: Path) -> None:
 
     browser.get(page.as_uri())
     run(browser, "")
-    before = picture_of(browser, "cloud-canvas")
+    before = image_of(browser, "cloud-canvas")
     canvas = browser.find_element("id", "cloud-canvas")
     canvas.send_keys(Keys.ARROW_LEFT * 4, "+")
     run(browser, "")
-    assert (picture_of(browser, "cloud-canvas") != before).any(axis=2).mean() > 0.02
+    assert (image_of(browser, "cloud-canvas") != before).any(axis=2).mean() > 0.02
     canvas.send_keys("0")
     slide(browser, "length", 250)
     canvas.send_keys("..")
@@ -268,7 +268,7 @@ def test_a_browser_without_webgl_says_what_is_missing_and_shows_the_rest(
     assert fallback.text.startswith("This browser offers no WebGL")
     slide(browser, "length", 100)
     assert text(browser, "shown-text").startswith("2,000 of")
-    assert min(coloured_pixels(picture_of(browser, "plane-canvas"))) > 50
+    assert min(coloured_pixels(image_of(browser, "plane-canvas"))) > 50
 
 
 def test_a_recording_without_events_says_so(browser: Any, tmp_path: Path) -> None:

@@ -40,7 +40,7 @@ def test_a_folder_is_read_again_with_its_times(tmp_path):
     assert facts == {"network": "firenet"}
 
 
-def test_a_film_has_even_sides_and_the_times_of_the_pictures(tmp_path):
+def test_a_video_has_even_sides_and_the_times_of_the_images(tmp_path):
     write(tmp_path / "video.mp4")
     frames = list(open_frames(str(tmp_path / "video.mp4"), CaptureConfig()))
     assert frames[0].size == SensorSize(16, 12)
@@ -48,7 +48,7 @@ def test_a_film_has_even_sides_and_the_times_of_the_pictures(tmp_path):
     assert float(frames[3].luma.mean()) == pytest.approx(0.3 * 255, abs=3)
 
 
-def test_only_a_folder_of_such_pictures_is_replaced(tmp_path):
+def test_only_a_folder_of_such_images_is_replaced(tmp_path):
     folder = tmp_path / "frames"
     write(folder)
     with pytest.raises(OutputError, match="exists already"):
@@ -61,7 +61,7 @@ def test_only_a_folder_of_such_pictures_is_replaced(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["frames", "video.mp4"])
-def test_without_a_picture_nothing_is_left(name, tmp_path):
+def test_without_an_image_nothing_is_left(name, tmp_path):
     with pytest.raises(InputError, match="image"):
         write(tmp_path / name, some=[])
     assert list(tmp_path.iterdir()) == []

@@ -43,7 +43,7 @@ def test_only_the_latest_jobs_are_kept_and_nothing_remains() -> None:
     assert not root.exists()
 
 
-def test_every_example_has_its_picture() -> None:
+def test_every_example_has_its_image() -> None:
     assert len(examples()) >= 6
     for path, prompt in examples():
         assert path.read_bytes()[:3] == b"\xff\xd8\xff"

@@ -40,7 +40,7 @@ def test_the_ceiling_follows_the_data_and_ignores_a_hot_pixel() -> None:
 
 
 @given(seed=st.integers(0, 2**16), rate=st.floats(0.001, 300.0), name=st.sampled_from([*PALETTES]))
-def test_a_picture_is_never_blank_and_never_outside_its_colours(
+def test_an_image_is_never_blank_and_never_outside_its_colours(
     seed: int, rate: float, name: str
 ) -> None:
     palette = get_palette(name)

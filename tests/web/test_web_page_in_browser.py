@@ -110,15 +110,15 @@ def choose_format(page: Any, name: str) -> bool:
     return False
 
 
-def test_a_prompt_gives_a_film_a_viewer_and_a_download(
+def test_a_prompt_gives_a_video_a_viewer_and_a_download(
     page: Any, address: str, tmp_path: Path, requests_made: Any
 ) -> None:
     said = make_events(page, "a red ball bounces on the grass")
     assert "ball" in said
     count = int(said.split()[0].replace(",", ""))
 
-    film = until(page, lambda: page.find_elements("css selector", "#preview video"))[0]
-    until(page, lambda: page.execute_script("return arguments[0].videoWidth", film) > 600)
+    video = until(page, lambda: page.find_elements("css selector", "#preview video"))[0]
+    until(page, lambda: page.execute_script("return arguments[0].videoWidth", video) > 600)
     page.switch_to.frame(until(page, lambda: page.find_elements("id", "texvent-viewer"))[0])
     until(page, lambda: page.find_element("id", "shown-text").text)
     assert page.find_element("id", "shown-text").text.startswith(f"{count:,} of")
@@ -147,9 +147,9 @@ def test_a_prompt_gives_a_film_a_viewer_and_a_download(
 
 
 def test_an_example_fills_in_its_prompt(page: Any) -> None:
-    pictures = until(page, lambda: page.find_elements("css selector", "#examples .thumbnail-lg"))
-    assert len(pictures) >= 6
-    page.execute_script("arguments[0].click()", pictures[2])
+    images = until(page, lambda: page.find_elements("css selector", "#examples .thumbnail-lg"))
+    assert len(images) >= 6
+    page.execute_script("arguments[0].click()", images[2])
     field = page.find_element("css selector", "#prompt textarea")
     until(page, lambda: "sharks" in field.get_attribute("value"))
 

@@ -11,7 +11,7 @@ from texvent.cli.app import main
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 
-CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
+CLIP = Path(__file__).parents[2] / "clips" / "bigbuckbunny_excerpt.mp4"
 SCENE = ["--duration", "0.2", "--fps", "10", "--sensor", "48x36", "--samples", "1"]
 
 

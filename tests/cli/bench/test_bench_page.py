@@ -5,7 +5,7 @@ import xml.etree.ElementTree as ElementTree
 from texvent.cli.app import main
 
 
-def test_a_result_becomes_a_page_with_its_pictures(tmp_path, monkeypatch, capsys):
+def test_a_result_becomes_a_page_with_its_images(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     chosen = ["--scenes", "translate", "--simulators", "esim", "--interpolations", "none"]
     assert main(["bench", "fidelity", *chosen, "-o", "r.json", "--jobs", "1", "-q"]) == 0

@@ -22,14 +22,14 @@ SIZE = SensorSize(32, 24)
 Steps = list[tuple[Frame, EventStream]]
 
 
-def write_film(path: Path, steps: Steps, **options: object) -> Path:
+def write_video(path: Path, steps: Steps, **options: object) -> Path:
     with VideoWriter(path, size=SIZE, fps=Fraction(30_000, 1001), **options) as video:
         for frame, packet in steps:
             video.append(frame, packet)
     return path
 
 
-def read_film(path: Path) -> tuple[list[int], np.ndarray, av.container.InputContainer]:
+def read_video(path: Path) -> tuple[list[int], np.ndarray, av.container.InputContainer]:
     """Times in µs, images, and the container."""
     container = av.open(str(path))
     frames = list(container.decode(video=0))
@@ -40,7 +40,7 @@ def read_film(path: Path) -> tuple[list[int], np.ndarray, av.container.InputCont
 def test_mp4_times_are_the_source_frames_times_to_the_microsecond(
     tmp_path: Path, steps: Steps
 ) -> None:
-    times, _, container = read_film(write_film(tmp_path / "out.mp4", steps))
+    times, _, container = read_video(write_video(tmp_path / "out.mp4", steps))
     source = [frame.t_us for frame, _ in steps if frame.is_source]
     assert times == [t - source[0] for t in source[:-1]]
     stream = container.streams.video[0]
@@ -53,19 +53,19 @@ def test_irregular_frame_times_are_kept(tmp_path: Path) -> None:
     times = [1_000, 1_007, 40_000, 1_040_000, 1_040_001]
     pixels = np.zeros(SIZE.shape, dtype=np.uint8)
     steps = [(Frame(pixels, t), EventStream.empty(SIZE)) for t in times]
-    shown, _, _ = read_film(write_film(tmp_path / "out.mp4", steps))
+    shown, _, _ = read_video(write_video(tmp_path / "out.mp4", steps))
     assert shown == [t - 1_000 for t in times[:-1]]
 
 
 def test_the_index_lies_in_front_so_that_browsers_start_at_once(
     tmp_path: Path, steps: Steps
 ) -> None:
-    content = write_film(tmp_path / "out.mp4", steps).read_bytes()
+    content = write_video(tmp_path / "out.mp4", steps).read_bytes()
     assert 0 < content.index(b"moov") < content.index(b"mdat")
 
 
 def test_the_frame_is_left_and_its_events_are_right(tmp_path: Path, steps: Steps) -> None:
-    _, images, _ = read_film(write_film(tmp_path / "out.mp4", steps, palette="paper"))
+    _, images, _ = read_video(write_video(tmp_path / "out.mp4", steps, palette="paper"))
     width = images.shape[2]
     image = images[1].astype(int)
     row = image[int(image.shape[0] * 0.7)]
@@ -80,7 +80,7 @@ def test_the_frame_is_left_and_its_events_are_right(tmp_path: Path, steps: Steps
 def test_events_of_intermediate_frames_count_for_the_next_source_frame(
     tmp_path: Path, steps: Steps
 ) -> None:
-    dense = write_film(tmp_path / "dense.mp4", steps)
+    dense = write_video(tmp_path / "dense.mp4", steps)
     merged: Steps = []
     waiting: list[EventStream] = [EventStream.empty(SIZE)]
     for frame, packet in steps:
@@ -88,12 +88,12 @@ def test_events_of_intermediate_frames_count_for_the_next_source_frame(
         if frame.is_source:
             merged.append((frame, EventStream.concat(waiting)))
             waiting = [EventStream.empty(SIZE)]
-    plain = write_film(tmp_path / "plain.mp4", merged)
-    assert np.array_equal(read_film(dense)[1], read_film(plain)[1])
+    plain = write_video(tmp_path / "plain.mp4", merged)
+    assert np.array_equal(read_video(dense)[1], read_video(plain)[1])
 
 
 def test_gif_times_are_rounded_but_do_not_drift(tmp_path: Path, steps: Steps) -> None:
-    times, images, _ = read_film(write_film(tmp_path / "out.gif", steps))
+    times, images, _ = read_video(write_video(tmp_path / "out.gif", steps))
     source = [frame.t_us for frame, _ in steps if frame.is_source]
     exact = [t - source[0] for t in source[:-1]]
     assert len(times) == len(exact)
@@ -103,22 +103,20 @@ def test_gif_times_are_rounded_but_do_not_drift(tmp_path: Path, steps: Steps) ->
 
 
 @pytest.mark.parametrize("extension", [".mp4", ".gif"])
-def test_one_frame_gives_a_film_of_one_picture(
-    tmp_path: Path, steps: Steps, extension: str
-) -> None:
-    path = write_film(tmp_path / f"out{extension}", steps[:1])
-    assert len(read_film(path)[0]) == 1
+def test_one_frame_gives_a_video_of_one_image(tmp_path: Path, steps: Steps, extension: str) -> None:
+    path = write_video(tmp_path / f"out{extension}", steps[:1])
+    assert len(read_video(path)[0]) == 1
 
 
 def test_no_frame_at_all_is_an_input_error(
     tmp_path: Path, folder_is_clean: Callable[[], bool]
 ) -> None:
     with pytest.raises(InputError, match="at least one frame"):
-        write_film(tmp_path / "out.mp4", [])
+        write_video(tmp_path / "out.mp4", [])
     assert folder_is_clean()
 
 
-def test_an_exception_midway_leaves_no_film(
+def test_an_exception_midway_leaves_no_video(
     tmp_path: Path, steps: Steps, folder_is_clean: Callable[[], bool]
 ) -> None:
     def interrupt() -> None:
@@ -131,16 +129,16 @@ def test_an_exception_midway_leaves_no_film(
     assert folder_is_clean()
 
 
-def test_an_existing_film_is_kept_unless_overwriting_is_allowed(
+def test_an_existing_video_is_kept_unless_overwriting_is_allowed(
     tmp_path: Path, steps: Steps
 ) -> None:
     path = tmp_path / "out.mp4"
     path.write_bytes(b"old")
     with pytest.raises(OutputError, match="exists already"):
-        write_film(path, steps)
+        write_video(path, steps)
     assert path.read_bytes() == b"old"
-    write_film(path, steps, overwrite=True)
-    assert len(read_film(path)[0]) == 5
+    write_video(path, steps, overwrite=True)
+    assert len(read_video(path)[0]) == 5
 
 
 def test_other_extensions_are_refused(tmp_path: Path) -> None:
@@ -167,7 +165,7 @@ def test_a_full_disk_while_encoding_is_one_clear_line(
 
     monkeypatch.setattr(VideoEncoder, "_encode", refuse)
     with pytest.raises(OutputError, match="the disk is full"):
-        write_film(tmp_path / "out.mp4", steps)
+        write_video(tmp_path / "out.mp4", steps)
     assert folder_is_clean()
 
 

@@ -11,7 +11,7 @@ from texvent.view.stills.busiest_window import BusiestWindow
 SIZE = SensorSize(32, 24)
 
 
-def picture_of(png: bytes | None) -> np.ndarray:
+def image_of(png: bytes | None) -> np.ndarray:
     assert png is not None
     return cv2.cvtColor(
         cv2.imdecode(np.frombuffer(png, np.uint8), cv2.IMREAD_COLOR), cv2.COLOR_BGR2RGB
@@ -26,7 +26,7 @@ def test_the_interval_with_the_most_events_is_shown_with_its_frame() -> None:
         times = np.full(count, index * 1000 - 1)
         packet = EventStream(np.full(count, 9), rows, times, np.ones(count, int), SIZE)
         picker.append(Frame(pixels, index * 1000), packet)
-    image = picture_of(picker.png())
+    image = image_of(picker.png())
     # 20 events lie between frames 1 and 2; the video shows frame 1 during that time.
     assert (image[-5, 5] == 50).all()
     assert (image == (0, 0, 255)).all(axis=2).sum() > 20
@@ -36,6 +36,6 @@ def test_a_lone_frame_is_shown_with_no_events() -> None:
     picker = BusiestWindow(size=SIZE)
     assert picker.png() is None
     picker.append(Frame(np.full(SIZE.shape, 99, dtype=np.uint8), 0), EventStream.empty(SIZE))
-    image = picture_of(picker.png())
+    image = image_of(picker.png())
     assert (image[-5, 5] == 99).all()
     assert (image[-5, -5] == 255).all()

@@ -19,7 +19,7 @@ SIZES = [
 
 @pytest.mark.parametrize("size", SIZES, ids=str)
 @pytest.mark.parametrize("side_by_side", [True, False])
-def test_every_sensor_gives_an_even_picture_with_both_panels(
+def test_every_sensor_gives_an_even_image_with_both_panels(
     size: SensorSize, side_by_side: bool
 ) -> None:
     layout = PanelLayout(size, get_palette("paper"), side_by_side=side_by_side)
