@@ -1,4 +1,4 @@
-"""The frame engine, readable and fused, beside the continuous one: events against truth, and time.
+"""Drawn frames, fused pairs and continuous time: events against truth, and time per pair.
 
     python -m benchmarks.engines                      # exact scenes: STPP, van Rossum, nearest
     python -m benchmarks.engines --time               # ms per pair, a texture at several speeds
@@ -12,29 +12,30 @@ runs, engines in turn; flow (both directions) and count are what all of them nee
 from __future__ import annotations
 
 import argparse
+import itertools
+import os
 import sys
 import time
+from collections import deque
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
-import numba
 import numpy as np
 
 from benchmarks.interpolation_scenes import moving_scene
-from texvent._registry import INTERPOLATORS, SIMULATORS, load_object
+from texvent._registry import INTERPOLATORS
 from texvent.bench.fidelity.entries import Entry
 from texvent.bench.fidelity.results import Score
 from texvent.bench.fidelity.run import FidelityPlan, record_truths, score_entry
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
-from texvent.engine.continuous import step_continuously
-from texvent.engine.fused import step_fused
-from texvent.engine.select import CONTINUOUS, FUSED
 from texvent.interpolate.count_policy import CountPolicy
-from texvent.interpolate.densify import Pair, dense_frames, pair_up
+from texvent.interpolate.pairing import pair_frames
+from texvent.pairs.frame_pair import FramePair
+from texvent.pipeline import build_simulator
 from texvent.settings import Settings, resolve
 from texvent.video import Frame, Video
 
@@ -101,10 +102,10 @@ def _describe(score: Score | tuple[str, str]) -> str:
 def time_engines(video: Video, options: Mapping[str, Any]) -> dict[str, float]:
     """Milliseconds per pair of each way of getting the same clip's events."""
     settings = resolve("simulate", options)
-    config, run = settings.interpolate, settings.run
-    simulator = SIMULATORS.load(run.simulator)(settings.simulate, seed=run.seed)
+    config = settings.interpolate
+    simulator = build_simulator(settings)
 
-    def plan() -> list[Pair]:
+    def plan() -> list[FramePair]:
         interpolator = INTERPOLATORS.load(config.interpolate)(config, video)
         policy = CountPolicy(
             config,
@@ -113,26 +114,27 @@ def time_engines(video: Video, options: Mapping[str, Any]) -> dict[str, float]:
             balance=simulator.balance,
             contrast_threshold=simulator.contrast_threshold,
         )
-        return list(pair_up(video, interpolator, config, policy))
+        return list(pair_frames(video, interpolator, config, policy))
 
-    def draw_and_step(pairs: list[Pair]) -> None:
+    def draw_and_step() -> None:
         simulator.reset()
-        for frame in dense_frames(pairs):
+        for frame in itertools.chain.from_iterable(pair.frames for pair in pairs):
             simulator.step(frame)
 
-    def run_engine(step: Callable[..., Any], models: Mapping[str, str], pairs: list[Pair]) -> None:
-        pixels = load_object(models[run.simulator])(settings.simulate, run.seed)
-        for _ in step(pairs, pixels):
-            pass
+    def advance(engine: Literal["frames", "continuous"]) -> None:
+        run = replace(settings.run, engine=engine)
+        model = build_simulator(replace(settings, run=run))
+        for pair in pairs:
+            deque(model.advance(pair), maxlen=0)
 
     pairs = plan()
     work: dict[str, Callable[[], Any]] = {
         "flow and count": plan,
-        "readable": partial(draw_and_step, pairs),
-        "fused": partial(run_engine, step_fused, FUSED, pairs),
+        "drawn": draw_and_step,
+        "fused": partial(advance, "frames"),
     }
-    if run.simulator == "esim" or run.preset == "accurate":
-        work["continuous"] = partial(run_engine, step_continuously, CONTINUOUS, pairs)
+    if settings.run.simulator == "esim" or settings.run.preset == "accurate":
+        work["continuous"] = partial(advance, "continuous")
     least = dict.fromkeys(work, float("inf"))
     for _ in range(REPEATS):
         for name, function in work.items():
@@ -149,7 +151,7 @@ def time_engines(video: Video, options: Mapping[str, Any]) -> dict[str, float]:
 
 def compare_times(clip: Path | None, frames: int) -> None:
     """Print milliseconds per pair."""
-    numba.set_num_threads(1)
+    os.environ["TEXVENT_NUM_THREADS"] = "1"
     models = {"texvent paper": {"simulator": "texvent"}, **MODELS}
     if clip is not None:
         videos = {clip.name: _read(clip, frames)}

@@ -27,7 +27,6 @@ from benchmarks.speed.timing import Quartiles, rounded
 from texvent._require import require
 from texvent._version import __version__
 from texvent.config import InterpolateConfig
-from texvent.engine.gpu_pairs import GpuPairs
 from texvent.errors import TexventError
 from texvent.interpolate.rife.interpolator import RifeInterpolator
 from texvent.interpolate.rife.layouts import RIFE_4_6, RifeLayout
@@ -36,6 +35,7 @@ from texvent.sensor import SensorSize
 from texvent.simulate import gpu
 from texvent.simulate.esim.simulator import EsimConfig
 from texvent.simulate.gpu.device import EXTRA, default_device
+from texvent.simulate.gpu.frame_pairs import GpuPairs
 from texvent.simulate.texvent.simulator import TexventConfig
 from texvent.video import Video
 

@@ -8,7 +8,7 @@
     python -m benchmarks.interpolation --rife rife.safetensors    # with RIFE; --rife repeats
 
 A clip is a video file or a folder of pictures. Pairs with a cut between them are left out, and
-every jump found between neighbouring frames is listed.
+every change found between neighbouring frames is listed.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from texvent.interpolate.protocol import Interpolator
 from texvent.interpolate.rife.interpolator import RifeInterpolator
 from texvent.interpolate.rife.weights import read_rife_weights
 from texvent.metrics.structural_similarity import structural_similarity
-from texvent.pairs.scene_change import Jump, detect_jump
+from texvent.pairs.scene_change import SceneChange, detect_scene_change
 from texvent.video import Frame, Video
 
 INTERVAL_US = 40_000
@@ -87,7 +87,7 @@ def main() -> None:
         frames = list(read_grey(options.clip))
         cases = clip_cases(frames, options)
         print_rows(f"{options.clip.stem}, gap {options.gap}", cases, chosen)
-        print("jumps: " + (", ".join(list_jumps(frames)) or "none"))
+        print("changes: " + (", ".join(list_scene_changes(frames)) or "none"))
         return
     positions = np.linspace(0, 1, STEPS + 2)
     if options.embedded:
@@ -112,7 +112,7 @@ def clip_cases(frames: Sequence[NDArray[Any]], options: argparse.Namespace) -> l
     return [
         Case(run, False)
         for run in runs
-        if detect_jump(Frame(run[0], 0), Frame(run[-1], 1)) is Jump.NONE
+        if detect_scene_change(Frame(run[0], 0), Frame(run[-1], 1)) is SceneChange.NONE
     ]
 
 
@@ -213,10 +213,16 @@ def travel(pictures: list[NDArray[Any]]) -> float:
     return float(sum(np.abs(later - earlier).mean() for earlier, later in pairwise(levels)))
 
 
-def list_jumps(frames: list[NDArray[Any]]) -> list[str]:
+def list_scene_changes(frames: list[NDArray[Any]]) -> list[str]:
     """Cuts and flashes between neighbouring frames: `cut at 30`."""
-    jumps = [detect_jump(Frame(first, 0), Frame(second, 1)) for first, second in pairwise(frames)]
-    return [f"{jump.value} at {i}" for i, jump in enumerate(jumps, 1) if jump is not Jump.NONE]
+    changes = [
+        detect_scene_change(Frame(first, 0), Frame(second, 1)) for first, second in pairwise(frames)
+    ]
+    return [
+        f"{change.value} at {i}"
+        for i, change in enumerate(changes, 1)
+        if change is not SceneChange.NONE
+    ]
 
 
 def read_grey(path: Path) -> Iterator[NDArray[np.uint8]]:

@@ -144,26 +144,6 @@ def clips_per_second(
         return len(clips) / (time.perf_counter() - start)
 
 
-def frames_per_second(
-    frames: Sequence[Frame], config: TexventConfig, *, threads: int, batch: int = 8
-) -> float:
-    """Frames of one clip simulated per second, in batches shared out among so many threads."""
-    before = os.environ.get("TEXVENT_NUM_THREADS")
-    os.environ["TEXVENT_NUM_THREADS"] = str(threads)
-    try:
-        simulator, elapsed = TexventSimulator(config, backend="cpu"), []
-        for first in range(0, len(frames) - batch + 1, batch):
-            start = time.perf_counter()
-            simulator.step_batch(frames[first : first + batch])
-            elapsed.append(time.perf_counter() - start)
-    finally:
-        if before is None:
-            del os.environ["TEXVENT_NUM_THREADS"]
-        else:
-            os.environ["TEXVENT_NUM_THREADS"] = before
-    return batch / percentile(elapsed[1:], 10)
-
-
 def time_cold_start() -> Iterator[tuple[str, float, float]]:
     """What, seconds until the first events, and seconds until compiled kernels make them.
 
@@ -225,12 +205,6 @@ def main() -> None:
     clips = [make_clip(SIZES[1], 0.05, count, np.uint8)] * 4
     one, two = (clips_per_second(clips, TexventConfig(), threads) for threads in (1, 2))
     print(f"\nclips at once, 1280x720, 5 %: 2 threads {two / one:.2f} times one thread")
-    for density in DENSITIES:
-        frames = make_clip(SIZES[1], density, count, np.uint8)
-        one, two = (
-            frames_per_second(frames, TexventConfig(), threads=threads) for threads in (1, 2)
-        )
-        print(f"one clip, {density:.1%}, batches of 8: 2 threads {two / one:.2f} times one thread")
     if arguments.cold:
         for name, first, ready in time_cold_start():
             print(f"{name}: first events after {first:.2f} s, compiled after {ready:.2f} s")

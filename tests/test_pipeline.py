@@ -9,8 +9,8 @@ import pytest
 from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent.errors import InputError
 from texvent.interpolate.densify import densify
-from texvent.pairs.scene_change import Jump
-from texvent.pipeline import select, video_to_events
+from texvent.pairs.scene_change import SceneChange
+from texvent.pipeline import select_events, video_to_events
 from texvent.settings import resolve
 from texvent.video import Video, frame_time_us
 
@@ -40,7 +40,7 @@ def serial_steps(video, settings):
         balance=simulator.balance,
         contrast_threshold=simulator.contrast_threshold,
     )
-    return [(frame, select(simulator.step(frame), run)) for frame in dense]
+    return [(frame, select_events(simulator.step(frame), run)) for frame in dense]
 
 
 @pytest.mark.parametrize("interpolate", ["none", "blend", "flow"])
@@ -59,17 +59,17 @@ def test_events_and_frames_equal_the_serial_path(interpolate, simulator, colour)
             np.testing.assert_array_equal(packet.columns()[name], column)
 
 
-def test_jumps_are_told_in_the_readers_thread_before_the_frames_that_show_them():
+def test_scene_changes_are_told_in_the_readers_thread_before_the_frames_that_show_them():
     settings = resolve("simulate", {"interpolate": "blend"})
     video, seen = moving_clip(), []
 
-    def note(jump, t_us):
-        seen.append((jump, t_us, threading.current_thread()))
+    def note(change, t_us):
+        seen.append((change, t_us, threading.current_thread()))
 
     for frame, _ in video_to_events(video, settings).steps(note):
         if frame.is_source:
             assert len(seen) == (frame.t_us >= video.times_us[4])
-    assert seen == [(Jump.FLASH, video.times_us[4], threading.main_thread())]
+    assert seen == [(SceneChange.FLASH, video.times_us[4], threading.main_thread())]
 
 
 def test_a_source_that_breaks_gives_its_events_first_and_leaves_no_thread():

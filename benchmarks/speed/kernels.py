@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import itertools
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -71,20 +70,11 @@ class Run:
         """Seconds of each of the next frames."""
         return [self.step() for _ in range(count)]
 
-    def batches(self, count: int) -> list[float]:
-        """Seconds per frame of the next frames, `BATCH` at a time; the first batch is not timed."""
-        times = []
-        for _ in range(1 + -(-count // BATCH)):
-            batch = list(itertools.islice(self._frames, BATCH))
-            times.append(seconds(functools.partial(self.simulator.step_batch, batch)) / BATCH)
-        return times[1:]
-
 
 def measure_kernels(plan: Plan, bandwidths: dict[int, Bandwidth]) -> list[dict[str, Any]]:
     """A row per model, size, density and way of working.
 
-    "clip" is one thread, frame by frame; "clips" two threads, each with a clip of its own;
-    "batch" two threads on one clip, for models that take several frames at once.
+    "clip" is one thread, frame by frame; "clips" two threads, each with a clip of its own.
     """
     rows = []
     for size, density in itertools.product(SIZES, DENSITIES):
@@ -105,9 +95,6 @@ def _measure_ways(model: str, frames: Bytes, steps: int) -> tuple[dict[str, Quar
         ways = {"clip": Quartiles.of(one.steps(steps), scale=1e3)}
         events = one.events / steps
         ways["clips"] = _in_two_threads(model, frames, steps)
-    if hasattr(one.simulator, "step_batch"):
-        with threads_at_most(2):
-            ways["batch"] = Quartiles.of(one.batches(steps), scale=1e3)
     return ways, events
 
 

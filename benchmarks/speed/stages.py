@@ -13,17 +13,16 @@ from pathlib import Path
 from typing import Any, Literal, TypeVar
 
 from benchmarks.speed.timing import Quartiles, rounded
-from texvent._registry import INTERPOLATORS, SIMULATORS
+from texvent._registry import INTERPOLATORS
 from texvent.capture.open import open_frames
-from texvent.engine.select import advance
 from texvent.interpolate.count_policy import CountPolicy
-from texvent.interpolate.densify import Pair, dense_frames, pair_up
+from texvent.interpolate.pairing import pair_frames
 from texvent.io.files import open_writer
-from texvent.pipeline import video_to_events
+from texvent.pairs.frame_pair import FramePair
+from texvent.pipeline import build_simulator, video_to_events
 from texvent.runtime.background_jit import wait_until_idle
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.settings import Settings, resolve
-from texvent.simulate.look_ahead import step_through
 from texvent.video import Frame, FrameStream
 
 STAGES = ("decode", "luma", "count", "flow", "warp", "simulate", "write")
@@ -158,7 +157,7 @@ def _run_alone(
     video: Any, settings: Settings, clock: StageClock, engine: Engine, path: Path
 ) -> int:
     """One stage after the other, in one thread of ours; returns the number of events."""
-    simulator: Any = SIMULATORS.load(settings.run.simulator)(settings.simulate)
+    simulator = build_simulator(settings)
     inner = INTERPOLATORS.load(settings.interpolate.interpolate)(settings.interpolate, video)
     policy = CountPolicy(
         settings.interpolate,
@@ -169,11 +168,12 @@ def _run_alone(
     )
     frames = _with_luma(clock.each("decode", video), clock)
     interpolator = _TimedInterpolator(inner, clock)
-    planned = clock.each("count", pair_up(frames, interpolator, settings.interpolate, policy))
+    planned = clock.each("count", pair_frames(frames, interpolator, settings.interpolate, policy))
     if engine == "fused":
-        steps = advance(planned, simulator, settings)
+        steps = (step for pair in planned for step in simulator.advance(pair))
     else:
-        steps = step_through(simulator, dense_frames(_with_timed_pictures(planned, clock)))
+        drawn = _with_timed_frames(planned, clock)
+        steps = ((frame, simulator.step(frame)) for pair in drawn for frame in pair.frames)
     total = 0
     with open_writer(path, size=video.size) as writer:
         for frame, packet in clock.each("simulate", steps):
@@ -194,7 +194,7 @@ def _with_luma(frames: Iterable[Frame], clock: StageClock) -> Iterator[Frame]:
         yield frame
 
 
-def _with_timed_pictures(pairs: Iterable[Pair], clock: StageClock) -> Iterator[Pair]:
+def _with_timed_frames(pairs: Iterable[FramePair], clock: StageClock) -> Iterator[FramePair]:
     for pair in pairs:
         yield replace(pair, between=clock.each("warp", pair.between))
 

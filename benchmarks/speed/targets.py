@@ -75,12 +75,6 @@ TARGETS = (
         lambda one: _two_over_one(one, "clips", 0.05),
     ),
     Target(
-        "720p, paper preset, two threads on one clip, at 5 and 20 %: throughput over one",
-        1.7,
-        True,
-        lambda one: _two_over_one(one, "batch", 0.05, 0.2),
-    ),
-    Target(
         "heavy clip, paper preset: time of the fastest peer over ours",
         5.0,
         True,

@@ -1,10 +1,10 @@
-"""The main path of the paper's Figure 2: prompt → video → dense frames → events.
+"""The main path of the paper's Figure 2: prompt → video → pairs of frames → events.
 
-    video = generate(prompt)                 Eq. 3   texvent.generate
-    dense = densify(video)                   Eq. 4   texvent.interpolate
-    packet = simulator.step(frame)           Eq. 5-7 texvent.simulate
+    video = generator.generate(prompt)        Eq. 3    texvent.generate
+    pair  = plan_pairs(video)                 Eq. 4    texvent.interpolate
+    packets = simulator.advance(pair)         Eq. 5-7  texvent.simulate
 
-Everything is pulled through one frame at a time, so memory does not grow with the clip. Decoding
+Everything is pulled through one pair at a time, so memory does not grow with the clip. Decoding
 and optical flow run a few frames ahead in threads of their own; the events are the same without.
 """
 
@@ -19,14 +19,15 @@ from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS
 from texvent._version import __version__
 from texvent.capture.prepare import PreparedFrames
 from texvent.config import CaptureConfig, RunConfig
-from texvent.engine.planning import plan_pairs
-from texvent.engine.select import advance, check_engine
 from texvent.event_packets import EventPackets
 from texvent.events import NOISE, SIGNAL, EventStream
-from texvent.interpolate.densify import OnCut
+from texvent.interpolate.pairing import plan_pairs
+from texvent.pairs.frame_pair import OnSceneChange, notify_scene_change
 from texvent.progress import Progress
 from texvent.settings import Settings
+from texvent.simulate.fused.continuous import check_continuous
 from texvent.simulate.protocol import Simulator
+from texvent.simulate.stepping import with_advance
 from texvent.simulate.training import draw_training_config
 from texvent.video import Frame, FrameStream
 
@@ -88,21 +89,32 @@ class Simulation:
     settings: Settings
     prompt: str | None = None
 
-    def steps(self, on_cut: OnCut | None = None) -> Iterator[tuple[Frame, EventStream]]:
+    def steps(
+        self, on_scene_change: OnSceneChange | None = None
+    ) -> Iterator[tuple[Frame, EventStream]]:
         """Every dense frame with the packet of events that ends at it.
 
         With engine "continuous", every source frame. Intermediate frames may be drawn only when
-        their pixels are looked at.
+        their pixels are read.
 
         Args:
-            on_cut: told of every scene cut and flash that was not smeared.
+            on_scene_change: called at every cut and flash.
         """
-        settings = self.settings
-        simulator = _build_simulator(settings)
+        simulator = build_simulator(self.settings)
         with ExitStack() as threads:
-            pairs = plan_pairs(self.video, settings.interpolate, simulator, threads)
-            for frame, packet in advance(pairs, simulator, settings, on_cut):
-                yield frame, select(packet, settings.run)
+            pairs = plan_pairs(
+                self.video,
+                self.settings.interpolate,
+                threads,
+                balance=simulator.balance,
+                contrast_threshold=simulator.contrast_threshold,
+            )
+            for pair in pairs:
+                notify_scene_change(pair, on_scene_change)
+                for frame, packet in simulator.advance(pair):
+                    yield frame, select_events(packet, self.settings.run)
+            for frame, packet in simulator.finish():
+                yield frame, select_events(packet, self.settings.run)
 
     @property
     def packets(self) -> EventPackets:
@@ -127,13 +139,31 @@ class Simulation:
         }
 
 
-def _build_simulator(settings: Settings) -> Simulator:
-    """The simulator of a run; a backend is named only to those that may know one."""
+def check_engine(settings: Settings) -> None:
+    """Refuse a run that its engine cannot do, before any work.
+
+    Raises:
+        ConfigError: the engine is continuous, and the simulator, one of its options, the backend
+            or the interpolator does not fit.
+    """
     run = settings.run
+    if run.engine == "continuous":
+        check_continuous(
+            SIMULATORS.load(run.simulator),
+            settings.simulate,
+            name=run.simulator,
+            backend=run.backend,
+            interpolate=settings.interpolate.interpolate,
+        )
+
+
+def build_simulator(settings: Settings) -> Simulator:
+    """The simulator of a run; backend and engine are passed only where the user named one."""
+    run = settings.run
+    options = {"backend": run.backend, "engine": run.engine}
+    named = {name: value for name, value in options.items() if value not in ("auto", "frames")}
     build = SIMULATORS.load(run.simulator)
-    options = {} if run.backend == "auto" else {"backend": run.backend}
-    simulator: Simulator = build(settings.simulate, seed=run.seed, **options)
-    return simulator
+    return with_advance(build(settings.simulate, seed=run.seed, **named))
 
 
 def _weight_files(settings: Settings) -> dict[str, Any]:
@@ -153,7 +183,7 @@ def _weight_files(settings: Settings) -> dict[str, Any]:
     return {"weights": files} if files else {}
 
 
-def select(packet: EventStream, run: RunConfig) -> EventStream:
+def select_events(packet: EventStream, run: RunConfig) -> EventStream:
     """The events of a packet that the run keeps, with the label only if it is wanted."""
     if packet.label is not None and run.events != "all":
         packet = packet[packet.label == (SIGNAL if run.events == "signal" else NOISE)]

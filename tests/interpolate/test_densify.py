@@ -16,11 +16,11 @@ from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
 from texvent.errors import InputError
 from texvent.interpolate.densify import densify
-from texvent.pairs.scene_change import Jump
+from texvent.pairs.scene_change import SceneChange
 from texvent.video import Frame, Video
 
 
-def run(video, options=None, *, balance=30.0, threshold=0.2, on_cut=None):
+def run(video, options=None, *, balance=30.0, threshold=0.2, on_scene_change=None):
     options = options or InterpolateConfig(interpolate="blend")
     interpolator = INTERPOLATORS.load(options.interpolate)(options, video)
     dense = densify(
@@ -29,7 +29,7 @@ def run(video, options=None, *, balance=30.0, threshold=0.2, on_cut=None):
         options,
         balance=balance,
         contrast_threshold=threshold,
-        on_cut=on_cut,
+        on_scene_change=on_scene_change,
     )
     return list(dense)
 
@@ -118,7 +118,7 @@ def test_intermediate_frames_are_float_luma(interpolate):
 def test_none_adds_nothing_and_looks_for_nothing(flashing):
     seen = []
     options = InterpolateConfig(interpolate="none", count="fixed", fixed_count=5)
-    frames = run(flashing, options, on_cut=lambda *jump: seen.append(jump))
+    frames = run(flashing, options, on_scene_change=lambda *change: seen.append(change))
     assert [frame.is_source for frame in frames] == [True] * 4
     assert seen == []
 
@@ -159,8 +159,12 @@ def test_one_frame_stays_one_frame():
 
 def test_a_flash_of_one_frame_and_a_cut_are_three_jumps(flashing):
     seen = []
-    frames = run(flashing, on_cut=lambda *jump: seen.append(jump))
-    assert seen == [(Jump.FLASH, 20_000), (Jump.FLASH, 40_000), (Jump.CUT, 60_000)]
+    frames = run(flashing, on_scene_change=lambda *change: seen.append(change))
+    assert seen == [
+        (SceneChange.FLASH, 20_000),
+        (SceneChange.FLASH, 40_000),
+        (SceneChange.CUT, 60_000),
+    ]
     assert [frame.t_us for frame in frames] == [
         0, 19_000, 20_000, 39_000, 40_000, 59_000, 60_000,
     ]  # fmt: skip
@@ -179,7 +183,7 @@ def test_the_old_picture_is_held_for_half_of_a_short_interval(flashing):
 def test_jumps_are_smeared_only_if_asked(flashing):
     seen = []
     options = InterpolateConfig(interpolate="blend", detect_cuts=False)
-    frames = run(flashing, options, on_cut=lambda *jump: seen.append(jump))
+    frames = run(flashing, options, on_scene_change=lambda *change: seen.append(change))
     assert seen == []
     assert len(frames) > 7
 

@@ -8,7 +8,7 @@ import pytest
 from texvent.errors import InputError
 from texvent.interpolate.blend import BlendInterpolator
 from texvent.interpolate.flow import FlowInterpolator
-from texvent.pairs import motion_interpolation as paths
+from texvent.pairs import motion_interpolation
 from texvent.video import Frame
 
 
@@ -71,12 +71,12 @@ def test_dark_frames_move_as_well_as_bright_ones(moving_texture, psnr, flow):
 @pytest.mark.parametrize("together", [1, 3, 5])
 def test_pictures_drawn_together_are_those_drawn_alone(moving_texture, flow, monkeypatch, together):
     first, second = Frame(moving_texture(0), 0), Frame(moving_texture(4), 600)
-    monkeypatch.setattr(paths, "DRAWN_BYTES", together * first.luma.nbytes)
+    monkeypatch.setattr(motion_interpolation, "DRAWN_BYTES", together * first.luma.nbytes)
     found = flow.between(first, second, [100, 200, 300, 400, 500])
     frames = list(found)
     assert [frame.t_us for frame in frames] == [100, 200, 300, 400, 500]
     for index, frame in enumerate(frames):
-        np.testing.assert_array_equal(frame.pixels, found.picture(index))
+        np.testing.assert_array_equal(frame.pixels, found.image(index))
 
 
 def test_equal_frames_give_the_frame(moving_texture, flow):

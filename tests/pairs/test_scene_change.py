@@ -7,15 +7,15 @@ import itertools
 import numpy as np
 import pytest
 
-from texvent.pairs.scene_change import Jump, detect_jump
+from texvent.pairs.scene_change import SceneChange, detect_scene_change
 from texvent.pairs.shift_correlation import shift_agreement
 from texvent.video import Frame
 
 WIDTH, HEIGHT = 192, 144
 
 
-def jump(first, second):
-    return detect_jump(Frame(first, 0), Frame(second, 40_000))
+def change(first, second):
+    return detect_scene_change(Frame(first, 0), Frame(second, 40_000))
 
 
 @pytest.fixture(scope="module")
@@ -31,15 +31,17 @@ def scene(moving_texture):
 
 
 def test_another_picture_is_a_cut(scene, moving_texture):
-    assert jump(scene(0), moving_texture(3000, 800, width=WIDTH, height=HEIGHT)) is Jump.CUT
-    assert jump(scene(0), scene(0)[:, ::-1]) is Jump.CUT
-    assert jump(scene(0), scene(0)[::-1]) is Jump.CUT
+    assert (
+        change(scene(0), moving_texture(3000, 800, width=WIDTH, height=HEIGHT)) is SceneChange.CUT
+    )
+    assert change(scene(0), scene(0)[:, ::-1]) is SceneChange.CUT
+    assert change(scene(0), scene(0)[::-1]) is SceneChange.CUT
 
 
 @pytest.mark.parametrize("pixels", [1, 6, 18, 40, 80])
 def test_a_pan_is_no_jump(moving_texture, pixels):
     first, second = (moving_texture(x, width=WIDTH, height=HEIGHT) for x in (0, pixels))
-    assert jump(first, second) is Jump.NONE
+    assert change(first, second) is SceneChange.NONE
 
 
 def test_zoom_is_no_jump(moving_texture):
@@ -47,14 +49,14 @@ def test_zoom_is_no_jump(moving_texture):
     first = moving_texture(0, width=WIDTH, height=HEIGHT)
     rows = np.clip(np.rint((y - 72) / 1.1 + 72), 0, HEIGHT - 1).astype(int)
     columns = np.clip(np.rint((x - 96) / 1.1 + 96), 0, WIDTH - 1).astype(int)
-    assert jump(first, first[rows, columns]) is Jump.NONE
+    assert change(first, first[rows, columns]) is SceneChange.NONE
 
 
 def test_a_large_object_crossing_is_no_jump(scene):
     first, second = scene(0), scene(0)
     first[20:120, 10:90] = 20
     second[20:120, 34:114] = 20
-    assert jump(first, second) is Jump.NONE
+    assert change(first, second) is SceneChange.NONE
 
 
 @pytest.mark.parametrize("level", [5, 20])
@@ -63,65 +65,66 @@ def test_noise_is_no_jump(scene, level):
     first, second = (
         np.clip(scene(0) + rng.normal(0, level, (HEIGHT, WIDTH)), 0, 255) for _ in "ab"
     )
-    assert jump(first, second) is Jump.NONE
+    assert change(first, second) is SceneChange.NONE
 
 
 @pytest.mark.parametrize("frames", [8, 24])
 def test_a_fade_to_or_from_black_is_no_jump(scene, frames):
     steps = [scene(0) * k / frames for k in range(frames + 1)]
     for dark, bright in itertools.pairwise(steps):
-        assert jump(dark, bright) is Jump.NONE
-        assert jump(bright, dark) is Jump.NONE
+        assert change(dark, bright) is SceneChange.NONE
+        assert change(bright, dark) is SceneChange.NONE
 
 
 def test_a_dissolve_is_no_jump(scene):
     first, last = scene(0), scene(0)[:, ::-1]
     steps = [first + (last - first) * k / 8 for k in range(9)]
-    assert all(jump(a, b) is Jump.NONE for a, b in itertools.pairwise(steps))
+    assert all(change(a, b) is SceneChange.NONE for a, b in itertools.pairwise(steps))
 
 
 def test_the_same_picture_twice_as_bright_is_a_flash(scene):
     dim = scene(0) * 0.5
-    assert jump(dim, scene(0)) is Jump.FLASH
-    assert jump(scene(0), dim) is Jump.FLASH
+    assert change(dim, scene(0)) is SceneChange.FLASH
+    assert change(scene(0), dim) is SceneChange.FLASH
 
 
 def test_a_flash_on_a_moving_picture_is_a_flash(moving_texture):
     first, second = (moving_texture(x, width=WIDTH, height=HEIGHT) for x in (0, 5))
-    assert jump(first * 0.5, second) is Jump.FLASH
+    assert change(first * 0.5, second) is SceneChange.FLASH
 
 
 def test_white_and_black_pictures_are_flashes(scene):
-    assert jump(scene(0), np.full((HEIGHT, WIDTH), 255.0)) is Jump.FLASH
-    assert jump(np.zeros((HEIGHT, WIDTH)), np.full((HEIGHT, WIDTH), 200.0)) is Jump.FLASH
+    assert change(scene(0), np.full((HEIGHT, WIDTH), 255.0)) is SceneChange.FLASH
+    assert change(np.zeros((HEIGHT, WIDTH)), np.full((HEIGHT, WIDTH), 200.0)) is SceneChange.FLASH
 
 
 def test_a_plain_picture_at_about_the_same_level_is_a_cut_if_much_changes(scene):
     contrasty = np.where(scene(0) > np.median(scene(0)), 220.0, 20.0)
-    assert jump(contrasty, np.full((HEIGHT, WIDTH), 120.0)) is Jump.CUT
+    assert change(contrasty, np.full((HEIGHT, WIDTH), 120.0)) is SceneChange.CUT
 
 
 def test_a_lamp_that_lights_a_corner_is_no_jump(scene):
     lit = scene(0) * 0.5
     lit[:60, :70] *= 2
-    assert jump(scene(0) * 0.5, lit) is Jump.NONE
+    assert change(scene(0) * 0.5, lit) is SceneChange.NONE
 
 
 def test_equal_frames_do_not_jump(scene):
-    assert jump(scene(0), scene(0)) is Jump.NONE
+    assert change(scene(0), scene(0)) is SceneChange.NONE
 
 
 def test_frames_too_small_to_judge_do_not_jump():
-    assert jump(np.zeros((1, 1)), np.full((1, 1), 255.0)) is Jump.NONE
-    assert jump(np.zeros((15, 400)), np.full((15, 400), 255.0)) is Jump.NONE
-    assert jump(np.zeros((16, 400)), np.full((16, 400), 255.0)) is Jump.FLASH
+    assert change(np.zeros((1, 1)), np.full((1, 1), 255.0)) is SceneChange.NONE
+    assert change(np.zeros((15, 400)), np.full((15, 400), 255.0)) is SceneChange.NONE
+    assert change(np.zeros((16, 400)), np.full((16, 400), 255.0)) is SceneChange.FLASH
 
 
 def test_bytes_and_colours_are_judged_alike(scene):
     dim, bright = (np.rint(scene(0) * gain).astype(np.uint8) for gain in (0.5, 1.0))
-    assert jump(dim, bright) is Jump.FLASH
+    assert change(dim, bright) is SceneChange.FLASH
     assert (
-        jump(*(np.repeat(one[..., np.newaxis], 3, axis=2) for one in (dim, bright))) is Jump.FLASH
+        change(*(np.repeat(one[..., np.newaxis], 3, axis=2) for one in (dim, bright)))
+        is SceneChange.FLASH
     )
 
 
@@ -129,7 +132,7 @@ def test_bytes_and_colours_are_judged_alike(scene):
 def test_a_whip_pan_in_any_direction_is_no_jump(moving_texture, right, down):
     first = moving_texture(0, 0, width=WIDTH, height=HEIGHT)
     second = moving_texture(right, down, width=WIDTH, height=HEIGHT)
-    assert jump(first, second) is Jump.NONE
+    assert change(first, second) is SceneChange.NONE
 
 
 def test_two_skies_that_share_only_a_gradient_do_not_agree(scene):
@@ -137,7 +140,7 @@ def test_two_skies_that_share_only_a_gradient_do_not_agree(scene):
     sky = np.linspace(220, 60, HEIGHT)[:, None]
     blocks = [np.kron(rng.uniform(-40, 40, (18, 24)), np.ones((8, 8))) for _ in range(2)]
     first, second = (np.clip(sky + one, 0, 255) for one in blocks)
-    assert jump(first, second) is Jump.CUT
+    assert change(first, second) is SceneChange.CUT
 
 
 def test_agreement_is_one_for_a_shifted_picture_and_low_for_another():

@@ -241,44 +241,6 @@ def test_packets_stay_as_they_were_when_the_next_frame_comes(backend):
     assert not any(column.flags.writeable for column in packet.columns().values())
 
 
-@settings(max_examples=60, deadline=None)
-@given(
-    clips(),
-    st.sampled_from(OPTIONS),
-    st.sampled_from(["adaptive", "gaussian", "none"]),
-    st.sampled_from([*FAST, "reference"]),
-    st.integers(1, 5),
-)
-def test_a_batch_gives_the_packets_of_its_steps_for_any_number_of_threads(
-    frames, options, noise, backend, threads
-):
-    options = options | {"noise": noise, "noise_rate_hz": 10.0}
-    expected = simulate(frames, backend="reference", **options)
-    simulator = TexventSimulator(TexventConfig(**options), backend=backend)
-    cut = threads % len(frames)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("TEXVENT_NUM_THREADS", str(threads))
-        packets = simulator.step_batch(frames[:cut]) + simulator.step_batch(frames[cut:])
-    assert len(packets) == len(frames)
-    assert EventStream.concat(packets).equals(expected)
-
-
-@pytest.mark.parametrize("backend", [*FAST, "reference"])
-@pytest.mark.parametrize("options", [{}, {"reset": "step", "stamp": "linear"}], ids=str)
-def test_a_batch_with_a_bad_frame_is_refused_as_a_whole(options, backend):
-    rng = np.random.default_rng(5)
-    frames = [frame(rng.uniform(0, 255, (90, 100)), np.float32, 10 * k) for k in range(9)]
-    broken = frames[7].pixels.copy()
-    broken[80, 7] = np.nan
-    simulator = TexventSimulator(TexventConfig(**options), backend=backend)
-    packets = simulator.step_batch(frames[:2])
-    with pytest.raises(InputError, match=r"frame 7 .t = 70 µs. has 1 pixel.s. that are NaN"):
-        simulator.step_batch([*frames[2:7], Frame(broken, 70), frames[8]])
-    if backend != "reference":
-        packets += simulator.step_batch(frames[2:])
-        assert EventStream.concat(packets).equals(simulate(frames, backend=backend, **options))
-
-
 @pytest.mark.parametrize("backend", FAST)
 @pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])
 def test_no_array_as_large_as_a_frame_is_made_after_the_first(dtype, backend):

@@ -9,18 +9,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.frame_pairs import advance_through
 
 import texvent
 from texvent.cli.app import main
+from texvent.config import option_help, option_names, with_options
 from texvent.errors import ConfigError, InputError, MissingDependencyError
 from texvent.events import SIGNAL, EventStream
-from texvent.option_fields import option_help, option_names
-from texvent.option_values import with_options
 from texvent.pipeline import video_to_events
 from texvent.settings import default_settings, resolve
-from texvent.simulate.look_ahead import step_through
 from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.packets.sorting import make_packet
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.v2ce import ldati
 from texvent.simulate.v2ce.simulator import V2ceConfig, V2ceSimulator, normalise
@@ -58,7 +56,7 @@ def ramp(count: int, shape=(3, 4), **options) -> list[Frame]:
 
 
 def answers(simulator, frames) -> EventStream:
-    return EventStream.concat([packet for _, packet in step_through(simulator, frames)])
+    return EventStream.concat([packet for _, packet in advance_through(simulator, frames)])
 
 
 def means(frames) -> list[float]:
@@ -75,14 +73,16 @@ def test_sequences_follow_one_another_and_the_last_reaches_back(model):
 
 def test_a_clip_shorter_than_a_sequence_is_one_sequence(model):
     simulator, frames = model(), ramp(4)
-    found = list(step_through(simulator, frames))
+    found = list(advance_through(simulator, frames))
     assert [len(one) for one in simulator._network.seen] == [3]
     assert [frame for frame, _ in found] == frames
 
 
 def test_every_packet_is_the_voxel_grid_of_its_own_pair(model):
     frames = ramp(8)
-    found = dict(enumerate(packet for _, packet in step_through(model(sequence_length=5), frames)))
+    found = dict(
+        enumerate(packet for _, packet in advance_through(model(sequence_length=5), frames))
+    )
     network = StandInNetwork()
     levels = np.stack([normalise(frame.luma) for frame in frames])
     pairs = np.stack([levels[:-1], levels[1:]], axis=1)
@@ -103,14 +103,14 @@ def test_answers_come_a_sequence_late_and_no_later(model):
             fed.append(frame)
             yield frame
 
-    answered = step_through(model(sequence_length=4), feed())
+    answered = advance_through(model(sequence_length=4), feed())
     lag = [len(fed) - i for i, _ in enumerate(answered, start=1)]
     assert lag == [0, 3, 2, 1, 0, 3, 2, 1, 0]
 
 
 def test_packets_are_half_open_sorted_and_labelled(model):
     frames = moving_texture(7)
-    found = list(step_through(model(sequence_length=4), frames))
+    found = list(advance_through(model(sequence_length=4), frames))
     assert len(found[0][1]) == 0
     assert found[0][1].label is not None
     for (before, _), (frame, packet) in itertools.pairwise(found):
@@ -123,7 +123,7 @@ def test_packets_are_half_open_sorted_and_labelled(model):
 
 def test_one_frame_gives_an_empty_stream_and_none_gives_nothing(model):
     assert len(answers(model(), ramp(1))) == 0
-    assert list(step_through(model(), [])) == []
+    assert list(advance_through(model(), [])) == []
 
 
 def test_a_single_step_answers_from_the_last_pairs(model):

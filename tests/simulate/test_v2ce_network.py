@@ -4,10 +4,10 @@ import copy
 
 import numpy as np
 import pytest
+from tests.frame_pairs import advance_through
 
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.events import EventStream
-from texvent.simulate.look_ahead import step_through
 from texvent.simulate.v2ce.network import load_network
 from texvent.simulate.v2ce.simulator import V2ceConfig, V2ceSimulator
 from texvent.simulate.v2ce.weights import read_weights
@@ -179,13 +179,13 @@ def test_too_little_memory_says_what_to_lower(network, monkeypatch):
 def test_frames_become_events(weights):
     frames = moving_texture(7, (20, 24))
     simulator = V2ceSimulator(V2ceConfig(weights=weights, device="cpu", sequence_length=4))
-    events = EventStream.concat([packet for _, packet in step_through(simulator, frames)])
+    events = EventStream.concat([packet for _, packet in advance_through(simulator, frames)])
     assert len(events) > 100
     assert set(events.p.tolist()) == {0, 1}
     assert events.t.min() >= frames[0].t_us
     assert events.t.max() < frames[-1].t_us
     simulator.reset()
-    again = EventStream.concat([packet for _, packet in step_through(simulator, frames)])
+    again = EventStream.concat([packet for _, packet in advance_through(simulator, frames)])
     assert again.equals(events)
 
 

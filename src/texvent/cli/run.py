@@ -29,7 +29,7 @@ from texvent.cli.estimate import describe_estimate, estimate_run
 from texvent.cli.outputs import OutputOptions
 from texvent.events import EventStream
 from texvent.io.files import open_writer
-from texvent.pairs.scene_change import Jump
+from texvent.pairs.scene_change import SceneChange
 from texvent.pipeline import Simulation
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.settings import Settings, unmeasured_sensor
@@ -57,7 +57,7 @@ class Tally:
     intermediate_frames: int = 0
     last_us: int = 0
     first_us: int | None = None
-    jumps: list[str] = field(default_factory=list)
+    scene_changes: list[str] = field(default_factory=list)
 
     def add(self, frame: Frame, packet: EventStream) -> None:
         """Count one step."""
@@ -68,9 +68,9 @@ class Tally:
         self.first_us = frame.t_us if self.first_us is None else self.first_us
         self.last_us = frame.t_us
 
-    def add_jump(self, jump: Jump, t_us: int) -> None:
+    def add_scene_change(self, change: SceneChange, t_us: int) -> None:
         """Note a scene cut or flash at `t_us`."""
-        self.jumps.append(f"{jump.name.lower()} at {t_us / MICROSECONDS:.3f} s")
+        self.scene_changes.append(f"{change.name.lower()} at {t_us / MICROSECONDS:.3f} s")
 
     @property
     def seconds(self) -> float:
@@ -116,7 +116,7 @@ def execute(simulation: Simulation, options: OutputOptions, subject: str) -> int
     with ExitStack() as outputs:
         sinks = _open_outputs(outputs, simulation, options, path)
         advance = outputs.enter_context(_progress(simulation, console))
-        for frame, packet in simulation.steps(tally.add_jump):
+        for frame, packet in simulation.steps(tally.add_scene_change):
             for sink in sinks:
                 sink.append(frame, packet)
             tally.add(frame, packet)
@@ -201,8 +201,9 @@ def _report(console: Console, tally: Tally, seconds: float) -> None:
         f"{seconds:.1f} s of work",
         markup=False,
     )
-    if tally.jumps:
-        shown = ", ".join(tally.jumps[:8]) + (", ..." if len(tally.jumps) > 8 else "")
+    if tally.scene_changes:
+        more = ", ..." if len(tally.scene_changes) > 8 else ""
+        shown = ", ".join(tally.scene_changes[:8]) + more
         console.print(f"note     not smeared over the interval: {shown}", markup=False)
     if tally.source_frames == 1:
         console.print("note     one frame only, so nothing could change", markup=False)

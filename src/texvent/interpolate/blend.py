@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from texvent.config import InterpolateConfig
-from texvent.pairs.motion_interpolation import Paths
+from texvent.pairs.motion_interpolation import MotionInterpolation
 from texvent.video import Frame, FrameStream
 
 
@@ -15,7 +15,7 @@ class BlendInterpolator:
     def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
         del config, stream  # every interpolator is built alike; this one needs neither
 
-    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Paths:
+    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> MotionInterpolation:
         """Frames `I_1 + τ (I_2 − I_1)`, τ = (t − t_1) / (t_2 − t_1).
 
         Args:
@@ -29,4 +29,4 @@ class BlendInterpolator:
         Raises:
             InputError: the frames differ in size, or a time is not between theirs.
         """
-        return Paths.between(first, second, times_us, None)
+        return MotionInterpolation.between(first, second, times_us, None)

@@ -1,4 +1,4 @@
-"""How many intermediate frames a pair needs (Eq. 4), and when they are."""
+"""How many intermediate frames a pair needs (Eq. 4)."""
 
 from __future__ import annotations
 
@@ -106,43 +106,6 @@ def count_for_flicker(
         return 0
     beats = flicker_hz * (second_us - first_us) / MICROSECONDS
     return min(math.ceil(STEPS_PER_BEAT * beats) - 1, cap)
-
-
-def intermediate_times_us(first_us: int, second_us: int, count: int) -> list[int]:
-    """Times of `count` equally spaced intermediate frames, strictly between two frames.
-
-    Args:
-        first_us: time of the earlier frame, µs.
-        second_us: time of the later frame, µs.
-        count: how many are wanted. Where the interval has fewer whole microseconds inside, there
-            is one time per microsecond instead.
-
-    Returns:
-        `first + round((second - first)·k / (K + 1))` for k = 1..K, strictly increasing, µs.
-        Halves round up.
-
-    Raises:
-        InputError: `second_us` is not after `first_us`, or the count is negative.
-
-    Equation: (4), "K_i equally spaced intermediate frames", section 3.2.1.
-
-    Example:
-        >>> intermediate_times_us(0, 100, 2)
-        [33, 67]
-        >>> intermediate_times_us(0, 3, 64)
-        [1, 2]
-    """
-    if second_us <= first_us:
-        raise InputError(
-            f"the later frame is at {second_us} µs, the earlier at {first_us} µs; "
-            "frame times must strictly increase"
-        )
-    if count < 0:
-        raise InputError(f"count is {count}; it must be at least 0")
-    interval = second_us - first_us
-    parts = min(count, interval - 1) + 1
-    # Whole numbers only: a float would lose microseconds in long recordings.
-    return [first_us + (2 * interval * k + parts) // (2 * parts) for k in range(1, parts)]
 
 
 def _bound_largest_change(

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from texvent.config import InterpolateConfig
 from texvent.interpolate.dis_flow.pair_flow import PairFlow
 from texvent.pairs.instants import check_between
-from texvent.pairs.motion_interpolation import Paths, prepare_warp
+from texvent.pairs.motion_interpolation import MotionInterpolation, prepare_warp
 from texvent.video import Frame, FrameStream
 
 
@@ -27,7 +27,7 @@ class FlowInterpolator:
         """The flow of the last pair, for whoever counts by motion."""
         prepare_warp()
 
-    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Paths:
+    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> MotionInterpolation:
         """Frames with every point moved along its path from `first` to `second`.
 
         Args:
@@ -45,4 +45,4 @@ class FlowInterpolator:
         check_between(first, second, times_us)
         # Now, not when the first frame is asked for: a thread may be running ahead here.
         flows = self.pair_flow.both_ways(first, second)
-        return Paths.between(first, second, times_us, flows)
+        return MotionInterpolation.between(first, second, times_us, flows)

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from texvent.brightness import Float64Array
-from texvent.pairs.scene_change import Jump, detect_jump
+from texvent.pairs.scene_change import SceneChange, detect_scene_change
 from texvent.video import UINT16_PER_LEVEL, Frame
 
 SIDE_CELLS = 64
@@ -51,7 +51,7 @@ def steady_frames(frames: Iterator[Frame]) -> Iterator[Frame]:
     gain = followed = 0.0
     for frame in frames:
         if previous is not None:
-            if detect_jump(previous, frame) is not Jump.NONE:
+            if detect_scene_change(previous, frame) is not SceneChange.NONE:
                 gain = followed = 0.0
             else:
                 gain += global_gain(previous, frame)

@@ -1,4 +1,4 @@
-"""The pictures between two frames as one rule per pixel, for whoever does not want them whole."""
+"""Intermediate frames as a rule per pixel: single pixels can be computed without the frame."""
 
 from __future__ import annotations
 
@@ -17,34 +17,34 @@ from texvent.runtime.background_jit import is_ready, wait_until_ready
 from texvent.sensor import SensorSize
 from texvent.video import Frame
 
-FloatPicture = NDArray[np.float32]
+FloatImage = NDArray[np.float32]
 Flows = tuple[NDArray[np.float32], NDArray[np.float32]]
 
 WARP = "texvent.pairs.warp_cpu"
 DRAWN_BYTES = 16 << 20
-"""Moved pictures are drawn a few at a time, which is faster; this much of them at most."""
+"""Moved frames are drawn a few at a time, which is faster; this much of them at most."""
 
 
 @dataclass(frozen=True, eq=False)
-class Paths:
-    """Intermediate frames of one pair; iterate for the frames, each made when it is asked for.
+class MotionInterpolation:
+    """Intermediate frames of one pair; iterating draws them one after the other.
 
-    Every pixel of every picture depends on the two source frames and their flow alone. So a
-    simulator that wants the brightness of some pixels can compute just these, with the functions
-    of `interpolate.kernels`, and gets the bits that the frames would have had.
+    Every pixel of every intermediate frame depends on the two source frames and their flow alone.
+    So a simulator can compute the brightness of some pixels with the functions of
+    `pairs.warp_cpu`, and gets the same bits as from the drawn frame.
     """
 
-    earlier: FloatPicture
+    earlier: FloatImage
     """Luma of the earlier source frame, [H, W], 0..255 scale."""
-    later: FloatPicture
+    later: FloatImage
     """Luma of the later source frame, [H, W]."""
     flows: Flows | None
     """Optical flow from earlier to later and back, [H, W, 2] float32 as (x, y), px. None: nothing
     moves, the frames are blended in place."""
     times_us: Sequence[int]
-    """Times of the pictures, µs, strictly increasing."""
+    """Times of the intermediate frames, µs, strictly increasing."""
     positions: Sequence[float]
-    """τ of each picture, 0 = earlier, 1 = later."""
+    """τ of each intermediate frame, 0 = earlier, 1 = later."""
 
     def __post_init__(self) -> None:
         # Numba compiles for arrays that can be written and for those that cannot: one is enough.
@@ -56,8 +56,8 @@ class Paths:
     @classmethod
     def between(
         cls, first: Frame, second: Frame, times_us: Sequence[int], flows: Flows | None
-    ) -> Paths:
-        """Pictures at some times between two source frames.
+    ) -> MotionInterpolation:
+        """Intermediate frames at some times between two source frames.
 
         Raises:
             InputError: the frames differ in size, or a time is not between theirs.
@@ -78,19 +78,23 @@ class Paths:
     def __iter__(self) -> Iterator[Frame]:
         step = max(1, DRAWN_BYTES // max(1, self.earlier.nbytes))
         for start in range(0, len(self), step):
-            for picture, t_us in zip(
-                self._draw(start, start + step), self.times_us[start:], strict=False
-            ):
-                yield Frame(picture, t_us, is_source=False)
+            images = self._draw(start, start + step)
+            for image, t_us in zip(images, self.times_us[start:], strict=False):
+                yield Frame(image, t_us, is_source=False)
 
-    def picture(self, index: int) -> FloatPicture:
-        """One picture, [H, W] float32 luma.
+    @property
+    def undrawn_frames(self) -> Iterator[UndrawnFrame]:
+        """The same frames, each drawn only when its pixels are read."""
+        return (UndrawnFrame(self, index) for index in range(len(self)))
+
+    def image(self, index: int) -> FloatImage:
+        """Luma of one intermediate frame, [H, W] float32.
 
         Without flow it is `I_1 + τ (I_2 − I_1)` in float32.
         """
         return next(self._draw(index, index + 1))
 
-    def _draw(self, start: int, stop: int) -> Iterator[FloatPicture]:
+    def _draw(self, start: int, stop: int) -> Iterator[FloatImage]:
         places = np.array(self.positions[start:stop], np.float64)
         if self.flows is not None:
             yield from load_warp().warp_pair(self.prepared, places)
@@ -100,25 +104,46 @@ class Paths:
 
     @cached_property
     def prepared(self) -> Any:
-        """The pair as the compiled kernels look things up, a `kernels.cpu.WarpPair`."""
+        """The pair as the compiled kernels read it, a `pairs.warp_cpu.WarpPair`."""
         nothing = np.empty((0, 0, 2), np.float32)
         flows = (nothing, nothing) if self.flows is None else self.flows
         return load_warp().prepare_pair(self.earlier, self.later, *flows)
 
 
-def frozen(picture: FloatPicture) -> FloatPicture:
+class UndrawnFrame(Frame):
+    """An intermediate frame that is drawn when its pixels are read."""
+
+    def __init__(self, motion: MotionInterpolation, index: int) -> None:
+        # A frozen dataclass takes no assignments.
+        vars(self).update(t_us=motion.times_us[index], is_source=False)
+        vars(self).update(_size=motion.size, _undrawn=(motion, index))
+
+    @cached_property
+    def pixels(self) -> Any:
+        """[H, W] float32 luma. Drawing it releases the source frames."""
+        motion, index = vars(self).pop("_undrawn")
+        return motion.image(index)
+
+    @property
+    def size(self) -> SensorSize:
+        """Width and height, pixels."""
+        size: SensorSize = vars(self)["_size"]
+        return size
+
+
+def frozen(image: FloatImage) -> FloatImage:
     """A view that cannot be written."""
-    view = picture.view()
+    view = image.view()
     view.flags.writeable = False
     return view
 
 
 def load_warp() -> ModuleType:
-    """The compiled kernels; by name, because whoever blends does without Numba."""
+    """The compiled warp kernels. Imported by name: blending needs no Numba."""
     wait_until_ready(WARP)
     return importlib.import_module(WARP)
 
 
 def prepare_warp() -> None:
-    """Begin to compile what draws moved pictures."""
+    """Begin to compile the warp kernels."""
     is_ready(WARP)

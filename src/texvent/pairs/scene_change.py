@@ -4,13 +4,13 @@ Both are judged on thumbnails (at most 64 cells across, each the mean of at leas
 noise and detail hardly count, and in log brightness, so a lamp scales nothing.
 
 * *Structure*: every 8×8-cell block of one thumbnail is looked for within 8 cells in the other, so
-  motion of up to an eighth of the picture, zoom and moving objects keep it. After a cut most
-  blocks are found nowhere, unless the whole picture has moved further than that: a whip pan
-  agrees at some shift (`pan`).
-* *Level*: the median change over the picture. A flash moves most of it by the same step.
+  motion of up to an eighth of the image, zoom and moving objects keep it. After a cut most
+  blocks are found nowhere, unless the whole image has moved further than that: a whip pan
+  agrees at some shift (`shift_correlation`).
+* *Level*: the median change over the image. A flash moves most of it by the same step.
 
 A fade moves everything too, but by small steps; near black those are large in log brightness, so
-a jump must also be a jump in intensity.
+a scene change must also be a large change in intensity.
 """
 
 from __future__ import annotations
@@ -31,44 +31,44 @@ LEAST_CELL_PX = 2
 BLOCK_CELLS = 8
 SEARCH_CELLS = 8
 LEAST_SIDE_PX = LEAST_CELL_PX * BLOCK_CELLS
-"""Frames with a side below this have no structure to judge and never jump."""
+"""Frames with a side below this have no structure to judge and never count as a scene change."""
 LOG_BALANCE = 30.0
-"""Balance of the logarithm that jumps are judged in; the simulator's own does not matter here."""
+"""Balance of the logarithm of thumbnails, independent of the simulator's own."""
 
 TEXTURE = 0.03
 """Standard deviation of log brightness from which a block has structure to be found again."""
 LEAST_TEXTURED = 0.1
-"""A picture with a smaller share of such blocks is flat: black, white, a plain colour."""
+"""An image with a smaller share of such blocks is flat: black, white, a plain colour."""
 CUT_RESIDUAL = 0.5
 """After a cut, blocks differ from their best match by more than this share of their variance."""
 CUT_CORRELATION = 0.8
 """After a cut, half of the blocks correlate with their best match by less than this."""
 CUT_CHANGE_LOG = 0.15
 CUT_CHANGE_LEVELS = 12.0
-"""A cut changes the picture by at least this much on average (log units; intensity levels)."""
+"""A cut changes the image by at least this much on average (log units; intensity levels)."""
 PAN_AGREEMENT = 0.6
-"""Detail that agrees at least this well at one shift of the whole picture is a pan, not a cut."""
+"""Detail that agrees at least this well at one shift of the whole image is a pan, not a cut."""
 FLASH_CHANGE_LOG = 0.35
 FLASH_CHANGE_LEVELS = 32.0
 """A flash changes the median by at least this much: 1/8 of the scale within one frame."""
 FLASH_SHARE = 0.75
-"""Share of the picture that a flash moves in one direction."""
+"""Share of the image that a flash moves in one direction."""
 
 
-class Jump(Enum):
+class SceneChange(Enum):
     """What happened between two frames."""
 
     NONE = "none"
     """Motion, a fade, noise: nothing that interpolation should not bridge."""
     CUT = "cut"
-    """Another picture."""
+    """Another image."""
     FLASH = "flash"
-    """The same picture, or no picture, at another brightness. A flash of one frame is two jumps,
-    up and down."""
+    """The same image, or none, at another brightness. A flash of one frame is two such changes, up
+    and down."""
 
 
-def detect_jump(first: Frame, second: Frame) -> Jump:
-    """Whether the change between two frames is a jump that no motion explains.
+def detect_scene_change(first: Frame, second: Frame) -> SceneChange:
+    """Whether the change between two frames is a cut or a flash, which no motion explains.
 
     Args:
         first: the earlier frame, at least 16×16 px to be judged.
@@ -78,25 +78,25 @@ def detect_jump(first: Frame, second: Frame) -> Jump:
         CUT, FLASH, or NONE; NONE for frames too small to judge.
     """
     if min(first.size) < LEAST_SIDE_PX:
-        return Jump.NONE
+        return SceneChange.NONE
     earlier, later = _thumbnail(first), _thumbnail(second)
     change = _Change.between(earlier, later)
     if not change.is_large:
-        return Jump.NONE
+        return SceneChange.NONE
     one_way, other_way = _match(earlier.log, later.log), _match(later.log, earlier.log)
     if min(one_way.textured, other_way.textured) < LEAST_TEXTURED:
-        # One picture is flat, so there is no structure to compare.
+        # One image is flat, so there is no structure to compare.
         if change.is_flash:
-            return Jump.FLASH
-        return Jump.CUT if change.mean_levels >= FLASH_CHANGE_LEVELS else Jump.NONE
+            return SceneChange.FLASH
+        return SceneChange.CUT if change.mean_levels >= FLASH_CHANGE_LEVELS else SceneChange.NONE
     is_lost = (
         min(one_way.residual, other_way.residual) > CUT_RESIDUAL
         and max(one_way.correlation, other_way.correlation) < CUT_CORRELATION
     )
     if is_lost and change.is_cut:
         is_pan = shift_agreement(earlier.log, later.log) >= PAN_AGREEMENT
-        return Jump.NONE if is_pan else Jump.CUT
-    return Jump.FLASH if change.is_flash and not is_lost else Jump.NONE
+        return SceneChange.NONE if is_pan else SceneChange.CUT
+    return SceneChange.FLASH if change.is_flash and not is_lost else SceneChange.NONE
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,14 +175,14 @@ def _thumbnail(frame: Frame) -> _Thumbnail:
     return _Thumbnail(levels, balanced_log(levels, LOG_BALANCE))
 
 
-def _match(picture: Float64Array, other: Float64Array) -> _Match:
+def _match(image: Float64Array, other: Float64Array) -> _Match:
     size, area = BLOCK_CELLS, BLOCK_CELLS**2
     windows = np.lib.stride_tricks.sliding_window_view(other, (size, size))
     windows = windows - windows.mean(axis=(2, 3), keepdims=True)
     residuals, variances, correlations = [], [], []
-    for top in range(0, picture.shape[0] - size + 1, size):
-        for left in range(0, picture.shape[1] - size + 1, size):
-            block = picture[top : top + size, left : left + size].ravel()
+    for top in range(0, image.shape[0] - size + 1, size):
+        for left in range(0, image.shape[1] - size + 1, size):
+            block = image[top : top + size, left : left + size].ravel()
             block = block - block.mean()
             near = _near(windows, top, left).reshape(-1, area)
             variance, near_variance = float(block @ block) / area, _mean_square(near)

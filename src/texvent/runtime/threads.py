@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import functools
 import os
+from collections import deque
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
@@ -55,17 +56,31 @@ def split(size: int, parts: int, *, unit: int = 1) -> list[slice]:
 
 
 def run_parts(work: Callable[[Part], Result], parts: Sequence[Part]) -> list[Result]:
-    """The result of `work` for each part, in order; all but the first run in other threads.
+    """The result of `work` for each part, in order; this thread and others take part after part.
 
-    Returns when all are done, also if one raises. Results must not depend on the order of work.
+    Returns when no part is being worked on, also if one raises. Results must not depend on the
+    order of work.
     """
-    others = [_workers().submit(work, part) for part in parts[1:]]
+    results: dict[int, Result] = {}
+    waiting = deque(enumerate(parts))
+
+    def take_parts() -> None:
+        while waiting:
+            try:
+                number, part = waiting.popleft()
+            except IndexError:  # another thread took the last one
+                return
+            results[number] = work(part)
+
+    others = [_workers().submit(take_parts) for _ in range(min(len(parts), count_threads()) - 1)]
     try:
-        first = [work(part) for part in parts[:1]]
+        take_parts()
     finally:
-        for other in others:
-            other.exception()
-    return first + [other.result() for other in others]
+        errors = [other.exception() for other in others]
+    for error in errors:
+        if error is not None:
+            raise error
+    return [results[number] for number in range(len(parts))]
 
 
 def _count_cores() -> int:

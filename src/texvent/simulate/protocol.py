@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, ClassVar, Protocol
 
 from texvent.events import EventStream
+from texvent.pairs.frame_pair import FramePair
 from texvent.video import Frame
 
 
 class Simulator(Protocol):
-    """A pixel model: feed it frames, get the events between them.
+    """A pixel model: pairs of source frames in, packets of events out.
 
-    Built as `Simulator(config, seed=seed)`; the first frame decides the size. Random draws are
-    keyed by (seed, frame, y, x), so neither threads nor chunk sizes nor backend change an event.
+    Built as `Simulator(config, seed=seed)`, with `backend=` or `engine=` only where the user named
+    one; the first frame decides the size. Random draws are keyed by (seed, frame, y, x), so neither
+    threads nor chunk sizes nor backends change an event.
 
-    A model may also declare `default_interpolate`, the interpolation it was made for, and one that
-    must see later frames offers `steps`; see `look_ahead`. One whose weights are a file of the
-    user's may offer `provenance(config)`: facts about that file, to be stored with the events.
+    `stepping.SteppingSimulator` brings `advance` and `finish` to a model that has `step`. A model
+    may also declare `default_interpolate`, the interpolation it was made for. One whose weights are
+    a file of the user's may offer `provenance(config)`: facts about that file, stored with the
+    events. One that runs in continuous time offers `continuous_misfit(config)`; see
+    `fused.continuous`.
     """
 
     config_type: ClassVar[type]
@@ -37,6 +41,26 @@ class Simulator(Protocol):
 
     def reset(self) -> None:
         """Forget all frames: the next one is the first."""
+        ...
+
+    def advance(self, pair: FramePair) -> Iterator[tuple[Frame, EventStream]]:
+        """Events between the two frames of a pair; pairs come in order.
+
+        How is the model's choice: it may draw the intermediate frames and step through them, or
+        compute single pixels where they may fire, or solve for threshold crossings.
+
+        Yields:
+            The intermediate frames and the later frame of the pair, each with the packet of events
+            that ends at it, as `step` has it. A model in continuous time yields the later frame
+            alone. A model that must see later frames first may yield frames of earlier pairs.
+
+        Raises:
+            InputError: as `step`.
+        """
+        ...
+
+    def finish(self) -> Iterator[tuple[Frame, EventStream]]:
+        """What `advance` still owes when the last pair has been given."""
         ...
 
     def step(self, frame: Frame) -> EventStream:

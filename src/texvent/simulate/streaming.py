@@ -15,6 +15,7 @@ from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.sorting import SortedEvents, make_packet
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import frame_key
+from texvent.simulate.stepping import SteppingSimulator
 from texvent.video import Frame, StreamChecker
 
 Config = TypeVar("Config")
@@ -22,7 +23,7 @@ IntensityArray = NDArray[Any]
 """Luma on the 0..255 scale, [H, W], uint8 or float32."""
 
 
-class StreamingSimulator(abc.ABC, Generic[Config]):
+class StreamingSimulator(SteppingSimulator, Generic[Config]):
     """A pixel model that looks at one frame interval at a time; see `simulate.protocol.Simulator`.
 
     A model says what it remembers of the first frame (`_begin`) and what fires until the next

@@ -1,4 +1,4 @@
-"""Small clips, and every engine on them."""
+"""Small clips, drawn and fused."""
 
 from __future__ import annotations
 
@@ -6,11 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from texvent._registry import INTERPOLATORS, SIMULATORS, load_object
-from texvent.engine.fused import step_fused
-from texvent.engine.select import FUSED
+from texvent._registry import INTERPOLATORS
 from texvent.interpolate.count_policy import CountPolicy
-from texvent.interpolate.densify import dense_frames, pair_up
+from texvent.interpolate.pairing import pair_frames
+from texvent.pipeline import build_simulator
 from texvent.runtime.background_jit import wait_until_ready
 from texvent.settings import resolve
 from texvent.simulate.fused.load import NAMES, find_compiled
@@ -41,7 +40,7 @@ def plan(video: Video, options: dict[str, Any]) -> Any:
     """Settings, a simulator, and a function that pairs the frames anew."""
     settings = resolve("simulate", options)
     config = settings.interpolate
-    simulator = SIMULATORS.load(settings.run.simulator)(settings.simulate, seed=settings.run.seed)
+    simulator = build_simulator(settings)
 
     def pairs() -> Any:
         interpolator = INTERPOLATORS.load(config.interpolate)(config, video)
@@ -52,26 +51,25 @@ def plan(video: Video, options: dict[str, Any]) -> Any:
             balance=simulator.balance,
             contrast_threshold=simulator.contrast_threshold,
         )
-        return pair_up(video, interpolator, config, policy)
+        return pair_frames(video, interpolator, config, policy)
 
     return settings, simulator, pairs
 
 
 def readable(video: Video, options: dict[str, Any]) -> list[Any]:
-    """Frames and packets of the readable path."""
+    """Frames and packets of `step` on the drawn frames."""
     _, simulator, pairs = plan(video, options)
-    return [(frame, simulator.step(frame)) for frame in dense_frames(pairs())]
+    return [(frame, simulator.step(frame)) for pair in pairs() for frame in pair.frames]
 
 
 def wait_for_kernels() -> None:
-    """Return when the engines use compiled kernels."""
+    """Return when the fused kernels are compiled."""
     for name in NAMES:
         find_compiled(name)
         wait_until_ready(f"texvent.simulate.fused.{name}_cpu")
 
 
 def fused(video: Video, options: dict[str, Any]) -> list[Any]:
-    """Frames and packets of the fused path, with whatever kernels are ready."""
-    settings, _, pairs = plan(video, options)
-    model = load_object(FUSED[settings.run.simulator])
-    return list(step_fused(pairs(), model(settings.simulate, settings.run.seed)))
+    """Frames and packets of `advance`, with whatever kernels are ready."""
+    _, simulator, pairs = plan(video, options)
+    return [step for pair in pairs() for step in simulator.advance(pair)]

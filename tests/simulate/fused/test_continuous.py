@@ -11,15 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import texvent
-from texvent.engine.continuous import own_pieces, step_continuously
-from texvent.engine.continuous_pixels import ContinuousEsim, ContinuousTexvent
-from texvent.engine.fused import paths_of
 from texvent.events import EventStream
-from texvent.simulate.esim.simulator import EsimConfig
-from texvent.simulate.fused.candidates import CandidateFinder, one_grid
+from texvent.simulate.esim import simulator as esim_simulator
+from texvent.simulate.fused.candidates import one_grid
+from texvent.simulate.fused.continuous import SegmentPlan, dyadic_segments
 from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.packets.sorting import make_packet
-from texvent.simulate.texvent.config import TexventConfig
 from texvent.video import Video
 
 from .clips import panning, plan, readable
@@ -64,31 +60,26 @@ def test_a_blend_is_straight_in_intensity_not_in_brightness():
 
 @settings(max_examples=12, deadline=None)
 @given(st.integers(0, 2**32), st.sampled_from(["flow", "blend"]))
-def test_on_the_pictures_of_the_frame_engine_it_gives_the_frame_engines_events(seed, interpolate):
+def test_at_the_instants_of_the_frames_it_gives_the_events_of_the_frames(seed, interpolate):
     rng = np.random.default_rng(seed)
     frames = np.clip(90 + np.cumsum(rng.normal(0, 25, (3, 6, 8)), axis=0), 0, 255)
     video = Video(frames.astype(np.float32), [0, 1000, 1900])
     options = {"simulator": "esim", "interpolate": interpolate}
     wanted = EventStream.concat([packet for _, packet in readable(video, options)])
-    _, _, pairs = plan(video, options)
-    pixels, packets = ContinuousEsim(EsimConfig(), 0), []
-    with CandidateFinder() as finder:
-        for pair in pairs():
-            if pair.first is None:
-                pixels.begin(pair.second)
-                continue
-            paths = paths_of(pair)
-            edges = np.array([[pair.first.t_us, *paths.times_us, pair.second.t_us]])
-            fired = pixels.fire(finder, paths, one_grid(paths.positions), edges)
-            span = FrameInterval(pair.first.t_us, pair.second.t_us, np.uint64(0))
-            packets.append(make_packet(fired, span, pair.second.size))
-    assert EventStream.concat(packets).equals(wanted)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(esim_simulator, "plan_segments", frame_instants)
+        assert continuous(video, **options).equals(wanted.without_label())
+
+
+def frame_instants(pair):
+    """The segments between the intermediate frames of a pair, for all pixels."""
+    return SegmentPlan(one_grid(pair.motion.positions), pair.edges_us[np.newaxis])
 
 
 def test_there_is_a_packet_per_source_frame_within_its_pair():
     video = panning(4)
-    _, _, pairs = plan(video, {"simulator": "esim"})
-    steps = list(step_continuously(pairs(), ContinuousEsim(EsimConfig(), 0)))
+    _, simulator, pairs = plan(video, {"simulator": "esim", "engine": "continuous"})
+    steps = [step for pair in pairs() for step in simulator.advance(pair)]
     assert [frame.t_us for frame, _ in steps] == list(video.times_us)
     assert len(steps[0][1]) == 0
     for (before, _), (frame, packet) in itertools.pairwise(steps):
@@ -96,7 +87,7 @@ def test_there_is_a_packet_per_source_frame_within_its_pair():
         assert before.t_us <= packet.t[0] <= packet.t[-1] < frame.t_us
 
 
-def test_it_comes_close_to_the_frame_engine_with_many_frames():
+def test_it_comes_close_to_the_frames_engine_with_many_frames():
     video = panning(4)
     many = {"count": "fixed", "fixed_count": 40}
     fine = texvent.simulate(video, simulator="esim", **many)
@@ -106,7 +97,7 @@ def test_it_comes_close_to_the_frame_engine_with_many_frames():
 
 
 def test_pieces_are_dyadic_and_last_at_least_a_microsecond():
-    grids, edges = own_pieces(FrameInterval(100, 105, np.uint64(0)))
+    grids, edges = dyadic_segments(FrameInterval(100, 105, np.uint64(0)))
     assert grids.parts.tolist() == [1, 2, 4]
     assert edges.tolist() == [
         [100, 105, 105, 105, 105],
@@ -127,7 +118,7 @@ def test_noise_falls_on_dark_pixels_that_did_not_fire_and_has_its_rate():
 
 
 @pytest.mark.parametrize("cache", ["local", "leaky", "global"])
-def test_the_cache_forgets_as_in_the_frame_engine(cache):
+def test_the_cache_forgets_as_in_the_frames_engine(cache):
     options = {"interpolate": "none", "cache": cache, "noise": "none", **LINES}
     video = panning(6, step=0.4)
     frames, own = texvent.simulate(video, **options), continuous(video, **options)
@@ -141,9 +132,11 @@ def test_black_pixels_without_balance_are_refused():
         continuous(video, balance=0.0, **LINES)
 
 
-def test_texvent_needs_no_first_frame_twice():
-    pixels = ContinuousTexvent(TexventConfig(**LINES, noise="none"), 0)
-    _, _, pairs = plan(panning(3), LINES)
-    once = [packet for _, packet in step_continuously(pairs(), pixels)]
-    again = [packet for _, packet in step_continuously(pairs(), pixels)]
+@pytest.mark.parametrize("simulator", ["esim", "texvent"])
+def test_after_a_reset_the_events_are_the_same_again(simulator):
+    options = {"simulator": simulator, "noise": "none", **LINES} if simulator == "texvent" else {}
+    _, model, pairs = plan(panning(3), {"simulator": simulator, "engine": "continuous", **options})
+    once = [packet for pair in pairs() for _, packet in model.advance(pair)]
+    model.reset()
+    again = [packet for pair in pairs() for _, packet in model.advance(pair)]
     assert all(one.equals(other) for one, other in zip(once, again, strict=True))

@@ -1,4 +1,4 @@
-"""The fused pass gives the events of the readable path, bit for bit."""
+"""Pairs whose frames are not drawn give the events of the drawn frames, bit for bit."""
 
 from __future__ import annotations
 
@@ -6,20 +6,21 @@ import gc
 import itertools
 import weakref
 
-import numba
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent.engine.fused import UndrawnFrame
-from texvent.pairs.motion_interpolation import Paths
+from texvent.errors import InputError
+from texvent.pairs.motion_interpolation import MotionInterpolation, UndrawnFrame
+from texvent.simulate.esim import simulator as esim_simulator
 from texvent.simulate.fused import candidates
-from texvent.simulate.fused import load as engine_kernels
-from texvent.simulate.fused.candidates import CandidateFinder
+from texvent.simulate.fused import load as fused_kernels
+from texvent.simulate.fused.candidates import find_bounds
+from texvent.simulate.texvent import fused as texvent_fused
 from texvent.video import Frame, Video
 
-from .clips import fused, panning, readable
+from .clips import fused, panning, plan, readable
 
 NOISY = {"noise_rate_hz": 20.0, "seed": 3}
 TEXVENT = {
@@ -67,20 +68,26 @@ def _busy_pairs_are_not_drawn(monkeypatch):
 @pytest.mark.parametrize("interpolate", ["flow", "none"])
 @pytest.mark.parametrize("name", TEXVENT)
 def test_texvent_pairs_may_be_drawn_or_not_without_a_difference(name, interpolate, monkeypatch):
-    monkeypatch.setattr(CandidateFinder, "survey", _every_other(CandidateFinder.survey))
+    use_bounds(monkeypatch, _every_other(find_bounds))
     options = {**NOISY, "max_intermediate": 5, "interpolate": interpolate, **TEXVENT[name]}
     assert assert_equal(panning(6), **options) > 300
 
 
 @pytest.mark.parametrize("name", ESIM)
 def test_esim_pairs_may_be_drawn_or_not_without_a_difference(name, monkeypatch):
-    monkeypatch.setattr(CandidateFinder, "survey", _every_other(CandidateFinder.survey))
+    use_bounds(monkeypatch, _every_other(find_bounds))
     options = {"simulator": "esim", "max_intermediate": 5, **ESIM[name]}
     assert assert_equal(panning(6), **options) > 300
 
 
+def use_bounds(monkeypatch, function):
+    """Let the models find bounds by a function of ours."""
+    for module in (esim_simulator, texvent_fused):
+        monkeypatch.setattr(module, "find_bounds", function)
+
+
 def _every_other(survey):
-    """The survey for two pairs, then "draw it" for two, and so on."""
+    """The bounds of two pairs, then "draw it" for two, and so on."""
     calls = itertools.count()
 
     def survey_some(*arguments):
@@ -96,7 +103,7 @@ def test_a_pair_is_drawn_where_nearly_all_of_it_may_fire(covered, is_drawn, monk
     moving[:, int(96 * covered) :] = 80
     moving[:, :10, :20] = moving[0, 10, 0]
     surveys = []
-    monkeypatch.setattr(CandidateFinder, "survey", _recorded(CandidateFinder.survey, surveys))
+    use_bounds(monkeypatch, _recorded(find_bounds, surveys))
     assert assert_equal(Video(moving, panning(2).times_us)) > 100
     assert [found is None for found in surveys] == [is_drawn]
 
@@ -110,7 +117,7 @@ def _recorded(survey, results):
 
 
 @pytest.mark.parametrize("name", TEXVENT)
-def test_texvent_events_are_those_of_the_readable_path(name):
+def test_texvent_events_are_those_of_the_drawn_frames(name):
     options = {**NOISY, "max_intermediate": 9, **TEXVENT[name]}
     # Every way of filling the time between frames is seen by several of the options.
     options["interpolate"] = INTERPOLATE[list(TEXVENT).index(name) % 3]
@@ -125,7 +132,7 @@ def test_any_interpolator_gives_the_same_events(name, interpolate):
 
 @pytest.mark.parametrize("interpolate", INTERPOLATE)
 @pytest.mark.parametrize("name", ESIM)
-def test_esim_events_are_those_of_the_readable_path(name, interpolate):
+def test_esim_events_are_those_of_the_drawn_frames(name, interpolate):
     options = {"simulator": "esim", "max_intermediate": 9, **ESIM[name]}
     assert assert_equal(panning(3), interpolate=interpolate, **options) > 200
 
@@ -146,7 +153,7 @@ def test_colour_frames_are_the_same_too():
 
 
 @pytest.mark.parametrize("simulator", ["texvent", "esim"])
-def test_cuts_pairs_without_pictures_and_short_pairs_are_the_same_too(simulator):
+def test_cuts_pairs_without_intermediate_frames_and_short_pairs_are_the_same_too(simulator):
     moving = panning(3, size=(64, 64)).pixels
     other = np.random.default_rng(0).integers(0, 255, (64, 64), np.uint8)
     frames = np.stack([moving[0], moving[0], moving[1], other, other, moving[2]])
@@ -170,34 +177,42 @@ def test_any_frames_give_the_same_events(seed, simulator, spread):
 @pytest.mark.parametrize("interpolate", ["flow", "blend"])
 @pytest.mark.parametrize("simulator", ["texvent", "esim"])
 def test_until_kernels_are_compiled_the_events_are_the_same(simulator, interpolate, monkeypatch):
-    monkeypatch.setattr(engine_kernels, "is_ready", lambda module: False)
+    monkeypatch.setattr(fused_kernels, "is_ready", lambda module: False)
     options = {"simulator": simulator, "interpolate": interpolate, "max_intermediate": 5}
     assert assert_equal(panning(3), **options) > 200
 
 
 @pytest.mark.parametrize("simulator", ["texvent", "esim"])
-def test_the_number_of_threads_changes_nothing(simulator):
-    video, threads = panning(3, size=(40, 150)), numba.get_num_threads()
+def test_the_number_of_threads_changes_nothing(simulator, monkeypatch):
     packets = []
-    try:
-        for count in (1, min(2, numba.config.NUMBA_NUM_THREADS)):
-            numba.set_num_threads(count)
-            options = {"simulator": simulator, "max_intermediate": 9}
-            packets.append([packet for _, packet in fused(video, options)])
-    finally:
-        numba.set_num_threads(threads)
-    assert all(one.equals(other) for one, other in zip(*packets, strict=True))
+    for count in ("1", "2", "3"):
+        monkeypatch.setenv("TEXVENT_NUM_THREADS", count)
+        options = {"simulator": simulator, "max_intermediate": 9}
+        steps = fused(panning(3, size=(40, 150)), options)
+        packets.append([packet for _, packet in steps])
+    for one, two, three in zip(*packets, strict=True):
+        assert one.equals(two)
+        assert one.equals(three)
 
 
-def test_an_undrawn_frame_lets_the_source_frames_go_once_it_is_drawn():
+def test_an_undrawn_frame_releases_the_source_frames_once_it_is_drawn():
     first, second = (np.full((4, 6), level, np.float32) for level in (10, 30))
-    paths = Paths.between(Frame(first, 0), Frame(second, 100), [25], None)
-    watched = weakref.ref(paths)
-    frame = UndrawnFrame(paths, 0)
-    del paths
+    motion = MotionInterpolation.between(Frame(first, 0), Frame(second, 100), [25], None)
+    watched = weakref.ref(motion)
+    frame = UndrawnFrame(motion, 0)
+    del motion
     assert (frame.size, frame.t_us, frame.is_source) == ((6, 4), 25, False)
     assert watched() is not None
     np.testing.assert_array_equal(frame.luma, np.full((4, 6), 15))
     gc.collect()
     assert watched() is None
     assert frame.pixels is frame.pixels
+
+
+def test_pairs_out_of_order_are_refused():
+    _, simulator, pairs = plan(panning(3), {})
+    first, second, _ = pairs()
+    list(simulator.advance(first))
+    list(simulator.advance(second))
+    with pytest.raises(InputError, match="time"):
+        list(simulator.advance(second))

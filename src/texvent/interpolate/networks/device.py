@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from texvent.brightness import LUMA_WEIGHTS
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError, InputError
 from texvent.interpolate.networks.torch_import import Tensor, import_torch
@@ -62,30 +61,6 @@ def image_tensors(first: Frame, second: Frame) -> tuple[Tensor, Tensor]:
         torch.from_numpy(np.ascontiguousarray(one * scale)).expand(1, 3, -1, -1) for one in levels
     )
     return earlier, later
-
-
-def picture_of(picture: Tensor, device: str) -> tuple[Tensor, Tensor]:
-    """A picture that lies in a tensor: in three channels for a network, and its luma.
-
-    Args:
-        picture: [H, W] luma or [3, H, W] RGB, 0..255 scale, uint8 or float, on any device.
-        device: where both results go.
-
-    Returns:
-        [1, 3, H, W] and [1, 1, H, W], both float32, 0..255 scale.
-
-    Raises:
-        InputError: it has another shape.
-    """
-    if picture.ndim not in (2, 3) or (picture.ndim == 3 and len(picture) != 3):
-        raise InputError(f"a picture must be [H, W] or [3, H, W]; got {list(picture.shape)}")
-    levels = picture.to(device).float()
-    if levels.ndim == 2:
-        return levels.expand(1, 3, -1, -1), levels[None, None]
-    luma = levels[0] * LUMA_WEIGHTS[0]
-    luma += levels[1] * LUMA_WEIGHTS[1]
-    luma += levels[2] * LUMA_WEIGHTS[2]
-    return levels[None], luma[None, None]
 
 
 def _levels(frame: Frame) -> np.ndarray[Any, np.dtype[np.float32]]:

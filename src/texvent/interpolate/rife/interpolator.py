@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from texvent.config import InterpolateConfig
 from texvent.errors import InputError
-from texvent.interpolate.networks.device import WHITE, picture_of
+from texvent.interpolate.networks.device import WHITE
 from texvent.interpolate.networks.interpolator import NetworkInterpolator
 from texvent.interpolate.networks.torch_import import Tensor, import_torch
 from texvent.interpolate.networks.torch_warp import warp
@@ -19,6 +19,7 @@ from texvent.interpolate.rife.weights import (
     find_rife_weights,
     read_rife_weights,
 )
+from texvent.pairs.tensors import rgb_and_luma
 from texvent.video import FrameStream
 
 
@@ -99,7 +100,7 @@ class RifeInterpolator(NetworkInterpolator):
         torch = import_torch()
         device = self._placement.device
         with torch.inference_mode():
-            seen, lumas = zip(*(picture_of(one, device) for one in (first, second)), strict=True)
+            seen, lumas = zip(*(rgb_and_luma(one, device) for one in (first, second)), strict=True)
             # Scaled down together, so that a bright pair stays in the range the network knows.
             scale = 1.0 / torch.stack([one.amax() for one in seen]).amax().clamp(min=WHITE)
             images = [one * scale for one in seen]

@@ -7,18 +7,16 @@ which runs it on video frames. docs/simulators.md gives the equations and the de
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+import itertools
+from collections.abc import Iterator, Mapping
 from typing import Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent._registry import load_object
-from texvent.config import check_range
-from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.simulate.backend.select import GPU
+from texvent.pairs.frame_pair import FramePair
+from texvent.simulate.backend.select import AUTO, GPU
 from texvent.simulate.crossing.levels import Curve, Thresholds, load_look_up
 from texvent.simulate.crossing.ramp import Candidates, Levels, Rest, load_cross_levels
 from texvent.simulate.crossing.trigger_levels import (
@@ -26,58 +24,35 @@ from texvent.simulate.crossing.trigger_levels import (
     sensor_thresholds,
     thresholds_at,
 )
+from texvent.simulate.esim.config import EsimConfig
+from texvent.simulate.fused.candidates import find_bounds, one_grid
+from texvent.simulate.fused.continuous import plan_segments
+from texvent.simulate.fused.definitions import Float64Array, LumaBounds
+from texvent.simulate.fused.segment_pixels import BandEvents, LogScale, SegmentPixels
+from texvent.simulate.fused.segments import CrossingRules, CrossingState
 from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.packets.sorting import SortedEvents
+from texvent.simulate.packets.sorting import SortedEvents, make_packet
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.mismatch import (
     LONG_AGO_US,
     LOWEST_THRESHOLD,
-    Float64Array,
     draw_threshold_pair_at,
 )
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 from texvent.video import Frame
+
+__all__ = ["EsimConfig", "EsimSimulator"]
 
 WHITE = 255.0
 FLOOR = Thresholds(np.array([LOWEST_THRESHOLD]), np.array([LOWEST_THRESHOLD]))
 """The lowest that are ever drawn, for all pixels."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class EsimConfig:
-    """Options of the ESIM pixel model; the defaults are those of VID2E.
-
-    Raises:
-        ConfigError: an option is out of range.
-    """
-
-    contrast_threshold_on: float = 0.2
-    """Rise of ln(I/255 + log eps) that fires an ON event."""
-    contrast_threshold_off: float = 0.2
-    """Fall of ln(I/255 + log eps) that fires an OFF event."""
-    threshold_sigma: float = 0.0
-    """Standard deviation of both thresholds, log units; drawn thresholds are at least 0.01."""
-    threshold_redraw: Literal["frame", "never"] = "frame"
-    """With a threshold sigma: draw thresholds anew for every pixel and frame, as ESIM describes
-    it (frame), or once per pixel, as mismatch between pixels (never)."""
-    log_eps: float = 1e-3
-    """Added to intensities on the 0..1 scale before the logarithm, above 0."""
-    refractory_period_us: int = 0
-    """Time after an event in which the pixel cannot fire; crossings in it are lost."""
-
-    def __post_init__(self) -> None:
-        check_range("contrast_threshold_on", self.contrast_threshold_on, LOWEST_THRESHOLD, 10.0)
-        check_range("contrast_threshold_off", self.contrast_threshold_off, LOWEST_THRESHOLD, 10.0)
-        check_range("threshold_sigma", self.threshold_sigma, 0.0, 10.0)
-        check_range("log_eps", self.log_eps, 1e-9, 1.0)
-        check_range("refractory_period_us", self.refractory_period_us, 0, 10**9)
-        if self.threshold_redraw not in ("frame", "never"):
-            raise ConfigError(
-                f"threshold_redraw is {self.threshold_redraw!r}; allowed: frame, never"
-            )
-
-
 class EsimSimulator(StreamingSimulator[EsimConfig]):
     """ESIM on video frames; see `simulate.protocol.Simulator`.
+
+    A pair whose intermediate frames would be moved by optical flow is computed without drawing
+    them where few pixels may fire; the events are the same.
 
     Example:
         >>> from texvent.video import Frame
@@ -98,37 +73,34 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
 
     has_gpu: ClassVar[bool] = True
 
-    def reset(self) -> None:
-        """Forget all frames: the next one is the first."""
-        super().reset()
-        self._on_gpu: Any = None
-        if self._backend == GPU:
-            steps = load_object("texvent.simulate.gpu.frame_steps:FrameSteps")
-            self._on_gpu = steps(self.config, self._seed)
-
-    def step(self, frame: Frame) -> EventStream:
-        """Events in `[t of the frame before, t of this frame)`; see `StreamingSimulator.step`."""
-        if self._on_gpu is None:
-            return super().step(frame)
-        self._enter(frame)
-        packet: EventStream = self._on_gpu.step(frame)
-        return packet
-
-    def resume(self, frame: Frame, reference: Float64Array, fired_us: NDArray[np.int64]) -> None:
-        """Go on from a frame, before any other, until which somebody else followed the pixels.
+    def __init__(
+        self,
+        config: EsimConfig | None = None,
+        *,
+        seed: int = 0,
+        backend: str = AUTO,
+        engine: Literal["frames", "continuous"] = "frames",
+    ) -> None:
+        """Prepare a simulator that has seen no frame.
 
         Args:
-            frame: the last frame that they saw.
-            reference: brightness at the last event of each, [H · W]; kept, and moved along.
-            fired_us: time of the last event of each, [H · W], µs; likewise.
+            config: options; default: the first preset.
+            seed: of drawn thresholds, 0..2⁶³−1.
+            backend: "auto", "cpu", "reference" or "gpu": which kernels compute.
+            engine: "frames" evaluates pixels at Eq. 4's instants, "continuous" along their paths.
 
         Raises:
-            InputError: as `step`.
+            ConfigError: the seed is out of range, or the backend unknown or not available.
         """
-        self._enter(frame)
-        self._begin(frame.luma)
-        self._levels = Levels(reference, fired_us)
-        self._triggers.set_all(reference, self._fixed)
+        self._is_continuous = engine == "continuous"
+        super().__init__(config, seed=seed, backend=backend)
+
+    @staticmethod
+    def continuous_misfit(config: EsimConfig) -> str | None:
+        """What the options must be in continuous time, if they are not; see `fused.continuous`."""
+        if config.threshold_sigma > 0:
+            return "with threshold_sigma 0 only, so that all pixels have one threshold"
+        return None
 
     @property
     def contrast_threshold(self) -> float:
@@ -140,32 +112,112 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         """`255 · log_eps`: with it, Eq. 4's logarithm is the model's own."""
         return WHITE * self.config.log_eps
 
+    def reset(self) -> None:
+        """Forget all frames: the next one is the first."""
+        super().reset()
+        self._on_gpu: Any = None
+        if self._backend == GPU:
+            from texvent.simulate.gpu.frame_steps import FrameSteps  # brings torch
+
+            self._on_gpu = FrameSteps(self.config, self._seed)
+        config = self.config
+        rules = CrossingRules(
+            config.contrast_threshold_on, config.contrast_threshold_off, config.refractory_period_us
+        )
+        scale = LogScale(self._log_intensity, balance=WHITE * config.log_eps, unit=WHITE)
+        self._segments = SegmentPixels(rules, scale)
+        self._triggers: TriggerLevels | None = None
+
+    def step(self, frame: Frame) -> EventStream:
+        """Events in `[t of the frame before, t of this frame)`; see `StreamingSimulator.step`."""
+        if self._on_gpu is None:
+            return super().step(frame)
+        self._enter(frame)
+        packet: EventStream = self._on_gpu.step(frame)
+        return packet
+
+    def advance(self, pair: FramePair) -> Iterator[tuple[Frame, EventStream]]:
+        """Events between two frames; see `simulate.protocol.Simulator.advance`."""
+        if pair.first is None:
+            yield from super().advance(pair)
+        elif self._is_continuous:
+            yield pair.second, self._cross_pair(pair)
+        else:
+            bounds = self._find_bounds(pair)
+            yield from super().advance(pair) if bounds is None else self._fuse(pair, bounds)
+
+    def _find_bounds(self, pair: FramePair) -> LumaBounds | None:
+        """Luma bounds if the pair is better computed without drawing its frames, else None."""
+        if self._backend not in (AUTO, "cpu") or self.config.threshold_sigma > 0:
+            return None
+        return find_bounds(pair.motion, self._segments.levels)
+
+    def _fuse(self, pair: FramePair, bounds: LumaBounds) -> Iterator[tuple[Frame, EventStream]]:
+        """The packets of `step` for every frame of a pair, without drawing them."""
+        motion, edges_us = pair.motion, pair.edges_us
+        grids = one_grid(motion.positions)
+        bands = self._segments.cross(motion, grids, edges_us[np.newaxis], bounds=bounds)
+        self._leave_pair(pair)
+        parts = [_split_by_segment(band, len(edges_us) - 1) for band in bands]
+        spans = itertools.pairwise(edges_us.tolist())
+        for frame, span_us, fired in zip(
+            pair.undrawn_frames, spans, zip(*parts, strict=True), strict=True
+        ):
+            interval = FrameInterval(*span_us, np.uint64(0))
+            yield frame, make_packet(UnsortedEvents.concat(fired), interval, motion.size)
+
+    def _cross_pair(self, pair: FramePair) -> EventStream:
+        """All events of a pair, in continuous time."""
+        plan = plan_segments(pair)
+        bands = self._segments.cross(pair.motion, plan.grids, plan.edges_us)
+        interval = self._leave_pair(pair)
+        return make_packet(
+            UnsortedEvents.concat(band.fired for band in bands), interval, pair.second.size
+        )
+
+    def _leave_pair(self, pair: FramePair) -> FrameInterval:
+        """Note that the pixels have seen the later frame of a pair, though no frame was stepped."""
+        interval = self._enter(pair.second)
+        # Found again from the references when a frame is stepped.
+        self._triggers = None
+        self._last_luma = pair.second.luma
+        return interval
+
     def _begin(self, intensity: IntensityArray) -> None:
         config = self.config
         self._table = log_intensity(np.arange(256, dtype=np.uint8), config.log_eps)
         of_luma = self._table if intensity.dtype == np.uint8 else None
         if of_luma is None:
-            reference = log_intensity(intensity, config.log_eps).reshape(-1)
+            reference = self._log_intensity(intensity).reshape(-1)
         else:
             reference = load_look_up(self._backend)(of_luma, intensity.reshape(-1))
         rested = reference.size if config.refractory_period_us else 0
         self._levels = Levels(reference, np.full(rested, LONG_AGO_US))
         height, width = intensity.shape
         self._shape = height, width
+        self._segments.watch(CrossingState(*self._levels), self._shape)
         self._is_redrawn = config.threshold_sigma > 0 and config.threshold_redraw == "frame"
         # Any threshold may be drawn anew, but none below the floor.
         self._fixed = FLOOR
         if not self._is_redrawn:
             self._fixed = sensor_thresholds(intensity.shape, self._seed, config)
-        curve = Curve(WHITE, -WHITE * config.log_eps)
-        self._triggers = TriggerLevels(intensity, curve, backend=self._backend)
-        self._triggers.set_all(reference, self._fixed, of_luma=of_luma)
+        self._triggers = self._find_triggers(intensity, of_luma)
+
+    def _find_triggers(
+        self, intensity: IntensityArray, of_luma: Float64Array | None = None
+    ) -> TriggerLevels:
+        """The trigger levels of all pixels; arguments as for `TriggerLevels.set_all`."""
+        curve = Curve(WHITE, -WHITE * self.config.log_eps)
+        triggers = TriggerLevels(intensity, curve, backend=self._backend)
+        triggers.set_all(self._levels.reference, self._fixed, of_luma=of_luma)
+        return triggers
 
     def _advance(self, intensity: IntensityArray, interval: FrameInterval) -> SortedEvents:
-        pixel, before, now = self._triggers.find_outside(intensity)
+        triggers = self._triggers or self._find_triggers(self._last_luma)
+        pixel, before, now = triggers.find_outside(intensity)
         table = self._table if now.dtype == np.uint8 else None
         if table is None:
-            before, now = (log_intensity(one, self.config.log_eps) for one in (before, now))
+            before, now = self._log_intensity(before), self._log_intensity(now)
         cross_levels = load_cross_levels(now.dtype, self._backend)
         columns = cross_levels(
             Candidates(pixel, before, now, table, self._thresholds(pixel, interval.key)),
@@ -174,9 +226,14 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
             Rest(self.config.refractory_period_us, is_level_lost=True),
             self._shape,
         )
-        fixed = thresholds_at(pixel, self._fixed)
-        self._triggers.set(pixel, self._levels.reference, fixed)
+        triggers.set(pixel, self._levels.reference, thresholds_at(pixel, self._fixed))
+        self._triggers = triggers
+        # The references have moved.
+        self._segments.watch(CrossingState(*self._levels), self._shape)
         return columns
+
+    def _log_intensity(self, intensity: IntensityArray) -> Float64Array:
+        return log_intensity(intensity, self.config.log_eps)
 
     def _thresholds(self, pixel: NDArray[np.int64], key: np.uint64) -> Thresholds:
         """Thresholds of some pixels in this interval."""
@@ -200,3 +257,13 @@ def log_intensity(intensity: IntensityArray, log_eps: float) -> Float64Array:
         table = np.log(np.arange(256) / WHITE + log_eps)
         return np.asarray(table[intensity])
     return np.asarray(np.log(intensity / np.float64(WHITE) + log_eps))
+
+
+def _split_by_segment(band: BandEvents, segments: int) -> list[UnsortedEvents]:
+    """The events of each segment."""
+    fired, segment = band
+    order = np.argsort(segment, kind="stable")
+    cuts = np.searchsorted(segment[order], np.arange(segments + 1)).tolist()
+    pixel, t, p = fired.pixel[order], fired.t[order], fired.p[order]
+    rows = (slice(*cut) for cut in itertools.pairwise(cuts))
+    return [UnsortedEvents.signal(pixel[part], t[part], p[part]) for part in rows]

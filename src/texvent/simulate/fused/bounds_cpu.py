@@ -1,9 +1,9 @@
-"""Bounds of what a pixel can show between two frames, to leave out those that cannot fire.
+"""Bounds of the luma of a pixel between two frames, to skip pixels that cannot fire.
 
-Every intermediate picture is, pixel by pixel, a mean of bilinear samples of both frames, at most
-the length of the flow away (`pairs.warp_reference.warp_between`: the way to a frame is
-τ or 1 − τ times a mean of one flow and the other turned around). So what a pixel shows lies between
-the darkest and the brightest that both frames have within that distance.
+Every intermediate frame is, pixel by pixel, a mean of bilinear samples of both frames, at most
+the length of the flow away (`pairs.warp_reference.warp_between`: the
+displacement to a frame is τ or 1 − τ times a mean of one flow and the other reversed). So the luma
+of a pixel lies between the darkest and the brightest that both frames have within that distance.
 
 * Up to 1 px of flow, a bilinear sample differs from the pixel itself by less than
   `|dx|` times the steps to its left and right neighbours (in the rows it may touch) plus `|dy|`
@@ -19,22 +19,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.simulate.fused.interface import MARGIN, Levels, Pictures
+from texvent.simulate.fused.definitions import MARGIN, PairArrays, ReferenceLevels
 
 CELL = 8
 """Side of a cell, px."""
 FARTHEST = 8
-"""Cells further away than this are not looked up: such a cell counts as reaching everything."""
+"""A flow that leads further than this many cells leaves its cell without bounds."""
 SLACK = 8.0 * MARGIN
-"""Relative room that trigger levels are given for rounding."""
+"""Relative margin of trigger levels for rounding."""
 _1 = np.float32(1.0)
 ROUNDING = np.float32(1e-6)
-"""By how much rounding may take a picture past what it is a mean of, as a share of the brightest;
-ten times the error of mixing float32."""
+"""By how much rounding may take a mean past its terms, as a share of the brightest; ten times the
+error of mixing float32."""
 
 
 @jit
-def find_reachable(
+def find_luma_bounds(
     earlier: NDArray[np.float32],
     later: NDArray[np.float32],
     forward: NDArray[np.float32],
@@ -48,15 +48,15 @@ def find_reachable(
     """
     height, width = earlier.shape
     down, across = (height + CELL - 1) // CELL, (width + CELL - 1) // CELL
-    reached = np.empty((2, down if forward.size else 0, width), np.float32)
+    reachable = np.empty((2, down if forward.size else 0, width), np.float32)
     if forward.size == 0:
-        return reached
+        return reachable
     own = np.empty((down, across, 2), np.float32)
     reach = np.empty((down, across, 2), np.int64)
     for i in range(down):
         rows = slice(i * CELL, min((i + 1) * CELL, height))
         flows = forward[rows], backward[rows]
-        _look_at_cells(earlier[rows], later[rows], flows, own[i], reach[i])
+        _find_cell_extremes(earlier[rows], later[rows], flows, own[i], reach[i])
     for i in range(down):
         for j in range(across):
             aside, above = reach[i, j]
@@ -67,12 +67,12 @@ def find_reachable(
                 for x in range(max(j - aside, 0), min(j + aside + 1, across)):
                     low, high = min(low, own[y, x, 0]), max(high, own[y, x, 1])
             for column in range(j * CELL, min((j + 1) * CELL, width)):
-                reached[0, i, column], reached[1, i, column] = low, high
-    return reached
+                reachable[0, i, column], reachable[1, i, column] = low, high
+    return reachable
 
 
 @jit
-def _look_at_cells(
+def _find_cell_extremes(
     earlier: NDArray[np.float32],
     later: NDArray[np.float32],
     flows: tuple[NDArray[np.float32], NDArray[np.float32]],
@@ -103,43 +103,43 @@ def _look_at_cells(
 
 
 @jit
-def _count_cells(way: np.float32) -> int:
+def _count_cells(length: np.float32) -> int:
     """How many cells away a flow leads."""
-    if way > CELL * FARTHEST:
+    if length > CELL * FARTHEST:
         return FARTHEST + 1
     # A bilinear sample touches the pixel behind its position too.
-    return (math.ceil(way) + CELL) // CELL
+    return (math.ceil(length) + CELL) // CELL
 
 
 @jit
 def list_active(
-    pictures: Pictures,
-    levels: Levels,
-    cells: NDArray[np.float32],
+    arrays: PairArrays,
+    levels: ReferenceLevels,
+    bounds: NDArray[np.float32],
     row: int,
     active: NDArray[np.int64],
 ) -> int:
-    """Find the pixels of a row that may fire; none of the pictures of the others can.
+    """Find the pixels of a row that may fire; the others cannot.
 
     Args:
-        pictures: the pair.
-        levels: what the pixels compare with.
-        cells: of `find_reachable`.
+        arrays: the pair.
+        levels: what the pixels are compared with.
+        bounds: of `find_luma_bounds`.
         row: which row.
         active: [W], filled in with their columns.
 
     Returns:
         How many there are.
     """
-    earlier, later, forward, backward = pictures
+    earlier, later, forward, backward = arrays
     height, width = earlier.shape
     low, high = np.minimum(earlier[row], later[row]), np.maximum(earlier[row], later[row])
     if forward.size:
         above, below = max(row - 1, 0), min(row + 1, height - 1)
         first = earlier[above], earlier[row], earlier[below]
         second = later[above], later[row], later[below]
-        reached = cells[0, row // CELL], cells[1, row // CELL]
-        _bound_row(first, second, (forward[row], backward[row]), reached, low, high)
+        reachable = bounds[0, row // CELL], bounds[1, row // CELL]
+        _bound_row(first, second, (forward[row], backward[row]), reachable, low, high)
     level = levels.reference[row] if levels.reference.size else earlier[row] + levels.balance
     marks = np.empty(width, np.uint8)
     _mark(low, high, level, levels, marks)
@@ -155,7 +155,7 @@ def _mark(
     low: NDArray[np.float32],
     high: NDArray[np.float32],
     level: NDArray[np.float64],
-    levels: Levels,
+    levels: ReferenceLevels,
     marks: NDArray[np.uint8],
 ) -> None:
     """Set 1 where a pixel may fire, else 0."""
@@ -175,7 +175,7 @@ def _bound_row(
     first: Rows,
     second: Rows,
     flows: tuple[NDArray[np.float32], NDArray[np.float32]],
-    reached: tuple[NDArray[np.float32], NDArray[np.float32]],
+    reachable: tuple[NDArray[np.float32], NDArray[np.float32]],
     low: NDArray[np.float32],
     high: NDArray[np.float32],
 ) -> None:
@@ -184,7 +184,7 @@ def _bound_row(
     work = np.empty((4, width), np.float32)
     dx, dy, room_first, room_second = work[0], work[1], work[2], work[3]
     ahead, back = flows[0].reshape(-1), flows[1].reshape(-1)
-    least, most = reached
+    least, most = reachable
     for x in range(width):
         dx[x] = max(abs(ahead[2 * x]), abs(back[2 * x]))
         dy[x] = max(abs(ahead[2 * x + 1]), abs(back[2 * x + 1]))

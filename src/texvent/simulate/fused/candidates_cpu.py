@@ -1,8 +1,8 @@
-"""The candidates of one pair, compiled by Numba: the reference's rows, without the pictures.
+"""The candidates of one pair, compiled by Numba: the reference's rows, without drawing a frame.
 
-Some rows at a time, from the first picture to the last, so no picture is ever written to memory.
-Most pixels of most videos cannot fire at all: what they can show lies between bounds that cost a
-few operations (`reach_cpu`), and they are not followed.
+A few rows at a time pass through all intermediate instants, so no intermediate frame is written to
+memory. Most pixels of most videos cannot fire at all: bounds of their luma cost a few operations
+(`bounds_cpu`), and pixels whose bounds stay inside the trigger levels are skipped.
 """
 
 from __future__ import annotations
@@ -22,18 +22,18 @@ from texvent.pairs.warp_cpu import (
     warp_points,
 )
 from texvent.runtime.jit import jit
-from texvent.simulate.fused.bounds_cpu import find_reachable, list_active
-from texvent.simulate.fused.interface import (
+from texvent.simulate.fused.bounds_cpu import find_luma_bounds, list_active
+from texvent.simulate.fused.definitions import (
     FOLLOWS,
     MARGIN,
     STEPS,
     TAKES,
-    Candidates,
-    Cells,
-    Grids,
-    Levels,
-    Pictures,
-    Surveyed,
+    CrossingCandidates,
+    LumaBounds,
+    PairArrays,
+    PreparedPair,
+    ReferenceLevels,
+    SampleGrids,
 )
 
 Columns = tuple[
@@ -47,118 +47,120 @@ FIRST_ROOM = 1024
 SAMPLE = 16
 """Rows of which `estimate_active` looks at one."""
 BUSY, PROBE = 0.9, 8
-"""After a row of which a larger share than `BUSY` is active, all pixels are followed, up to the
+"""After a row of which a larger share than `BUSY` is active, all pixels are evaluated, up to the
 next row whose number is a multiple of `PROBE`."""
 
 
-def find_candidates(pictures: Pictures, grids: Grids, levels: Levels) -> Candidates:
-    """Every piece at whose end a pixel may fire; see `candidates_reference.find_candidates`."""
-    surveyed = Surveyed(prepare_pair(*pictures), find_cells(pictures))
-    return find_in_rows(pictures, grids, levels, surveyed, (0, pictures.earlier.shape[0]))
+def find_candidates(
+    arrays: PairArrays, grids: SampleGrids, levels: ReferenceLevels
+) -> CrossingCandidates:
+    """Every segment at whose end a pixel may fire; see `candidates_reference.find_candidates`."""
+    prepared = PreparedPair(prepare_pair(*arrays), find_bounds(arrays))
+    return find_in_rows(arrays, grids, levels, prepared, (0, arrays.earlier.shape[0]))
 
 
 def warm_up() -> None:
     """Compile everything, or load what was compiled before."""
-    picture, flow = (np.zeros(shape, np.float32) for shape in ((1, 1), (1, 1, 2)))
+    image, flow = (np.zeros(shape, np.float32) for shape in ((1, 1), (1, 1, 2)))
     endless = np.array([np.inf])
-    grids = Grids(np.ones((1, 1)), np.array([1]), endless, endless)
-    pictures = Pictures(picture, picture, flow, flow)
-    levels = Levels(np.empty((0, 0)), 1.0, 2.0, 0.5, TAKES)
-    find_candidates(pictures, grids, levels)
-    estimate_active(pictures, levels, find_cells(pictures))
-    show_pixels(pictures, prepare_pair(*pictures), 0.5, np.zeros(1, np.int64))
+    grids = SampleGrids(np.ones((1, 1)), np.array([1]), endless, endless)
+    arrays = PairArrays(image, image, flow, flow)
+    levels = ReferenceLevels(np.empty((0, 0)), 1.0, 2.0, 0.5, TAKES)
+    find_candidates(arrays, grids, levels)
+    estimate_active(arrays, levels, find_bounds(arrays))
+    warp_pixels(arrays, prepare_pair(*arrays), 0.5, np.zeros(1, np.int64))
 
 
-def find_cells(pictures: Pictures) -> Cells:
-    """What `find_in_rows` wants to know of the pair as a whole."""
-    cells: Cells = find_reachable(*pictures.frozen())
-    return cells
+def find_bounds(arrays: PairArrays) -> LumaBounds:
+    """Luma bounds of the pair, for `find_in_rows`."""
+    bounds: LumaBounds = find_luma_bounds(*arrays.frozen())
+    return bounds
 
 
-def estimate_active(pictures: Pictures, levels: Levels, cells: Cells) -> float:
-    """Share of the pixels that may fire, 0..1, by every `SAMPLE`-th row of the picture."""
-    return float(_estimate_active(pictures.frozen(), levels, cells))
+def estimate_active(arrays: PairArrays, levels: ReferenceLevels, bounds: LumaBounds) -> float:
+    """Share of the pixels that may fire, 0..1, by every `SAMPLE`-th row."""
+    return float(_estimate_active(arrays.frozen(), levels, bounds))
 
 
 @jit
-def _estimate_active(pictures: Pictures, levels: Levels, cells: Cells) -> float:
-    height, width = pictures.earlier.shape
+def _estimate_active(arrays: PairArrays, levels: ReferenceLevels, bounds: LumaBounds) -> float:
+    height, width = arrays.earlier.shape
     active = np.empty(width, np.int64)
     number, rows = 0, 0
     for row in range(min(SAMPLE // 2, height - 1), height, SAMPLE):
-        number += list_active(pictures, levels, cells, row, active)
+        number += list_active(arrays, levels, bounds, row, active)
         rows += 1
     share: float = number / (rows * width)
     return share
 
 
 def find_in_rows(
-    pictures: Pictures,
-    grids: Grids,
-    levels: Levels,
-    surveyed: Surveyed,
+    arrays: PairArrays,
+    grids: SampleGrids,
+    levels: ReferenceLevels,
+    prepared: PreparedPair,
     rows: tuple[int, int],
-) -> Candidates:
-    """The candidates of some rows of the picture; several threads may be at it.
+) -> CrossingCandidates:
+    """The candidates of some rows; threads may compute different rows at the same time.
 
     Args:
-        pictures: the pair.
-        grids: when pixels are looked at.
-        levels: what they compare with.
-        surveyed: the pair prepared, and its `find_cells`.
+        arrays: the pair.
+        grids: when pixels are evaluated.
+        levels: what they are compared with.
+        prepared: the pair prepared, and its `find_bounds`.
         rows: first row, and the one after the last.
     """
-    found, columns = _find(pictures.frozen(), grids, levels, surveyed, rows)
-    return Candidates(*columns).take(slice(found))
+    found, columns = _find(arrays.frozen(), grids, levels, prepared, rows)
+    return CrossingCandidates(*columns).take(slice(found))
 
 
-class _Followed(NamedTuple):
-    """Active pixels, and where what they show is written; [n]."""
+class _ActivePixels(NamedTuple):
+    """Active pixels, and where their luma is written; [n]."""
 
     pixel: NDArray[np.int64]
     """Flat index, ascending."""
     grid: NDArray[np.int64]
     start: NDArray[np.int64]
-    """Where the pixel's first picture is in `shown`."""
+    """Where the pixel's first luma is in `warped`."""
     step: NDArray[np.int64]
     """How much further each of the next ones is."""
 
 
 @jit
 def _find(
-    pictures: Pictures,
-    grids: Grids,
-    levels: Levels,
-    surveyed: Surveyed,
+    arrays: PairArrays,
+    grids: SampleGrids,
+    levels: ReferenceLevels,
+    prepared: PreparedPair,
     rows: tuple[int, int],
 ) -> tuple[int, Columns]:
-    width = pictures.earlier.shape[1]
+    width = arrays.earlier.shape[1]
     found, columns = 0, _columns(FIRST_ROOM)
-    room, shown = make_room(POINTS + width), np.empty(FIRST_ROOM, np.float32)
+    room, warped = make_room(POINTS + width), np.empty(FIRST_ROOM, np.float32)
     memory = np.empty((5, POINTS + width), np.int64)
     row, number = rows[0], 0
     while row < rows[1]:
         filled = 0
         while row < rows[1] and filled < POINTS:
-            # Where nearly all pixels may fire, looking for the others is not worth while.
+            # Where nearly all pixels may fire, the bounds of each are not worth computing.
             if number <= BUSY * width or row % PROBE == 0:
-                number = list_active(pictures, levels, surveyed.cells, row, memory[4])
+                number = list_active(arrays, levels, prepared.bounds, row, memory[4])
             else:
                 number = _list_all(memory[4, :width])
             for k in range(number):
                 memory[0, filled + k] = row * width + memory[4, k]
             filled += number
             row += 1
-        followed = _Followed(
+        active_pixels = _ActivePixels(
             memory[0, :filled], memory[1, :filled], memory[2, :filled], memory[3, :filled]
         )
-        pieces = _choose_grids(pictures, grids, levels.balance, followed)
-        if pieces > shown.size:
-            shown = np.empty(2 * pieces, np.float32)
-        if found + pieces > columns[0].size:
-            columns = _grown(columns, pieces)
-        _show(surveyed.pair, grids, followed, room, memory[4], shown)
-        found = _follow(pictures, grids, levels, followed, shown, (columns, found))
+        segments = _choose_grids(arrays, grids, levels.balance, active_pixels)
+        if segments > warped.size:
+            warped = np.empty(2 * segments, np.float32)
+        if found + segments > columns[0].size:
+            columns = _grown(columns, segments)
+        _warp_active(prepared.pair, grids, active_pixels, room, memory[4], warped)
+        found = _list_candidates(arrays, grids, levels, active_pixels, warped, (columns, found))
     return found, columns
 
 
@@ -170,45 +172,49 @@ def _list_all(active: NDArray[np.int64]) -> int:
 
 
 @jit
-def _choose_grids(pictures: Pictures, grids: Grids, balance: float, followed: _Followed) -> int:
-    """Fill in the grid of each active pixel; return how many pieces they have together."""
-    earlier, later = pictures.earlier.reshape(-1), pictures.later.reshape(-1)
-    forward, backward = pictures.forward.reshape(-1), pictures.backward.reshape(-1)
+def _choose_grids(
+    arrays: PairArrays, grids: SampleGrids, balance: float, active_pixels: _ActivePixels
+) -> int:
+    """Fill in the grid of each active pixel; return how many segments they have together."""
+    earlier, later = arrays.earlier.reshape(-1), arrays.later.reshape(-1)
+    forward, backward = arrays.forward.reshape(-1), arrays.backward.reshape(-1)
     last = grids.parts.size - 1
     room = 0
-    for k in range(followed.pixel.size):
-        i = followed.pixel[k]
-        way2 = 0.0
+    for k in range(active_pixels.pixel.size):
+        i = active_pixels.pixel[k]
+        displacement2 = 0.0
         if forward.size:
             x, y = np.float64(forward[2 * i]), np.float64(forward[2 * i + 1])
-            way2 = x * x + y * y
+            displacement2 = x * x + y * y
             x, y = np.float64(backward[2 * i]), np.float64(backward[2 * i + 1])
-            way2 = max(way2, x * x + y * y)
+            displacement2 = max(displacement2, x * x + y * y)
         first = np.float64(earlier[i]) + balance
         second = np.float64(later[i]) + balance
         low, high = min(first, second), max(first, second)
         grid = 0
-        while grid < last and not (way2 <= grids.reach2[grid] and high <= low * grids.ratio[grid]):
+        while grid < last and not (
+            displacement2 <= grids.max_displacement2[grid] and high <= low * grids.max_ratio[grid]
+        ):
             grid += 1
-        followed.grid[k] = grid
+        active_pixels.grid[k] = grid
         room += grids.parts[grid]
     return room
 
 
 @jit
-def _show(
+def _warp_active(
     pair: WarpPair,
-    grids: Grids,
-    followed: _Followed,
+    grids: SampleGrids,
+    active_pixels: _ActivePixels,
     room: Room,
     chosen: NDArray[np.int64],
-    shown: NDArray[np.float32],
+    warped: NDArray[np.float32],
 ) -> None:
-    """Fill in the luma of the followed pixels at the ends of their pieces, grid by grid."""
-    pixel, grid_of, start, step = followed
+    """Fill in the luma of the active pixels at the ends of their segments, grid by grid."""
+    pixel, grid_of, start, step = active_pixels
     points, filled = room.points, 0
     for grid in range(grids.parts.size):
-        number, pieces = 0, grids.parts[grid]
+        number, segments = 0, grids.parts[grid]
         for k in range(pixel.size):
             if grid_of[k] == grid:
                 start[k] = filled + number
@@ -220,14 +226,14 @@ def _show(
         if number == 0:
             continue
         take_points(pair, chosen[:number], points)
-        for piece in range(pieces - 1):
-            place, out = grids.positions[grid, piece], shown[filled : filled + number]
+        for segment in range(segments - 1):
+            place, out = grids.positions[grid, segment], warped[filled : filled + number]
             if pair.forward.size:
                 warp_points(pair, room, number, place, out)
             else:
                 _blend(points.earlier, points.later, np.float32(place), out)
             filled += number
-        shown[filled : filled + number] = points.later[:number]
+        warped[filled : filled + number] = points.later[:number]
         filled += number
 
 
@@ -243,21 +249,21 @@ def _blend(
 
 
 @jit
-def _follow(
-    pictures: Pictures,
-    grids: Grids,
-    levels: Levels,
-    followed: _Followed,
-    shown: NDArray[np.float32],
+def _list_candidates(
+    arrays: PairArrays,
+    grids: SampleGrids,
+    levels: ReferenceLevels,
+    active_pixels: _ActivePixels,
+    warped: NDArray[np.float32],
     out: tuple[Columns, int],
 ) -> int:
     """List the candidates among some pixels behind those found; return how many there are."""
-    earlier = pictures.earlier.reshape(-1)
+    earlier = arrays.earlier.reshape(-1)
     parts = grids.parts
     reference, balance, up, down, rule = levels
     references = reference.reshape(-1)
-    active, chosen, starts, steps = followed
-    (pixel, grid, piece, befores, nows), found = out
+    active, chosen, starts, steps = active_pixels
+    (pixel, grid, segment, befores, nows), found = out
     for k in range(active.size):
         i = active[k]
         before = earlier[i]
@@ -266,20 +272,20 @@ def _follow(
         is_open: bool | np.bool_ = False
         place, step = starts[k], steps[k]
         for j in range(parts[chosen[k]]):
-            now = shown[place]
+            now = warped[place]
             place += step
             shifted = np.float64(now) + balance
             is_up, is_down = shifted >= above, shifted <= below
             if is_up | is_down:
                 pixel[found] = i
-                grid[found], piece[found] = chosen[k], j
+                grid[found], segment[found] = chosen[k], j
                 befores[found], nows[found] = before, now
                 found += 1
                 level, is_unclear = _move(level, shifted, is_up, is_down, (up, down, rule))
                 above, below = level * (up * (1.0 - MARGIN)), level * (down * (1.0 + MARGIN))
                 is_open |= is_unclear
                 if is_open:
-                    # From here on every picture is listed.
+                    # From here on every instant is listed.
                     above = -np.inf
             if rule == FOLLOWS:
                 level = shifted
@@ -296,7 +302,7 @@ def _move(
     is_down: bool | np.bool_,
     moves: tuple[float, float, int],
 ) -> tuple[float, bool | np.bool_]:
-    """Where a reference stands after a picture, and whether that is unclear."""
+    """Where a reference stands after an instant, and whether that is unclear."""
     up, down, rule = moves
     if rule == FOLLOWS:
         return shifted, False
@@ -343,33 +349,33 @@ def _grown(columns: Columns, least: int) -> Columns:
     return larger
 
 
-def show_pixels(
-    pictures: Pictures, pair: WarpPair, position: float, pixel: NDArray[np.int64]
+def warp_pixels(
+    arrays: PairArrays, pair: WarpPair, position: float, pixel: NDArray[np.int64]
 ) -> NDArray[np.float32]:
-    """Luma of some pixels of the picture at a position.
+    """Luma of some pixels of the intermediate frame at a position.
 
     Args:
-        pictures: the pair.
+        arrays: the pair.
         pair: the same, prepared.
         position: τ, 0 = earlier, 1 = later.
         pixel: [n] flat indices.
 
     Returns:
-        [n] float32: the bits that the whole picture has there.
+        [n] float32: the same bits as in the drawn frame.
     """
-    shown: NDArray[np.float32] = _show_pixels(pictures.frozen(), pair, position, pixel)
-    return shown
+    warped: NDArray[np.float32] = _warp_pixels(arrays.frozen(), pair, position, pixel)
+    return warped
 
 
 @jit
-def _show_pixels(
-    pictures: Pictures, pair: WarpPair, position: float, pixel: NDArray[np.int64]
+def _warp_pixels(
+    arrays: PairArrays, pair: WarpPair, position: float, pixel: NDArray[np.int64]
 ) -> NDArray[np.float32]:
-    shown = np.empty(pixel.size, np.float32)
+    warped = np.empty(pixel.size, np.float32)
     room = make_room(pixel.size)
     take_points(pair, pixel, room.points)
-    if pictures.forward.size:
-        warp_points(pair, room, pixel.size, position, shown)
+    if arrays.forward.size:
+        warp_points(pair, room, pixel.size, position, warped)
     else:
-        _blend(room.points.earlier, room.points.later, np.float32(position), shown)
-    return shown
+        _blend(room.points.earlier, room.points.later, np.float32(position), warped)
+    return warped

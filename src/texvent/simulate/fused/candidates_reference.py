@@ -1,4 +1,4 @@
-"""The definition of the candidates of one pair, picture by picture in NumPy float64."""
+"""The definition of the candidates of one pair, instant by instant in NumPy float64."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.pairs.warp_reference import warp_between
-from texvent.simulate.fused.interface import (
+from texvent.simulate.fused.definitions import (
     FOLLOWS,
     MARGIN,
     STEPS,
     TAKES,
-    Candidates,
+    CrossingCandidates,
     Float64Array,
-    Grids,
-    Levels,
-    Pictures,
+    PairArrays,
+    ReferenceLevels,
+    SampleGrids,
 )
 
 Warp: TypeAlias = Callable[..., NDArray[np.float32]]
@@ -26,54 +26,61 @@ Warp: TypeAlias = Callable[..., NDArray[np.float32]]
 
 
 def find_candidates(
-    pictures: Pictures, grids: Grids, levels: Levels, warp: Warp = warp_between
-) -> Candidates:
-    """Every piece at whose end a pixel may fire; see `interface`.
+    arrays: PairArrays, grids: SampleGrids, levels: ReferenceLevels, warp: Warp = warp_between
+) -> CrossingCandidates:
+    """Every segment at whose end a pixel may fire; see `interface`.
 
     Args:
-        pictures: the pair.
-        grids: when pixels are looked at.
-        levels: what they compare with.
-        warp: draws a picture between two frames.
+        arrays: the pair.
+        grids: when pixels are evaluated.
+        levels: what they are compared with.
+        warp: draws a frame between two frames.
 
     Returns:
-        The candidates by pixel, then by piece.
+        The candidates by pixel, then by segment.
     """
-    chosen = choose_grids(pictures, grids, levels.balance)
-    found = [Candidates(*(np.empty(0, kind) for kind in ("i8", "i2", "i2", "f4", "f4")))]
+    chosen = choose_grids(arrays, grids, levels.balance)
+    found = [CrossingCandidates(*(np.empty(0, kind) for kind in ("i8", "i2", "i2", "f4", "f4")))]
     for grid in range(len(grids.parts)):
         pixel = np.flatnonzero(chosen.reshape(-1) == grid)
         if pixel.size:
-            found += _follow(pixel, grid, (pictures, warp), grids, levels)
-    joined = Candidates(*(np.concatenate(column) for column in zip(*found, strict=True)))
-    return joined.take(np.lexsort((joined.piece, joined.pixel)))
+            found += _list_candidates(pixel, grid, (arrays, warp), grids, levels)
+    joined = CrossingCandidates(*(np.concatenate(column) for column in zip(*found, strict=True)))
+    return joined.take(np.lexsort((joined.segment, joined.pixel)))
 
 
-def choose_grids(pictures: Pictures, grids: Grids, balance: float) -> NDArray[np.int64]:
+def choose_grids(arrays: PairArrays, grids: SampleGrids, balance: float) -> NDArray[np.int64]:
     """The grid of each pixel: the first that is fine enough, else the last; [H, W]."""
-    shape = pictures.earlier.shape
-    way2 = np.zeros(shape)
-    if pictures.forward.size:
-        for flow in (pictures.forward.astype(np.float64), pictures.backward.astype(np.float64)):
-            way2 = np.maximum(way2, flow[..., 0] * flow[..., 0] + flow[..., 1] * flow[..., 1])
-    first, second = (one.astype(np.float64) + balance for one in pictures[:2])
+    shape = arrays.earlier.shape
+    displacement2 = np.zeros(shape)
+    if arrays.forward.size:
+        for flow in (
+            arrays.forward.astype(np.float64),
+            arrays.backward.astype(np.float64),
+        ):
+            displacement2 = np.maximum(
+                displacement2, flow[..., 0] * flow[..., 0] + flow[..., 1] * flow[..., 1]
+            )
+    first, second = (one.astype(np.float64) + balance for one in arrays[:2])
     low, high = np.minimum(first, second), np.maximum(first, second)
     chosen = np.full(shape, len(grids.parts) - 1)
     for grid in reversed(range(len(grids.parts) - 1)):
-        chosen[(way2 <= grids.reach2[grid]) & (high <= low * grids.ratio[grid])] = grid
+        chosen[
+            (displacement2 <= grids.max_displacement2[grid]) & (high <= low * grids.max_ratio[grid])
+        ] = grid
     return chosen
 
 
-def _follow(
+def _list_candidates(
     pixel: NDArray[np.int64],
     grid: int,
-    drawing: tuple[Pictures, Warp],
-    grids: Grids,
-    levels: Levels,
-) -> list[Candidates]:
-    """The candidates among the pixels of one grid, piece by piece."""
-    pictures, warp = drawing
-    before = pictures.earlier.reshape(-1)[pixel]
+    drawing: tuple[PairArrays, Warp],
+    grids: SampleGrids,
+    levels: ReferenceLevels,
+) -> list[CrossingCandidates]:
+    """The candidates among the pixels of one grid, segment by segment."""
+    arrays, warp = drawing
+    before = arrays.earlier.reshape(-1)[pixel]
     level = (
         levels.reference.reshape(-1)[pixel]
         if levels.reference.size
@@ -82,21 +89,21 @@ def _follow(
     is_open = np.zeros(pixel.size, np.bool_)
     found = []
     parts = int(grids.parts[grid])
-    for piece in range(parts):
-        is_last = piece == parts - 1
-        place = float(grids.positions[grid, piece])
-        picture = pictures.later if is_last else draw_picture(pictures, place, warp)
-        now = picture.reshape(-1)[pixel]
+    for segment in range(parts):
+        is_last = segment == parts - 1
+        place = float(grids.positions[grid, segment])
+        image = arrays.later if is_last else draw_image(arrays, place, warp)
+        now = image.reshape(-1)[pixel]
         shifted = now.astype(np.float64) + levels.balance
         is_up = shifted >= level * (levels.up * (1.0 - MARGIN))
         is_down = shifted <= level * (levels.down * (1.0 + MARGIN))
         listed = is_open | is_up | is_down
         number = np.count_nonzero(listed)
         found.append(
-            Candidates(
+            CrossingCandidates(
                 pixel[listed],
                 np.full(number, grid, np.int16),
-                np.full(number, piece, np.int16),
+                np.full(number, segment, np.int16),
                 before[listed],
                 now[listed],
             )
@@ -107,14 +114,14 @@ def _follow(
     return found
 
 
-def draw_picture(
-    pictures: Pictures, position: float, warp: Warp = warp_between
+def draw_image(
+    arrays: PairArrays, position: float, warp: Warp = warp_between
 ) -> NDArray[np.float32]:
-    """The whole picture at a position between the frames, [H, W]."""
-    if pictures.forward.size:
-        return warp(*pictures, position)
-    change = pictures.later - pictures.earlier
-    return pictures.earlier + np.float32(position) * change
+    """The whole intermediate frame at a position between the frames, [H, W]."""
+    if arrays.forward.size:
+        return warp(*arrays, position)
+    change = arrays.later - arrays.earlier
+    return arrays.earlier + np.float32(position) * change
 
 
 def _moved(
@@ -122,9 +129,9 @@ def _moved(
     shifted: Float64Array,
     is_up: NDArray[np.bool_],
     is_down: NDArray[np.bool_],
-    levels: Levels,
+    levels: ReferenceLevels,
 ) -> tuple[Float64Array, NDArray[np.bool_]]:
-    """Where references stand after a picture, and where that is unclear."""
+    """Where references stand after an instant, and where that is unclear."""
     if levels.rule == FOLLOWS:
         return shifted, np.zeros(level.shape, np.bool_)
     is_surely_up = shifted > level * (levels.up * (1.0 + MARGIN))
@@ -143,8 +150,8 @@ def _moved(
             left = is_sure
             while left.any():
                 passed = sign * shifted > sign * moved * (factor * (1.0 + sign * MARGIN))
-                reached = sign * shifted >= sign * moved * (factor * (1.0 - sign * MARGIN))
-                is_unclear |= left & reached & ~passed
+                is_reached = sign * shifted >= sign * moved * (factor * (1.0 - sign * MARGIN))
+                is_unclear |= left & is_reached & ~passed
                 left = left & passed
                 moved[left] *= factor
     return moved, is_unclear

@@ -1,7 +1,7 @@
-"""What a kernel gets and gives when brightness runs in straight pieces of each pixel's own.
+"""Threshold crossings of brightness that is piecewise linear in time, pixel by pixel.
 
 The pixel is ESIM's: it compares brightness with a reference, fires at every threshold crossed, at
-the time at which the line crosses it, and its reference follows in steps.
+the time of the crossing, and its reference moves in steps.
 """
 
 from __future__ import annotations
@@ -11,11 +11,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.fused.interface import Float64Array, Int64Array
+from texvent.simulate.fused.definitions import Float64Array, Int64Array
 
 
-class Pieces(NamedTuple):
-    """Straight lines, a row per piece, by pixel and then in time; pieces may be left out."""
+class Segments(NamedTuple):
+    """Linear segments, a row each, by pixel and then in time; segments may be left out."""
 
     pixel: Int64Array
     """[n] flat index y · W + x."""
@@ -29,7 +29,7 @@ class Pieces(NamedTuple):
     """[n] brightness at the stop, log units."""
 
 
-class LineRules(NamedTuple):
+class CrossingRules(NamedTuple):
     """When a pixel fires."""
 
     threshold_on: float
@@ -40,20 +40,20 @@ class LineRules(NamedTuple):
     """Time after an event in which crossings are lost; 0 is none."""
 
 
-class LineState(NamedTuple):
-    """What pixels remember; a kernel changes it in place."""
+class CrossingState(NamedTuple):
+    """State of the pixels; kernels change it in place."""
 
     reference: Float64Array
     """[H · W] reference brightness, log units."""
     fired_us: Int64Array
-    """[H · W] time of the last event, µs."""
+    """[H · W] time of the last event, µs; not used, and [0], without a refractory period."""
 
 
-class LineCrossings(NamedTuple):
+class SegmentCrossings(NamedTuple):
     """Events, by pixel and then in time."""
 
     row: Int64Array
-    """[n] number of the piece that the event lies on."""
+    """[n] number of the segment that the event lies on."""
     t: Int64Array
     """[n] µs."""
     p: NDArray[np.uint8]

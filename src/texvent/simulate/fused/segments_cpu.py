@@ -1,4 +1,4 @@
-"""Threshold crossings on straight pieces, compiled by Numba: the reference's bits."""
+"""Threshold crossings on linear segments, compiled by Numba: the reference's bits."""
 
 from __future__ import annotations
 
@@ -8,28 +8,30 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.simulate.fused.segments import LineCrossings, LineRules, LineState, Pieces
+from texvent.simulate.fused.segments import CrossingRules, CrossingState, SegmentCrossings, Segments
 
 Events = tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.uint8]]
 
 
-def cross_pieces(pieces: Pieces, rules: LineRules, state: LineState) -> LineCrossings:
-    """Every threshold that brightness crosses; see `pieces_reference.cross_pieces`."""
-    found, (row, t, p) = _cross(pieces, rules, state)
-    return LineCrossings(row[:found], t[:found], p[:found])
+def cross_segments(
+    segments: Segments, rules: CrossingRules, state: CrossingState
+) -> SegmentCrossings:
+    """Every threshold that brightness crosses; see `pieces_reference.cross_segments`."""
+    found, (row, t, p) = _cross(segments, rules, state)
+    return SegmentCrossings(row[:found], t[:found], p[:found])
 
 
 def warm_up() -> None:
     """Compile everything, or load what was compiled before."""
     one, level = np.ones(1, np.int64), np.zeros(1)
-    state = LineState(level.copy(), one.copy())
-    cross_pieces(Pieces(one - 1, one, one + 1, level, level), LineRules(1.0, 1.0, 0), state)
+    state = CrossingState(level.copy(), one.copy())
+    cross_segments(Segments(one - 1, one, one + 1, level, level), CrossingRules(1.0, 1.0, 0), state)
 
 
 @jit
-def _cross(pieces: Pieces, rules: LineRules, state: LineState) -> tuple[int, Events]:
+def _cross(segments: Segments, rules: CrossingRules, state: CrossingState) -> tuple[int, Events]:
     # Unpacked once: Numba counts references to every array that it takes out of a tuple.
-    pixel, starts, stops, befores, nows = pieces
+    pixel, starts, stops, befores, nows = segments
     reference, fired_us = state
     rows, times, polarities = _events(2 * pixel.size)
     found = 0
@@ -48,10 +50,12 @@ def _cross(pieces: Pieces, rules: LineRules, state: LineState) -> tuple[int, Eve
             level = number * threshold
             fraction = (level - first) / (last - first) if first < level else 0.0
             t = min(start_us + math.floor(fraction * (stop_us - start_us)), stop_us - 1)
-            if t - fired_us[i] >= rules.refractory_us:
+            if rules.refractory_us:
+                if t - fired_us[i] < rules.refractory_us:
+                    continue
                 fired_us[i] = t
-                rows[found], times[found], polarities[found] = k, t, sign > 0
-                found += 1
+            rows[found], times[found], polarities[found] = k, t, sign > 0
+            found += 1
         reference[i] += sign * passed * threshold
     return found, (rows, times, polarities)
 

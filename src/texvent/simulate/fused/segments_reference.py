@@ -1,4 +1,4 @@
-"""The definition of threshold crossings on straight pieces, one piece at a time in float64."""
+"""The definition of threshold crossings on linear segments, one at a time in float64."""
 
 from __future__ import annotations
 
@@ -6,31 +6,33 @@ import math
 
 import numpy as np
 
-from texvent.simulate.fused.segments import LineCrossings, LineRules, LineState, Pieces
+from texvent.simulate.fused.segments import CrossingRules, CrossingState, SegmentCrossings, Segments
 
 
-def cross_pieces(pieces: Pieces, rules: LineRules, state: LineState) -> LineCrossings:
-    """Every threshold that brightness crosses on its pieces, at the time it crosses it.
+def cross_segments(
+    segments: Segments, rules: CrossingRules, state: CrossingState
+) -> SegmentCrossings:
+    """Every threshold that brightness crosses on its segments, at the time it crosses it.
 
-    On a piece the change against the reference is d(u) = start + u · (stop − start), u in 0..1. The
+    On a segment the change is d(u) = start + u · (stop − start), u in 0..1, log units. The
     k-th ON event happens where d reaches k · θ_on, the k-th OFF event where it reaches −k · θ_off,
-    for every k that the stop has reached; a level that the start had reached already fires at once.
+    for every k that the stop has reached; a level that the start had reached fires at once.
     The reference then moves by k · θ, also over crossings that fell into the refractory period.
 
     Args:
-        pieces: straight lines, by pixel and then in time.
+        segments: linear segments, by pixel and then in time.
         rules: thresholds and refractory period.
-        state: brought up to date here.
+        state: updated in place.
 
     Returns:
-        The events, times rounded down, never the stop of their piece.
+        The events, times rounded down, never the stop of their segment.
 
     Source: Rebecq, Gehrig and Scaramuzza, "ESIM: an open event camera simulator", CoRL 2018,
         section 3.1, where samples are taken as often as the scene needs, at each pixel.
     """
     events = []
-    for row, piece in enumerate(zip(*(one.tolist() for one in pieces), strict=True)):
-        i, start_us, stop_us, before, now = piece
+    for row, segment in enumerate(zip(*(one.tolist() for one in segments), strict=True)):
+        i, start_us, stop_us, before, now = segment
         first, last = before - float(state.reference[i]), now - float(state.reference[i])
         sign = 1 if last > 0 else -1
         threshold = rules.threshold_on if sign > 0 else rules.threshold_off
@@ -41,9 +43,11 @@ def cross_pieces(pieces: Pieces, rules: LineRules, state: LineState) -> LineCros
             level = k * threshold
             fraction = (level - first) / (last - first) if first < level else 0.0
             t = min(start_us + math.floor(fraction * (stop_us - start_us)), stop_us - 1)
-            if t - int(state.fired_us[i]) >= rules.refractory_us:
+            if rules.refractory_us:
+                if t - int(state.fired_us[i]) < rules.refractory_us:
+                    continue
                 state.fired_us[i] = t
-                events.append((row, t, sign > 0))
+            events.append((row, t, sign > 0))
         state.reference[i] += sign * k * threshold
     row_of, t_of, p_of = np.array(events, np.int64).reshape(-1, 3).T
-    return LineCrossings(row_of, t_of, p_of.astype(np.uint8))
+    return SegmentCrossings(row_of, t_of, p_of.astype(np.uint8))

@@ -9,10 +9,11 @@ from texvent._require import require
 
 _HOMES = {
     "EventBatch": "texvent.simulate.gpu.batch:EventBatch",
+    "GpuPairs": "texvent.simulate.gpu.frame_pairs:GpuPairs",
     "GpuSimulator": "texvent.simulate.gpu.engine:GpuSimulator",
 }
 
-__all__ = ["EventBatch", "GpuSimulator"]
+__all__ = ["EventBatch", "GpuPairs", "GpuSimulator"]
 
 
 def __getattr__(name: str) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -42,14 +43,10 @@ class UnsortedEvents(NamedTuple):
         """Events that noise fired."""
         return cls(pixel, t, p, np.full(len(pixel), NOISE, np.uint8))
 
-    def joined(self, other: UnsortedEvents) -> UnsortedEvents:
-        """These events and `other`."""
-        return UnsortedEvents(
-            np.concatenate([self.pixel, other.pixel]),
-            np.concatenate([self.t, other.t]),
-            np.concatenate([self.p, other.p]),
-            np.concatenate([self.label, other.label]),
-        )
+    @classmethod
+    def concat(cls, parts: Iterable[UnsortedEvents]) -> UnsortedEvents:
+        """The events of all parts, at least one."""
+        return cls(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
     def take(self, rows: NDArray[np.int64] | NDArray[np.bool_]) -> UnsortedEvents:
         """Some of the events, by number or by mask."""

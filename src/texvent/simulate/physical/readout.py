@@ -67,7 +67,7 @@ class Readout:
         if self._rules.is_ideal:
             return fired
         late = self._delay(_in_order(fired), interval)
-        late = late.joined(self._waiting)
+        late = UnsortedEvents.concat((late, self._waiting))
         leaves = late.t < interval.stop_us
         self._waiting = late.take(~leaves)
         return self._limit(_in_order(late.take(leaves)), interval)

@@ -149,7 +149,7 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
         noise = self._noise.draw(interval, share=share, on_fraction=on_fraction, backend=backend)
         if not self._hot_noise.is_silent:
             hot = self._hot_noise.draw(interval, on_fraction=on_fraction, backend=backend)
-            noise = noise.joined(hot)
+            noise = UnsortedEvents.concat((noise, hot))
         order = np.lexsort((noise.p, noise.t, noise.pixel))
         return NoiseEvents(noise.pixel[order], noise.t[order], noise.p[order])
 

@@ -145,7 +145,7 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         for events in (noise, fired):
             self._fired_us[events.pixel] = events.t
         self._levels.set(pixel, self._reference, thresholds_at(pixel, self._thresholds))
-        return fired.joined(noise)
+        return UnsortedEvents.concat((fired, noise))
 
     def _compare(self, intensity: IntensityArray, interval: FrameInterval) -> UnsortedEvents:
         """At most one event per pixel, in the interval's last microsecond."""

@@ -1,4 +1,4 @@
-"""What the pixels of the fast Texvent model remember, made from frames; see `kernels.texvent`."""
+"""The memory of the fast Texvent model, made from frames; see `kernels.scan`."""
 
 from __future__ import annotations
 
@@ -48,21 +48,17 @@ def remember(first: Intensity, config: TexventConfig) -> Memory:
     return memory
 
 
-def resume(first: Intensity, level: Float64Array, config: TexventConfig) -> Memory:
-    """The memory of pixels whose references somebody else has kept until a frame.
+def keep_levels(memory: Memory, config: TexventConfig) -> None:
+    """Go over to `Memory.level`, for whatever moves references between intensities.
 
     Args:
-        first: luma of the frame, [n] float32.
-        level: reference brightness, [n]; kept, and moved along.
+        memory: of pixels whose references are intensities so far; none of them has renewed all.
         config: options.
     """
-    return Memory(
-        reference=np.exp(level).astype(np.float32),
-        renewed=np.empty(0, np.float32),
-        previous=first.copy() if config.stamp == "linear" else np.empty(0, np.float32),
-        level=level,
-        table=_NOTHING,
-    )
+    turn_to_float(memory)
+    memory.renewed = np.empty(0, np.float32)
+    memory.level = np.asarray(balanced_log(memory.reference, config.balance))
+    memory.reference = np.exp(memory.level).astype(np.float32)
 
 
 def needs_levels(config: TexventConfig) -> bool:
@@ -90,7 +86,7 @@ def turn_to_float(memory: Memory) -> None:
     memory.previous = as_luma(memory.previous)
     memory.renewed = np.empty(memory.renewed.size, np.float32)
     memory.table = _NOTHING
-    memory.work, memory.band_work = None, {}
+    memory.work = None
 
 
 def move_levels(memory: Memory, luma: Intensity, config: TexventConfig, renewal: Renewal) -> None:

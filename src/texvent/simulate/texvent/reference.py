@@ -71,7 +71,7 @@ class DensePixels:
         timed = self._reconstruct_timestamps(events, signal, interval)  # Eq. 7
         self._cache.update(signal, brightness, step=self._config.reset_step)
         self._brightness, self._is_source = brightness, frame.is_source
-        return make_packet(timed.joined(noise), span, frame.size, self._backend)
+        return make_packet(UnsortedEvents.concat((timed, noise)), span, frame.size, self._backend)
 
     def _compare_with_cache(self, brightness: Float64Array, span: FrameInterval) -> SubInterval:
         """Set the calibrated frame `κ ⋄ I^{j−1}` against this one, with voltage noise if asked."""

@@ -2,31 +2,35 @@
 
 from __future__ import annotations
 
-import copy
-import itertools
-from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar
+from collections.abc import Iterator, Mapping
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
-from texvent._registry import load_object
 from texvent.config import check_range
 from texvent.events import EventStream
-from texvent.simulate.backend.select import GPU, check_backend
+from texvent.pairs.frame_pair import FramePair
+from texvent.simulate.backend.select import AUTO, GPU, check_backend
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.sorting import make_packet
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import frame_key
+from texvent.simulate.stepping import SteppingSimulator
 from texvent.simulate.texvent.config import TexventConfig
+from texvent.simulate.texvent.continuous import ContinuousPixels, continuous_misfit
+from texvent.simulate.texvent.fused import FusedPass
 from texvent.simulate.texvent.pixels import SparsePixels
 from texvent.simulate.texvent.reference import DensePixels
-from texvent.video import Frame, StreamChecker
+from texvent.video import Frame, StreamChecker, check_intensity
 
 __all__ = ["TexventConfig", "TexventSimulator"]
 
 
-class TexventSimulator:
+class TexventSimulator(SteppingSimulator):
     """Texvent's pixel model (Eqs. 5-7); see `simulate.protocol.Simulator`.
+
+    A pair whose intermediate frames would be moved by optical flow is computed without drawing
+    them where few pixels may fire; the events are the same.
 
     Example:
         >>> simulator = TexventSimulator(TexventConfig(noise="none"), backend="reference")
@@ -48,7 +52,12 @@ class TexventSimulator:
     }
 
     def __init__(
-        self, config: TexventConfig | None = None, *, seed: int = 0, backend: str = "auto"
+        self,
+        config: TexventConfig | None = None,
+        *,
+        seed: int = 0,
+        backend: str = AUTO,
+        engine: Literal["frames", "continuous"] = "frames",
     ) -> None:
         """Prepare a simulator that has seen no frame.
 
@@ -57,6 +66,7 @@ class TexventSimulator:
             seed: of noise and random times, 0..2⁶³−1.
             backend: "auto", "cpu", "numpy", "reference" or "gpu": which kernels scan the pixels.
                 All give the same events; `texvent.simulate.gpu` says how nearly.
+            engine: "frames" evaluates pixels at Eq. 4's instants, "continuous" along their paths.
 
         Raises:
             ConfigError: the seed is out of range, the backend unknown, or it is "gpu" and there is
@@ -67,7 +77,14 @@ class TexventSimulator:
         self.config = config or TexventConfig()
         self._seed = int(seed)
         self._backend = check_backend(backend, has_gpu=True)
+        self._is_continuous = engine == "continuous"
+        self._forgets = self.config.cache in ("local", "none")
         self.reset()
+
+    @staticmethod
+    def continuous_misfit(config: TexventConfig) -> str | None:
+        """What the options must be in continuous time, if they are not; see `fused.continuous`."""
+        return continuous_misfit(config)
 
     @property
     def contrast_threshold(self) -> float:
@@ -83,11 +100,62 @@ class TexventSimulator:
         """Forget all frames: the next one is the first."""
         self._checker = StreamChecker()
         self._pixels: DensePixels | SparsePixels | None = None
-        self._last_us = 0
+        self._last: Frame | None = None
+        self._continuous: ContinuousPixels | None = None
+        self._fused = FusedPass(self.config, self._seed)
         self._on_gpu: Any = None
         if self._backend == GPU:
-            steps = load_object("texvent.simulate.gpu.frame_steps:FrameSteps")
-            self._on_gpu = steps(self.config, self._seed)
+            from texvent.simulate.gpu.frame_steps import FrameSteps  # brings torch
+
+            self._on_gpu = FrameSteps(self.config, self._seed)
+
+    def advance(self, pair: FramePair) -> Iterator[tuple[Frame, EventStream]]:
+        """Events between two frames; see `simulate.protocol.Simulator.advance`."""
+        if self._is_continuous:
+            yield pair.second, self._cross_pair(pair)
+            return
+        is_drawn = (
+            pair.first is None
+            or self._backend not in (AUTO, "cpu")
+            or self.config.noise == "gaussian"
+            or pair.motion.flows is None
+        )
+        # The pixels' references; those of a cache that forgets are the earlier frame's.
+        memory = None
+        if not is_drawn and not self._forgets and isinstance(self._pixels, SparsePixels):
+            memory = self._pixels.hold_levels()
+        bounds = None if is_drawn else self._fused.find_bounds(pair, memory)
+        if bounds is None:
+            yield from super().advance(pair)
+            return
+        packets = self._fused.packets(pair, memory, bounds)
+        self._leave_pair(pair)
+        yield from packets
+
+    def _leave_pair(self, pair: FramePair) -> None:
+        """Note that the pixels have seen the later frame of a pair, though no frame was stepped."""
+        where = self._checker.check_order(pair.second)
+        check_intensity(pair.second.pixels, where)
+        if isinstance(self._pixels, SparsePixels) and not self._forgets:
+            self._pixels.leave_pair(pair.second)
+        else:
+            # Made again from the last frame when one is stepped.
+            self._pixels = None
+        self._checker.accept(pair.second)
+        self._last = pair.second
+
+    def _cross_pair(self, pair: FramePair) -> EventStream:
+        """All events of a pair, in continuous time."""
+        where = self._checker.check_order(pair.second)
+        check_intensity(pair.second.pixels, where)
+        if self._continuous is None:
+            self._continuous = ContinuousPixels(self.config, self._seed, pair.second)
+            span = FrameInterval(pair.second.t_us, pair.second.t_us, np.uint64(0))
+            packet = make_packet(UnsortedEvents.none(), span, pair.second.size)
+        else:
+            packet = self._continuous.advance(pair)
+        self._checker.accept(pair.second)
+        return packet
 
     def step(self, frame: Frame) -> EventStream:
         """Events in `[t of the frame before, t of this frame)`, sorted; none for the first frame.
@@ -100,45 +168,21 @@ class TexventSimulator:
         where = self._checker.check_order(frame)
         if self._on_gpu is not None:
             packet: EventStream = self._on_gpu.step(frame)
-        elif self._pixels is None:
-            is_dense = self._backend == "reference" or self.config.noise == "gaussian"
-            pixels_type = DensePixels if is_dense else SparsePixels
-            self._pixels = pixels_type(self.config, self._backend, frame, where)
+        elif self._last is None:
+            self._pixels = self._begin(frame, where)
             span = FrameInterval(frame.t_us, frame.t_us, np.uint64(0))
             packet = make_packet(UnsortedEvents.none(), span, frame.size, self._backend)
         else:
-            span = FrameInterval(self._last_us, frame.t_us, frame_key(self._seed, frame.t_us))
-            packet = self._pixels.advance(frame, span, where)
+            pixels = self._pixels or self._begin(self._last, where)
+            span = FrameInterval(self._last.t_us, frame.t_us, frame_key(self._seed, frame.t_us))
+            packet = pixels.advance(frame, span, where)
+            self._pixels = pixels
         self._checker.accept(frame)
-        self._last_us = frame.t_us
+        self._last = frame
         return packet
 
-    def step_batch(self, frames: Sequence[Frame]) -> list[EventStream]:
-        """Packets of several frames at once: the same as `step` gives one after the other.
-
-        Threads share out the work (`kernels.threads`). It pays where many pixels fire, by a fifth
-        to a third with two (docs/speed.md); clips in a thread each are the better use of cores.
-
-        Raises:
-            InputError, ConfigError: as `step`; then none of the frames was simulated, apart from
-                the first frame of a stream, and, on the backend "reference" and with Gaussian
-                noise, those before the bad one.
-        """
-        packets: list[EventStream] = []
-        while len(packets) < len(frames) and not isinstance(self._pixels, SparsePixels):
-            packets.append(self.step(frames[len(packets)]))
-        frames = frames[len(packets) :]
-        if not frames or not isinstance(self._pixels, SparsePixels):
-            return packets
-        checker, where = copy.copy(self._checker), []
-        for frame in frames:
-            where.append(checker.check_order(frame))
-            checker.accept(frame)
-        times = [self._last_us, *(frame.t_us for frame in frames)]
-        spans = [
-            FrameInterval(start_us, stop_us, frame_key(self._seed, stop_us))
-            for start_us, stop_us in itertools.pairwise(times)
-        ]
-        packets += self._pixels.advance_batch(frames, spans, where)
-        self._checker, self._last_us = checker, times[-1]
-        return packets
+    def _begin(self, frame: Frame, where: str) -> DensePixels | SparsePixels:
+        """Pixels whose references are those of a frame."""
+        is_dense = self._backend == "reference" or self.config.noise == "gaussian"
+        pixels_type = DensePixels if is_dense else SparsePixels
+        return pixels_type(self.config, self._backend, frame, where)

@@ -7,7 +7,7 @@ docs/simulators.md gives the steps, and where they depart from the program (V2CE
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
@@ -16,6 +16,7 @@ import numpy as np
 
 from texvent.config import check_range
 from texvent.events import EventStream
+from texvent.pairs.frame_pair import FramePair
 from texvent.runtime.network_files import describe_file
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.sorting import make_packet
@@ -59,8 +60,8 @@ class V2ceConfig:
 class V2ceSimulator(StreamingSimulator[V2ceConfig]):
     """V2CE on video frames; see `simulate.protocol.Simulator`.
 
-    The network answers for a pair of frames by those around it, before and after. `steps` gives it
-    whole sequences, as its authors do, and is what a run uses. `step` cannot wait: it answers from
+    The network answers for a pair of frames by those before and after it. `advance` gives it whole
+    sequences, as its authors do, and is what a run uses. `step` cannot wait: it answers from
     the last `sequence_length` pairs, so its events differ a little, and each costs a sequence.
     """
 
@@ -108,27 +109,31 @@ class V2ceSimulator(StreamingSimulator[V2ceConfig]):
         """The Texvent model's, likewise."""
         return 30.0
 
-    def steps(self, frames: Iterable[Frame]) -> Iterator[tuple[Frame, EventStream]]:
-        """Every frame with its packet, a sequence at a time.
+    def reset(self) -> None:
+        """Forget all frames: the next one is the first."""
+        super().reset()
+        self._waiting: list[tuple[Frame, FrameInterval]] = []
+
+    def advance(self, pair: FramePair) -> Iterator[tuple[Frame, EventStream]]:
+        """Frames with their packets, a sequence at a time; see `simulate.protocol.Simulator`.
 
         Sequences follow one another without overlap; only the last reaches back into the one
         before it, to be as long. Up to `sequence_length` + 1 frames are held.
-
-        Raises:
-            InputError: as `step`.
         """
-        waiting: list[tuple[Frame, FrameInterval]] = []
-        for frame in frames:
+        for frame in pair.frames:
             interval = self._enter(frame)
             if interval.duration_us == 0:
                 self._begin(frame.luma)
                 yield frame, make_packet(UnsortedEvents.none(), interval, frame.size)
                 continue
             self._recent.append(normalise(frame.luma))
-            waiting.append((frame, interval))
-            if len(waiting) == self.config.sequence_length:
-                yield from self._answer(waiting)
-                waiting = []
+            self._waiting.append((frame, interval))
+            if len(self._waiting) == self.config.sequence_length:
+                yield from self.finish()
+
+    def finish(self) -> Iterator[tuple[Frame, EventStream]]:
+        """The frames that wait for a sequence to be complete, with their packets."""
+        waiting, self._waiting = self._waiting, []
         if waiting:
             yield from self._answer(waiting)
 

@@ -47,7 +47,7 @@ threads, chunks and GPUs draw the same noise.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeAlias, cast
 
 import numpy as np
@@ -105,7 +105,7 @@ class Fired(NamedTuple):
     """The pixels that fired in one sub-interval, in row-major order: of a sensor, or of a band."""
 
     pixel: NDArray[np.int64]
-    """[n] flat index y · W + x less `origin`, ascending."""
+    """[n] flat index y · W + x, ascending."""
     change: Float64Array
     """[n] brightness minus reference brightness, log units."""
     start: Float64Array
@@ -114,20 +114,18 @@ class Fired(NamedTuple):
     """[n] brightness at its end; [0] likewise."""
     reference: Float64Array
     """[n] reference brightness; [0] likewise."""
-    origin: int = 0
-    """The pixel that pixels are counted from: the first of the band."""
 
     def first(self, number: int) -> Fired:
         """Views of the first so many rows."""
         rows, lines = slice(number), slice(number if self.start.size else None)
-        pixel, change, start, stop, reference, origin = self
-        return Fired(pixel[rows], change[rows], start[lines], stop[lines], reference[lines], origin)
+        pixel, change, start, stop, reference = self
+        return Fired(pixel[rows], change[rows], start[lines], stop[lines], reference[lines])
 
 
 def join_fired(bands: Sequence[Fired]) -> Fired:
     """What fired in bands that follow each other."""
     return Fired(
-        np.concatenate([band.pixel + band.origin for band in bands]),
+        np.concatenate([band.pixel for band in bands]),
         np.concatenate([band.change for band in bands]),
         np.concatenate([band.start for band in bands]),
         np.concatenate([band.stop for band in bands]),
@@ -152,20 +150,10 @@ class Memory:
     """Brightness of every intensity that an integer type has, or [0] for float32."""
     work: Any = None
     """Room that a backend keeps for its results; overwritten by each frame."""
-    band_work: dict[tuple[int, int], Any] = field(default_factory=dict)
-    """The same for bands, by their origin and the number of a frame."""
-    origin: int = 0
-    """The pixel of the sensor that comes first here."""
 
     def __getstate__(self) -> dict[str, Any]:
         """What a copy takes along: not the room for results."""
-        return vars(self) | {"work": None, "band_work": {}}
-
-    def band(self, part: slice) -> Memory:
-        """Some of the pixels, as views; with no room yet."""
-        arrays = (self.reference, self.renewed, self.previous, self.level)
-        reference, renewed, previous, level = (one[part] for one in arrays)
-        return Memory(reference, renewed, previous, level, self.table, origin=part.start)
+        return vars(self) | {"work": None}
 
 
 FindFired: TypeAlias = Callable[[Intensity, Memory, Levels, FireRule], "Fired | None"]

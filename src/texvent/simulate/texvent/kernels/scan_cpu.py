@@ -141,7 +141,7 @@ def _make_room(memory: Memory) -> _Work:
     pixels, lines = memory.reference.size, memory.previous.size
     start, stop, reference = (np.empty(lines) for _ in range(3))
     places, change = np.empty(pixels, np.int64), np.empty(pixels)
-    fired = Fired(places, change, start, stop, reference, memory.origin)
+    fired = Fired(places, change, start, stop, reference)
     floats = 0 if memory.table.size else pixels
     logs = (np.empty(size) for size in (floats, floats, floats, lines))
     return _Work(fired, np.empty(floats, np.int64), _Logs(*logs))
@@ -168,7 +168,7 @@ def _settle_floats(
     # Arrays are taken out of their tuples once: counting references to them in the loop is slow.
     frame, reference, _, _ = pictures
     _, nows, thens, befores = logs
-    pixel, changes, start, stop, at_start, _ = out
+    pixel, changes, start, stop, at_start = out
     found = 0
     for k in range(candidates.size):
         i, now = candidates[k], nows[k]
@@ -223,7 +223,7 @@ def _fire_integers(
 ) -> int:
     """Let the marked pixels of uint8 or uint16 frames fire; how many did."""
     frame, reference, renewed, previous = pictures
-    pixel, change, start, stop, at_start, _ = out
+    pixel, change, start, stop, at_start = out
     runs, words = marks
     is_renewed, has_line, found = renewed.size > 0, previous.size > 0, 0
     for k in range(runs.size):

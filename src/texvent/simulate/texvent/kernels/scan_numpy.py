@@ -68,10 +68,10 @@ def settle(
     if not is_fired.all():
         pixel, change = candidates[is_fired], change[is_fired]
         now, then = now[is_fired], then[is_fired]
-    fired = Fired(pixel, change, _NOTHING, _NOTHING, _NOTHING, memory.origin)
+    fired = Fired(pixel, change, _NOTHING, _NOTHING, _NOTHING)
     if rule.has_line:
         start = brightness_of(memory.previous[pixel], memory, rule)
-        fired = Fired(pixel, change, start, now, then, memory.origin)
+        fired = Fired(pixel, change, start, now, then)
         memory.previous[:] = frame
     _renew(frame, fired, now, memory, rule)
     return fired

@@ -154,12 +154,12 @@ def _list_signal(
 ) -> None:
     """Keys of the events that fired, by pixel; |ΔL| reaches from the one number to the other."""
     # Arrays are taken out of their tuple once: counting references to them in the loop is slow.
-    pixel, change, start, stop, reference, origin = fired
+    pixel, change, start, stop, reference = fired
     smallest, largest = reach
     found = 0
     for i in range(pixel.size):
         sign = 1.0 if change[i] > 0 else -1.0
-        place = np.uint64(origin + pixel[i]) << _2 | np.uint64(change[i] > 0) << _1
+        place = np.uint64(pixel[i]) << _2 | np.uint64(change[i] > 0) << _1
         number = _number_of(change[i], rule)
         for order in range(1, number + 1):
             if rule.stamp == _EQ7:
@@ -169,7 +169,7 @@ def _list_signal(
                 level = reference[i] + sign * (order * rule.threshold)
                 fraction = _linear_crossing(start[i], stop[i], level, sign)
             else:
-                fraction = _fraction(origin + pixel[i], abs(change[i]), order, number, rule, span)
+                fraction = _fraction(pixel[i], abs(change[i]), order, number, rule, span)
             keys[found] = _key(place, fraction, rule, span)
             found += 1
 

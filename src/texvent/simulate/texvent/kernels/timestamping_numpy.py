@@ -47,4 +47,4 @@ def stamp_events(
     added = UnsortedEvents.noise(noise.pixel, place_in(span, noise.fraction), noise.p)
     if timing.noise_at_rest:
         added = added.take(is_background(noise.pixel, fired.pixel))
-    return sort_events(signal.joined(added), (span.start_us, span.stop_us), shape)
+    return sort_events(UnsortedEvents.concat((signal, added)), (span.start_us, span.stop_us), shape)

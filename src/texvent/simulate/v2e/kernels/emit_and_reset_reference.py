@@ -57,4 +57,5 @@ def fire_and_memorise(
     is_noise = by_noise * np.sign(steps) >= 0.5 * np.abs(moved)
     # A step is an event here, and events come by pixel.
     label = np.repeat(np.where(is_noise, NOISE, SIGNAL).astype(np.uint8), np.abs(steps))
-    return UnsortedEvents(crossings.pixel, crossings.t, crossings.p, label).joined(noise)
+    fired = UnsortedEvents(crossings.pixel, crossings.t, crossings.p, label)
+    return UnsortedEvents.concat((fired, noise))

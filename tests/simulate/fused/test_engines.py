@@ -1,4 +1,4 @@
-"""Which engine a run uses, and what is refused before any work."""
+"""Which pairs are fused, and which runs are refused before any work."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ import pytest
 
 import texvent
 from texvent.cli.app import main
-from texvent.engine.select import is_fusable
 from texvent.errors import ConfigError
 from texvent.io.files import save
 from texvent.pipeline import text_to_events
 from texvent.settings import resolve
+from texvent.simulate.fused.load import find_compiled
 
 from .clips import panning
 
@@ -38,7 +38,7 @@ def test_what_the_continuous_engine_cannot_do_is_refused_before_any_work(options
 
 
 @pytest.mark.parametrize(
-    ("options", "fused"),
+    ("options", "is_tried"),
     [
         ({}, True),
         ({"preset": "accurate"}, True),
@@ -46,13 +46,19 @@ def test_what_the_continuous_engine_cannot_do_is_refused_before_any_work(options
         ({"interpolate": "blend"}, False),
         ({"interpolate": "none", "simulator": "esim"}, False),
         ({"noise": "gaussian"}, False),
+        ({"backend": "reference"}, False),
         ({"simulator": "esim", "threshold_sigma": 0.03}, False),
-        ({"simulator": "physical"}, False),
-        ({"interpolate": "rife"}, False),
     ],
 )
-def test_a_run_is_fused_where_it_can_be(options, fused):
-    assert is_fusable(resolve("simulate", options)) is fused
+def test_a_pair_is_not_drawn_where_it_can_be_fused(options, is_tried, monkeypatch):
+    estimated = []
+    kernels = find_compiled("candidates")
+    whole = kernels.estimate_active
+    monkeypatch.setattr(
+        kernels, "estimate_active", lambda *given: estimated.append(1) or whole(*given)
+    )
+    texvent.simulate(panning(3), **options)
+    assert bool(estimated) is is_tried
 
 
 def test_the_file_says_which_engine_made_it(tmp_path, capsys):

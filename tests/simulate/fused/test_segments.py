@@ -1,4 +1,4 @@
-"""Threshold crossings on straight pieces: hand-computed, and the compiled kernel against them."""
+"""Threshold crossings on straight segments: hand-computed, and the compiled kernel against them."""
 
 from __future__ import annotations
 
@@ -7,30 +7,29 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.simulate.fused import segments_cpu as pieces_cpu
-from texvent.simulate.fused import segments_reference as pieces_reference
-from texvent.simulate.fused.segments import LineRules, LineState, Pieces
+from texvent.simulate.fused import segments_cpu, segments_reference
+from texvent.simulate.fused.segments import CrossingRules, CrossingState, Segments
 
-KERNELS = [pieces_reference.cross_pieces, pieces_cpu.cross_pieces]
+KERNELS = [segments_reference.cross_segments, segments_cpu.cross_segments]
 kernels = pytest.mark.parametrize("cross", KERNELS, ids=["reference", "cpu"])
 
 
 def chain(*corners, pixel=0):
-    """Pieces of one pixel through (time, brightness) corners."""
+    """Segments of one pixel through (time, brightness) corners."""
     t, level = (np.array(column) for column in zip(*corners, strict=True))
     number = len(t) - 1
-    return Pieces(np.full(number, pixel), t[:-1], t[1:], level[:-1] + 0.0, level[1:] + 0.0)
+    return Segments(np.full(number, pixel), t[:-1], t[1:], level[:-1] + 0.0, level[1:] + 0.0)
 
 
 def at_rest(pixels=1):
-    return LineState(np.zeros(pixels), np.full(pixels, -(10**9)))
+    return CrossingState(np.zeros(pixels), np.full(pixels, -(10**9)))
 
 
 @kernels
 def test_a_ramp_crosses_its_thresholds_at_the_exact_microseconds(cross):
     # Facts, ramp A: 1.05 log units in 1 s, θ = .2: true crossings 0.190476, .380952, ... s.
     state = at_rest()
-    found = cross(chain((0, 0.0), (1_000_000, 1.05)), LineRules(0.2, 0.2, 0), state)
+    found = cross(chain((0, 0.0), (1_000_000, 1.05)), CrossingRules(0.2, 0.2, 0), state)
     assert found.t.tolist() == [190476, 380952, 571428, 761904, 952380]
     assert found.p.tolist() == [1] * 5
     assert state.reference[0] == pytest.approx(1.0)
@@ -39,7 +38,7 @@ def test_a_ramp_crosses_its_thresholds_at_the_exact_microseconds(cross):
 @kernels
 def test_cutting_the_ramp_anywhere_changes_no_crossing(cross):
     corners = [(0, 0.0), (250_000, 0.2625), (700_000, 0.735), (1_000_000, 1.05)]
-    found = cross(chain(*corners), LineRules(0.2, 0.2, 0), at_rest())
+    found = cross(chain(*corners), CrossingRules(0.2, 0.2, 0), at_rest())
     assert found.t.tolist() == [190476, 380952, 571428, 761904, 952380]
     assert found.row.tolist() == [0, 1, 1, 2, 2]
 
@@ -49,7 +48,7 @@ def test_there_and_back_fires_on_and_off_with_thresholds_of_their_own(cross):
     # Up by .51 in 100 µs with θ_on = .2: .2 at 39.2 µs, .4 at 78.4 µs. Then down to .02 in another
     # 100 µs with θ_off = .15: .25 at 53.1 µs, .1 at 83.7 µs of it, where the reference ends.
     state = at_rest()
-    found = cross(chain((0, 0.0), (100, 0.51), (200, 0.02)), LineRules(0.2, 0.15, 0), state)
+    found = cross(chain((0, 0.0), (100, 0.51), (200, 0.02)), CrossingRules(0.2, 0.15, 0), state)
     assert found.t.tolist() == [39, 78, 153, 183]
     assert found.p.tolist() == [1, 1, 0, 0]
     assert state.reference[0] == pytest.approx(0.1)
@@ -58,7 +57,7 @@ def test_there_and_back_fires_on_and_off_with_thresholds_of_their_own(cross):
 @kernels
 def test_crossings_in_the_refractory_period_are_lost_and_still_move_the_reference(cross):
     state = at_rest()
-    found = cross(chain((0, 0.0), (100, 0.5)), LineRules(0.1, 0.1, 45), state)
+    found = cross(chain((0, 0.0), (100, 0.5)), CrossingRules(0.1, 0.1, 45), state)
     # Crossings at 20, 40, 60, 80 (and 100 → 99): 20, then 80 is the first 45 µs later.
     assert found.t.tolist() == [20, 80]
     assert state.reference[0] == pytest.approx(0.5)
@@ -67,15 +66,15 @@ def test_crossings_in_the_refractory_period_are_lost_and_still_move_the_referenc
 
 @kernels
 def test_a_level_that_was_reached_before_fires_at_once(cross):
-    found = cross(chain((10, 0.25), (20, 0.25)), LineRules(0.2, 0.2, 0), at_rest())
+    found = cross(chain((10, 0.25), (20, 0.25)), CrossingRules(0.2, 0.2, 0), at_rest())
     assert found.t.tolist() == [10]
 
 
 @kernels
 def test_nothing_is_no_event(cross):
     nothing = np.empty(0, np.int64)
-    pieces = Pieces(nothing, nothing, nothing, np.empty(0), np.empty(0))
-    found = cross(pieces, LineRules(0.2, 0.2, 0), at_rest())
+    segments = Segments(nothing, nothing, nothing, np.empty(0), np.empty(0))
+    found = cross(segments, CrossingRules(0.2, 0.2, 0), at_rest())
     assert [len(column) for column in found] == [0, 0, 0]
 
 
@@ -86,9 +85,11 @@ def test_compiled_kernel_equals_the_definition(seed, refractory_us):
         chain(*zip(range(0, 120, 30), rng.normal(0, 0.6, 4).tolist(), strict=True), pixel=pixel)
         for pixel in range(5)
     ]
-    pieces = Pieces(*(np.concatenate(column) for column in zip(*chains, strict=True)))
-    rules = LineRules(*rng.uniform(0.01, 0.4, 2).tolist(), refractory_us)
+    segments = Segments(*(np.concatenate(column) for column in zip(*chains, strict=True)))
+    rules = CrossingRules(*rng.uniform(0.01, 0.4, 2).tolist(), refractory_us)
     states = [at_rest(5), at_rest(5)]
-    one, other = (cross(pieces, rules, state) for cross, state in zip(KERNELS, states, strict=True))
+    one, other = (
+        cross(segments, rules, state) for cross, state in zip(KERNELS, states, strict=True)
+    )
     for mine, theirs in zip((*one, *states[0]), (*other, *states[1]), strict=True):
         np.testing.assert_array_equal(mine, theirs)

@@ -11,13 +11,14 @@ from tests.interpolate.rife.rife_files import save_published
 from tests.simulate.gpu.clips import rows
 
 from texvent.config import InterpolateConfig
-from texvent.engine.gpu_pairs import GpuPairs
 from texvent.errors import InputError
-from texvent.interpolate.count import count_intermediate, intermediate_times_us
+from texvent.interpolate.count import count_intermediate
 from texvent.interpolate.rife import layouts as rife_layouts
 from texvent.interpolate.rife import weights as rife_weights
 from texvent.interpolate.rife.interpolator import RifeInterpolator
 from texvent.interpolate.rife.layouts import RIFE_4_6
+from texvent.pairs.instants import intermediate_times_us
+from texvent.simulate.gpu.frame_pairs import GpuPairs
 from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.video import Frame, Video
 

@@ -1,37 +1,35 @@
-"""Source frames on a GPU → events: pictures between them, and the pixel model, without a copy.
+"""Source frames on a GPU → events: intermediate frames and pixel model without a copy.
 
-The way of `--interpolate rife --backend gpu` takes every frame to the host and back. Here RIFE's
-pictures go into the kernels from where the network left them.
+`--interpolate rife --backend gpu` takes every frame to the host and back. Here RIFE's intermediate
+frames go into the kernels from where the network left them.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Any, Protocol, TypeAlias
+from typing import Any, Protocol
 
 from texvent._require import require
-from texvent.config import check_range
+from texvent.config import InterpolateConfig, check_range
 from texvent.errors import InputError
-from texvent.interpolate.count import DEFAULT_CAP, intermediate_times_us
-from texvent.interpolate.networks.device import picture_of
+from texvent.pairs.instants import intermediate_times_us
+from texvent.pairs.tensors import Tensor, rgb_and_luma
 from texvent.simulate.gpu.device import EXTRA
-
-Tensor: TypeAlias = Any
 
 
 class TensorInterpolator(Protocol):
-    """An interpolator for pictures on a device, such as `rife.RifeInterpolator`."""
+    """An interpolator for images on a device, such as `rife.RifeInterpolator`."""
 
     def between_tensors(
         self, first: Tensor, second: Tensor, positions: Sequence[float]
     ) -> Iterator[Tensor]:
-        """Luma pictures between two, [H, W] float32; see `RifeInterpolator.between_tensors`."""
+        """Luma images between two, [H, W] float32; see `RifeInterpolator.between_tensors`."""
         ...
 
 
 class GpuPairs:
-    """One clip, source frame by source frame, on the device from picture to event."""
+    """One clip, source frame by source frame, on the device from image to event."""
 
     def __init__(
         self,
@@ -39,14 +37,14 @@ class GpuPairs:
         interpolator: TensorInterpolator,
         *,
         count: int | None = None,
-        max_intermediate: int = DEFAULT_CAP,
+        max_intermediate: int = InterpolateConfig.max_intermediate,
     ) -> None:
         """Prepare a clip that has seen no frame.
 
         Args:
             simulator: a `texvent.simulate.gpu.GpuSimulator` that has seen none either.
-            interpolator: makes the pictures between two source frames.
-            count: intermediate pictures per pair; None: as many as Eq. 4 asks for, for which the
+            interpolator: makes the images between two source frames.
+            count: intermediate frames per pair; None: as many as Eq. 4 asks for, for which the
                 host waits for the device once more.
             max_intermediate: upper limit of Eq. 4's count.
 
@@ -59,13 +57,13 @@ class GpuPairs:
         self._count, self._cap = count, max_intermediate
         self._seen: tuple[Tensor, Tensor, int] | None = None
 
-    def step(self, picture: Tensor, t_us: int) -> Any:
+    def step(self, image: Tensor, t_us: int) -> Any:
         """Events between the source frame before and this one.
 
-        Scene cuts are not looked for; the simulator is reset between scenes by who knows them.
+        Scene cuts are not detected; reset the simulator between scenes.
 
         Args:
-            picture: [H, W] luma or [3, H, W] RGB, 0..255 scale, uint8 or float32, on the device.
+            image: [H, W] luma or [3, H, W] RGB, 0..255 scale, uint8 or float32, on the device.
             t_us: its time, µs.
 
         Returns:
@@ -79,22 +77,22 @@ class GpuPairs:
         """
         torch = require("torch", extra=EXTRA)
         with torch.no_grad():
-            luma = picture_of(picture, str(picture.device))[1][0, 0]
+            luma = rgb_and_luma(image, str(image.device))[1][0, 0]
             if self._seen is None:
                 events = self._simulator.step(luma[None, None], [t_us])
             else:
-                events = self._step_pair(picture, luma, t_us, self._seen)
-        self._seen = picture, luma, t_us
+                events = self._step_pair(image, luma, t_us, self._seen)
+        self._seen = image, luma, t_us
         return events
 
     def _step_pair(
-        self, picture: Tensor, luma: Tensor, t_us: int, seen: tuple[Tensor, Tensor, int]
+        self, image: Tensor, luma: Tensor, t_us: int, seen: tuple[Tensor, Tensor, int]
     ) -> Any:
         torch = require("torch", extra=EXTRA)
         first, first_luma, first_us = seen
-        if first.shape != picture.shape:
+        if first.shape != image.shape:
             raise InputError(
-                f"the frame is {list(picture.shape)}, the one before is {list(first.shape)}; all "
+                f"the frame is {list(image.shape)}, the one before is {list(first.shape)}; all "
                 "of a clip must have one shape"
             )
         count = self._count
@@ -102,7 +100,7 @@ class GpuPairs:
             count = self._count_intermediate(first_luma, luma)
         times_us = intermediate_times_us(first_us, t_us, count)
         positions = [(one - first_us) / (t_us - first_us) for one in times_us]
-        between = self._interpolator.between_tensors(first, picture, positions)
+        between = self._interpolator.between_tensors(first, image, positions)
         frames = torch.stack([*between, luma])[None]
         flags = [False] * len(times_us) + [True]
         return self._simulator.step(frames, [*times_us, t_us], flags)

@@ -8,19 +8,19 @@ import math
 import numpy as np
 import pytest
 
-from texvent.engine.continuous import own_pieces
 from texvent.pairs.warp_cpu import prepare_pair
 from texvent.simulate.fused import candidates_cpu, candidates_reference
-from texvent.simulate.fused.bounds_cpu import find_reachable, list_active
+from texvent.simulate.fused.bounds_cpu import find_luma_bounds, list_active
 from texvent.simulate.fused.candidates import one_grid
-from texvent.simulate.fused.interface import (
+from texvent.simulate.fused.continuous import dyadic_segments
+from texvent.simulate.fused.definitions import (
     FOLLOWS,
     STEPS,
     STEPS_ONCE,
     TAKES,
-    Levels,
-    Pictures,
-    Surveyed,
+    PairArrays,
+    PreparedPair,
+    ReferenceLevels,
 )
 from texvent.simulate.packets.interval import FrameInterval
 
@@ -31,15 +31,15 @@ UP = math.exp(0.2)
 
 
 def own_levels(rule, balance=30.0, up=UP):
-    return Levels(np.empty((0, 0)), balance, up, 1 / up, rule)
+    return ReferenceLevels(np.empty((0, 0)), balance, up, 1 / up, rule)
 
 
 def blended(first, second):
-    return Pictures(np.float32([[first]]), np.float32([[second]]), STILL, STILL)
+    return PairArrays(np.float32([[first]]), np.float32([[second]]), STILL, STILL)
 
 
 def moving(shape, speed, seed=0):
-    """Two unrelated smooth pictures and flows of up to about `speed` px."""
+    """Two unrelated smooth arrays and flows of up to about `speed` px."""
     rng = np.random.default_rng(seed)
     y, x = np.mgrid[: shape[0], : shape[1]]
     first, second = (
@@ -48,7 +48,7 @@ def moving(shape, speed, seed=0):
     )
     forward = rng.normal(0, speed / 2, (*shape, 2)).astype(np.float32)
     backward = (-forward + rng.normal(0, 0.3, (*shape, 2))).astype(np.float32)
-    return Pictures(first, second, forward, backward)
+    return PairArrays(first, second, forward, backward)
 
 
 @kernels
@@ -57,7 +57,7 @@ def test_a_pixel_is_listed_where_it_passes_a_level_and_its_reference_goes_along(
     # ln(90/70) = .251 does not, and ln(110/70) = .452 does.
     levels = own_levels(TAKES, up=math.exp(0.3))
     found = find(blended(20, 80), one_grid([1 / 3, 2 / 3]), levels)
-    assert found.piece.tolist() == [0, 2]
+    assert found.segment.tolist() == [0, 2]
     np.testing.assert_allclose(found.before, [20, 60], rtol=1e-6)
     np.testing.assert_allclose(found.now, [40, 80], rtol=1e-6)
 
@@ -67,40 +67,40 @@ def test_a_reference_that_steps_stays_behind(find):
     # The same, A := 50 · e^.3 = 67.5, and ln(90/67.5) = .288 does not fire, ln(110/67.5) = .488
     # does. Falling levels are the mirror image.
     levels = own_levels(STEPS_ONCE, up=math.exp(0.3))
-    assert find(blended(20, 80), one_grid([1 / 3, 2 / 3]), levels).piece.tolist() == [0, 2]
+    assert find(blended(20, 80), one_grid([1 / 3, 2 / 3]), levels).segment.tolist() == [0, 2]
     # 110, 90, 70, 50: .2007, .452 (fires, A := 81.5), .488 (fires).
-    assert find(blended(80, 20), one_grid([1 / 3, 2 / 3]), levels).piece.tolist() == [1, 2]
+    assert find(blended(80, 20), one_grid([1 / 3, 2 / 3]), levels).segment.tolist() == [1, 2]
 
 
 @kernels
 def test_a_reference_that_follows_every_picture_sees_single_steps_only(find):
     levels = own_levels(FOLLOWS, up=math.exp(0.3))
-    assert find(blended(20, 80), one_grid([1 / 3, 2 / 3]), levels).piece.tolist() == [0]
+    assert find(blended(20, 80), one_grid([1 / 3, 2 / 3]), levels).segment.tolist() == [0]
 
 
 @kernels
 def test_where_it_is_open_whether_a_pixel_fires_all_its_later_pictures_are_listed(find):
     # The change is δ but for rounding, so the finishing pass must see everything from there on.
     levels = own_levels(TAKES, up=60 / 50)
-    pictures = Pictures(np.float32([[20]]), np.float32([[30]]), STILL, STILL)
-    assert find(pictures, one_grid([0.99999]), levels).piece.tolist() == [1]
+    arrays = PairArrays(np.float32([[20]]), np.float32([[30]]), STILL, STILL)
+    assert find(arrays, one_grid([0.99999]), levels).segment.tolist() == [1]
     for rule in (TAKES, STEPS_ONCE, STEPS):
         late = find(blended(20, 30), one_grid([1.0, 0.5, 0.3]), own_levels(rule, up=60 / 50))
-        assert late.piece.tolist() == [0, 1, 2, 3]
+        assert late.segment.tolist() == [0, 1, 2, 3]
 
 
 @kernels
 def test_a_pixel_takes_the_first_grid_that_is_fine_enough(find):
-    # Grids of 1, 2, 4, ... pieces, each for half a pixel of flow and a factor of 1.5.
+    # Grids of 1, 2, 4, ... segments, each for half a pixel of flow and a factor of 1.5.
     shape = (1, 4)
     flow = np.zeros((*shape, 2), np.float32)
     flow[0, 1, 0], flow[0, 2, 1] = 1.5, 5.0
     first, second = np.float32([[0, 0, 0, 0]]), np.float32([[100, 100, 100, 0]])
-    grids, _ = own_pieces(FrameInterval(0, 1000, np.uint64(0)))
+    grids, _ = dyadic_segments(FrameInterval(0, 1000, np.uint64(0)))
     found = find(
-        Pictures(first, second, flow, -flow),
+        PairArrays(first, second, flow, -flow),
         grids,
-        Levels(np.full(shape, 1.0), 200.0, UP, 1 / UP, FOLLOWS),
+        ReferenceLevels(np.full(shape, 1.0), 200.0, UP, 1 / UP, FOLLOWS),
     )
     grid_of = dict(zip(found.pixel.tolist(), found.grid.tolist(), strict=True))
     assert grid_of == {0: 0, 1: 2, 2: 4, 3: 0}
@@ -109,67 +109,67 @@ def test_a_pixel_takes_the_first_grid_that_is_fine_enough(find):
 @pytest.mark.parametrize("shape", [(1, 1), (3, 40), (35, 41)])
 @pytest.mark.parametrize("speed", [0.0, 0.4, 6.0, 300.0])
 def test_compiled_kernel_lists_what_the_definition_lists(shape, speed):
-    pictures = moving(shape, speed)
+    arrays = moving(shape, speed)
     if speed == 0:
-        pictures = pictures._replace(forward=STILL, backward=STILL)
+        arrays = arrays._replace(forward=STILL, backward=STILL)
     spread = np.random.default_rng(1).normal(0, 0.1, shape)
-    kept = (pictures.earlier + 30.0) * np.exp(spread)
+    kept = (arrays.earlier + 30.0) * np.exp(spread)
     grids = (
         one_grid([]),
         one_grid([0.2, 0.5, 0.6]),
-        own_pieces(FrameInterval(0, 9, np.uint64(0)))[0],
+        dyadic_segments(FrameInterval(0, 9, np.uint64(0)))[0],
     )
     for grid, rule, reference in itertools.product(
         grids, (FOLLOWS, TAKES, STEPS_ONCE, STEPS), (np.empty((0, 0)), kept)
     ):
-        levels = Levels(reference, 30.0, math.exp(0.1), math.exp(-0.15), rule)
-        got = candidates_cpu.find_candidates(pictures, grid, levels)
-        wanted = candidates_reference.find_candidates(pictures, grid, levels)
+        levels = ReferenceLevels(reference, 30.0, math.exp(0.1), math.exp(-0.15), rule)
+        got = candidates_cpu.find_candidates(arrays, grid, levels)
+        wanted = candidates_reference.find_candidates(arrays, grid, levels)
         for one, other in zip(got, wanted, strict=True):
             np.testing.assert_array_equal(one, other)
 
 
 def test_rows_can_be_searched_in_bands():
-    pictures, grid, levels = moving((30, 20), 2.0), one_grid([0.5]), own_levels(TAKES)
-    surveyed = Surveyed(prepare_pair(*pictures), candidates_cpu.find_cells(pictures))
+    arrays, grid, levels = moving((30, 20), 2.0), one_grid([0.5]), own_levels(TAKES)
+    prepared = PreparedPair(prepare_pair(*arrays), candidates_cpu.find_bounds(arrays))
     bands = [
-        candidates_cpu.find_in_rows(pictures, grid, levels, surveyed, rows)
+        candidates_cpu.find_in_rows(arrays, grid, levels, prepared, rows)
         for rows in ((0, 7), (7, 16), (16, 30))
     ]
-    whole = candidates_cpu.find_candidates(pictures, grid, levels)
+    whole = candidates_cpu.find_candidates(arrays, grid, levels)
     for joined, column in zip(zip(*bands, strict=True), whole, strict=True):
         np.testing.assert_array_equal(np.concatenate(joined), column)
 
 
 def test_pixels_that_cannot_fire_are_not_followed():
     # A texture that moves by a quarter of a pixel changes by less than δ nearly everywhere; a flat
-    # picture never does, however fast its flow claims to be.
+    # image never does, however fast its flow claims to be.
     ramp = np.tile(100 + 4 * np.arange(32, dtype=np.float32), (32, 1))
     slow = np.full((32, 32, 2), 0.25, np.float32)
     flat = np.full((32, 32), 100, np.float32)
     fast = np.full((32, 32, 2), 40.0, np.float32)
     active = np.empty(32, np.int64)
-    for pictures in (Pictures(ramp, ramp + 1, slow, -slow), Pictures(flat, flat, fast, -fast)):
-        cells = find_reachable(*pictures)
+    for arrays in (PairArrays(ramp, ramp + 1, slow, -slow), PairArrays(flat, flat, fast, -fast)):
+        bounds = find_luma_bounds(*arrays)
         assert [
-            list_active(pictures, own_levels(TAKES), cells, row, active) for row in range(32)
+            list_active(arrays, own_levels(TAKES), bounds, row, active) for row in range(32)
         ] == [0] * 32
-    pictures = Pictures(ramp, ramp, fast, -fast)
-    cells = find_reachable(*pictures)
-    assert list_active(pictures, own_levels(TAKES), cells, 3, active) == 32
+    arrays = PairArrays(ramp, ramp, fast, -fast)
+    bounds = find_luma_bounds(*arrays)
+    assert list_active(arrays, own_levels(TAKES), bounds, 3, active) == 32
 
 
 def test_some_pixels_of_a_picture_are_those_of_the_whole_picture():
-    pictures = moving((20, 30), 3.0)
+    arrays = moving((20, 30), 3.0)
     pixel = np.array([0, 17, 311, 599])
-    whole = candidates_reference.draw_picture(pictures, 0.3)
+    whole = candidates_reference.draw_image(arrays, 0.3)
     np.testing.assert_array_equal(
-        candidates_cpu.show_pixels(pictures, prepare_pair(*pictures), 0.3, pixel),
+        candidates_cpu.warp_pixels(arrays, prepare_pair(*arrays), 0.3, pixel),
         whole.reshape(-1)[pixel],
     )
-    still = pictures._replace(forward=STILL, backward=STILL)
-    whole = candidates_reference.draw_picture(still, 0.3)
+    still = arrays._replace(forward=STILL, backward=STILL)
+    whole = candidates_reference.draw_image(still, 0.3)
     np.testing.assert_array_equal(
-        candidates_cpu.show_pixels(still, prepare_pair(*still), 0.3, pixel),
+        candidates_cpu.warp_pixels(still, prepare_pair(*still), 0.3, pixel),
         whole.reshape(-1)[pixel],
     )

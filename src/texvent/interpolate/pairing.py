@@ -1,0 +1,116 @@
+"""Source frames → pairs of frames, with the intermediate frames that go between them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import ExitStack, closing
+
+from texvent._registry import INTERPOLATORS
+from texvent.config import InterpolateConfig
+from texvent.interpolate.count_policy import CountPolicy
+from texvent.interpolate.protocol import Interpolator
+from texvent.pairs.deflicker import steady_frames
+from texvent.pairs.frame_pair import FramePair, hold_earlier
+from texvent.pairs.instants import intermediate_times_us
+from texvent.pairs.scene_change import SceneChange, detect_scene_change
+from texvent.runtime.allocator import release_freed_memory
+from texvent.runtime.prefetch import prefetch
+from texvent.video import Frame, FrameStream, StreamChecker
+
+FRAMES_AHEAD = 2
+PAIRS_AHEAD = 1
+"""Frames and pairs that wait to be used; a pair holds two frames and their optical flow."""
+RELEASE_EVERY_PAIRS = 128
+"""Pairs after which freed memory goes back to the system: some five seconds of video."""
+NEVER_SMEARS = frozenset({"none", "exact"})
+"""Interpolators that mix no frames: they cannot smear a cut, so none is looked for."""
+
+
+def plan_pairs(
+    video: FrameStream,
+    config: InterpolateConfig,
+    threads: ExitStack,
+    *,
+    balance: float,
+    contrast_threshold: float,
+) -> Iterator[FramePair]:
+    """The pairs of a video, prepared in threads that run ahead of the caller.
+
+    One thread decodes, another detects scene changes, counts (Eq. 4) and estimates optical flow;
+    the pairs are those of one thread. A live source is read only when its next frame is needed:
+    what it shows may depend on the events, and nothing could interrupt a thread that waits for it.
+
+    Args:
+        video: source frames.
+        config: how many intermediate frames there are, and what makes them.
+        threads: ends the threads when it is closed.
+        balance: the simulator's α, for Eq. 4 unless `config.count_balance` is set.
+        contrast_threshold: the simulator's δ, for Eq. 4 unless `config.count_threshold` is set.
+
+    Raises:
+        ConfigError: there is no such interpolator.
+        InputError: as `pair_frames`, while iterating.
+    """
+    interpolator = INTERPOLATORS.load(config.interpolate)(config, video)
+    policy = CountPolicy(
+        config, video, interpolator, balance=balance, contrast_threshold=contrast_threshold
+    )
+    if video.is_live:
+        return _release_memory(pair_frames(video, interpolator, config, policy))
+    frames = threads.enter_context(closing(prefetch(_with_luma(video), depth=FRAMES_AHEAD)))
+    pairs = pair_frames(frames, interpolator, config, policy)
+    ahead = threads.enter_context(closing(prefetch(pairs, depth=PAIRS_AHEAD)))
+    return _release_memory(ahead)
+
+
+def pair_frames(
+    frames: Iterable[Frame],
+    interpolator: Interpolator,
+    config: InterpolateConfig,
+    policy: CountPolicy,
+) -> Iterator[FramePair]:
+    """Source frames as pairs with the frames between them; the first pair has no earlier frame.
+
+    What a pair costs once, such as its optical flow, is computed here; its intermediate frames are
+    made when `FramePair.between` is read. So one thread may run ahead here while another reads.
+
+    Raises:
+        InputError: a source frame has another size than the first, a time that does not
+            increase, or a pixel that is NaN, infinite or negative.
+    """
+    previous: Frame | None = None
+    checked = map(StreamChecker().check, frames)
+    for frame in steady_frames(checked) if config.deflicker else checked:
+        change = SceneChange.NONE if previous is None else _scene_change(previous, frame, config)
+        times_us: Sequence[int] = ()
+        between: Iterable[Frame] = ()
+        if previous is not None and change is not SceneChange.NONE:
+            between = hold_earlier(previous, frame)
+        elif previous is not None:
+            count = policy.count(previous, frame)
+            times_us = intermediate_times_us(previous.t_us, frame.t_us, count)
+            if times_us:
+                between = interpolator.between(previous, frame, times_us)
+        yield FramePair(previous, frame, change, times_us, between)
+        previous = frame
+
+
+def _scene_change(first: Frame, second: Frame, config: InterpolateConfig) -> SceneChange:
+    if not config.detect_cuts or config.interpolate in NEVER_SMEARS:
+        return SceneChange.NONE
+    return detect_scene_change(first, second)
+
+
+def _with_luma(frames: Iterable[Frame]) -> Iterator[Frame]:
+    """The frames with their luma computed; it is cached, so it costs the reading thread only."""
+    for frame in frames:
+        frame.luma  # noqa: B018  (a cached property)
+        yield frame
+
+
+def _release_memory(pairs: Iterable[FramePair]) -> Iterator[FramePair]:
+    """The pairs; now and then, what earlier ones have freed goes back to the system."""
+    for number, pair in enumerate(pairs, start=1):
+        yield pair
+        if number % RELEASE_EVERY_PAIRS == 0:
+            release_freed_memory()

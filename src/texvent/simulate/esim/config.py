@@ -1,0 +1,44 @@
+"""Options of the ESIM pixel model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from texvent.config import check_range
+from texvent.errors import ConfigError
+from texvent.simulate.random.mismatch import LOWEST_THRESHOLD
+
+
+@dataclass(frozen=True, kw_only=True)
+class EsimConfig:
+    """Options of the ESIM pixel model; the defaults are those of VID2E.
+
+    Raises:
+        ConfigError: an option is out of range.
+    """
+
+    contrast_threshold_on: float = 0.2
+    """Rise of ln(I/255 + log eps) that fires an ON event."""
+    contrast_threshold_off: float = 0.2
+    """Fall of ln(I/255 + log eps) that fires an OFF event."""
+    threshold_sigma: float = 0.0
+    """Standard deviation of both thresholds, log units; drawn thresholds are at least 0.01."""
+    threshold_redraw: Literal["frame", "never"] = "frame"
+    """With a threshold sigma: draw thresholds anew for every pixel and frame, as ESIM describes
+    it (frame), or once per pixel, as mismatch between pixels (never)."""
+    log_eps: float = 1e-3
+    """Added to intensities on the 0..1 scale before the logarithm, above 0."""
+    refractory_period_us: int = 0
+    """Time after an event in which the pixel cannot fire; crossings in it are lost."""
+
+    def __post_init__(self) -> None:
+        check_range("contrast_threshold_on", self.contrast_threshold_on, LOWEST_THRESHOLD, 10.0)
+        check_range("contrast_threshold_off", self.contrast_threshold_off, LOWEST_THRESHOLD, 10.0)
+        check_range("threshold_sigma", self.threshold_sigma, 0.0, 10.0)
+        check_range("log_eps", self.log_eps, 1e-9, 1.0)
+        check_range("refractory_period_us", self.refractory_period_us, 0, 10**9)
+        if self.threshold_redraw not in ("frame", "never"):
+            raise ConfigError(
+                f"threshold_redraw is {self.threshold_redraw!r}; allowed: frame, never"
+            )

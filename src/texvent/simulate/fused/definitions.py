@@ -1,0 +1,110 @@
+"""What the kernels exchange that fuse interpolation and simulation.
+
+**Candidates.** A pixel compares its brightness ln(α + I) with a reference ln(A). It fires where the
+two differ by θ_on upwards or θ_off downwards: where α + I ≥ A·e^θ_on or α + I ≤ A·e^−θ_off. So two
+multiplications tell where a pixel may fire, without a logarithm. `find_candidates` evaluates the
+pixels of one pair of frames at every intermediate instant and lists each place where this is so,
+with a margin (`MARGIN`). The simulator then decides in NumPy, with its own logarithm. Where the
+margin leaves open whether a pixel fired, all its later instants are listed.
+
+**Sample grids.** When a pixel is evaluated: grid g divides the pair into `parts[g]` segments that
+end at the positions `positions[g, :parts[g] − 1]` and at 1. With one grid, all pixels share the
+instants of the intermediate frames. With several, a pixel takes the first one that is fine enough
+for the length of its flow and for the factor by which its own α + I changes.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.pairs.motion_interpolation import frozen
+
+Float32Array: TypeAlias = NDArray[np.float32]
+Float64Array: TypeAlias = NDArray[np.float64]
+Int64Array: TypeAlias = NDArray[np.int64]
+LumaBounds: TypeAlias = Float32Array
+"""Darkest and brightest luma that each cell of a pair can reach; see `bounds_cpu`."""
+
+MARGIN = 1e-6
+"""Relative distance from a trigger level within which the simulator's logarithm decides."""
+
+FOLLOWS, TAKES, STEPS_ONCE, STEPS = range(4)
+"""How a reference moves: it becomes the level at every instant; where the pixel fires it becomes
+the level there; it moves by one threshold; it moves by as many thresholds as were passed."""
+
+
+class PairArrays(NamedTuple):
+    """Two frames and the flow between them; see `MotionInterpolation`."""
+
+    earlier: Float32Array
+    """[H, W] luma."""
+    later: Float32Array
+    """[H, W] luma."""
+    forward: Float32Array
+    """[H, W, 2] flow, px; [0, 0, 2] where the frames are blended in place."""
+    backward: Float32Array
+    """[H, W, 2] flow, px; [0, 0, 2] where the frames are blended in place."""
+
+    def frozen(self) -> PairArrays:
+        """The same as views that cannot be written: kernels are compiled for these alone."""
+        return PairArrays(*(frozen(one) for one in self))
+
+
+class PreparedPair(NamedTuple):
+    """A pair, prepared for the search of candidates."""
+
+    pair: Any
+    """`pairs.warp_cpu.WarpPair` of its frames."""
+    bounds: LumaBounds
+
+
+class SampleGrids(NamedTuple):
+    """When pixels are evaluated between two frames."""
+
+    positions: Float64Array
+    """[G, P] τ of each intermediate instant of each grid; past `parts − 1` not read."""
+    parts: Int64Array
+    """[G] number of segments, increasing."""
+    max_displacement2: Float64Array
+    """[G] squared length of the longest flow that a grid is fine enough for, px²."""
+    max_ratio: Float64Array
+    """[G] largest factor of change that a grid is fine enough for."""
+
+
+class ReferenceLevels(NamedTuple):
+    """What pixels compare with, and how it moves."""
+
+    reference: Float64Array
+    """[H, W] A of every pixel at the start, a balanced level; [0, 0]: the earlier frame's own."""
+    balance: float
+    """α."""
+    up: float
+    """e^θ_on."""
+    down: float
+    """e^−θ_off."""
+    rule: int
+    """How references move: one of FOLLOWS, TAKES, STEPS_ONCE, STEPS."""
+
+
+class CrossingCandidates(NamedTuple):
+    """Places where a pixel may have fired, by pixel, then in time."""
+
+    pixel: Int64Array
+    """[n] flat index y · W + x."""
+    grid: NDArray[np.int16]
+    """[n] the pixel's grid."""
+    segment: NDArray[np.int16]
+    """[n] which segment of it, from 0."""
+    before: Float32Array
+    """[n] luma at the start of the segment."""
+    now: Float32Array
+    """[n] luma at its end."""
+
+    def take(self, rows: Int64Array | slice) -> CrossingCandidates:
+        """Some of the candidates, by number."""
+        return CrossingCandidates(
+            self.pixel[rows], self.grid[rows], self.segment[rows], self.before[rows], self.now[rows]
+        )
