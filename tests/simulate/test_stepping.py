@@ -6,7 +6,7 @@ import numpy as np
 from tests.frame_pairs import advance_through, pairs_of
 
 import texvent
-from texvent._registry import SIMULATORS
+from texvent._registry import SIMULATORS, Registry
 from texvent.events import EventStream
 from texvent.simulate.esim.simulator import EsimSimulator
 from texvent.simulate.stepping import SteppedPlugIn, with_advance
@@ -46,7 +46,12 @@ def test_a_model_with_advance_is_left_as_it_is():
 
 
 def test_a_plug_in_that_only_steps_runs_in_the_pipeline(monkeypatch):
-    monkeypatch.setattr(SIMULATORS, "load", lambda name: OnlySteps)
+    load = Registry.load
+    monkeypatch.setattr(
+        Registry,
+        "load",
+        lambda table, name: OnlySteps if table is SIMULATORS else load(table, name),
+    )
     frames = np.stack([frame.luma for frame in moving_texture()])
     events = texvent.simulate(frames, fps=25, simulator="esim", interpolate="blend")
     monkeypatch.undo()

@@ -19,6 +19,7 @@ from texvent.events import SIGNAL, EventStream
 from texvent.pipeline import video_to_events
 from texvent.settings import default_settings, resolve
 from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import make_packet
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.v2ce import ldati
 from texvent.simulate.v2ce.simulator import V2ceConfig, V2ceSimulator, normalise
