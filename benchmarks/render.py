@@ -13,8 +13,8 @@ import statistics
 import time
 
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
-from texvent.scenes.primitives import Scene
-from texvent.scenes.render import render
+from texvent.scenes.raycast.render import render
+from texvent.scenes.scene import Scene
 from texvent.sensor import SensorSize
 
 PROMPTS = (

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from texvent.scenes.primitives import (
+from texvent.scenes.scene import (
     Camera,
     Environment,
     Float64Array,
@@ -19,7 +19,7 @@ from texvent.scenes.primitives import (
 
 
 @dataclass(frozen=True)
-class Thing:
+class MovingShape:
     """One shape: where it is at each instant, and what it looks like."""
 
     shape: Shape
@@ -93,7 +93,7 @@ def turned(angle: float) -> Float64Array:
 class HandScene:
     """A scene of `Thing`s."""
 
-    things: tuple[Thing, ...] = ()
+    shapes: tuple[MovingShape, ...] = ()
     camera_at: Callable[[float], Camera] = field(
         default=lambda time: look_at((0.0, -8.0, 1.7), (0.0, 0.0, 1.0))
     )
@@ -101,20 +101,20 @@ class HandScene:
     class_names: dict[int, str] = field(default_factory=dict)
 
     def primitives(self, time_s: float) -> Primitives:
-        maps = np.zeros((len(self.things), 3, 4))
-        for row, thing in enumerate(self.things):
-            maps[row, :, :3] = turned(thing.spin * time_s) * thing.scale
-            maps[row, :, 3] = thing.place(time_s)
-        things = self.things
+        maps = np.zeros((len(self.shapes), 3, 4))
+        for row, shape in enumerate(self.shapes):
+            maps[row, :, :3] = turned(shape.spin * time_s) * shape.scale
+            maps[row, :, 3] = shape.place(time_s)
+        shapes = self.shapes
         return Primitives(
-            shape=np.array([thing.shape for thing in things], dtype=np.int8),
+            shape=np.array([shape.shape for shape in shapes], dtype=np.int8),
             to_world=maps,
-            colour=np.array([t.colour for t in things], dtype=np.float32).reshape(-1, 3),
-            second_colour=np.array([t.second for t in things], dtype=np.float32).reshape(-1, 3),
-            texture=np.array([thing.texture for thing in things], dtype=np.int8),
-            texture_scale=np.array([thing.texture_scale for thing in things], dtype=np.float32),
-            emission=np.array([thing.emission for thing in things], dtype=np.float32),
-            instance=np.array([thing.instance for thing in things], dtype=np.int32),
+            colour=np.array([t.colour for t in shapes], dtype=np.float32).reshape(-1, 3),
+            second_colour=np.array([t.second for t in shapes], dtype=np.float32).reshape(-1, 3),
+            texture=np.array([shape.texture for shape in shapes], dtype=np.int8),
+            texture_scale=np.array([shape.texture_scale for shape in shapes], dtype=np.float32),
+            emission=np.array([shape.emission for shape in shapes], dtype=np.float32),
+            instance=np.array([shape.instance for shape in shapes], dtype=np.int32),
         )
 
     def camera(self, time_s: float) -> Camera:
@@ -128,8 +128,8 @@ def showcase(ground: Ground = Ground.ROAD) -> HandScene:
     """One of each shape and texture."""
     return HandScene(
         (
-            Thing(Shape.ELLIPSOID, (0.9, 0.9, 0.9), still(-2.6, 0.0, 0.9), instance=1),
-            Thing(
+            MovingShape(Shape.ELLIPSOID, (0.9, 0.9, 0.9), still(-2.6, 0.0, 0.9), instance=1),
+            MovingShape(
                 Shape.BOX,
                 (1.4, 0.7, 0.5),
                 moving((0.0, 0.5, 0.6), (2.0, 0.0, 0.0)),
@@ -138,7 +138,7 @@ def showcase(ground: Ground = Ground.ROAD) -> HandScene:
                 texture=Texture.CHECKS,
                 texture_scale=4.0,
             ),
-            Thing(
+            MovingShape(
                 Shape.CYLINDER,
                 (0.4, 0.4, 1.0),
                 still(2.6, 0.0, 1.0),
@@ -146,7 +146,7 @@ def showcase(ground: Ground = Ground.ROAD) -> HandScene:
                 texture=Texture.STRIPES,
                 texture_scale=4.0,
             ),
-            Thing(
+            MovingShape(
                 Shape.CONE,
                 (0.8, 0.8, 1.2),
                 still(-1.0, 2.5, 1.2),
@@ -155,8 +155,8 @@ def showcase(ground: Ground = Ground.ROAD) -> HandScene:
                 texture=Texture.MOTTLED,
                 texture_scale=5.0,
             ),
-            Thing(Shape.CYLINDER, (0.02, 0.02, 2.0), still(1.2, -1.0, 2.0), instance=5),
-            Thing(
+            MovingShape(Shape.CYLINDER, (0.02, 0.02, 2.0), still(1.2, -1.0, 2.0), instance=5),
+            MovingShape(
                 Shape.BOX,
                 (3.0, 2.0, 4.0),
                 still(5.0, 14.0, 4.0),

@@ -22,8 +22,8 @@ from texvent.video import MICROSECONDS, Frame, frame_time_us
 
 if TYPE_CHECKING:
     from texvent.progress import Progress
-    from texvent.scenes.ground_truth import GroundTruth
-    from texvent.scenes.primitives import Scene
+    from texvent.scenes.raycast.ground_truth import GroundTruth
+    from texvent.scenes.scene import Scene
 
 DEFAULT_SIZE = SENSORS["davis346"].size
 """Picture size when none is asked for."""
@@ -103,12 +103,12 @@ class ProceduralVideo:
     def ground_truth(self, t0_us: int, t1_us: int) -> GroundTruth:
         """Depth, ids and boxes at `t0_us`, and optical flow from there to `t1_us`."""
         # Imported here: the kernels load Numba, which reading options and help must not do.
-        from texvent.scenes.ground_truth import ground_truth
+        from texvent.scenes.raycast.ground_truth import ground_truth
 
         return ground_truth(self.scene, t0_us / MICROSECONDS, t1_us / MICROSECONDS, self.size)
 
     def _frame(self, t_us: int, *, is_source: bool) -> Frame:
-        from texvent.scenes.render import render
+        from texvent.scenes.raycast.render import render
 
         pixels = render(
             self.scene,
@@ -153,8 +153,8 @@ class ProceduralGenerator:
                 "the prompt is empty; describe a scene, such as 'a red car drives left at dusk'"
             )
         # Imported here: the vocabulary and all models are only needed to make a scene.
-        from texvent.scenes.compose import compose_scene
-        from texvent.scenes.grammar import parse_prompt
+        from texvent.scenes.language.parser import parse_prompt
+        from texvent.scenes.staging.compose import compose_scene
 
         description = parse_prompt(prompt)
         scene = compose_scene(

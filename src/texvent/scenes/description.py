@@ -1,15 +1,15 @@
-"""What a prompt means to the embedded generator: things, motions, camera, place and light."""
+"""What a prompt means to the embedded generator: objects, motions, camera, place and light."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from texvent.scenes.language.words import pluralise
-from texvent.scenes.model import Colour
+from texvent.scenes.language.tokens import pluralise
+from texvent.scenes.models.protocol import Colour
 
 
 @dataclass(frozen=True)
-class Paint:
+class NamedColour:
     """A colour as the prompt names it."""
 
     name: str
@@ -19,8 +19,8 @@ class Paint:
 
 
 @dataclass(frozen=True)
-class Motion:
-    """How a thing moves."""
+class ObjectMotion:
+    """How an object moves."""
 
     kind: str
     """What it does: "drive", "walk", "run", "fly", "swim", "sail", "spin", "roll", "bounce",
@@ -35,47 +35,47 @@ class Motion:
 
     @property
     def is_moving(self) -> bool:
-        """Whether the thing leaves its place or turns."""
+        """Whether the object leaves its place or turns."""
         return self.kind != "stand"
 
 
-STANDING = Motion("stand")
+STANDING = ObjectMotion("stand")
 
 
 @dataclass(frozen=True)
-class Thing:
+class SceneObject:
     """One noun of the prompt with all that is said about it."""
 
     noun: str
     """Key of the noun table."""
     count: int = 1
     """How many there are."""
-    paint: Paint | None = None
+    colour: NamedColour | None = None
     """Its colour; None = its usual one."""
     scale: float = 1.0
     """Multiple of its usual size."""
-    motion: Motion | None = None
+    motion: ObjectMotion | None = None
     """What it does; None = not said."""
     side: str | None = None
-    """Where in the picture: "left", "right", "centre", "far" or "near"; None = not said."""
+    """Where in the image: "left", "right", "centre", "far" or "near"; None = not said."""
 
 
 @dataclass(frozen=True)
 class Relation:
-    """Where one thing is, or goes, with respect to others."""
+    """Where one object is, or goes, with respect to others."""
 
     kind: str
     """"beside", "behind", "front", "on", "above", "under", "between", "left of", "right of",
     "past", "around", "surround", "among", "towards", "follow" or "with"."""
     subject: int
-    """Index into `SceneDescription.things`."""
+    """Index into `SceneDescription.objects`."""
     targets: tuple[int, ...]
-    """Indices into `SceneDescription.things`."""
+    """Indices into `SceneDescription.objects`."""
 
 
 @dataclass(frozen=True)
 class CameraMove:
-    """One thing the camera does."""
+    """One object the camera does."""
 
     kind: str
     """"static", "pan", "tilt", "zoom", "dolly", "truck", "pedestal", "orbit", "follow" or
@@ -95,9 +95,9 @@ class Shot:
     view: str | None = None
     """"aerial", "top", "low", "side", "front" or "back"; None = a little above eye level."""
     framing: str | None = None
-    """"close" or "wide"; None = all things fit."""
+    """"close" or "wide"; None = all objects fit."""
     target: int | None = None
-    """Index of the thing the camera follows or looks at; None = the first one."""
+    """Index of the object the camera follows or looks at; None = the first one."""
 
     @property
     def is_moving(self) -> bool:
@@ -106,7 +106,7 @@ class Shot:
 
 
 @dataclass(frozen=True)
-class Light:
+class Illumination:
     """Time of day and lamps."""
 
     kind: str | None = None
@@ -125,9 +125,9 @@ class Surroundings:
     place: str | None = None
     """Key of `lexicon_scene.PLACES`; never None after
     `parse_prompt`."""
-    paint: Paint | None = None
+    colour: NamedColour | None = None
     """Colour of the ground, where the place has a ground to paint."""
-    sky: Paint | None = None
+    sky: NamedColour | None = None
     """Colour of the sky; None = as the light gives."""
     weather: str | None = None
     """"fog", "rain" or "snow"; None = fair."""
@@ -147,10 +147,10 @@ class SceneDescription:
     """A prompt, understood as far as it could be."""
 
     prompt: str
-    things: tuple[Thing, ...] = ()
+    objects: tuple[SceneObject, ...] = ()
     relations: tuple[Relation, ...] = ()
     shot: Shot = field(default_factory=Shot)
-    light: Light = field(default_factory=Light)
+    light: Illumination = field(default_factory=Illumination)
     surroundings: Surroundings = field(default_factory=Surroundings)
     absent: tuple[str, ...] = ()
     """Nouns that the prompt excludes; no scenery shows them."""
@@ -165,11 +165,11 @@ class SceneDescription:
         """What will be shown, line by line, for a person to check.
 
         Example:
-            >>> SceneDescription("a car", things=(Thing("car", motion=Motion("drive", "left")),)
-            ... ).summary()
+            >>> car = SceneObject("car", motion=ObjectMotion("drive", "left"))
+            >>> SceneDescription("a left-driving car", objects=(car,)).summary()
             ['1 car, drives left', 'place: what suits the things', 'light: day', 'camera: static']
         """
-        lines = [self._say_thing(index) for index in range(len(self.things))]
+        lines = [self._say_object(index) for index in range(len(self.objects))]
         lines.append(f"place: {_say_surroundings(self.surroundings)}")
         lines.append(f"light: {_say_light(self.light)}")
         lines.append(f"camera: {_say_shot(self.shot)}")
@@ -180,21 +180,21 @@ class SceneDescription:
             lines.append(f"not understood: {', '.join(self.not_understood)}")
         return lines
 
-    def _say_thing(self, index: int) -> str:
-        thing = self.things[index]
-        words = [_say_count(thing)]
-        if thing.paint is not None:
-            words.append(thing.paint.name)
-        if thing.scale != 1.0:
-            words.append(f"{thing.scale:g} times its usual size")
-        if thing.motion is not None:
-            words.append(_say_motion(thing.motion, is_plural=thing.count > 1))
-        if thing.side is not None:
-            words.append(_SIDES[thing.side])
+    def _say_object(self, index: int) -> str:
+        scene_object = self.objects[index]
+        words = [_say_count(scene_object)]
+        if scene_object.colour is not None:
+            words.append(scene_object.colour.name)
+        if scene_object.scale != 1.0:
+            words.append(f"{scene_object.scale:g} times its usual size")
+        if scene_object.motion is not None:
+            words.append(_say_motion(scene_object.motion, is_plural=scene_object.count > 1))
+        if scene_object.side is not None:
+            words.append(_SIDES[scene_object.side])
         for relation in self.relations:
             if relation.subject == index:
                 targets = " and ".join(
-                    _say_count(self.things[target]) for target in relation.targets
+                    _say_count(self.objects[target]) for target in relation.targets
                 )
                 words.append(f"{_RELATIONS.get(relation.kind, relation.kind)} {targets}")
         return ", ".join(words)
@@ -225,11 +225,12 @@ _DIRECTIONS = {
 }
 
 
-def _say_count(thing: Thing) -> str:
-    return f"{thing.count} {thing.noun if thing.count == 1 else pluralise(thing.noun)}"
+def _say_count(scene_object: SceneObject) -> str:
+    name = scene_object.noun
+    return f"{scene_object.count} {name if scene_object.count == 1 else pluralise(name)}"
 
 
-def _say_motion(motion: Motion, *, is_plural: bool) -> str:
+def _say_motion(motion: ObjectMotion, *, is_plural: bool) -> str:
     verb, *rest = _PHRASES.get(motion.kind, motion.kind).split()
     words = [verb if is_plural else _third_person(verb), *rest]
     if motion.direction is not None:
@@ -252,8 +253,8 @@ def _third_person(verb: str) -> str:
 
 def _say_surroundings(surroundings: Surroundings) -> str:
     words = [surroundings.place or "what suits the things"]
-    if surroundings.paint is not None:
-        words.append(surroundings.paint.name)
+    if surroundings.colour is not None:
+        words.append(surroundings.colour.name)
     if surroundings.sky is not None:
         words.append(f"{surroundings.sky.name} sky")
     if surroundings.weather is not None:
@@ -268,7 +269,7 @@ def _say_surroundings(surroundings: Surroundings) -> str:
     return ", ".join(words)
 
 
-def _say_light(light: Light) -> str:
+def _say_light(light: Illumination) -> str:
     words = [light.kind or "day"]
     if light.flicker_hz is not None:
         words.append(f"flickering at {light.flicker_hz:g} Hz")

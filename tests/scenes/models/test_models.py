@@ -10,14 +10,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.errors import InputError
-from texvent.scenes.model import Model, Noun, Part, Pose
-from texvent.scenes.models import shaping, variation
-from texvent.scenes.models.paint import DARK, GREY, RED, Paint
-from texvent.scenes.models.people import joints
-from texvent.scenes.models.people.joints import Gait
-from texvent.scenes.models.table import AFLOAT, NOUNS
+from texvent.scenes.models import limb_kinematics, shapes, variation
+from texvent.scenes.models.limb_kinematics import Gait
+from texvent.scenes.models.materials import DARK, GREY, RED, Material
+from texvent.scenes.models.nouns import AFLOAT, NOUNS
+from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent.scenes.models.vehicles.wheels import Wheel, rolled
-from texvent.scenes.primitives import Shape
+from texvent.scenes.scene import Shape
 
 ALL = list(NOUNS.values())
 BY_NAME = pytest.mark.parametrize("noun", ALL, ids=[noun.name for noun in ALL])
@@ -38,7 +37,7 @@ def build(noun: Noun, *, scale: float = 1.0, seed: int = 0) -> Model:
     return noun.build(colour=None, scale=scale, seed=seed)
 
 
-def surface_points(part: Part) -> np.ndarray:
+def surface_points(part: ModelPart) -> np.ndarray:
     """Points all over a unit shape, in body coordinates: [n, 3]."""
     u = np.linspace(0.0, 2.0 * math.pi, 24, endpoint=False)
     if part.shape is Shape.BOX:
@@ -229,11 +228,11 @@ def test_seeds_vary_the_looks() -> None:
 def test_a_wheel_does_not_slip(radius: float, start: float) -> None:
     wheel = Wheel((0.4, 0.2, radius), radius, 0.1)
     # The point of the tyre that touches the ground now stands still in the world.
-    turned = rolled([shaping.ball(DARK, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0))], wheel, start)[0]
+    turned = rolled([shapes.ball(DARK, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0))], wheel, start)[0]
     contact = np.array([wheel.centre[0], wheel.centre[1], 0.0])
     local = np.linalg.solve(turned.to_body[:, :3], contact - turned.to_body[:, 3])
     step = 1e-4 * radius
-    later = rolled([shaping.ball(DARK, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0))], wheel, start + step)[0]
+    later = rolled([shapes.ball(DARK, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0))], wheel, start + step)[0]
     moved = later.to_body[:, :3] @ local + later.to_body[:, 3] + np.array([step, 0.0, 0.0])
     np.testing.assert_allclose(moved, contact, atol=1e-3 * step + 1e-9)
 
@@ -267,8 +266,8 @@ def test_a_foot_on_the_ground_moves_back_as_fast_as_the_body_moves_on(
 ) -> None:
     gait = Gait(stride, duty, 0.1)
     step = 1e-4 * stride
-    x, z = joints.foot_path(gait, distance, offset, 1.0)
-    later_x, later_z = joints.foot_path(gait, distance + step, offset, 1.0)
+    x, z = limb_kinematics.foot_path(gait, distance, offset, 1.0)
+    later_x, later_z = limb_kinematics.foot_path(gait, distance + step, offset, 1.0)
     assert 0.0 <= z <= 0.1 + 1e-12
     assert abs(x) <= 0.5 * duty * stride + 1e-9
     phase = (distance / stride + offset) % 1.0
@@ -281,48 +280,50 @@ def test_a_foot_on_the_ground_moves_back_as_fast_as_the_body_moves_on(
 
 def test_foot_path_by_hand() -> None:
     gait = Gait(stride=2.0, duty=0.5, lift=0.3)
-    assert joints.foot_path(gait, 0.0, 0.0, 1.0) == (0.5, 0.0)
-    assert joints.foot_path(gait, 0.5, 0.0, 1.0) == (0.0, 0.0)
-    x, z = joints.foot_path(gait, 1.5, 0.0, 1.0)
+    assert limb_kinematics.foot_path(gait, 0.0, 0.0, 1.0) == (0.5, 0.0)
+    assert limb_kinematics.foot_path(gait, 0.5, 0.0, 1.0) == (0.0, 0.0)
+    x, z = limb_kinematics.foot_path(gait, 1.5, 0.0, 1.0)
     assert (x, z) == pytest.approx((0.0, 0.3))
-    assert joints.foot_path(gait, 1.5, 0.0, 0.0) == (0.0, 0.0)
+    assert limb_kinematics.foot_path(gait, 1.5, 0.0, 0.0) == (0.0, 0.0)
 
 
 def test_a_knee_bends_forward_by_hand() -> None:
     # A 3-4-5 triangle: hip at height 8, ankle at 0, both bones 5 long.
-    assert joints.bend((0, 0, 8.0), (0, 0, 0.0), 5.0, 5.0, (1, 0, 0)) == pytest.approx((3, 0, 4))
-    straight = joints.bend((0, 0, 12.0), (0, 0, 0.0), 5.0, 5.0, (1, 0, 0))
+    assert limb_kinematics.bend((0, 0, 8.0), (0, 0, 0.0), 5.0, 5.0, (1, 0, 0)) == pytest.approx(
+        (3, 0, 4)
+    )
+    straight = limb_kinematics.bend((0, 0, 12.0), (0, 0, 0.0), 5.0, 5.0, (1, 0, 0))
     assert straight == pytest.approx((0, 0, 6))
 
 
 def test_step_amount_is_zero_at_rest_and_one_at_speed() -> None:
-    assert joints.step_amount("stand", 3.0, 1.0) == 0.0
-    assert joints.step_amount("move", 0.0, 1.0) == 0.0
-    assert joints.step_amount("move", 0.5, 1.0) == pytest.approx(0.5)
-    assert joints.step_amount("run", 9.0, 1.0) == 1.0
+    assert limb_kinematics.step_amount("stand", 3.0, 1.0) == 0.0
+    assert limb_kinematics.step_amount("move", 0.0, 1.0) == 0.0
+    assert limb_kinematics.step_amount("move", 0.5, 1.0) == pytest.approx(0.5)
+    assert limb_kinematics.step_amount("run", 9.0, 1.0) == 1.0
 
 
 def test_a_limb_reaches_both_joints_and_its_stripes_ring_it() -> None:
-    rod = shaping.rod(DARK, (1.0, 2.0, 3.0), (1.0, 2.0, 7.0), 0.5)
+    rod = shapes.rod(DARK, (1.0, 2.0, 3.0), (1.0, 2.0, 7.0), 0.5)
     np.testing.assert_allclose(rod.to_body @ [0, 0, 1, 1], [1, 2, 7])
     np.testing.assert_allclose(rod.to_body @ [0, 0, -1, 1], [1, 2, 3])
     for end in ((5.0, 0.0, 0.0), (0.0, 4.0, 0.0), (0.0, -4.0, 0.1), (1.0, 1.0, -1.0)):
-        limb = shaping.limb(DARK, (0.0, 0.0, 0.0), end, 0.2)
+        limb = shapes.limb(DARK, (0.0, 0.0, 0.0), end, 0.2)
         axis = limb.to_body[:, 2] / np.linalg.norm(limb.to_body[:, 2])
         np.testing.assert_allclose(axis, np.array(end) / np.linalg.norm(end), atol=1e-12)
         assert np.linalg.det(limb.to_body[:, :3]) > 0.0
 
 
 def test_half_extents_match_points_on_the_surface() -> None:
-    paint = Paint(GREY)
+    material = Material(GREY)
     for part in (
-        shaping.box(paint, (1.0, 0.0, 2.0), (1.0, 2.0, 3.0), lean=0.4),
-        shaping.limb(paint, (0.0, 0.0, 0.0), (1.0, 2.0, 3.0), 0.4),
-        shaping.rod(paint, (0.0, 0.0, 0.0), (1.0, 2.0, 3.0), 0.4),
-        shaping.spike(paint, (0.0, 0.0, 0.0), (-1.0, 2.0, 3.0), 0.4),
-        shaping.gable(paint, (0.0, 0.0, 3.0), (6.0, 8.0, 2.0)),
+        shapes.box(material, (1.0, 0.0, 2.0), (1.0, 2.0, 3.0), lean=0.4),
+        shapes.limb(material, (0.0, 0.0, 0.0), (1.0, 2.0, 3.0), 0.4),
+        shapes.rod(material, (0.0, 0.0, 0.0), (1.0, 2.0, 3.0), 0.4),
+        shapes.spike(material, (0.0, 0.0, 0.0), (-1.0, 2.0, 3.0), 0.4),
+        shapes.gable(material, (0.0, 0.0, 3.0), (6.0, 8.0, 2.0)),
     ):
-        low, high = shaping.half_extents(part.shape, part.to_body)
+        low, high = shapes.half_extents(part.shape, part.to_body)
         points = surface_points(part)
         assert (points >= low - 1e-9).all()
         assert (points <= high + 1e-9).all()

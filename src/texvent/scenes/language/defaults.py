@@ -8,49 +8,52 @@ from dataclasses import replace
 from texvent.scenes.description import (
     STANDING,
     CameraMove,
-    Motion,
-    Paint,
+    NamedColour,
+    ObjectMotion,
     Relation,
     SceneDescription,
-    Thing,
+    SceneObject,
 )
-from texvent.scenes.language.lexicon import COLOURS, MAX_BODIES
-from texvent.scenes.language.whereabouts import choose_place
-from texvent.scenes.language.words import pluralise
-from texvent.scenes.model import Noun
+from texvent.scenes.language.default_place import choose_place
+from texvent.scenes.language.tokens import pluralise
+from texvent.scenes.language.vocabulary_objects import COLOURS, MAX_BODIES
+from texvent.scenes.models.protocol import Noun
 
 SLOW_PAN = CameraMove("pan", "right", 0.8)
-"""What the camera does where nothing else moves: a still picture has no events."""
+"""What the camera does where nothing else moves: a still image has no events."""
 
 
 def complete_description(
     description: SceneDescription, nouns: Mapping[str, Noun]
 ) -> SceneDescription:
-    """The description with every thing's motion decided and something that moves.
+    """The description with every object's motion decided and something that moves.
 
-    Things that live in the air or water always move unless the prompt says that they rest. When
-    nothing moves, things that can move do what they usually do; when none can, the camera pans.
+    Objects that live in the air or water always move unless the prompt says that they rest. When
+    nothing moves, objects that can move do what they usually do; when none can, the camera pans.
     """
     if description.understood_nothing:
         description = _show_default(description, nouns)
     description = _add_crew(description, nouns)
     description = _limit_bodies(_stand_back(_seat_riders(description), nouns))
-    things = tuple(_decide_motion(thing, nouns[thing.noun]) for thing in description.things)
-    description = _let_chased_move(replace(description, things=things), nouns)
-    things = description.things
+    objects = tuple(
+        _decide_motion(scene_object, nouns[scene_object.noun])
+        for scene_object in description.objects
+    )
+    description = _let_chased_move(replace(description, objects=objects), nouns)
+    objects = description.objects
     said = replace(description.surroundings, place=choose_place(description, nouns))
     description = _put_to_work(replace(description, surroundings=said))
-    if description.shot.is_moving or any(_moves(thing) for thing in things):
+    if description.shot.is_moving or any(_moves(scene_object) for scene_object in objects):
         return _settle_rest(description)
     return _settle_rest(_set_in_motion(description, nouns))
 
 
-_CREWS: dict[str, tuple[Thing, ...]] = {
+_CREWS: dict[str, tuple[SceneObject, ...]] = {
     "construction site": (
-        Thing("excavator", motion=Motion("work")),
-        Thing("crane", motion=Motion("work"), side="far"),
-        Thing("worker", 2, motion=Motion("walk")),
-        Thing("traffic cone", 4),
+        SceneObject("excavator", motion=ObjectMotion("work")),
+        SceneObject("crane", motion=ObjectMotion("work"), side="far"),
+        SceneObject("worker", 2, motion=ObjectMotion("walk")),
+        SceneObject("traffic cone", 4),
     ),
 }
 """Places that are known by what is done there."""
@@ -63,16 +66,18 @@ WORKING = frozenset(
 
 
 def _add_crew(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """Things that make a place what it is, where the prompt names none."""
+    """Objects that make a place what it is, where the prompt names none."""
     crew = _CREWS.get(description.surroundings.place or "", ())
     shown = tuple(
-        thing for thing in crew if thing.noun in nouns and thing.noun not in description.absent
+        scene_object
+        for scene_object in crew
+        if scene_object.noun in nouns and scene_object.noun not in description.absent
     )
-    if description.things or not shown:
+    if description.objects or not shown:
         return description
     names = ", ".join(pluralise(t.noun) if t.count > 1 else t.noun for t in shown)
     note = f"the {description.surroundings.place} is shown with: {names}"
-    return replace(description, things=shown, notes=(*description.notes, note))
+    return replace(description, objects=shown, notes=(*description.notes, note))
 
 
 def _put_to_work(description: SceneDescription) -> SceneDescription:
@@ -80,14 +85,17 @@ def _put_to_work(description: SceneDescription) -> SceneDescription:
 
     A crane that turns slowly in the distance would else count as all the motion there is.
     """
-    crew = {thing.noun: thing for thing in _CREWS.get(description.surroundings.place or "", ())}
-    things = tuple(
-        replace(thing, motion=crew[thing.noun].motion)
-        if thing.motion is None and thing.noun in crew
-        else thing
-        for thing in description.things
+    crew = {
+        scene_object.noun: scene_object
+        for scene_object in _CREWS.get(description.surroundings.place or "", ())
+    }
+    objects = tuple(
+        replace(scene_object, motion=crew[scene_object.noun].motion)
+        if scene_object.motion is None and scene_object.noun in crew
+        else scene_object
+        for scene_object in description.objects
     )
-    return replace(description, things=things)
+    return replace(description, objects=objects)
 
 
 HAS_RIDER = frozenset({"bicycle", "motorcycle"})
@@ -99,11 +107,11 @@ def _seat_riders(description: SceneDescription) -> SceneDescription:
     riders = {
         relation.subject
         for relation in description.relations
-        if relation.kind == "on" and description.things[relation.targets[0]].noun in HAS_RIDER
+        if relation.kind == "on" and description.objects[relation.targets[0]].noun in HAS_RIDER
     }
     if not riders:
         return description
-    kept = [index for index in range(len(description.things)) if index not in riders]
+    kept = [index for index in range(len(description.objects)) if index not in riders]
     new = {old: position for position, old in enumerate(kept)}
     relations = tuple(
         Relation(r.kind, new[r.subject], tuple(new[t] for t in r.targets))
@@ -112,91 +120,100 @@ def _seat_riders(description: SceneDescription) -> SceneDescription:
     )
     target = description.shot.target
     shot = replace(description.shot, target=new.get(target) if target is not None else None)
-    things = tuple(description.things[index] for index in kept)
-    return replace(description, things=things, relations=relations, shot=shot)
+    objects = tuple(description.objects[index] for index in kept)
+    return replace(description, objects=objects, relations=relations, shot=shot)
 
 
 TOWERING = frozenset(
     {"crane", "building", "mountain", "windmill", "wind turbine", "ship", "bridge", "pyramid"}
 )
-"""Nouns that stand far behind smaller things, unless the prompt relates them."""
+"""Nouns that stand far behind smaller objects, unless the prompt relates them."""
 _MOST_COMPANIONS = 6
 
 
 def _stand_back(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """Move towering things to the background, and let living surroundings keep company.
+    """Move towering objects to the background, and let living surroundings keep company.
 
     Animals that surround something move along with it, because scenery stands still.
     """
-    things = list(description.things)
+    objects = list(description.objects)
     relations = []
     for relation in description.relations:
         target = relation.targets[0]
-        if relation.kind in ("surround", "among") and nouns[things[target].noun].habitat != "fixed":
-            things[target] = replace(
-                things[target], count=min(things[target].count, _MOST_COMPANIONS)
+        if (
+            relation.kind in ("surround", "among")
+            and nouns[objects[target].noun].habitat != "fixed"
+        ):
+            objects[target] = replace(
+                objects[target], count=min(objects[target].count, _MOST_COMPANIONS)
             )
             relation = replace(relation, kind="with")
         relations.append(relation)
     related = {i for relation in relations for i in (relation.subject, *relation.targets)}
-    is_mixed = any(thing.noun not in TOWERING for thing in things)
-    for index, thing in enumerate(things):
+    is_mixed = any(scene_object.noun not in TOWERING for scene_object in objects)
+    for index, scene_object in enumerate(objects):
         is_free = index not in related and index != description.shot.target
-        if is_mixed and is_free and thing.noun in TOWERING and thing.side is None:
-            things[index] = replace(thing, side="far")
-    return replace(description, things=tuple(things), relations=tuple(relations))
+        if is_mixed and is_free and scene_object.noun in TOWERING and scene_object.side is None:
+            objects[index] = replace(scene_object, side="far")
+    return replace(description, objects=tuple(objects), relations=tuple(relations))
 
 
 def _limit_bodies(description: SceneDescription) -> SceneDescription:
-    """At most `MAX_BODIES` bodies in all; at least one of each thing."""
-    room = MAX_BODIES - len(description.things)
-    things = []
-    for thing in description.things:
-        shown = 1 + min(thing.count - 1, room)
+    """At most `MAX_BODIES` bodies in all; at least one of each object."""
+    room = MAX_BODIES - len(description.objects)
+    objects = []
+    for scene_object in description.objects:
+        shown = 1 + min(scene_object.count - 1, room)
         room -= shown - 1
-        things.append(replace(thing, count=shown))
-    if tuple(things) == description.things:
+        objects.append(replace(scene_object, count=shown))
+    if tuple(objects) == description.objects:
         return description
     note = f"no more than {MAX_BODIES} bodies are shown"
-    return replace(description, things=tuple(things), notes=(*description.notes, note))
+    return replace(description, objects=tuple(objects), notes=(*description.notes, note))
 
 
 def _let_chased_move(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
     """What is followed goes ahead, if it can move and the prompt does not say that it rests."""
-    things = list(description.things)
+    objects = list(description.objects)
     for relation in description.relations:
         target = relation.targets[0]
-        noun = nouns[things[target].noun]
-        if relation.kind == "follow" and things[target].motion is None and noun.motion != "stand":
-            things[target] = replace(things[target], motion=Motion(noun.motion))
-    return replace(description, things=tuple(things))
+        noun = nouns[objects[target].noun]
+        if relation.kind == "follow" and objects[target].motion is None and noun.motion != "stand":
+            objects[target] = replace(objects[target], motion=ObjectMotion(noun.motion))
+    return replace(description, objects=tuple(objects))
 
 
-def _moves(thing: Thing) -> bool:
-    return thing.motion is not None and thing.motion.is_moving and thing.motion.kind != "sit"
+def _moves(scene_object: SceneObject) -> bool:
+    return (
+        scene_object.motion is not None
+        and scene_object.motion.is_moving
+        and scene_object.motion.kind != "sit"
+    )
 
 
-def _decide_motion(thing: Thing, noun: Noun) -> Thing:
-    motion = thing.motion
-    if thing.noun in WORKING and (motion is None or motion.kind in ("stand", "swing", "spin")):
-        return replace(thing, motion=Motion("work"))
+def _decide_motion(scene_object: SceneObject, noun: Noun) -> SceneObject:
+    motion = scene_object.motion
+    if scene_object.noun in WORKING and (
+        motion is None or motion.kind in ("stand", "swing", "spin")
+    ):
+        return replace(scene_object, motion=ObjectMotion("work"))
     if motion is None and noun.habitat in ("air", "water") and noun.motion != "stand":
-        return replace(thing, motion=Motion(noun.motion))
+        return replace(scene_object, motion=ObjectMotion(noun.motion))
     if motion is not None and motion.kind == "move":
         kind = noun.motion if noun.motion != "stand" else "slide"
-        return replace(thing, motion=replace(motion, kind=kind))
-    return thing
+        return replace(scene_object, motion=replace(motion, kind=kind))
+    return scene_object
 
 
 def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """Let the first thing that can move do so, or else the camera."""
-    for index, thing in enumerate(description.things):
-        usual = nouns[thing.noun].motion
-        if thing.motion is None and usual != "stand":
-            moved = replace(thing, motion=Motion(usual))
-            things = (*description.things[:index], moved, *description.things[index + 1 :])
-            note = f"no motion is said of the {thing.noun}, so it does what it usually does"
-            return replace(description, things=things, notes=(*description.notes, note))
+    """Let the first object that can move do so, or else the camera."""
+    for index, scene_object in enumerate(description.objects):
+        usual = nouns[scene_object.noun].motion
+        if scene_object.motion is None and usual != "stand":
+            moved = replace(scene_object, motion=ObjectMotion(usual))
+            objects = (*description.objects[:index], moved, *description.objects[index + 1 :])
+            note = f"no motion is said of the {scene_object.noun}, so it does what it usually does"
+            return replace(description, objects=objects, notes=(*description.notes, note))
     light, weather = description.light, description.surroundings.weather
     if light.flicker_hz is not None or weather in ("rain", "snow"):
         return description
@@ -206,16 +223,18 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
 
 
 def _settle_rest(description: SceneDescription) -> SceneDescription:
-    things = tuple(
-        thing if thing.motion is not None else replace(thing, motion=STANDING)
-        for thing in description.things
+    objects = tuple(
+        scene_object if scene_object.motion is not None else replace(scene_object, motion=STANDING)
+        for scene_object in description.objects
     )
-    return replace(description, things=things)
+    return replace(description, objects=objects)
 
 
 def _show_default(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
     """A scene for a prompt of which nothing was understood."""
     noun = "ball" if "ball" in nouns else next(iter(nouns))
-    ball = Thing(noun, paint=Paint("red", COLOURS["red"]), motion=Motion("bounce"))
+    ball = SceneObject(
+        noun, colour=NamedColour("red", COLOURS["red"]), motion=ObjectMotion("bounce")
+    )
     note = f"nothing in the prompt was understood: a bouncing {noun} stands in"
-    return replace(description, things=(ball,), notes=(*description.notes, note))
+    return replace(description, objects=(ball,), notes=(*description.notes, note))

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from enum import Enum, auto
 from typing import Any
 
-from texvent.scenes.language import lexicon, lexicon_motion, lexicon_scene
-from texvent.scenes.language.words import (
+from texvent.scenes.language import vocabulary_motion, vocabulary_objects, vocabulary_scene
+from texvent.scenes.language.tokens import (
     Token,
     list_finite_forms,
     list_participles,
     list_plurals,
 )
-from texvent.scenes.model import Noun
+from texvent.scenes.models.protocol import Noun
 
 
 class Role(Enum):
@@ -61,13 +61,13 @@ class Role(Enum):
 ADJECTIVES = frozenset({Role.COUNT, Role.NUMBER, Role.COLOUR, Role.SHADE, Role.SIZE, Role.PACE})
 """Roles that may stand between a determiner and its noun."""
 _BEFORE_NOUN = ADJECTIVES | {Role.DETERMINER, Role.NEGATION, Role.RELATION, Role.AND, Role.BREAK}
-_WHEREABOUTS = frozenset(
+_LOCATIVE_PREPOSITIONS = frozenset(
     {"in", "on", "through", "across", "along", "at", "into", "up", "down", "onto", "over"}
 )
-"""Prepositions after which a mountain is a place to be, not a thing to look at."""
+"""Prepositions after which a mountain is a place to be, not an object to look at."""
 
 _OWNERS = frozenset({"its", "it", "their", "his", "her"})
-"""Words before a part of the thing that the sentence is about ("its wheels")."""
+"""Words before a part of the object that the sentence is about ("its wheels")."""
 
 
 @dataclass(frozen=True)
@@ -144,7 +144,7 @@ class Lexicon:
                 self._add(plural, Meaning(Role.NOUN, name, "plural"))
             for singular in (name, *noun.synonyms):
                 self._add_noun_forms(singular, name)
-        for word, name in lexicon_scene.GENERIC_NOUNS.items():
+        for word, name in vocabulary_scene.GENERIC_NOUNS.items():
             if name in nouns and tuple(word.split()) not in self._meanings:
                 self._add_noun_forms(word, name)
 
@@ -154,7 +154,7 @@ class Lexicon:
             self._add(plural, Meaning(Role.NOUN, name, "plural"))
 
     def _add_verbs(self) -> None:
-        for verb in lexicon_motion.VERBS:
+        for verb in vocabulary_motion.VERBS:
             head, *tail = verb.base.split()
             finite: Iterable[str] = list_finite_forms(head)
             participles: Iterable[str] = list_participles(head)
@@ -166,47 +166,47 @@ class Lexicon:
 
     def _add_tables(self) -> None:
         tables: tuple[tuple[Role, Mapping[str, Any]], ...] = (
-            (Role.COUNT, lexicon.COUNTS),
-            (Role.COLOUR, lexicon.COLOURS),
-            (Role.SHADE, lexicon.SHADES),
-            (Role.SIZE, lexicon.SIZES),
-            (Role.DIRECTION, lexicon_motion.DIRECTIONS),
-            (Role.SIDE, lexicon_motion.SIDES),
-            (Role.PACE, lexicon_motion.PACES),
-            (Role.SPEED_UNIT, lexicon_motion.SPEED_UNITS),
-            (Role.RELATION, lexicon_motion.RELATIONS),
-            (Role.CLOUDS, lexicon_scene.CLOUDS),
-            (Role.HERTZ, lexicon_scene.HERTZ),
-            (Role.CAMERA_MOVE, lexicon_scene.CAMERA_MOVES),
-            (Role.VIEW, lexicon_scene.VIEWS),
-            (Role.FRAMING, lexicon_scene.FRAMINGS),
+            (Role.COUNT, vocabulary_objects.COUNTS),
+            (Role.COLOUR, vocabulary_objects.COLOURS),
+            (Role.SHADE, vocabulary_objects.SHADES),
+            (Role.SIZE, vocabulary_objects.SIZES),
+            (Role.DIRECTION, vocabulary_motion.DIRECTIONS),
+            (Role.SIDE, vocabulary_motion.SIDES),
+            (Role.PACE, vocabulary_motion.PACES),
+            (Role.SPEED_UNIT, vocabulary_motion.SPEED_UNITS),
+            (Role.RELATION, vocabulary_motion.RELATIONS),
+            (Role.CLOUDS, vocabulary_scene.CLOUDS),
+            (Role.HERTZ, vocabulary_scene.HERTZ),
+            (Role.CAMERA_MOVE, vocabulary_scene.CAMERA_MOVES),
+            (Role.VIEW, vocabulary_scene.VIEWS),
+            (Role.FRAMING, vocabulary_scene.FRAMINGS),
         )
         for role, table in tables:
             for text, value in table.items():
                 self._add(text, Meaning(role, value))
         lists: tuple[tuple[Role, Iterable[str]], ...] = (
-            (Role.NEGATION, lexicon.NEGATIONS),
-            (Role.DETERMINER, lexicon.DETERMINERS),
-            (Role.PRONOUN, lexicon.PRONOUNS),
+            (Role.NEGATION, vocabulary_objects.NEGATIONS),
+            (Role.DETERMINER, vocabulary_objects.DETERMINERS),
+            (Role.PRONOUN, vocabulary_objects.PRONOUNS),
             (Role.AND, ("and", "or", "plus")),
-            (Role.STILL, lexicon_motion.STILL_WORDS),
-            (Role.PART, lexicon_scene.PART_WORDS),
-            (Role.SNOW, lexicon_scene.SNOWY),
-            (Role.SKY, lexicon_scene.SKY_WORDS),
-            (Role.STEEP, lexicon_scene.STEEP),
-            (Role.DUST, lexicon_scene.DUST),
-            (Role.FLICKER, lexicon_scene.FLICKERS),
-            (Role.SHADOW, lexicon_scene.SHADOW_WORDS),
-            (Role.GLOW, lexicon_scene.GLOW_WORDS),
-            (Role.CAMERA, lexicon_scene.CAMERA_WORDS),
+            (Role.STILL, vocabulary_motion.STILL_WORDS),
+            (Role.PART, vocabulary_scene.PART_WORDS),
+            (Role.SNOW, vocabulary_scene.SNOWY),
+            (Role.SKY, vocabulary_scene.SKY_WORDS),
+            (Role.STEEP, vocabulary_scene.STEEP),
+            (Role.DUST, vocabulary_scene.DUST),
+            (Role.FLICKER, vocabulary_scene.FLICKERS),
+            (Role.SHADOW, vocabulary_scene.SHADOW_WORDS),
+            (Role.GLOW, vocabulary_scene.GLOW_WORDS),
+            (Role.CAMERA, vocabulary_scene.CAMERA_WORDS),
         )
         for role, texts in lists:
             for text in texts:
                 self._add(text, Meaning(role, text))
         groups = (
-            (Role.PLACE, lexicon_scene.PLACES),
-            (Role.LIGHT, lexicon_scene.LIGHTS),
-            (Role.WEATHER, lexicon_scene.WEATHERS),
+            (Role.PLACE, vocabulary_scene.PLACES),
+            (Role.LIGHT, vocabulary_scene.LIGHTS),
+            (Role.WEATHER, vocabulary_scene.WEATHERS),
         )
         for role, group in groups:
             for name, texts in group.items():
@@ -254,7 +254,7 @@ def _choose(meanings: list[Meaning], before: list[Phrase], after: list[Meaning])
     if Role.NOUN in by_role and Role.VERB in by_role:
         return by_role[Role.NOUN if _expects_noun(before) else Role.VERB]
     if Role.NOUN in by_role and Role.PLACE in by_role:
-        is_place = Role.PLACE in next_roles or _preposition(before) in _WHEREABOUTS
+        is_place = Role.PLACE in next_roles or _preposition(before) in _LOCATIVE_PREPOSITIONS
         return by_role[Role.PLACE if is_place else Role.NOUN]
     if Role.VERB in by_role and before and before[-1].role is Role.DETERMINER:
         return next(meaning for meaning in meanings if meaning.role is not Role.VERB)
@@ -268,7 +268,7 @@ def _expects_noun(before: list[Phrase]) -> bool:
 def _preposition(before: list[Phrase]) -> str | None:
     """The relation word before the determiner and adjectives that came last."""
     for phrase in reversed(before):
-        if phrase.role is Role.RELATION or phrase.text in _WHEREABOUTS:
+        if phrase.role is Role.RELATION or phrase.text in _LOCATIVE_PREPOSITIONS:
             return phrase.text
         if phrase.role not in ADJECTIVES | {Role.DETERMINER, Role.STEEP, Role.SNOW}:
             return None

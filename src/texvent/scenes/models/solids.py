@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from texvent.scenes.model import Colour, Noun, Part, Pose
-from texvent.scenes.models.paint import (
+from texvent.scenes.models.articulated_model import ArticulatedModel
+from texvent.scenes.models.materials import (
     BLUE,
     GREEN,
     RED,
     WHITE,
     YELLOW,
-    Paint,
+    Material,
     checked,
     mottled,
     shade,
 )
-from texvent.scenes.models.people.figure import Figure
-from texvent.scenes.models.shaping import (
+from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.shapes import (
     ball,
     box,
     compose,
@@ -31,33 +31,39 @@ from texvent.scenes.models.vehicles.wheels import Wheel, car_wheels
 _HUES: tuple[Colour, ...] = (RED, BLUE, GREEN, YELLOW)
 
 
-def build_sphere(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_sphere(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a checked sphere, 1 m, that rolls."""
     skin = _checks(colour, seed)
 
-    def articulate(pose: Pose) -> list[Part]:
+    def articulate(pose: Pose) -> list[ModelPart]:
         one = [ball(skin, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0))]
         return moved(one, compose(shift(z=0.5), turn_y(pose.distance_m / 0.5)))
 
-    return Figure([], scale=scale, articulate=articulate)
+    return ArticulatedModel([], scale=scale, articulate=articulate)
 
 
-def build_cube(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_cube(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a checked cube, 0.8 m."""
-    return Figure([box(_checks(colour, seed), (0.0, 0.0, 0.4), (0.8, 0.8, 0.8))], scale=scale)
+    return ArticulatedModel(
+        [box(_checks(colour, seed), (0.0, 0.0, 0.4), (0.8, 0.8, 0.8))], scale=scale
+    )
 
 
-def build_cylinder(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_cylinder(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a checked cylinder, 1 m."""
-    return Figure([post(_checks(colour, seed), (0.0, 0.0, 0.5), (0.7, 0.7, 1.0))], scale=scale)
+    return ArticulatedModel(
+        [post(_checks(colour, seed), (0.0, 0.0, 0.5), (0.7, 0.7, 1.0))], scale=scale
+    )
 
 
-def build_cone(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_cone(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a checked cone, 1 m."""
-    return Figure([peak(_checks(colour, seed), (0.0, 0.0, 0.5), (0.9, 0.9, 1.0))], scale=scale)
+    return ArticulatedModel(
+        [peak(_checks(colour, seed), (0.0, 0.0, 0.5), (0.9, 0.9, 1.0))], scale=scale
+    )
 
 
-def build_pyramid(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_pyramid(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a stepped pyramid, 14 m high, of sandstone; `colour` is its stone."""
     stone = mottled(colour if colour is not None else (0.55, 0.43, 0.25), contrast=0.25, scale=8.0)
     steps, tall = 10, 1.4
@@ -65,35 +71,35 @@ def build_pyramid(*, colour: Colour | None, scale: float, seed: int) -> Figure:
     for index in range(steps):
         wide = 22.0 * (steps - index) / steps
         parts.append(box(stone, (0.0, 0.0, (index + 0.5) * tall), (wide, wide, tall)))
-    return Figure(parts, scale=scale)
+    return ArticulatedModel(parts, scale=scale)
 
 
-def build_crate(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_crate(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a cardboard box closed with tape, 0.5 m; `colour` is its card."""
-    card = Paint(colour if colour is not None else (0.38, 0.23, 0.11))
-    tape, ink = Paint((0.60, 0.48, 0.30)), Paint((0.12, 0.07, 0.04))
+    card = Material(colour if colour is not None else (0.38, 0.23, 0.11))
+    tape, ink = Material((0.60, 0.48, 0.30)), Material((0.12, 0.07, 0.04))
     parts = [
         box(card, (0.0, 0.0, 0.20), (0.50, 0.60, 0.40)),
         box(tape, (0.0, 0.0, 0.20), (0.08, 0.61, 0.41)),
         box(ink, (0.0, 0.0, 0.20), (0.505, 0.20, 0.10)),
     ]
-    return Figure(parts, scale=scale)
+    return ArticulatedModel(parts, scale=scale)
 
 
-def build_wheel(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_wheel(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a lone car wheel, 0.7 m, that rolls; `colour` is a stripe across its rim."""
-    stripe = Paint(colour if colour is not None else WHITE)
+    stripe = Material(colour if colour is not None else WHITE)
     wheel = Wheel((0.0, 0.0, 0.35), 0.35, 0.22)
 
-    def articulate(pose: Pose) -> list[Part]:
+    def articulate(pose: Pose) -> list[ModelPart]:
         mark = [box(stripe, (0.0, 0.0, 0.16), (0.07, 0.25, 0.10))]
         turned = moved(mark, compose(shift(z=0.35), turn_y(pose.distance_m / 0.35)))
         return [*car_wheels([wheel], pose.distance_m), *turned]
 
-    return Figure([], scale=scale, articulate=articulate)
+    return ArticulatedModel([], scale=scale, articulate=articulate)
 
 
-def _checks(colour: Colour | None, seed: int) -> Paint:
+def _checks(colour: Colour | None, seed: int) -> Material:
     hue = colour if colour is not None else choose(seed, "colour", _HUES)
     return checked(hue, shade(hue, 0.45), 2.0)
 

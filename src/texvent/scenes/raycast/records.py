@@ -1,7 +1,7 @@
 """One instant of a scene as the kernels read it: flat records, filled from the value types.
 
 Records, not named tuples of arrays: a kernel passes them on as one pointer, without counting
-references, which makes a picture many times faster.
+references, which makes an image many times faster.
 """
 
 from __future__ import annotations
@@ -12,13 +12,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.scenes.camera import Rays
-from texvent.scenes.primitives import Environment, Float64Array, Primitives
+from texvent.scenes.projection import Rays
+from texvent.scenes.scene import Environment, Float64Array, Primitives
 
 NIGHT_SKY = 0.06
 """Stars show where the sky at the zenith is darker than this (linear luma)."""
 SUN_RADIUS = 0.022
-"""Angular radius of the sun or moon, radians: about five times life, as pictures show it."""
+"""Angular radius of the sun or moon, radians: about five times life, as images show it."""
 
 INSTANT_RECORD = np.dtype(
     [

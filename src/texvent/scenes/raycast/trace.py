@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from texvent.runtime.jit import jit
-from texvent.scenes.raycast.arrange import NEAR_M, SUN_CELLS, TILE
+from texvent.scenes.raycast.acceleration import NEAR_M, SUN_CELLS, TILE
 from texvent.scenes.raycast.intersect import hit_shape, local_normal
 from texvent.scenes.raycast.records import Record, World
 
@@ -23,7 +23,7 @@ Vector = tuple[float, float, float]
 
 @jit(error_model="numpy")
 def ray_direction(rays: Record, x: float, y: float) -> Vector:
-    """Direction through picture point (x, y); its component along the optical axis is 1."""
+    """Direction through image point (x, y); its component along the optical axis is 1."""
     return (
         rays.corner[0] + x * rays.right[0] + y * rays.down[0],
         rays.corner[1] + x * rays.right[1] + y * rays.down[1],
@@ -63,7 +63,7 @@ def _widened_hit(shape: Record, d: Vector) -> float:
 
 @jit(error_model="numpy")
 def first_hit(world: World, x: float, y: float) -> tuple[float, int, int, bool]:
-    """What the ray through picture point (x, y) meets first.
+    """What the ray through image point (x, y) meets first.
 
     Returns:
         (depth in metres, shape number or GROUND / SKY / ROOM, face, whether a thin shape is near).

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from texvent.scenes.model import Model, Noun, Part, Pose
-from texvent.scenes.models.table import AFLOAT
-from texvent.scenes.primitives import Float64Array
-from texvent.scenes.staging.assemble import Placed
-from texvent.scenes.staging.motion import Trajectory
+from texvent.scenes.models.nouns import AFLOAT
+from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
+from texvent.scenes.scene import Float64Array
+from texvent.scenes.staging.assemble import PlacedModel
+from texvent.scenes.staging.trajectory import Trajectory
 
 
 def seeded(seed: int, *role: object) -> np.random.Generator:
@@ -27,10 +27,10 @@ def is_centred(noun: Noun) -> bool:
 
 @dataclass(frozen=True)
 class Actor:
-    """One copy of a thing of the prompt."""
+    """One copy of an object of the prompt."""
 
-    thing: int
-    """Index into `SceneDescription.things`."""
+    object_index: int
+    """Index into `SceneDescription.objects`."""
     noun: Noun
     model: Model
     trajectory: Trajectory
@@ -39,7 +39,7 @@ class Actor:
     """Ground-truth id, from 1."""
     lead_m: float = 0.0
     """Head start of its gait, m, so that a herd does not walk in step."""
-    extras: tuple[Part, ...] = ()
+    extras: tuple[ModelPart, ...] = ()
     """Parts that are not the model's, such as the rope it hangs from; body coordinates."""
 
     @property
@@ -47,7 +47,7 @@ class Actor:
         """Whether its origin is at its middle, not on the ground below."""
         return is_centred(self.noun)
 
-    def place(self, time_s: float) -> Placed:
+    def place(self, time_s: float) -> PlacedModel:
         """Its parts in the world at that instant."""
         state = self.trajectory.at(time_s)
         pose = Pose(
@@ -57,7 +57,7 @@ class Actor:
             state.activity,
         )
         parts = [*self.model.parts(pose), *self.extras]
-        return Placed(parts, state.to_world(), self.instance)
+        return PlacedModel(parts, state.to_world(), self.instance)
 
     def middle(self, time_s: float) -> Float64Array:
         """[3] world position of its middle, m."""

@@ -7,35 +7,35 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from texvent.scenes.model import Part
-from texvent.scenes.primitives import Float64Array, Primitives
+from texvent.scenes.models.protocol import ModelPart
+from texvent.scenes.scene import Float64Array, Primitives
 
 
 @dataclass(frozen=True)
-class Placed:
-    """Parts of one thing with the pose of its body in the world."""
+class PlacedModel:
+    """Parts of one object with the pose of its body in the world."""
 
-    parts: Sequence[Part]
+    parts: Sequence[ModelPart]
     to_world: Float64Array
     """[3, 4] body → world."""
     instance: int
     """Ground-truth id; 0 = scenery."""
 
 
-def assemble(placed: Sequence[Placed]) -> Primitives:
+def assemble(placed: Sequence[PlacedModel]) -> Primitives:
     """All parts as one structure of arrays, in the order given.
 
     Args:
-        placed: things with their parts.
+        placed: objects with their parts.
 
     Returns:
         n primitives, where n is the total number of parts; `to_world` is body-to-world times
         part-to-body.
     """
-    parts = [part for thing in placed for part in thing.parts]
-    sizes = [len(thing.parts) for thing in placed]
+    parts = [part for model in placed for part in model.parts]
+    sizes = [len(model.parts) for model in placed]
     to_body = np.array([part.to_body for part in parts], dtype=np.float64).reshape(-1, 3, 4)
-    body = np.array([thing.to_world for thing in placed], dtype=np.float64).reshape(-1, 3, 4)
+    body = np.array([model.to_world for model in placed], dtype=np.float64).reshape(-1, 3, 4)
     body = np.repeat(body, sizes, axis=0)
     to_world = body[:, :, :3] @ to_body
     to_world[:, :, 3] += body[:, :, 3]
@@ -49,7 +49,7 @@ def assemble(placed: Sequence[Placed]) -> Primitives:
         texture=np.array([part.texture for part in parts], dtype=np.int8),
         texture_scale=np.array([part.texture_scale for part in parts], dtype=np.float32),
         emission=np.array([part.emission for part in parts], dtype=np.float32),
-        instance=np.repeat(np.array([p.instance for p in placed], dtype=np.int32), sizes),
+        instance=np.repeat(np.array([model.instance for model in placed], dtype=np.int32), sizes),
     )
 
 

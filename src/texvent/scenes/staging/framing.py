@@ -1,4 +1,4 @@
-"""Where the camera stands so that everything that matters fits the picture."""
+"""Where the camera stands so that everything that matters fits the image."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from texvent.scenes.primitives import Camera, Float64Array
+from texvent.scenes.scene import Camera, Float64Array
 
 
 @dataclass(frozen=True)
@@ -59,10 +59,10 @@ def project(camera: Camera, points: Float64Array, aspect: float) -> Float64Array
     Args:
         camera: the camera.
         points: [n, 3] world positions, m.
-        aspect: picture height over width.
+        aspect: image height over width.
 
     Returns:
-        [n, 3]: x and y in half picture widths and heights from the middle (-1..1 is inside),
+        [n, 3]: x and y in half image widths and heights from the middle (-1..1 is inside),
         and depth, m.
     """
     local = (points - camera.position) @ camera.rotation.T
@@ -80,18 +80,18 @@ def fit(
     """The nearest station from which all points appear.
 
     A point (r right, u up, f further than the target) is inside when |r| is at most
-    fill · (distance + f) / (2 · focal), and likewise for u with the picture's height: each point
+    fill · (distance + f) / (2 · focal), and likewise for u with the image's height: each point
     asks for a distance, the largest wins.
 
     Args:
         points: [n, 3] what must be seen, m.
         azimuth: where the camera stands around them.
         elevation: how high it stands, radians.
-        aspect: picture height over width.
-        fill: share of the picture that they may fill, 0..1.
-        lift: how far above their middle the camera looks, in half picture heights, as far as
-            they still fit: puts them into the lower part of the picture, under the sky.
-        focal: focal length over picture width.
+        aspect: image height over width.
+        fill: share of the image that they may fill, 0..1.
+        lift: how far above their middle the camera looks, in half image heights, as far as
+            they still fit: puts them into the lower part of the image, under the sky.
+        focal: focal length over image width.
     """
     back = direction(azimuth, elevation)
     right = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])

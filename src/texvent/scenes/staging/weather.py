@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from texvent.scenes.primitives import (
+from texvent.scenes.scene import (
     Float64Array,
     Primitives,
     Shape,
     Texture,
 )
-from texvent.scenes.staging.motion import Trajectory
+from texvent.scenes.staging.trajectory import Trajectory
 
 RAIN_DROPS = 130
 SNOW_FLAKES = 170
@@ -22,8 +22,8 @@ _DEPTH_BELOW_M = 0.6
 
 
 @dataclass(frozen=True)
-class Shower:
-    """Things that fall through a box around what the camera looks at."""
+class FallingParticles:
+    """Objects that fall through a box around what the camera looks at."""
 
     places: Float64Array
     """[n, 3] at t = 0, m; z counts from the bottom of the box."""
@@ -45,16 +45,16 @@ class Shower:
         maps = np.zeros((len(self.places), 3, 4))
         maps[:, [0, 1, 2], [0, 1, 2]] = self.half
         maps[:, :, 3] = np.column_stack([x, self.places[:, 1], fallen]) + self.base
-        return paint_alike(maps, self.shape, self.colour)
+        return uniform_primitives(maps, self.shape, self.colour)
 
 
 @dataclass(frozen=True)
 class DustTrail:
-    """Puffs that a moving thing leaves behind: each rises, grows, and is used again."""
+    """Puffs that a moving object leaves behind: each rises, grows, and is used again."""
 
     source: Trajectory
     back_m: float
-    """From the middle of the thing to where the dust rises, m."""
+    """From the middle of the object to where the dust rises, m."""
     size_m: float
     seeds: Float64Array
     """[n, 3] in 0..1: sideways, size, and time of birth."""
@@ -73,37 +73,39 @@ class DustTrail:
             maps[row, :, :3] = radius * np.diag([1.2, 1.2, 0.8])
             place[2] += self.size_m * (0.05 + 0.28 * age * size)
             maps[row, :, 3] = place
-        return paint_alike(maps, Shape.ELLIPSOID, (0.46, 0.33, 0.20))
+        return uniform_primitives(maps, Shape.ELLIPSOID, (0.46, 0.33, 0.20))
 
 
-def make_rain(base: Float64Array, extent_m: float, rng: np.random.Generator) -> Shower:
+def make_rain(base: Float64Array, extent_m: float, rng: np.random.Generator) -> FallingParticles:
     """Rain over a square of that side around `base`, m."""
     height = 0.8 * extent_m + _DEPTH_BELOW_M
     places = _scatter(RAIN_DROPS, extent_m, height, rng)
     thick = 0.0011 * extent_m
-    return Shower(
+    return FallingParticles(
         places, base - [0.0, 0.0, _DEPTH_BELOW_M], height, 8.0, 0.0,
         np.array([thick, thick, 0.022 * extent_m]), (0.66, 0.72, 0.80), Shape.CYLINDER,
     )  # fmt: skip
 
 
-def make_snow(base: Float64Array, extent_m: float, rng: np.random.Generator) -> Shower:
+def make_snow(base: Float64Array, extent_m: float, rng: np.random.Generator) -> FallingParticles:
     """Snow over a square of that side around `base`, m."""
     height = 0.8 * extent_m + _DEPTH_BELOW_M
     places = _scatter(SNOW_FLAKES, extent_m, height, rng)
     radius = 0.0028 * extent_m
-    return Shower(
+    return FallingParticles(
         places, base - [0.0, 0.0, _DEPTH_BELOW_M], height, 0.09 * extent_m, 0.015 * extent_m,
         np.full(3, radius), (0.95, 0.96, 1.0), Shape.ELLIPSOID,
     )  # fmt: skip
 
 
 def make_dust(source: Trajectory, length_m: float, rng: np.random.Generator) -> DustTrail:
-    """Dust behind a thing of that length, m."""
+    """Dust behind an object of that length, m."""
     return DustTrail(source, 0.45 * length_m, 0.5 * length_m, rng.uniform(size=(DUST_PUFFS, 3)))
 
 
-def paint_alike(maps: Float64Array, shape: Shape, colour: tuple[float, float, float]) -> Primitives:
+def uniform_primitives(
+    maps: Float64Array, shape: Shape, colour: tuple[float, float, float]
+) -> Primitives:
     """Shapes of one kind and colour, scenery without an id."""
     count = len(maps)
     return Primitives(

@@ -6,10 +6,10 @@ import math
 from dataclasses import dataclass
 from functools import partial
 
-from texvent.scenes.model import Colour, Noun, Part, Pose
-from texvent.scenes.models.paint import BLACK, WHITE, Paint, mottled, shade
-from texvent.scenes.models.people.figure import Figure
-from texvent.scenes.models.shaping import (
+from texvent.scenes.models.articulated_model import ArticulatedModel
+from texvent.scenes.models.materials import BLACK, WHITE, Material, mottled, shade
+from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.shapes import (
     Point,
     ball,
     blade,
@@ -55,18 +55,22 @@ GULL = Plumage(
 )  # fmt: skip
 
 
-def build_flier(plumage: Plumage, *, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_flier(
+    plumage: Plumage, *, colour: Colour | None, scale: float, seed: int
+) -> ArticulatedModel:
     """Make a bird in flight; `colour` is its body and wings."""
     size = plumage.length
-    body = Paint(colour if colour is not None else choose(seed, "body", plumage.bodies))
+    body = Material(colour if colour is not None else choose(seed, "body", plumage.bodies))
     wing = mottled(shade(colour, 0.8) if colour is not None else plumage.wing, contrast=0.3)
-    head, beak = Paint(plumage.head), Paint(plumage.beak)
+    head, beak = Material(plumage.head), Material(plumage.beak)
     rigid = [
         limb(body, (-0.28 * size, 0.0, 0.0), (0.22 * size, 0.0, 0.02 * size), 0.13 * size),
         ball(head, (0.34 * size, 0.0, 0.06 * size), (0.22 * size, 0.18 * size, 0.18 * size)),
         spike(beak, (0.42 * size, 0.0, 0.05 * size), (0.56 * size, 0.0, 0.02 * size), 0.04 * size),
         ball(
-            Paint(BLACK), (0.39 * size, 0.0, 0.09 * size), (0.04 * size, 0.19 * size, 0.04 * size)
+            Material(BLACK),
+            (0.39 * size, 0.0, 0.09 * size),
+            (0.04 * size, 0.19 * size, 0.04 * size),
         ),
         blade(
             wing,
@@ -78,7 +82,7 @@ def build_flier(plumage: Plumage, *, colour: Colour | None, scale: float, seed: 
     ]
     start = fraction(seed, "flap")
 
-    def articulate(pose: Pose) -> list[Part]:
+    def articulate(pose: Pose) -> list[ModelPart]:
         if pose.activity in ("stand", "sit"):
             return [*_folded(plumage, wing, 1.0), *_folded(plumage, wing, -1.0)]
         turn = 2.0 * math.pi * (plumage.flap_hz * pose.time_s + start)
@@ -89,26 +93,30 @@ def build_flier(plumage: Plumage, *, colour: Colour | None, scale: float, seed: 
             *_wing(plumage, wing, -1.0, (inner, outer)),
         ]
 
-    return Figure(rigid, scale=scale, articulate=articulate, is_centred=True)
+    return ArticulatedModel(rigid, scale=scale, articulate=articulate, is_centred=True)
 
 
-def _wing(plumage: Plumage, paint: Paint, side: float, lift: tuple[float, float]) -> list[Part]:
+def _wing(
+    plumage: Plumage, material: Material, side: float, lift: tuple[float, float]
+) -> list[ModelPart]:
     """A spread wing; angles from horizontal at the shoulder, then at the wrist."""
-    shoulder, wrist, arm, hand = _spread(plumage, paint, side)
+    shoulder, wrist, arm, hand = _spread(plumage, material, side)
     inner, outer = lift
     bent = moved([hand], turn_x(side * outer, wrist))
     return moved([arm, *bent], turn_x(side * inner, shoulder))
 
 
-def _folded(plumage: Plumage, paint: Paint, side: float) -> list[Part]:
+def _folded(plumage: Plumage, material: Material, side: float) -> list[ModelPart]:
     """A wing at rest along the body: the hand lies back over the arm."""
-    shoulder, wrist, arm, hand = _spread(plumage, paint, side)
+    shoulder, wrist, arm, hand = _spread(plumage, material, side)
     closed = [arm, *moved([hand], turn_z(-3.05 * side, wrist))]
     along = moved(closed, turn_z(1.45 * side, shoulder))
     return moved(along, turn_x(-0.7 * side, shoulder))
 
 
-def _spread(plumage: Plumage, paint: Paint, side: float) -> tuple[Point, Point, Part, Part]:
+def _spread(
+    plumage: Plumage, material: Material, side: float
+) -> tuple[Point, Point, ModelPart, ModelPart]:
     """Shoulder, wrist, and the inner and outer half of a flat wing."""
     size, half = plumage.length, 0.5 * plumage.span * plumage.length
     shoulder: Point = (0.08 * size, side * 0.07 * size, 0.06 * size)
@@ -116,14 +124,14 @@ def _spread(plumage: Plumage, paint: Paint, side: float) -> tuple[Point, Point, 
     tip: Point = (-0.10 * size, side * half, 0.06 * size)
     chord, thin = plumage.chord * size, 0.035 * size
     arm = blade(
-        paint,
+        material,
         _towards(shoulder, wrist, -0.1),
         _towards(shoulder, wrist, 1.15),
         chord=(chord, 0.0, 0.0),
         thickness=(0.0, 0.0, 1.3 * thin),
     )
     hand = blade(
-        paint,
+        material,
         _towards(wrist, tip, -0.2),
         tip,
         chord=(0.8 * chord, 0.0, 0.0),
@@ -137,26 +145,26 @@ def _towards(start: Point, end: Point, share: float) -> Point:
     return (x, y, z)
 
 
-def build_duck(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_duck(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a duck afloat, its origin on the waterline; it rocks a little."""
     body = mottled(colour if colour is not None else (0.30, 0.22, 0.14), contrast=0.3)
-    head = Paint((0.02, 0.16, 0.06) if colour is None else colour)
+    head = Material((0.02, 0.16, 0.06) if colour is None else colour)
     parts = [
         limb(body, (-0.20, 0.0, 0.05), (0.16, 0.0, 0.05), 0.12, side_radius=0.13),
-        spike(Paint(BLACK), (-0.22, 0.0, 0.08), (-0.38, 0.0, 0.18), 0.06),
-        limb(Paint(WHITE), (0.17, 0.0, 0.10), (0.21, 0.0, 0.21), 0.046),
+        spike(Material(BLACK), (-0.22, 0.0, 0.08), (-0.38, 0.0, 0.18), 0.06),
+        limb(Material(WHITE), (0.17, 0.0, 0.10), (0.21, 0.0, 0.21), 0.046),
         limb(head, (0.19, 0.0, 0.17), (0.22, 0.0, 0.28), 0.052),
         ball(head, (0.23, 0.0, 0.29), (0.15, 0.12, 0.12)),
-        ball(Paint((0.70, 0.38, 0.02)), (0.33, 0.0, 0.275), (0.14, 0.07, 0.035)),
-        ball(Paint(BLACK), (0.26, 0.0, 0.31), (0.025, 0.122, 0.025)),
+        ball(Material((0.70, 0.38, 0.02)), (0.33, 0.0, 0.275), (0.14, 0.07, 0.035)),
+        ball(Material(BLACK), (0.26, 0.0, 0.31), (0.025, 0.122, 0.025)),
         ball(mottled((0.16, 0.12, 0.09)), (-0.05, 0.0, 0.10), (0.36, 0.27, 0.15)),
     ]
     start = 2.0 * math.pi * fraction(seed, "rock")
 
-    def articulate(pose: Pose) -> list[Part]:
+    def articulate(pose: Pose) -> list[ModelPart]:
         return moved(parts, turn_x(0.06 * math.sin(4.0 * pose.time_s + start)))
 
-    return Figure([], scale=scale, articulate=articulate)
+    return ArticulatedModel([], scale=scale, articulate=articulate)
 
 
 NOUNS = (

@@ -5,18 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import partial
 
-from texvent.scenes.model import Colour, Noun
-from texvent.scenes.models.animals.four_legs import Build, Coat, draw_animal
-from texvent.scenes.models.paint import (
+from texvent.scenes.models.animals.quadruped_body import Build, Coat, draw_animal
+from texvent.scenes.models.articulated_model import ArticulatedModel
+from texvent.scenes.models.materials import (
     BLACK,
     WHITE,
-    Paint,
+    Material,
     checked,
     mottled,
     shade,
     striped,
 )
-from texvent.scenes.models.people.figure import Figure
+from texvent.scenes.models.protocol import Colour, Noun
 from texvent.scenes.models.variation import choose
 
 
@@ -38,7 +38,9 @@ class Animal:
     hoof: Colour = (0.03, 0.025, 0.02)
 
 
-def build_animal(animal: Animal, *, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_animal(
+    animal: Animal, *, colour: Colour | None, scale: float, seed: int
+) -> ArticulatedModel:
     """Make a four-legged animal; `colour` is its coat."""
     hue = colour if colour is not None else choose(seed, "coat", animal.colours)
     fur = mottled(hue, contrast=0.25, scale=3.0)
@@ -49,7 +51,7 @@ def build_animal(animal: Animal, *, colour: Colour | None, scale: float, seed: i
     elif animal.pattern == "checks":
         trunk = checked(hue, animal.second_colour, animal.checks)
     dark = animal.dark if animal.dark is not None else shade(hue, 0.45)
-    coat = Coat(trunk=trunk, limbs=limbs, dark=Paint(dark), hoof=Paint(animal.hoof))
+    coat = Coat(trunk=trunk, limbs=limbs, dark=Material(dark), hoof=Material(animal.hoof))
     return draw_animal(animal.build, coat, scale=scale, seed=seed)
 
 

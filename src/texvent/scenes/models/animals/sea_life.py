@@ -6,10 +6,10 @@ import math
 from dataclasses import dataclass
 from functools import partial
 
-from texvent.scenes.model import Colour, Noun, Part, Pose
-from texvent.scenes.models.paint import BLACK, Paint, checked, mottled, shade
-from texvent.scenes.models.people.figure import Figure
-from texvent.scenes.models.shaping import (
+from texvent.scenes.models.articulated_model import ArticulatedModel
+from texvent.scenes.models.materials import BLACK, Material, checked, mottled, shade
+from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.shapes import (
     Affine,
     Point,
     ball,
@@ -75,23 +75,29 @@ WHALE = Swimmer(
 _SEGMENTS = ((0.26, 0.46, 0.86), (0.06, 0.50, 1.0), (-0.15, 0.40, 0.74), (-0.30, 0.28, 0.42))
 
 
-def build_swimmer(kind: Swimmer, *, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_swimmer(
+    kind: Swimmer, *, colour: Colour | None, scale: float, seed: int
+) -> ArticulatedModel:
     """Make a fish or whale; `colour` is its back."""
     back = colour if colour is not None else choose(seed, "back", kind.backs)
     belly = kind.belly if colour is None else shade(colour, 1.6)
     start = fraction(seed, "beat")
 
-    def articulate(pose: Pose) -> list[Part]:
+    def articulate(pose: Pose) -> list[ModelPart]:
         rests = pose.activity in ("stand", "sit")
         turn = 2.0 * math.pi * (kind.beat_hz * pose.time_s + start)
-        return _body(kind, mottled(back, contrast=0.2), Paint(belly), turn, 0.3 if rests else 1.0)
+        return _body(
+            kind, mottled(back, contrast=0.2), Material(belly), turn, 0.3 if rests else 1.0
+        )
 
-    return Figure([], scale=scale * kind.length, articulate=articulate, is_centred=True)
+    return ArticulatedModel([], scale=scale * kind.length, articulate=articulate, is_centred=True)
 
 
-def _body(kind: Swimmer, back: Paint, belly: Paint, turn: float, amount: float) -> list[Part]:
+def _body(
+    kind: Swimmer, back: Material, belly: Material, turn: float, amount: float
+) -> list[ModelPart]:
     """All parts of a swimmer of length 1, a wave running from head to tail."""
-    parts: list[Part] = []
+    parts: list[ModelPart] = []
     for index, (x, long, thick) in enumerate(_SEGMENTS):
         tall, wide = thick * kind.depth, thick * kind.breadth
         group = [ball(back, (x, 0.0, 0.0), (long, wide, tall))]
@@ -118,13 +124,13 @@ def _wave(kind: Swimmer, x: float, turn: float, amount: float) -> Affine:
     return compose(shift(y=offset), turn_z(math.atan(slope), (x, 0.0, 0.0)))
 
 
-def _face(kind: Swimmer, back: Paint) -> list[Part]:
+def _face(kind: Swimmer, back: Material) -> list[ModelPart]:
     """Eyes, and a beak or a mouth."""
     eye_y = 0.36 * kind.breadth
     eye_x, eye_z = 0.37, 0.06 * kind.depth
     size = 0.030 if kind.depth < 0.3 else 0.055
     parts = [
-        ball(Paint(BLACK), (eye_x, side * eye_y, eye_z), (size, 0.5 * size, size))
+        ball(Material(BLACK), (eye_x, side * eye_y, eye_z), (size, 0.5 * size, size))
         for side in (1.0, -1.0)
     ]
     if kind.snout:
@@ -132,11 +138,11 @@ def _face(kind: Swimmer, back: Paint) -> list[Part]:
         parts.append(limb(back, start, end, 0.028))
     else:
         mouth = (0.40, 0.0, -0.22 * kind.depth)
-        parts.append(ball(Paint(shade(BLACK, 1.5)), mouth, (0.11, 0.46 * kind.breadth, 0.012)))
+        parts.append(ball(Material(shade(BLACK, 1.5)), mouth, (0.11, 0.46 * kind.breadth, 0.012)))
     return parts
 
 
-def _fins(kind: Swimmer, back: Paint) -> list[Part]:
+def _fins(kind: Swimmer, back: Material) -> list[ModelPart]:
     """Back fin and side fins."""
     x, tall, chord = kind.dorsal
     top = 0.42 * kind.depth
@@ -155,7 +161,7 @@ def _fins(kind: Swimmer, back: Paint) -> list[Part]:
     return parts
 
 
-def _tail(kind: Swimmer, back: Paint) -> list[Part]:
+def _tail(kind: Swimmer, back: Material) -> list[ModelPart]:
     """Two lobes: upright in fish, flat in whales."""
     upper, lower = kind.tail
     root, chord, thin = (-0.39, 0.0, 0.0), (0.11, 0.0, 0.0), 0.022
@@ -170,7 +176,7 @@ def _tail(kind: Swimmer, back: Paint) -> list[Part]:
     return parts
 
 
-def build_turtle(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_turtle(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a sea turtle, about 1 m; `colour` is its shell."""
     shell = checked(
         colour if colour is not None else (0.16, 0.13, 0.04),
@@ -180,16 +186,16 @@ def build_turtle(*, colour: Colour | None, scale: float, seed: int) -> Figure:
     skin = mottled((0.16, 0.22, 0.09), contrast=0.4)
     rigid = [
         ball(shell, (0.0, 0.0, 0.04), (0.86, 0.68, 0.34)),
-        ball(Paint((0.45, 0.40, 0.22)), (0.0, 0.0, -0.03), (0.80, 0.62, 0.20)),
+        ball(Material((0.45, 0.40, 0.22)), (0.0, 0.0, -0.03), (0.80, 0.62, 0.20)),
         limb(skin, (0.36, 0.0, 0.02), (0.52, 0.0, 0.05), 0.065),
         ball(skin, (0.57, 0.0, 0.06), (0.20, 0.15, 0.14)),
-        ball(Paint(BLACK), (0.61, 0.0, 0.085), (0.03, 0.155, 0.03)),
+        ball(Material(BLACK), (0.61, 0.0, 0.085), (0.03, 0.155, 0.03)),
     ]
     start = 2.0 * math.pi * fraction(seed, "stroke")
 
-    def articulate(pose: Pose) -> list[Part]:
+    def articulate(pose: Pose) -> list[ModelPart]:
         stroke = 0.6 * math.sin(2.0 * math.pi * 0.6 * pose.time_s + start)
-        parts: list[Part] = []
+        parts: list[ModelPart] = []
         for side in (1.0, -1.0):
             root: Point = (0.26, side * 0.24, 0.0)
             tip: Point = (0.10, side * 0.74, 0.0)
@@ -202,16 +208,16 @@ def build_turtle(*, colour: Colour | None, scale: float, seed: int) -> Figure:
             parts += moved(rear, turn_x(-0.4 * side * stroke, heel))
         return parts
 
-    return Figure(rigid, scale=scale, articulate=articulate, is_centred=True)
+    return ArticulatedModel(rigid, scale=scale, articulate=articulate, is_centred=True)
 
 
-def build_jellyfish(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_jellyfish(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a jellyfish, about 0.9 m tall, that pulses; `colour` is its bell."""
-    bell = Paint(colour if colour is not None else (0.62, 0.34, 0.55), emission=0.15)
-    inner = Paint(shade(bell.colour, 1.4), emission=0.15)
+    bell = Material(colour if colour is not None else (0.62, 0.34, 0.55), emission=0.15)
+    inner = Material(shade(bell.colour, 1.4), emission=0.15)
     start = fraction(seed, "pulse")
 
-    def articulate(pose: Pose) -> list[Part]:
+    def articulate(pose: Pose) -> list[ModelPart]:
         turn = 2.0 * math.pi * (0.7 * pose.time_s + start)
         squeeze = 0.10 * math.sin(turn)
         wide, tall = 0.60 * (1.0 - squeeze), 0.40 * (1.0 + squeeze)
@@ -224,10 +230,10 @@ def build_jellyfish(*, colour: Colour | None, scale: float, seed: int) -> Figure
             parts += _tentacle(inner, 2.0 * math.pi * index / 7.0, 0.40 * wide, turn)
         return parts
 
-    return Figure([], scale=scale, articulate=articulate, is_centred=True)
+    return ArticulatedModel([], scale=scale, articulate=articulate, is_centred=True)
 
 
-def _tentacle(paint: Paint, angle: float, out: float, turn: float) -> list[Part]:
+def _tentacle(material: Material, angle: float, out: float, turn: float) -> list[ModelPart]:
     """A chain of two limbs that trails the pulse."""
     c, s = math.cos(angle), math.sin(angle)
     sway = 0.06 * math.sin(turn - 1.2 + angle)
@@ -235,7 +241,7 @@ def _tentacle(paint: Paint, angle: float, out: float, turn: float) -> list[Part]
     top = (out * c, out * s, 0.14)
     knee = (top[0] + sway, top[1] + 0.5 * sway, -0.12)
     tip = (knee[0] + curl, knee[1] + 0.5 * curl, -0.42)
-    return [limb(paint, top, knee, 0.022), limb(paint, knee, tip, 0.016)]
+    return [limb(material, top, knee, 0.022), limb(material, knee, tip, 0.016)]
 
 
 NOUNS = (

@@ -6,18 +6,18 @@ import math
 from dataclasses import dataclass
 from functools import partial
 
-from texvent.scenes.model import Colour, Noun, Part, Pose
-from texvent.scenes.models.paint import (
+from texvent.scenes.models.articulated_model import ArticulatedModel
+from texvent.scenes.models.materials import (
     BLACK,
     ORANGE,
     YELLOW,
-    Paint,
+    Material,
     mottled,
     shade,
     striped,
 )
-from texvent.scenes.models.people.figure import Figure
-from texvent.scenes.models.shaping import (
+from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.shapes import (
     Point,
     ball,
     blade,
@@ -58,57 +58,61 @@ DRAGONFLY = Insect(
 )  # fmt: skip
 
 
-def build_insect(kind: Insect, *, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_insect(
+    kind: Insect, *, colour: Colour | None, scale: float, seed: int
+) -> ArticulatedModel:
     """Make a flying insect; `colour` is a butterfly's wings or another's body."""
     hue = colour if colour is not None else choose(seed, "colour", kind.colours)
     length, thick = kind.body
-    body = Paint(BLACK)
+    body = Material(BLACK)
     if kind.striped_body:
         body = striped(hue, BLACK, 1.6)
     elif kind.clear_wings:
-        body = Paint(hue)
-    wing = Paint((0.62, 0.66, 0.70)) if kind.clear_wings else Paint(hue)
+        body = Material(hue)
+    wing = Material((0.62, 0.66, 0.70)) if kind.clear_wings else Material(hue)
     rigid = [
         limb(body, (-0.45 * length, 0.0, 0.0), (0.22 * length, 0.0, 0.0), 0.5 * thick),
-        ball(Paint(BLACK), (0.36 * length, 0.0, 0.0), (0.24 * length, 1.3 * thick, 1.1 * thick)),
+        ball(Material(BLACK), (0.36 * length, 0.0, 0.0), (0.24 * length, 1.3 * thick, 1.1 * thick)),
     ]
     for side in (1.0, -1.0):
         start: Point = (0.44 * length, side * 0.2 * thick, 0.4 * thick)
         end: Point = (0.62 * length, side * 0.6 * thick, 0.9 * thick)
-        rigid.append(limb(Paint(BLACK), start, end, 0.02 * thick + 0.0005))
+        rigid.append(limb(Material(BLACK), start, end, 0.02 * thick + 0.0005))
     phase = fraction(seed, "flap")
 
-    def articulate(pose: Pose) -> list[Part]:
+    def articulate(pose: Pose) -> list[ModelPart]:
         beat = math.sin(2.0 * math.pi * (kind.flap_hz * pose.time_s + phase))
-        parts: list[Part] = []
+        parts: list[ModelPart] = []
         for pair in kind.wings:
             for side in (1.0, -1.0):
                 lift = side * (0.35 + kind.flap * beat)
                 parts += moved(_wing(kind, wing, pair, side), turn_x(lift))
         return parts
 
-    return Figure(rigid, scale=scale, articulate=articulate, is_centred=True)
+    return ArticulatedModel(rigid, scale=scale, articulate=articulate, is_centred=True)
 
 
-def _wing(kind: Insect, paint: Paint, pair: tuple[float, float, float], side: float) -> list[Part]:
+def _wing(
+    kind: Insect, material: Material, pair: tuple[float, float, float], side: float
+) -> list[ModelPart]:
     """A wing, and for a butterfly a dark rim under it and a pale spot on it."""
     x, span, chord = pair
     root = (x, 0.0, 0.004)
     lean = 0.35 * span if x > 0.0 else -0.45 * span
     tip = (x + (0.0 if kind.clear_wings else lean), side * span, 0.004)
     thin = (0.0, 0.0, 0.003)
-    parts = [blade(paint, root, tip, chord=(chord, 0.0, 0.0), thickness=thin)]
+    parts = [blade(material, root, tip, chord=(chord, 0.0, 0.0), thickness=thin)]
     if not kind.clear_wings:
         far = (1.10 * tip[0] - 0.10 * x, 1.10 * tip[1], 0.004)
         wide, flat = (1.2 * chord, 0.0, 0.0), (0.0, 0.0, 0.0015)
-        rim = blade(Paint(BLACK), root, far, chord=wide, thickness=flat)
+        rim = blade(Material(BLACK), root, far, chord=wide, thickness=flat)
         spot = (0.4 * x + 0.6 * tip[0], 0.6 * tip[1], 0.004)
-        light = Paint(shade(paint.colour, 2.2))
+        light = Material(shade(material.colour, 2.2))
         parts += [rim, ball(light, spot, (0.3 * chord, 0.3 * chord, 0.0045))]
     return parts
 
 
-def build_snake(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_snake(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a snake, 1.6 m, that slithers along its own track; `colour` is its skin."""
     hue = (
         colour
@@ -121,7 +125,7 @@ def build_snake(*, colour: Colour | None, scale: float, seed: int) -> Figure:
     def track(s: float) -> Point:
         return (s, 0.13 * math.sin(2.0 * math.pi * s / 0.75), 0.0)
 
-    def articulate(pose: Pose) -> list[Part]:
+    def articulate(pose: Pose) -> list[ModelPart]:
         # The body follows one wave fixed to the ground: every point passes the same places.
         parts = []
         for index in range(count):
@@ -134,13 +138,15 @@ def build_snake(*, colour: Colour | None, scale: float, seed: int) -> Figure:
         ahead = (0.92, tip[1], 1.1 * thick)
         parts.append(ball(skin, ahead, (0.20, 0.11, 0.09)))
         for side in (0.035, -0.035):
-            parts.append(ball(Paint(BLACK), (0.96, ahead[1] + side, 0.08), (0.022, 0.022, 0.022)))
+            parts.append(
+                ball(Material(BLACK), (0.96, ahead[1] + side, 0.08), (0.022, 0.022, 0.022))
+            )
         return parts
 
-    return Figure([], scale=scale, articulate=articulate)
+    return ArticulatedModel([], scale=scale, articulate=articulate)
 
 
-def build_snail(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_snail(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a snail, 8 cm; `colour` is its shell."""
     hue = colour if colour is not None else (0.36, 0.17, 0.06)
     shell, body = striped(hue, shade(hue, 0.45), 3.0), mottled((0.40, 0.33, 0.22), contrast=0.2)
@@ -148,10 +154,10 @@ def build_snail(*, colour: Colour | None, scale: float, seed: int) -> Figure:
     rigid = [
         blade(shell, (-0.012, -0.020, 0.034), (-0.012, 0.020, 0.034), chord=(0.056, 0.0, 0.0),
               thickness=(0.0, 0.0, 0.056)),
-        ball(Paint(shade(hue, 0.5)), (-0.010, 0.0, 0.036), (0.022, 0.046, 0.022)),
+        ball(Material(shade(hue, 0.5)), (-0.010, 0.0, 0.036), (0.022, 0.046, 0.022)),
     ]  # fmt: skip
 
-    def articulate(pose: Pose) -> list[Part]:
+    def articulate(pose: Pose) -> list[ModelPart]:
         creep = 0.004 * math.sin(2.0 * math.pi * pose.distance_m / 0.03 + start)
         parts = [
             ball(body, (0.0, 0.0, 0.008), (0.090 + creep, 0.030, 0.016)),
@@ -160,10 +166,10 @@ def build_snail(*, colour: Colour | None, scale: float, seed: int) -> Figure:
         for side in (0.006, -0.006):
             eye = (0.056 + creep, 1.6 * side, 0.052)
             parts.append(limb(body, (0.046 + creep, side, 0.032), eye, 0.002))
-            parts.append(ball(Paint(BLACK), eye, (0.006, 0.006, 0.006)))
+            parts.append(ball(Material(BLACK), eye, (0.006, 0.006, 0.006)))
         return parts
 
-    return Figure(rigid, scale=scale, articulate=articulate)
+    return ArticulatedModel(rigid, scale=scale, articulate=articulate)
 
 
 NOUNS = (

@@ -6,11 +6,11 @@ import math
 from dataclasses import dataclass
 from functools import partial
 
-from texvent.scenes.model import Colour, Noun, Part, Pose
-from texvent.scenes.models.paint import BLACK, ORANGE, WHITE, Paint, mottled
-from texvent.scenes.models.people.figure import Figure
-from texvent.scenes.models.people.joints import Gait, bend, foot_path, step_amount
-from texvent.scenes.models.shaping import Point, ball, limb, moved, shift, spike
+from texvent.scenes.models.articulated_model import ArticulatedModel
+from texvent.scenes.models.limb_kinematics import Gait, bend, foot_path, step_amount
+from texvent.scenes.models.materials import BLACK, ORANGE, WHITE, Material, mottled
+from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.shapes import Point, ball, limb, moved, shift, spike
 from texvent.scenes.models.variation import fraction
 
 
@@ -54,12 +54,14 @@ CHICKEN = Strider(
 )  # fmt: skip
 
 
-def build_strider(kind: Strider, *, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_strider(
+    kind: Strider, *, colour: Colour | None, scale: float, seed: int
+) -> ArticulatedModel:
     """Make a walking bird; `colour` is its plumage."""
     plumage = mottled(colour if colour is not None else kind.plumage, contrast=0.4)
     start = fraction(seed, "step")
 
-    def articulate(pose: Pose) -> list[Part]:
+    def articulate(pose: Pose) -> list[ModelPart]:
         amount = step_amount(pose.activity, pose.speed_m_s, 0.4 * kind.gait.stride)
         distance = pose.distance_m + start * kind.gait.stride
         turn = 2.0 * math.pi * distance / kind.gait.stride
@@ -70,14 +72,14 @@ def build_strider(kind: Strider, *, colour: Colour | None, scale: float, seed: i
             parts += _leg(kind, side, foot, bob)
         return parts
 
-    return Figure([], scale=scale, articulate=articulate)
+    return ArticulatedModel([], scale=scale, articulate=articulate)
 
 
-def _trunk(kind: Strider, plumage: Paint, nod: float) -> list[Part]:
+def _trunk(kind: Strider, plumage: Material, nod: float) -> list[ModelPart]:
     """Body, wings, tail, neck and head; `nod` -1..1 moves the head forth and back."""
     length, width, height = kind.body
     z = kind.hip + 0.10 * height
-    skin, wing = Paint(kind.skin), Paint(kind.wing)
+    skin, wing = Material(kind.skin), Material(kind.wing)
     neck_base: Point = (0.40 * length, 0.0, z + 0.15 * height)
     reach = 0.10 * kind.neck * (1.0 + 0.5 * nod)
     middle: Point = (neck_base[0] + 0.22 * kind.neck, 0.0, neck_base[2] + 0.42 * kind.neck)
@@ -104,9 +106,9 @@ def _trunk(kind: Strider, plumage: Paint, nod: float) -> list[Part]:
             (top[0] + 0.2 * kind.head, 0.0, top[2]),
             (kind.head, 0.62 * kind.head, 0.62 * kind.head),
         ),
-        spike(Paint(kind.beak_colour), beak_base, beak_tip, 0.20 * kind.head),
+        spike(Material(kind.beak_colour), beak_base, beak_tip, 0.20 * kind.head),
         ball(
-            Paint(BLACK),
+            Material(BLACK),
             (top[0] + 0.32 * kind.head, 0.0, top[2] + 0.10 * kind.head),
             (eye, 0.62 * kind.head, eye),
         ),
@@ -117,13 +119,13 @@ def _trunk(kind: Strider, plumage: Paint, nod: float) -> list[Part]:
         white = (-0.36 * length, side * 0.40 * width, z - 0.10 * height)
         parts.append(ball(wing, white, (0.36 * length, 0.20 * width, 0.26 * height)))
     if kind.comb:
-        red = Paint((0.55, 0.02, 0.02))
+        red = Material((0.55, 0.02, 0.02))
         parts.append(ball(red, (top[0] + 0.01, 0.0, top[2] + 0.045), (0.08, 0.02, 0.06)))
         parts.append(ball(red, (top[0] + 0.04, 0.0, top[2] - 0.04), (0.03, 0.03, 0.05)))
     return parts
 
 
-def _leg(kind: Strider, side: float, foot: tuple[float, float], bob: float) -> list[Part]:
+def _leg(kind: Strider, side: float, foot: tuple[float, float], bob: float) -> list[ModelPart]:
     """A feathered thigh and a bare shank; what bends backwards is the heel, high off the ground."""
     x, lift = foot
     thick = 0.030 * kind.hip
@@ -132,7 +134,7 @@ def _leg(kind: Strider, side: float, foot: tuple[float, float], bob: float) -> l
     ankle: Point = (x, y, thick + lift)
     half = 0.54 * kind.hip
     heel = bend(hip, ankle, half, half, (-1.0, 0.0, 0.0))
-    legs = Paint(kind.legs)
+    legs = Material(kind.legs)
     toes: Point = (x + 0.13 * kind.hip, y, thick + lift)
     return [
         limb(legs, hip, heel, 2.8 * thick),
@@ -141,24 +143,24 @@ def _leg(kind: Strider, side: float, foot: tuple[float, float], bob: float) -> l
     ]
 
 
-def build_penguin(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_penguin(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a penguin that waddles; `colour` is its back."""
-    back = Paint(colour if colour is not None else BLACK)
-    front, feet = Paint(WHITE), Paint(ORANGE)
+    back = Material(colour if colour is not None else BLACK)
+    front, feet = Material(WHITE), Material(ORANGE)
     gait = Gait(0.30, 0.6, 0.04)
     start = fraction(seed, "step")
     trunk = [
         limb(back, (-0.02, 0.0, 0.14), (0.0, 0.0, 0.58), 0.17, side_radius=0.18),
         ball(front, (0.055, 0.0, 0.36), (0.26, 0.27, 0.52)),
         ball(back, (0.02, 0.0, 0.74), (0.19, 0.17, 0.18)),
-        ball(Paint((0.72, 0.42, 0.05)), (0.045, 0.0, 0.68), (0.15, 0.155, 0.07)),
+        ball(Material((0.72, 0.42, 0.05)), (0.045, 0.0, 0.68), (0.15, 0.155, 0.07)),
         spike(feet, (0.10, 0.0, 0.74), (0.20, 0.0, 0.72), 0.025),
         ball(front, (0.075, 0.0, 0.77), (0.04, 0.14, 0.03)),
         limb(back, (0.0, 0.17, 0.56), (-0.04, 0.26, 0.28), 0.05, side_radius=0.02),
         limb(back, (0.0, -0.17, 0.56), (-0.04, -0.26, 0.28), 0.05, side_radius=0.02),
     ]
 
-    def articulate(pose: Pose) -> list[Part]:
+    def articulate(pose: Pose) -> list[ModelPart]:
         amount = step_amount(pose.activity, pose.speed_m_s, 0.15)
         distance = pose.distance_m + start * gait.stride
         sway = 0.05 * amount * math.sin(2.0 * math.pi * distance / gait.stride)
@@ -168,7 +170,7 @@ def build_penguin(*, colour: Colour | None, scale: float, seed: int) -> Figure:
             parts.append(ball(feet, (x + 0.05, 0.09 * side, 0.025 + z), (0.20, 0.11, 0.05)))
         return parts
 
-    return Figure([], scale=scale, articulate=articulate)
+    return ArticulatedModel([], scale=scale, articulate=articulate)
 
 
 NOUNS = (

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from texvent.scenes.model import Colour, Noun, Part, Pose
-from texvent.scenes.models.paint import (
+from texvent.scenes.models.articulated_model import ArticulatedModel
+from texvent.scenes.models.materials import (
     DARK,
     GLASS,
     RED,
@@ -13,12 +13,12 @@ from texvent.scenes.models.paint import (
     TAILLIGHT,
     WHITE,
     YELLOW,
-    Paint,
+    Material,
     glowing,
     striped,
 )
-from texvent.scenes.models.people.figure import Figure
-from texvent.scenes.models.shaping import (
+from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.shapes import (
     Point,
     ball,
     box,
@@ -38,11 +38,11 @@ from texvent.scenes.models.shaping import (
 from texvent.scenes.models.variation import choose, fraction
 
 
-def build_airplane(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_airplane(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make an airliner, 30 m, with windows, engines and a painted tail; `colour` is its body."""
-    body = Paint(colour if colour is not None else WHITE)
-    accent = Paint(choose(seed, "tail", ((0.05, 0.15, 0.5), RED, (0.04, 0.3, 0.2))))
-    grey = Paint((0.50, 0.52, 0.54))
+    body = Material(colour if colour is not None else WHITE)
+    accent = Material(choose(seed, "tail", ((0.05, 0.15, 0.5), RED, (0.04, 0.3, 0.2))))
+    grey = Material((0.50, 0.52, 0.54))
     parts = [
         rod(body, (-8.0, 0.0, 0.0), (11.0, 0.0, 0.0), 1.8),
         limb(body, (8.0, 0.0, 0.0), (13.0, 0.0, -0.15), 1.75),
@@ -90,13 +90,13 @@ def build_airplane(*, colour: Colour | None, scale: float, seed: int) -> Figure:
         )
         parts.append(rod(accent, (-0.6, side * 5.2, -1.6), (2.8, side * 5.2, -1.6), 0.95))
         parts.append(rod(DARK, (2.7, side * 5.2, -1.6), (2.9, side * 5.2, -1.6), 0.75))
-    return Figure(parts, scale=scale, is_centred=True)
+    return ArticulatedModel(parts, scale=scale, is_centred=True)
 
 
-def build_helicopter(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_helicopter(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a helicopter, 11 m, with turning main and tail rotors; `colour` is its body."""
     usual: tuple[Colour, ...] = (RED, (0.04, 0.12, 0.40), (0.10, 0.20, 0.06))
-    body = Paint(colour if colour is not None else choose(seed, "body", usual))
+    body = Material(colour if colour is not None else choose(seed, "body", usual))
     rigid = [
         ball(body, (0.6, 0.0, -0.1), (4.4, 2.0, 2.3)),
         ball(GLASS, (1.45, 0.0, 0.15), (2.6, 1.9, 1.7)),
@@ -129,19 +129,19 @@ def build_helicopter(*, colour: Colour | None, scale: float, seed: int) -> Figur
         box(DARK, (0.0, 0.0, 0.0), (0.16, 0.06, 1.7)),
     ]
 
-    def articulate(pose: Pose) -> list[Part]:
+    def articulate(pose: Pose) -> list[ModelPart]:
         turn = 2.0 * math.pi * (4.0 * pose.time_s + start)
         main = moved(blades, compose(shift(0.3, 0.0, 1.62), turn_z(turn)))
         tail = moved(tail_blades, compose(shift(-6.1, -0.25, 1.1), turn_y(3.0 * turn)))
         return [*main, *tail]
 
-    return Figure(rigid, scale=scale, articulate=articulate, is_centred=True)
+    return ArticulatedModel(rigid, scale=scale, articulate=articulate, is_centred=True)
 
 
-def build_drone(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_drone(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a quadrotor drone, 0.9 m, with turning propellers; `colour` is its body."""
-    body = Paint(colour if colour is not None else (0.10, 0.10, 0.11))
-    propeller = Paint((0.55, 0.55, 0.57))
+    body = Material(colour if colour is not None else (0.10, 0.10, 0.11))
+    propeller = Material((0.55, 0.55, 0.57))
     corners = [(x, y, 0.04) for x in (0.30, -0.30) for y in (0.30, -0.30)]
     rigid = [
         ball(body, (0.0, 0.0, 0.0), (0.44, 0.26, 0.15)),
@@ -160,21 +160,21 @@ def build_drone(*, colour: Colour | None, scale: float, seed: int) -> Figure:
     start = fraction(seed, "rotor")
     blade_pair = [box(propeller, (0.0, 0.0, 0.0), (0.38, 0.045, 0.012))]
 
-    def articulate(pose: Pose) -> list[Part]:
-        parts: list[Part] = []
+    def articulate(pose: Pose) -> list[ModelPart]:
+        parts: list[ModelPart] = []
         for index, (x, y, z) in enumerate(corners):
             sign = 1.0 if index in (0, 3) else -1.0
             turn = sign * 2.0 * math.pi * (6.0 * pose.time_s + start) + index
             parts += moved(blade_pair, compose(shift(x, y, z + 0.06), turn_z(turn)))
         return parts
 
-    return Figure(rigid, scale=scale, articulate=articulate, is_centred=True)
+    return ArticulatedModel(rigid, scale=scale, articulate=articulate, is_centred=True)
 
 
-def build_rocket(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_rocket(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make an upright rocket, 10 m, whose flame flickers; `colour` is its nose and fins."""
-    accent = Paint(colour if colour is not None else RED)
-    body = Paint(WHITE)
+    accent = Material(colour if colour is not None else RED)
+    body = Material(WHITE)
     rigid = [
         post(body, (0.0, 0.0, 0.2), (1.8, 1.8, 6.0)),
         peak(accent, (0.0, 0.0, 4.3), (1.8, 1.8, 2.2)),
@@ -189,7 +189,7 @@ def build_rocket(*, colour: Colour | None, scale: float, seed: int) -> Figure:
         rigid.append(fin(accent, root, tip, chord=(0.0, 0.0, 2.2), thickness=thin))
     start = fraction(seed, "flame")
 
-    def articulate(pose: Pose) -> list[Part]:
+    def articulate(pose: Pose) -> list[ModelPart]:
         burst = math.sin(2.0 * math.pi * (7.0 * pose.time_s + start))
         long = 2.2 + 0.35 * burst
         outer, inner = glowing((1.0, 0.35, 0.03), 2.5), glowing((1.0, 0.80, 0.30), 4.0)
@@ -198,13 +198,13 @@ def build_rocket(*, colour: Colour | None, scale: float, seed: int) -> Figure:
             spike(inner, (0.0, 0.0, -3.2), (0.0, 0.0, -3.2 - 0.6 * long), 0.40),
         ]
 
-    return Figure(rigid, scale=scale, articulate=articulate, is_centred=True)
+    return ArticulatedModel(rigid, scale=scale, articulate=articulate, is_centred=True)
 
 
-def build_hot_air_balloon(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_hot_air_balloon(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a hot-air balloon, 18 m, with a banded envelope and a basket."""
     hue = colour if colour is not None else choose(seed, "cloth", (RED, (0.05, 0.2, 0.6)))
-    cloth, second = striped(hue, YELLOW, 3.0), Paint(hue)
+    cloth, second = striped(hue, YELLOW, 3.0), Material(hue)
     basket = striped((0.26, 0.14, 0.06), (0.16, 0.08, 0.03), 5.0)
     parts = [
         ball(cloth, (0.0, 0.0, 3.0), (12.0, 12.0, 12.0)),
@@ -216,16 +216,16 @@ def build_hot_air_balloon(*, colour: Colour | None, scale: float, seed: int) -> 
         rod(DARK, (0.9, -0.9, -7.2), (0.9, -0.9, -4.6), 0.06),
         rod(DARK, (-0.9, -0.9, -7.2), (-0.9, -0.9, -4.6), 0.06),
     ]
-    return Figure(parts, scale=scale, is_centred=True)
+    return ArticulatedModel(parts, scale=scale, is_centred=True)
 
 
-def build_ufo(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_ufo(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a flying saucer, 6 m, that spins; `colour` is its disc."""
-    disc = Paint(colour if colour is not None else (0.40, 0.42, 0.45))
+    disc = Material(colour if colour is not None else (0.40, 0.42, 0.45))
     rigid = [
         ball(disc, (0.0, 0.0, 0.0), (6.0, 6.0, 1.1)),
         ball(GLASS, (0.0, 0.0, 0.45), (2.4, 2.4, 1.8)),
-        ball(Paint((0.25, 0.26, 0.28)), (0.0, 0.0, -0.30), (3.0, 3.0, 0.9)),
+        ball(Material((0.25, 0.26, 0.28)), (0.0, 0.0, -0.30), (3.0, 3.0, 0.9)),
     ]
     lamps = []
     for index in range(8):
@@ -235,10 +235,10 @@ def build_ufo(*, colour: Colour | None, scale: float, seed: int) -> Figure:
         lamps.append(ball(glowing(hue, 2.5), at, (0.5, 0.5, 0.5)))
     start = fraction(seed, "spin")
 
-    def articulate(pose: Pose) -> list[Part]:
+    def articulate(pose: Pose) -> list[ModelPart]:
         return moved(lamps, turn_z(2.0 * math.pi * (0.4 * pose.time_s + start)))
 
-    return Figure(rigid, scale=scale, articulate=articulate, is_centred=True)
+    return ArticulatedModel(rigid, scale=scale, articulate=articulate, is_centred=True)
 
 
 NOUNS = (

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import partial
 
-from texvent.scenes.model import Colour, Noun, Part, Pose
-from texvent.scenes.models.paint import (
+from texvent.scenes.models.articulated_model import ArticulatedModel
+from texvent.scenes.models.materials import (
     BLACK,
     CAR_COLOURS,
     DARK,
@@ -17,12 +17,12 @@ from texvent.scenes.models.paint import (
     TAILLIGHT,
     WHITE,
     YELLOW,
-    Paint,
+    Material,
     checked,
     shade,
 )
-from texvent.scenes.models.people.figure import Figure
-from texvent.scenes.models.shaping import ball, box, rod
+from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.shapes import ball, box, rod
 from texvent.scenes.models.variation import choose
 from texvent.scenes.models.vehicles.wheels import Wheel, car_wheels
 
@@ -68,9 +68,11 @@ PICKUP = CarShape(
 )
 
 
-def build_car(shape: CarShape, *, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_car(
+    shape: CarShape, *, colour: Colour | None, scale: float, seed: int
+) -> ArticulatedModel:
     """Make a car; `colour` is its paint."""
-    body = Paint(colour if colour is not None else choose(seed, "paint", shape.colours))
+    body = Material(colour if colour is not None else choose(seed, "paint", shape.colours))
     rigid = [*_body(shape, body), *_cabin(shape, body), *_lights(shape), *_carried(shape, body)]
     side = 0.5 * shape.width - 0.10
     wheels = [
@@ -79,15 +81,15 @@ def build_car(shape: CarShape, *, colour: Colour | None, scale: float, seed: int
         for y in (side, -side)
     ]
 
-    def articulate(pose: Pose) -> list[Part]:
+    def articulate(pose: Pose) -> list[ModelPart]:
         return [*car_wheels(wheels, pose.distance_m), *_beacons(shape, pose.time_s)]
 
-    return Figure(rigid, scale=scale, articulate=articulate)
+    return ArticulatedModel(rigid, scale=scale, articulate=articulate)
 
 
-def _body(shape: CarShape, body: Paint) -> list[Part]:
+def _body(shape: CarShape, body: Material) -> list[ModelPart]:
     middle_z = 0.5 * (shape.hood + shape.clearance)
-    trim = Paint(shade(GREY, 0.35))
+    trim = Material(shade(GREY, 0.35))
     parts = [
         box(body, (0.0, 0.0, middle_z), (shape.length - 0.16, shape.width, 0.62 * shape.hood)),
         box(
@@ -105,7 +107,7 @@ def _body(shape: CarShape, body: Paint) -> list[Part]:
     return parts
 
 
-def _cabin(shape: CarShape, body: Paint) -> list[Part]:
+def _cabin(shape: CarShape, body: Material) -> list[ModelPart]:
     """Two slanted glass boxes make a trapezium; a roof and pillars of body colour frame it."""
     foot_front, top_front, top_rear, foot_rear = shape.cabin
     low, high = shape.hood - 0.02, shape.height - 0.06
@@ -138,27 +140,27 @@ def _cabin(shape: CarShape, body: Paint) -> list[Part]:
     ]
 
 
-def _lights(shape: CarShape) -> list[Part]:
+def _lights(shape: CarShape) -> list[ModelPart]:
     front, side, z = 0.5 * shape.length - 0.09, 0.5 * shape.width - 0.28, shape.hood - 0.16
     parts = [ball(HEADLIGHT, (front, y, z), (0.14, 0.34, 0.18)) for y in (side, -side)]
     parts += [box(TAILLIGHT, (-front, y, z), (0.06, 0.34, 0.16)) for y in (side, -side)]
     parts.append(box(DARK, (front, 0.0, z - 0.04), (0.05, shape.width - 1.0, 0.18)))
-    parts.append(box(Paint(WHITE), (-front - 0.01, 0.0, z - 0.16), (0.04, 0.5, 0.12)))
+    parts.append(box(Material(WHITE), (-front - 0.01, 0.0, z - 0.16), (0.04, 0.5, 0.12)))
     return parts
 
 
-def _carried(shape: CarShape, body: Paint) -> list[Part]:
+def _carried(shape: CarShape, body: Material) -> list[ModelPart]:
     if shape.extra == "rack":
         return _roof_rack(shape)
     if shape.extra == "taxi":
-        sign = Paint(WHITE, emission=0.5)
+        sign = Material(WHITE, emission=0.5)
         band = checked(BLACK, WHITE, 12.0)
         return [
             box(sign, (-0.25, 0.0, shape.height + 0.10), (0.22, 0.62, 0.16)),
             box(band, (0.0, 0.0, 0.62), (3.2, shape.width + 0.02, 0.12)),
         ]
     if shape.extra == "police":
-        stripe = Paint((0.02, 0.06, 0.35))
+        stripe = Material((0.02, 0.06, 0.35))
         return [box(stripe, (0.0, 0.0, 0.62), (4.1, shape.width + 0.02, 0.20))]
     if shape.extra == "bed":
         rear, side = -0.5 * shape.length + 0.10, 0.5 * shape.width - 0.06
@@ -173,7 +175,7 @@ def _carried(shape: CarShape, body: Paint) -> list[Part]:
     return []
 
 
-def _roof_rack(shape: CarShape) -> list[Part]:
+def _roof_rack(shape: CarShape) -> list[ModelPart]:
     """Rails, bars and luggage, as in the paper's example of an SUV with a roof rack."""
     top, side = shape.height + 0.12, 0.5 * shape.width - 0.24
     front, rear = shape.cabin[1] - 0.20, shape.cabin[2] + 0.25
@@ -193,14 +195,14 @@ def _roof_rack(shape: CarShape) -> list[Part]:
     return [*rails, *bars, *posts, spare]
 
 
-def _beacons(shape: CarShape, time_s: float) -> list[Part]:
+def _beacons(shape: CarShape, time_s: float) -> list[ModelPart]:
     """A police car's two lamps, lit in turn with a smooth rise and fall."""
     if shape.extra != "police":
         return []
     z = shape.height + 0.08
     beat = 0.5 + 0.5 * _triangle(2.0 * time_s)
-    left = Paint((0.02, 0.08, 0.9), emission=3.0 * beat)
-    right = Paint((0.8, 0.02, 0.02), emission=3.0 * (1.0 - beat))
+    left = Material((0.02, 0.08, 0.9), emission=3.0 * beat)
+    right = Material((0.8, 0.02, 0.02), emission=3.0 * (1.0 - beat))
     return [
         box(left, (-0.2, 0.32, z), (0.25, 0.56, 0.14)),
         box(right, (-0.2, -0.32, z), (0.25, 0.56, 0.14)),

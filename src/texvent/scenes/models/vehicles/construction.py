@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import math
 
-from texvent.scenes.model import Colour, Noun, Part, Pose
-from texvent.scenes.models.paint import (
+from texvent.scenes.models.articulated_model import ArticulatedModel
+from texvent.scenes.models.materials import (
     CONCRETE,
     DARK,
     GLASS,
     STEEL,
     YELLOW,
-    Paint,
+    Material,
     checked,
     shade,
 )
-from texvent.scenes.models.people.figure import Figure
-from texvent.scenes.models.shaping import (
+from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.shapes import (
     Point,
     ball,
     box,
@@ -31,23 +31,23 @@ from texvent.scenes.models.shaping import (
 from texvent.scenes.models.variation import fraction
 
 
-def build_crane(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_crane(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a tower crane, 22 m; its jib turns to and fro over +x with a load on the hook."""
     hue = colour if colour is not None else YELLOW
-    paint, dark = Paint(hue), Paint(shade(hue, 0.45))
+    material, dark = Material(hue), Material(shade(hue, 0.45))
     lattice = checked(hue, shade(hue, 0.30), 10.0)
     rigid = [
         box(CONCRETE, (0.0, 0.0, 0.4), (3.2, 3.2, 0.8)),
-        *(rod(paint, (x, y, 0.5), (x, y, 18.0), 0.17) for x in (0.6, -0.6) for y in (0.6, -0.6)),
+        *(rod(material, (x, y, 0.5), (x, y, 18.0), 0.17) for x in (0.6, -0.6) for y in (0.6, -0.6)),
         *_braces(dark, 18.0),
     ]
     start = 2.0 * math.pi * fraction(seed, "turn")
     head = [
-        box(paint, (0.0, 0.0, 18.2), (1.8, 1.8, 0.5)),
+        box(material, (0.0, 0.0, 18.2), (1.8, 1.8, 0.5)),
         box(GLASS, (1.2, 0.9, 17.8), (1.3, 1.0, 1.3)),
-        rod(paint, (0.0, 0.0, 18.2), (0.0, 0.0, 22.0), 0.22),
+        rod(material, (0.0, 0.0, 18.2), (0.0, 0.0, 22.0), 0.22),
         box(lattice, (7.0, 0.0, 18.9), (14.0, 0.8, 0.30)),
-        rod(paint, (0.0, 0.0, 19.8), (13.6, 0.0, 19.0), 0.10),
+        rod(material, (0.0, 0.0, 19.8), (13.6, 0.0, 19.0), 0.10),
         box(lattice, (-3.0, 0.0, 18.9), (6.0, 0.9, 0.30)),
         box(CONCRETE, (-5.2, 0.0, 17.9), (1.4, 1.2, 2.0)),
         rod(DARK, (0.0, 0.0, 22.0), (10.0, 0.0, 19.0), 0.06),
@@ -55,7 +55,7 @@ def build_crane(*, colour: Colour | None, scale: float, seed: int) -> Figure:
         box(dark, (10.5, 0.0, 18.6), (0.9, 1.0, 0.4)),
     ]
 
-    def articulate(pose: Pose) -> list[Part]:
+    def articulate(pose: Pose) -> list[ModelPart]:
         angle = 0.6 * math.sin(0.5 * pose.time_s + start)
         swing = 0.05 * math.sin(0.9 * pose.time_s + start)
         cable = [
@@ -65,10 +65,10 @@ def build_crane(*, colour: Colour | None, scale: float, seed: int) -> Figure:
         hung = moved(cable, turn_y(swing, (10.5, 0.0, 18.5)))
         return moved([*head, *hung], turn_z(angle))
 
-    return Figure(rigid, scale=scale, articulate=articulate)
+    return ArticulatedModel(rigid, scale=scale, articulate=articulate)
 
 
-def _braces(paint: Paint, height: float) -> list[Part]:
+def _braces(material: Material, height: float) -> list[ModelPart]:
     """Zigzag bars on all four sides of the mast."""
     step = height / 6.0
     parts = []
@@ -76,34 +76,34 @@ def _braces(paint: Paint, height: float) -> list[Part]:
         low, high = 0.6 + index * step * 0.96, 0.6 + (index + 1) * step * 0.96
         sign = 1.0 if index % 2 else -1.0
         for side in (0.6, -0.6):
-            parts.append(rod(paint, (-0.6 * sign, side, low), (0.6 * sign, side, high), 0.08))
-            parts.append(rod(paint, (side, -0.6 * sign, low), (side, 0.6 * sign, high), 0.08))
+            parts.append(rod(material, (-0.6 * sign, side, low), (0.6 * sign, side, high), 0.08))
+            parts.append(rod(material, (side, -0.6 * sign, low), (side, 0.6 * sign, high), 0.08))
     return parts
 
 
-def build_excavator(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_excavator(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make an excavator on tracks, 3 m tall, that digs to and fro in front of it."""
-    paint = Paint(colour if colour is not None else YELLOW)
+    material = Material(colour if colour is not None else YELLOW)
     start = fraction(seed, "dig")
     cabin = [
-        box(paint, (-0.4, 0.0, 1.50), (2.9, 2.2, 0.75)),
-        box(paint, (-1.3, 0.0, 1.95), (1.2, 2.0, 0.5)),
+        box(material, (-0.4, 0.0, 1.50), (2.9, 2.2, 0.75)),
+        box(material, (-1.3, 0.0, 1.95), (1.2, 2.0, 0.5)),
         box(GLASS, (0.45, 0.62, 2.35), (1.15, 0.85, 1.10)),
-        box(paint, (0.45, 0.62, 2.95), (1.25, 0.95, 0.14)),
-        box(paint, (-0.08, 0.62, 2.35), (0.14, 0.92, 1.15)),
+        box(material, (0.45, 0.62, 2.95), (1.25, 0.95, 0.14)),
+        box(material, (-0.08, 0.62, 2.35), (0.14, 0.92, 1.15)),
         rod(DARK, (-1.5, -0.6, 2.1), (-1.5, -0.6, 2.6), 0.08),
     ]
 
-    def articulate(pose: Pose) -> list[Part]:
+    def articulate(pose: Pose) -> list[ModelPart]:
         turn = 2.0 * math.pi * (0.22 * pose.time_s + start)
-        arm = _digging_arm(paint, math.sin(turn), math.sin(turn - 1.4))
+        arm = _digging_arm(material, math.sin(turn), math.sin(turn - 1.4))
         upper = moved([*cabin, *arm], turn_z(0.18 * math.sin(0.5 * turn)))
         return [*upper, *_tracks(pose.distance_m)]
 
-    return Figure([], scale=scale, articulate=articulate)
+    return ArticulatedModel([], scale=scale, articulate=articulate)
 
 
-def _digging_arm(paint: Paint, raise_by: float, curl: float) -> list[Part]:
+def _digging_arm(material: Material, raise_by: float, curl: float) -> list[ModelPart]:
     """Boom, stick, ram and bucket; both arguments run from -1 to 1."""
     root: Point = (0.7, -0.35, 1.6)
     rise = 0.80 + 0.16 * raise_by
@@ -115,17 +115,17 @@ def _digging_arm(paint: Paint, raise_by: float, curl: float) -> list[Part]:
     middle = tuple(0.5 * (a + b) for a, b in zip(root, elbow, strict=True))
     ram_end = (middle[0] + 0.1, -0.35, middle[2] + 0.1)
     return [
-        limb(paint, root, elbow, 0.26, side_radius=0.20),
-        limb(paint, elbow, wrist, 0.20, side_radius=0.17),
+        limb(material, root, elbow, 0.26, side_radius=0.20),
+        limb(material, elbow, wrist, 0.20, side_radius=0.17),
         rod(STEEL, (root[0] + 0.5, -0.35, root[2] - 0.1), ram_end, 0.07),
         limb(DARK, wrist, tip, 0.34, side_radius=0.45),
         ball(DARK, tip, (0.3, 0.9, 0.3)),
     ]
 
 
-def _tracks(distance: float) -> list[Part]:
+def _tracks(distance: float) -> list[ModelPart]:
     """Two tracks: dark boxes with round ends and wheels that turn with the distance."""
-    parts: list[Part] = []
+    parts: list[ModelPart] = []
     for side in (0.95, -0.95):
         left, right = side - 0.28, side + 0.28
         parts.append(box(DARK, (0.0, side, 0.42), (2.6, 0.56, 0.84)))

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 
-from texvent.scenes.model import Colour, Noun, Part, Pose
-from texvent.scenes.models.paint import (
+from texvent.scenes.models.articulated_model import ArticulatedModel
+from texvent.scenes.models.limb_kinematics import bend
+from texvent.scenes.models.materials import (
     CHROME,
     DARK,
     GLASS,
@@ -13,11 +14,9 @@ from texvent.scenes.models.paint import (
     RED,
     STEEL,
     TAILLIGHT,
-    Paint,
+    Material,
 )
-from texvent.scenes.models.people.figure import Figure
-from texvent.scenes.models.people.joints import bend
-from texvent.scenes.models.people.people import (
+from texvent.scenes.models.people import (
     ADULT,
     FOREARM,
     UPPER_ARM,
@@ -28,7 +27,8 @@ from texvent.scenes.models.people.people import (
     draw_torso,
     dress_person,
 )
-from texvent.scenes.models.shaping import Point, ball, box, rod
+from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.shapes import Point, ball, box, rod
 from texvent.scenes.models.variation import choose
 from texvent.scenes.models.vehicles.wheels import Wheel, car_wheels, spoked_wheels
 
@@ -37,9 +37,9 @@ _GEAR = 0.45
 """Turns of the pedals per turn of the wheels."""
 
 
-def build_bicycle(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_bicycle(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a bicycle with a rider who pedals; `colour` is its frame."""
-    frame = Paint(colour if colour is not None else choose(seed, "frame", _FRAMES))
+    frame = Material(colour if colour is not None else choose(seed, "frame", _FRAMES))
     outfit = dress_person(ADULT, colour=None, seed=seed)
     wheels = [Wheel((x, 0.0, 0.34), 0.34, 0.045) for x in (0.54, -0.54)]
     crank: Point = (-0.05, 0.0, 0.30)
@@ -57,7 +57,7 @@ def build_bicycle(*, colour: Colour | None, scale: float, seed: int) -> Figure:
         *_upper_body(outfit, hips, (0.10, 0.0, 1.44), grip),
     ]
 
-    def articulate(pose: Pose) -> list[Part]:
+    def articulate(pose: Pose) -> list[ModelPart]:
         parts = spoked_wheels(wheels, pose.distance_m)
         turn = _GEAR * pose.distance_m / 0.34
         for side, phase in ((1.0, 0.0), (-1.0, math.pi)):
@@ -68,13 +68,13 @@ def build_bicycle(*, colour: Colour | None, scale: float, seed: int) -> Figure:
             parts += draw_leg(outfit, (hips[0], side * 0.09, hips[2]), ankle, pitch=0.15)
         return parts
 
-    return Figure(rigid, scale=scale, articulate=articulate)
+    return ArticulatedModel(rigid, scale=scale, articulate=articulate)
 
 
-def build_motorcycle(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_motorcycle(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a motorcycle with a rider in a helmet; `colour` is its tank."""
-    tank = Paint(colour if colour is not None else choose(seed, "frame", _FRAMES))
-    leather = Paint((0.035, 0.035, 0.04))
+    tank = Material(colour if colour is not None else choose(seed, "frame", _FRAMES))
+    leather = Material((0.035, 0.035, 0.04))
     outfit = Outfit(DARK, leather, leather, leather, leather, DARK)
     wheels = [Wheel((x, 0.0, 0.33), 0.33, 0.16) for x in (0.76, -0.72)]
     hips: Point = (-0.30, 0.0, 0.86)
@@ -101,15 +101,15 @@ def build_motorcycle(*, colour: Colour | None, scale: float, seed: int) -> Figur
         ankle = (-0.14, side * 0.20, 0.40)
         rigid += draw_leg(outfit, (hips[0], side * 0.12, hips[2]), ankle, pitch=0.1)
 
-    def articulate(pose: Pose) -> list[Part]:
+    def articulate(pose: Pose) -> list[ModelPart]:
         return car_wheels(wheels, pose.distance_m)
 
-    return Figure(rigid, scale=scale, articulate=articulate)
+    return ArticulatedModel(rigid, scale=scale, articulate=articulate)
 
 
 def _upper_body(
     outfit: Outfit, hips: Point, neck: Point, grip: Point, *, wide: float = 0.24
-) -> list[Part]:
+) -> list[ModelPart]:
     """A rider bent over the handlebar."""
     parts = [*draw_torso(ADULT, outfit, hips, neck), *draw_head(ADULT, outfit, neck)]
     for side in (1.0, -1.0):

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from texvent.scenes.model import Colour, Noun, Part, Pose
-from texvent.scenes.models.paint import (
+from texvent.scenes.models.articulated_model import ArticulatedModel
+from texvent.scenes.models.materials import (
     CHROME,
     DARK,
     GLASS,
@@ -13,20 +13,20 @@ from texvent.scenes.models.paint import (
     TAILLIGHT,
     WHITE,
     YELLOW,
-    Paint,
+    Material,
     shade,
 )
-from texvent.scenes.models.people.figure import Figure
-from texvent.scenes.models.shaping import ball, box, post, rod
+from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.shapes import ball, box, post, rod
 from texvent.scenes.models.variation import choose
 from texvent.scenes.models.vehicles.wheels import Wheel, car_wheels
 
 
-def build_truck(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_truck(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a lorry, 8 m, with a separate cab and a box body; `colour` is the cab."""
-    cab = Paint(colour if colour is not None else choose(seed, "cab", (RED, (0.04, 0.14, 0.42))))
-    cargo = Paint((0.66, 0.66, 0.63))
-    rib = Paint((0.50, 0.50, 0.48))
+    cab = Material(colour if colour is not None else choose(seed, "cab", (RED, (0.04, 0.14, 0.42))))
+    cargo = Material((0.66, 0.66, 0.63))
+    rib = Material((0.50, 0.50, 0.48))
     rigid = [
         box(DARK, (-0.2, 0.0, 0.82), (7.6, 1.0, 0.28)),
         box(cargo, (-1.25, 0.0, 2.20), (5.5, 2.4, 2.5)),
@@ -43,10 +43,10 @@ def build_truck(*, colour: Colour | None, scale: float, seed: int) -> Figure:
     return _rolling(rigid, _axles((2.55, -1.9, -3.1), 1.08, 0.50), scale)
 
 
-def build_fire_engine(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_fire_engine(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a fire engine, 8 m, with a ladder on the roof and a flashing lamp."""
-    body = Paint(colour if colour is not None else (0.60, 0.03, 0.02))
-    white = Paint(WHITE)
+    body = Material(colour if colour is not None else (0.60, 0.03, 0.02))
+    white = Material(WHITE)
     rigid = [
         box(body, (-1.2, 0.0, 1.70), (5.4, 2.4, 2.1)),
         box(body, (2.65, 0.0, 1.65), (2.3, 2.4, 2.0)),
@@ -61,16 +61,16 @@ def build_fire_engine(*, colour: Colour | None, scale: float, seed: int) -> Figu
         box(CHROME, (3.84, 0.0, 0.75), (0.18, 2.4, 0.30)),
         *_pair(HEADLIGHT, 3.82, 0.90, 1.05, 0.28),
         *_pair(TAILLIGHT, -3.92, 1.00, 0.95, 0.24),
-        box(Paint((0.02, 0.08, 0.9), emission=1.5), (2.9, 0.0, 2.76), (0.34, 1.8, 0.20)),
+        box(Material((0.02, 0.08, 0.9), emission=1.5), (2.9, 0.0, 2.76), (0.34, 1.8, 0.20)),
     ]
     return _rolling(rigid, _axles((2.4, -2.2), 1.10, 0.50), scale)
 
 
-def build_bus(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_bus(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a city bus, 11 m, with a row of windows and two doors; `colour` is its body."""
     usual: tuple[Colour, ...] = (RED, YELLOW, (0.05, 0.22, 0.45))
-    body = Paint(colour if colour is not None else choose(seed, "body", usual))
-    white = Paint(WHITE)
+    body = Material(colour if colour is not None else choose(seed, "body", usual))
+    white = Material(WHITE)
     rigid = [
         box(body, (0.0, 0.0, 1.05), (11.0, 2.5, 1.40)),
         box(GLASS, (0.05, 0.0, 2.20), (10.9, 2.46, 0.95)),
@@ -80,7 +80,7 @@ def build_bus(*, colour: Colour | None, scale: float, seed: int) -> Figure:
         box(GLASS, (4.55, -1.0, 1.55), (0.95, 0.56, 2.1)),
         box(GLASS, (-0.1, -1.0, 1.55), (1.05, 0.56, 2.1)),
         box(GLASS, (5.35, 0.0, 2.05), (0.34, 2.3, 1.3)),
-        box(Paint((0.9, 0.5, 0.05), emission=1.0), (5.50, 0.0, 2.88), (0.06, 1.5, 0.26)),
+        box(Material((0.9, 0.5, 0.05), emission=1.0), (5.50, 0.0, 2.88), (0.06, 1.5, 0.26)),
         box(DARK, (-1.0, 0.0, 3.12), (3.0, 1.8, 0.22)),
         *_pair(HEADLIGHT, 5.48, 0.95, 0.75, 0.30),
         *_pair(TAILLIGHT, -5.48, 1.05, 0.95, 0.26),
@@ -88,12 +88,12 @@ def build_bus(*, colour: Colour | None, scale: float, seed: int) -> Figure:
     return _rolling(rigid, _axles((3.1, -3.2), 1.16, 0.48), scale)
 
 
-def build_train(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_train(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a train of an engine and two coaches, 27 m, on its own rails; `colour` is its body."""
     usual: tuple[Colour, ...] = ((0.05, 0.20, 0.42), (0.45, 0.05, 0.04), (0.05, 0.26, 0.14))
     hue = colour if colour is not None else choose(seed, "body", usual)
-    body, band, roof = Paint(hue), Paint((0.72, 0.70, 0.62)), Paint(shade(hue, 0.4))
-    rigid: list[Part] = []
+    body, band, roof = Material(hue), Material((0.72, 0.70, 0.62)), Material(shade(hue, 0.4))
+    rigid: list[ModelPart] = []
     for index, x in enumerate((9.0, 0.0, -9.0)):
         rigid += [
             box(body, (x, 0.0, 1.85), (8.4, 2.8, 2.0)),
@@ -117,10 +117,10 @@ def build_train(*, colour: Colour | None, scale: float, seed: int) -> Figure:
     return _rolling(rigid, wheels, scale)
 
 
-def build_tractor(*, colour: Colour | None, scale: float, seed: int) -> Figure:
+def build_tractor(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a farm tractor, 3.6 m, with large rear wheels; `colour` is its body."""
     usual: tuple[Colour, ...] = ((0.05, 0.28, 0.05), RED)
-    body = Paint(colour if colour is not None else choose(seed, "body", usual))
+    body = Material(colour if colour is not None else choose(seed, "body", usual))
     rigid = [
         box(body, (0.85, 0.0, 1.20), (1.9, 0.85, 0.70)),
         box(DARK, (1.82, 0.0, 1.20), (0.06, 0.70, 0.60)),
@@ -140,20 +140,20 @@ def build_tractor(*, colour: Colour | None, scale: float, seed: int) -> Figure:
     return _rolling(rigid, wheels, scale)
 
 
-def _pair(paint: Paint, x: float, y: float, z: float, size: float) -> list[Part]:
+def _pair(material: Material, x: float, y: float, z: float, size: float) -> list[ModelPart]:
     """Two lamps."""
-    return [ball(paint, (x, side * y, z), (0.4 * size, size, size)) for side in (1.0, -1.0)]
+    return [ball(material, (x, side * y, z), (0.4 * size, size, size)) for side in (1.0, -1.0)]
 
 
 def _axles(places: tuple[float, ...], side: float, radius: float) -> list[Wheel]:
     return [Wheel((x, y, radius), radius, 0.34) for x in places for y in (side, -side)]
 
 
-def _rolling(rigid: list[Part], wheels: list[Wheel], scale: float) -> Figure:
-    def articulate(pose: Pose) -> list[Part]:
+def _rolling(rigid: list[ModelPart], wheels: list[Wheel], scale: float) -> ArticulatedModel:
+    def articulate(pose: Pose) -> list[ModelPart]:
         return car_wheels(wheels, pose.distance_m)
 
-    return Figure(rigid, scale=scale, articulate=articulate)
+    return ArticulatedModel(rigid, scale=scale, articulate=articulate)
 
 
 NOUNS = (

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from texvent.scenes.model import Part
-from texvent.scenes.models.paint import CHROME, DARK, RUBBER, Paint
-from texvent.scenes.models.shaping import (
+from texvent.scenes.models.materials import CHROME, DARK, RUBBER, Material
+from texvent.scenes.models.protocol import ModelPart
+from texvent.scenes.models.shapes import (
     Point,
     box,
     compose,
@@ -27,23 +27,25 @@ class Wheel:
     width: float
 
 
-def car_wheels(wheels: Iterable[Wheel], distance: float) -> list[Part]:
+def car_wheels(wheels: Iterable[Wheel], distance: float) -> list[ModelPart]:
     """Tyres with a bright rim that a dark cross divides, turned by a distance travelled, m."""
-    turned: list[Part] = []
+    turned: list[ModelPart] = []
     for wheel in wheels:
         turned += rolled(_disc_wheel(wheel.radius, wheel.width), wheel, distance)
     return turned
 
 
-def spoked_wheels(wheels: Iterable[Wheel], distance: float, *, rim: Paint = RUBBER) -> list[Part]:
+def spoked_wheels(
+    wheels: Iterable[Wheel], distance: float, *, rim: Material = RUBBER
+) -> list[ModelPart]:
     """Thin discs that look like rims with spokes, for cycles, turned by a distance, m."""
-    turned: list[Part] = []
+    turned: list[ModelPart] = []
     for wheel in wheels:
         turned += rolled(_cycle_wheel(wheel.radius, wheel.width, rim), wheel, distance)
     return turned
 
 
-def rolled(parts: Sequence[Part], wheel: Wheel, distance: float) -> list[Part]:
+def rolled(parts: Sequence[ModelPart], wheel: Wheel, distance: float) -> list[ModelPart]:
     """Parts drawn around the origin, turned about y and brought to the wheel's centre.
 
     The point of contact stands still on the ground: angle = distance / radius.
@@ -52,7 +54,7 @@ def rolled(parts: Sequence[Part], wheel: Wheel, distance: float) -> list[Part]:
     return moved(parts, motion)
 
 
-def _disc_wheel(radius: float, width: float) -> list[Part]:
+def _disc_wheel(radius: float, width: float) -> list[ModelPart]:
     half = 0.5 * width
     gap = 0.16 * radius
     return [
@@ -63,11 +65,11 @@ def _disc_wheel(radius: float, width: float) -> list[Part]:
     ]
 
 
-def _cycle_wheel(radius: float, width: float, rim: Paint) -> list[Part]:
+def _cycle_wheel(radius: float, width: float, rim: Material) -> list[ModelPart]:
     """A rim of twelve straight pieces would cost too much: a tyre's outline of six bars."""
     half = 0.5 * width
     spoke = 0.03 * radius + 0.006
-    air = Paint((0.30, 0.31, 0.32))
+    air = Material((0.30, 0.31, 0.32))
     return [
         rod(rim, (0.0, -half, 0.0), (0.0, half, 0.0), radius),
         rod(air, (0.0, -half - 0.002, 0.0), (0.0, half + 0.002, 0.0), 0.86 * radius),

@@ -1,0 +1,68 @@
+"""Where a scene takes place when the prompt does not say, or says it only in part."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from texvent.scenes.description import SceneDescription
+from texvent.scenes.models.protocol import Noun
+
+_FAST_FLYER_M_S = 4.0
+"""What flies faster than this is shown in the sky, far from the ground."""
+_AFLOAT_MOTIONS = ("sail", "paddle")
+
+_USUAL_PLACES: dict[str, tuple[str, ...]] = {
+    "road": ("car", "suv", "bus", "truck", "van", "pickup", "motorcycle", "bicycle", "tractor"),
+    "city": ("taxi", "police car", "fire engine", "traffic light", "street lamp", "building"),
+    "savanna": ("ostrich", "elephant", "zebra", "lion", "giraffe", "tiger"),
+    "sand": ("palm", "cactus", "flamingo"),
+    "snow": ("penguin",),
+    "construction site": ("crane", "excavator", "worker", "traffic cone"),
+    "indoor": (
+        "table", "chair", "sofa", "bed", "cup", "bottle", "clock", "candle", "lamp", "fan",
+        "basketball", "pendulum", "bookshelf", "tennis ball",
+    ),
+    "plain": ("sphere", "cube", "cylinder", "cone", "box", "wheel", "rocket"),
+    "forest": ("bear", "wolf", "fox", "deer"),
+}  # fmt: skip
+"""Place → nouns that are usually found there; what is not listed is shown on grass."""
+
+
+def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> str:
+    """Where the scene is: as said, or what suits its objects.
+
+    Fish "in the sea" are shown under water, and a house "by the sea" on the beach.
+    """
+    said = description.surroundings
+    members = [nouns[scene_object.noun] for scene_object in description.objects]
+    habitats = {noun.habitat for noun in members}
+    is_submerged = bool(members) and all(
+        noun.habitat == "water" and noun.motion not in _AFLOAT_MOTIONS for noun in members
+    )
+    if said.place == "sea":
+        if is_submerged:
+            return "underwater"
+        return "sand" if members and habitats <= {"ground", "fixed"} else "sea"
+    if said.place is not None:
+        return said.place
+    if is_submerged:
+        return "underwater"
+    if "city" in said.backdrops:
+        return "city"
+    if said.has_snow:
+        return "snow"
+    return _choose_usual(members)
+
+
+def _choose_usual(members: Sequence[Noun]) -> str:
+    if not members:
+        return "grass"
+    if {noun.habitat for noun in members} == {"water"}:
+        return "sea"
+    for noun in members:
+        for place, names in _USUAL_PLACES.items():
+            if noun.name in names:
+                return place
+    if all(noun.habitat == "air" and noun.speed_m_s >= _FAST_FLYER_M_S for noun in members):
+        return "sky"
+    return "grass"

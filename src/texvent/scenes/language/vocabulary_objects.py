@@ -1,0 +1,225 @@
+"""Words for how many, how big and what colour; and words that carry no image."""
+
+from __future__ import annotations
+
+from texvent.scenes.models.protocol import Colour
+
+MAX_COUNT = 24
+"""Most copies of one object; a larger count is shown as this many, and said."""
+
+COUNTS: dict[str, int] = {
+    "a couple of": 2,
+    "a pair of": 2,
+    "pair of": 2,
+    "a few": 3,
+    "few": 3,
+    "some": 3,
+    "a group of": 5,
+    "group of": 5,
+    "several": 5,
+    "various": 4,
+    "a flock of": 9,
+    "flock of": 9,
+    "a herd of": 7,
+    "herd of": 7,
+    "a school of": 10,
+    "school of": 10,
+    "a shoal of": 10,
+    "a pack of": 5,
+    "a swarm of": 14,
+    "swarm of": 14,
+    "a crowd of": 12,
+    "crowd of": 12,
+    "a row of": 6,
+    "row of": 6,
+    "rows of": 10,
+    "a line of": 6,
+    "a fleet of": 6,
+    "a bunch of": 6,
+    "many": 8,
+    "a lot of": 8,
+    "lots of": 8,
+    "numerous": 8,
+    "countless": 12,
+    "dozens of": 12,
+    "a dozen": 12,
+    "dozen": 12,
+    "hundreds of": 24,
+    "one": 1,
+    "a single": 1,
+    "single": 1,
+    "lone": 1,
+    "lonely": 1,
+    "two": 2,
+    "both": 2,
+    "three": 3,
+    "four": 4,
+    "five": 5,
+    "six": 6,
+    "seven": 7,
+    "eight": 8,
+    "nine": 9,
+    "ten": 10,
+    "eleven": 11,
+    "twelve": 12,
+    "fifteen": 15,
+    "twenty": 20,
+}
+
+PLURAL_COUNT = 3
+"""What a bare plural means: "birds fly"."""
+
+SURROUND_COUNT = 14
+"""What a bare plural means all around something: "surrounded by trees"."""
+MAX_BODIES = 60
+"""Most bodies in a scene; copies beyond it are left out, and said."""
+
+SIZES: dict[str, float] = {
+    "tiny": 0.4,
+    "miniature": 0.4,
+    "toy": 0.5,
+    "small": 0.65,
+    "little": 0.65,
+    "young": 0.7,
+    "baby": 0.5,
+    "short": 0.8,
+    "big": 1.4,
+    "large": 1.4,
+    "tall": 1.3,
+    "long": 1.3,
+    "huge": 2.0,
+    "giant": 2.2,
+    "enormous": 2.2,
+    "gigantic": 2.4,
+    "massive": 2.0,
+}
+
+NEGATIONS = (
+    "no",
+    "without",
+    "without any",
+    "with no",
+    "with no other",
+    "no other",
+    "without other",
+    "without any other",
+    "not any",
+    "not a",
+    "no more",
+    "not",
+    "never",
+    "free of",
+    "there are no",
+    "there is no",
+)
+
+CONTRASTS = frozenset({"but", "only", "just"})
+"""Words after which a negation no longer holds: "no cars, only bicycles"."""
+
+
+def decode_hex(code: str) -> Colour:
+    """Linear-light RGB of an sRGB code such as "ff8000" (IEC 61966-2-1).
+
+    Example:
+        >>> decode_hex("ffffff")
+        (1.0, 1.0, 1.0)
+    """
+    red, green, blue = (_linearise(int(code[i : i + 2], 16) / 255.0) for i in (0, 2, 4))
+    return (red, green, blue)
+
+
+def _linearise(value: float) -> float:
+    return value / 12.92 if value <= 0.04045 else float(((value + 0.055) / 1.055) ** 2.4)
+
+
+COLOURS: dict[str, Colour] = {
+    name: decode_hex(code)
+    for name, code in {
+        "red": "c8201c",
+        "orange": "e8791b",
+        "yellow": "efc81f",
+        "green": "2e8b3a",
+        "blue": "2352c4",
+        "purple": "7434a8",
+        "violet": "7a3fc0",
+        "pink": "ee7fae",
+        "brown": "7a4b26",
+        "black": "17171a",
+        "white": "f2f2ee",
+        "grey": "84868a",
+        "gray": "84868a",
+        "silver": "b9bdc3",
+        "silvery": "b9bdc3",
+        "gold": "d3a32c",
+        "golden": "d3a32c",
+        "cyan": "24b8c9",
+        "turquoise": "2fc0b0",
+        "teal": "1d7f80",
+        "magenta": "c9278f",
+        "beige": "d8c8a2",
+        "tan": "c29c69",
+        "cream": "efe6c8",
+        "maroon": "6e1a22",
+        "crimson": "b3142f",
+        "navy": "1b2a5c",
+        "olive": "70732b",
+        "lime": "8ecb2d",
+        "khaki": "b5a66b",
+        "ivory": "f1ecd9",
+        "scarlet": "d62718",
+        "bronze": "a9713a",
+        "copper": "b8693a",
+        "wooden": "8a5c33",
+        "rusty": "8a4a2a",
+    }.items()
+}
+
+SHADES: dict[str, tuple[float, float]] = {
+    "light": (1.0, 0.45),
+    "pale": (1.0, 0.55),
+    "bright": (1.25, 0.0),
+    "dark": (0.35, 0.0),
+    "deep": (0.55, 0.0),
+    "vivid": (1.2, 0.0),
+}
+"""Word → (factor on linear RGB, share of white mixed in)."""
+
+
+def shade_colour(rgb: Colour, shade: str) -> Colour:
+    """The colour made lighter or darker as the word says; stays in 0..1.
+
+    Example:
+        >>> shade_colour((0.5, 0.0, 0.0), "dark")
+        (0.175, 0.0, 0.0)
+    """
+    factor, white = SHADES[shade]
+    red, green, blue = (min(1.0, (c * factor) * (1.0 - white) + white) for c in rgb)
+    return (red, green, blue)
+
+
+DETERMINERS = (
+    "a", "an", "the", "this", "that", "these", "those", "its", "their", "his", "her", "our", "my",
+    "your", "another", "each", "every", "all", "any", "other",
+)  # fmt: skip
+
+PRONOUNS = ("it", "they", "he", "she", "them", "him", "which", "who")
+
+STOP_WORDS = frozenset(
+    {
+        "a", "about", "along", "also", "an", "and", "any", "appear", "appears", "appearing", "are",
+        "around", "as", "at", "be", "beautiful", "because", "been", "being", "but", "by", "can",
+        "cinematic", "clip", "could", "create", "d", "depicting", "depicts", "depict", "did", "do",
+        "does", "during", "each", "feature", "featuring", "features", "footage", "for", "from",
+        "generate", "had", "has", "have", "having", "here", "how", "i", "if", "image", "in",
+        "into", "is", "its", "itself", "just", "kind", "let", "like", "ll", "m", "make", "may",
+        "me", "might", "must", "my", "nice", "of", "off", "on", "one's", "only", "onto", "or",
+        "other", "our", "out", "over", "per", "photo", "photograph", "photorealistic", "picture",
+        "please", "pretty", "quite", "re", "really", "realistic", "render", "rendered", "s",
+        "scene", "scenes", "see", "seen", "shot", "should", "show", "showing", "shown", "shows",
+        "sight", "so", "some", "sort", "such", "t", "than", "that", "the", "their", "themselves",
+        "then", "there", "these", "this", "those", "through", "to", "too", "type", "until", "upon",
+        "us", "ve", "very", "via", "video", "view", "visible", "was", "we", "were", "what", "when",
+        "where", "while", "why", "will", "with", "within", "would", "you", "your",
+    }
+)  # fmt: skip
+"""Words that may go without effect and without report."""

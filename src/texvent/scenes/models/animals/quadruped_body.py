@@ -1,0 +1,327 @@
+"""A four-legged body: trunk, neck, head, tail, and legs that step without sliding."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from texvent.scenes.models.articulated_model import ArticulatedModel
+from texvent.scenes.models.limb_kinematics import Gait, bend, foot_path, step_amount
+from texvent.scenes.models.materials import BLACK, WHITE, Material
+from texvent.scenes.models.protocol import ModelPart, Pose
+from texvent.scenes.models.shapes import (
+    Point,
+    ball,
+    blade,
+    limb,
+    moved,
+    rod,
+    shift,
+    spike,
+    turn_z,
+)
+from texvent.scenes.models.variation import fraction
+
+
+@dataclass(frozen=True)
+class Build:
+    """Proportions of a four-legged animal, m."""
+
+    shoulder: float
+    """Height of the back at the shoulders."""
+    body: tuple[float, float, float]
+    """Length, width and height of the trunk."""
+    neck: float
+    """Length of the neck."""
+    rise: float
+    """Angle of the neck above horizontal, radians."""
+    head: tuple[float, float]
+    """Length of the skull, and of the muzzle in front of it."""
+    tail: tuple[float, float]
+    """Length, and angle above horizontal at its root, radians."""
+    ear: tuple[float, str]
+    """Length; "prick", "flop", "side", "round", "long" or "fan"."""
+    stride: float = 0.0
+    """Distance of one cycle of steps; 0 = 1.5 times the shoulder height."""
+    thick: float = 1.0
+    """Thickness of the legs relative to a dog's."""
+    horns: str = ""
+    """ "", "short", "antlers", "tusks", "knobs"."""
+    mane: str = ""
+    """ "", "ridge", "full"."""
+    trunk: float = 0.0
+    """Length of an elephant's trunk."""
+    hop: float = 0.0
+    """Height of a rabbit's hop."""
+    fleece: bool = False
+    patches: bool = False
+    """Large dark patches, as on a cow."""
+    bushy_tail: bool = False
+
+
+@dataclass(frozen=True)
+class Coat:
+    """Surfaces of one animal."""
+
+    trunk: Material
+    limbs: Material
+    dark: Material
+    hoof: Material
+
+
+def draw_animal(build: Build, coat: Coat, *, scale: float, seed: int) -> ArticulatedModel:
+    """Make a figure that walks; "run" takes longer bounds, "sit" lowers the hind quarters."""
+    stride = build.stride if build.stride > 0.0 else 1.5 * build.shoulder
+    walk = Gait(stride, 0.62, 0.10 * build.shoulder)
+    run = Gait(1.6 * stride, 0.36, 0.22 * build.shoulder)
+    start = fraction(seed, "step")
+
+    def articulate(pose: Pose) -> list[ModelPart]:
+        runs = pose.activity == "run" or build.hop > 0.0
+        gait = run if runs else walk
+        amount = step_amount(pose.activity, pose.speed_m_s, 0.25 * stride)
+        distance = pose.distance_m + start * gait.stride
+        turn = 2.0 * math.pi * distance / gait.stride
+        rise = amount * _bob(build, turn, runs)
+        sit = 0.32 * build.shoulder if pose.activity == "sit" else 0.0
+        beat = amount * math.sin(turn)
+        wag = math.sin(2.0 * math.pi * (0.9 * pose.time_s + start))
+        parts = [*_torso(build, coat, sit), *_neck_and_head(build, coat, beat, wag)]
+        parts += _tail(build, coat, sit, wag)
+        parts = moved(parts, shift(z=rise))
+        for index in range(4):
+            foot = foot_path(gait, distance, _offset(index, runs), amount)
+            parts += _leg(build, coat, index, (foot, rise, sit))
+        return parts
+
+    return ArticulatedModel([], scale=scale, articulate=articulate)
+
+
+def _bob(build: Build, turn: float, runs: bool) -> float:
+    if build.hop > 0.0:
+        return build.hop * (0.5 - 0.5 * math.cos(turn)) * 0.8
+    if runs:
+        return 0.05 * build.shoulder * math.sin(turn)
+    return 0.012 * build.shoulder * math.cos(2.0 * turn)
+
+
+def _offset(index: int, runs: bool) -> float:
+    """Share of a cycle by which a leg is ahead: fore left, fore right, hind left, hind right."""
+    # A walk sets down hind left, fore left, hind right, fore right; a gallop both of a pair.
+    return ((0.0, 0.12, 0.5, 0.62) if runs else (0.0, 0.5, 0.75, 0.25))[index]
+
+
+def _torso(build: Build, coat: Coat, sit: float) -> list[ModelPart]:
+    length, width, height = build.body
+    z = build.shoulder - 0.5 * height
+    chest: Point = (0.24 * length, 0.0, z)
+    croup: Point = (-0.24 * length, 0.0, z - sit)
+    tall, wide = 0.5 * height, 0.5 * width
+    parts = [
+        rod(coat.trunk, croup, chest, 0.96 * tall, side_radius=0.96 * wide),
+        _rounded(coat.trunk, chest, (0.52 * length, width, 1.04 * height)),
+        _rounded(coat.trunk, croup, (0.52 * length, width, height)),
+    ]
+    if build.fleece:
+        for x in (-0.3, 0.0, 0.3):
+            for y in (0.26, -0.26):
+                puff = (x * length, y * width, z + 0.16 * height)
+                parts.append(ball(coat.trunk, puff, (0.46 * length, 0.62 * width, 0.74 * height)))
+    if build.patches:
+        dark = Material(BLACK)
+        for x, y, up in (
+            (0.22, 0.30, 0.10),
+            (-0.20, 0.30, 0.06),
+            (0.05, -0.30, 0.12),
+            (-0.3, -0.3, 0.0),
+        ):
+            spot = (x * length, y * width, z + up * height)
+            parts.append(ball(dark, spot, (0.26 * length, 0.46 * width, 0.62 * height)))
+    return parts
+
+
+def _rounded(material: Material, middle: Point, size: Point) -> ModelPart:
+    """An ellipsoid whose local z runs along the body, so that stripes ring it."""
+    x, y, z = middle
+    start, end = (x - 0.5 * size[0], y, z), (x + 0.5 * size[0], y, z)
+    across, upright = (0.0, size[1], 0.0), (0.0, 0.0, size[2])
+    return blade(material, start, end, chord=across, thickness=upright)
+
+
+def _mid(a: Point, b: Point, share: float) -> Point:
+    x, y, z = (p + share * (q - p) for p, q in zip(a, b, strict=True))
+    return (x, y, z)
+
+
+def _neck_and_head(build: Build, coat: Coat, beat: float, wag: float) -> list[ModelPart]:
+    length, width, height = build.body
+    skull, muzzle = build.head
+    base: Point = (0.36 * length, 0.0, build.shoulder - 0.36 * height)
+    rise = build.rise + 0.05 * beat
+    top: Point = (
+        base[0] + (build.neck + 0.2 * height) * math.cos(rise),
+        0.0,
+        base[2] + (build.neck + 0.2 * height) * math.sin(rise),
+    )
+    thick = 0.26 * height if build.neck < 1.2 * height else 0.20 * height
+    face = coat.limbs if not build.fleece else coat.dark
+    nose: Point = (top[0] + 0.35 * skull + muzzle, 0.0, top[2] - 0.45 * muzzle - 0.05 * skull)
+    brow: Point = (top[0] + 0.30 * skull, 0.0, top[2])
+    eye_y, eye = 0.30 * skull, 0.13 * skull
+    parts = [
+        limb(
+            coat.trunk,
+            base,
+            top,
+            1.25 * thick if build.neck < 1.2 else thick,
+            side_radius=0.34 * width,
+        ),
+        limb(coat.limbs, _mid(base, top, 0.5), top, 0.9 * thick, side_radius=0.26 * width),
+        ball(face, (top[0] + 0.12 * skull, 0.0, top[2]), (skull, 0.74 * skull, 0.84 * skull)),
+        limb(face, brow, nose, 0.24 * skull, side_radius=0.23 * skull),
+        ball(coat.dark, nose, (0.34 * skull, 0.42 * skull, 0.34 * skull)),
+        ball(
+            Material(BLACK), (top[0] + 0.36 * skull, eye_y, top[2] + 0.16 * skull), (eye, eye, eye)
+        ),
+        ball(
+            Material(BLACK), (top[0] + 0.36 * skull, -eye_y, top[2] + 0.16 * skull), (eye, eye, eye)
+        ),
+    ]
+    for side in (1.0, -1.0):
+        parts.append(_ear(build, coat, (top, side), 0.12 * wag))
+        parts += _horn(build, coat, top, side)
+    return [*parts, *_mane(build, coat, base, top), *_trunk(build, coat, nose, wag)]
+
+
+def _ear(build: Build, coat: Coat, at: tuple[Point, float], twitch: float) -> ModelPart:
+    (x, _, z), side = at
+    skull = build.head[0]
+    long, kind = build.ear
+    material = coat.dark if kind in ("flop",) or build.fleece else coat.limbs
+    root = (x - 0.05 * skull, side * 0.28 * skull, z + 0.30 * skull)
+    if kind == "fan":
+        middle = (x - 0.40 * skull, side * (0.70 + 0.15 * twitch) * skull, z - 0.10 * skull)
+        return moved(
+            [ball(coat.dark, middle, (0.95 * long, 0.12 * skull, 1.15 * long))],
+            turn_z(-0.7 * side, middle),
+        )[0]
+    if kind == "round":
+        return ball(material, (root[0], root[1], root[2] + 0.05 * skull), (0.5 * long, long, long))
+    if kind == "flop":
+        return limb(material, root, (root[0], root[1] + side * 0.06, root[2] - long), 0.22 * long)
+    if kind == "long":
+        tip = (root[0] - 0.3 * long, root[1] + side * 0.1 * long, root[2] + long)
+        return limb(material, (root[0], 0.6 * root[1], root[2]), tip, 0.15 * long)
+    if kind == "side":
+        tip = (root[0] - 0.2 * long, root[1] + side * long, root[2] + 0.15 * long)
+        return limb(material, root, tip, 0.22 * long)
+    tip = (root[0] - 0.1 * long, 1.15 * root[1], root[2] + long)
+    return spike(material, (root[0], root[1], root[2] - 0.1 * long), tip, 0.40 * long)
+
+
+def _horn(build: Build, coat: Coat, top: Point, side: float) -> list[ModelPart]:
+    skull = build.head[0]
+    x, y, z = top[0] + 0.05 * skull, side * 0.16 * skull, top[2] + 0.36 * skull
+    bone = Material((0.55, 0.48, 0.36))
+    if build.horns == "short":
+        return [spike(bone, (x, y, z), (x + 0.04, y + side * 0.10, z + 0.20), 0.035)]
+    if build.horns == "knobs":
+        return [limb(coat.dark, (x, y, z), (x - 0.04, y, z + 0.16), 0.03)]
+    if build.horns == "tusks":
+        start = (x + 0.42 * skull, side * 0.28 * skull, z - 0.72 * skull)
+        end = (start[0] + 0.75, start[1] + side * 0.06, start[2] - 0.30)
+        return [spike(Material(WHITE), start, end, 0.075)]
+    if build.horns == "antlers":
+        fork = (x - 0.10, y + side * 0.16, z + 0.24)
+        tip, tine = (x - 0.02, y + side * 0.26, z + 0.52), (x + 0.14, y + side * 0.20, z + 0.40)
+        low = (x + 0.16, y + side * 0.10, z + 0.20)
+        return [
+            limb(bone, (x, y, z), fork, 0.020),
+            limb(bone, fork, tip, 0.016),
+            limb(bone, fork, tine, 0.014),
+            limb(bone, _mid((x, y, z), fork, 0.4), low, 0.013),
+        ]
+    return []
+
+
+def _mane(build: Build, coat: Coat, base: Point, top: Point) -> list[ModelPart]:
+    skull, height = build.head[0], build.body[2]
+    if build.mane == "ridge":
+        up = 0.16 * height
+        start = (base[0] - 0.10 * height, 0.0, base[2] + 0.42 * height)
+        end = (top[0] - 0.12 * skull, 0.0, top[2] + 0.42 * skull + 0.2 * up)
+        return [limb(coat.dark, start, end, 0.12 * height, side_radius=0.05 * height)]
+    if build.mane == "full":
+        middle = (top[0] - 0.34 * skull, 0.0, top[2] - 0.10 * skull)
+        shaggy = Material(coat.dark.colour)
+        return [
+            ball(shaggy, middle, (1.15 * skull, 1.75 * skull, 1.95 * skull)),
+            limb(shaggy, base, (middle[0], 0.0, middle[2] - 0.3 * skull), 0.62 * skull),
+        ]
+    return []
+
+
+def _trunk(build: Build, coat: Coat, nose: Point, wag: float) -> list[ModelPart]:
+    if build.trunk == 0.0:
+        return []
+    sway = 0.12 * wag
+    parts = []
+    here: Point = (nose[0] + 0.02, 0.0, nose[2])
+    for index, angle in enumerate((-1.15, -1.45, -1.25)):
+        step = build.trunk / 3.0
+        bent = angle + sway * (index + 1)
+        there = (here[0] + step * math.cos(bent), 0.0, here[2] + step * math.sin(bent))
+        parts.append(limb(coat.limbs, here, there, 0.22 - 0.05 * index))
+        here = there
+    return parts
+
+
+def _tail(build: Build, coat: Coat, sit: float, wag: float) -> list[ModelPart]:
+    length, _, height = build.body
+    long, rise = build.tail
+    root: Point = (-0.46 * length, 0.0, build.shoulder - 0.28 * height - sit)
+    side = 0.25 * wag
+    middle = (
+        root[0] - 0.5 * long * math.cos(rise),
+        0.2 * side * long,
+        root[2] + 0.5 * long * math.sin(rise),
+    )
+    bent = rise + 0.25
+    tip = (
+        middle[0] - 0.5 * long * math.cos(bent),
+        0.6 * side * long,
+        max(middle[2] + 0.5 * long * math.sin(bent), 0.05 * build.shoulder),
+    )
+    thick = (0.14 if build.bushy_tail else 0.075) * (long if build.bushy_tail else height)
+    material = coat.dark if build.mane == "ridge" else coat.limbs
+    return [
+        limb(material, root, middle, 0.8 * thick),
+        limb(coat.dark if build.mane else material, middle, tip, thick),
+    ]
+
+
+def _leg(
+    build: Build, coat: Coat, index: int, step: tuple[tuple[float, float], float, float]
+) -> list[ModelPart]:
+    """Upper leg, lower leg and hoof or paw; hind legs bend backwards at the hock."""
+    (x, lift), rise, sit = step
+    is_fore, side = index < 2, 1.0 if index % 2 == 0 else -1.0
+    length, width, height = build.body
+    root_x = (0.30 if is_fore else -0.32) * length
+    thick = 0.052 * build.shoulder**0.9 * build.thick
+    y = side * (0.5 * width - 0.9 * thick)
+    low = 0.0 if is_fore else sit
+    top: Point = (root_x, y, build.shoulder - 0.52 * height + rise - low)
+    ahead = 0.28 * length if sit > 0.0 and not is_fore else 0.0
+    ankle: Point = (root_x + x + ahead, y, 0.8 * thick + lift)
+    half = (0.50 + 0.02 / build.thick) * (build.shoulder - 0.52 * height - 0.8 * thick)
+    towards = (1.0, 0.0, 0.0) if is_fore else (-1.0, 0.0, 0.0)
+    if sit > 0.0 and not is_fore:
+        towards = (1.0, 0.0, 1.0)
+    knee = bend(top, ankle, half, half, towards)
+    toe = (ankle[0] + 1.1 * thick, y, ankle[2])
+    return [
+        limb(coat.limbs, top, knee, (1.2 + (0.4 if is_fore else 0.7) / build.thick) * thick),
+        limb(coat.limbs, knee, ankle, 0.95 * thick),
+        limb(coat.hoof, ankle, toe, 0.8 * thick),
+    ]

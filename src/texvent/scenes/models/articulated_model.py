@@ -1,0 +1,94 @@
+"""A model made of parts that stay in place and parts that move with the pose."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from texvent.errors import InputError
+from texvent.scenes.models.protocol import ModelPart, Pose
+from texvent.scenes.models.shapes import Affine, half_extents
+
+Articulation = Callable[[Pose], Sequence[ModelPart]]
+
+# Poses that together show how far limbs, wings and rotors reach: times and distances spread
+# evenly by the golden ratio and its two-dimensional counterpart, out of step with any cycle.
+_SAMPLE_POSES = tuple(
+    Pose(
+        time_s=5.0 * (0.6180339887 * step % 1.0),
+        distance_m=6.0 * (0.7548776662 * step % 1.0),
+        speed_m_s=3.0,
+        activity=what,
+    )
+    for what in ("stand", "move", "run")
+    for step in range(12)
+)
+
+
+class ArticulatedModel:
+    """A `Model` from parts drawn at its usual size.
+
+    Its length, width and height are measured, not declared, so they are true for every seed: the
+    least box around the origin (from the ground up, unless `is_centred`) that holds all parts
+    over a sample of poses.
+    """
+
+    def __init__(
+        self,
+        rigid: Sequence[ModelPart],
+        *,
+        scale: float,
+        articulate: Articulation | None = None,
+        is_centred: bool = False,
+    ) -> None:
+        """Measure the figure.
+
+        Args:
+            rigid: parts that never move in the body.
+            scale: size relative to the usual one.
+            articulate: gives the parts that move; None = there are none.
+            is_centred: whether the origin is its middle rather than the ground below it.
+
+        Raises:
+            InputError: scale is not a positive number.
+        """
+        if not (np.isfinite(scale) and scale > 0.0):
+            raise InputError(f"scale must be a positive number but got {scale!r}")
+        self._scale = float(scale)
+        self._rigid = [_scaled(each, self._scale) for each in rigid]
+        self._articulate = articulate
+        low, high = (self._scale * corner for corner in _measure(rigid, articulate))
+        reach = np.maximum(np.abs(low), np.abs(high))
+        self.length = float(2.0 * reach[0])
+        self.width = float(2.0 * reach[1])
+        self.height = float(2.0 * reach[2]) if is_centred else float(high[2])
+
+    def parts(self, pose: Pose) -> Sequence[ModelPart]:
+        """The shapes at that pose, rigid ones first."""
+        if self._articulate is None:
+            return list(self._rigid)
+        usual = Pose(
+            time_s=pose.time_s,
+            distance_m=pose.distance_m / self._scale,
+            speed_m_s=pose.speed_m_s / self._scale,
+            activity=pose.activity,
+        )
+        return [*self._rigid, *(_scaled(each, self._scale) for each in self._articulate(usual))]
+
+
+def _measure(rigid: Sequence[ModelPart], articulate: Articulation | None) -> tuple[Affine, Affine]:
+    """Lowest and highest x, y, z that the parts reach, at the usual size, m."""
+    parts = list(rigid)
+    if articulate is not None:
+        for pose in _SAMPLE_POSES:
+            parts += articulate(pose)
+    corners = [half_extents(each.shape, each.to_body) for each in parts]
+    return np.min([low for low, _ in corners], axis=0), np.max(
+        [high for _, high in corners], axis=0
+    )
+
+
+def _scaled(each: ModelPart, scale: float) -> ModelPart:
+    return each if scale == 1.0 else replace(each, to_body=scale * each.to_body)

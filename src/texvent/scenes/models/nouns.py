@@ -1,0 +1,58 @@
+"""All nouns of the embedded generator.
+
+Origins: a noun with habitat "ground" or "fixed" stands on z = 0 below its middle (a ball too: it
+rolls; a throw lifts it). One with habitat "air" or "water" has its origin at its
+middle, except that what floats (`AFLOAT`) has it on the waterline: put it at the water's surface.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from texvent.scenes.models import people, solids
+from texvent.scenes.models.animals import birds, quadrupeds, sea_life, small_animals, waders
+from texvent.scenes.models.objects import (
+    buildings,
+    furniture,
+    household,
+    nature,
+    plants,
+    street,
+    toys,
+)
+from texvent.scenes.models.protocol import Noun
+from texvent.scenes.models.vehicles import aircraft, boats, cars, construction, cycles, heavy
+
+_FAMILIES: tuple[tuple[Noun, ...], ...] = (
+    cars.NOUNS,
+    heavy.NOUNS,
+    cycles.NOUNS,
+    aircraft.NOUNS,
+    boats.NOUNS,
+    construction.NOUNS,
+    people.NOUNS,
+    quadrupeds.NOUNS,
+    waders.NOUNS,
+    birds.NOUNS,
+    sea_life.NOUNS,
+    small_animals.NOUNS,
+    plants.NOUNS,
+    nature.NOUNS,
+    buildings.NOUNS,
+    street.NOUNS,
+    toys.NOUNS,
+    solids.NOUNS,
+    furniture.NOUNS,
+    household.NOUNS,
+)
+
+NOUNS: Mapping[str, Noun] = MappingProxyType(
+    {noun.name: noun for family in _FAMILIES for noun in family}
+)
+"""Every noun by its singular name."""
+
+AFLOAT: frozenset[str] = frozenset(
+    name for name, noun in NOUNS.items() if noun.motion in ("sail", "paddle")
+)
+"""Names of the nouns that float on the surface: boats and ducks."""

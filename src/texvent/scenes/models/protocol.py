@@ -1,0 +1,91 @@
+"""What a noun's model offers: an articulated object built from unit shapes.
+
+Body coordinates: metres, origin on the ground below the middle, facing +x, y to its left, z up.
+An object that flies, swims or is thrown has its origin at its middle instead (`Noun.habitat`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.scenes.scene import Shape, Texture
+
+Habitat = Literal["ground", "air", "water", "fixed"]
+"""Where an object belongs: moves on the ground, in the air, in the water; or does not move."""
+
+Colour = tuple[float, float, float]
+"""Linear-light RGB, 1.0 = white."""
+
+
+@dataclass(frozen=True)
+class ModelPart:
+    """One unit shape of a model at one instant."""
+
+    shape: Shape
+    to_body: NDArray[np.float64]
+    """[3, 4] affine map from unit-shape to body coordinates."""
+    colour: Colour
+    second_colour: Colour = (0.0, 0.0, 0.0)
+    texture: Texture = Texture.PLAIN
+    texture_scale: float = 1.0
+    emission: float = 0.0
+
+
+@dataclass(frozen=True)
+class Pose:
+    """What moves a model's limbs, wheels and wings."""
+
+    time_s: float
+    """Time, s."""
+    distance_m: float
+    """Distance travelled so far, m: turns wheels and swings legs without sliding."""
+    speed_m_s: float
+    """Speed along its path, m/s; 0 = standing."""
+    activity: str = "move"
+    """What it does: "stand", "move" (walk, drive, fly or swim), "run", "sit", "swing", ..."""
+
+
+class Model(Protocol):
+    """One object, with its size and colours decided."""
+
+    length: float
+    """Extent along x, m."""
+    width: float
+    """Extent along y, m."""
+    height: float
+    """Extent along z, m."""
+
+    def parts(self, pose: Pose) -> Sequence[ModelPart]:
+        """The shapes at that pose: the same number in the same order at every pose."""
+        ...
+
+
+class ModelBuilder(Protocol):
+    """Makes a model of one noun."""
+
+    def __call__(self, *, colour: Colour | None, scale: float, seed: int) -> Model:
+        """Build it; colour None means its usual colour, scale 1 its usual size."""
+        ...
+
+
+@dataclass(frozen=True)
+class Noun:
+    """One object the generator can show."""
+
+    name: str
+    """Singular; also the class name of its ground-truth boxes."""
+    build: ModelBuilder
+    habitat: Habitat
+    speed_m_s: float
+    """Usual speed when it moves, m/s."""
+    motion: str
+    """What it does if the prompt does not say, such as "walk", "drive", "fly", "swim", "stand"."""
+    synonyms: tuple[str, ...] = ()
+    """Other singular names, such as ("automobile", "sedan")."""
+    plurals: tuple[str, ...] = ()
+    """Irregular plurals, such as ("people",)."""

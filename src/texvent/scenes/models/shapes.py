@@ -1,0 +1,252 @@
+"""Shapes placed in body coordinates: boxes, balls, rods, limbs, cones and fins.
+
+All lengths are metres; `size` is always the full extent, `radius` half of it. Maps are [3, 4]
+affine matrices from unit-shape to body coordinates (`Part.to_body`), always with a positive
+determinant: a mirror image would turn surfaces inside out.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.scenes.models.materials import Material
+from texvent.scenes.models.protocol import ModelPart
+from texvent.scenes.scene import Shape
+
+Affine = NDArray[np.float64]
+Point = tuple[float, float, float]
+
+_PARALLEL = 0.95  # cosine from which a direction counts as parallel to the reference axis
+
+
+def part(shape: Shape, material: Material, to_body: Affine) -> ModelPart:
+    """Cover a placed unit shape with paint."""
+    return ModelPart(
+        shape=shape,
+        to_body=to_body,
+        colour=material.colour,
+        second_colour=material.second_colour,
+        texture=material.texture,
+        texture_scale=material.scale,
+        emission=material.emission,
+    )
+
+
+def box(material: Material, centre: Point, size: Point, *, lean: float = 0.0) -> ModelPart:
+    """A box; `lean` metres of x per metre of z slant it, as a windscreen or a roof slants."""
+    x, y, z = centre
+    half_x, half_y, half_z = (0.5 * extent for extent in size)
+    to_body = np.array(
+        [[half_x, 0.0, lean * half_z, x], [0.0, half_y, 0.0, y], [0.0, 0.0, half_z, z]]
+    )
+    return part(Shape.BOX, material, to_body)
+
+
+def ball(material: Material, centre: Point, size: Point) -> ModelPart:
+    """An ellipsoid with axes along x, y, z."""
+    return part(Shape.ELLIPSOID, material, _upright(centre, size))
+
+
+def post(material: Material, centre: Point, size: Point) -> ModelPart:
+    """An upright cylinder."""
+    return part(Shape.CYLINDER, material, _upright(centre, size))
+
+
+def peak(material: Material, centre: Point, size: Point) -> ModelPart:
+    """An upright cone."""
+    return part(Shape.CONE, material, _upright(centre, size))
+
+
+def rod(
+    material: Material, start: Point, end: Point, radius: float, *, side_radius: float | None = None
+) -> ModelPart:
+    """A cylinder from one point to another; `side_radius` is its half thickness along y."""
+    side = radius if side_radius is None else side_radius
+    return part(Shape.CYLINDER, material, _between(start, end, radius, side, 0.0))
+
+
+def limb(
+    material: Material, start: Point, end: Point, radius: float, *, side_radius: float | None = None
+) -> ModelPart:
+    """An ellipsoid whose long axis runs between two joints and reaches a little beyond them.
+
+    Args:
+        material: its surface.
+        start: first joint, m.
+        end: second joint, m.
+        radius: half thickness, m.
+        side_radius: half thickness along y (for a limb in the x-z plane), m; None = `radius`.
+
+    Returns:
+        The part; its local z runs from start to end, so stripes ring the limb.
+    """
+    side = radius if side_radius is None else side_radius
+    return part(Shape.ELLIPSOID, material, _between(start, end, radius, side, 0.6 * radius))
+
+
+def spike(material: Material, base: Point, tip: Point, radius: float) -> ModelPart:
+    """A cone from the middle of its base to its tip."""
+    return part(Shape.CONE, material, _between(base, tip, radius, radius, 0.0))
+
+
+def fin(
+    material: Material, base: Point, tip: Point, *, chord: Point, thickness: Point
+) -> ModelPart:
+    """A flat, possibly swept cone: fins, tail planes, ears.
+
+    Args:
+        material: its surface.
+        base: middle of its root, m.
+        tip: its tip, m.
+        chord: vector along the whole root, m.
+        thickness: vector across the whole root, m.
+
+    Returns:
+        The part.
+    """
+    return part(Shape.CONE, material, _spanned(base, tip, chord, thickness))
+
+
+def plank(
+    material: Material, start: Point, end: Point, *, chord: Point, thickness: Point
+) -> ModelPart:
+    """A slanted box spanned by three vectors: wings, roofs, blades."""
+    return part(Shape.BOX, material, _spanned(start, end, chord, thickness))
+
+
+def gable(material: Material, base: Point, size: Point) -> ModelPart:
+    """The triangle under a roof whose ridge runs along y: a diamond, its lower half in the wall.
+
+    Args:
+        material: its surface.
+        base: middle of the triangle's foot, m.
+        size: full extents of the triangle: along x, along y, and its height, m.
+
+    Returns:
+        The part.
+    """
+    x, y, z = base
+    half, width, rise = 0.5 * size[0], size[1], size[2]
+    start, end = (x + 0.5 * half, y, z - 0.5 * rise), (x - 0.5 * half, y, z + 0.5 * rise)
+    return plank(material, start, end, chord=(half, 0.0, rise), thickness=(0.0, width, 0.0))
+
+
+def blade(
+    material: Material, start: Point, end: Point, *, chord: Point, thickness: Point
+) -> ModelPart:
+    """A flat ellipsoid spanned by three vectors: feathered wings, leaves."""
+    return part(Shape.ELLIPSOID, material, _spanned(start, end, chord, thickness))
+
+
+def moved(parts: Iterable[ModelPart], motion: Affine) -> list[ModelPart]:
+    """The same parts carried along by a motion."""
+    return [replace(each, to_body=compose(motion, each.to_body)) for each in parts]
+
+
+def mirrored(points: Iterable[Point]) -> list[Point]:
+    """The same points on the other side of the body (y negated)."""
+    return [(x, -y, z) for x, y, z in points]
+
+
+def compose(outer: Affine, inner: Affine) -> Affine:
+    """The map that applies `inner`, then `outer`."""
+    product = outer[:, :3] @ inner
+    product[:, 3] += outer[:, 3]
+    return product
+
+
+def shift(x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Affine:
+    """A translation, m."""
+    return np.array([[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, y], [0.0, 0.0, 1.0, z]])
+
+
+def turn_x(angle: float, pivot: Point = (0.0, 0.0, 0.0)) -> Affine:
+    """A roll about an axis along x: positive lifts the left side (+y)."""
+    c, s = math.cos(angle), math.sin(angle)
+    return _about(np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]), pivot)
+
+
+def turn_y(angle: float, pivot: Point = (0.0, 0.0, 0.0)) -> Affine:
+    """A turn about an axis along y: positive as a wheel that rolls towards +x."""
+    c, s = math.cos(angle), math.sin(angle)
+    return _about(np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]]), pivot)
+
+
+def turn_z(angle: float, pivot: Point = (0.0, 0.0, 0.0)) -> Affine:
+    """A turn about an upright axis: positive turns the nose left, from +x to +y."""
+    c, s = math.cos(angle), math.sin(angle)
+    return _about(np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]), pivot)
+
+
+def half_extents(shape: Shape, to_body: Affine) -> tuple[Affine, Affine]:
+    """Lowest and highest body coordinates of a placed unit shape.
+
+    Args:
+        shape: the unit shape.
+        to_body: [3, 4] map to body coordinates.
+
+    Returns:
+        Two arrays [3]: least and greatest x, y, z, m.
+    """
+    linear, middle = to_body[:, :3], to_body[:, 3]
+    if shape is Shape.ELLIPSOID:
+        reach = np.linalg.norm(linear, axis=1)
+        return middle - reach, middle + reach
+    if shape is Shape.BOX:
+        reach = np.abs(linear).sum(axis=1)
+        return middle - reach, middle + reach
+    round_reach = np.hypot(linear[:, 0], linear[:, 1])
+    axis = linear[:, 2]
+    if shape is Shape.CYLINDER:
+        reach = round_reach + np.abs(axis)
+        return middle - reach, middle + reach
+    base, tip = middle - axis, middle + axis
+    return np.minimum(base - round_reach, tip), np.maximum(base + round_reach, tip)
+
+
+def _upright(centre: Point, size: Point) -> Affine:
+    x, y, z = centre
+    half_x, half_y, half_z = (0.5 * extent for extent in size)
+    return np.array([[half_x, 0.0, 0.0, x], [0.0, half_y, 0.0, y], [0.0, 0.0, half_z, z]])
+
+
+def _about(rotation: Affine, pivot: Point) -> Affine:
+    centre = np.array(pivot)
+    return np.column_stack([rotation, centre - rotation @ centre])
+
+
+def _between(start: Point, end: Point, radius: float, side: float, overlap: float) -> Affine:
+    """Local z from start to end; local y as near to body y as it can be."""
+    dx, dy, dz = end[0] - start[0], end[1] - start[1], end[2] - start[2]
+    length = max(math.sqrt(dx * dx + dy * dy + dz * dz), 1e-9)
+    dx, dy, dz = dx / length, dy / length, dz / length
+    # First local axis = reference × direction; the reference is y, or z for a limb along y.
+    if abs(dy) < _PARALLEL:
+        norm = math.hypot(dx, dz)
+        ax, ay, az = dz / norm, 0.0, -dx / norm
+    else:
+        norm = math.hypot(dx, dy)
+        ax, ay, az = -dy / norm, dx / norm, 0.0
+    bx, by, bz = dy * az - dz * ay, dz * ax - dx * az, dx * ay - dy * ax
+    half = 0.5 * length + overlap
+    return np.array(
+        [
+            [ax * radius, bx * side, dx * half, 0.5 * (start[0] + end[0])],
+            [ay * radius, by * side, dy * half, 0.5 * (start[1] + end[1])],
+            [az * radius, bz * side, dz * half, 0.5 * (start[2] + end[2])],
+        ]
+    )
+
+
+def _spanned(start: Point, end: Point, chord: Point, thickness: Point) -> Affine:
+    """Columns: half chord, half thickness, half span; flipped if they were left-handed."""
+    a, b = np.array(start), np.array(end)
+    columns = 0.5 * np.column_stack([np.array(chord), np.array(thickness), b - a])
+    if np.linalg.det(columns) < 0.0:
+        columns[:, 1] = -columns[:, 1]
+    return np.column_stack([columns, 0.5 * (a + b)])

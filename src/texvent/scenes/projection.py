@@ -1,0 +1,64 @@
+"""Pixel ↔ world: the rays of a pinhole camera, and the projection that undoes them.
+
+Image coordinates are pixels with (0, 0) at the image's top left corner, so the centre of
+pixel [row, column] is (column + 0.5, row + 0.5).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from texvent.scenes.scene import Camera, Float64Array
+from texvent.sensor import SensorSize
+
+
+class Rays(NamedTuple):
+    """The ray through image point (x, y): `origin + depth · (corner + x · right + y · down)`.
+
+    The direction's component along the optical axis is 1, so the ray parameter is depth in metres.
+    """
+
+    origin: Float64Array
+    """[3] camera position, metres."""
+    corner: Float64Array
+    """[3] direction through the image's top left corner."""
+    right: Float64Array
+    """[3] change of direction per pixel to the right."""
+    down: Float64Array
+    """[3] change of direction per pixel downwards."""
+
+
+def camera_rays(camera: Camera, size: SensorSize) -> Rays:
+    """The rays of a camera whose image has `size` pixels."""
+    right_axis, down_axis, forward = np.asarray(camera.rotation, dtype=np.float64)
+    step = 1.0 / (camera.focal * size.width)
+    right, down = right_axis * step, down_axis * step
+    corner = forward - 0.5 * size.width * right - 0.5 * size.height * down
+    return Rays(np.array(camera.position, dtype=np.float64), corner, right, down)
+
+
+def project(camera: Camera, size: SensorSize, points: Float64Array) -> Float64Array:
+    """Where world points appear.
+
+    Args:
+        camera: the camera.
+        size: image size, pixels.
+        points: [..., 3] metres.
+
+    Returns:
+        [..., 3]: x and y in pixels, and depth along the optical axis in metres. A point beside or
+        behind the camera (depth <= 0) has no place in the image; its x and y mean nothing.
+    """
+    seen = (points - camera.position) @ camera.rotation.T
+    depth = seen[..., 2]
+    scale = camera.focal * size.width / np.where(depth == 0.0, np.inf, depth)
+    x = seen[..., 0] * scale + 0.5 * size.width
+    y = seen[..., 1] * scale + 0.5 * size.height
+    return np.stack([x, y, depth], axis=-1)
+
+
+def project_direction(camera: Camera, size: SensorSize, directions: Float64Array) -> Float64Array:
+    """Where infinitely far points appear: as `project`, for [..., 3] directions from the camera."""
+    return project(camera, size, directions + camera.position)

@@ -1,0 +1,371 @@
+"""Light in every pixel of one tile (compiled by Numba).
+
+Edges matter most: a pixel that jumps as an edge passes fires false events. So every pixel is first
+probed on a fine lattice for *what* is there. Where all probes agree, one shaded sample is exact
+enough, because textures are already averaged over the pixel. Where they differ, the edge is placed
+by bisection, so that each surface's share of the pixel changes continuously; where something thin
+is near, many samples, no two of them in the same row or column, find the shares.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.runtime.jit import jit
+from texvent.scenes.raycast.acceleration import TILE
+from texvent.scenes.raycast.records import World
+from texvent.scenes.raycast.shading.lighting import shade_hit
+from texvent.scenes.raycast.shading.sky import Colour
+from texvent.scenes.raycast.trace import (
+    ROOM,
+    SKY,
+    background_hit,
+    first_hit,
+    hit_again,
+    ray_direction,
+    sun_reaches,
+    surface_normal,
+)
+from texvent.scenes.raycast.uncounted import uncounted
+from texvent.scenes.scene import Float64Array
+
+_THIN = -(1 << 40)
+"""Probe value that agrees with nothing: something thin is near."""
+_BISECTIONS = 6
+"""Steps that place an edge between two probes: to 1/128 pixel with two probes per pixel side."""
+_MOST_BORDERS = 4
+"""Edges that are placed between two neighbouring probes."""
+_MOST_SURFACES = 64
+"""Surfaces that may share a pixel."""
+_SHOULDER = 0.75
+"""Light above this share of white is compressed instead of cut off."""
+
+
+@jit(error_model="numpy")
+def _is_lit(world: World, x: float, y: float, hit: tuple[float, int, int]) -> tuple[bool, bool]:
+    """Whether the sun reaches what was hit, and whether a thin shadow is near."""
+    depth, number, face = hit
+    if number in (SKY, ROOM):
+        return False, False
+    direction, origin = ray_direction(world.instant[0], x, y), world.instant[0].origin
+    point = (
+        origin[0] + depth * direction[0],
+        origin[1] + depth * direction[1],
+        origin[2] + depth * direction[2],
+    )
+    return sun_reaches(world, point, surface_normal(world, number, face, point))
+
+
+@jit(error_model="numpy")
+def _probe(world: World, x: float, y: float) -> int:
+    """What is at image point (x, y), as one number: surface, face, and lit or not."""
+    depth, number, face, _ = first_hit(world, x, y)
+    lit = _is_lit(world, x, y, (depth, number, face))[0]
+    return (number * 8 + face) * 2 + int(lit)
+
+
+@jit(error_model="numpy")
+def _shoulder(light: float) -> float:
+    """Linear light as a share of white: unchanged up to `_SHOULDER`, then bent smoothly to 1."""
+    if light <= _SHOULDER:
+        return max(light, 0.0)
+    room = 1.0 - _SHOULDER
+    return _SHOULDER + room * (1.0 - math.exp((_SHOULDER - light) / room))
+
+
+@jit(error_model="numpy")
+def _exposed(world: World, light: Colour) -> Colour:
+    exposure = world.instant[0].exposure
+    return (
+        _shoulder(light[0] * exposure),
+        _shoulder(light[1] * exposure),
+        _shoulder(light[2] * exposure),
+    )
+
+
+@jit(error_model="numpy")
+def _shade(world: World, x: float, y: float, probe: int) -> Colour:
+    """Exposed light at image point (x, y), where the surface `probe` is."""
+    number, lit = probe >> 4, bool(probe & 1)
+    depth, face = math.inf, 0
+    if number >= 0:
+        depth, face = hit_again(world, x, y, number)
+    if depth == math.inf:
+        instant = world.instant[0]
+        depth, number, face = background_hit(instant, ray_direction(instant, x, y))
+    return _exposed(world, shade_hit(world, x, y, (depth, number, face), lit))
+
+
+@jit(error_model="numpy")
+def _add_share(
+    groups: Float64Array, count: int, probe: int, share: float, place: tuple[float, float]
+) -> int:
+    """Add a piece of a pixel, at `place`, to the surface it shows; the new number of surfaces.
+
+    `groups` is [k, 4]: probe, share, and share · x and share · y summed.
+    """
+    group = 0
+    while group < count and groups[group, 0] != probe:
+        group += 1
+    if group == len(groups):
+        group -= 1  # more surfaces in a pixel than there is room for: the last ones count as one
+    elif group == count:
+        groups[group, 0] = probe
+        groups[group, 1] = groups[group, 2] = groups[group, 3] = 0.0
+        count += 1
+    groups[group, 1] += share
+    groups[group, 2] += share * place[0]
+    groups[group, 3] += share * place[1]
+    return count
+
+
+@jit(error_model="numpy")
+def _sum_groups(world: World, groups: Float64Array, count: int) -> Colour:
+    """Mean light of a pixel that several surfaces share.
+
+    Each is shaded once, in the middle of its pieces: textures are averaged over the pixel anyway.
+    """
+    red, green, blue, total = 0.0, 0.0, 0.0, 0.0
+    for group in range(count):
+        share = groups[group, 1]
+        x, y = groups[group, 2] / share, groups[group, 3] / share
+        light = _shade(world, x, y, int(groups[group, 0]))
+        red += share * light[0]
+        green += share * light[1]
+        blue += share * light[2]
+        total += share
+    return red / total, green / total, blue / total
+
+
+@jit(error_model="numpy")
+def _sample_pixel(
+    world: World, column: int, row: int, pattern: Float64Array, groups: Float64Array
+) -> Colour:
+    """Mean light over a pixel with something thin in it, from the samples of `pattern`."""
+    count = 0
+    for index in range(len(pattern)):
+        x, y = column + pattern[index, 0], row + pattern[index, 1]
+        count = _add_share(groups, count, _probe(world, x, y), 1.0, (x, y))
+    return _sum_groups(world, groups, count)
+
+
+@jit(error_model="numpy")
+def _between(
+    start: tuple[float, float], stop: tuple[float, float], share: float
+) -> tuple[float, float]:
+    return start[0] + share * (stop[0] - start[0]), start[1] + share * (stop[1] - start[1])
+
+
+@jit(error_model="numpy")
+def _find_border(
+    world: World,
+    ends: tuple[tuple[float, float], tuple[float, float]],
+    low: float,
+    probes: tuple[int, int],
+) -> tuple[float, int]:
+    """Where a line leaves the surface `probes[0]`, and what comes next.
+
+    Args:
+        world: the scene.
+        ends: where the line starts and stops.
+        low: where on it (0..1) that surface is known to be.
+        probes: that surface, and the one at the line's end.
+    """
+    high = 1.0
+    by_surface = probes[0] >> 1 != probes[1] >> 1
+    for _ in range(_BISECTIONS):
+        middle = 0.5 * (low + high)
+        x, y = _between(ends[0], ends[1], middle)
+        if by_surface:  # no need to know about shadow
+            _, number, face, _ = first_hit(world, x, y)
+            is_same = number * 8 + face == probes[0] >> 1
+        else:
+            is_same = _probe(world, x, y) == probes[0]
+        if is_same:
+            low = middle
+        else:
+            high = middle
+    if high == 1.0:
+        return 0.5 * (low + high), probes[1]
+    x, y = _between(ends[0], ends[1], high)
+    return 0.5 * (low + high), _probe(world, x, y)
+
+
+@jit(error_model="numpy")
+def _add_line(
+    world: World,
+    groups: Float64Array,
+    count: int,
+    ends: tuple[tuple[float, float], tuple[float, float]],
+    probes: tuple[int, int],
+    share: float,
+) -> int:
+    """Add the pieces of a line between two lattice points to the surfaces they show.
+
+    Args:
+        world: the scene.
+        groups: as in `_add_share`.
+        count: surfaces so far.
+        ends: where the line starts and stops.
+        probes: what is there.
+        share: what the whole line stands for.
+
+    Returns:
+        The new number of surfaces.
+    """
+    start, stop = ends
+    low, probe = 0.0, probes[0]
+    for _ in range(_MOST_BORDERS):
+        if probe == probes[1]:
+            break
+        first = low
+        low, beyond = _find_border(world, ends, low, (probe, probes[1]))
+        place = _between(start, stop, 0.5 * (first + low))
+        count = _add_share(groups, count, probe, share * (low - first), place)
+        probe = beyond
+    place = _between(start, stop, 0.5 * (low + 1.0))
+    return _add_share(groups, count, probes[1], share * (1.0 - low), place)
+
+
+@jit(error_model="numpy")
+def _split_pixel(
+    world: World, column: int, row: int, probes: NDArray[np.int64], groups: Float64Array
+) -> Colour:
+    """Mean light over a pixel with an edge in it.
+
+    Args:
+        world: the scene.
+        column: pixel column.
+        row: pixel row.
+        probes: [k, k] what is at the lattice points in and around the pixel.
+        groups: scratch space, [any, 4].
+
+    The pixel is cut into lines between lattice points, in the direction that crosses more edges;
+    on each line the edge is found by bisection. So coverage grows continuously as an edge moves,
+    where counted samples would jump.
+    """
+    last = len(probes) - 1
+    across, down = 0, 0
+    for j in range(last + 1):
+        for i in range(last):
+            across += probes[j, i] != probes[j, i + 1]
+            down += probes[i, j] != probes[i + 1, j]
+    upright = across >= down
+    count = 0
+    for line in range(last + 1):
+        share = (0.5 if line in (0, last) else 1.0) / (last * last)
+        for piece in range(last):
+            if upright:
+                first, second = probes[line, piece], probes[line, piece + 1]
+                start = (column + piece / last, row + line / last)
+                stop = (column + (piece + 1) / last, start[1])
+            else:
+                first, second = probes[piece, line], probes[piece + 1, line]
+                start = (column + line / last, row + piece / last)
+                stop = (start[0], row + (piece + 1) / last)
+            count = _add_line(world, groups, count, (start, stop), (first, second), share)
+    return _sum_groups(world, groups, count)
+
+
+@jit(error_model="numpy")
+def _probe_tile(
+    world: World, edges: tuple[int, int, int, int], samples: int, probes: NDArray[np.int64]
+) -> None:
+    """Probe a tile, given its left, right, top and bottom edges in pixels, on a lattice.
+
+    Shadow is looked for at every other lattice point; the points between take it over from their
+    left neighbour on the same surface, which saves half of the shadow rays.
+    """
+    left, right, top, bottom = edges
+    for j in range((bottom - top) * samples + 1):
+        for i in range((right - left) * samples + 1):
+            x, y = left + i / samples, top + j / samples
+            depth, number, face, thin = first_hit(world, x, y)
+            probe = (number * 8 + face) * 2
+            if not thin and i > 0 and (i + j) % 2 == 1 and probes[j, i - 1] >> 1 == probe >> 1:
+                probes[j, i] = probes[j, i - 1]
+                continue
+            lit, thin_shadow = _is_lit(world, x, y, (depth, number, face))
+            probes[j, i] = _THIN if thin or thin_shadow else probe + int(lit)
+
+
+@jit(error_model="numpy")
+def _refresh(
+    world: World, column: int, row: int, lattice: tuple[int, int], probes: NDArray[np.int64]
+) -> None:
+    """Look for shadow at the lattice points of a pixel that took it over from a neighbour.
+
+    `lattice` is the place in the tile's lattice of the pixel's first point.
+    """
+    last = len(probes) - 1
+    for j in range(last + 1):
+        for i in range(last + 1):
+            if (lattice[0] + lattice[1] + i + j) % 2 == 1:
+                probes[j, i] = _probe(world, column + i / last, row + j / last)
+
+
+@jit(error_model="numpy")
+def _agree(probes: NDArray[np.int64], top: int, left: int, samples: int) -> bool:
+    """Whether all probes in and around one pixel saw the same surface."""
+    first = probes[top, left]
+    for row in range(top, top + samples + 1):
+        for column in range(left, left + samples + 1):
+            if probes[row, column] != first:
+                return False
+    return True
+
+
+@jit(error_model="numpy")
+def _any_thin(probes: NDArray[np.int64], top: int, left: int, samples: int) -> bool:
+    """Whether something thin is near one pixel."""
+    for row in range(top, top + samples + 1):
+        for column in range(left, left + samples + 1):
+            if probes[row, column] == _THIN:
+                return True
+    return False
+
+
+@jit(error_model="numpy")
+def render_tile_row(
+    owner: World, tile_row: int, samples: int, pattern: Float64Array, image: Float64Array
+) -> None:
+    """Fill one row of tiles of an image.
+
+    Args:
+        owner: the scene.
+        tile_row: which row of tiles.
+        samples: probes per pixel side.
+        pattern: [k, 2] sample positions in [0, 1)² for pixels with something thin.
+        image: [H, W, 3] linear light, 0..1; this row of tiles is written.
+    """
+    world = World(
+        uncounted(owner.instant),
+        uncounted(owner.shapes),
+        uncounted(owner.lists),
+        uncounted(owner.lamps),
+    )
+    height, width = image.shape[0], image.shape[1]
+    top, bottom = tile_row * TILE, min((tile_row + 1) * TILE, height)
+    probes = np.empty((TILE * samples + 1, TILE * samples + 1), dtype=np.int64)
+    groups = np.empty((_MOST_SURFACES, 4), dtype=np.float64)
+    around = np.empty((samples + 1, samples + 1), dtype=np.int64)
+    for left in range(0, width, TILE):
+        right = min(left + TILE, width)
+        _probe_tile(world, (left, right, top, bottom), samples, probes)
+        for row in range(top, bottom):
+            for column in range(left, right):
+                j, i = (row - top) * samples, (column - left) * samples
+                if _any_thin(probes, j, i, samples):
+                    light = _sample_pixel(world, column, row, pattern, groups)
+                elif _agree(probes, j, i, samples):
+                    light = _shade(world, column + 0.5, row + 0.5, int(probes[j, i]))
+                else:
+                    around[:] = probes[j : j + samples + 1, i : i + samples + 1]
+                    _refresh(world, column, row, (j, i), around)
+                    light = _split_pixel(world, column, row, around, groups)
+                image[row, column, 0] = light[0]
+                image[row, column, 1] = light[1]
+                image[row, column, 2] = light[2]

@@ -1,0 +1,1 @@
+"""What light each surface sends to the camera: surfaces, textures, sky, water (Numba kernels)."""

@@ -1,0 +1,66 @@
+"""The sea's surface, and the light it throws on what is under water (compiled by Numba)."""
+
+from __future__ import annotations
+
+import math
+
+from texvent.runtime.jit import jit
+from texvent.scenes.raycast.records import Record
+from texvent.scenes.raycast.shading.sky import Colour, mix, sky_gradient, triple
+from texvent.scenes.raycast.shading.value_noise import detail_fade, smooth
+
+
+@jit(error_model="numpy")
+def sea_light(instant: Record, point: Colour, view: Colour, footprint: Colour) -> Colour:
+    """Moving waves that mirror the sky; waves smaller than a pixel fade out."""
+    slope_x, slope_y = 0.0, 0.0
+    length, angle, strength = 9.0, 0.4, 0.042
+    for _ in range(7):
+        wave = 2.0 * math.pi / length
+        cosine, sine = math.cos(angle), math.sin(angle)
+        phase = wave * (cosine * point[0] + sine * point[1]) + math.sqrt(9.81 * wave) * instant.time
+        size = strength * detail_fade(
+            (abs(cosine) * footprint[0] + abs(sine) * footprint[1]) / length
+        )
+        slope_x += size * cosine * math.cos(phase)
+        slope_y += size * sine * math.cos(phase)
+        length, angle, strength = 0.62 * length, angle + 2.4, 1.05 * strength
+    scale = 1.0 / math.sqrt(1.0 + slope_x * slope_x + slope_y * slope_y)
+    nx, ny, nz = -slope_x * scale, -slope_y * scale, scale
+    facing = max(-(view[0] * nx + view[1] * ny + view[2] * nz), 0.0)
+    mirror = 0.03 + 0.75 * (1.0 - facing) ** 4
+    up = abs(view[2] + 2.0 * facing * nz)
+    deep = mix(
+        triple(instant.colour),
+        triple(instant.second_colour),
+        smooth(0.5 + 2.2 * (slope_x + slope_y)),
+    )
+    light = (
+        instant.ambient[0] + 0.5 * instant.sun_colour[0],
+        instant.ambient[1] + 0.5 * instant.sun_colour[1],
+        instant.ambient[2] + 0.5 * instant.sun_colour[2],
+    )
+    water = (deep[0] * light[0], deep[1] * light[1], deep[2] * light[2])
+    colour = mix(water, sky_gradient(instant, up), mirror)
+    sun = instant.sun
+    hx, hy, hz = sun[0] - view[0], sun[1] - view[1], sun[2] - view[2]
+    half = (hx * nx + hy * ny + hz * nz) / math.sqrt(hx * hx + hy * hy + hz * hz + 1e-12)
+    glint = 0.5 * max(half, 0.0) ** 60
+    return (
+        colour[0] + glint * instant.sun_colour[0],
+        colour[1] + glint * instant.sun_colour[1],
+        colour[2] + glint * instant.sun_colour[2],
+    )
+
+
+@jit(error_model="numpy")
+def caustics(instant: Record, point: Colour, footprint: float) -> float:
+    """Ripples of light that waves throw on what is under water: a factor around 1."""
+    share = detail_fade(1.2 * footprint)
+    if share == 0.0:
+        return 1.0
+    x, y, t = 0.9 * point[0], 0.9 * point[1], 0.9 * instant.time
+    bend_x = x + 0.6 * math.sin(1.7 * y + 1.1 * t) + 0.2 * point[2]
+    bend_y = y + 0.6 * math.sin(1.5 * x - 1.3 * t)
+    web = math.sin(1.9 * bend_x + 0.7 * t) + math.sin(2.1 * bend_y - 0.8 * t)
+    return 1.0 + share * (0.9 * math.exp(-3.0 * abs(web)) - 0.25)

@@ -1,0 +1,169 @@
+"""What a scene hands to the renderer: shapes, a camera and surroundings at one instant.
+
+World: metres, right-handed, x right (east), y away from the viewer (north), z up; the ground is
+z = 0. Colours are linear-light RGB, 1.0 = a white surface in full daylight. Time is in seconds
+here, because scenes are continuous functions of time; the generator converts to µs.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+Float64Array = NDArray[np.float64]
+Float32Array = NDArray[np.float32]
+
+
+class Shape(IntEnum):
+    """Unit shapes, centred on the origin; `Primitives.to_world` scales, turns and places them."""
+
+    ELLIPSOID = 0
+    """Unit sphere."""
+    BOX = 1
+    """|x|, |y|, |z| <= 1."""
+    CYLINDER = 2
+    """x² + y² <= 1, |z| <= 1, with caps."""
+    CONE = 3
+    """Apex at z = 1, base of radius 1 at z = -1, with base."""
+
+
+class Texture(IntEnum):
+    """How a surface's colour varies over it, in its own coordinates (so it moves with it)."""
+
+    PLAIN = 0
+    MOTTLED = 1
+    """Smooth value noise: foliage, fur, soil."""
+    STRIPES = 2
+    """Bands along local z: a zebra, a barrier, planks."""
+    CHECKS = 3
+    """3-D checker: tiles, a football, windows."""
+    WINDOWS = 4
+    """Grid of panes on the sides: a façade."""
+
+
+@dataclass(frozen=True)
+class Primitives:
+    """All shapes of a scene at one instant, structure of arrays over n primitives.
+
+    A primitive keeps its index over time, so the same index at two instants is the same piece of
+    surface: that is what makes optical flow exact.
+    """
+
+    shape: NDArray[np.int8]
+    """[n] `Shape`."""
+    to_world: Float64Array
+    """[n, 3, 4] affine map from unit-shape coordinates to the world."""
+    colour: Float32Array
+    """[n, 3] linear RGB."""
+    second_colour: Float32Array
+    """[n, 3] linear RGB of the other part of the texture."""
+    texture: NDArray[np.int8]
+    """[n] `Texture`."""
+    texture_scale: Float32Array
+    """[n] repeats per local unit."""
+    emission: Float32Array
+    """[n] light given off, added to what is reflected, as a multiple of colour (lamps)."""
+    instance: NDArray[np.int32]
+    """[n] id of the object it belongs to: 1, 2, ...; 0 is scenery without an id of its own."""
+
+
+@dataclass(frozen=True)
+class Camera:
+    """A pinhole camera at one instant."""
+
+    position: Float64Array
+    """[3] metres."""
+    rotation: Float64Array
+    """[3, 3]; rows are the camera's right, down and forward axes in the world."""
+    focal: float
+    """Focal length divided by image width: 1.0 is about 53° across."""
+
+
+class Ground(IntEnum):
+    """What z = 0 is made of."""
+
+    PLAIN = 0
+    GRASS = 1
+    ROAD = 2
+    """A road along `Environment.road_angle` through grass."""
+    DIRT_ROAD = 3
+    SEA = 4
+    """Moving waves."""
+    CITY = 5
+    """A road with pavement on both sides."""
+    FLOOR = 6
+    """Indoor boards or tiles; no sky above: a wall stands around."""
+    SAND = 7
+    SNOW = 8
+    UNDERWATER = 9
+    """Sea bed; everything fades into blue, light ripples on it."""
+    NONE = 10
+    """No ground: only sky (objects in the air or in space)."""
+
+
+@dataclass(frozen=True)
+class Environment:
+    """Surroundings and light at one instant."""
+
+    ground: Ground
+    ground_colour: Float32Array
+    """[3] linear RGB."""
+    ground_second_colour: Float32Array
+    """[3] linear RGB of its texture (or of the road)."""
+    road_angle: float
+    """Direction of the road on the ground, radians from x towards y."""
+    road_half_width: float
+    """Metres."""
+    road_offset: Float64Array
+    """[2] a point (x, y) on the road's centre line, metres."""
+    sky_top: Float32Array
+    """[3] linear RGB at the zenith."""
+    sky_horizon: Float32Array
+    """[3] linear RGB at the horizon."""
+    clouds: float
+    """0 = none .. 1 = covered; they drift slowly."""
+    sun_direction: Float64Array
+    """[3] unit vector towards the sun or moon."""
+    sun_colour: Float32Array
+    """[3] linear RGB of direct light (flicker is already in it)."""
+    ambient: Float32Array
+    """[3] linear RGB of light from all around (flicker is already in it)."""
+    shadows: bool
+    """Whether direct light casts shadows."""
+    fog_distance: float
+    """Metres at which colours have faded to 37 % into `fog_colour`; inf = clear."""
+    fog_colour: Float32Array
+    """[3] linear RGB."""
+    exposure: float
+    """Multiplies linear light before gamma coding."""
+    lamps: Float64Array
+    """[m, 7] point lights: position (3, metres), linear RGB (3, at 1 m), reach (metres)."""
+    time_s: float
+    """For waves, clouds and grass."""
+    room_half_size: float = 9.0
+    """Half the side of the square room around (0, 0) that `Ground.FLOOR` stands in, metres."""
+
+
+class Scene(Protocol):
+    """A scene as a continuous function of time."""
+
+    def primitives(self, time_s: float) -> Primitives:
+        """All shapes at that instant; same length and order at every instant."""
+        ...
+
+    def camera(self, time_s: float) -> Camera:
+        """The camera at that instant."""
+        ...
+
+    def environment(self, time_s: float) -> Environment:
+        """Surroundings and light at that instant."""
+        ...
+
+    @property
+    def class_names(self) -> dict[int, str]:
+        """Instance id → noun, such as {1: "car", 2: "tree"}."""
+        ...

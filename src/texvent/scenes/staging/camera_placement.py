@@ -1,0 +1,214 @@
+"""Chooses the camera's station and moves for a scene."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from texvent.scenes.description import CameraMove, SceneDescription
+from texvent.scenes.scene import Float64Array
+from texvent.scenes.staging.actors import Actor, seeded
+from texvent.scenes.staging.camera_path import CameraPath
+from texvent.scenes.staging.framing import Framing, fit
+
+FILL = 0.84
+"""Share of the image that what matters may fill."""
+SKY_LIFT = 0.2
+"""How far the camera looks above what matters outdoors, in half image heights."""
+LIMIT = 0.7
+"""What a mover passes counts for the framing up to this multiple of the mover's size."""
+WHOLE = 3.5
+"""Other objects must fit as a whole if they are at most this many times as large as the mover."""
+TRACKING_LENGTHS = 4.5
+"""An object that covers more of its own lengths in the clip is followed from the side."""
+INSTANTS = 13
+_ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02}
+_AZIMUTHS = {"side": 0.0, "front": 0.0, "back": math.pi}
+_FILL_BY_MOVE = {"pan": 0.62, "tilt": 0.7, "truck": 0.66, "pedestal": 0.7, "orbit": 0.66,
+                 "handheld": 0.78}  # fmt: skip
+
+
+def place_camera(
+    description: SceneDescription,
+    actors: Sequence[Actor],
+    place: str,
+    *,
+    seed: int,
+    aspect: float,
+    duration_s: float,
+) -> CameraPath:
+    """The camera over the clip: near enough to name the objects, far enough to keep them in.
+
+    Args:
+        description: what the prompt says of the camera.
+        actors: the objects of the prompt on their trajectories.
+        place: key of `places.PLACES`.
+        seed: decides the angle where nothing is said.
+        aspect: image height over width.
+        duration_s: length of the clip, s.
+    """
+    has_floor = place not in ("sky", "space")
+    if not actors:
+        target = np.array([0.0, 0.0, 2.0])
+        empty = Framing(target, 0.0, 0.06, 16.0, 1.0)
+        return CameraPath(empty, _plan_moves(description, None, duration_s), duration_s,
+                          has_floor=has_floor)  # fmt: skip
+    main = _choose_main(description, actors)
+    moves = _plan_moves(description, main, duration_s)
+    follows = any(move.kind == "follow" for move in moves)
+    times = np.linspace(0.0, duration_s, INSTANTS)
+    points = _points_to_frame(description, actors, main, times, follows)
+    azimuth, elevation = _choose_angles(description, main, moves, place, seed)
+    fill = min([FILL, *(_FILL_BY_MOVE.get(move.kind, FILL) for move in moves)])
+    if description.shot.framing == "close":
+        fill = 0.95
+        points = main.corners(0.0) if follows else np.vstack([main.corners(t) for t in times])
+    elif follows and main.is_mover:
+        fill = min(fill, 0.5)
+    if description.shot.framing == "wide":
+        fill = 0.45
+    if main.object_index == description.shot.target and any(
+        m.kind in ("zoom", "dolly") for m in moves
+    ):
+        fill = 0.55
+        points = np.vstack([main.corners(float(time)) for time in times])
+    is_open = has_floor and place not in ("underwater", "indoor")
+    lift = SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
+    framing = fit(points, azimuth=azimuth, elevation=elevation, aspect=aspect, fill=fill, lift=lift)
+    room = _size_room(framing, points) if place == "indoor" else math.inf
+    follows_height = main.noun.habitat != "ground"
+    return CameraPath(framing, moves, duration_s, main.trajectory, follows_height, has_floor, room)
+
+
+def _choose_main(description: SceneDescription, actors: Sequence[Actor]) -> Actor:
+    """The object the camera is about: as said, or the first that moves."""
+    target = description.shot.target
+    for actor in actors:
+        if target is not None and actor.object_index == target:
+            return actor
+    return next((actor for actor in actors if actor.is_mover), actors[0])
+
+
+def _plan_moves(
+    description: SceneDescription, main: Actor | None, duration_s: float
+) -> tuple[CameraMove, ...]:
+    moves = tuple(move for move in description.shot.moves if move.kind != "static")
+    if main is None or moves or description.shot.moves:
+        return moves
+    span = max(main.model.length, main.model.height)
+    start, end = main.middle(0.0), main.middle(duration_s)
+    travel = float(np.hypot(*(end - start)[:2]))
+    if main.is_mover and travel > TRACKING_LENGTHS * span:
+        return (CameraMove("follow", "side"),)
+    return ()
+
+
+def _points_to_frame(
+    description: SceneDescription,
+    actors: Sequence[Actor],
+    main: Actor,
+    times: Float64Array,
+    follows: bool,
+) -> Float64Array:
+    """[n, 3] what must fit, m: movers whole, the rest up to a multiple of their size."""
+    near = [actor for actor in actors if description.objects[actor.object_index].side != "far"]
+    movers = [actor for actor in near if actor.is_mover] or near or list(actors)
+    largest = max(
+        max(actor.model.length, actor.model.width, actor.model.height) for actor in movers
+    )
+    passed = {
+        target
+        for relation in description.relations
+        if relation.kind in ("past", "among")
+        for target in relation.targets
+    }
+    start = np.array(main.trajectory.at(0.0).position)
+    points = []
+    for actor in actors:
+        is_far = description.objects[actor.object_index].side == "far"
+        if is_far and actor is not main:
+            continue
+        for time in times:
+            limit = math.inf if actor in movers else _limit_extent(actor, passed, largest)
+            corners = actor.corners(float(time), limit)
+            if follows:
+                shift = np.array(main.trajectory.at(float(time)).position) - start
+                shift[2] = shift[2] if main.noun.habitat != "ground" else 0.0
+                if actor is not main and not actor.is_mover:
+                    continue
+                corners = corners - shift
+            points.append(corners)
+    return np.vstack(points)
+
+
+def _limit_extent(actor: Actor, passed: set[int], largest_m: float) -> float:
+    """How much of an object at rest must fit, m."""
+    size = max(actor.model.length, actor.model.width, actor.model.height)
+    is_whole = actor.object_index not in passed and size <= WHOLE * largest_m
+    return math.inf if is_whole else LIMIT * largest_m
+
+
+def _choose_angles(
+    description: SceneDescription,
+    main: Actor,
+    moves: Sequence[CameraMove],
+    place: str,
+    seed: int,
+) -> tuple[float, float]:
+    """Azimuth and elevation of the camera, radians."""
+    rng = seeded(seed, "camera")
+    wander = float(rng.uniform(-0.14, 0.14))
+    state = main.trajectory.at(0.0)
+    later = main.trajectory.at(0.5)
+    step = np.subtract(later.position, state.position)
+    goes_in_depth = abs(step[1]) > 1.2 * abs(step[0]) and abs(step[1]) > 0.05
+    azimuth = wander
+    if goes_in_depth:
+        azimuth = math.copysign(0.42, wander)
+    follow = next((move for move in moves if move.kind == "follow"), None)
+    if follow is not None and follow.direction in ("behind", "front"):
+        heading = state.yaw if follow.direction == "behind" else state.yaw + math.pi
+        azimuth = heading - 0.5 * math.pi + 0.1 * wander
+    view = description.shot.view
+    if view in _AZIMUTHS:
+        azimuth = _AZIMUTHS[view] if view == "side" else _face(view, state.yaw)
+    elevation = _ELEVATIONS.get(view or "")
+    if elevation is None:
+        elevation = _choose_elevation(main, follow, place, goes_in_depth)
+    return azimuth, elevation
+
+
+def _choose_elevation(
+    main: Actor, follow: CameraMove | None, place: str, goes_in_depth: bool
+) -> float:
+    """Height of the camera above what it looks at, radians."""
+    if follow is not None and follow.direction in _FOLLOW_ELEVATIONS:
+        return _FOLLOW_ELEVATIONS[follow.direction]
+    if place in _PLACE_ELEVATIONS:
+        return _PLACE_ELEVATIONS[place]
+    if main.noun.habitat == "air":
+        return -0.03
+    if not main.is_mover and main.model.height > 5.0:
+        return 0.03
+    if main.model.height < 0.7:
+        return 0.24
+    return 0.2 if goes_in_depth else 0.12
+
+
+_FOLLOW_ELEVATIONS = {"behind": 0.22, "front": 0.22, "above": 0.7}
+_PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04, "indoor": 0.24}
+
+
+def _face(view: str, yaw: float) -> float:
+    """Azimuth from which an object of that heading is seen from the front or from behind."""
+    return yaw + 0.5 * math.pi if view == "front" else yaw - 0.5 * math.pi
+
+
+def _size_room(framing: Framing, points: Float64Array) -> float:
+    """Half the side of a room that holds the camera and everything it looks at, m."""
+    reach = float(np.max(np.abs(framing.position[:2])))
+    spread = float(np.max(np.abs(points[:, :2])))
+    height = float(np.max(points[:, 2])) / 0.6
+    return max(reach + 0.6, spread + 0.8, height + 0.5, 3.5)

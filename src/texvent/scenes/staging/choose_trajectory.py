@@ -1,0 +1,270 @@
+"""Chooses the trajectory that a motion of the prompt stands for."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from texvent.scenes.description import ObjectMotion
+from texvent.scenes.language.vocabulary_motion import SPIN_RATE_HZ
+from texvent.scenes.models.protocol import Model, Noun
+from texvent.scenes.staging.action_trajectories import (
+    GRAVITY_M_S2,
+    Bounce,
+    Climb,
+    Hop,
+    Hover,
+    Spin,
+    Sway,
+    Swing,
+)
+from texvent.scenes.staging.trajectory import (
+    Circle,
+    Rolling,
+    Shuttle,
+    Stationary,
+    Straight,
+    Trajectory,
+    Vector,
+)
+
+MAX_LENGTHS_PER_S = 0.95
+"""A usual speed is kept below this many of the object's own lengths per second, so that it stays
+in view and large; a speed stated in numbers is not."""
+RUN_FACTOR = 2.2
+"""Running over walking speed."""
+
+YAWS = {
+    "right": 0.0,
+    "left": math.pi,
+    "away": 0.5 * math.pi,
+    "up": 0.5 * math.pi,
+    "backward": 0.5 * math.pi,
+    "towards": -0.5 * math.pi,
+    "down": -0.5 * math.pi,
+}
+"""Direction → heading; up and down are along a slope for what moves on the ground."""
+_PATH_KINDS = frozenset(
+    {"drive", "walk", "run", "fly", "swim", "sail", "paddle", "slide", "roll", "move"}
+)
+FLAT = 0.62
+"""Objects whose length is below this share of their width show their front to the camera."""
+PEOPLE = frozenset({"person", "man", "woman", "child", "runner", "worker"})
+_SIDEWAYS = frozenset({"flag", "crane", "bridge"})
+"""Objects that are known by their side."""
+_WEAVING = frozenset({"swim"})
+
+
+@dataclass(frozen=True)
+class MotionPlan:
+    """What an object's motion comes to: heading, speed, and how much room it takes."""
+
+    motion: ObjectMotion
+    yaw: float
+    speed_m_s: float
+    duration_s: float
+
+    @property
+    def is_path(self) -> bool:
+        """Whether it goes from one place to another along a straight line."""
+        return self.motion.kind in _PATH_KINDS and self.motion.direction not in (
+            "circle",
+            "to and fro",
+            "up and down",
+        )
+
+    @property
+    def travel_m(self) -> float:
+        """Metres covered in the clip along the heading."""
+        if self.is_path:
+            return self.speed_m_s * self.duration_s
+        if self.motion.kind == "throw" or self.motion.direction == "to and fro":
+            return 0.6 * self.speed_m_s * self.duration_s
+        return 0.0
+
+    @property
+    def climb(self) -> float:
+        """Metres up per metre along."""
+        slope = {"up": 0.45, "down": -0.45}.get(self.motion.direction or "", 0.0)
+        return slope if self.motion.kind in ("fly", "swim") else 0.0
+
+
+def plan_motion(
+    motion: ObjectMotion, noun: Noun, model: Model, duration_s: float, rng: np.random.Generator
+) -> MotionPlan:
+    """Heading and speed of a motion: said by the prompt, or usual for the noun.
+
+    Args:
+        motion: what the prompt says.
+        noun: the object.
+        model: its model, for its size.
+        duration_s: length of the clip, s.
+        rng: decides between left and right where nothing is said.
+    """
+    toss = rng.random()
+    default = "left" if toss < 0.5 else "right"
+    direction = motion.direction or default
+    if motion.direction is None and motion.kind not in _PATH_KINDS:
+        yaw = _face_camera(noun, model, motion, toss)
+    elif motion.kind in ("fly", "swim") and direction in ("up", "down"):
+        yaw = YAWS[default]
+    else:
+        yaw = YAWS.get(direction, YAWS[default])
+    if motion.speed_m_s is not None:
+        return MotionPlan(motion, yaw, motion.speed_m_s, duration_s)
+    speed = noun.speed_m_s if noun.speed_m_s > 0.0 else 1.0
+    if motion.kind == "run" and noun.motion == "walk":
+        speed *= RUN_FACTOR
+    # What flies has no road to be compared with: slower, it can be shown larger.
+    most = MAX_LENGTHS_PER_S * (0.8 if noun.habitat == "air" else 1.0)
+    speed = min(speed, most * max(model.length, model.height))
+    return MotionPlan(motion, yaw, speed * motion.pace, duration_s)
+
+
+def _face_camera(noun: Noun, model: Model, motion: ObjectMotion, toss: float) -> float:
+    """Heading of what stays in place: animals from the side, the rest so that one sees its face.
+
+    Fronts are at +x. Flat objects turn it to the camera; others stand at an angle to it.
+    """
+    tilt = 0.5 * (2.0 * toss - 1.0)
+    if noun.name in _SIDEWAYS:
+        return 0.3 * tilt
+    if model.length < FLAT * model.width or noun.name in PEOPLE:
+        return -0.5 * math.pi + 0.5 * tilt
+    if noun.habitat == "fixed":
+        return -0.5 * math.pi + math.copysign(0.45, tilt) + 0.3 * tilt
+    return (math.pi if toss < 0.5 else 0.0) + tilt
+
+
+def choose_trajectory(
+    plan: MotionPlan,
+    model: Model,
+    home: Vector,
+    rng: np.random.Generator,
+    *,
+    clear_m: float = 0.0,
+) -> Trajectory:
+    """The trajectory of one body.
+
+    Args:
+        plan: what its object does.
+        model: its model.
+        home: where it is at mid clip, or where it stays, m.
+        rng: decides phases.
+        clear_m: height of what it jumps over at its home, m.
+    """
+    if clear_m > 0.0:
+        return _jump_over(plan, model, home, clear_m)
+    kind, direction = plan.motion.kind, plan.motion.direction
+    phase = float(rng.uniform(0.0, 2.0 * math.pi))
+    if kind in _PATH_KINDS and direction == "circle":
+        radius = 1.3 * max(model.length, model.width)
+        lean = 0.35 if kind == "fly" else 0.0
+        return Circle(home, radius, plan.speed_m_s / radius, phase, _activity(kind), lean)
+    if direction in ("to and fro", "up and down"):
+        reach = max(0.3 * plan.speed_m_s * plan.duration_s, 0.4 * model.height)
+        return Shuttle(
+            home, plan.yaw, reach, max(plan.duration_s, 1.0), _activity(kind),
+            direction == "up and down",
+        )  # fmt: skip
+    if kind in _PATH_KINDS:
+        return _follow_path(plan, model, home, phase)
+    return _act_in_place(plan, model, home, phase)
+
+
+def _jump_over(plan: MotionPlan, model: Model, home: Vector, clear_m: float) -> Trajectory:
+    """Hops along its heading so that the highest point is over its home at mid clip."""
+    height = max(0.35 * model.height, 1.25 * clear_m + 0.1)
+    flight = 2.0 * math.sqrt(2.0 * height / GRAVITY_M_S2)
+    period = flight + 0.15
+    middle = 0.5 * plan.duration_s
+    phase = (0.5 * flight - middle) % period
+    return Hop(home, height, 0.15, 2.2 * model.length, plan.yaw, middle, phase_s=phase)
+
+
+def _activity(kind: str) -> str:
+    return "run" if kind == "run" else "stand" if kind == "slide" else "move"
+
+
+def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:
+    kind = plan.motion.kind
+    is_air = kind == "fly"
+    is_flat = is_air and model.length < 0.3 * min(model.width, model.height)
+    path = Straight(
+        home,
+        plan.yaw,
+        plan.speed_m_s,
+        0.5 * plan.duration_s,
+        _activity(kind),
+        climb=plan.climb,
+        bob_m=0.04 * model.height if is_air or kind in ("sail", "paddle") else 0.0,
+        weave_rad=0.08 if kind in _WEAVING else 0.0,
+        phase=phase,
+        facing_rad=-0.5 * math.pi + 0.35 if is_flat else None,
+    )
+    if kind == "roll":
+        return Rolling(path, 0.5 * model.height, 0.5 * model.height)
+    return path
+
+
+def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:
+    kind, pace = plan.motion.kind, plan.motion.pace
+    span = max(model.length, model.width, model.height)
+    turn = 2.0 * math.pi * SPIN_RATE_HZ * pace
+    if kind == "spin":
+        sign = -1.0 if plan.motion.direction == "right" else 1.0
+        return Spin(home, sign * turn, phase)
+    if kind in ("bounce", "fall", "throw"):
+        return _fly_freely(plan, model, home)
+    if kind in ("rise", "sink"):
+        speed = min(max(plan.speed_m_s, 0.3 * span), 1.0 * span)
+        if kind == "rise":
+            return Climb(home, 0.2 * speed, 0.0, 2.0 * 0.8 * speed / plan.duration_s)
+        return Climb(home, -speed, plan.duration_s, lowest_m=home[2])
+    if kind == "swing":
+        length = max(1.6 * model.height, 0.6)
+        return Swing(home, length, 0.5, pace)
+    if kind == "jump":
+        height = min(max(0.35 * model.height, 0.12), 1.5) * pace
+        hop = 0.0 if plan.motion.direction is None else 0.5 * model.length * 2.0
+        return Hop(home, height, hop_m=hop, yaw=plan.yaw, mid_s=0.5 * plan.duration_s)
+    if kind == "dance":
+        return Hop(home, 0.06 * model.height, 0.1, yaw=-1.2, sway_rad=0.5, phase_s=0.1 * phase)
+    if kind in ("hover", "float"):
+        return Hover(home, 0.12 * span * pace, plan.yaw, phase)
+    if kind == "sway":
+        return Sway(home, 0.14, 0.5 * pace, plan.yaw)
+    activity = {"stand": "stand", "sit": "sit"}.get(kind, "move")
+    return Stationary(home, plan.yaw, activity)
+
+
+def _fly_freely(plan: MotionPlan, model: Model, home: Vector) -> Trajectory:
+    """Bouncing, falling and thrown objects: gravity decides."""
+    x, y, z = home
+    kind, pivot = plan.motion.kind, 0.5 * model.height
+    if kind == "bounce":
+        height = min(max(3.0 * model.height, 0.8), 2.5)
+        along = 0.0 if plan.motion.direction is None else 0.5 * plan.speed_m_s
+        back = 0.5 * along * plan.duration_s
+        x, y = x - back * math.cos(plan.yaw), y - back * math.sin(plan.yaw)
+        return Bounce((x, y, z + height), z, along_m_s=along, yaw=plan.yaw, restitution=0.82)
+    if kind == "fall":
+        height = 0.5 * GRAVITY_M_S2 * (0.45 * plan.duration_s) ** 2
+        height = min(max(height, 1.5 * model.height), max(3.0 * model.height, 1.4))
+        wait = 0.1 * plan.duration_s
+        return Bounce(
+            (x, y, z + height), z, yaw=plan.yaw, restitution=0.3, start_s=wait, pivot_m=pivot
+        )
+    travel = plan.travel_m
+    start = (
+        x - 0.5 * travel * math.cos(plan.yaw),
+        y - 0.5 * travel * math.sin(plan.yaw),
+        z + max(1.0, model.height),
+    )
+    up = 0.5 * GRAVITY_M_S2 * min(0.55 * plan.duration_s, 1.0)
+    along = travel / plan.duration_s
+    return Bounce(
+        start, z, up, along, plan.yaw, 0.6, tumble_rad_s=along / max(pivot, 0.05), pivot_m=pivot
+    )

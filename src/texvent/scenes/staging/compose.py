@@ -1,0 +1,289 @@
+"""Scene description to animated 3-D scene: who stands where, seen from where, in what light."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from texvent.errors import InputError
+from texvent.scenes.description import Relation, SceneDescription
+from texvent.scenes.models.nouns import AFLOAT, NOUNS
+from texvent.scenes.models.protocol import Noun
+from texvent.scenes.scene import (
+    Camera,
+    Environment,
+    Ground,
+    Primitives,
+)
+from texvent.scenes.staging.actors import Actor, seeded
+from texvent.scenes.staging.assemble import assemble, join_primitives
+from texvent.scenes.staging.camera_path import CameraPath
+from texvent.scenes.staging.camera_placement import place_camera
+from texvent.scenes.staging.environment import (
+    PLACES,
+    AnimatedEnvironment,
+    PointLight,
+    build_environment,
+    choose_lighting,
+)
+from texvent.scenes.staging.object_placement import SCENIC, ObjectPlacer
+from texvent.scenes.staging.scenery import (
+    BACKDROPS,
+    SCENERY,
+    ScatterRule,
+    SceneryItem,
+    ViewClearance,
+    scatter,
+)
+from texvent.scenes.staging.weather import (
+    DustTrail,
+    FallingParticles,
+    make_dust,
+    make_rain,
+    make_snow,
+)
+from texvent.sensor import SensorSize
+
+VIEW_INSTANTS = 7
+"""Instants of the clip at which scenery must not hide anything."""
+_LAMP_NOUNS = {"street lamp": (1.1, 4.7), "lamp": (0.0, 0.9), "candle": (0.0, 0.9)}
+"""Noun → where its light is: metres along its x, and share of its height or metres up."""
+_WARM = (1.0, 0.72, 0.40)
+
+
+@dataclass(frozen=True)
+class ComposedScene:
+    """A scene as a continuous function of time; implements `primitives.Scene`."""
+
+    actors: tuple[Actor, ...]
+    still: Primitives
+    """Scenery: the same at every instant."""
+    effects: tuple[FallingParticles | DustTrail, ...]
+    camera_path: CameraPath
+    animated_environment: AnimatedEnvironment
+    class_names: dict[int, str]
+    """Instance id → noun."""
+
+    def primitives(self, time_s: float) -> Primitives:
+        """All shapes at that instant: actors, then scenery, then weather."""
+        shapes = assemble([actor.place(time_s) for actor in self.actors])
+        shapes = join_primitives(shapes, self.still)
+        for effect in self.effects:
+            shapes = join_primitives(shapes, effect.at(time_s))
+        if self.animated_environment.flicker_hz is not None:
+            factor = np.float32(self.animated_environment.flicker(time_s))
+            shapes = replace(shapes, emission=shapes.emission * factor)
+        return shapes
+
+    def camera(self, time_s: float) -> Camera:
+        """The camera at that instant."""
+        return self.camera_path.at(time_s)
+
+    def environment(self, time_s: float) -> Environment:
+        """Surroundings and light at that instant."""
+        return self.animated_environment.at(time_s)
+
+
+def compose_scene(
+    description: SceneDescription,
+    *,
+    seed: int,
+    size: SensorSize,
+    duration_s: float,
+    nouns: Mapping[str, Noun] = NOUNS,
+) -> ComposedScene:
+    """Stage a description.
+
+    Args:
+        description: from `grammar.parse_prompt`.
+        seed: decides what the prompt leaves open; another seed gives another layout of the same
+            sentence.
+        size: image size, pixels, for the framing.
+        duration_s: length of the clip, s; moves are spread over it.
+        nouns: table of models.
+
+    Returns:
+        The scene; the same arguments give the same scene.
+
+    Raises:
+        InputError: the duration is not a positive number.
+    """
+    if not (math.isfinite(duration_s) and duration_s > 0.0):
+        raise InputError(f"duration is {duration_s} s; it must be a positive number of seconds")
+    place = description.surroundings.place or "grass"
+    levels = choose_levels(place, description, nouns)
+    placer = ObjectPlacer(description, nouns, seed=seed, duration_s=duration_s, level_m=levels)
+    actors = placer.place_all()
+    ground = PLACES[place].ground
+    camera_path = place_camera(
+        description, actors, place, seed=seed, aspect=size.height / size.width,
+        duration_s=duration_s,
+    )  # fmt: skip
+    view = _describe_view(place, camera_path, actors, duration_s)
+    items, surrounding = _scatter_all(description, place, view, actors, nouns, seed)
+    first_free = len(actors) + 1
+    placed = [item.place(0) for item in items]
+    placed += [item.place(first_free + number) for number, (_, item) in enumerate(surrounding)]
+    names = {actor.instance: actor.noun.name for actor in actors}
+    names.update({first_free + number: item.noun for number, (_, item) in enumerate(surrounding)})
+    distance = camera_path.framing.distance_m
+    animated_environment = build_environment(
+        description, place=place, road_angle=view.road_angle, road_offset=view.road_offset,
+        lamps=_list_lamps(description, place, actors, items, camera_path),
+        distance_m=distance, room_m=camera_path.room_m if ground is Ground.FLOOR else 9.0,
+    )  # fmt: skip
+    effects = _make_effects(description, actors, camera_path, seed)
+    return ComposedScene(
+        tuple(actors), assemble(placed), effects, camera_path, animated_environment, names
+    )
+
+
+_HIGH_PLACES = ("mountain", "forest", "city")
+"""Where what flies does so above the trees and streets."""
+
+
+def choose_levels(
+    place: str, description: SceneDescription, nouns: Mapping[str, Noun]
+) -> dict[str, float]:
+    """Height of origins above the ground: habitat or noun → multiple of an object's size.
+
+    "clear" is in metres, on top of that, for what flies.
+    """
+    if place in ("sky", "space"):
+        everything = {nouns[scene_object.noun].name: 0.0 for scene_object in description.objects}
+        return {"air": 2.0, "water": 0.0, **everything}
+    levels = {"air": 1.5, "water": 0.0, "clear": 8.0 if place in _HIGH_PLACES else 0.0}
+    if place == "underwater":
+        levels["water"] = 0.9
+    elif place == "sea":
+        levels.update({noun.name: -0.18 for noun in nouns.values() if noun.habitat == "water"})
+        levels.update(dict.fromkeys(AFLOAT, 0.0))
+    else:
+        levels["water"] = 0.5
+        levels.update(dict.fromkeys(AFLOAT, 0.25))
+    return levels
+
+
+def _describe_view(
+    place: str, path: CameraPath, actors: Sequence[Actor], duration_s: float
+) -> ViewClearance:
+    times = [duration_s * step / (VIEW_INSTANTS - 1) for step in range(VIEW_INSTANTS)]
+    has_road = PLACES[place].ground in (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY)
+    angle, offset = _lay_road(actors, path)
+    points = [
+        np.vstack([actor.corners(t)[::2] for actor in actors]) if actors else np.zeros((0, 3))
+        for t in times
+    ]
+    return ViewClearance(
+        [path.at(t) for t in times], points, path.framing.distance_m,
+        PLACES[place].road_half_width if has_road else None, angle, offset,
+        path.room_m,
+    )  # fmt: skip
+
+
+def _lay_road(actors: Sequence[Actor], path: CameraPath) -> tuple[float, tuple[float, float]]:
+    """The road runs along the path of the first object on the ground that moves."""
+    for actor in actors:
+        if actor.is_mover and actor.noun.habitat == "ground":
+            state = actor.trajectory.at(0.0)
+            return state.yaw % math.pi, (state.position[0], state.position[1])
+    for actor in actors:
+        if actor.noun.habitat == "ground":
+            return 0.0, (0.0, actor.trajectory.at(0.0).position[1])
+    return 0.0, (0.0, float(path.framing.target[1]))
+
+
+def _scatter_all(
+    description: SceneDescription,
+    place: str,
+    view: ViewClearance,
+    actors: Sequence[Actor],
+    nouns: Mapping[str, Noun],
+    seed: int,
+) -> tuple[list[SceneryItem], list[tuple[Relation, SceneryItem]]]:
+    """Scenery of the place, and the objects that the prompt puts all around.
+
+    Nouns that the prompt counts are not used as scenery: "two trees" are two trees.
+    """
+    said = {scene_object.noun for scene_object in description.objects}
+    allowed = {name: noun for name, noun in nouns.items() if name not in description.absent}
+    unsaid = {name: noun for name, noun in allowed.items() if name not in said}
+    around: list[tuple[Relation, SceneryItem]] = []
+    for relation in description.relations:
+        if relation.kind not in SCENIC:
+            continue
+        for target in relation.targets:
+            scene_object = description.objects[target]
+            colour = scene_object.colour.rgb if scene_object.colour is not None else None
+            sizes = (0.8 * scene_object.scale, 1.2 * scene_object.scale)
+            rule = ScatterRule(scene_object.noun, scene_object.count, -0.2, 3.5, sizes, (colour,))
+            rng = seeded(seed, "surround", target)
+            taken = [item for _, item in around]
+            found = scatter([rule], view, actors, allowed, rng=rng, taken=taken)
+            around.extend((relation, item) for item in found)
+    rules = list(SCENERY.get(place, ()))
+    for backdrop in description.surroundings.backdrops:
+        rules.extend(BACKDROPS[backdrop])
+    taken = [item for _, item in around]
+    rng = seeded(seed, "scenery", place)
+    return scatter(rules, view, actors, unsaid, rng=rng, taken=taken), around
+
+
+def _list_lamps(
+    description: SceneDescription,
+    place: str,
+    actors: Sequence[Actor],
+    items: Sequence[SceneryItem],
+    path: CameraPath,
+) -> list[PointLight]:
+    """Lights of lamps in the scene, and of a room's ceiling."""
+    lamps = []
+    for actor in actors:
+        if actor.noun.name in _LAMP_NOUNS:
+            along, up = _LAMP_NOUNS[actor.noun.name]
+            height = up if up > 1.0 else up * actor.model.height
+            spot = actor.trajectory.at(0.0).to_world() @ np.array([along, 0.0, height, 1.0])
+            lamps.append(_warm_light(float(spot[0]), float(spot[1]), float(spot[2]) - 0.2))
+    for item in items:
+        if item.noun == "street lamp":
+            along, height = _LAMP_NOUNS["street lamp"]
+            x = item.position[0] + along * math.cos(item.yaw)
+            y = item.position[1] + along * math.sin(item.yaw)
+            lamps.append(_warm_light(x, y, height))
+    dark = choose_lighting(place, description.light).lamps > 0.0
+    if dark and not lamps and place not in ("sky", "space", "underwater", "sea"):
+        x, y, z = path.framing.target
+        reach = path.framing.distance_m
+        lamps.append(
+            _warm_light(float(x) - 0.25 * reach, float(y) - 0.25 * reach, float(z) + 0.55 * reach)
+        )
+    return lamps
+
+
+def _warm_light(x: float, y: float, z: float) -> PointLight:
+    """A lamp bright enough for the ground below it."""
+    strength = 1.1 * max(z, 0.7) ** 2
+    red, green, blue = (strength * channel for channel in _WARM)
+    return PointLight((x, y, z), (red, green, blue), 5.0 * max(z, 0.7))
+
+
+def _make_effects(
+    description: SceneDescription, actors: Sequence[Actor], path: CameraPath, seed: int
+) -> tuple[FallingParticles | DustTrail, ...]:
+    said = description.surroundings
+    effects: list[FallingParticles | DustTrail] = []
+    base = np.array([path.framing.target[0], path.framing.target[1], 0.0])
+    extent = 1.4 * path.framing.distance_m
+    if said.weather == "rain":
+        effects.append(make_rain(base, extent, seeded(seed, "rain")))
+    elif said.weather == "snow":
+        effects.append(make_snow(base, extent, seeded(seed, "snow")))
+    if said.has_dust:
+        for actor in actors:
+            if actor.is_mover and actor.noun.habitat == "ground":
+                rng = seeded(seed, "dust", actor.instance)
+                effects.append(make_dust(actor.trajectory, actor.model.length, rng))
+    return tuple(effects)

@@ -1,0 +1,284 @@
+"""Surroundings of each place and light, as functions of time."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from texvent.scenes.description import Illumination, SceneDescription, Surroundings
+from texvent.scenes.models.protocol import Colour
+from texvent.scenes.scene import Environment, Float32Array, Float64Array, Ground
+
+FLICKER_DEPTH = 0.8
+"""Share of the light that a flicker takes away at its darkest."""
+
+
+@dataclass(frozen=True)
+class GroundAppearance:
+    """What the ground is like."""
+
+    ground: Ground
+    colour: Colour
+    second_colour: Colour
+    road_half_width: float = 3.4
+
+
+_SNOW: Colour = (0.78, 0.82, 0.88)
+_SNOWED_OVER = (Ground.GRASS, Ground.ROAD, Ground.DIRT_ROAD)
+"""Grounds whose grass is white when snow lies on it."""
+_MEADOW: tuple[Colour, Colour] = ((0.055, 0.14, 0.022), (0.13, 0.21, 0.045))
+_ASPHALT: Colour = (0.04, 0.04, 0.043)
+
+PLACES: dict[str, GroundAppearance] = {
+    "road": GroundAppearance(Ground.ROAD, _MEADOW[0], _ASPHALT),
+    "dirt road": GroundAppearance(Ground.DIRT_ROAD, (0.07, 0.12, 0.03), (0.34, 0.22, 0.12), 2.4),
+    "city": GroundAppearance(Ground.CITY, (0.3, 0.3, 0.3), _ASPHALT, 4.5),
+    "grass": GroundAppearance(Ground.GRASS, *_MEADOW),
+    "savanna": GroundAppearance(Ground.GRASS, (0.30, 0.22, 0.075), (0.42, 0.33, 0.13)),
+    "forest": GroundAppearance(Ground.GRASS, (0.05, 0.075, 0.02), (0.12, 0.09, 0.04)),
+    "sea": GroundAppearance(Ground.SEA, (0.012, 0.07, 0.11), (0.03, 0.13, 0.16)),
+    "underwater": GroundAppearance(Ground.UNDERWATER, (0.34, 0.31, 0.22), (0.5, 0.47, 0.36)),
+    "sand": GroundAppearance(Ground.SAND, (0.56, 0.43, 0.25), (0.68, 0.55, 0.35)),
+    "snow": GroundAppearance(Ground.SNOW, (0.80, 0.83, 0.88), (0.85, 0.88, 0.92)),
+    "mountain": GroundAppearance(Ground.GRASS, (0.10, 0.13, 0.05), (0.20, 0.19, 0.10)),
+    "indoor": GroundAppearance(Ground.FLOOR, (0.36, 0.20, 0.10), (0.46, 0.28, 0.15)),
+    "sky": GroundAppearance(Ground.NONE, (0.3, 0.3, 0.3), (0.3, 0.3, 0.3)),
+    "space": GroundAppearance(Ground.NONE, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)),
+    "construction site": GroundAppearance(Ground.SAND, (0.36, 0.27, 0.18), (0.44, 0.34, 0.23)),
+    "plain": GroundAppearance(Ground.PLAIN, (0.42, 0.42, 0.42), (0.48, 0.48, 0.48)),
+}
+"""Ground of every place the grammar knows."""
+
+
+@dataclass(frozen=True)
+class Lighting:
+    """Direct and ambient light, sky, and what the camera makes of them."""
+
+    sun_direction: tuple[float, float, float]
+    sun: Colour
+    ambient: Colour
+    sky_top: Colour
+    sky_horizon: Colour
+    clouds: float
+    exposure: float = 1.0
+    shadows: bool = True
+    lamps: float = 0.0
+    """Strength of artificial light where a place has lamps, 0..1."""
+
+
+_DAY = Lighting(
+    (-0.45, -0.55, 0.70), (1.0, 0.94, 0.82), (0.30, 0.34, 0.41), (0.10, 0.28, 0.72),
+    (0.55, 0.71, 0.88), 0.22,
+)  # fmt: skip
+LIGHTINGS: dict[str, Lighting] = {
+    "day": _DAY,
+    "sunny": replace(_DAY, sun=(1.18, 1.08, 0.88), clouds=0.08, ambient=(0.27, 0.31, 0.38)),
+    "overcast": Lighting(
+        (-0.3, -0.4, 0.86), (0.22, 0.22, 0.22), (0.56, 0.58, 0.61), (0.42, 0.46, 0.52),
+        (0.60, 0.63, 0.66), 0.85, shadows=False,
+    ),
+    "dusk": Lighting(
+        (0.80, -0.42, 0.26), (1.10, 0.53, 0.22), (0.27, 0.23, 0.30), (0.045, 0.06, 0.20),
+        (0.62, 0.27, 0.105), 0.34, 1.75, lamps=0.5,
+    ),
+    "dawn": Lighting(
+        (-0.80, -0.42, 0.28), (1.0, 0.62, 0.42), (0.26, 0.25, 0.33), (0.20, 0.30, 0.62),
+        (0.98, 0.66, 0.52), 0.30, 1.05,
+    ),
+    "night": Lighting(
+        (-0.45, -0.50, 0.74), (0.055, 0.07, 0.11), (0.030, 0.038, 0.068), (0.004, 0.006, 0.020),
+        (0.016, 0.020, 0.042), 0.0, 2.1, lamps=1.0,
+    ),
+    "moonlight": Lighting(
+        (-0.45, -0.50, 0.74), (0.15, 0.18, 0.25), (0.040, 0.050, 0.085), (0.005, 0.008, 0.026),
+        (0.022, 0.028, 0.060), 0.0, 1.6, lamps=0.4,
+    ),
+    "lamp": Lighting(
+        (-0.45, -0.50, 0.74), (0.03, 0.03, 0.035), (0.05, 0.045, 0.04), (0.004, 0.006, 0.02),
+        (0.016, 0.02, 0.04), 0.0, 1.5, lamps=1.0,
+    ),
+}  # fmt: skip
+"""Lighting of every light the grammar knows."""
+
+_INDOOR_DAY = Lighting(
+    (-0.35, -0.45, 0.82), (0.55, 0.53, 0.48), (0.46, 0.45, 0.43), (0.8, 0.8, 0.8),
+    (0.8, 0.8, 0.8), 0.0,
+)  # fmt: skip
+_UNDERWATER = Lighting(
+    (0.12, -0.30, 0.95), (0.55, 0.78, 0.80), (0.14, 0.30, 0.38), (0.10, 0.42, 0.55),
+    (0.03, 0.19, 0.30), 0.0, 1.1,
+)  # fmt: skip
+_SPACE = Lighting(
+    (-0.75, -0.55, 0.35), (1.3, 1.25, 1.15), (0.05, 0.055, 0.07), (0.0, 0.0, 0.003),
+    (0.0, 0.0, 0.003), 0.0,
+)  # fmt: skip
+_WATER_COLOUR: Colour = (0.05, 0.28, 0.42)
+_UNDERWATER_SIGHT_M = 16.0
+_FOG_SIGHT = 3.0
+"""In fog, sight (to 37 %) in camera distances."""
+
+
+@dataclass(frozen=True)
+class PointLight:
+    """A lamp on the stage."""
+
+    position: tuple[float, float, float]
+    colour: Colour
+    """At 1 m."""
+    reach_m: float
+
+
+@dataclass(frozen=True)
+class AnimatedEnvironment:
+    """The surroundings as a function of time: all fixed, but for flicker, waves and clouds."""
+
+    base: Environment
+    flicker_hz: float | None
+
+    def at(self, time_s: float) -> Environment:
+        """The surroundings at that instant."""
+        if self.flicker_hz is None:
+            return replace(self.base, time_s=time_s)
+        factor = np.float32(self.flicker(time_s))
+        lamps = self.base.lamps.copy()
+        lamps[:, 3:6] *= factor
+        return replace(
+            self.base,
+            time_s=time_s,
+            sun_colour=self.base.sun_colour * factor,
+            ambient=self.base.ambient * factor,
+            lamps=lamps,
+        )
+
+    def flicker(self, time_s: float) -> float:
+        """Share of full light at that instant: 1 at t = 0, period exactly 1 / flicker_hz."""
+        if self.flicker_hz is None:
+            return 1.0
+        wave = math.cos(2.0 * math.pi * self.flicker_hz * time_s)
+        return 1.0 - 0.5 * FLICKER_DEPTH * (1.0 - wave)
+
+
+def choose_lighting(place: str, light: Illumination) -> Lighting:
+    """The lighting of a place at that time of day."""
+    kind = light.kind or "day"
+    if place == "underwater":
+        chosen = _UNDERWATER
+        if kind in ("night", "moonlight", "dusk"):
+            chosen = replace(chosen, sun=(0.14, 0.22, 0.26), ambient=(0.05, 0.11, 0.16))
+    elif place == "space":
+        chosen = _SPACE
+    elif place == "indoor" and kind in ("day", "sunny", "overcast", "dawn", "dusk"):
+        chosen = _INDOOR_DAY
+    elif place == "sky" and kind == "night":
+        chosen = LIGHTINGS["moonlight"]  # no lamps up there: without a moon one sees nothing
+    else:
+        chosen = LIGHTINGS[kind]
+    if light.shadows is not None:
+        chosen = replace(chosen, shadows=light.shadows)
+    return chosen
+
+
+def build_environment(
+    description: SceneDescription,
+    *,
+    place: str,
+    road_angle: float,
+    road_offset: tuple[float, float],
+    lamps: list[PointLight],
+    distance_m: float,
+    room_m: float,
+) -> AnimatedEnvironment:
+    """The surroundings of a scene.
+
+    Args:
+        description: what the prompt says of place, weather and light.
+        place: key of `PLACES`.
+        road_angle: direction of the road, radians.
+        road_offset: a point on its centre line, m.
+        lamps: lamps on the stage; they shine as far as the light lets them.
+        distance_m: from the camera to what it looks at: fog is scaled to it.
+        room_m: half the side of a room, m.
+    """
+    ground = PLACES[place]
+    lighting = choose_lighting(place, description.light)
+    if place == "snow":
+        lighting = replace(lighting, lamps=0.3 * lighting.lamps)
+    said = description.surroundings
+    colour, second = _ground_colours(ground, said)
+    sky_top, horizon = lighting.sky_top, lighting.sky_horizon
+    if said.sky is not None:
+        sky_top, horizon = said.sky.rgb, _mix(said.sky.rgb, horizon, 0.5)
+    fog_distance, fog_colour = _choose_fog(place, said.weather, horizon, distance_m)
+    clouds = lighting.clouds if said.clouds is None else said.clouds
+    if said.weather in ("rain", "snow"):
+        clouds = max(clouds, 0.8)
+        lighting = replace(lighting, sun=_mix(lighting.sun, (0.0, 0.0, 0.0), 0.4))
+    sun = np.array(lighting.sun_direction)
+    base = Environment(
+        ground=ground.ground,
+        ground_colour=_array(colour),
+        ground_second_colour=_array(second),
+        road_angle=road_angle,
+        road_half_width=ground.road_half_width,
+        road_offset=np.array(road_offset, dtype=np.float64),
+        sky_top=_array(sky_top),
+        sky_horizon=_array(horizon),
+        clouds=clouds,
+        sun_direction=sun / np.linalg.norm(sun),
+        sun_colour=_array(lighting.sun),
+        ambient=_array(lighting.ambient),
+        shadows=lighting.shadows,
+        fog_distance=fog_distance,
+        fog_colour=_array(fog_colour),
+        exposure=lighting.exposure,
+        lamps=_lamp_array(lamps, lighting.lamps),
+        time_s=0.0,
+        room_half_size=room_m,
+    )
+    return AnimatedEnvironment(base, description.light.flicker_hz)
+
+
+def _ground_colours(ground: GroundAppearance, said: Surroundings) -> tuple[Colour, Colour]:
+    """Both colours of the ground, under snow or painted as the prompt says."""
+    colour, second = ground.colour, ground.second_colour
+    if said.has_snow and ground.ground in _SNOWED_OVER:
+        colour = _SNOW
+        second = _SNOW if ground.ground is Ground.GRASS else second
+    if said.colour is not None:
+        # Grass is darker than paint: blades shade one another.
+        depth = 0.45 if ground.ground is Ground.GRASS else 0.8
+        colour = _mix((0.0, 0.0, 0.0), said.colour.rgb, depth)
+        second = _mix((0.0, 0.0, 0.0), said.colour.rgb, min(1.5 * depth, 1.0))
+    return colour, second
+
+
+def _choose_fog(
+    place: str, weather: str | None, horizon: Colour, distance_m: float
+) -> tuple[float, Colour]:
+    if place == "underwater":
+        return max(_UNDERWATER_SIGHT_M, 3.5 * distance_m), _WATER_COLOUR
+    if weather == "fog":
+        grey = sum(horizon) / 3.0
+        return _FOG_SIGHT * distance_m, _mix(horizon, (grey, grey, grey), 0.7)
+    if weather in ("rain", "snow"):
+        return 14.0 * distance_m, horizon
+    return math.inf, horizon
+
+
+def _lamp_array(lamps: list[PointLight], strength: float) -> Float64Array:
+    rows = [
+        [*lamp.position, *(strength * channel for channel in lamp.colour), lamp.reach_m]
+        for lamp in lamps
+    ]
+    return np.array(rows if strength > 0.0 else [], dtype=np.float64).reshape(-1, 7)
+
+
+def _mix(first: Colour, second: Colour, share: float) -> Colour:
+    red, green, blue = (a + share * (b - a) for a, b in zip(first, second, strict=True))
+    return (red, green, blue)
+
+
+def _array(colour: Colour) -> Float32Array:
+    return np.array(colour, dtype=np.float32)

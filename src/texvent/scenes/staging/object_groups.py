@@ -1,0 +1,120 @@
+"""All copies of one object: how they stand to one another, and the room they take."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from texvent.scenes.description import SceneObject
+from texvent.scenes.models.protocol import Model, Noun
+from texvent.scenes.scene import Float64Array
+from texvent.scenes.staging.actors import is_centred
+from texvent.scenes.staging.choose_trajectory import MotionPlan
+from texvent.scenes.staging.trajectory import Vector
+
+GAP_M = 0.25
+"""Least space between two objects, in units of the smaller one's size."""
+
+
+@dataclass
+class ObjectGroup:
+    """All copies of one object, and the room they take."""
+
+    index: int
+    scene_object: SceneObject
+    noun: Noun
+    models: list[Model]
+    plan: MotionPlan
+    offsets: list[Vector]
+    """Places of the copies relative to the group's middle, m."""
+    half: Float64Array
+    """[3] half extents of the room taken over the whole clip, m."""
+    centre: Float64Array = field(default_factory=lambda: np.zeros(3))
+    clear_m: float = 0.0
+    """Height of what it jumps over, m."""
+    carrier: ObjectGroup | None = None
+    orbits: ObjectGroup | None = None
+
+    @property
+    def size_m(self) -> float:
+        """Largest extent of one copy."""
+        model = self.models[0]
+        return max(model.length, model.width, model.height)
+
+
+def arrange_copies(
+    models: list[Model], plan: MotionPlan, noun: Noun, rng: np.random.Generator
+) -> list[Vector]:
+    """Places of the copies about the middle of their group, m, staggered so none hides another."""
+    count = len(models)
+    if count == 1:
+        return [(0.0, 0.0, 0.0)]
+    length = max(model.length for model in models)
+    width = max(model.width for model in models)
+    tall = max(model.height for model in models)
+    is_deep = is_centred(noun)
+    along = (0.8 if is_deep else 1.2) * length + 0.3
+    across = 1.4 * width + 0.4
+    if not plan.is_path and not is_deep:
+        along = 1.2 * max(length, width) + 0.3
+    if noun.motion == "drive":
+        along, across = 1.45 * length + 0.5, max(width + 0.9, 2.9)
+    if plan.motion.direction == "circle":
+        along = across = 4.0 * max(length, width)
+    columns = count if count <= 3 else math.ceil(math.sqrt(1.6 * count))
+    if noun.motion == "drive":
+        columns = math.ceil(count / 2)
+    cosine, sine = (abs(math.cos(plan.yaw)) > 0.5), (abs(math.sin(plan.yaw)) > 0.5)
+    offsets: list[Vector] = []
+    for number in range(count):
+        row, column = divmod(number, columns)
+        in_row = min(columns, count - row * columns)
+        a = (column - 0.5 * (in_row - 1) + 0.3 * (row % 2)) * along
+        b = (row - 0.5 * ((count - 1) // columns)) * across + (0.6 * across * (number % 2))
+        a += float(rng.uniform(-0.12, 0.12)) * along
+        b += float(rng.uniform(-0.08, 0.08)) * across
+        if noun.motion == "drive":
+            b = (row - 0.5 * ((count - 1) // columns)) * across
+        up = 0.0
+        if is_deep:
+            up = (0.9 * (-1.0) ** number + float(rng.uniform(-0.35, 0.35))) * tall
+        in_depth = plan.is_path and sine and not cosine
+        offsets.append((b * 1.6, a, up) if in_depth else (a, b, up))
+    return offsets
+
+
+def measure_room(models: list[Model], offsets: list[Vector], plan: MotionPlan) -> Float64Array:
+    """[3] half extents of what the group takes up over the clip, m."""
+    model = models[0]
+    cosine, sine = abs(math.cos(plan.yaw)), abs(math.sin(plan.yaw))
+    length, width = model.length, model.width
+    if plan.motion.kind in ("spin", "roll", "sway", "swing", "dance", "fall"):
+        length = width = max(length, width)
+    half = 0.5 * np.array(
+        [cosine * length + sine * width, sine * length + cosine * width, model.height]
+    )
+    spread = np.abs(np.array(offsets)).max(axis=0)
+    travel = 0.5 * plan.travel_m * np.array([cosine, sine, abs(plan.climb)])
+    if plan.motion.direction == "circle":
+        travel = np.array([1.3, 1.3, 0.0]) * max(model.length, model.width)
+    return np.asarray(half + spread + travel)
+
+
+def overlap(centre: Float64Array, group: ObjectGroup, other: ObjectGroup) -> bool:
+    """Whether a group with its middle at `centre` would share room with another, ever."""
+    gap = GAP_M * min(group.size_m, other.size_m)
+    apart = np.abs(centre - other.centre) - (group.half + other.half)
+    if group.noun.habitat == other.noun.habitat:
+        return bool(np.all(apart[:2] < gap) and apart[2] < gap)
+    low_a, low_b = _vertical(centre, group), _vertical(other.centre, other)
+    above = low_a[0] > low_b[1] or low_b[0] > low_a[1]
+    return bool(np.all(apart[:2] < gap) and not above)
+
+
+def _vertical(centre: Float64Array, group: ObjectGroup) -> tuple[float, float]:
+    """Lowest and highest point of a group, m."""
+    height = 2.0 * float(group.half[2])
+    low = float(centre[2]) - (0.5 * height if is_centred(group.noun) else 0.0)
+    return low, low + height

@@ -1,0 +1,266 @@
+"""Where objects stand: relations become positions, and no two objects share a place."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from texvent.scenes.description import STANDING, Relation, SceneDescription
+from texvent.scenes.models.protocol import Model, ModelPart, Noun
+from texvent.scenes.scene import Float64Array, Shape
+from texvent.scenes.staging.action_trajectories import Swing
+from texvent.scenes.staging.actors import Actor, seeded
+from texvent.scenes.staging.choose_trajectory import (
+    MotionPlan,
+    choose_trajectory,
+    plan_motion,
+)
+from texvent.scenes.staging.object_groups import (
+    ObjectGroup,
+    arrange_copies,
+    measure_room,
+    overlap,
+)
+from texvent.scenes.staging.spatial_relations import place_by_subject, place_on_targets
+from texvent.scenes.staging.trajectory import Circle, Riding, Trajectory, Vector
+
+ON_TARGET = frozenset({"on", "above", "around", "under", "between", "follow"})
+"""Relations in which the subject's place follows from the target's; in the others the target's
+follows from the subject's."""
+SCENIC = frozenset({"surround", "among"})
+"""Relations whose targets stand around as scenery; `scenery` places them."""
+
+
+class ObjectPlacer:
+    """Places groups one after the other, each where the prompt wants it or close to it."""
+
+    def __init__(
+        self,
+        description: SceneDescription,
+        nouns: Mapping[str, Noun],
+        *,
+        seed: int,
+        duration_s: float,
+        level_m: Mapping[str, float],
+    ) -> None:
+        self._description = description
+        self._nouns = nouns
+        self._seed = seed
+        self._duration_s = duration_s
+        self._level_m = level_m
+        """Height of the origin of what lives in the air and in the water, in own sizes."""
+        self.groups: dict[int, ObjectGroup] = {}
+
+    def place_all(self) -> list[Actor]:
+        """Every copy of every object that is no scenery, with its trajectory."""
+        scenic = {
+            target
+            for relation in self._description.relations
+            if relation.kind in SCENIC
+            for target in relation.targets
+        }
+        order = [i for i in range(len(self._description.objects)) if i not in scenic]
+        for index in order:
+            self._place(index, frozenset())
+        actors: list[Actor] = []
+        for index in order:
+            actors.extend(self._populate(self.groups[index], len(actors)))
+        return actors
+
+    def build_group(self, index: int) -> ObjectGroup:
+        """An object's copies in formation about (0, 0)."""
+        scene_object = self._description.objects[index]
+        noun = self._nouns[scene_object.noun]
+        rng = seeded(self._seed, "thing", index, scene_object.noun)
+        colour = scene_object.colour.rgb if scene_object.colour is not None else None
+        models = [
+            noun.build(colour=colour, scale=scene_object.scale, seed=int(rng.integers(2**31)))
+            for _ in range(scene_object.count)
+        ]
+        plan = plan_motion(scene_object.motion or STANDING, noun, models[0], self._duration_s, rng)
+        offsets = arrange_copies(models, plan, noun, rng)
+        return ObjectGroup(
+            index, scene_object, noun, models, plan, offsets, measure_room(models, offsets, plan)
+        )
+
+    def _place(self, index: int, waiting: frozenset[int]) -> None:
+        """Place an object, after the objects its place depends on."""
+        if index in self.groups or index in waiting:
+            return
+        group = self.build_group(index)
+        related = [r for r in self._description.relations if r.subject == index]
+        for relation in related:
+            if relation.kind in ON_TARGET:
+                for target in relation.targets:
+                    self._place(target, waiting | {index})
+        wanted, slide = self._wanted_position(group, related)
+        self._align(group, related)
+        group.centre = self._find_free_position(group, wanted, slide)
+        self.groups[index] = group
+
+    def _align(self, group: ObjectGroup, related: list[Relation]) -> None:
+        """Let a follower, a companion and a passer-by go the same way as the other."""
+        for relation in self._description.relations:
+            partner = None
+            if relation.subject == group.index and relation.kind == "follow":
+                partner = self.groups.get(relation.targets[0])
+            elif group.index in relation.targets and relation.kind == "with":
+                partner = self.groups.get(relation.subject)
+            if partner is not None and partner.plan.is_path and group.plan.is_path:
+                plan = partner.plan
+                group.plan = MotionPlan(
+                    group.plan.motion, plan.yaw, plan.speed_m_s, plan.duration_s
+                )
+                group.half = measure_room(group.models, group.offsets, group.plan)
+
+    def _wanted_position(
+        self, group: ObjectGroup, related: list[Relation]
+    ) -> tuple[Float64Array, Float64Array]:
+        """Where the prompt wants a group, and which way it may be moved from there."""
+        height = self._height(group)
+        for relation in related:
+            targets = [self.groups[t] for t in relation.targets if t in self.groups]
+            if relation.kind in ON_TARGET and targets:
+                shared = [
+                    other.subject
+                    for other in self._description.relations
+                    if other.kind == "on" and other.targets == relation.targets
+                ]
+                return place_on_targets(group, relation.kind, targets, height, shared)
+        for relation in self._description.relations:
+            if group.index in relation.targets and relation.subject in self.groups:
+                subject = self.groups[relation.subject]
+                return place_by_subject(group, relation.kind, subject, height)
+        offset = {"left": -2.0, "right": 2.0}.get(group.scene_object.side or "", 0.0) * group.size_m
+        offset += self._spread_apart(group) + self._stagger(group)
+        depth = {"far": 2.2 * group.size_m + 6.0, "near": -1.2 * group.size_m}
+        wanted = np.array([offset, depth.get(group.scene_object.side or "", 0.0), height])
+        if group.plan.is_path or group.noun.habitat in ("air", "water"):
+            # Smaller objects go nearer to the camera, so that none hides behind a larger one.
+            larger = any(other.size_m > group.size_m for other in self.groups.values())
+            return wanted, np.array([0.0, -1.0 if larger else 1.0, 0.0])
+        return wanted, np.array([1.0, 0.35, 0.0])
+
+    def _spread_apart(self, group: ObjectGroup) -> float:
+        """Metres to the side that leave room for what is to stand between this and another."""
+        for relation in self._description.relations:
+            if relation.kind == "between" and len(relation.targets) > 1:
+                if group.index not in relation.targets:
+                    continue
+                middle = self.build_group(relation.subject)
+                side = -1.0 if relation.targets.index(group.index) == 0 else 1.0
+                return float(side * (group.half[0] + middle.half[0] + 0.4))
+        return 0.0
+
+    def _stagger(self, group: ObjectGroup) -> float:
+        """Metres along the path between objects that go side by side, so that both are seen."""
+        others = [other for other in self.groups.values() if other.plan.is_path]
+        if not others or not group.plan.is_path or abs(math.cos(group.plan.yaw)) < 0.5:
+            return 0.0
+        side = -1.0 if len(others) % 2 else 1.0
+        return side * 0.35 * (others[0].models[0].length + group.models[0].length)
+
+    def _height(self, group: ObjectGroup) -> float:
+        """Height of the group's origin, m."""
+        kind = group.plan.motion.kind
+        if group.noun.name in self._level_m:
+            return self._level_m[group.noun.name] * group.models[0].height
+        level = self._level_m.get(group.noun.habitat, 0.0)
+        if level == 0.0 and kind == "fly":
+            level = self._level_m.get("air", 0.0)
+        if level == 0.0 and kind == "swing":
+            return max(0.5 * group.size_m, 0.6)
+        if level == 0.0 and kind == "orbit":
+            return 0.0
+        flies = group.noun.habitat == "air" or kind == "fly"
+        clear = self._level_m.get("clear", 0.0) if flies else 0.0
+        return level * max(group.size_m, 1.0) + clear
+
+    def _find_free_position(
+        self, group: ObjectGroup, wanted: Float64Array, slide: Float64Array
+    ) -> Float64Array:
+        """The wanted place, or the nearest free one along `slide`, alternating sides."""
+        if not slide.any():
+            return wanted
+        step = 0.25 * float(np.max(group.half[:2])) + 0.1
+        for attempt in range(400):
+            reach = step * ((attempt + 1) // 2) * (1.0 if attempt % 2 else -1.0)
+            if slide[0] == 0.0:
+                reach = step * attempt
+            centre = wanted + reach * slide
+            if not any(overlap(centre, group, other) for other in self.groups.values()):
+                return centre
+        return wanted + 400 * step * np.abs(slide)
+
+    def _populate(self, group: ObjectGroup, before: int) -> list[Actor]:
+        """The copies of a group on their trajectories."""
+        rng = seeded(self._seed, "lead", group.index, group.noun.name)
+        actors = []
+        for number, (model, offset) in enumerate(zip(group.models, group.offsets, strict=True)):
+            home = group.centre + np.array(offset)
+            trajectory = self._choose(group, model, (home[0], home[1], home[2]), number, rng)
+            actors.append(
+                Actor(
+                    group.index, group.noun, model, trajectory, group.plan.motion.is_moving,
+                    before + number + 1, float(rng.uniform(0.0, 1.0)) if number else 0.0,
+                    _rope(trajectory, model),
+                )
+            )  # fmt: skip
+        return actors
+
+    def _choose(
+        self, group: ObjectGroup, model: Model, home: Vector, number: int, rng: np.random.Generator
+    ) -> Trajectory:
+        if group.orbits is not None:
+            return _orbit(group, group.orbits, number, self._duration_s)
+        if group.carrier is not None:
+            carrier = self._choose(group.carrier, group.carrier.models[0], _tuple(group.carrier), 0,
+                                   seeded(self._seed, "lead", group.carrier.index,
+                                          group.carrier.noun.name))  # fmt: skip
+            offset = np.array(home) - group.carrier.centre
+            turned = _unturn(offset, group.carrier.plan.yaw)
+            return Riding(carrier, turned, activity="sit")
+        return choose_trajectory(group.plan, model, home, rng, clear_m=group.clear_m)
+
+
+def _rope(trajectory: Trajectory, model: Model) -> tuple[ModelPart, ...]:
+    """The rope of what swings, m in body coordinates."""
+    if not isinstance(trajectory, Swing):
+        return ()
+    low, high = 0.9 * model.height, trajectory.length_m
+    to_body = np.array(
+        [
+            [0.012 + 0.004 * model.height, 0.0, 0.0, 0.0],
+            [0.0, 0.012 + 0.004 * model.height, 0.0, 0.0],
+            [0.0, 0.0, 0.5 * (high - low), 0.5 * (high + low)],
+        ]
+    )
+    return (ModelPart(Shape.CYLINDER, to_body, (0.25, 0.2, 0.14)),)
+
+
+def _tuple(group: ObjectGroup) -> Vector:
+    x, y, z = group.centre
+    return (float(x), float(y), float(z))
+
+
+def _unturn(offset: Float64Array, yaw: float) -> Vector:
+    cosine, sine = math.cos(yaw), math.sin(yaw)
+    x, y, z = offset
+    return (float(x * cosine + y * sine), float(y * cosine - x * sine), float(z))
+
+
+def _orbit(group: ObjectGroup, around: ObjectGroup, number: int, duration_s: float) -> Trajectory:
+    """Circles around another object, evenly spread."""
+    model = group.models[number]
+    radius = float(np.max(around.half[:2])) + 0.9 * group.size_m + 0.1 * around.size_m
+    rate = 2.0 * math.pi / max(duration_s, 2.0) * group.plan.motion.pace
+    if group.plan.motion.direction == "right":
+        rate = -rate
+    phase = 2.0 * math.pi * number / len(group.models)
+    x, y, _ = around.centre
+    height = float(group.centre[2])
+    activity = "run" if group.plan.motion.kind == "run" else "move"
+    lean = 0.3 if group.noun.habitat == "air" and model.length > model.height else 0.0
+    return Circle((float(x), float(y), height), radius, rate, phase, activity, lean)

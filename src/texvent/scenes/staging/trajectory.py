@@ -1,0 +1,225 @@
+"""Where an object is at each instant: trajectories as pure functions of time.
+
+Angles are radians, positions metres in world coordinates (x right, y away, z up), times seconds.
+Every trajectory is continuous, and `distance_m` never falls, so that wheels and legs turn with
+the ground they cover.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from texvent.scenes.scene import Float64Array
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class BodyState:
+    """A body at one instant."""
+
+    position: Vector
+    """World position of the body's origin before it is turned about its pivot, m."""
+    yaw: float = 0.0
+    """Turn about the vertical, from +x towards +y."""
+    pitch: float = 0.0
+    """Turn about its own y axis: positive puts the nose down."""
+    roll: float = 0.0
+    """Turn about its own x axis."""
+    distance_m: float = 0.0
+    """Path covered since t = 0, m."""
+    speed_m_s: float = 0.0
+    activity: str = "move"
+    """`Pose.activity`."""
+    pivot_m: float = 0.0
+    """Height above the body's origin about which it turns, m."""
+
+    def to_world(self) -> Float64Array:
+        """[3, 4] map from body to world coordinates."""
+        turn = rotation(self.yaw, self.pitch, self.roll)
+        pivot = np.array([0.0, 0.0, self.pivot_m])
+        offset = np.array(self.position) + pivot - turn @ pivot
+        return np.column_stack([turn, offset])
+
+
+def rotation(yaw: float, pitch: float, roll: float) -> Float64Array:
+    """[3, 3] rotation: roll about x, then pitch about y, then yaw about z.
+
+    Example:
+        >>> rotation(math.pi / 2, 0.0, 0.0).round(6).tolist()[1]
+        [1.0, 0.0, 0.0]
+    """
+    cy, sy = math.cos(yaw), math.sin(yaw)
+    cp, sp = math.cos(pitch), math.sin(pitch)
+    cr, sr = math.cos(roll), math.sin(roll)
+    about_z = np.array([[cy, -sy, 0.0], [sy, cy, 0.0], [0.0, 0.0, 1.0]])
+    about_y = np.array([[cp, 0.0, sp], [0.0, 1.0, 0.0], [-sp, 0.0, cp]])
+    about_x = np.array([[1.0, 0.0, 0.0], [0.0, cr, -sr], [0.0, sr, cr]])
+    return np.asarray(about_z @ about_y @ about_x)
+
+
+class Trajectory(Protocol):
+    """A body's state as a function of time."""
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        ...
+
+
+@dataclass(frozen=True)
+class Stationary:
+    """Stays where it is; `activity` still moves limbs, flags and blades."""
+
+    home: Vector
+    yaw: float = 0.0
+    activity: str = "stand"
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        return BodyState(self.home, self.yaw, activity=self.activity)
+
+
+@dataclass(frozen=True)
+class Straight:
+    """Moves along its heading at constant speed; at its home at `mid_s`."""
+
+    home: Vector
+    yaw: float
+    speed_m_s: float
+    mid_s: float
+    activity: str = "move"
+    climb: float = 0.0
+    """Metres up per metre along."""
+    bob_m: float = 0.0
+    """Amplitude of a slow up and down."""
+    weave_rad: float = 0.0
+    """Amplitude of swaying about its heading, as fish do."""
+    phase: float = 0.0
+    facing_rad: float | None = None
+    """Where its front points if not along its heading (a kite's face)."""
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        facing = self.yaw if self.facing_rad is None else self.facing_rad
+        along = self.speed_m_s * (time_s - self.mid_s)
+        x, y, z = self.home
+        wave = 2.0 * math.pi * 0.4 * time_s + self.phase
+        return BodyState(
+            (
+                x + along * math.cos(self.yaw),
+                y + along * math.sin(self.yaw),
+                z + along * self.climb + self.bob_m * math.sin(wave),
+            ),
+            facing + self.weave_rad * math.sin(1.7 * wave),
+            -math.atan(self.climb),
+            distance_m=self.speed_m_s * time_s,
+            speed_m_s=self.speed_m_s,
+            activity=self.activity,
+        )
+
+
+@dataclass(frozen=True)
+class Rolling:
+    """Rolls without sliding: turns by distance over radius while `path` carries it."""
+
+    path: Trajectory
+    radius_m: float
+    pivot_m: float
+    """Height of its middle above the body's origin."""
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        state = self.path.at(time_s)
+        return replace(state, pitch=state.distance_m / self.radius_m, pivot_m=self.pivot_m)
+
+
+@dataclass(frozen=True)
+class Shuttle:
+    """Goes to and fro about its home along its heading, as a sine of time."""
+
+    home: Vector
+    yaw: float
+    amplitude_m: float
+    period_s: float
+    activity: str = "move"
+    vertical: bool = False
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        rate = 2.0 * math.pi / self.period_s
+        offset = self.amplitude_m * math.sin(rate * time_s)
+        x, y, z = self.home
+        along = 0.0 if self.vertical else offset
+        return BodyState(
+            (
+                x + along * math.cos(self.yaw),
+                y + along * math.sin(self.yaw),
+                z + (offset if self.vertical else 0.0),
+            ),
+            self.yaw,
+            distance_m=self.amplitude_m * _sine_path(rate * time_s),
+            speed_m_s=abs(self.amplitude_m * rate * math.cos(rate * time_s)),
+            activity=self.activity,
+        )
+
+
+def _sine_path(angle: float) -> float:
+    """Integral of |cos| from 0: the path of a sine of amplitude 1."""
+    half_turns = math.floor(angle / math.pi + 0.5)
+    sign = 1.0 if half_turns % 2 == 0 else -1.0
+    return 2.0 * half_turns + sign * math.sin(angle)
+
+
+@dataclass(frozen=True)
+class Circle:
+    """Goes round a centre at constant speed, facing along its path and leaning into the turn."""
+
+    centre: Vector
+    radius_m: float
+    rate_rad_s: float
+    """Positive = anticlockwise seen from above."""
+    phase: float = 0.0
+    activity: str = "move"
+    lean_rad: float = 0.0
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        angle = self.phase + self.rate_rad_s * time_s
+        turn = math.copysign(math.pi / 2.0, self.rate_rad_s)
+        x, y, z = self.centre
+        speed = abs(self.rate_rad_s) * self.radius_m
+        return BodyState(
+            (x + self.radius_m * math.cos(angle), y + self.radius_m * math.sin(angle), z),
+            angle + turn,
+            roll=-math.copysign(self.lean_rad, self.rate_rad_s),
+            distance_m=speed * time_s,
+            speed_m_s=speed,
+            activity=self.activity,
+        )
+
+
+@dataclass(frozen=True)
+class Riding:
+    """Goes where another body goes, at a fixed place on it, with a motion of its own on top."""
+
+    carrier: Trajectory
+    seat: Vector
+    """In the carrier's body coordinates, m."""
+    yaw: float = 0.0
+    activity: str = "sit"
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        below = self.carrier.at(time_s)
+        place = below.to_world() @ np.array([*self.seat, 1.0])
+        return BodyState(
+            (float(place[0]), float(place[1]), float(place[2])),
+            below.yaw + self.yaw,
+            below.pitch,
+            below.roll,
+            activity=self.activity,
+        )

@@ -1,0 +1,147 @@
+"""The embedded generator as the pipeline sees it: a stream that renders any instant."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import texvent
+from texvent.errors import ConfigError, InputError
+from texvent.generate.procedural import (
+    ProceduralConfig,
+    ProceduralGenerator,
+    ProceduralVideo,
+)
+from texvent.sensor import SensorSize
+from texvent.video import FrameStream, RenderableStream
+
+from ..scenes.hand_scenes import showcase
+
+SMALL = SensorSize(48, 36)
+
+
+def film(**options: object) -> ProceduralVideo:
+    return ProceduralVideo(showcase(), SMALL, ProceduralConfig(**options))  # type: ignore[arg-type]
+
+
+def test_a_video_is_a_renderable_stream() -> None:
+    video = film(duration=0.25)
+    assert isinstance(video, FrameStream)
+    assert isinstance(video, RenderableStream)
+    assert not video.is_live
+    assert video.fps == 24
+
+
+def test_frames_are_float_rgb_at_times_that_never_drift() -> None:
+    video = film(fps=Fraction(30_000, 1001), duration=0.2)
+    frames = list(video)
+    assert [frame.t_us for frame in frames] == [0, 33_367, 66_733, 100_100, 133_467, 166_833]
+    assert len(frames) == video.frame_count == 6
+    for frame in frames:
+        assert frame.is_source
+        assert frame.pixels.dtype == np.float32
+        assert frame.pixels.shape == (36, 48, 3)
+
+
+def test_frames_cover_the_duration_from_first_to_last() -> None:
+    assert film(fps=Fraction(24), duration=2.0).frame_count == 49
+    assert film(fps=Fraction(10), duration=0.3).frame_count == 4  # 0.3 · 10 is 3, not 2.99...
+    assert film(fps=Fraction(10), duration=0.35).frame_count == 4
+
+
+def test_the_stream_can_be_read_again() -> None:
+    video = film(duration=0.1)
+    for first, second in zip(video, video, strict=True):
+        np.testing.assert_array_equal(first.pixels, second.pixels)
+
+
+def test_the_frame_rate_does_not_change_a_frame_at_the_same_instant() -> None:
+    slow, fast = list(film(fps=Fraction(10), duration=0.2)), film(fps=Fraction(1000), duration=0.2)
+    for frame in slow:
+        between = fast.at(frame.t_us)
+        assert not between.is_source
+        assert between.t_us == frame.t_us
+        np.testing.assert_array_equal(between.pixels, frame.pixels)
+
+
+def test_shadows_can_be_turned_off() -> None:
+    lit, flat = film().at(0).pixels, film(shadows=False).at(0).pixels
+    assert (flat - lit).max() > 20.0
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"fps": Fraction(0)}, "fps is 0; it must be above 0"),
+        ({"duration": 0.0}, "duration is 0; it must be"),
+        ({"duration": float("nan")}, "duration is nan"),
+        ({"duration": 0.01}, "shorter than one frame interval at 24 fps; it must be at least"),
+        ({"samples": 0}, "samples is 0; it must be 1..8"),
+    ],
+)
+def test_options_out_of_range_are_refused(options: dict[str, object], message: str) -> None:
+    with pytest.raises(ConfigError, match=message):
+        ProceduralConfig(**options)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("prompt", ["", "  \n"])
+def test_an_empty_prompt_is_refused(prompt: str) -> None:
+    with pytest.raises(InputError, match="the prompt is empty; describe a scene"):
+        ProceduralGenerator(ProceduralConfig()).generate(prompt)
+
+
+def test_a_prompt_becomes_a_moving_video_that_says_what_was_understood() -> None:
+    generator = ProceduralGenerator(ProceduralConfig(duration=1.0), seed=3, size=SMALL)
+    video = generator.generate("a red car drives left past two trees, xylophonically")
+    assert json.loads(json.dumps(video.metadata)) == video.metadata
+    assert video.metadata["generator"] == "procedural"
+    assert video.metadata["seed"] == 3
+    assert any("car" in line for line in video.metadata["understood"])
+    assert video.metadata["not_understood"] == ["xylophonically"]
+    first, last = video.at(0).pixels, video.at(1_000_000).pixels
+    assert np.abs(first - last).max() > 30.0
+    again = ProceduralGenerator(ProceduralConfig(duration=1.0), seed=3, size=SMALL)
+    same = again.generate("a red car drives left past two trees, xylophonically")
+    np.testing.assert_array_equal(same.at(400_000).pixels, video.at(400_000).pixels)
+
+
+def test_a_flicker_faster_than_the_frames_fires_events_everywhere() -> None:
+    prompt = "a white wall in a room, the lamp flickers at 48 Hz"
+    events = texvent.generate(
+        prompt, duration=0.125, fps=24, sensor="32x24", noise="none", multi_event=False
+    )
+    steady = texvent.generate(
+        prompt.replace(", the lamp flickers at 48 Hz", ""), duration=0.125, fps=24,
+        sensor="32x24", noise="none",
+    )  # fmt: skip
+    assert len(events) > 4 * 2 * 32 * 24
+    assert len(steady) < len(events) / 10
+    assert 0.4 < events.p.mean() < 0.6
+
+
+def test_the_default_size_is_the_davis346() -> None:
+    assert ProceduralGenerator(ProceduralConfig()).generate("a ball").size == (346, 260)
+
+
+def test_ground_truth_of_a_prompt_names_its_things_and_follows_them() -> None:
+    generator = ProceduralGenerator(ProceduralConfig(), size=SensorSize(96, 72))
+    video = generator.generate("a red car drives left on a road")
+    truth = video.ground_truth(1_000_000, 1_010_000)
+    car = next(box for box in truth.boxes if box.class_name == "car")
+    on_car = truth.instance == car.instance
+    assert 0.0 < car.visibility <= 1.0
+    assert truth.flow.shape == (72, 96, 2)
+    assert np.nanmedian(truth.flow[on_car, 0]) < np.nanmedian(truth.flow[~on_car, 0])
+
+
+def test_reading_the_options_does_not_load_the_kernels() -> None:
+    code = (
+        "import sys; from texvent.generate.procedural import ProceduralGenerator; "
+        "sys.exit('numba' in sys.modules)"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

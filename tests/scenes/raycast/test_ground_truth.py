@@ -1,0 +1,194 @@
+"""Ground truth against closed forms and an independent NumPy computation."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import cv2
+import numpy as np
+import pytest
+
+from texvent.scenes.projection import camera_rays, project
+from texvent.scenes.raycast.ground_truth import ground_truth
+from texvent.scenes.raycast.intersect_reference import hit_shape_reference
+from texvent.scenes.raycast.render import render
+from texvent.scenes.scene import Camera, Ground, Shape
+from texvent.sensor import SensorSize
+
+from ..hand_scenes import HandScene, MovingShape, day, look_at, moving, showcase, still
+
+SIZE = SensorSize(80, 60)
+NAMES = {one: f"thing {one}" for one in range(1, 7)}
+
+
+def level(time: float) -> Camera:
+    return look_at((0.0, -8.0, 1.5), (0.0, 0.0, 1.5))
+
+
+def moving_camera(time: float) -> Camera:
+    return look_at((0.4 * time, -8.0 + 0.5 * time, 1.7), (0.8 * time, 0.0, 1.0 + 0.2 * time))
+
+
+def test_projection_undoes_the_rays() -> None:
+    camera, points = moving_camera(0.4), np.array([[0.5, 0.5], [40.0, 30.0], [79.3, 2.25]])
+    rays = camera_rays(camera, SIZE)
+    depth = np.array([[2.0], [7.5], [100.0]])
+    world = rays.origin + depth * (
+        rays.corner + points[:, :1] * rays.right + points[:, 1:] * rays.down
+    )
+    np.testing.assert_allclose(
+        project(camera, SIZE, world), np.concatenate([points, depth], axis=1), rtol=1e-12
+    )
+
+
+def test_depth_of_the_ground_is_height_over_slope() -> None:
+    truth = ground_truth(HandScene(camera_at=level), 0.0, 0.0, SIZE)
+    rows = np.arange(31, 60)
+    expected = 1.5 * 80.0 / (rows + 0.5 - 30.0)
+    np.testing.assert_allclose(
+        truth.depth[31:], np.broadcast_to(expected[:, None], (29, 80)), rtol=1e-6
+    )
+    assert np.isinf(truth.depth[:30]).all()
+
+
+def test_depth_of_a_ball_is_the_closed_form() -> None:
+    ball = MovingShape(Shape.ELLIPSOID, (1.0, 1.0, 1.0), still(0.0, 0.0, 1.5), instance=1)
+    truth = ground_truth(HandScene((ball,), level, class_names=NAMES), 0.0, 0.0, SIZE)
+    u = (np.arange(80) + 0.5 - 40.0) / 80.0
+    v = (30.5 - 30.0) / 80.0
+    a = 1.0 + u**2 + v**2
+    inside = 64.0 - a * 63.0
+    expected = (8.0 - np.sqrt(np.maximum(inside, 0.0))) / a
+    seen = inside > 0.0
+    np.testing.assert_allclose(truth.depth[30, seen], expected[seen], rtol=1e-6)
+    np.testing.assert_array_equal(truth.instance[30], seen.astype(np.int32))
+
+
+def test_tiles_miss_no_shape_and_the_nearest_wins() -> None:
+    scene = replace(showcase(Ground.NONE), class_names=NAMES, camera_at=moving_camera)
+    truth = ground_truth(scene, 0.3, 0.3, SIZE)
+    primitives, rays = scene.primitives(0.3), camera_rays(scene.camera(0.3), SIZE)
+    row, column = np.indices(SIZE.shape)
+    directions = (
+        rays.corner
+        + (column.reshape(-1, 1) + 0.5) * rays.right
+        + (row.reshape(-1, 1) + 0.5) * rays.down
+    )
+    depths = []
+    for shape, to_world in zip(primitives.shape, primitives.to_world, strict=True):
+        inverse = np.linalg.inv(to_world[:, :3])
+        origin = inverse @ (rays.origin - to_world[:, 3])
+        origins = np.broadcast_to(origin, directions.shape)
+        depths.append(hit_shape_reference(Shape(shape), origins, directions @ inverse.T))
+    expected = np.min(depths, axis=0).reshape(SIZE.shape)
+    nearest = np.argmin(depths, axis=0).reshape(SIZE.shape)
+    ids = np.where(np.isinf(expected), 0, primitives.instance[nearest])
+    assert np.mean(ids != truth.instance) < 1e-3  # rays that only graze a shape
+    same = ids == truth.instance
+    np.testing.assert_allclose(truth.depth[same], expected[same], rtol=1e-6)
+
+
+def test_flow_of_a_moving_ball_is_the_projection_of_its_surface_points() -> None:
+    ball = MovingShape(
+        Shape.ELLIPSOID, (1.0, 0.8, 1.2), moving((0.0, 0.0, 1.5), (1.0, 0.5, 0.2)), instance=1,
+        spin=0.6,
+    )  # fmt: skip
+    scene = HandScene((ball,), moving_camera, class_names=NAMES)
+    truth = ground_truth(scene, 0.0, 0.25, SIZE)
+    rows, columns = np.nonzero(truth.instance == 1)
+    centres = np.stack([columns + 0.5, rows + 0.5], axis=1)
+    rays = camera_rays(scene.camera(0.0), SIZE)
+    points = rays.origin + truth.depth[rows, columns, None].astype(np.float64) * (
+        rays.corner + centres[:, :1] * rays.right + centres[:, 1:] * rays.down
+    )
+    turn = 0.6 * 0.25
+    spin = np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]])
+    moved = (points - [0.0, 0.0, 1.5]) @ spin.T + [0.25, 0.125, 1.55]
+    camera = scene.camera(0.25)
+    seen = (moved - camera.position) @ camera.rotation.T
+    place = seen[:, :2] / seen[:, 2:] * 80.0 + [40.0, 30.0]
+    assert len(rows) > 80
+    np.testing.assert_allclose(truth.flow[rows, columns], place - centres, atol=1e-4)
+
+
+def test_sky_moves_with_the_cameras_rotation_only() -> None:
+    def shifted(time: float) -> Camera:
+        return look_at((time, -8.0, 1.5), (time, 0.0, 1.5))
+
+    def turned(time: float) -> Camera:
+        return look_at((0.0, 0.0, 1.5), (np.sin(time), np.cos(time), 1.5))
+
+    still_sky = ground_truth(HandScene(camera_at=shifted), 0.0, 1.0, SIZE)
+    np.testing.assert_allclose(still_sky.flow[:30], 0.0, atol=1e-9)
+    assert np.abs(still_sky.flow[31:, :, 0]).min() > 0.5
+    turning = ground_truth(HandScene(camera_at=turned), 0.0, 0.1, SIZE)
+    u = 0.5 / 80.0
+    expected = 80.0 * np.tan(np.arctan(u) - 0.1) + 40.0 - 40.5
+    assert turning.flow[10, 40, 0] == pytest.approx(expected, abs=0.05)
+
+
+def test_no_motion_gives_zero_flow_and_hides_nothing() -> None:
+    truth = ground_truth(replace(showcase(), class_names=NAMES), 0.2, 0.2, SIZE)
+    np.testing.assert_allclose(truth.flow, 0.0, atol=1e-4)
+    assert not truth.occluded.any()
+
+
+def test_what_a_shape_moves_in_front_of_is_occluded() -> None:
+    front = MovingShape(
+        Shape.BOX, (0.5, 0.1, 3.0), moving((-2.0, -2.0, 1.5), (1.0, 0.0, 0.0)), instance=1
+    )
+    back = MovingShape(Shape.BOX, (4.0, 0.1, 3.0), still(0.0, 2.0, 1.5), instance=2)
+    scene = HandScene((front, back), level, class_names=NAMES)
+    truth = ground_truth(scene, 0.0, 2.0, SIZE)
+    later = ground_truth(scene, 2.0, 2.0, SIZE)
+    covered = (truth.instance == 2) & (later.instance == 1)
+    assert covered.sum() > 100
+    np.testing.assert_array_equal(truth.occluded[truth.instance == 2], covered[truth.instance == 2])
+    assert not truth.occluded[truth.instance == 1].any()
+
+
+def test_a_point_that_leaves_the_image_or_passes_the_camera_is_occluded() -> None:
+    def forward(time: float) -> Camera:
+        return look_at((0.0, -8.0 + time, 1.5), (0.0, time, 1.5))
+
+    truth = ground_truth(HandScene(camera_at=forward), 0.0, 6.0, SIZE)
+    passed = truth.depth <= 6.0
+    assert passed.any()
+    assert np.isnan(truth.flow[passed & (truth.depth < 5.99)]).all()
+    assert truth.occluded[passed].all()
+
+
+def test_boxes_hold_the_visible_pixels_and_say_how_much_is_visible() -> None:
+    front = MovingShape(Shape.BOX, (0.5, 0.1, 3.0), still(0.5, -2.0, 1.5), instance=7)
+    back = MovingShape(Shape.BOX, (1.0, 0.1, 1.0), still(0.0, -0.1, 1.5), instance=3)
+    gone = MovingShape(Shape.BOX, (0.2, 0.1, 0.2), still(0.5, 0.0, 1.5), instance=5)
+    names = {3: "sign", 5: "ball", 7: "wall"}
+    truth = ground_truth(HandScene((front, back, gone), level, class_names=names), 0, 0, SIZE)
+    assert [(box.instance, box.class_name) for box in truth.boxes] == [(3, "sign"), (7, "wall")]
+    sign, wall = truth.boxes
+    # 10 pixels per metre at the sign (8 m), 13.56 at the wall (5.9 m).
+    assert (sign.x0, sign.x1, sign.y0, sign.y1) == (30, 40, 20, 40)
+    assert sign.visibility == pytest.approx(0.5, abs=0.03)
+    assert wall.visibility == 1.0
+    assert (truth.instance[sign.y0 : sign.y1, sign.x0 : sign.x1] == 3).all()
+
+
+def test_warping_a_image_back_by_the_flow_gives_the_other_image() -> None:
+    size = SensorSize(346, 260)
+    flat_light = replace(day(), shadows=False)
+    scene = replace(
+        showcase(), class_names=NAMES, camera_at=moving_camera, environment_base=flat_light
+    )
+    truth = ground_truth(scene, 0.0, 0.05, size)
+    before, after = render(scene, 0.0, size), render(scene, 0.05, size)
+    row, column = np.indices(size.shape).astype(np.float32)
+    warped = cv2.remap(
+        after, column + truth.flow[..., 0], row + truth.flow[..., 1], cv2.INTER_CUBIC
+    )
+    visible = ~truth.occluded
+
+    def psnr(other: np.ndarray) -> float:
+        return float(10 * np.log10(255.0**2 / np.mean((other - before)[visible] ** 2)))
+
+    assert psnr(warped) > 34.0
+    assert psnr(warped) > psnr(after) + 8.0

@@ -1,0 +1,90 @@
+"""Filtered patterns equal the averages they stand for; lists of shapes miss no cell."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.scenes.raycast.acceleration import bin_rectangles
+from texvent.scenes.raycast.shading.value_noise import (
+    box_coverage,
+    detail_fade,
+    fractal_2d,
+    noise_2d,
+    noise_3d,
+    square_wave,
+)
+
+PLACES = st.floats(-20.0, 20.0)
+FOOTPRINTS = st.floats(0.01, 5.0)
+
+
+@given(x=PLACES, footprint=FOOTPRINTS)
+@settings(max_examples=60, deadline=None)
+def test_a_square_wave_is_the_average_over_the_footprint(x: float, footprint: float) -> None:
+    points = x + footprint * ((np.arange(20_000) + 0.5) / 20_000 - 0.5)
+    expected = np.mean(points - np.floor(points) < 0.5)
+    assert square_wave(x, footprint) == pytest.approx(expected, abs=2e-3)
+
+
+@given(x=PLACES, footprint=FOOTPRINTS, low=PLACES, width=st.floats(0.0, 10.0))
+@settings(max_examples=60, deadline=None)
+def test_a_band_is_the_share_of_the_footprint_inside(
+    x: float, footprint: float, low: float, width: float
+) -> None:
+    points = x + footprint * ((np.arange(20_000) + 0.5) / 20_000 - 0.5)
+    expected = np.mean((points >= low) & (points <= low + width))
+    assert box_coverage(x, low, low + width, footprint) == pytest.approx(expected, abs=2e-3)
+
+
+def test_a_pattern_is_shown_whole_when_large_and_not_at_all_below_two_pixels_a_period() -> None:
+    assert detail_fade(0.1) == 1.0
+    assert detail_fade(0.5) == 0.0
+    assert fractal_2d(3.7, 1.2, 5, 0.6) == 0.0
+    shares = [detail_fade(footprint) for footprint in np.linspace(0.0, 1.0, 50)]
+    assert (np.diff(shares) <= 0.0).all()
+
+
+@given(x=PLACES, y=PLACES, z=PLACES)
+@settings(max_examples=100, deadline=None)
+def test_noise_is_bounded_and_continuous(x: float, y: float, z: float) -> None:
+    for value, near in (
+        (noise_2d(x, y, 3), noise_2d(x + 1e-4, y - 1e-4, 3)),
+        (noise_3d(x, y, z), noise_3d(x + 1e-4, y - 1e-4, z + 1e-4)),
+    ):
+        assert -1.0 <= value <= 1.0
+        assert abs(value - near) < 2e-3
+
+
+def test_noise_varies_and_has_no_bias() -> None:
+    values = [noise_2d(0.61 * i, 0.37 * i, 0) for i in range(4000)]
+    assert abs(np.mean(values)) < 0.05
+    assert np.std(values) > 0.2
+
+
+@given(
+    rectangles=st.lists(
+        st.tuples(*[st.integers(-3, 9)] * 2, *[st.integers(-3, 7)] * 2), max_size=12
+    )
+)
+@settings(max_examples=100, deadline=None)
+def test_every_cell_lists_the_rectangles_that_touch_it_in_order(
+    rectangles: list[tuple[int, int, int, int]],
+) -> None:
+    table = np.array(
+        [(min(a, b), max(a, b), min(c, d), max(c, d)) for a, b, c, d in rectangles], dtype=np.int64
+    ).reshape(-1, 4)
+    numbers = np.arange(100, 100 + len(table))
+    bins = bin_rectangles(table, numbers, 7, 5)
+    for row in range(5):
+        for column in range(7):
+            expected = [
+                number
+                for number, (left, right, top, bottom) in zip(numbers, table, strict=True)
+                if left <= column <= right and top <= row <= bottom
+            ]
+            cell = row * 7 + column
+            found = bins.items[bins.start[cell] : bins.start[cell + 1]]
+            assert found.tolist() == expected
