@@ -35,8 +35,8 @@ from texvent.config import CaptureConfig
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.pairing import pair_frames
 from texvent.pairs.frame_pair import FramePair
-from texvent.pipeline import build_simulator
 from texvent.settings import Settings, resolve
+from texvent.simulate.build import build_simulator
 from texvent.video import Frame, Video
 
 METRICS = ("stpp", "van_rossum", "nearest", "count_ratio")
@@ -103,7 +103,7 @@ def time_engines(video: Video, options: Mapping[str, Any]) -> dict[str, float]:
     """Milliseconds per pair of each way of getting the same clip's events."""
     settings = resolve("simulate", options)
     config = settings.interpolate
-    simulator = build_simulator(settings)
+    simulator = build_simulator(settings.run, settings.simulate)
 
     def plan() -> list[FramePair]:
         interpolator = INTERPOLATORS.load(config.interpolate)(config, video)
@@ -123,7 +123,7 @@ def time_engines(video: Video, options: Mapping[str, Any]) -> dict[str, float]:
 
     def advance(engine: Literal["frames", "continuous"]) -> None:
         run = replace(settings.run, engine=engine)
-        model = build_simulator(replace(settings, run=run))
+        model = build_simulator(run, settings.simulate)
         for pair in pairs:
             deque(model.advance(pair), maxlen=0)
 

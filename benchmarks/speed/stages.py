@@ -19,10 +19,11 @@ from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.pairing import pair_frames
 from texvent.io.files import open_writer
 from texvent.pairs.frame_pair import FramePair
-from texvent.pipeline import build_simulator, video_to_events
+from texvent.pipeline import video_to_events
 from texvent.runtime.background_jit import wait_until_idle
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.settings import Settings, resolve
+from texvent.simulate.build import build_simulator
 from texvent.video import Frame, FrameStream
 
 STAGES = ("decode", "luma", "count", "flow", "warp", "simulate", "write")
@@ -157,7 +158,7 @@ def _run_alone(
     video: Any, settings: Settings, clock: StageClock, engine: Engine, path: Path
 ) -> int:
     """One stage after the other, in one thread of ours; returns the number of events."""
-    simulator = build_simulator(settings)
+    simulator = build_simulator(settings.run, settings.simulate)
     inner = INTERPOLATORS.load(settings.interpolate.interpolate)(settings.interpolate, video)
     policy = CountPolicy(
         settings.interpolate,

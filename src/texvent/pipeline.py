@@ -15,19 +15,18 @@ from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from typing import Any
 
-from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS
-from texvent._version import __version__
+from texvent._registry import GENERATORS
 from texvent.capture.prepare import PreparedFrames
-from texvent.config import CaptureConfig, RunConfig
+from texvent.config import CaptureConfig
 from texvent.event_packets import EventPackets
-from texvent.events import NOISE, SIGNAL, EventStream
+from texvent.events import EventStream
 from texvent.interpolate.pairing import plan_pairs
 from texvent.pairs.frame_pair import OnSceneChange, notify_scene_change
 from texvent.progress import Progress
+from texvent.provenance import describe_run
 from texvent.settings import Settings
-from texvent.simulate.fused.continuous import check_continuous
-from texvent.simulate.protocol import Simulator
-from texvent.simulate.stepping import with_advance
+from texvent.simulate.build import build_simulator, check_engine
+from texvent.simulate.packets.selection import select_events
 from texvent.simulate.training import draw_training_config
 from texvent.video import Frame, FrameStream
 
@@ -46,7 +45,7 @@ def text_to_events(
         InputError: the prompt is empty, or the model cannot be had.
         ConfigError: the engine cannot run the simulator.
     """
-    check_engine(settings)
+    check_engine(settings.run, settings.simulate, settings.interpolate)
     return video_to_events(
         text_to_video(prompt, settings, progress=progress), settings, prompt=prompt
     )
@@ -73,7 +72,7 @@ def video_to_events(
     Raises:
         ConfigError: the engine cannot run the simulator.
     """
-    check_engine(settings)
+    check_engine(settings.run, settings.simulate, settings.interpolate)
     recipe = settings.run.randomize
     if recipe != "none":
         drawn = draw_training_config(settings.simulate, recipe, seed=settings.run.seed)
@@ -100,7 +99,8 @@ class Simulation:
         Args:
             on_scene_change: called at every cut and flash.
         """
-        simulator = build_simulator(self.settings)
+        run = self.settings.run
+        simulator = build_simulator(run, self.settings.simulate)
         with ExitStack() as threads:
             pairs = plan_pairs(
                 self.video,
@@ -112,9 +112,9 @@ class Simulation:
             for pair in pairs:
                 notify_scene_change(pair, on_scene_change)
                 for frame, packet in simulator.advance(pair):
-                    yield frame, select_events(packet, self.settings.run)
+                    yield frame, select_events(packet, run)
             for frame, packet in simulator.finish():
-                yield frame, select_events(packet, self.settings.run)
+                yield frame, select_events(packet, run)
 
     @property
     def packets(self) -> EventPackets:
@@ -126,65 +126,4 @@ class Simulation:
     @property
     def provenance(self) -> dict[str, Any]:
         """What made these events: stored in every output, enough to make them again."""
-        return {
-            "prompt": self.prompt,
-            "source": dict(self.video.metadata),
-            "generator": self.settings.generator,
-            "simulator": self.settings.run.simulator,
-            "preset": self.settings.run.preset,
-            "seed": self.settings.run.seed,
-            "settings": self.settings.as_tables(),
-            "texvent_version": __version__,
-            **_weight_files(self.settings),
-        }
-
-
-def check_engine(settings: Settings) -> None:
-    """Refuse a run that its engine cannot do, before any work.
-
-    Raises:
-        ConfigError: the engine is continuous, and the simulator, one of its options, the backend
-            or the interpolator does not fit.
-    """
-    run = settings.run
-    if run.engine == "continuous":
-        check_continuous(
-            SIMULATORS.load(run.simulator),
-            settings.simulate,
-            name=run.simulator,
-            backend=run.backend,
-            interpolate=settings.interpolate.interpolate,
-        )
-
-
-def build_simulator(settings: Settings) -> Simulator:
-    """The simulator of a run; backend and engine are passed only where the user named one."""
-    run = settings.run
-    options = {"backend": run.backend, "engine": run.engine}
-    named = {name: value for name, value in options.items() if value not in ("auto", "frames")}
-    build = SIMULATORS.load(run.simulator)
-    return with_advance(build(settings.simulate, seed=run.seed, **named))
-
-
-def _weight_files(settings: Settings) -> dict[str, Any]:
-    """Which weight files the networks of a run read, under "weights"; nothing where it has none."""
-    parts = {
-        "interpolator": (
-            INTERPOLATORS.load(settings.interpolate.interpolate),
-            settings.interpolate,
-        ),
-        "simulator": (SIMULATORS.load(settings.run.simulator), settings.simulate),
-    }
-    files = {
-        role: part.provenance(config)
-        for role, (part, config) in parts.items()
-        if hasattr(part, "provenance")
-    }
-    return {"weights": files} if files else {}
-
-
-def select_events(packet: EventStream, run: RunConfig) -> EventStream:
-    """The events of a packet that the run keeps, with the label only if it is wanted."""
-    if packet.label is not None and run.events != "all":
-        packet = packet[packet.label == (SIGNAL if run.events == "signal" else NOISE)]
-    return packet if run.label_noise else packet.without_label()
+        return describe_run(self.settings, prompt=self.prompt, source=self.video.metadata)

@@ -9,9 +9,9 @@ import numpy as np
 from texvent._registry import INTERPOLATORS
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.pairing import pair_frames
-from texvent.pipeline import build_simulator
 from texvent.runtime.background_jit import wait_until_ready
 from texvent.settings import resolve
+from texvent.simulate.build import build_simulator
 from texvent.simulate.fused.load import NAMES, find_compiled
 from texvent.video import Video
 
@@ -40,7 +40,7 @@ def plan(video: Video, options: dict[str, Any]) -> Any:
     """Settings, a simulator, and a function that pairs the frames anew."""
     settings = resolve("simulate", options)
     config = settings.interpolate
-    simulator = build_simulator(settings)
+    simulator = build_simulator(settings.run, settings.simulate)
 
     def pairs() -> Any:
         interpolator = INTERPOLATORS.load(config.interpolate)(config, video)

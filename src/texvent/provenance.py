@@ -1,0 +1,50 @@
+"""What made a recording: stored in every output, enough to make it again."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from texvent._registry import INTERPOLATORS, SIMULATORS
+from texvent._version import __version__
+from texvent.settings import Settings
+
+
+def describe_run(
+    settings: Settings, *, prompt: str | None, source: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Prompt, source, models, seed, resolved options, version and weight files of a run.
+
+    Args:
+        settings: all options.
+        prompt: what the video shows, if it was said.
+        source: metadata of the video.
+    """
+    run = settings.run
+    return {
+        "prompt": prompt,
+        "source": dict(source),
+        "generator": settings.generator,
+        "simulator": run.simulator,
+        "preset": run.preset,
+        "seed": run.seed,
+        "settings": settings.as_tables(),
+        "texvent_version": __version__,
+        **_weight_files(settings),
+    }
+
+
+def _weight_files(settings: Settings) -> dict[str, Any]:
+    """Which weight files the networks of a run read, under "weights"; nothing where it has none."""
+    interpolator = INTERPOLATORS.load(settings.interpolate.interpolate)
+    simulator = SIMULATORS.load(settings.run.simulator)
+    parts = {
+        "interpolator": (interpolator, settings.interpolate),
+        "simulator": (simulator, settings.simulate),
+    }
+    files = {
+        role: part.provenance(config)
+        for role, (part, config) in parts.items()
+        if hasattr(part, "provenance")
+    }
+    return {"weights": files} if files else {}
