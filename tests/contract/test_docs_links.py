@@ -13,6 +13,7 @@ PAGES = [*sorted(ROOT.glob("*.md")), *sorted((ROOT / "docs").rglob("*.md"))]
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 CODE = re.compile(r"^```.*?^```$|`[^`\n]*`", re.MULTILINE | re.DOTALL)
 MENTION = re.compile(r"\bdocs/[\w/-]+\.md\b")
+IMPORT = re.compile(r"^ *from (texvent[\w.]*) import ([\w, ]+)", re.MULTILINE)
 HEADING = re.compile(r"^#+ (.+)$", re.MULTILINE)
 
 
@@ -64,3 +65,20 @@ def test_pages_that_files_name_exist(folder):
         for page in MENTION.findall(path.read_text(encoding="utf-8"))
     }
     assert not [(page, file) for page, file in sorted(named) if not (ROOT / page).exists()]
+
+
+def imports(page: Path) -> list[tuple[str, str]]:
+    """The module and name of every `from texvent... import ...` in a page, run or not."""
+    statements = IMPORT.findall(page.read_text(encoding="utf-8"))
+    return [(module, name) for module, names in statements for name in re.findall(r"\w+", names)]
+
+
+@pytest.mark.parametrize(
+    ("module", "name"), sorted({one for page in PAGES for one in imports(page)})
+)
+def test_names_that_pages_import_exist(module, name):
+    """Read from the source: some of these modules need torch or Triton."""
+    path = ROOT / "src" / Path(*module.split("."))
+    file = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+    text = file.read_text(encoding="utf-8")
+    assert re.search(rf"\b{name}\b", text) or (path / f"{name}.py").exists()
