@@ -18,7 +18,7 @@ import tyro
 from texvent.cli.help import ALL, asked_help, render_help
 from texvent.cli.option_types import REQUIRED, SCALARS, without_none
 from texvent.errors import ConfigError
-from texvent.option_fields import RenamedOptionWarning, former_names
+from texvent.option_fields import RenamedOptionWarning, former_names, option_help, option_names
 
 
 def parse_options(
@@ -69,6 +69,20 @@ def parse_options(
         group = getattr(parsed, part.name)
         values.update({one.name: getattr(group, one.name) for one in dataclasses.fields(group)})
     return values
+
+
+def parse_configs(
+    arguments: Sequence[str], groups: Mapping[str, Any], *, prog: str, description: str
+) -> tuple[Any, ...]:
+    """The config instances of `groups`, in order, with the values of a command line.
+
+    Arguments and errors are those of `parse_options`; a config may refuse a value.
+    """
+    values = parse_options(arguments, groups, prog=prog, description=description)
+    return tuple(
+        dataclasses.replace(config, **{name: values[name] for name in option_names(type(config))})
+        for config in groups.values()
+    )
 
 
 def refuse_arguments(arguments: Sequence[str], *, prog: str, description: str) -> None:
@@ -122,8 +136,9 @@ def _current_flags(arguments: Sequence[str], groups: Iterable[Any]) -> list[str]
 
 
 def _group(config: Any) -> Any:
-    """A copy of a config's class whose fields have the current values as defaults."""
+    """A copy of a config's class whose fields carry help text and the current values."""
     hints = typing.get_type_hints(type(config))
+    helps = option_help(type(config))
     positional = getattr(config, "positional", ())
     annotate: Any = Annotated  # the notes are only known at run time, which mypy cannot follow
     required: list[Any] = []
@@ -133,6 +148,8 @@ def _group(config: Any) -> Any:
         is_positional = field.name in positional
         notes: list[Any] = [
             tyro.conf.arg(
+                # A message about a missing option says what it is.
+                help=helps.get(field.name, ""),
                 aliases=[short] if short else None,
                 # Messages tell one word from the other: IN OUT, not PATH PATH.
                 metavar=field.name.upper() if is_positional else None,

@@ -15,7 +15,7 @@ from rich.table import Table
 
 from texvent.bench.selftest.controls import CONTROLLED, run_controls
 from texvent.cli.option_types import REQUIRED
-from texvent.cli.options import parse_options
+from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.io.files import load
@@ -58,10 +58,9 @@ class CompareOptions:
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
-    values = parse_options(
+    (options,) = parse_configs(
         arguments, {"input": CompareOptions()}, prog="texvent compare", description=DESCRIPTION
     )
-    options = CompareOptions(**values)
     metrics, left_out = _choose_metrics(options)
     span_us = _span(options)
     size = parse_sensor(options.sensor) if options.sensor else None

@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 
 from texvent.cli.event_files.time_option import keep_time_range
 from texvent.cli.option_types import REQUIRED
-from texvent.cli.options import parse_options
+from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
@@ -70,10 +70,9 @@ class ConvertOptions:
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
-    values = parse_options(
+    (options,) = parse_configs(
         arguments, {"input": ConvertOptions()}, prog="texvent convert", description=DESCRIPTION
     )
-    options = ConvertOptions(**values)
     events = edit(_open_inputs(options), options)
     count = 0
     writer = open_writer(

@@ -7,17 +7,16 @@ import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 from texvent._registry import CODECS
 from texvent.capture.open import open_frames
+from texvent.cli.event_files.event_file_options import EventFileOptions
 from texvent.cli.option_types import REQUIRED
-from texvent.cli.options import parse_options
+from texvent.cli.options import parse_configs
 from texvent.config import CaptureConfig
-from texvent.errors import InputError
 from texvent.event_packets import EventPackets
-from texvent.io.files import find_folder_codec, open_events
-from texvent.sensor import parse_sensor
+from texvent.io.files import find_folder_codec
 from texvent.video import MICROSECONDS, FrameStream
 
 DESCRIPTION = """Say what an event file or a video holds, and how it was made. The whole file is
@@ -25,32 +24,22 @@ read once, with flat memory, so the figures are exact and a damaged file is foun
 
 
 @dataclass(frozen=True, kw_only=True)
-class InfoOptions:
+class InfoOptions(EventFileOptions):
     """Which file, and how to say it."""
-
-    positional: ClassVar[tuple[str, ...]] = ("path",)
 
     path: Path = REQUIRED
     """Event file, video file or image folder."""
     json: bool = False
     """Print JSON instead of lines."""
-    format: str | None = None
-    """Event format, where the extension does not say."""
-    sensor: str | None = None
-    """Sensor size, for event formats that do not store it."""
 
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
-    values = parse_options(
+    (options,) = parse_configs(
         arguments, {"input": InfoOptions()}, prog="texvent info", description=DESCRIPTION
     )
-    options = InfoOptions(**values)
-    if not options.path.exists():
-        raise InputError(f"no such file: {options.path}")
-    if options.format or is_event_path(options.path):
-        size = parse_sensor(options.sensor) if options.sensor else None
-        facts = describe_events(open_events(options.path, format=options.format, size=size))
+    if options.format or is_event_path(options.path) or not options.path.exists():
+        facts = describe_events(options.open())
     else:
         facts = describe_frames(open_frames(options.path, CaptureConfig()))
     if options.json:

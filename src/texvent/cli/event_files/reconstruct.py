@@ -14,17 +14,15 @@ from rich.console import Console
 from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
 from texvent._version import __version__
-from texvent.cli.event_files.time_option import keep_time_range
+from texvent.cli.event_files.event_file_options import EventRangeOptions
 from texvent.cli.option_types import REQUIRED
-from texvent.cli.options import parse_options
-from texvent.errors import ConfigError, InputError
+from texvent.cli.options import parse_configs
+from texvent.errors import ConfigError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
-from texvent.io.files import open_events
 from texvent.reconstruct.config import ReconstructConfig
 from texvent.reconstruct.reconstructor import Reconstructor, load_reconstructor
 from texvent.represent.packet_slices import slice_by_count, slice_regularly
-from texvent.sensor import parse_sensor
 from texvent.video import MICROSECONDS
 from texvent.view.video.image_sink import check_image_output, open_image_sink
 
@@ -36,14 +34,11 @@ provide (docs/reconstruction.md says where to get them).
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReconstructOptions:
+class ReconstructOptions(EventRangeOptions):
     """Which events, and where the images go."""
 
-    positional: ClassVar[tuple[str, ...]] = ("path",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
 
-    path: Path = REQUIRED
-    """Event file."""
     out: Path = REQUIRED
     """Video (.mp4 or .gif), or a folder of PNG files and their times, which texvent simulate reads
     again."""
@@ -51,13 +46,6 @@ class ReconstructOptions:
     """Images per second of the recording; each is made from the events since the one before."""
     events_per_picture: int | None = None
     """Events per image, instead of a fixed time."""
-    time: str | None = None
-    """Use START,STOP only, in seconds of the recording's clock. START is included; either may be
-    left out."""
-    format: str | None = None
-    """Event format, where the extension does not say."""
-    sensor: str | None = None
-    """Sensor size, for event formats that do not store it."""
     overwrite: bool = False
     """Replace the file or folder if it exists already."""
     quiet: bool = False
@@ -80,21 +68,14 @@ class ReconstructOptions:
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
-    values = parse_options(
+    options, network = parse_configs(
         arguments,
         {"input": ReconstructOptions(), "network": ReconstructConfig()},
         prog="texvent reconstruct",
         description=DESCRIPTION,
     )
-    network = ReconstructConfig.take(values)
-    options = ReconstructOptions(**values)
-    if not options.path.exists():
-        raise InputError(f"no such file: {options.path}")
     check_image_output(options.out, overwrite=options.overwrite)
-    size = parse_sensor(options.sensor) if options.sensor else None
-    events = keep_time_range(
-        open_events(options.path, format=options.format, size=size), options.time
-    )
+    events = options.open()
     reconstructor = load_reconstructor(network.network, network.weights, device=network.device)
     console = Console(stderr=True, quiet=options.quiet, highlight=False)
     images = reconstructor.film(options.slices(events))

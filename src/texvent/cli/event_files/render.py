@@ -8,14 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from texvent.cli.event_files.time_option import keep_time_range
+from texvent.cli.event_files.event_file_options import EventRangeOptions
 from texvent.cli.event_files.video_option import AUTOMATIC, frames_for_overlay
 from texvent.cli.option_types import REQUIRED
-from texvent.cli.options import parse_options
-from texvent.errors import InputError
-from texvent.io.files import open_events
-from texvent.option_fields import option_names
-from texvent.sensor import parse_sensor
+from texvent.cli.options import parse_configs
 from texvent.view.render import RenderConfig, render_events
 
 DESCRIPTION = """Render an event file as a video (.mp4, .gif), an image (.png), an interactive page
@@ -29,30 +25,20 @@ DESCRIPTION = """Render an event file as a video (.mp4, .gif), an image (.png), 
 
 
 @dataclass(frozen=True, kw_only=True)
-class RenderOptions:
+class RenderOptions(EventRangeOptions):
     """Which events, and where the result goes."""
 
-    positional: ClassVar[tuple[str, ...]] = ("path",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
     main_options: ClassVar[tuple[str, ...]] = (
         "out", "video", "time", "speed", "render_fps", "window", "decay", "panels", "overlay",
         "palette", "overwrite",
     )  # fmt: skip
 
-    path: Path = REQUIRED
-    """Event file."""
     out: Path = REQUIRED
     """File to write: .mp4, .gif, .png, .html or .rrd."""
     video: str = AUTOMATIC
     """Source video to show: a file, an image folder, none or auto. Auto renders the scene again if
     the embedded generator made the file."""
-    time: str | None = None
-    """Show START,STOP only, in seconds of the recording's clock. START is included; either may be
-    left out."""
-    format: str | None = None
-    """Event format, where the extension does not say."""
-    sensor: str | None = None
-    """Sensor size, for event formats that do not store it."""
     overwrite: bool = False
     """Replace the file if it exists already."""
     quiet: bool = False
@@ -61,19 +47,13 @@ class RenderOptions:
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
-    values = parse_options(
+    options, config = parse_configs(
         arguments,
         {"input": RenderOptions(), "image": RenderConfig()},
         prog="texvent render",
         description=DESCRIPTION,
     )
-    config = RenderConfig(**{name: values.pop(name) for name in option_names(RenderConfig)})
-    options = RenderOptions(**values)
-    if not options.path.exists():
-        raise InputError(f"no such file: {options.path}")
-    size = parse_sensor(options.sensor) if options.sensor else None
-    recording = open_events(options.path, format=options.format, size=size)
-    events = keep_time_range(recording, options.time)
+    events = options.open()
     written = render_events(
         events,
         options.out,

@@ -7,14 +7,11 @@ import math
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Any, ClassVar
 
-from texvent.cli.option_types import REQUIRED
-from texvent.cli.options import parse_options
-from texvent.io.files import open_events
+from texvent.cli.event_files.event_file_options import EventFileOptions
+from texvent.cli.options import parse_configs
 from texvent.metrics.timing.soundness import SoundnessCheck
-from texvent.sensor import parse_sensor
 
 SUSPICIOUS = 1
 """Exit code of a recording that can be read but is suspicious."""
@@ -27,30 +24,22 @@ Exit code: 0 sound, 1 suspicious, 2 damaged or unreadable."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class ValidateOptions:
+class ValidateOptions(EventFileOptions):
     """Which file, and how to say it."""
 
-    positional: ClassVar[tuple[str, ...]] = ("path",)
     short_flags: ClassVar[Mapping[str, str]] = {"quiet": "-q"}
 
-    path: Path = REQUIRED
-    """Event file, or folder of one format."""
     json: bool = False
     """Print JSON instead of lines."""
-    format: str | None = None
-    """Event format, where neither extension nor content says."""
-    sensor: str | None = None
-    """Sensor size, for formats that do not store it: WIDTHxHEIGHT or a name."""
     quiet: bool = False
     """Print nothing; the exit code says it."""
 
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
-    values = parse_options(
+    (options,) = parse_configs(
         arguments, {"input": ValidateOptions()}, prog="texvent validate", description=DESCRIPTION
     )
-    options = ValidateOptions(**values)
     facts = validate(options)
     if not options.quiet:
         text = json.dumps(facts, indent=2) if options.json else "\n".join(_lines(facts))
@@ -64,8 +53,7 @@ def validate(options: ValidateOptions) -> dict[str, Any]:
     Raises:
         InputError: it cannot be read; FileFormatError if it is damaged.
     """
-    size = parse_sensor(options.sensor) if options.sensor else None
-    events = open_events(options.path, format=options.format, size=size)
+    events = options.open()
     check = SoundnessCheck(events.size)
     for packet in events:
         check.update(packet)

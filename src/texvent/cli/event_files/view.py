@@ -10,14 +10,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from texvent.cli.event_files.time_option import keep_time_range
+from texvent.cli.event_files.event_file_options import EventRangeOptions
 from texvent.cli.event_files.video_option import AUTOMATIC, frames_for_overlay
-from texvent.cli.option_types import REQUIRED
-from texvent.cli.options import parse_options
+from texvent.cli.options import parse_configs
 from texvent.config import check_range
-from texvent.errors import ConfigError, InputError
-from texvent.io.files import open_events
-from texvent.sensor import parse_sensor
+from texvent.errors import ConfigError
 from texvent.view.drawing.palettes import DEFAULT_PALETTE
 from texvent.view.render import RenderConfig, render_events
 
@@ -30,14 +27,11 @@ region to select, the event rate and the source video.
 
 
 @dataclass(frozen=True, kw_only=True)
-class ViewOptions:
+class ViewOptions(EventRangeOptions):
     """Which events, and how the page is made."""
 
-    positional: ClassVar[tuple[str, ...]] = ("path",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
 
-    path: Path = REQUIRED
-    """Event file."""
     out: Path | None = None
     """Page to save (.html). Without it, a temporary page is made and opened in the browser."""
     video: str = AUTOMATIC
@@ -48,13 +42,6 @@ class ViewOptions:
     and the page says so. A million make a page of 12 MB."""
     palette: str = DEFAULT_PALETTE
     """Colours of ON and OFF events."""
-    time: str | None = None
-    """Show START,STOP only, in seconds of the recording's clock. START is included; either may be
-    left out."""
-    format: str | None = None
-    """Event format, where the extension does not say."""
-    sensor: str | None = None
-    """Sensor size, for event formats that do not store it."""
     overwrite: bool = False
     """Replace the page if it exists already."""
     quiet: bool = False
@@ -70,18 +57,10 @@ class ViewOptions:
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
-    values = parse_options(
-        arguments,
-        {"input": ViewOptions()},
-        prog="texvent view",
-        description=DESCRIPTION,
+    (options,) = parse_configs(
+        arguments, {"input": ViewOptions()}, prog="texvent view", description=DESCRIPTION
     )
-    options = ViewOptions(**values)
-    if not options.path.exists():
-        raise InputError(f"no such file: {options.path}")
-    size = parse_sensor(options.sensor) if options.sensor else None
-    recording = open_events(options.path, format=options.format, size=size)
-    events = keep_time_range(recording, options.time)
+    events = options.open()
     page = options.out or Path(tempfile.mkdtemp(prefix="texvent-")) / "events.html"
     render_events(
         events,

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from rich.console import Console
 
@@ -17,12 +17,11 @@ from texvent.calibrate.preset import describe_fit, write_preset
 from texvent.calibrate.recording import Recording
 from texvent.capture.open import open_frames
 from texvent.cli.option_types import REQUIRED
-from texvent.cli.options import parse_options
+from texvent.cli.options import parse_configs
 from texvent.config import CaptureConfig, InterpolateConfig, check_range
 from texvent.errors import ConfigError, InputError
 from texvent.io.atomic import check_output
 from texvent.io.files import load
-from texvent.option_fields import option_names
 from texvent.sensor import parse_sensor
 from texvent.simulate.physical.config import PRESETS, PhysicalConfig
 
@@ -87,10 +86,9 @@ def run(arguments: Sequence[str]) -> int:
         "capture": CaptureConfig(),
         "interpolate": InterpolateConfig(max_intermediate=16),
     }
-    values = parse_options(arguments, groups, prog="texvent calibrate", description=DESCRIPTION)
-    capture = CaptureConfig(**_take(CaptureConfig, values))
-    interpolate = InterpolateConfig(**_take(InterpolateConfig, values))
-    options = CalibrateOptions(**values)
+    options, capture, interpolate = parse_configs(
+        arguments, groups, prog="texvent calibrate", description=DESCRIPTION
+    )
     check_output(options.out, overwrite=options.overwrite)
     if not options.events.exists():
         raise InputError(f"no such file: {options.events}")
@@ -112,8 +110,3 @@ def run(arguments: Sequence[str]) -> int:
     )
     sys.stdout.write(f"{written}\n")
     return 0
-
-
-def _take(config_type: type, values: dict[str, Any]) -> dict[str, Any]:
-    """The values of a config's options, which are removed from `values`."""
-    return {name: values.pop(name) for name in option_names(config_type)}

@@ -13,7 +13,7 @@ from rich.console import Console
 
 from texvent._registry import load_object
 from texvent.cli.option_types import REQUIRED
-from texvent.cli.options import parse_options
+from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.generate.prompts.caption import INSTRUCTION, find_images
@@ -62,10 +62,9 @@ def run(arguments: Sequence[str]) -> int:
     Raises:
         TexventError: some pictures have no caption; those of the others are written.
     """
-    values = parse_options(
+    (options,) = parse_configs(
         arguments, {"input": CaptionOptions()}, prog="texvent caption", description=DESCRIPTION
     )
-    options = CaptionOptions(**values)
     if options.out is not None:
         check_output(options.out, overwrite=options.overwrite)
     pictures = find_images(options.pictures)

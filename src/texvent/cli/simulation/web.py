@@ -11,10 +11,9 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from texvent._registry import GENERATORS
-from texvent.cli.options import parse_options
+from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.errors import ConfigError
-from texvent.option_fields import option_names
 from texvent.web.gradio_page import WebPage
 from texvent.web.limits import Limits
 from texvent.web.workspace import Workspace
@@ -52,14 +51,12 @@ class AppOptions:
 
 def run(arguments: Sequence[str]) -> int:
     """Serve until Ctrl-C or SIGTERM; returns the exit code."""
-    values = parse_options(
+    options, limits = parse_configs(
         arguments,
         {"page": AppOptions(), "limits": Limits()},
         prog="texvent app",
         description=DESCRIPTION,
     )
-    limits = Limits(**{name: values.pop(name) for name in option_names(Limits)})
-    options = AppOptions(**values)
     generators = tuple(name.strip() for name in options.generators.split(",") if name.strip())
     for name in generators:
         GENERATORS.load(name)
