@@ -1,4 +1,4 @@
-"""Events per CPU-second that event files are written and read at, beside other programs.
+"""Events per CPU-second that event files are written and read at, by texvent and other programs.
 
     python -m benchmarks.codecs [--events 4000000] [--repeats 5] [--only evt3 dat] [--json FILE]
 
@@ -198,7 +198,7 @@ def _line(row: dict[str, Any]) -> str:
 
 
 def main() -> None:
-    """Print the table, and write it as JSON if asked."""
+    """Print the table, and write it as JSON with --json."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--events", type=int, default=4_000_000)
     parser.add_argument("--repeats", type=int, default=5)

@@ -7,7 +7,7 @@
     python -m benchmarks.interpolation --time                     # ms per pair and per frame
     python -m benchmarks.interpolation --rife rife.safetensors    # with RIFE; --rife repeats
 
-A clip is a video file or a folder of pictures. Pairs with a cut between them are left out, and
+A clip is a video file or a folder of images. Pairs with a cut between them are left out, and
 every change found between neighbouring frames is listed.
 """
 
@@ -46,7 +46,7 @@ PIXELS = (3, 10, 24)
 
 SIZES = ((346, 260), (1280, 720))
 REPEATS, FURTHER = 3, 6
-"""Runs that the least time is taken of; intermediate frames beside the first."""
+"""Runs that the least time is taken of; intermediate frames after the first."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class Case:
 def main() -> None:
     """Print one table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--clip", type=Path, help="video file or folder of pictures")
+    parser.add_argument("--clip", type=Path, help="video file or folder of images")
     parser.add_argument("--embedded", action="store_true", help="scenes of the embedded generator")
     parser.add_argument("--time", action="store_true", help="time alone, at three sizes")
     parser.add_argument("--gap", type=int, default=2, help="frames between the two given ones")
@@ -193,7 +193,7 @@ def interpolators(rife: Sequence[Path]) -> dict[str, Interpolator | None]:
 def between(
     interpolator: Interpolator | None, first: NDArray[Any], second: NDArray[Any], count: int
 ) -> list[NDArray[Any]]:
-    """`count` equally spaced intermediate pictures."""
+    """`count` equally spaced intermediate images."""
     if interpolator is None:
         return [first] * count
     times_us = [INTERVAL_US * k // (count + 1) for k in range(1, count + 1)]
@@ -207,9 +207,9 @@ def psnr(guess: NDArray[Any], truth: NDArray[Any]) -> float:
     return float(10 * np.log10(255**2 / error)) if error else float("inf")
 
 
-def travel(pictures: list[NDArray[Any]]) -> float:
+def travel(images: list[NDArray[Any]]) -> float:
     """Mean path length of a pixel's brightness ln(30 + I): what makes events, in units of δ."""
-    levels = [np.log(30.0 + picture) for picture in pictures]
+    levels = [np.log(30.0 + image) for image in images]
     return float(sum(np.abs(later - earlier).mean() for earlier, later in pairwise(levels)))
 
 
@@ -226,13 +226,13 @@ def list_scene_changes(frames: list[NDArray[Any]]) -> list[str]:
 
 
 def read_grey(path: Path) -> Iterator[NDArray[np.uint8]]:
-    """Grey frames of a video, or of the pictures in a folder in name order."""
+    """Grey frames of a video, or of the images in a folder in name order."""
     if path.is_dir():
         for name in sorted(path.glob("*.png")):
-            picture = cv2.imread(str(name), cv2.IMREAD_GRAYSCALE)
-            if picture is None:
+            image = cv2.imread(str(name), cv2.IMREAD_GRAYSCALE)
+            if image is None:
                 raise SystemExit(f"cannot read {name}")
-            yield np.asarray(picture, dtype=np.uint8)
+            yield np.asarray(image, dtype=np.uint8)
         return
     with av.open(str(path)) as container:
         for frame in container.decode(video=0):

@@ -1,4 +1,4 @@
-"""Moving pictures whose every instant is known: textures, and scenes of the embedded generator."""
+"""Moving images whose every instant is known: textures, and scenes of the embedded generator."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SPEEDS = {"slow": 14_000, "medium": 42_000, "fast": 126_000}
 """Name → interval between the two given frames, µs: one drive, three times as slow and as fast."""
 PROMPT = "a red car drives left past two trees"
 START_US = 1_000_000
-"""Time of the first of them; the car is in the picture."""
+"""Time of the first of them; the car is in the image."""
 
 
 def embedded_scene(speed: str) -> Callable[[float], NDArray[Any]]:

@@ -39,7 +39,7 @@ RVT_S = LAYOUTS[1]
 
 
 def main() -> None:
-    """Print the table, and keep the document if asked."""
+    """Print the table, and write the document with --json."""
     parser = argparse.ArgumentParser(description="Measure how long every metric takes.")
     parser.add_argument("--events", type=int, default=300_000)
     parser.add_argument("--repeats", type=int, default=5)
@@ -61,7 +61,7 @@ def main() -> None:
 
 
 def chosen_metrics() -> list[Metric]:
-    """All metrics that lack nothing, and EQS without trained weights."""
+    """All metrics whose weights are here, and EQS with random weights."""
     metrics = default_metrics()
     try:
         torch = require("torch", extra=EXTRA)

@@ -1,4 +1,4 @@
-"""Time per frame of every pixel model beside the least that memory allows.
+"""Time per frame of every pixel model, and the least that memory allows.
 
     python -m benchmarks.model_kernels [--steps 24] [--model physical:clean ...]
 

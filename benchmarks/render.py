@@ -35,7 +35,7 @@ def main() -> None:
     prompts = options.prompt or PROMPTS
     started = time.perf_counter()
     render(make_scene(prompts[0], SIZES[0]), 0.0, SIZES[0])
-    print(f"first picture, with loading or compiling: {time.perf_counter() - started:.1f} s")
+    print(f"first image, with loading or compiling: {time.perf_counter() - started:.1f} s")
     print(f"{'scene':62s} {'size':>9s} {'shapes':>6s} {'ms':>7s}")
     for prompt in prompts:
         for size in SIZES:

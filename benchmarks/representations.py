@@ -1,4 +1,4 @@
-"""Events per CPU-second of every representation, and a picture of them all.
+"""Events per CPU-second of every representation, and an image of them all.
 
     python -m benchmarks.representations [--events 1000000] [--device cpu] [--figure FILE.png]
 
@@ -68,7 +68,7 @@ TILES = (
 
 
 def main() -> None:
-    """Print the table, and draw the figure if asked."""
+    """Print the table, and draw the figure with its option."""
     parser = argparse.ArgumentParser(description="Measure and draw all representations.")
     parser.add_argument("--events", type=int, default=1_000_000)
     parser.add_argument("--device", help="measure torch on this device, such as cpu or cuda")
@@ -126,11 +126,11 @@ def draw_tile(events: EventStream, tile: Tile) -> Image:
     if tile.off is not None:
         values = np.where(values >= array[tile.off], values, -array[tile.off])
     full = np.percentile(np.abs(values[values != 0]), 90)
-    picture = enlarge(paint(values / full), SIZE.width // values.shape[1], how="blocks")
+    image = enlarge(paint(values / full), SIZE.width // values.shape[1], how="blocks")
     whole = blank(SIZE.width + GAP, SIZE.height + CAPTION + GAP, WHITE)
     draw_text(whole, tile.caption, 2, CAPTION - 8, height=TEXT, colour=get_palette("paper").ink)
     whole[CAPTION : CAPTION + SIZE.height, : SIZE.width] = GREY
-    whole[CAPTION + 1 : CAPTION + SIZE.height - 1, 1 : SIZE.width - 1] = picture[1:-1, 1:-1]
+    whole[CAPTION + 1 : CAPTION + SIZE.height - 1, 1 : SIZE.width - 1] = image[1:-1, 1:-1]
     return whole
 
 

@@ -1,8 +1,8 @@
-"""Time per frame of the Texvent simulator beside the least that memory allows.
+"""Time per frame of the Texvent simulator, and the least that memory allows.
 
     python -m benchmarks.texvent_kernel [--frames 48] [--rounds 5] [--cold]
 
-The clip is a grey picture of which a random share of pixels jumps by 0.3 log units per frame, so
+The clip is a grey image of which a random share of pixels jumps by 0.3 log units per frame, so
 the density is known. A row times whole `step` calls (checks, Eqs. 5-7, noise, order, the finished
 packet). Its floor is what any program must do: read the frame from main memory and the reference
 from the cache, and write 14 bytes per event. Floor and step take turns in every round, frames are

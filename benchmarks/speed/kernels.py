@@ -1,4 +1,4 @@
-"""Simulators alone: time per frame by model, size, density and threads, beside the floor."""
+"""Simulators alone: time per frame by model, size, density and threads, and the floor."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What was wanted, beside what was measured; misses are shown like hits."""
+"""Targets, and what was measured; misses are shown like hits."""
 
 from __future__ import annotations
 

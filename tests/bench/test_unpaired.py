@@ -7,7 +7,7 @@ import pytest
 
 from texvent.bench.oracle.pixel import IDEAL, NOISY
 from texvent.bench.oracle.recording import oracle_scene, record
-from texvent.bench.recognition.unpaired import compare_folders
+from texvent.bench.unpaired import compare_folders
 from texvent.cli.app import main
 from texvent.errors import InputError
 
@@ -38,7 +38,7 @@ def test_streams_of_the_same_sensor_are_near_and_ideal_ones_far(folders):
 
 def test_a_limit_takes_evenly_spaced_files(folders):
     seen = []
-    report = compare_folders(folders / "alike", folders / "recorded", limit=2, announce=seen.append)
+    report = compare_folders(folders / "alike", folders / "recorded", limit=2, progress=seen.append)
     assert report.recorded_files == 2
     names = {line.rsplit("/", 1)[-1] for line in seen}
     assert names == {"a.npz", "21.npz", "33.npz"}

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from texvent.calibrate.noise import (
-    CALM_FRAMES,
+    STATIC_FRAMES,
     average_neighbours,
-    find_calm_pixels,
+    find_static_pixels,
     find_still_pixels,
     measure_noise,
 )
-from texvent.calibrate.recording import Recording, Span
+from texvent.calibrate.recording import Recording, TimeSpan
 from texvent.config import InterpolateConfig
 from texvent.events import EventStream
 from texvent.simulate.physical.simulator import PhysicalSimulator
@@ -18,13 +18,13 @@ from texvent.video import Video
 
 from .conftest import TRUTH
 
-SPAN = Span(0, 2_000_000)
+SPAN = TimeSpan(0, 2_000_000)
 
 
 def still_recording(**options) -> Recording:
     """Dark, middle and bright stripes that stay as they are, for two seconds."""
-    picture = np.repeat([1.0, 25.0, 120.0], 20)[None, :].repeat(40, axis=0).astype(np.float32)
-    frames = Video(np.stack([picture] * 41), [i * 50_000 for i in range(41)])
+    image = np.repeat([1.0, 25.0, 120.0], 20)[None, :].repeat(40, axis=0).astype(np.float32)
+    frames = Video(np.stack([image] * 41), [i * 50_000 for i in range(41)])
     sensor = PhysicalSimulator(dataclasses.replace(TRUTH, **options), seed=5)
     events = EventStream.concat([sensor.step(frame) for frame in frames])
     return Recording(frames, events, InterpolateConfig(interpolate="none"))
@@ -50,8 +50,8 @@ def test_on_events_without_off_events_are_leak():
 
 def test_a_textured_scene_at_rest_is_measured_pixel_by_pixel():
     random = np.random.default_rng(1)
-    picture = random.choice([3.0, 60.0], size=(40, 60)).astype(np.float32)
-    frames = Video(np.stack([picture] * 41), [i * 50_000 for i in range(41)])
+    image = random.choice([3.0, 60.0], size=(40, 60)).astype(np.float32)
+    frames = Video(np.stack([image] * 41), [i * 50_000 for i in range(41)])
     curve = {"noise_scale": 1.0, "noise_curve": "3:4 60:0.5", "noise_on_fraction": 0.5}
     sensor = PhysicalSimulator(dataclasses.replace(TRUTH, **curve), seed=5)
     events = EventStream.concat([sensor.step(frame) for frame in frames])
@@ -71,15 +71,15 @@ def test_a_short_exposure_without_events_does_not_pass_for_noise():
 
 def test_pixels_are_calm_if_their_neighbourhood_keeps_its_texture():
     texture = np.random.default_rng(0).uniform(0, 200, (7, 7))
-    frames = [texture.copy() for _ in range(CALM_FRAMES)]
-    assert find_calm_pixels(frames).all()
-    assert not find_calm_pixels(frames[1:]).any()
+    frames = [texture.copy() for _ in range(STATIC_FRAMES)]
+    assert find_static_pixels(frames).all()
+    assert not find_static_pixels(frames[1:]).any()
     frames[4][:, 6] += 12.0
-    assert find_calm_pixels(frames)[3].tolist() == [True] * 4 + [False] * 3
+    assert find_static_pixels(frames)[3].tolist() == [True] * 4 + [False] * 3
 
 
 def test_a_recording_without_still_pixels_says_so(recording):
-    assert measure_noise(recording, Span(0, 700_000), gamma=1.0) is None
+    assert measure_noise(recording, TimeSpan(0, 700_000), gamma=1.0) is None
 
 
 def test_noise_of_the_frames_themselves_does_not_count_as_motion():
@@ -92,11 +92,11 @@ def test_noise_of_the_frames_themselves_does_not_count_as_motion():
 
 
 def test_a_mean_of_neighbours_repeats_the_edge():
-    picture = np.zeros((4, 4))
-    picture[0, 0], picture[2, 2] = 9.0, 18.0
-    assert average_neighbours(picture)[0, 0] == pytest.approx(4)
-    assert average_neighbours(picture)[1, 1] == pytest.approx(3)
-    assert average_neighbours(picture)[3, 3] == pytest.approx(2)
+    image = np.zeros((4, 4))
+    image[0, 0], image[2, 2] = 9.0, 18.0
+    assert average_neighbours(image)[0, 0] == pytest.approx(4)
+    assert average_neighbours(image)[1, 1] == pytest.approx(3)
+    assert average_neighbours(image)[3, 3] == pytest.approx(2)
 
 
 def test_a_pixel_is_still_if_its_neighbourhood_is():

@@ -3,7 +3,7 @@ import itertools
 import numpy as np
 import pytest
 
-from texvent.calibrate.rate import match_rate, measure_rate, search_threshold
+from texvent.calibrate.rate import match_rate, measure_rate, threshold_for_rate
 from texvent.errors import ConfigError, InputError
 from texvent.pipeline import video_to_events
 from texvent.settings import resolve
@@ -25,22 +25,22 @@ def simulation(video=None, **options):
 
 
 def test_the_search_ends_within_two_percent():
-    found = search_threshold(lambda threshold: 1000 / threshold, 4000.0)
+    found = threshold_for_rate(lambda threshold: 1000 / threshold, 4000.0)
     assert found.rate_hz == pytest.approx(4000, rel=0.02)
     assert found.contrast_threshold == pytest.approx(0.25, rel=0.02)
     assert found.steps <= 9
 
 
 def test_the_search_takes_the_nearest_where_rates_jump():
-    found = search_threshold(lambda threshold: 1050.0 if threshold < 0.3 else 500.0, 1000.0)
-    assert found.rate_hz == 1050
+    found = threshold_for_rate(lambda threshold: 1050.0 if threshold < 0.3 else 500.0, 1000.0)
+    assert found.rate_hz == pytest.approx(1050)
     assert found.steps == 9
 
 
 @pytest.mark.parametrize("target", [1.0, 1e9])
 def test_a_rate_out_of_reach_fails_and_says_what_is_near(target):
     with pytest.raises(InputError, match=r"no contrast threshold.*the nearest is"):
-        search_threshold(lambda threshold: 1000 / threshold, target)
+        threshold_for_rate(lambda threshold: 1000 / threshold, target)
 
 
 @pytest.mark.parametrize("simulator", ["physical", "esim"])

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from texvent.calibrate.recording import Recording, Span, simulate_span
+from texvent.calibrate.recording import Recording, TimeSpan, simulate_span
 from texvent.config import InterpolateConfig
 from texvent.errors import InputError
 from texvent.events import EventStream
@@ -16,13 +16,13 @@ def test_halves_are_what_frames_and_events_share(recording):
     assert first.start_us >= 100_000
     assert first.stop_us == second.start_us
     assert second.stop_us == min(recording.frames.times_us[-1], recording.events.t[-1])
-    assert first.first(0.25) == Span(first.start_us, first.start_us + 250_000)
+    assert first.first(0.25) == TimeSpan(first.start_us, first.start_us + 250_000)
     assert first.first(99.0) == first
     assert first.first(0.25).seconds == 0.25
 
 
 def test_a_simulated_span_holds_its_events_only(recording):
-    span = Span(400_000, 600_000)
+    span = TimeSpan(400_000, 600_000)
     frames = recording.dense_frames(span, TRUTH)
     assert frames[0].t_us >= 200_000
     events = simulate_span(frames, span, TRUTH)
@@ -59,4 +59,4 @@ def test_clocks_that_do_not_meet_are_refused(recording):
 
 def test_too_few_events_are_refused(recording):
     with pytest.raises(InputError, match="needs 1000 of each"):
-        recording.recorded(Span(100_000, 101_000))
+        recording.recorded(TimeSpan(100_000, 101_000))

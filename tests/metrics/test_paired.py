@@ -12,12 +12,12 @@ from texvent.events import EventStream
 from texvent.metrics.compare import compare, describe_metrics
 from texvent.metrics.event_frames import EventFrameMse, EventFramePsnr, EventFrameSsim
 from texvent.metrics.marginals import ActiveIou, CountRatio, OnDifference
-from texvent.metrics.protocol import find_lack
+from texvent.metrics.protocol import find_missing
 from texvent.metrics.spike_trains.intervals import IntervalDistance
 from texvent.metrics.spike_trains.nearest import NearestTime
 from texvent.metrics.spike_trains.van_rossum import VanRossum
 from texvent.metrics.stpp import Stpp
-from texvent.metrics.voxel import VoxelDifference
+from texvent.metrics.voxel_difference import VoxelDifference
 from texvent.sensor import SensorSize
 
 from . import slow
@@ -233,10 +233,10 @@ def test_compare_runs_every_metric_that_lacks_nothing_by_default():
 
 
 def test_metrics_without_their_weights_say_what_they_need():
-    lacks = {name: find_lack(metric) for name, metric in describe_metrics().items()}
-    assert {name for name, lack in lacks.items() if lack} == set(WANTING)
-    assert "texvent weights pull lpips" in lacks["ef_lpips"]
-    assert "--rvt-weights" in lacks["eqs"]
+    missing = {name: find_missing(metric) for name, metric in describe_metrics().items()}
+    assert {name for name, reason in missing.items() if reason} == set(WANTING)
+    assert "texvent weights pull lpips" in missing["ef_lpips"]
+    assert "--rvt-weights" in missing["eqs"]
     with pytest.raises(InputError, match="texvent weights pull lpips"):
         compare(one_event(), one_event(), ["ef_lpips"])
 

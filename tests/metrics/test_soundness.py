@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.events import EventStream
-from texvent.metrics.timing.soundness import Soundness, SoundnessCheck, find_hot_pixels
+from texvent.metrics.soundness import Soundness, SoundnessCheck, find_hot_pixels
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(40, 30)

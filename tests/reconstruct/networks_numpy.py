@@ -1,6 +1,6 @@
 """The reconstruction networks in NumPy float64, slowly: what the torch networks are tested against.
 
-Pictures are [channels, H, W]; `state` is name → array, as in the published files.
+Images are [channels, H, W]; `state` is name → array, as in the published files.
 """
 
 import numpy as np
@@ -78,7 +78,7 @@ def up(x, state, name):
     weight = state.get(f"{name}.transposed_conv2d.weight")
     if weight is None:
         return relu(layer(resize(x, 2), state, name))
-    # A transposed convolution: every input pixel paints the kernel into the larger picture.
+    # A transposed convolution: every input pixel paints the kernel into the larger image.
     side = weight.shape[-1]
     height, width = x.shape[1:]
     canvas = np.zeros((weight.shape[1], 2 * height + side, 2 * width + side))
@@ -93,23 +93,23 @@ def up(x, state, name):
 
 
 def run_firenet(voxels, state, names):
-    """Pictures of a list of voxel grids."""
+    """Images of a list of voxel grids."""
     memory = [None, None]
-    pictures = []
+    images = []
     for voxel in voxels:
         x = relu(layer(voxel, state, names.head))
         for number in range(2):
             memory[number] = gru(x, state, names.units[number], memory[number])
             x = block(memory[number], state, names.blocks[number])
-        pictures.append(layer(x, state, names.prediction)[0])
-    return pictures
+        images.append(layer(x, state, names.prediction)[0])
+    return images
 
 
 def run_unet(voxels, state, *, has_sigmoid, is_dynamic=False):
     root = "unetrecurrent"
     memory = [None] * 3
     last = None
-    pictures = []
+    images = []
     for voxel in voxels:
         head = x = relu(layer(voxel, state, f"{root}.head"))
         skipped = []
@@ -133,8 +133,8 @@ def run_unet(voxels, state, *, has_sigmoid, is_dynamic=False):
                 x = up(x, state, name)
         last = layer(x + head, state, f"{root}.pred")
         last = sigmoid(last) if has_sigmoid else last
-        pictures.append(last[0])
-    return pictures
+        images.append(last[0])
+    return images
 
 
 def decode_dynamically(x, state, name, context):
@@ -163,7 +163,7 @@ def decode_dynamically(x, state, name, context):
 
 def run_et_net(voxels, state):
     memory = [None] * 3
-    pictures = []
+    images = []
     for voxel in voxels:
         head = x = relu(layer(voxel, state, "head"))
         skipped = []
@@ -176,8 +176,8 @@ def run_et_net(voxels, state):
         x = transform(skipped, state)
         for number in range(3):
             x = up(x + skipped.pop(), state, f"UpsampleConv.{number}")
-        pictures.append(sigmoid(layer(x + head, state, "pred"))[0])
-    return pictures
+        images.append(sigmoid(layer(x + head, state, "pred"))[0])
+    return images
 
 
 def transform(maps, state):
@@ -188,8 +188,8 @@ def transform(maps, state):
         convolve(maps[0], state, "split2", stride=4, padding=0),
     )
     encoded = []
-    for scale, picture in enumerate(splits):
-        tokens = picture.reshape(len(picture), -1).T
+    for scale, image in enumerate(splits):
+        tokens = image.reshape(len(image), -1).T
         tokens = tokens + places(*tokens.shape)
         for number in range(3):
             name = f"trans_encoder{scale}.encoder.layers.{number}"

@@ -80,7 +80,7 @@ def test_et_net_equals_its_definition():
     check("et-net", run_et_net)
 
 
-def test_memory_makes_the_same_grid_give_another_picture():
+def test_memory_makes_the_same_grid_give_another_image():
     tensors = random_tensors(small_shapes("firenet"))
     network = FireNet({key: torch.from_numpy(one) for key, one in tensors.items()}, {})
     voxel = torch.from_numpy(grids(1)).float()

@@ -48,8 +48,8 @@ def test_slider_depth_is_reconstructed_as_measured_before(name, file, is_publish
     frames = list(recording.frames)
     times_us = [frame.t_us for frame in frames]
     slices = slice_between(recording.events, times_us, size=recording.frames.size)
-    pictures = [picture.astype(np.float64) for _, picture in reconstructor.film(slices)]
+    images = [image.astype(np.float64) for _, image in reconstructor.reconstruct_all(slices)]
     truth = [frame.pixels / 255.0 for frame in frames[1:]]
-    pairs = list(zip(pictures, truth, strict=True))[SKIPPED:]
+    pairs = list(zip(images, truth, strict=True))[SKIPPED:]
     assert np.mean([((a - b) ** 2).mean() for a, b in pairs]) == pytest.approx(mse, abs=6e-5)
     assert np.mean([uniform_similarity(a, b) for a, b in pairs]) == pytest.approx(ssim, abs=6e-4)

@@ -1,4 +1,4 @@
-"""From events to pictures: any size, what belongs to each network, memory and its end."""
+"""From events to images: any size, what belongs to each network, memory and its end."""
 
 import numpy as np
 import pytest
@@ -42,11 +42,11 @@ def noise(count=400, seed=0, size=SIZE, start_us=0):
 
 
 @pytest.mark.parametrize("name", HEADS)
-def test_pictures_have_the_size_of_the_sensor_whatever_it_is(folder, name):
-    picture = load(folder, name).reconstruct(noise())
-    assert picture.shape == SIZE.shape
-    assert picture.dtype == np.float32
-    assert 0.0 <= picture.min() < picture.max() <= 1.0
+def test_images_have_the_size_of_the_sensor_whatever_it_is(folder, name):
+    image = load(folder, name).reconstruct(noise())
+    assert image.shape == SIZE.shape
+    assert image.dtype == np.float32
+    assert 0.0 <= image.min() < image.max() <= 1.0
 
 
 @pytest.mark.parametrize("name", HEADS)
@@ -70,14 +70,14 @@ def test_the_network_gets_the_voxel_grid_that_belongs_to_it(folder, name, monkey
     assert np.count_nonzero(grid) == np.count_nonzero(expected)
 
 
-def test_only_e2vid_stretches_its_pictures(folder):
+def test_only_e2vid_stretches_its_images(folder):
     assert [name for name in HEADS if RECONSTRUCTORS.load(name).is_stretched] == ["e2vid"]
-    picture = load(folder, "e2vid").reconstruct(noise())
-    assert (picture == 0).mean() == pytest.approx(0.01, abs=0.01)
-    assert (picture == 1).mean() == pytest.approx(0.01, abs=0.01)
+    image = load(folder, "e2vid").reconstruct(noise())
+    assert (image == 0).mean() == pytest.approx(0.01, abs=0.01)
+    assert (image == 1).mean() == pytest.approx(0.01, abs=0.01)
 
 
-def test_a_constant_picture_is_not_stretched():
+def test_a_constant_image_is_not_stretched():
     flat = np.full((4, 4), 0.3, np.float32)
     np.testing.assert_array_equal(stretch(flat), flat)
 
@@ -103,20 +103,20 @@ def test_a_twin_shares_weights_but_no_memory(folder):
 
 
 def test_a_slice_without_events_is_reconstructed_too(folder):
-    picture = load(folder, "firenet").reconstruct(EventStream.empty(SIZE))
-    assert picture.shape == SIZE.shape
+    image = load(folder, "firenet").reconstruct(EventStream.empty(SIZE))
+    assert image.shape == SIZE.shape
 
 
-def test_a_film_begins_anew_and_has_a_picture_per_slice(folder):
+def test_a_film_begins_anew_and_has_an_image_per_slice(folder):
     reconstructor = load(folder, "firenet")
     events = noise(1000)
     slices = [(5_000, events[:300]), (9_000, events[300:])]
-    film = list(reconstructor.film(slices))
-    assert [t_us for t_us, _ in film] == [5_000, 9_000]
+    found = list(reconstructor.reconstruct_all(slices))
+    assert [t_us for t_us, _ in found] == [5_000, 9_000]
     reconstructor.reset()
-    for (_, picture), (_, part) in zip(film, slices, strict=True):
-        np.testing.assert_array_equal(picture, reconstructor.reconstruct(part))
-    np.testing.assert_array_equal(next(reconstructor.film(slices))[1], film[0][1])
+    for (_, image), (_, part) in zip(found, slices, strict=True):
+        np.testing.assert_array_equal(image, reconstructor.reconstruct(part))
+    np.testing.assert_array_equal(next(reconstructor.reconstruct_all(slices))[1], found[0][1])
 
 
 def test_events_of_another_sensor_are_refused_until_the_reset(folder):

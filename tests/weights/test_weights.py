@@ -17,7 +17,7 @@ from texvent.data.catalogue import Archive, DataFile
 from texvent.errors import ConfigError, FileFormatError
 from texvent.interpolate.rife import layouts as rife_layouts
 from texvent.metrics.lpips import layout as lpips_layout
-from texvent.metrics.lpips.metric import lpips_distance
+from texvent.metrics.lpips.distance import lpips_distance
 from texvent.metrics.lpips.weights import read_lpips_weights
 from texvent.runtime.cache_folder import cache_folder
 from texvent.weights import catalogue, pull

@@ -1,29 +1,40 @@
-"""Result documents: JSON files that state their schema."""
+"""Result documents: JSON files that state their schema, compressed where the name ends in .gz."""
 
 from __future__ import annotations
 
+import gzip
 import json
+import math
+import zlib
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from texvent.errors import FileFormatError, InputError
 from texvent.io.atomic import atomic_file
 
+DIGITS = 7
+"""Significant digits of the numbers in a document: more than any table shows."""
+COMPRESSED = ".gz"
+
 
 def write_document(path: Path, document: Any, *, overwrite: bool) -> None:
-    """Write a result; the file appears when it is complete.
+    """Write a result; the file appears when it is complete, and the same result gives equal bytes.
 
     Args:
-        path: the JSON file.
+        path: the JSON file; a name that ends in .gz compresses it.
         document: plain values; none is NaN.
         overwrite: whether an existing file is replaced.
 
     Raises:
         OutputError: the file exists already, or cannot be written.
     """
+    is_compressed = path.suffix == COMPRESSED
+    indent = None if is_compressed else 2
+    text = json.dumps(document, indent=indent, ensure_ascii=False, allow_nan=False)
+    content = f"{text}\n".encode()
     with atomic_file(path, overwrite=overwrite) as part:
-        text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
-        part.write_text(text + "\n", encoding="utf-8")
+        part.write_bytes(gzip.compress(content, mtime=0) if is_compressed else content)
 
 
 def read_document(path: Path) -> dict[str, Any]:
@@ -34,11 +45,37 @@ def read_document(path: Path) -> dict[str, Any]:
         FileFormatError: it holds no JSON object.
     """
     try:
-        document = json.loads(path.read_text(encoding="utf-8"))
+        content = path.read_bytes()
+        document = json.loads(gzip.decompress(content) if path.suffix == COMPRESSED else content)
     except FileNotFoundError:
         raise InputError(f"there is no result {path}; write one with texvent bench --out") from None
-    except (OSError, ValueError) as error:
+    except (OSError, EOFError, zlib.error, ValueError) as error:
         raise FileFormatError(f"{path} is no JSON document ({error})") from error
     if not isinstance(document, dict):
         raise FileFormatError(f"{path} holds {type(document).__name__}, not a JSON object")
     return document
+
+
+def result_name(file_name: str) -> str:
+    """Name of a result's file without .json or .json.gz."""
+    return Path(file_name.removesuffix(COMPRESSED)).stem
+
+
+def plain_values(value: Any) -> Any:
+    """Values as JSON holds them: rounded to `DIGITS`, and None for what is NaN or infinite."""
+    if isinstance(value, Mapping):
+        return {key: plain_values(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain_values(item) for item in value]
+    if isinstance(value, float):
+        return float(f"{value:.{DIGITS}g}") if math.isfinite(value) else None
+    return value
+
+
+def restore_nan(value: Any) -> Any:
+    """Values read from JSON, with NaN for None."""
+    if isinstance(value, Mapping):
+        return {key: restore_nan(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [restore_nan(item) for item in value]
+    return math.nan if value is None else value

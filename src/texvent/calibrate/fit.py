@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from texvent.calibrate.distance import Distance, measure_distance
 from texvent.calibrate.noise import MeasuredNoise, measure_noise
-from texvent.calibrate.recording import Recording, Span, simulate_span
+from texvent.calibrate.recording import Recording, TimeSpan, simulate_span
 from texvent.events import EventStream
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.video import Frame
@@ -51,9 +51,9 @@ class Fit(NamedTuple):
     """What was added to the frame times, µs; it belongs to the recording, not to the sensor."""
     has_noise: bool
     """Whether noise and leak were measured (else they are those the fit started with)."""
-    span: Span
+    span: TimeSpan
     """The part that was fitted."""
-    held_out: Span
+    held_out: TimeSpan
     """The part that was not."""
     distances: Mapping[str, tuple[Distance, Distance]]
     """"start" and "fitted" → distance on the fitted and on the held-out part."""
@@ -124,7 +124,9 @@ def _with_noise(config: PhysicalConfig, noise: MeasuredNoise) -> PhysicalConfig:
 class _Search:
     """The search on one part of a recording."""
 
-    def __init__(self, frames: list[Frame], truth: EventStream, span: Span, report: Report) -> None:
+    def __init__(
+        self, frames: list[Frame], truth: EventStream, span: TimeSpan, report: Report
+    ) -> None:
         self._frames = frames
         self._truth = truth
         self._span = span

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.calibrate.recording import Recording, Span
+from texvent.calibrate.recording import Recording, TimeSpan
 from texvent.represent.event_frame import count_events
 from texvent.simulate.physical.kernels.circuit import linearize
 from texvent.simulate.physical.noise_curve import NoiseCurve
@@ -18,14 +18,14 @@ from texvent.video import MICROSECONDS, Frame
 EDGES = (0, 2, 5, 10, 20, 30, 45, 70, 100, 140, 190, 256)
 """Ranges of linear intensity, levels 0..255, whose pixels are counted together."""
 LEAK_FROM = 30
-"""Intensity from which noise is rare enough to see the leak beside it, levels."""
+"""Intensity from which noise is rare enough to see the leak, levels."""
 STILL_LEVELS, STILL_SHARE = 1.5, 0.02
 """A pixel is still if all of its neighbourhood, in the frame before, this one and the next, lies
-within 1.5 levels plus 2 % of its intensity, once 3×3 means have calmed the frames' own noise; or if
-each pixel of its neighbourhood stays that close to its own mean for a second."""
+within 1.5 levels plus 2 % of its intensity, once 3×3 means have averaged out the frames' noise; or
+if each pixel of its neighbourhood stays that close to its own mean for a second."""
 RADIUS = 2
 """Of the neighbourhood, pixels: what moves in from farther away within a frame is seen too late."""
-CALM_US, CALM_FRAMES = 1_000_000, 10
+STATIC_US, STATIC_FRAMES = 1_000_000, 10
 """How long a textured neighbourhood must not change for its pixel to be still, µs, and in how many
 frames at least this must be seen: three frames do not tell a slow edge from none."""
 LEAST_EXPOSURE_S = 20.0
@@ -43,10 +43,10 @@ class MeasuredNoise(NamedTuple):
     curve: NoiseCurve
     """Noise, ON and OFF together, by intensity."""
     leak_rate_hz: float
-    """ON events per pixel and second that have no OFF events beside them."""
+    """ON events per pixel and second that no OFF events match."""
 
 
-def measure_noise(recording: Recording, span: Span, *, gamma: float) -> MeasuredNoise | None:
+def measure_noise(recording: Recording, span: TimeSpan, *, gamma: float) -> MeasuredNoise | None:
     """Noise and leak of still pixels.
 
     A leak makes ON events only, so noise is taken as twice the OFF events, and the leak as what
@@ -93,7 +93,7 @@ def _rates(counts: Float64Array, exposure: Float64Array) -> Float64Array:
 
 
 def _still_pixels(
-    recording: Recording, span: Span, gamma: float
+    recording: Recording, span: TimeSpan, gamma: float
 ) -> Iterator[tuple[Float64Array, tuple[int, int], BoolArray]]:
     """Intensity, interval and still pixels of the frames of a span that have two neighbours."""
     for window in _windows(recording, span):
@@ -101,43 +101,43 @@ def _still_pixels(
         seen = [linearize(frame.luma, gamma) for frame in window]
         own = np.mean(seen, axis=0)
         light = [average_neighbours(intensity) for intensity in seen]
-        calm = find_calm_pixels(light)
+        static = find_static_pixels(light)
         for i in range(1, len(window) - 1):
-            still = find_still_pixels(light[i], light[i - 1 : i + 2]) | calm
-            # Beside an edge, the mean of neighbours is not what the pixel sees.
-            yield np.where(calm, own, light[i]), (times[i], times[i + 1]), still
+            still = find_still_pixels(light[i], light[i - 1 : i + 2]) | static
+            # Near an edge, the mean of neighbours is not what the pixel sees.
+            yield np.where(static, own, light[i]), (times[i], times[i + 1]), still
 
 
-def _windows(recording: Recording, span: Span) -> Iterator[list[Frame]]:
+def _windows(recording: Recording, span: TimeSpan) -> Iterator[list[Frame]]:
     """The frames of a span, a second at a time; neighbouring windows share two frames."""
     window: list[Frame] = []
     for frame in recording.frames:
         if not span.start_us <= frame.t_us < span.stop_us:
             continue
         window.append(frame)
-        if frame.t_us - window[0].t_us >= CALM_US:
+        if frame.t_us - window[0].t_us >= STATIC_US:
             yield window
             window = window[-2:]
     if len(window) > 2:
         yield window
 
 
-def find_calm_pixels(frames: list[Float64Array]) -> BoolArray:
+def find_static_pixels(frames: list[Float64Array]) -> BoolArray:
     """Pixels around which time changes nothing, whatever the texture, [H, W].
 
     A camera at rest has them, and they are many more than those of `find_still_pixels`.
 
     Args:
-        frames: linear intensity, levels 0..255, [H, W]; none is calm in fewer than ten.
+        frames: linear intensity, levels 0..255, [H, W]; none is static in fewer than ten.
     """
-    if len(frames) < CALM_FRAMES:
+    if len(frames) < STATIC_FRAMES:
         return np.zeros(frames[0].shape, np.bool_)
     mean = np.mean(frames, axis=0)
     tolerance = STILL_LEVELS + STILL_SHARE * mean
-    calm = np.ones(mean.shape, np.bool_)
+    static = np.ones(mean.shape, np.bool_)
     for frame in frames:
-        calm &= np.abs(frame - mean) <= tolerance
-    padded = np.pad(calm, RADIUS, constant_values=True)
+        static &= np.abs(frame - mean) <= tolerance
+    padded = np.pad(static, RADIUS, constant_values=True)
     reach = 2 * RADIUS + 1
     windows = np.lib.stride_tricks.sliding_window_view(padded, (reach, reach))
     return np.asarray(windows.all(axis=(2, 3)))

@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Callable
 from typing import NamedTuple
 
+from texvent.calibrate.threshold_search import HIGHEST, LOWEST, find_threshold
 from texvent.config import check_range
 from texvent.errors import InputError
 from texvent.pipeline import Simulation
 from texvent.simulate.thresholds import contrast_threshold_of, with_contrast_threshold
 from texvent.video import MICROSECONDS
 
-LOWEST, HIGHEST = 0.01, 1.2
-"""Thresholds that are tried, log units."""
-MAX_STEPS = 9
-"""Trials after which the threshold is known to 1 %."""
-CLOSE = 0.02
-"""Relative difference at which the search ends."""
 UNREACHED = 0.1
 """Relative difference from which the rate counts as out of reach."""
 
@@ -75,11 +69,11 @@ def match_rate(
         settings = dataclasses.replace(simulation.settings, simulate=config)
         return dataclasses.replace(simulation, settings=settings)
 
-    match = search_threshold(lambda δ: measure_rate(with_threshold(δ), seconds), target_hz)
+    match = threshold_for_rate(lambda δ: measure_rate(with_threshold(δ), seconds), target_hz)
     return with_threshold(match.contrast_threshold), match
 
 
-def search_threshold(rate_of: Callable[[float], float], target_hz: float) -> RateMatch:
+def threshold_for_rate(rate_of: Callable[[float], float], target_hz: float) -> RateMatch:
     """The threshold at which a falling function takes a value, by bisection of its logarithm.
 
     Args:
@@ -89,22 +83,15 @@ def search_threshold(rate_of: Callable[[float], float], target_hz: float) -> Rat
     Raises:
         InputError: the nearest rate found differs by more than a tenth.
     """
-    low, high = LOWEST, HIGHEST
-    tried: list[RateMatch] = []
-    while len(tried) < MAX_STEPS:
-        middle = math.sqrt(low * high)
-        tried.append(RateMatch(middle, rate_of(middle), len(tried) + 1))
-        if abs(tried[-1].rate_hz / target_hz - 1) <= CLOSE:
-            break
-        low, high = (middle, high) if tried[-1].rate_hz > target_hz else (low, middle)
-    best = min(tried, key=lambda one: abs(one.rate_hz - target_hz))
-    if abs(best.rate_hz / target_hz - 1) > UNREACHED:
+    match = find_threshold(rate_of, target_hz)
+    rate_hz = match.ratio * target_hz
+    if abs(match.ratio - 1) > UNREACHED:
         raise InputError(
             f"no contrast threshold of {LOWEST:g}..{HIGHEST:g} gives {target_hz:,.0f} events per "
-            f"second; the nearest is {best.rate_hz:,.0f} at {best.contrast_threshold:.3g}. Choose "
+            f"second; the nearest is {rate_hz:,.0f} at {match.threshold:.3g}. Choose "
             "a rate nearer to that, or change the noise, which no threshold removes"
         )
-    return best._replace(steps=len(tried))
+    return RateMatch(match.threshold, rate_hz, match.steps)
 
 
 def measure_rate(simulation: Simulation, seconds: float) -> float:

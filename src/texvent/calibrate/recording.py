@@ -23,7 +23,7 @@ LEAST_EVENTS = 1000
 """Fewer recorded events than this of either polarity fit nothing."""
 
 
-class Span(NamedTuple):
+class TimeSpan(NamedTuple):
     """A part of a recording, `[start_us, stop_us)`."""
 
     start_us: int
@@ -34,9 +34,11 @@ class Span(NamedTuple):
         """Length, s."""
         return (self.stop_us - self.start_us) / MICROSECONDS
 
-    def first(self, seconds: float) -> Span:
+    def first(self, seconds: float) -> TimeSpan:
         """The start of the span, at most this long."""
-        return Span(self.start_us, min(self.stop_us, self.start_us + round(seconds * MICROSECONDS)))
+        return TimeSpan(
+            self.start_us, min(self.stop_us, self.start_us + round(seconds * MICROSECONDS))
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +63,7 @@ class Recording:
         if self.frames.is_live:
             raise InputError("calibration needs frames that can be read again; record them first")
 
-    def halves(self) -> tuple[Span, Span]:
+    def halves(self) -> tuple[TimeSpan, TimeSpan]:
         """The two halves of what frames and events share.
 
         Raises:
@@ -78,9 +80,9 @@ class Recording:
                 f"frames and events share {max(stop - start, 0) / MICROSECONDS:.3f} s; "
                 "calibration needs at least 1 s. Do they run on the same clock?"
             )
-        return Span(start, middle), Span(middle, stop)
+        return TimeSpan(start, middle), TimeSpan(middle, stop)
 
-    def recorded(self, span: Span) -> EventStream:
+    def recorded(self, span: TimeSpan) -> EventStream:
         """The events of a span.
 
         Raises:
@@ -95,7 +97,7 @@ class Recording:
             )
         return events
 
-    def dense_frames(self, span: Span, config: PhysicalConfig) -> list[Frame]:
+    def dense_frames(self, span: TimeSpan, config: PhysicalConfig) -> list[Frame]:
         """Frames of a span and of the time before it that a simulation needs, in memory."""
         model = PhysicalSimulator(config)
         interpolator = INTERPOLATORS.load(self.interpolate.interpolate)(
@@ -116,7 +118,7 @@ class _Part:
     """The frames around a span, as a stream."""
 
     whole: FrameStream
-    span: Span
+    span: TimeSpan
 
     def __iter__(self) -> Iterator[Frame]:
         margin = 2 * WARM_UP_US
@@ -148,7 +150,7 @@ class _Part:
 
 
 def simulate_span(
-    frames: list[Frame], span: Span, config: PhysicalConfig, *, offset_us: int = 0
+    frames: list[Frame], span: TimeSpan, config: PhysicalConfig, *, offset_us: int = 0
 ) -> EventStream:
     """Simulated events of a span.
 

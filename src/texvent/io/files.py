@@ -63,6 +63,11 @@ def find_folder_codec(path: Path) -> EventCodec | None:
     return None
 
 
+def event_extensions() -> set[str]:
+    """Extensions of all event formats, in lower case with the dot."""
+    return {extension for name in CODECS.names() for extension in CODECS.load(name).extensions}
+
+
 def _codecs_for(path: str | Path, format: str | None) -> list[EventCodec]:
     """The codec called `format` alone, or all that share the path's extension, at least one."""
     if format is not None:

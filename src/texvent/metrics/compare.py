@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from texvent._registry import METRICS
 from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.metrics.protocol import Metric, check_pair, find_lack
+from texvent.metrics.protocol import Metric, check_pair, find_missing
 
 
 def compare(
@@ -65,5 +65,5 @@ def describe_metrics() -> Mapping[str, Metric]:
 
 
 def default_metrics() -> list[Metric]:
-    """Every registered metric with its defaults, without those that lack something here."""
-    return [metric for metric in describe_metrics().values() if find_lack(metric) is None]
+    """Every registered metric with its defaults, without those whose weights are missing."""
+    return [metric for metric in describe_metrics().values() if find_missing(metric) is None]

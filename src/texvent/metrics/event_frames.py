@@ -1,4 +1,4 @@
-"""EF-MSE, EF-PSNR, EF-SSIM, EF-LPIPS: event frames at the frame rate, compared as pictures."""
+"""EF-MSE, EF-PSNR, EF-SSIM, EF-LPIPS: event frames at the frame rate, compared as images."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import InputError
 from texvent.events import EventStream
-from texvent.metrics.lpips.metric import lpips_distance
+from texvent.metrics.lpips.distance import lpips_distance
 from texvent.metrics.lpips.weights import find_lpips_weights, read_lpips_weights
 from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
 from texvent.metrics.structural_similarity import structural_similarity
@@ -91,7 +91,7 @@ class EventFrameSsim:
 
 @dataclass(frozen=True, kw_only=True)
 class EventFrameLpips:
-    """LPIPS of the frames, as grey pictures; NaN for sensors with a side below 31 px.
+    """LPIPS of the frames, as grey images; NaN for sensors with a side below 31 px.
 
     Deviation: the network was trained on photographs; frames of three values are none, so the
         number compares simulators with each other, not with figures for photographs.
@@ -109,8 +109,8 @@ class EventFrameLpips:
     weights: Path | None = None
     """File of LPIPS's weights; default: those that `texvent weights pull lpips` fetched."""
 
-    def lack(self) -> str | None:
-        """What is missing for a score, if anything."""
+    def missing(self) -> str | None:
+        """What this metric needs and has not got; None if nothing."""
         try:
             self._weights_file()
         except InputError as error:

@@ -1,6 +1,6 @@
 """Count ratio, ON difference, active IoU: totals that any simulator can be tuned to.
 
-They are reported beside the other metrics and never optimised alone: in the self-test
+They are reported with the other metrics and never optimised alone: in the self-test
 (docs/metrics.md) each of them misses more than half of the perturbations.
 """
 

@@ -21,8 +21,8 @@ class Metric(Protocol):
     """Compares two event streams of one sensor; built without arguments it has its defaults.
 
     Metrics are frozen dataclasses: their parameters are fields, their facts class attributes. One
-    that cannot work without a file which may not be here also has a method `lack() -> str | None`;
-    see `find_lack`.
+    that needs a file, such as network weights, also has a method `missing() -> str | None`; see
+    `find_missing`.
     """
 
     name: ClassVar[str]
@@ -52,14 +52,14 @@ class Metric(Protocol):
         ...
 
 
-def find_lack(metric: Metric) -> str | None:
-    """What a metric needs and has not got here, such as network weights; None if nothing.
+def find_missing(metric: Metric) -> str | None:
+    """What a metric needs and has not got, such as network weights; None if nothing.
 
-    Such a metric is left out of `compare` unless it is asked for by name.
+    Such a metric is left out of `compare` unless it is named.
     """
-    ask = getattr(metric, "lack", None)
-    said: str | None = ask() if ask is not None else None
-    return said
+    missing = getattr(metric, "missing", None)
+    reason: str | None = missing() if missing is not None else None
+    return reason
 
 
 def check_pair(predicted: EventStream, reference: EventStream) -> None:

@@ -1,4 +1,4 @@
-"""SSIM of two pictures, as in Wang et al. (2004): Gaussian window, population covariance."""
+"""SSIM of two images, as in Wang et al. (2004): Gaussian window, population covariance."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Float64Array = NDArray[np.float64]
 
 
 def structural_similarity(a: Float64Array, b: Float64Array, *, data_range: float = 1.0) -> float:
-    """Mean SSIM over all pixels whose 11×11 window lies inside the picture.
+    """Mean SSIM over all pixels whose 11×11 window lies inside the image.
 
     The same as scikit-image's with `gaussian_weights=True, use_sample_covariance=False`.
 
@@ -41,13 +41,13 @@ def structural_similarity(a: Float64Array, b: Float64Array, *, data_range: float
     return float(ssim.mean())
 
 
-def _smooth(pictures: Float64Array) -> Float64Array:
+def _smooth(images: Float64Array) -> Float64Array:
     """Gaussian-weighted mean around every pixel that is far enough from the border."""
     offset = np.arange(-RADIUS_PX, RADIUS_PX + 1)
     weights = np.exp(-(offset**2) / (2 * SIGMA_PX**2))
     weights /= weights.sum()
     for axis in (-1, -2):
         # The windows become the last axis; the product with the weights removes it again.
-        windows = np.lib.stride_tricks.sliding_window_view(pictures, len(weights), axis=axis)
-        pictures = windows @ weights
-    return pictures
+        windows = np.lib.stride_tricks.sliding_window_view(images, len(weights), axis=axis)
+        images = windows @ weights
+    return images

@@ -1,1 +1,1 @@
-"""Pictures from events alone, by published recurrent networks."""
+"""Images from events alone, by published recurrent networks."""

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from texvent._registry import RECONSTRUCTORS, load_object
+from texvent._registry import RECONSTRUCTORS
 from texvent.errors import FileFormatError, InputError
 from texvent.reconstruct.layers import EXTRA
 from texvent.reconstruct.layout import BATCH_COUNTER, Shape
-from texvent.reconstruct.protocol import PublishedNetwork, RecurrentNetwork
+from texvent.reconstruct.protocol import PublishedNetwork
 from texvent.runtime.cache_folder import cache_folder
 from texvent.runtime.network_files import (
     StandIn,
@@ -29,7 +29,7 @@ LEFT_BY_TRAINING = (
     *("pathlib.PosixPath", "pathlib._local.PosixPath", "pathlib.WindowsPath"),
     *("numpy.core.multiarray.scalar", "numpy._core.multiarray.scalar", "numpy.dtype"),
 )
-"""Classes of objects that the programs which trained these networks stored beside the weights."""
+"""Classes of objects that the programs which trained these networks stored with the weights."""
 STATE = "state_dict"
 CONFIG = "config"
 
@@ -110,9 +110,8 @@ def _check_layout(published: PublishedNetwork, tensors: Mapping[str, Tensor], pa
 
 def _describe_mismatch(published: PublishedNetwork, found: Mapping[str, Shape]) -> str | None:
     """The first way in which tensors differ from a network's, or None."""
-    network: type[RecurrentNetwork] = load_object(published.network)
     try:
-        expected = network.tensor_shapes(found)
+        expected = published.network.tensor_shapes(found)
     except ValueError:  # the shape that tells the width has not four numbers
         return "has a first layer of another kind"
     return describe_mismatch(found, expected)

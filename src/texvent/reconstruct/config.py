@@ -11,7 +11,7 @@ Device: TypeAlias = Literal["auto", "cpu", "cuda"]
 
 @dataclass(frozen=True, kw_only=True)
 class ReconstructConfig:
-    """Which network turns events into pictures."""
+    """Which network turns events into images."""
 
     network: str = "e2vid"
     """Network: e2vid, e2vid+, firenet, firenet+, hypere2vid or et-net."""

@@ -40,7 +40,7 @@ def decode_dynamically(layers: Layers, x: Tensor, name: str, *, context: Tensor)
         layers: tensors of the network.
         x: [1, channels, H/8, W/8].
         name: of the decoder.
-        context: voxel grid and the picture before, [1, bins + 1, H, W].
+        context: voxel grid and the image before, [1, bins + 1, H, W].
 
     Returns:
         [1, fewer channels, H/4, W/4].

@@ -78,7 +78,7 @@ class EtNet:
         self._states: list[tuple[Tensor, Tensor] | None] = [None] * SCALES
 
     def step(self, voxel: Tensor) -> Tensor:
-        """The picture after one more voxel grid; see `RecurrentNetwork`."""
+        """The image after one more voxel grid; see `RecurrentNetwork`."""
         layers, torch = self._layers, self._layers.torch
         head = x = torch.relu(layers.conv_layer(voxel, "head"))
         skipped = []
@@ -98,10 +98,10 @@ class EtNet:
         layers, coarsest = self._layers, maps[-1]
         height, width = coarsest.shape[-2:]
         encoded: list[Tensor] = []
-        for scale, picture in enumerate(reversed(maps)):
+        for scale, image in enumerate(reversed(maps)):
             if scale:
-                picture = layers.convolve(picture, f"split{scale}", stride=2**scale, padding=0)
-            tokens = picture[0].flatten(1).T
+                image = layers.convolve(image, f"split{scale}", stride=2**scale, padding=0)
+            tokens = image[0].flatten(1).T
             encoded.append(self._encode(tokens + self._places(tokens), scale))
         total = encoded[0] + encoded[1] + encoded[2]
         for scale in range(SCALES):

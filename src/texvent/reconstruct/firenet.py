@@ -33,7 +33,7 @@ class FireNetNames:
 class FireNet:
     """FireNet as published with its paper.
 
-    Head, unit, block, unit, block, prediction; the picture keeps its size throughout, and the
+    Head, unit, block, unit, block, prediction; the image keeps its size throughout, and the
     output has no activation.
 
     Source: C. Scheerlinck et al., "Fast image reconstruction with an event camera", WACV 2020.
@@ -70,7 +70,7 @@ class FireNet:
         self._states: list[Tensor | None] = [None, None]
 
     def step(self, voxel: Tensor) -> Tensor:
-        """The picture after one more voxel grid; see `RecurrentNetwork`."""
+        """The image after one more voxel grid; see `RecurrentNetwork`."""
         layers, names = self._layers, self.names
         x = layers.torch.relu(layers.conv_layer(voxel, names.head))
         for number, (unit, block) in enumerate(zip(names.units, names.blocks, strict=True)):

@@ -15,7 +15,7 @@ EXTRA = "torch"
 class Layers:
     """Named tensors of a network, and the layers that can be made of them.
 
-    Pictures are [1, channels, H, W]. The layer's name selects its tensors; their shapes say how
+    Images are [1, channels, H, W]. The layer's name selects its tensors; their shapes say how
     many channels and how large a kernel.
     """
 

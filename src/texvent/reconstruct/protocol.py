@@ -11,10 +11,10 @@ from texvent.runtime.network_files import Tensor
 
 
 class RecurrentNetwork(Protocol):
-    """A network that sees one voxel grid after the other and gives a picture for each.
+    """A network that sees one voxel grid after the other and gives an image for each.
 
     Built from named tensors, float32, whose names and shapes are those of `tensor_shapes`, and
-    from what the file says about the network beside them.
+    from what the file says about the network.
     """
 
     def __init__(self, tensors: Mapping[str, Tensor], settings: Mapping[str, Any]) -> None:
@@ -46,7 +46,7 @@ class RecurrentNetwork(Protocol):
         ...
 
     def step(self, voxel: Tensor) -> Tensor:
-        """The picture after one more voxel grid.
+        """The image after one more voxel grid.
 
         Args:
             voxel: [1, bins, H, W] float32.
@@ -59,18 +59,18 @@ class RecurrentNetwork(Protocol):
 
 @dataclass(frozen=True)
 class PublishedNetwork:
-    """A network with weights that somebody published, and how they are meant to be used."""
+    """A network with published weights, and how they are meant to be used."""
 
     name: str
     """As in tables and options."""
-    network: str
-    """`"module:Class"` of the `RecurrentNetwork`."""
+    network: type[RecurrentNetwork]
+    """Class of the network."""
     where_from: str
     """Where the weights were published."""
     is_normalised: bool = False
     """Whether the non-zero voxels are brought to mean 0 and deviation 1."""
     is_stretched: bool = False
-    """Whether the picture is stretched so that its 1st and 99th percentile become 0 and 1."""
+    """Whether the image is stretched so that its 1st and 99th percentile become 0 and 1."""
     sha256: tuple[str, ...] = ()
     """Of the published files, where known."""
 

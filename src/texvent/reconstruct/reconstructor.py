@@ -1,4 +1,4 @@
-"""Events to pictures: voxel grid, network, and the normalisations that belong to it."""
+"""Events to images: voxel grid, network, and the normalisations that belong to it."""
 
 from __future__ import annotations
 
@@ -10,23 +10,23 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent._registry import RECONSTRUCTORS, load_object
+from texvent._registry import RECONSTRUCTORS
 from texvent._require import require
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.reconstruct.checkpoint import Checkpoint, find_weights, read_checkpoint
 from texvent.reconstruct.config import Device
 from texvent.reconstruct.layers import EXTRA
-from texvent.reconstruct.protocol import PublishedNetwork, RecurrentNetwork
+from texvent.reconstruct.protocol import PublishedNetwork
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.runtime.network_files import Tensor
 from texvent.sensor import SensorSize
 
 Intensity: TypeAlias = NDArray[np.float32]
-"""A picture, [H, W] float32, 0..1."""
+"""An image, [H, W] float32, 0..1."""
 
 LOWEST, HIGHEST = 1.0, 99.0
-"""Percentiles that become black and white where a network's pictures are stretched."""
+"""Percentiles that become black and white where a network's images are stretched."""
 
 
 def load_reconstructor(
@@ -58,13 +58,13 @@ def load_reconstructor(
 class Reconstructor:
     """A published network, used as its authors do.
 
-    The events between two instants go in, and the picture at the second one comes out. It
+    The events between two instants go in, and the image at the second one comes out. It
     remembers what it has seen until `reset`.
 
     Source of the protocol: B. Ercan et al., "EVREAL", CVPRW 2023, section 3, and its program.
     Deviations: events that all have one time fall in the first bin of the voxel grid (the program
-        spreads them over all bins); a picture whose percentiles coincide is not stretched (the
-        program divides by zero); the first picture is at the second frame (the program first shows
+        spreads them over all bins); an image whose percentiles coincide is not stretched (the
+        program divides by zero); the first image is at the second frame (the program first shows
         the network an empty grid, for the first frame); an event at a frame's own time belongs to
         the slice after it (the program also moves the last event before it there).
     """
@@ -80,8 +80,7 @@ class Reconstructor:
             device: "cpu" or "cuda".
         """
         tensors = {name: one.to(device) for name, one in checkpoint.tensors.items()}
-        network: type[RecurrentNetwork] = load_object(published.network)
-        self._network = network(tensors, checkpoint.settings)
+        self._network = published.network(tensors, checkpoint.settings)
         self._published = published
         self._device = device
         self._size: SensorSize | None = None
@@ -108,7 +107,7 @@ class Reconstructor:
         self._size = None
 
     def reconstruct(self, events: EventStream) -> Intensity:
-        """The picture at the end of a slice of events; slices follow one another in time.
+        """The image at the end of a slice of events; slices follow one another in time.
 
         Args:
             events: the slice, which may be empty.
@@ -129,24 +128,26 @@ class Reconstructor:
         self._size = events.size
         published = self._published
         grid = voxel_e2vid(events, bins=self._network.bins, normalise=published.is_normalised)
-        picture = self._run(grid)
-        if not np.isfinite(picture).all():
+        image = self._run(grid)
+        if not np.isfinite(image).all():
             raise FileFormatError(
                 f"the output of {self.name} is NaN or infinite; its weights are damaged"
             )
         if published.is_stretched:
-            picture = stretch(picture)
-        return np.clip(picture, 0.0, 1.0)
+            image = stretch(image)
+        return np.clip(image, 0.0, 1.0)
 
-    def film(self, slices: Iterable[tuple[int, EventStream]]) -> Iterator[tuple[int, Intensity]]:
-        """The pictures of a whole recording.
+    def reconstruct_all(
+        self, slices: Iterable[tuple[int, EventStream]]
+    ) -> Iterator[tuple[int, Intensity]]:
+        """The images of a whole recording.
 
         Args:
             slices: (instant in µs, the events up to it) in time order, as `packet_slices` cuts
                 them.
 
         Yields:
-            (instant, picture), one per slice.
+            (instant, image), one per slice.
 
         Raises:
             InputError, FileFormatError: as `reconstruct`.
@@ -168,7 +169,7 @@ class Reconstructor:
                 voxel: Tensor = torch.from_numpy(grid)[None].to(self._device)
                 output = self._network.step(torch.nn.functional.pad(voxel, margins))
                 inner = output[0, 0, top : top + height, left : left + width]
-                picture: Intensity = inner.cpu().numpy()
+                image: Intensity = inner.cpu().numpy()
         except RuntimeError as error:
             if "memory" not in str(error):
                 raise
@@ -176,11 +177,11 @@ class Reconstructor:
                 f"{self.name} does not fit into the memory of device {self._device} at "
                 f"{width}x{height} px; crop or scale the events down first (texvent convert)"
             ) from error
-        return picture
+        return image
 
 
-def stretch(picture: Intensity) -> Intensity:
-    """The picture scaled so that its 1st percentile becomes 0 and its 99th 1.
+def stretch(image: Intensity) -> Intensity:
+    """The image scaled so that its 1st percentile becomes 0 and its 99th 1.
 
     Source: robust normalisation of EVREAL; rpg_e2vid does the same.
 
@@ -188,7 +189,7 @@ def stretch(picture: Intensity) -> Intensity:
         >>> stretch(np.linspace(0, 100, 101, dtype=np.float32))[[1, 50, 99]].tolist()
         [0.0, 0.5, 1.0]
     """
-    low, high = np.percentile(picture, (LOWEST, HIGHEST))
+    low, high = np.percentile(image, (LOWEST, HIGHEST))
     if high <= low:
-        return picture
-    return np.asarray((picture - low) / (high - low), np.float32)
+        return image
+    return np.asarray((image - low) / (high - low), np.float32)

@@ -122,10 +122,10 @@ class E2vid:
     def reset(self) -> None:
         """Forget everything seen."""
         self._states: list[Any] = [None] * self._variant.encoders
-        self._picture: Tensor | None = None
+        self._image: Tensor | None = None
 
     def step(self, voxel: Tensor) -> Tensor:
-        """The picture after one more voxel grid; see `RecurrentNetwork`."""
+        """The image after one more voxel grid; see `RecurrentNetwork`."""
         layers, torch = self._layers, self._layers.torch
         head = x = torch.relu(layers.conv_layer(voxel, HEAD))
         skipped = []
@@ -137,13 +137,13 @@ class E2vid:
         for number in range(self._variant.encoders):
             x, name = x + skipped.pop(), f"{DECODERS}.{number}"
             if self.is_dynamic and number == 0:
-                seen = torch.zeros_like(voxel[:, :1]) if self._picture is None else self._picture
+                seen = torch.zeros_like(voxel[:, :1]) if self._image is None else self._image
                 x = decode_dynamically(layers, x, name, context=torch.cat([voxel, seen], 1))
             else:
                 x = layers.upsample_layer(x, name)
-        picture = layers.conv_layer(x + head, PREDICTION)
-        self._picture = torch.sigmoid(picture) if self._has_sigmoid else picture
-        return self._picture
+        image = layers.conv_layer(x + head, PREDICTION)
+        self._image = torch.sigmoid(image) if self._has_sigmoid else image
+        return self._image
 
     def _encode(self, x: Tensor, number: int) -> Tensor:
         """Half the size and twice the channels, with the memory of that encoder."""
@@ -176,7 +176,7 @@ class E2vidPlus(E2vid):
 class HyperE2vid(E2vidPlus):
     """HyperE2VID: the first decoder's kernels differ from pixel to pixel.
 
-    They are made from the events and from the picture before.
+    They are made from the events and from the image before.
 
     Source: B. Ercan et al., "HyperE2VID: improving event-based video reconstruction via
         hypernetworks", TIP 2024, section III.

@@ -8,7 +8,7 @@ import pytest
 
 from texvent.cli.app import main
 
-from ...bench.pictures_made_up import SIZE, moving_bar
+from ...bench.reconstruction.synthetic_network import SIZE, moving_bar
 from ...reconstruct.network_files import save_published
 
 pytestmark = pytest.mark.torch

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from texvent._registry import SIMULATORS
-from texvent.bench.oracle.recording import TrueFrames, film
+from texvent.bench.oracle.recording import TrueFrames, render_video
 from texvent.bench.oracle.scenes import Scene
 from texvent.errors import ConfigError
 from texvent.events import EventStream
@@ -18,11 +18,11 @@ from texvent.simulate.thresholds import contrast_threshold_of, with_contrast_thr
 from texvent.video import FrameStream
 
 Track: TypeAlias = Literal["frames", "true frames", "recorded"]
-"""What a simulator is given: frames as a camera films them, or the scene at any instant. Events
-that a sensor recorded are no simulator's."""
+"""What a simulator gets: frames as a camera records them, or the scene at any instant. "recorded"
+marks events of a real sensor."""
 
 INTERPOLATIONS = ("none", "blend", "flow", "exact")
-"""Interpolators that are compared; "exact" gets the true frames, all others the film."""
+"""Interpolators that are compared; "exact" gets the true frames, all others the camera's frames."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,19 +85,19 @@ class Entry:
         """Events of one run on a scene of the oracle.
 
         Args:
-            scene: what is filmed.
+            scene: what the camera sees.
             seed: of the simulator's own noise.
             threshold: contrast threshold δ, log units; None leaves the preset's.
 
         Raises:
             TexventError: the simulator cannot run as it is, such as without its weights.
         """
-        video: FrameStream = film(scene) if self.track == "frames" else TrueFrames(scene)
+        video: FrameStream = render_video(scene) if self.track == "frames" else TrueFrames(scene)
         return simulate_video(video, self.settings(seed), threshold)
 
 
 def simulate_video(video: FrameStream, settings: Settings, threshold: float | None) -> EventStream:
-    """Events of a film with a contrast threshold, log units, or the settings' own (None)."""
+    """Events of a video with a contrast threshold, log units, or the settings' own (None)."""
     if threshold is not None:
         simulate = with_contrast_threshold(settings.simulate, threshold)
         settings = dataclasses.replace(settings, simulate=simulate)
@@ -105,11 +105,11 @@ def simulate_video(video: FrameStream, settings: Settings, threshold: float | No
 
 
 MORE_PRESETS: Mapping[str, tuple[str, ...]] = {"texvent": ("accurate",)}
-"""Simulator → presets that are listed beside its first one."""
+"""Simulator → presets that are compared in addition to its first one."""
 
 
 def simulators_to_compare() -> list[tuple[str, str | None]]:
-    """(simulator, preset) of every registered simulator, with the presets listed beside."""
+    """(simulator, preset) of every registered simulator, with the additional presets."""
     return [
         (simulator, preset)
         for simulator in SIMULATORS.names()

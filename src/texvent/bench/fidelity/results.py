@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
+from texvent.bench.document import plain_values, restore_nan
 from texvent.bench.fidelity.details import Details
 from texvent.bench.oracle.pixel import TARGETS
 from texvent.errors import FileFormatError
@@ -124,7 +125,7 @@ class FidelityReport:
             "scores": scores,
             "skipped": dict(self.skipped),
         }
-        plain: dict[str, Any] = without_nan(document)
+        plain: dict[str, Any] = plain_values(document)
         return plain
 
 
@@ -171,29 +172,10 @@ _SCORE = {field.name for field in fields(Score)}
 
 def _with_nan(part: Mapping[str, Any]) -> dict[str, Any]:
     """A reference or score with NaN for undefined values; a threshold may be None."""
-    restored = {name: part[name] for name in part if name not in ("details",)}
-    for name in ("values", "floor", "null"):
-        if name in restored:
-            restored[name] = {key: _numbers(values) for key, values in restored[name].items()}
-    if restored.get("default_ratio", 0.0) is None:
-        restored["default_ratio"] = math.nan
-    details = {name: _numbers(values) for name, values in part["details"].items()}
-    return {**restored, "details": Details(**details)}
-
-
-def _numbers(values: list[Any]) -> list[Any]:
-    return [
-        _numbers(one) if isinstance(one, list) else math.nan if one is None else one
-        for one in values
-    ]
-
-
-def without_nan(value: Any) -> Any:
-    """Plain values for JSON: what is undefined becomes None."""
-    if isinstance(value, Mapping):
-        return {key: without_nan(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [without_nan(item) for item in value]
-    if isinstance(value, float):
-        return float(value) if math.isfinite(value) else None
-    return value
+    restored = {
+        name: restore_nan(value)
+        for name, value in part.items()
+        if name in ("values", "floor", "null", "default_ratio")
+    }
+    details = Details(**restore_nan(part["details"]))
+    return {**part, **restored, "details": details}

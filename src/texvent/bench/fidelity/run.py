@@ -8,17 +8,17 @@ import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from texvent.bench.announce import Announce, stay_silent
 from texvent.bench.environment import describe_environment
 from texvent.bench.fidelity.details import describe
 from texvent.bench.fidelity.entries import Entry, default_entries
-from texvent.bench.fidelity.rate_matching import Match, match_rate
 from texvent.bench.fidelity.results import FidelityReport, Reference, Score
 from texvent.bench.jobs import check_jobs, run_jobs
 from texvent.bench.oracle.pixel import FLOOR_SEED, REFERENCE_SEED, TARGETS
 from texvent.bench.oracle.recording import oracle_scene, record
 from texvent.bench.oracle.scenes import check_scene, known_flow, scene_names
+from texvent.bench.progress import Progress, no_progress
 from texvent.bench.selftest.perturbations import perturb
+from texvent.calibrate.threshold_search import ThresholdMatch, find_threshold
 from texvent.errors import ConfigError, TexventError
 from texvent.events import EventStream
 from texvent.metrics.compare import compare, load_metric
@@ -78,7 +78,7 @@ FULL = FidelityPlan(
 
 
 @dataclass(frozen=True, kw_only=True)
-class Truth:
+class TrueRecordings:
     """True recordings of one scene by one kind of pixels."""
 
     scene: str
@@ -88,14 +88,14 @@ class Truth:
 
 
 def run_fidelity(
-    plan: FidelityPlan, *, jobs: int = 1, announce: Announce = stay_silent
+    plan: FidelityPlan, *, jobs: int = 1, progress: Progress = no_progress
 ) -> FidelityReport:
     """Run the benchmark.
 
     Args:
         plan: what it covers.
         jobs: processes to use; 1 stays in this one.
-        announce: told of every step.
+        progress: told of every step.
 
     Raises:
         ConfigError: the plan names something that does not exist, or jobs is below 1.
@@ -106,11 +106,11 @@ def run_fidelity(
     for entry in entries:
         entry.settings(0)
     environment = describe_environment()
-    truths: list[Truth] = []
+    truths: list[TrueRecordings] = []
     references: list[Reference] = []
     for found in run_jobs(record_truths, [(plan, scene) for scene in plan.scenes], jobs):
         for truth, reference in found:
-            announce(f"recorded {truth.scene}, {truth.target} pixels")
+            progress(f"recorded {truth.scene}, {truth.target} pixels")
             truths.append(truth)
             references.append(reference)
     scores: list[Score] = []
@@ -118,7 +118,7 @@ def run_fidelity(
     work = [(plan, truth, entry) for truth, entry in itertools.product(truths, entries)]
     for score in run_jobs(score_entry, work, jobs):
         if isinstance(score, Score):
-            announce(f"{score.scene}, {score.target}: {score.entry} ({score.seconds:.1f} s a run)")
+            progress(f"{score.scene}, {score.target}: {score.entry} ({score.seconds:.1f} s a run)")
             scores.append(score)
         else:
             skipped[score[0]] = score[1]
@@ -133,7 +133,7 @@ def run_fidelity(
     )
 
 
-def record_truths(plan: FidelityPlan, scene: str) -> list[tuple[Truth, Reference]]:
+def record_truths(plan: FidelityPlan, scene: str) -> list[tuple[TrueRecordings, Reference]]:
     """The true recordings of one scene by each kind of pixels, with floor and null.
 
     Args:
@@ -156,13 +156,13 @@ def record_truths(plan: FidelityPlan, scene: str) -> list[tuple[Truth, Reference
             {texture: all_of[target, noise] for texture, all_of in recordings.items()}
             for noise in (REFERENCE_SEED, FLOOR_SEED)
         )
-        truth = Truth(scene=scene, target=target, references=references)
+        truth = TrueRecordings(scene=scene, target=target, references=references)
         found.append((truth, _measure_bounds(plan, truth, seconds)))
     return found
 
 
 def _measure_bounds(
-    plan: FidelityPlan, truth: Truth, seconds: Mapping[int, EventStream]
+    plan: FidelityPlan, truth: TrueRecordings, seconds: Mapping[int, EventStream]
 ) -> Reference:
     """What second recordings and shuffled ones score against the truth."""
     scored = [truth.references[seed] for seed in plan.score_seeds]
@@ -178,7 +178,7 @@ def _measure_bounds(
     )
 
 
-def score_entry(plan: FidelityPlan, truth: Truth, entry: Entry) -> Score | tuple[str, str]:
+def score_entry(plan: FidelityPlan, truth: TrueRecordings, entry: Entry) -> Score | tuple[str, str]:
     """One entry on one scene: δ fitted on the fitting seeds, scored on the others.
 
     Returns:
@@ -217,7 +217,7 @@ def score_entry(plan: FidelityPlan, truth: Truth, entry: Entry) -> Score | tuple
 
 def fit_threshold(
     count_events: Callable[[float | None], int], target: int, default: float | None
-) -> tuple[Match | None, float]:
+) -> tuple[ThresholdMatch | None, float]:
     """The threshold at which a simulator makes as many events as there truly were.
 
     Args:
@@ -236,7 +236,11 @@ def fit_threshold(
         return counts[threshold]
 
     ratio = count(default) / target if target else math.nan
-    return None if default is None else match_rate(count, target, start=default), ratio
+    if default is None:
+        return None, ratio
+    if not target:
+        return ThresholdMatch(default, math.nan, 0), ratio
+    return find_threshold(count, target, start=default), ratio
 
 
 def compare_all(

@@ -17,7 +17,7 @@ PROMPTS: Mapping[str, str] = {
     "prompt-dog": "a dog runs across a meadow",
     "prompt-bird": "a bird flies over the sea at night",
 }
-"""Name of the scene → what is asked for; the seed varies what the words leave open."""
+"""Name of the scene → prompt; the seed varies what the words leave open."""
 SECONDS = 0.5
 
 
@@ -27,8 +27,7 @@ def build_prompt_scene(
     """What a prompt shows, at any instant.
 
     The generator draws each instant anew, so nothing between two frames is guessed. Its levels
-    are taken for those of the benchmark's camera before rounding: filmed, the scene gives them
-    back.
+    are taken for those of the benchmark's camera before rounding: the camera gives them back.
 
     Args:
         prompt: English sentences.

@@ -1,4 +1,4 @@
-"""Recordings of the oracle: what a camera films of a scene, and the events that truly happen."""
+"""Recordings of the oracle: the video of a scene, and its true events."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.bench.oracle.camera import film_level
+from texvent.bench.oracle.camera import camera_level
 from texvent.bench.oracle.pixel import PixelArray, PixelModel
 from texvent.bench.oracle.scenes import Scene, build_scene
 from texvent.events import EventStream
@@ -20,23 +20,23 @@ from texvent.video import MICROSECONDS, Frame, Video, frame_time_us
 SIZE = SensorSize(96, 72)
 FPS = Fraction(24)
 FRAMES = 13
-"""Frames filmed: 12 intervals of 1/24 s are half a second."""
+"""Frames of a video: 12 intervals of 1/24 s are half a second."""
 STEP_RATE = Fraction(4800)
 """How often the pixels see the scene, per second."""
 Name = TypeVar("Name")
 """What tells one recording from another."""
 
 
-def film(scene: Scene) -> Video:
+def render_video(scene: Scene) -> Video:
     """The scene at 24 frames per second in 8 bits, as any camera would give it."""
     times = [frame_time_us(index, FPS) for index in range(FRAMES)]
-    levels = [film_level(scene(t / MICROSECONDS)) for t in times]
+    levels = [camera_level(scene(t / MICROSECONDS)) for t in times]
     return Video(np.rint(np.stack(levels)).astype(np.uint8), times, FPS)
 
 
 @dataclass(frozen=True, eq=False)
 class TrueFrames:
-    """The same film, unrounded, that can also be rendered at any instant.
+    """The same video, not rounded, that can also be rendered at any instant.
 
     With it and the interpolator `exact`, a simulator is judged apart from interpolation.
     """
@@ -62,7 +62,7 @@ class TrueFrames:
         return Frame(self._level(t_us), t_us, is_source=False)
 
     def _level(self, t_us: int) -> NDArray[np.float32]:
-        return film_level(self.scene(t_us / MICROSECONDS)).astype(np.float32)
+        return camera_level(self.scene(t_us / MICROSECONDS)).astype(np.float32)
 
 
 def record(

@@ -94,18 +94,18 @@ def _hdr(noise: ValueNoise, size: SensorSize, seconds: float) -> Float64Array:
 def _mixed(noise: ValueNoise, size: SensorSize, seconds: float) -> Float64Array:
     """Panning texture from dark to over-range; fast disc, slow faint disc, bar, 37 Hz lamp."""
     width, height = size
-    picture = panning_texture(noise, size, seconds, (60.0, 10.0))
-    picture *= np.linspace(0.15, 1.8, width)
+    image = panning_texture(noise, size, seconds, (60.0, 10.0))
+    image *= np.linspace(0.15, 1.8, width)
     y, x = np.ogrid[:height, :width]
     faint = _disc(x, y, 0.35 * width + 12 * seconds, 0.75 * height, 0.13 * height)
-    picture *= 1 + 0.25 * faint
+    image *= 1 + 0.25 * faint
     there = _bounce(400 * seconds, 0.1 * width, 0.9 * width)
-    _paint(picture, _disc(x, y, there, 0.25 * height, 0.08 * height), 0.9)
+    _paint(image, _disc(x, y, there, 0.25 * height, 0.08 * height), 0.9)
     bar = _bar(x - 0.68 * width, y - 0.6 * height, 4 * math.pi * seconds, 0.18 * height, 2.5)
-    _paint(picture, bar, 0.05)
+    _paint(image, bar, 0.05)
     lamp = slice(height // 2, height // 2 + 8), slice(4, 12)
-    picture[lamp] = 0.5 + 0.4 * math.sin(2 * math.pi * 37 * seconds)
-    return picture
+    image[lamp] = 0.5 + 0.4 * math.sin(2 * math.pi * 37 * seconds)
+    return image
 
 
 def _disc(
@@ -126,8 +126,8 @@ def _bar(
     return inside * np.clip(half_width - across + 0.5, 0.0, 1.0)
 
 
-def _paint(picture: Float64Array, coverage: Float64Array, radiance: float) -> None:
-    picture += coverage * (radiance - picture)
+def _paint(image: Float64Array, coverage: Float64Array, radiance: float) -> None:
+    image += coverage * (radiance - image)
 
 
 def _bounce(distance: float, low: float, high: float) -> float:

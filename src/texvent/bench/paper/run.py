@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from texvent._registry import RECONSTRUCTORS
-from texvent.bench.announce import Announce
-from texvent.bench.paper.simulators import (
+from texvent.bench.paper.network_tables import accuracy_figures, noise_figures
+from texvent.bench.paper.published_tables import OurFigures, join_figures
+from texvent.bench.paper.simulator_tables import (
     eqs_figures,
     event_frame_figures,
-    picture_figures,
+    image_figures,
     time_figures,
 )
-from texvent.bench.paper.tables import OurFigures, join_figures
-from texvent.bench.paper.weights import accuracy_figures, noise_figures
+from texvent.bench.progress import Progress
 from texvent.bench.real.frame_recording import FrameRecording, open_recording
 from texvent.bench.real.scene import WITH_FRAMES, RealScene, locate_source, open_scene
 from texvent.data.pull import find_pulled
@@ -81,41 +81,41 @@ class PaperInputs:
         return load_reconstructor(self.network or NETWORKS[table], self.weights)
 
 
-def measure_table(number: int, inputs: PaperInputs, announce: Announce) -> OurFigures:
+def measure_table(number: int, inputs: PaperInputs, progress: Progress) -> OurFigures:
     """Our figures of one table, and what is missing for the rest.
 
     Args:
         number: 1, 2, 7, 8 or 9; `paper_ablations` has 4 and 5.
         inputs: what there is.
-        announce: told of every step.
+        progress: told of every step.
 
     Raises:
         InputError, FileFormatError: an input that was named is missing or damaged.
     """
     if number == 9:
-        return _measure_accuracy(inputs, announce)
+        return _measure_accuracy(inputs, progress)
     if number != 2 and not inputs.sources:
         return OurFigures(
             needs=["anything; texvent data pull slider_depth, or --recordings with a recording"]
         )
     if number == 2:
-        return _measure_eqs_and_time(inputs, announce)
-    network, lack = _find_network(number, inputs)
+        return _measure_eqs_and_time(inputs, progress)
+    network, missing = _find_network(number, inputs)
     found = []
     if number == 1:
-        for need in lack.needs:  # said before what takes minutes
-            announce(f"not measured: {need}")
+        for need in missing.needs:  # said before what takes minutes
+            progress(f"not measured: {need}")
         found.append(
             event_frame_figures(
                 inputs.scenes(),
                 is_rate_matched=inputs.is_rate_matched,
                 jobs=inputs.jobs,
-                announce=announce,
+                progress=progress,
             )
         )
     if network is not None:
-        found.append(_measure_pictures(number, inputs, network, announce))
-    return join_figures([*found, lack])
+        found.append(_measure_images(number, inputs, network, progress))
+    return join_figures([*found, missing])
 
 
 def _find_network(number: int, inputs: PaperInputs) -> tuple[Reconstructor | None, OurFigures]:
@@ -128,23 +128,23 @@ def _find_network(number: int, inputs: PaperInputs) -> tuple[Reconstructor | Non
         return None, OurFigures(needs=[f"images; {error}"])
 
 
-def _measure_pictures(
-    number: int, inputs: PaperInputs, network: Reconstructor, announce: Announce
+def _measure_images(
+    number: int, inputs: PaperInputs, network: Reconstructor, progress: Progress
 ) -> OurFigures:
     if number == 7:
-        return noise_figures(inputs.whole_recordings(), network, announce=announce)
-    return picture_figures(
+        return noise_figures(inputs.whole_recordings(), network, progress=progress)
+    return image_figures(
         inputs.whole_recordings(),
         network,
         prefix="images: " if number == 1 else "",
         is_rate_matched=inputs.is_rate_matched,
-        announce=announce,
+        progress=progress,
     )
 
 
-def _measure_eqs_and_time(inputs: PaperInputs, announce: Announce) -> OurFigures:
+def _measure_eqs_and_time(inputs: PaperInputs, progress: Progress) -> OurFigures:
     eqs = None if inputs.rvt_weights is None else load_eqs(inputs.rvt_weights)
-    found = [time_figures(announce)]
+    found = [time_figures(progress)]
     if eqs is None or not inputs.sources:
         needs = [
             "EQS; --rvt-weights FILE (docs/metrics.md says where it comes from) and a "
@@ -158,13 +158,13 @@ def _measure_eqs_and_time(inputs: PaperInputs, announce: Announce) -> OurFigures
                 eqs,
                 is_rate_matched=inputs.is_rate_matched,
                 jobs=inputs.jobs,
-                announce=announce,
+                progress=progress,
             )
         )
     return join_figures(found)
 
 
-def _measure_accuracy(inputs: PaperInputs, announce: Announce) -> OurFigures:
+def _measure_accuracy(inputs: PaperInputs, progress: Progress) -> OurFigures:
     if inputs.folder is None or inputs.weights is None:
         return OurFigures(
             needs=[
@@ -174,5 +174,5 @@ def _measure_accuracy(inputs: PaperInputs, announce: Announce) -> OurFigures:
             ]
         )
     return accuracy_figures(
-        inputs.folder, inputs.weights, classes=inputs.classes, announce=announce
+        inputs.folder, inputs.weights, classes=inputs.classes, progress=progress
     )

@@ -1,4 +1,4 @@
-"""Recordings of one sensor that hold frames beside events, as event cameras with both give them."""
+"""Recordings of one sensor that hold frames and events."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def open_recording(
 
     Args:
         path: a folder of the Event-Camera Dataset (events.txt, images.txt), an EVREAL folder with
-            pictures, a DSEC sequence, an AEDAT4 file with frames, or any event file if `frames` is
+            images, a DSEC sequence, an AEDAT4 file with frames, or any event file if `frames` is
             given.
         frames: the frames, where they lie elsewhere: a video file or image folder on the clock of
             the events.

@@ -11,13 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from texvent.bench.announce import Announce, stay_silent
 from texvent.bench.environment import describe_environment
 from texvent.bench.fidelity.details import Details, describe
 from texvent.bench.fidelity.entries import Entry, simulate_video, simulators_to_compare
 from texvent.bench.fidelity.results import FidelityReport, Reference, Score
 from texvent.bench.fidelity.run import NULL, compare_all, fit_threshold
 from texvent.bench.jobs import check_jobs, run_jobs
+from texvent.bench.progress import Progress, no_progress
 from texvent.bench.real.scene import RealScene
 from texvent.bench.selftest.perturbations import perturb
 from texvent.errors import ConfigError, TexventError
@@ -34,7 +34,7 @@ HALVES = "half of the recording"
 """Row of the recording's events, one random half judged by the other."""
 INTERPOLATIONS = ("none", "blend", "flow")
 SENSOR_PRESETS = ("davis346", "davis240c-ecd", "clean")
-"""Presets of `physical` that are listed beside its default."""
+"""Presets of `physical` that are compared in addition to its default."""
 MAX_INTERMEDIATE = 16
 PATCH_WINDOW_US = 40_000
 SEED = 0
@@ -84,7 +84,7 @@ def run_real(
     plan: RealPlan,
     *,
     jobs: int = 1,
-    announce: Announce = stay_silent,
+    progress: Progress = no_progress,
 ) -> FidelityReport:
     """Fit δ on the first half of each recording and score the second, span by span.
 
@@ -92,7 +92,7 @@ def run_real(
         scenes: the recordings.
         plan: what is run and measured.
         jobs: processes to use; 1 stays in this one.
-        announce: told of every step.
+        progress: told of every step.
 
     Raises:
         ConfigError: an entry does not exist or needs the true frames, or jobs is below 1.
@@ -109,7 +109,7 @@ def run_real(
     work = [(plan, scene, entry) for scene in scenes for entry in entries]
     for found in run_jobs(score_on_recording, work, jobs):
         if isinstance(found, Score):
-            announce(f"{found.scene}: {found.entry} ({found.seconds:.1f} s)")
+            progress(f"{found.scene}: {found.entry} ({found.seconds:.1f} s)")
             scores.append(found)
         else:
             skipped[found[0]] = found[1]
@@ -168,10 +168,10 @@ def score_on_recording(plan: RealPlan, scene: RealScene, entry: Entry) -> Score 
         The score, or (name of the entry, why it cannot run).
     """
     settings = adapt_settings(entry.settings(SEED), scene)
-    film = scene.film(scene.fit)
+    video = scene.frames_around(scene.fit)
 
     def count_events(threshold: float | None) -> int:
-        return len(simulate_video(film, settings, threshold).between(*scene.fit))
+        return len(simulate_video(video, settings, threshold).between(*scene.fit))
 
     recorded = [scene.recorded(span) for span in scene.scored]
     try:
@@ -179,7 +179,9 @@ def score_on_recording(plan: RealPlan, scene: RealScene, entry: Entry) -> Score 
             count_events, len(scene.recorded(scene.fit)), entry.default_threshold
         )
         start = time.perf_counter()
-        events = simulate_video(scene.film(scene.whole), settings, match and match.threshold)
+        events = simulate_video(
+            scene.frames_around(scene.whole), settings, match and match.threshold
+        )
         seconds = time.perf_counter() - start
     except TexventError as error:
         return entry.name, str(error)

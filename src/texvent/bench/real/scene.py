@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.bench.real.frame_recording import FrameRecording, open_recording
-from texvent.calibrate.recording import WARM_UP_US, Span
+from texvent.calibrate.recording import WARM_UP_US, TimeSpan
 from texvent.capture.dsec_layout import is_dsec
 from texvent.data.catalogue import DATA_SETS
 from texvent.data.pull import find_pulled
@@ -24,10 +24,10 @@ MOST_SEGMENTS = 4
 FIT_SECONDS = 0.6
 DISPLAY_GAMMA, LINEAR_GAMMA = 2.2, 1.0
 WITH_FRAMES = ("slider_depth", "davis346")
-"""Data sets that hold frames beside events."""
+"""Data sets that hold frames and events."""
 
 
-class Part(NamedTuple):
+class RecordingPart(NamedTuple):
     """Which part of a recording is used, and how its clocks fit."""
 
     start_s: float = 0.0
@@ -50,23 +50,23 @@ class RealScene:
     video: Video
     """Frames, moved by the offset."""
     events: EventStream
-    fit: Span
+    fit: TimeSpan
     """Where δ is fitted."""
-    scored: tuple[Span, ...]
+    scored: tuple[TimeSpan, ...]
     """What is scored, span by span."""
     frames_gamma: float
     offset_us: int
 
     @property
-    def whole(self) -> Span:
+    def whole(self) -> TimeSpan:
         """All scored spans, which follow on each other."""
-        return Span(self.scored[0].start_us, self.scored[-1].stop_us)
+        return TimeSpan(self.scored[0].start_us, self.scored[-1].stop_us)
 
-    def recorded(self, span: Span) -> EventStream:
+    def recorded(self, span: TimeSpan) -> EventStream:
         """The recorded events of a span."""
         return self.events.between(*span)
 
-    def film(self, span: Span) -> Video:
+    def frames_around(self, span: TimeSpan) -> Video:
         """The frames from before a span, time to warm up included, to after its end."""
         times = np.asarray(self.video.times_us)
         first = max(int(np.searchsorted(times, span.start_us - WARM_UP_US, "right")) - 1, 0)
@@ -74,11 +74,11 @@ class RealScene:
         return Video(self.video.pixels[first : last + 1], self.video.times_us[first : last + 1])
 
 
-WHOLE = Part()
-"""What a recording gives without being asked."""
+WHOLE = RecordingPart()
+"""The default part of a recording."""
 
 
-def open_scene(source: str, part: Part = WHOLE) -> RealScene:
+def open_scene(source: str, part: RecordingPart = WHOLE) -> RealScene:
     """A scene from the name of a pulled data set, or the path of a recording.
 
     Args:
@@ -131,7 +131,7 @@ def locate_source(source: str) -> tuple[Path, int]:
     return pulled, DATA_SETS[source].frame_offset_us
 
 
-def _used_frames(recording: FrameRecording, part: Part, offset_us: int) -> Iterator[Frame]:
+def _used_frames(recording: FrameRecording, part: RecordingPart, offset_us: int) -> Iterator[Frame]:
     first_us: int | None = None
     for frame in recording.frames:
         first_us = frame.t_us if first_us is None else first_us
@@ -152,7 +152,9 @@ def _used_events(recording: FrameRecording, start_us: int, stop_us: int) -> Even
     return EventStream.concat(used) if used else EventStream.empty(recording.frames.size)
 
 
-def _spans(source: str, times_us: list[int], events: EventStream) -> tuple[Span, tuple[Span, ...]]:
+def _spans(
+    source: str, times_us: list[int], events: EventStream
+) -> tuple[TimeSpan, tuple[TimeSpan, ...]]:
     """The start of the first half to fit, and whole segments of the second to score."""
     start = max(times_us[0] + WARM_UP_US, int(events.t[0]) if len(events) else times_us[0])
     stop = min(times_us[-1], int(events.t[-1]) if len(events) else times_us[0])
@@ -165,6 +167,6 @@ def _spans(source: str, times_us: list[int], events: EventStream) -> tuple[Span,
             f"part that is used; it needs {2 * SEGMENT_US / MICROSECONDS:g} s and more. Do they "
             "run on the same clock?"
         )
-    fit = Span(start, middle).first(FIT_SECONDS)
+    fit = TimeSpan(start, middle).first(FIT_SECONDS)
     edges = (first + number * SEGMENT_US for number in range(count))
-    return fit, tuple(Span(edge, edge + SEGMENT_US) for edge in edges)
+    return fit, tuple(TimeSpan(edge, edge + SEGMENT_US) for edge in edges)

@@ -1,1 +1,1 @@
-"""Simulators judged by the images a network reconstructs from their events."""
+"""Simulators scored by the images a network reconstructs from their events."""

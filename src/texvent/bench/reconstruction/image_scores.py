@@ -1,4 +1,4 @@
-"""Reconstructed pictures against true frames: MSE, PSNR, SSIM, LPIPS, frame by frame."""
+"""Reconstructed images against true frames: MSE, PSNR, SSIM, LPIPS, frame by frame."""
 
 from __future__ import annotations
 
@@ -11,25 +11,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import InputError
-from texvent.metrics.lpips.metric import lpips_distance
+from texvent.metrics.lpips.distance import lpips_distance
 from texvent.metrics.lpips.weights import find_lpips_weights, read_lpips_weights
 from texvent.metrics.protocol import Better
 from texvent.metrics.structural_similarity import structural_similarity
 from texvent.video import Frame
 
 Float64Array: TypeAlias = NDArray[np.float64]
-Picture: TypeAlias = NDArray[np.floating]
+GreyImage: TypeAlias = NDArray[np.floating]
 """[H, W], 0..1."""
 Compare: TypeAlias = Callable[[Float64Array, Float64Array], float]
 
 TOLERANCE_US = 1_000
-"""A picture and a frame further apart in time are not compared, µs; EVREAL has 1 ms."""
+"""An image and a frame further apart in time are not compared, µs; EVREAL has 1 ms."""
 WHITE = 255.0
 
 
 @dataclass(frozen=True)
-class PictureMeasure:
-    """How two pictures, 0..1, are compared."""
+class ImageMeasure:
+    """How two images, 0..1, are compared."""
 
     name: str
     better: Better
@@ -40,13 +40,13 @@ class PictureMeasure:
 class Measures:
     """What is measured here, and what cannot be."""
 
-    chosen: tuple[PictureMeasure, ...]
+    chosen: tuple[ImageMeasure, ...]
     absent: Mapping[str, str] = field(default_factory=dict)
     """Name of a measure → why it is left out."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class PictureScores:
+class ImageScores:
     """Values frame by frame."""
 
     t_us: Sequence[int]
@@ -67,41 +67,41 @@ def load_measures() -> Measures:
         PSNR in its Table 3.
     """
     plain = (
-        PictureMeasure("mse", "lower", mean_squared_error),
-        PictureMeasure("psnr", "higher", peak_signal_to_noise),
-        PictureMeasure("ssim", "higher", structural_similarity),
+        ImageMeasure("mse", "lower", mean_squared_error),
+        ImageMeasure("psnr", "higher", peak_signal_to_noise),
+        ImageMeasure("ssim", "higher", structural_similarity),
     )
     try:
         weights = read_lpips_weights(find_lpips_weights())
     except InputError as error:
         return Measures(chosen=plain, absent={"lpips": str(error)})
-    lpips = PictureMeasure("lpips", "lower", lambda a, b: lpips_distance(a, b, weights))
+    lpips = ImageMeasure("lpips", "lower", lambda a, b: lpips_distance(a, b, weights))
     return Measures(chosen=(*plain, lpips))
 
 
 def mean_squared_error(a: Float64Array, b: Float64Array) -> float:
-    """Mean squared difference of two pictures."""
+    """Mean squared difference of two images."""
     return float(((a - b) ** 2).mean())
 
 
 def peak_signal_to_noise(a: Float64Array, b: Float64Array) -> float:
-    """`−10 log10(MSE)` in dB for pictures from 0 to 1; infinite for equal ones."""
+    """`−10 log10(MSE)` in dB for images from 0 to 1; infinite for equal ones."""
     mse = mean_squared_error(a, b)
     return math.inf if mse == 0 else -10.0 * math.log10(mse)
 
 
-class ScoreSheet:
-    """Collects the values of one source of pictures, frame by frame."""
+class ScoreCollector:
+    """Collects the values of one source of images, frame by frame."""
 
     def __init__(
         self, measures: Measures, *, span_us: tuple[int, int] | None = None, skip: int = 0
     ) -> None:
-        """An empty sheet.
+        """A collector without values.
 
         Args:
             measures: what to compute.
             span_us: first and last time that counts, µs, both included; None counts all.
-            skip: how many pictures at the start do not count.
+            skip: how many images at the start do not count.
         """
         self._measures = measures.chosen
         self._span_us = span_us
@@ -110,8 +110,8 @@ class ScoreSheet:
         self._times: list[int] = []
         self._values: dict[str, list[float]] = {one.name: [] for one in measures.chosen}
 
-    def add(self, t_us: int, picture: Picture, true: Picture) -> None:
-        """Compare a picture with the true one, both 0..1, if it counts.
+    def add(self, t_us: int, image: GreyImage, true: GreyImage) -> None:
+        """Compare an image with the true one, both 0..1, if it counts.
 
         Raises:
             InputError: their sizes differ.
@@ -122,17 +122,17 @@ class ScoreSheet:
         )
         if self._seen <= self._skip or is_outside:
             return
-        if picture.shape != true.shape:
+        if image.shape != true.shape:
             raise InputError(
-                f"the picture at {t_us} µs is {picture.shape[1]}x{picture.shape[0]}, the frame "
+                f"the image at {t_us} µs is {image.shape[1]}x{image.shape[0]}, the frame "
                 f"{true.shape[1]}x{true.shape[0]}"
             )
         self._times.append(t_us)
-        a, b = (np.clip(one.astype(np.float64), 0.0, 1.0) for one in (picture, true))
+        a, b = (np.clip(one.astype(np.float64), 0.0, 1.0) for one in (image, true))
         for measure in self._measures:
             self._values[measure.name].append(measure.compare(a, b))
 
-    def scores(self) -> PictureScores:
+    def scores(self) -> ImageScores:
         """What was collected.
 
         Raises:
@@ -140,39 +140,39 @@ class ScoreSheet:
         """
         if not self._times:
             raise InputError(
-                "no reconstructed picture counts: none has a frame within 1 ms in the part that is "
+                "no reconstructed image counts: none has a frame within 1 ms in the part that is "
                 "scored; choose another part, or check that frames and events share a clock"
             )
-        return PictureScores(t_us=self._times, values=self._values)
+        return ImageScores(t_us=self._times, values=self._values)
 
 
-def score_pictures(
-    pictures: Iterable[tuple[int, Picture]], frames: Iterable[Frame], sheet: ScoreSheet
-) -> PictureScores:
-    """Compare pictures with the frames of the same time.
+def score_images(
+    images: Iterable[tuple[int, GreyImage]], frames: Iterable[Frame], collector: ScoreCollector
+) -> ImageScores:
+    """Compare images with the frames of the same time.
 
     Args:
-        pictures: (time in µs, picture) in time order.
+        images: (time in µs, image) in time order.
         frames: the true frames in time order.
-        sheet: an empty one, which says what counts.
+        collector: an empty one, which says what counts.
 
     Raises:
-        InputError: the sizes differ, or no picture counts that has a frame.
+        InputError: the sizes differ, or no image counts that has a frame.
     """
-    for t_us, picture, true in _pair(pictures, frames):
-        sheet.add(t_us, picture, true)
-    return sheet.scores()
+    for t_us, image, true in _pair(images, frames):
+        collector.add(t_us, image, true)
+    return collector.scores()
 
 
-def true_picture(frame: Frame) -> Picture:
-    """A frame as pictures are compared: luma, 0..1, [H, W] float64."""
+def true_image(frame: Frame) -> GreyImage:
+    """A frame as images are compared: luma, 0..1, [H, W] float64."""
     return frame.luma.astype(np.float64) / WHITE
 
 
-def pool_scores(parts: Iterable[PictureScores]) -> PictureScores:
+def pool_scores(parts: Iterable[ImageScores]) -> ImageScores:
     """The frames of several recordings together, so that each frame counts the same."""
     scores = list(parts)
-    return PictureScores(
+    return ImageScores(
         t_us=[t_us for one in scores for t_us in one.t_us],
         values={
             name: [value for one in scores for value in one.values[name]]
@@ -182,15 +182,15 @@ def pool_scores(parts: Iterable[PictureScores]) -> PictureScores:
 
 
 def _pair(
-    pictures: Iterable[tuple[int, Picture]], frames: Iterable[Frame]
-) -> Iterator[tuple[int, Picture, Picture]]:
-    """Each picture that has a frame within the tolerance, with that frame."""
+    images: Iterable[tuple[int, GreyImage]], frames: Iterable[Frame]
+) -> Iterator[tuple[int, GreyImage, GreyImage]]:
+    """Each image that has a frame within the tolerance, with that frame."""
     later = iter(frames)
     frame = next(later, None)
-    for t_us, picture in pictures:
+    for t_us, image in images:
         while frame is not None and frame.t_us < t_us - TOLERANCE_US:
             frame = next(later, None)
         if frame is None:
             return
         if frame.t_us <= t_us + TOLERANCE_US:
-            yield t_us, picture, true_picture(frame)
+            yield t_us, image, true_image(frame)

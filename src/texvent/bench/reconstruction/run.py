@@ -1,7 +1,7 @@
-"""Simulators judged by reconstruction: pictures made from their events, against the true frames.
+"""Simulators scored by reconstruction: images made from their events, against the true frames.
 
 The idea of the paper's Tables 1, 3 and 8, by the protocol of EVREAL (Ercan et al., CVPRW 2023). A
-recording holds frames and events. A network makes a picture at every frame from the events since
+recording holds frames and events. A network makes an image at every frame from the events since
 the frame before, once from the recorded events and once from those that each simulator makes of
 the frames; all are compared with the frames themselves.
 """
@@ -15,14 +15,14 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
-from texvent.bench.announce import Announce, stay_silent
 from texvent.bench.fidelity.entries import Entry
+from texvent.bench.progress import Progress, no_progress
 from texvent.bench.real.frame_recording import FrameRecording
 from texvent.bench.reconstruction.image_scores import (
+    ImageScores,
     Measures,
-    PictureScores,
-    ScoreSheet,
-    score_pictures,
+    ScoreCollector,
+    score_images,
 )
 from texvent.calibrate.rate import match_rate
 from texvent.config import check_range
@@ -35,19 +35,19 @@ from texvent.represent.packet_slices import slice_between
 from texvent.simulate.thresholds import contrast_threshold_of
 from texvent.video import MICROSECONDS
 
-Watch: TypeAlias = Callable[[str, str, int, Intensity], None]
-"""Told of every picture: recording, source of the events, time in µs, picture."""
+ImageCallback: TypeAlias = Callable[[str, str, int, Intensity], None]
+"""Called with every image: recording, source of the events, time in µs, image."""
 
 RECORDED = "recorded"
 """What the sensor's own events are called."""
 DEFAULT_SKIP = 10
-"""Pictures that do not count where no part of the recording is named: a network needs time."""
+"""Images that do not count where no part of the recording is named: a network needs time."""
 MATCH_SECONDS = 1.0
 """How much of a recording is simulated to fit the number of events."""
 
 
-def _no_watch(recording: str, source: str, t_us: int, picture: Intensity) -> None:
-    del recording, source, t_us, picture
+def _ignore_image(recording: str, source: str, t_us: int, image: Intensity) -> None:
+    del recording, source, t_us, image
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,9 +67,9 @@ class ReconstructionPlan:
     )
     span_us: tuple[int, int] | None = None
     """First and last time that counts, µs; None: EVREAL's part of recordings that it names, all
-    but the first `skip` pictures of others."""
+    but the first `skip` images of others."""
     skip: int | None = None
-    """Pictures at the start that do not count; None: 10 where no part is named, else none."""
+    """Images at the start that do not count; None: 10 where no part is named, else none."""
     is_rate_matched: bool = False
     """Fit each contrast threshold to the number of recorded events, instead of keeping it."""
     frames_gamma: float = 1.0
@@ -90,7 +90,7 @@ class ReconstructionPlan:
         return list(times if span is None else itertools.takewhile(lambda t: t <= span[1], times))
 
     def scored_part(self, recording: FrameRecording) -> tuple[tuple[int, int] | None, int]:
-        """First and last µs that count, and how many pictures at the start do not."""
+        """First and last µs that count, and how many images at the start do not."""
         span = self.span_us or (recording.evreal_span_us if self.skip is None else None)
         default = 0 if span is not None else DEFAULT_SKIP
         return span, default if self.skip is None else self.skip
@@ -103,7 +103,7 @@ class ReconstructionRow:
     recording: str
     source: str
     """`RECORDED`, or the name of the entry."""
-    scores: PictureScores
+    scores: ImageScores
     events: int
     """From the first frame to the last one that counts."""
     threshold: float | None = None
@@ -138,19 +138,19 @@ class ReconstructionReport:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class ReconstructionJudge:
-    """Turns events into pictures and compares these with the true frames."""
+class ReconstructionScorer:
+    """Turns events into images and compares these with the true frames."""
 
     reconstructor: Reconstructor
     """The network; it is reset before each recording."""
     measures: Measures
     plan: ReconstructionPlan
-    watch: Watch = _no_watch
+    on_image: ImageCallback = _ignore_image
 
     def score(
         self, recording: FrameRecording, packets: Iterable[EventStream], *, source: str = RECORDED
     ) -> ReconstructionRow:
-        """Score events of a recording's scene, whoever made them.
+        """Score recorded or simulated events of a recording's scene.
 
         Args:
             recording: whose frames are the truth.
@@ -158,14 +158,14 @@ class ReconstructionJudge:
             source: what to call them.
 
         Raises:
-            InputError: the events have another size than the frames, or no picture counts.
+            InputError: the events have another size than the frames, or no image counts.
         """
         start = time.perf_counter()
         times_us = self.plan.frame_times_us(recording)
         counted = _Counter()
         slices = counted.pass_on(slice_between(packets, times_us, size=recording.frames.size))
-        pictures = self._watched(self.reconstructor.film(slices), recording, source)
-        scores = score_pictures(pictures, recording.frames, self.empty_sheet(recording))
+        images = self._reported(self.reconstructor.reconstruct_all(slices), recording, source)
+        scores = score_images(images, recording.frames, self.new_collector(recording))
         return ReconstructionRow(
             recording=recording.name,
             source=source,
@@ -174,57 +174,57 @@ class ReconstructionJudge:
             seconds=time.perf_counter() - start,
         )
 
-    def empty_sheet(self, recording: FrameRecording) -> ScoreSheet:
-        """A sheet for the part of a recording that counts."""
+    def new_collector(self, recording: FrameRecording) -> ScoreCollector:
+        """A collector for the part of a recording that counts."""
         span_us, skip = self.plan.scored_part(recording)
-        return ScoreSheet(self.measures, span_us=span_us, skip=skip)
+        return ScoreCollector(self.measures, span_us=span_us, skip=skip)
 
-    def _watched(
-        self, film: Iterable[tuple[int, Intensity]], recording: FrameRecording, source: str
+    def _reported(
+        self, images: Iterable[tuple[int, Intensity]], recording: FrameRecording, source: str
     ) -> Iterator[tuple[int, Intensity]]:
-        for t_us, picture in film:
-            self.watch(recording.name, source, t_us, picture)
-            yield t_us, picture
+        for t_us, image in images:
+            self.on_image(recording.name, source, t_us, image)
+            yield t_us, image
 
 
 def run_reconstruction(
     recordings: Sequence[FrameRecording],
-    judge: ReconstructionJudge,
+    scorer: ReconstructionScorer,
     *,
-    announce: Announce = stay_silent,
+    progress: Progress = no_progress,
 ) -> ReconstructionReport:
     """Score the recorded events of each recording, and those of each simulator.
 
     Args:
         recordings: what the sensor saw.
-        judge: network, measures, and the plan: what is simulated and what counts.
-        announce: told of every step.
+        scorer: network, measures, and the plan: what is simulated and what counts.
+        progress: told of every step.
 
     Raises:
-        InputError: a recording cannot be read, or no picture of it counts.
+        InputError: a recording cannot be read, or no image of it counts.
     """
     rows: list[ReconstructionRow] = []
     skipped: dict[str, str] = {}
     for recording in recordings:
-        announce(f"{recording.name}: recorded events")
-        rows.append(judge.score(recording, recording.events))
-        for entry in judge.plan.entries:
-            announce(f"{recording.name}: {entry.name}")
+        progress(f"{recording.name}: recorded events")
+        rows.append(scorer.score(recording, recording.events))
+        for entry in scorer.plan.entries:
+            progress(f"{recording.name}: {entry.name}")
             try:
-                simulation = simulate_recording(recording, entry, judge.plan)
-                row = judge.score(recording, simulation.packets, source=entry.name)
+                simulation = simulate_recording(recording, entry, scorer.plan)
+                row = scorer.score(recording, simulation.packets, source=entry.name)
             except TexventError as error:
                 skipped[entry.name] = f"{recording.name}: {error}"
                 continue
             rows.append(dataclasses.replace(row, threshold=_threshold_of(simulation)))
-    reconstructor = judge.reconstructor
+    reconstructor = scorer.reconstructor
     return ReconstructionReport(
         network=reconstructor.name,
         sha256=reconstructor.sha256,
         is_published=reconstructor.is_published,
-        plan=judge.plan,
+        plan=scorer.plan,
         rows=rows,
-        absent=dict(judge.measures.absent),
+        absent=dict(scorer.measures.absent),
         skipped=skipped,
     )
 

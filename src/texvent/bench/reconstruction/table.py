@@ -6,10 +6,10 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from texvent.bench.document import plain_values
 from texvent.bench.environment import describe_environment
-from texvent.bench.fidelity.results import without_nan
-from texvent.bench.reconstruction.image_scores import PictureScores, pool_scores
-from texvent.bench.reconstruction.noise import NoiseScore
+from texvent.bench.reconstruction.image_scores import ImageScores, pool_scores
+from texvent.bench.reconstruction.noise_curve import NoiseScore
 from texvent.bench.reconstruction.run import RECORDED, ReconstructionReport, ReconstructionRow
 
 SCHEMA = "texvent-reconstruction-1"
@@ -30,16 +30,16 @@ def reconstruction_tables(report: ReconstructionReport, noise: Sequence[NoiseSco
     recordings = list(dict.fromkeys(row.recording for row in report.rows))
     for recording in recordings:
         rows = [row for row in report.rows if row.recording == recording]
-        parts.append(f"### {recording}, {report.network} ({len(rows[0].scores.t_us)} pictures)\n")
+        parts.append(f"### {recording}, {report.network} ({len(rows[0].scores.t_us)} images)\n")
         parts.append(_table(rows))
     if len(recordings) > 1:
-        parts.append(f"### {ALL}, {report.network} (each picture counts the same)\n")
+        parts.append(f"### {ALL}, {report.network} (each image counts the same)\n")
         parts.append(_table([_pooled(report.rows_of(source)) for source in report.sources()]))
     for recording in dict.fromkeys(one.recording for one in noise):
         parts.append(f"### noise in the recorded events of {recording}, {report.network}\n")
         parts.append(_noise_table([one for one in noise if one.recording == recording]))
-    lacks = {**report.absent, **report.skipped}
-    parts += [f"not measured: {name}: {why}\n" for name, why in lacks.items()]
+    missing = {**report.absent, **report.skipped}
+    parts += [f"not measured: {name}: {why}\n" for name, why in missing.items()]
     return "\n".join(parts)
 
 
@@ -68,7 +68,7 @@ def reconstruction_document(
                 "events": row.events,
                 "threshold": row.threshold,
                 "seconds": round(row.seconds, 1),
-                **_plain(row.scores),
+                **_score_values(row.scores),
             }
             for row in report.rows
         ],
@@ -77,19 +77,19 @@ def reconstruction_document(
                 "recording": one.recording,
                 "kind": one.level.kind,
                 "amount": one.level.amount,
-                "against_clean": _plain(one.against_clean),
-                "against_frames": _plain(one.against_frames),
+                "against_clean": _score_values(one.against_clean),
+                "against_frames": _score_values(one.against_frames),
             }
             for one in noise
         ],
         "absent": report.absent,
         "skipped": report.skipped,
     }
-    plain: dict[str, Any] = without_nan(document)
+    plain: dict[str, Any] = plain_values(document)
     return plain
 
 
-def _plain(scores: PictureScores) -> dict[str, Any]:
+def _score_values(scores: ImageScores) -> dict[str, Any]:
     return {
         "mean": {name: scores.mean(name) for name in scores.values},
         "t_us": list(scores.t_us),
@@ -130,7 +130,7 @@ def _noise_table(points: Sequence[NoiseScore]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _means(scores: PictureScores) -> list[str]:
+def _means(scores: ImageScores) -> list[str]:
     return [_number(scores.mean(name), DIGITS[name]) for name in scores.values]
 
 

@@ -1,4 +1,4 @@
-"""The self-test as a picture: every metric against every perturbation."""
+"""The self-test as a chart: every metric against every perturbation."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ LEGEND = (
 
 
 def selftest_chart(rows: Sequence[SelftestRow]) -> str:
-    """An SVG picture of z-scores, the metrics that found most on top.
+    """An SVG image of z-scores, the metrics that found most on top.
 
     Args:
         rows: what `run_selftest` or `read_selftest` gave.

@@ -25,17 +25,17 @@ def _split_half(events: EventStream) -> Pair:
     return events[is_first], events[~is_first]
 
 
-def _spoil(events: EventStream, *, perturbation: str) -> Pair:
+def _perturb_copy(events: EventStream, *, perturbation: str) -> Pair:
     return perturb(events, perturbation), events
 
 
 CONTROLS: Mapping[str, Callable[[EventStream], Pair]] = {
     "identity": lambda events: (events, events),
     "split half": _split_half,
-    "shuffle all times": partial(_spoil, perturbation="shuffle all times"),
-    "shuffle all pixels": partial(_spoil, perturbation="shuffle all pixels"),
-    "flip 100 %": partial(_spoil, perturbation="flip 100 %"),
-    "noise 30 %": partial(_spoil, perturbation="noise 30 %"),
+    "shuffle all times": partial(_perturb_copy, perturbation="shuffle all times"),
+    "shuffle all pixels": partial(_perturb_copy, perturbation="shuffle all pixels"),
+    "flip 100 %": partial(_perturb_copy, perturbation="flip 100 %"),
+    "noise 30 %": partial(_perturb_copy, perturbation="noise 30 %"),
 }
 """Name → the pair made of a reference. A score is worth something only between its split half and
 its shuffles."""

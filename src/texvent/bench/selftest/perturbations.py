@@ -1,4 +1,4 @@
-"""Twenty ways to spoil a recording, from barely visible to complete."""
+"""Twenty perturbations of a recording, from barely visible to complete."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def _columns(events: EventStream) -> Columns:
 def _stream(columns: Columns, like: EventStream) -> EventStream:
     """The columns in order of time; times that left the recording are reflected at its ends.
 
-    A recording does not grow by being spoiled: metrics that average over its length would count
+    A perturbed recording is not longer: metrics that average over its length would count
     nearly empty frames, and reward the damage.
     """
     if len(like):

@@ -1,4 +1,4 @@
-"""The perturbation self-test: which spoiled recordings each metric tells from a clean one."""
+"""The perturbation self-test: which perturbed recordings each metric tells from a clean one."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from texvent.bench.announce import Announce, stay_silent
 from texvent.bench.oracle.pixel import NOISY
 from texvent.bench.oracle.recording import oracle_scene, record
+from texvent.bench.progress import Progress, no_progress
 from texvent.bench.selftest.perturbations import PERTURBATIONS, SERIES, perturb
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.metrics.compare import default_metrics, load_metric
-from texvent.metrics.protocol import Metric, find_lack
+from texvent.metrics.protocol import Metric, find_missing
 from texvent.metrics.summary import badness
 
 SCENE, TEXTURE_SEED = "mixed", 7
@@ -57,29 +57,29 @@ class SelftestRow:
 
 
 def run_selftest(
-    metrics: Iterable[str] | None = None, *, announce: Announce = stay_silent
+    metrics: Iterable[str] | None = None, *, progress: Progress = no_progress
 ) -> list[SelftestRow]:
     """Run the self-test on the oracle's `mixed` scene with noisy pixels.
 
     Args:
         metrics: names; default: all whose weights are here.
-        announce: told of every step.
+        progress: told of every step.
 
     Raises:
-        ConfigError: no metric has one of the names, or it lacks its weights.
+        ConfigError: no metric has one of the names, or its weights are missing.
     """
     chosen = default_metrics() if metrics is None else [load_metric(name) for name in metrics]
     for metric in chosen:
-        lack = find_lack(metric)
-        if lack is not None:
-            raise ConfigError(f"metric {metric.name} cannot be computed: {lack}")
-    announce(f"recording {SCENE} with {len(RECORDING_SEEDS)} seeds")
+        missing = find_missing(metric)
+        if missing is not None:
+            raise ConfigError(f"metric {metric.name} cannot be computed: {missing}")
+    progress(f"recording {SCENE} with {len(RECORDING_SEEDS)} seeds")
     recordings = record_scene()
-    spoiled = {name: perturb(recordings[1], name) for name in PERTURBATIONS}
+    perturbed = {name: perturb(recordings[1], name) for name in PERTURBATIONS}
     rows = []
     for metric in chosen:
-        announce(metric.name)
-        rows.append(judge_metric(metric, recordings, spoiled))
+        progress(metric.name)
+        rows.append(evaluate_metric(metric, recordings, perturbed))
     return rows
 
 
@@ -89,20 +89,20 @@ def record_scene() -> list[EventStream]:
     return list(record(oracle_scene(SCENE, TEXTURE_SEED), models).values())
 
 
-def judge_metric(
-    metric: Metric, recordings: Sequence[EventStream], spoiled: Mapping[str, EventStream]
+def evaluate_metric(
+    metric: Metric, recordings: Sequence[EventStream], perturbed: Mapping[str, EventStream]
 ) -> SelftestRow:
     """One row: floor, values of every perturbation, what was found, what is monotone.
 
     Args:
         metric: what to judge.
         recordings: four recordings of one scene.
-        spoiled: perturbation → the second recording after it.
+        perturbed: perturbation → the second recording after it.
     """
     start = time.perf_counter()
     floors = [metric(recordings[second], recordings[first]) for first, second in FLOOR_PAIRS]
     seconds = (time.perf_counter() - start) / len(floors)
-    values = {name: metric(events, recordings[0]) for name, events in spoiled.items()}
+    values = {name: metric(events, recordings[0]) for name, events in perturbed.items()}
     floor_badness = [badness(value, metric.better) for value in floors]
     mean, sd = float(np.mean(floor_badness)), float(np.std(floor_badness, ddof=1))
     scale = max(sd, 1e-3 * abs(mean) + 1e-6)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
-from texvent.bench.document import read_document
+from texvent.bench.document import plain_values, read_document, restore_nan
 from texvent.bench.environment import describe_environment
 from texvent.bench.selftest.perturbations import PERTURBATIONS, SERIES
 from texvent.bench.selftest.run import (
@@ -52,7 +51,7 @@ def selftest_document(rows: Sequence[SelftestRow]) -> dict[str, Any]:
         "texture_seed": TEXTURE_SEED,
         "recording_seeds": list(RECORDING_SEEDS),
         "series": {name: list(steps) for name, steps in SERIES.items()},
-        "rows": [_plain(asdict(row)) for row in rows],
+        "rows": [plain_values(asdict(row)) for row in rows],
     }
 
 
@@ -73,18 +72,4 @@ def read_selftest(path: Path) -> list[SelftestRow]:
     rows = document.get("rows", [])
     if not all(isinstance(row, Mapping) and row.keys() == names for row in rows):
         raise FileFormatError(f"{path}: its rows must have the fields {', '.join(sorted(names))}")
-    return [SelftestRow(**_with_nan(row)) for row in rows]
-
-
-def _plain(value: Any) -> Any:
-    """The value with None for numbers that JSON does not know."""
-    if isinstance(value, Mapping):
-        return {name: _plain(one) for name, one in value.items()}
-    return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def _with_nan(value: Any) -> Any:
-    """The value with NaN for None."""
-    if isinstance(value, Mapping):
-        return {name: _with_nan(one) for name, one in value.items()}
-    return math.nan if value is None else value
+    return [SelftestRow(**restore_nan(row)) for row in rows]

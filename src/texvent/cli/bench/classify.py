@@ -10,11 +10,11 @@ from typing import ClassVar
 
 from rich.console import Console
 
+from texvent.bench.classification.classify import classify, list_samples
+from texvent.bench.classification.resnet34 import ResNetClassifier
+from texvent.bench.classification.resnet34_weights import read_resnet_weights
 from texvent.bench.document import write_document
 from texvent.bench.environment import describe_environment
-from texvent.bench.recognition.classify import classify, list_samples
-from texvent.bench.recognition.resnet34 import ResNetClassifier
-from texvent.bench.recognition.resnet34_weights import read_resnet_weights
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_options
 from texvent.io.atomic import check_output
@@ -66,7 +66,7 @@ def run(arguments: Sequence[str]) -> None:
         samples,
         classifier,
         seed=options.seed,
-        announce=lambda line: console.print(line, style="dim"),
+        progress=lambda line: console.print(line, style="dim"),
     )
     if options.out is not None:
         document = {

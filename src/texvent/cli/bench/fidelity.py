@@ -51,7 +51,7 @@ def run(arguments: Sequence[str]) -> None:
         arguments,
         {"options": FidelityOptions()},
         prog="texvent bench fidelity",
-        description="Simulators get a film at 24 frames per second in 8 bits, and are judged by "
+        description="Simulators get a video of 24 frames per second in 8 bits, and are scored by "
         "the events that truly happened. docs/benchmark.md explains the tables.",
     )
     options = FidelityOptions(**values)
@@ -63,7 +63,7 @@ def run(arguments: Sequence[str]) -> None:
     plan = replace(plan, entries=choose_entries(options.simulators, options.interpolations))
     console = Console(stderr=True, quiet=options.quiet, highlight=False)
     report = run_fidelity(
-        plan, jobs=options.jobs, announce=lambda line: console.print(line, style="dim")
+        plan, jobs=options.jobs, progress=lambda line: console.print(line, style="dim")
     )
     if options.out is not None:
         write_document(options.out, report.document(), overwrite=options.overwrite)

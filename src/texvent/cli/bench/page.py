@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from texvent.bench.document import read_document
+from texvent.bench.document import read_document, result_name
 from texvent.bench.fidelity.page import page_files
 from texvent.bench.fidelity.results import read_report
 from texvent.bench.fidelity.table import BASELINE, check_baseline
@@ -25,11 +25,14 @@ class PageOptions:
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o"}
 
     result: Path = REQUIRED
-    """JSON file that `texvent bench fidelity --out` or `texvent bench real --out` wrote."""
+    """JSON file that `texvent bench fidelity --out` or `texvent bench real --out` wrote, as it
+    is or compressed (.json.gz)."""
     baseline: str = BASELINE
     """Row that the others are compared with, pair by pair."""
     out: Path | None = None
-    """Folder of the page and its pictures; default: that of the result."""
+    """Folder of the page and its charts; default: that of the result."""
+    charts: bool = True
+    """Draw the charts; --no-charts writes the tables alone."""
     overwrite: bool = False
     """Replace files that exist already."""
 
@@ -41,15 +44,17 @@ def run(arguments: Sequence[str]) -> None:
         {"options": PageOptions()},
         prog="texvent bench page",
         description="A result of bench fidelity or bench real as a Markdown page with bars, level "
-        "matrices, time-error histograms and a picture grid, named after the result.",
+        "matrices, time-error histograms and event images, named after the result.",
     )
     options = PageOptions(**values)
     folder = options.out or options.result.parent
-    name = options.result.stem
+    name = result_name(options.result.name)
     check_output(folder / f"{name}.md", overwrite=options.overwrite)
     report = read_report(read_document(options.result))
     check_baseline(options.baseline, [score.entry for score in report.scores])
-    files = page_files(report, name, baseline=options.baseline)
+    files = page_files(
+        report, options.result.name, baseline=options.baseline, has_charts=options.charts
+    )
     for file, content in files.items():
         with atomic_file(folder / file, overwrite=options.overwrite) as part:
             part.write_bytes(content)

@@ -1,4 +1,4 @@
-"""`texvent bench paper`: the tables of the paper, with our figures beside its own."""
+"""`texvent bench paper`: the tables of the paper, with our figures and its own."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ from typing import Any, ClassVar
 
 from rich.console import Console
 
-from texvent.bench.announce import Announce
 from texvent.bench.document import write_document
 from texvent.bench.environment import describe_environment
 from texvent.bench.fidelity.run import FidelityPlan, run_fidelity
 from texvent.bench.fidelity.table import check_baseline, fidelity_tables
 from texvent.bench.jobs import check_jobs
-from texvent.bench.paper.ablation import read_ablations
-from texvent.bench.paper.ablations import (
+from texvent.bench.paper.ablation_tables import (
     BASELINE,
     TABLES_HERE,
     ablation_figures,
     leave_out_other_tables,
 )
+from texvent.bench.paper.config_entry import read_ablations
+from texvent.bench.paper.published_tables import TABLES, compare_with_paper, join_figures
 from texvent.bench.paper.run import PaperInputs, measure_table
-from texvent.bench.paper.tables import TABLES, beside_paper, join_figures
+from texvent.bench.progress import Progress
 from texvent.bench.real.run import RealPlan, run_real
 from texvent.bench.real.scene import open_scene
 from texvent.cli.options import parse_options
@@ -111,7 +111,7 @@ def run(arguments: Sequence[str]) -> None:
         arguments,
         {"options": PaperOptions()},
         prog="texvent bench paper",
-        description="The paper's tables: what can be measured here beside the paper's figures, "
+        description="The paper's tables: what can be measured here, next to the paper's figures, "
         "and what input is missing for the rest. docs/ablations.md explains tables 4 and 5, "
         "docs/benchmark.md the others.",
     )
@@ -120,14 +120,14 @@ def run(arguments: Sequence[str]) -> None:
         check_output(options.out, overwrite=options.overwrite)
     console = Console(stderr=True, quiet=options.quiet, highlight=False)
 
-    def announce(line: str) -> None:
+    def progress(line: str) -> None:
         console.print(line, style="dim")
 
     if options.table is None or options.table in TABLES_HERE:
-        found = _run_ablations(options, announce)
+        found = _run_ablations(options, progress)
     else:
-        figures = measure_table(options.table, options.inputs, announce)
-        sys.stdout.write(beside_paper(TABLES[options.table], figures))
+        figures = measure_table(options.table, options.inputs, progress)
+        sys.stdout.write(compare_with_paper(TABLES[options.table], figures))
         found = {f"table {options.table}": asdict(figures)}
     if options.out is not None:
         document = {
@@ -139,7 +139,7 @@ def run(arguments: Sequence[str]) -> None:
         write_document(options.out, document, overwrite=options.overwrite)
 
 
-def _run_ablations(options: PaperOptions, announce: Announce) -> dict[str, Any]:
+def _run_ablations(options: PaperOptions, progress: Progress) -> dict[str, Any]:
     """Tables 4 and 5, or one of them, on scenes and recordings."""
     entries = read_ablations(options.configs, is_rate_matched=options.match_rate)
     if options.table is not None:
@@ -151,14 +151,14 @@ def _run_ablations(options: PaperOptions, announce: Announce) -> dict[str, Any]:
         plan = FidelityPlan(entries=entries)
         if options.scenes:
             plan = replace(plan, scenes=tuple(options.scenes.split(",")))
-        reports.append(run_fidelity(plan, jobs=options.jobs, announce=announce))
+        reports.append(run_fidelity(plan, jobs=options.jobs, progress=progress))
     if recordings:
         real = RealPlan(entries=entries)
-        reports.append(run_real(recordings, real, jobs=options.jobs, announce=announce))
+        reports.append(run_real(recordings, real, jobs=options.jobs, progress=progress))
     tables: dict[str, Any] = {}
     for number in TABLES_HERE if options.table is None else (options.table,):
         figures = join_figures([ablation_figures(number, report) for report in reports])
-        sys.stdout.write(f"{beside_paper(TABLES[number], figures)}\n")
+        sys.stdout.write(f"{compare_with_paper(TABLES[number], figures)}\n")
         tables[f"table {number}"] = asdict(figures)
     for report in reports:
         sys.stdout.write(f"{fidelity_tables(report, baseline=options.baseline)}\n")

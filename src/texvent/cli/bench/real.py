@@ -18,9 +18,9 @@ from texvent.bench.fidelity.table import (
     fidelity_tables,
     motion_table,
 )
-from texvent.bench.paper.ablation import ConfigEntry
+from texvent.bench.paper.config_entry import ConfigEntry
 from texvent.bench.real.run import INTERPOLATIONS, RealPlan, real_entries, run_real
-from texvent.bench.real.scene import WITH_FRAMES, Part, open_scene
+from texvent.bench.real.scene import WITH_FRAMES, RecordingPart, open_scene
 from texvent.cli.options import parse_options
 from texvent.config import check_range
 from texvent.io.atomic import check_output
@@ -29,7 +29,7 @@ DESCRIPTION = """\
 Simulators get the frames that a sensor recorded, and are judged by the events it recorded.
 
 A source is a pulled data set (slider_depth, davis346), a folder of the Event-Camera Dataset, an
-EVREAL folder with pictures, a DSEC sequence, or an AEDAT4 file with frames. docs/real-data.md
+EVREAL folder with images, a DSEC sequence, or an AEDAT4 file with frames. docs/real-data.md
 explains the tables."""
 
 
@@ -85,14 +85,14 @@ def run(arguments: Sequence[str]) -> None:
         check_output(options.out, overwrite=options.overwrite)
     entries = _choose_entries(options)
     check_baseline(options.baseline, [entry.name for entry in entries])
-    part = Part(options.start, options.seconds, options.offset_us, options.frames_gamma)
+    part = RecordingPart(options.start, options.seconds, options.offset_us, options.frames_gamma)
     scenes = [open_scene(source, part) for source in options.sources]
     console = Console(stderr=True, quiet=options.quiet, highlight=False)
     report = run_real(
         scenes,
         RealPlan(entries=entries),
         jobs=options.jobs,
-        announce=lambda line: console.print(line, style="dim"),
+        progress=lambda line: console.print(line, style="dim"),
     )
     if options.out is not None:
         write_document(options.out, report.document(), overwrite=options.overwrite)

@@ -1,4 +1,4 @@
-"""`texvent bench reconstruction`: simulators judged by the pictures made from their events."""
+"""`texvent bench reconstruction`: simulators scored by the images made from their events."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from texvent.bench.document import write_document
 from texvent.bench.fidelity.entries import choose_entries
 from texvent.bench.real.frame_recording import FrameRecording, open_recording
 from texvent.bench.real.scene import locate_source
-from texvent.bench.reconstruction.grid import ReconstructionGrid
+from texvent.bench.reconstruction.image_grid import ReconstructionGrid
 from texvent.bench.reconstruction.image_scores import load_measures
-from texvent.bench.reconstruction.noise import NoiseScore, noise_curve
+from texvent.bench.reconstruction.noise_curve import NoiseScore, noise_curve
 from texvent.bench.reconstruction.run import (
-    ReconstructionJudge,
     ReconstructionPlan,
+    ReconstructionScorer,
     run_reconstruction,
 )
 from texvent.bench.reconstruction.table import reconstruction_document, reconstruction_tables
@@ -32,14 +32,14 @@ from texvent.reconstruct.reconstructor import load_reconstructor
 from texvent.sensor import parse_sensor
 
 DESCRIPTION = """\
-A network makes a picture at every frame of a recording, once from the recorded events and once from
+A network makes an image at every frame of a recording, once from the recorded events and once from
 those that each simulator makes of the frames. All are compared with the frames themselves.
 
 A recording is a pulled data set (slider_depth, davis346), a folder of the Event-Camera Dataset, an
-EVREAL folder with pictures, an AEDAT4 file with frames, or an event file with --frames. The
+EVREAL folder with images, an AEDAT4 file with frames, or an event file with --frames. The
 network's weights must be yours: docs/reconstruction.md says where they come from."""
 GRID_PARTS = (0.2, 0.4, 0.6, 0.8)
-"""Where in the scored part the pictures of --picture are taken."""
+"""Where in the scored part the images of --picture are taken."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,16 +72,16 @@ class ReconstructionOptions:
     """Score START,STOP alone, in seconds of the recording's clock. Without it: the part that EVREAL
     scores, where it names the recording, else all."""
     skip_frames: int | None = None
-    """Do not score this many pictures at the start, and score all others; default: 10, but 0 where
+    """Do not score this many images at the start, and score all others; default: 10, but 0 where
     a part is named."""
     noise: bool = False
-    """Also spoil the recorded events step by step: the paper's Table 7."""
+    """Also add noise to the recorded events step by step: the paper's Table 7."""
     seed: int = 0
     """Of the simulators and of the noise."""
     out: Path | None = None
     """JSON file with every value; docs/reconstruction.md describes it."""
     picture: Path | None = None
-    """PNG file with the pictures of the first recording, a row per source of events."""
+    """PNG file with the images of the first recording, a row per source of events."""
     overwrite: bool = False
     """Replace a file that exists already."""
     quiet: bool = False
@@ -140,18 +140,18 @@ def run(arguments: Sequence[str]) -> None:
     plan = options.plan()
     reconstructor = load_reconstructor(network.network, network.weights, device=network.device)
     recordings = options.open_recordings()
-    judge = ReconstructionJudge(reconstructor=reconstructor, measures=load_measures(), plan=plan)
+    scorer = ReconstructionScorer(reconstructor=reconstructor, measures=load_measures(), plan=plan)
     console = Console(stderr=True, quiet=options.quiet, highlight=False)
     if options.picture is not None:
         grid = ReconstructionGrid(recordings[0], _instants(recordings[0], plan))
-        judge = replace(judge, watch=grid)
+        scorer = replace(scorer, on_image=grid)
     report = run_reconstruction(
-        recordings, judge, announce=lambda line: console.print(line, style="dim", markup=False)
+        recordings, scorer, progress=lambda line: console.print(line, style="dim", markup=False)
     )
     noise: list[NoiseScore] = []
     for recording in recordings if options.noise else ():
         console.print(f"{recording.name}: noise", style="dim", markup=False)
-        noise += noise_curve(recording, judge)
+        noise += noise_curve(recording, scorer)
     if options.out is not None:
         document = reconstruction_document(report, noise)
         write_document(options.out, document, overwrite=options.overwrite)

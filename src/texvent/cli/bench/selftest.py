@@ -33,7 +33,7 @@ class SelftestOptions:
     out: Path | None = None
     """JSON file with every value and z-score."""
     chart: Path | None = None
-    """SVG picture of the z-scores of every metric and perturbation."""
+    """SVG image of the z-scores of every metric and perturbation."""
     overwrite: bool = False
     """Replace a file that exists already."""
     quiet: bool = False
@@ -66,7 +66,7 @@ def _run_selftest(options: SelftestOptions) -> list[SelftestRow]:
     console = Console(stderr=True, quiet=options.quiet, highlight=False)
     rows = run_selftest(
         options.metrics.split(",") if options.metrics else None,
-        announce=lambda line: console.print(line, style="dim"),
+        progress=lambda line: console.print(line, style="dim"),
     )
     if options.out is not None:
         write_document(options.out, selftest_document(rows), overwrite=options.overwrite)

@@ -1,4 +1,4 @@
-"""`texvent bench unpaired`: simulated streams beside recorded ones of other scenes."""
+"""`texvent bench unpaired`: simulated streams against recorded ones of other scenes."""
 
 from __future__ import annotations
 
@@ -10,10 +10,9 @@ from typing import ClassVar
 
 from rich.console import Console
 
-from texvent.bench.document import write_document
+from texvent.bench.document import plain_values, write_document
 from texvent.bench.environment import describe_environment
-from texvent.bench.fidelity.results import without_nan
-from texvent.bench.recognition.unpaired import compare_folders
+from texvent.bench.unpaired import compare_folders
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_options
 from texvent.config import check_range
@@ -53,7 +52,7 @@ def run(arguments: Sequence[str]) -> None:
         arguments,
         {"options": UnpairedOptions()},
         prog="texvent bench unpaired",
-        description="Statistics of simulated streams beside those of recorded streams of other "
+        description="Statistics of simulated streams and of recorded streams of other "
         "scenes: the Fréchet distance of patches, with its floor and null. docs/real-data.md "
         "explains it.",
     )
@@ -65,7 +64,7 @@ def run(arguments: Sequence[str]) -> None:
         options.simulated,
         options.recorded,
         limit=options.limit,
-        announce=lambda line: console.print(line, style="dim"),
+        progress=lambda line: console.print(line, style="dim"),
     )
     if options.out is not None:
         document = {
@@ -74,7 +73,7 @@ def run(arguments: Sequence[str]) -> None:
             **asdict(report),
             "normalised": report.normalised,
         }
-        write_document(options.out, without_nan(document), overwrite=options.overwrite)
+        write_document(options.out, plain_values(document), overwrite=options.overwrite)
     sys.stdout.write(
         f"Fréchet distance {report.simulated:.2f} (floor {report.floor:.2f}, null "
         f"{report.null:.2f}; S* {report.normalised:.2f}), {report.simulated_files} simulated and "

@@ -20,7 +20,7 @@ from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.io.files import load
 from texvent.metrics.compare import compare, describe_metrics, load_metric
-from texvent.metrics.protocol import Metric, find_lack
+from texvent.metrics.protocol import Metric, find_missing
 from texvent.metrics.rvt.eqs import EventQualityScore, load_eqs
 from texvent.metrics.stpp import SPACE_CELLS, TIME_CELLS, Stpp
 from texvent.sensor import SensorSize, parse_sensor
@@ -98,7 +98,7 @@ class Findings:
 
 
 def _choose_metrics(options: CompareOptions) -> tuple[list[Metric], dict[str, str]]:
-    """The metrics asked for, or all; and what those lack that are left out, by name."""
+    """The metrics asked for, or all; and what those missing that are left out, by name."""
     known = dict(describe_metrics())
     if options.rvt_weights is not None:
         known[EventQualityScore.name] = load_eqs(options.rvt_weights)
@@ -106,13 +106,13 @@ def _choose_metrics(options: CompareOptions) -> tuple[list[Metric], dict[str, st
     chosen, left_out = [], {}
     for name in names:
         metric = known[name] if name in known else load_metric(name)  # refuses what is not known
-        lack = find_lack(metric)
-        if lack is None:
+        missing = find_missing(metric)
+        if missing is None:
             chosen.append(metric)
         elif options.metrics:
-            raise ConfigError(f"metric {name} cannot be computed: {lack}")
+            raise ConfigError(f"metric {name} cannot be computed: {missing}")
         else:
-            left_out[name] = lack
+            left_out[name] = missing
     return chosen, left_out
 
 
@@ -196,8 +196,8 @@ def _show(metrics: Sequence[Metric], findings: Findings) -> None:
         for count, row in zip(TIME_CELLS, findings.levels, strict=True):
             matrix.add_row(str(count), *(f"{value:.3f}" for value in row))
         console.print(matrix)
-    for name, lack in findings.left_out.items():
-        console.print(f"\n{name} was left out: {lack}", style="dim", markup=False)
+    for name, missing in findings.left_out.items():
+        console.print(f"\n{name} was left out: {missing}", style="dim", markup=False)
 
 
 def _table(titles: Sequence[str], *, title: str | None = None) -> Table:

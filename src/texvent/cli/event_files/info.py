@@ -9,14 +9,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from texvent._registry import CODECS
 from texvent.capture.open import open_frames
 from texvent.cli.event_files.event_file_options import EventFileOptions
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import CaptureConfig
 from texvent.event_packets import EventPackets
-from texvent.io.files import find_folder_codec
+from texvent.io.files import event_extensions, find_folder_codec
 from texvent.video import MICROSECONDS, FrameStream
 
 DESCRIPTION = """Say what an event file or a video holds, and how it was made. The whole file is
@@ -54,11 +53,6 @@ def is_event_path(path: Path) -> bool:
     if path.is_dir():
         return find_folder_codec(path) is not None
     return path.suffix.lower() in event_extensions()
-
-
-def event_extensions() -> set[str]:
-    """Extensions of all event formats."""
-    return {one for name in CODECS.names() for one in CODECS.load(name).extensions}
 
 
 def describe_events(packets: EventPackets) -> dict[str, Any]:

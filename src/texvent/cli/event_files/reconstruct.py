@@ -78,7 +78,7 @@ def run(arguments: Sequence[str]) -> int:
     events = options.open()
     reconstructor = load_reconstructor(network.network, network.weights, device=network.device)
     console = Console(stderr=True, quiet=options.quiet, highlight=False)
-    images = reconstructor.film(options.slices(events))
+    images = reconstructor.reconstruct_all(options.slices(events))
     facts = _provenance(reconstructor, options, events)
     with _progress(console) as counted:
         opened = open_image_sink(

@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 
 from texvent.cli.event_files.event_file_options import EventFileOptions
 from texvent.cli.options import parse_configs
-from texvent.metrics.timing.soundness import SoundnessCheck
+from texvent.metrics.soundness import SoundnessCheck
 
 SUSPICIOUS = 1
 """Exit code of a recording that can be read but is suspicious."""

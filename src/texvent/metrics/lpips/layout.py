@@ -51,7 +51,7 @@ class LpipsLayout:
 
     @property
     def least_side(self) -> int:
-        """Pictures with a shorter side leave nothing for the last layer, px."""
+        """Images with a shorter side leave nothing for the last layer, px."""
         side = 1
         for layer in reversed(self.convolutions):
             side = max((side - 1) * layer.stride + layer.kernel - 2 * layer.padding, 1)

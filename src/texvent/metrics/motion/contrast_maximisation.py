@@ -1,9 +1,9 @@
-"""Motion from events alone: the velocity along which their picture is sharpest.
+"""Motion from events alone: the velocity along which their image is sharpest.
 
 Source: G. Gallego, H. Rebecq, D. Scaramuzza, "A unifying contrast maximization framework for event
-cameras", CVPR 2018. The contrast is the variance of the picture of warped events; on a canvas that
+cameras", CVPR 2018. The contrast is the variance of the image of warped events; on a canvas that
 no event leaves, its mean is fixed, so the sum of squares has the same maximum.
-Deviations: the picture is smoothed by (1 2 1); a grid search on a coarse picture, then a pattern
+Deviations: the image is smoothed by (1 2 1); a grid search on a coarse image, then a pattern
 search, instead of gradient ascent: there is nothing to initialise, and one result every time.
 """
 
@@ -29,7 +29,7 @@ MOST_EVENTS = 5_000
 MOST_SPEED = 1_000.0
 """Velocities are sought in ±this, px/s, along both axes."""
 COARSE_PX = 2
-"""Pixels of the coarse picture, and steps of the grid in px per window."""
+"""Pixels of the coarse image, and steps of the grid in px per window."""
 FINE_STEPS = (1.0, 0.5, 0.25, 0.125)
 """Steps of the pattern search, px per window."""
 
@@ -73,7 +73,7 @@ def estimate_velocity(
 def estimate_velocities(
     events: EventStream, *, window_us: int = WINDOW_US, most_windows: int = 4
 ) -> list[FloatPair]:
-    """Velocity of the whole picture in evenly chosen windows.
+    """Velocity of the whole image in evenly chosen windows.
 
     Args:
         events: the stream.
@@ -99,7 +99,7 @@ def estimate_patch_flow(
     window_us: int = WINDOW_US,
     most_speed_px_s: float = MOST_SPEED,
 ) -> NDArray[np.float64]:
-    """Velocity of each patch of the picture, one per square of `patch_px`.
+    """Velocity of each patch of the image, one per square of `patch_px`.
 
     Args:
         events: a short span, as long as the window.
@@ -140,13 +140,13 @@ def _coarse_contrast(
 def _contrast(
     x: NDArray[np.float64], y: NDArray[np.float64], share: NDArray[np.float64], shift: FloatPair
 ) -> float:
-    """Sum of squares of the picture of events moved by `shift · share`, smoothed by (1 2 1)."""
+    """Sum of squares of the image of events moved by `shift · share`, smoothed by (1 2 1)."""
     moved_x, moved_y = x - shift[0] * share, y - shift[1] * share
     # Whole pixels, so that how events fall between pixels does not depend on the canvas.
     left, top = np.floor(moved_x.min()) - 1, np.floor(moved_y.min()) - 1
     shape = (int(moved_y.max() - top) + 3, int(moved_x.max() - left) + 3)
-    picture = splat_events(moved_x - left, moved_y - top, shape)
+    image = splat_events(moved_x - left, moved_y - top, shape)
     # Events between two pixels are spread thinner than events on one; smoothing evens that out.
-    picture = picture[:-2] + 2 * picture[1:-1] + picture[2:]
-    picture = picture[:, :-2] + 2 * picture[:, 1:-1] + picture[:, 2:]
-    return float((picture * picture).sum())
+    image = image[:-2] + 2 * image[1:-1] + image[2:]
+    image = image[:, :-2] + 2 * image[:, 1:-1] + image[:, 2:]
+    return float((image * image).sum())

@@ -1,4 +1,4 @@
-"""Flow-warp sharpness: how much a picture of the events sharpens when moved along a known flow."""
+"""Flow-warp sharpness: how much an image of the events sharpens when moved along a known flow."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def flow_warp_sharpness(
     window_us: int = WINDOW_US,
     least_events: int = LEAST_EVENTS,
 ) -> float:
-    """Variance of the picture of warped events over that of unwarped ones, mean over windows.
+    """Variance of the image of warped events over that of unwarped ones, mean over windows.
 
     Each event moves to `x − vx (t − t0), y − vy (t − t0)` and is splatted bilinearly, whatever its
     polarity, on a canvas padded so that nothing leaves it.
@@ -50,7 +50,7 @@ def flow_warp_sharpness(
         seconds = (window.predicted.t % window_us) / MICROSECONDS
         reach = [abs(one) * window_us / MICROSECONDS for one in velocity_px_s]
         pad_x, pad_y = (int(np.ceil(one)) + 1 for one in reach)
-        pictures = [
+        images = [
             splat_events(
                 window.predicted.x - scale * velocity_px_s[0] * seconds + pad_x,
                 window.predicted.y - scale * velocity_px_s[1] * seconds + pad_y,
@@ -58,9 +58,9 @@ def flow_warp_sharpness(
             )
             for scale in (1.0, 0.0)
         ]
-        still = float(pictures[1].var())
+        still = float(images[1].var())
         if still > 0:
-            ratios.append(float(pictures[0].var()) / still)
+            ratios.append(float(images[0].var()) / still)
     return float(np.mean(ratios)) if ratios else UNDEFINED
 
 

@@ -24,7 +24,7 @@ class EventQualityScore:
     Source: K. Chanda et al., "Event quality score (EQS): assessing the realism of simulated event
         camera streams via distances in latent space" (CVPR workshops 2025).
     Deviation: the paper publishes neither code nor which RVT it used, does not say how patches lie,
-        and pads pictures without saying what becomes of the padding. Here patches do not overlap,
+        and pads images without saying what becomes of the padding. Here patches do not overlap,
         and the padding's features are left out.
     """
 
@@ -38,8 +38,8 @@ class EventQualityScore:
     backbone: RvtBackbone | None = None
     """RVT's backbone with published weights; see `load_eqs`."""
 
-    def lack(self) -> str | None:
-        """What is missing for a score, if anything."""
+    def missing(self) -> str | None:
+        """What this metric needs and has not got; None if nothing."""
         if self.backbone is not None:
             return None
         return f"it needs RVT's weights, pass --rvt-weights FILE; {WHERE_FROM}"
@@ -51,7 +51,7 @@ class EventQualityScore:
             ConfigError: there are no weights.
         """
         if self.backbone is None:
-            raise ConfigError(f"metric eqs cannot be computed: {self.lack()}")
+            raise ConfigError(f"metric eqs cannot be computed: {self.missing()}")
         return LatentSimilarity(backbone=self.backbone)(predicted, reference)
 
 

@@ -14,10 +14,10 @@ Shape: TypeAlias = tuple[int, ...]
 INPUT_CHANNELS = 20
 """Of the stacked histogram: 2 polarities of 10 bins."""
 STRIDES = (4, 2, 2, 2)
-"""By how much each stage reduces the picture it is given."""
+"""By how much each stage reduces the image it is given."""
 MLP_RATIO = 4
 ATTENTIONS = ("att_window", "att_grid")
-"""Parts of a stage, in order: attention inside a window, then across the picture."""
+"""Parts of a stage, in order: attention inside a window, then across the image."""
 GATES = 4
 """Of the LSTM: forget, input, output, and the new content."""
 

@@ -15,7 +15,7 @@ from texvent.metrics.rvt.weights import EXTRA, RvtWeights
 from texvent.runtime.network_files import Tensor
 
 PARTITION_PX = 64
-"""The picture is padded to a multiple of this; attention works on parts of (height / 64,
+"""The image is padded to a multiple of this; attention works on parts of (height / 64,
 width / 64) pixels of a feature map, as RVT's configuration chooses them."""
 NORM_FLOOR = 1e-5
 
@@ -23,8 +23,8 @@ NORM_FLOOR = 1e-5
 class RvtBackbone:
     """Four stages of convolution, attention and LSTM; only the first stages may be run.
 
-    Each stage reduces the picture, lets the pixels of a window attend to each other (MaxViT's block
-    attention), then pixels spread evenly over the picture (grid attention), and feeds an LSTM whose
+    Each stage reduces the image, lets the pixels of a window attend to each other (MaxViT's block
+    attention), then pixels spread evenly over the image (grid attention), and feeds an LSTM whose
     output is both the stage's features and the next stage's input. The LSTM starts empty at every
     call, so that a window's features do not depend on what was seen before.
     """
@@ -48,7 +48,7 @@ class RvtBackbone:
     def __call__(self, histogram: Features) -> Sequence[Features]:
         """Features of every stage.
 
-        The picture is padded with zeros to the right and below; features of that padding, which
+        The image is padded with zeros to the right and below; features of that padding, which
         would be alike for all events, are cut off.
 
         Args:

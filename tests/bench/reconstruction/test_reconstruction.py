@@ -1,0 +1,202 @@
+"""Events judged by the images made of them, on a recording whose events explain its frames."""
+
+import dataclasses
+import json
+import math
+
+import numpy as np
+import pytest
+
+from texvent.bench.fidelity.entries import Entry
+from texvent.bench.reconstruction.image_grid import ReconstructionGrid
+from texvent.bench.reconstruction.image_scores import load_measures
+from texvent.bench.reconstruction.noise_curve import NoiseLevel, noise_curve
+from texvent.bench.reconstruction.run import (
+    DEFAULT_SKIP,
+    RECORDED,
+    ReconstructionPlan,
+    ReconstructionScorer,
+    recorded_rate_hz,
+    run_reconstruction,
+    simulate_recording,
+)
+from texvent.bench.reconstruction.table import reconstruction_document, reconstruction_tables
+from texvent.bench.selftest.perturbations import add_background, scatter
+from texvent.errors import ConfigError
+
+from .synthetic_network import FRAMES, SIZE, STEP_US, StandInReconstructor, moving_bar
+
+ESIM = Entry(simulator="esim", interpolate="blend")
+
+
+@pytest.fixture(autouse=True)
+def no_weights(tmp_path, monkeypatch):
+    """LPIPS takes long; the measures that need no weights are enough here."""
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path))
+
+
+def scorer(**plan):
+    plan.setdefault("entries", (ESIM,))
+    return ReconstructionScorer(
+        reconstructor=StandInReconstructor(),
+        measures=load_measures(),
+        plan=ReconstructionPlan(**plan),
+    )
+
+
+def test_events_that_explain_the_frames_score_as_well_as_images_can():
+    row = scorer(skip=0).score(moving_bar(), moving_bar().events)
+    assert row.source == RECORDED
+    assert row.events == len(moving_bar().events.collect())
+    assert len(row.scores.t_us) == FRAMES - 1
+    assert row.scores.mean("mse") < 1e-12
+    assert row.scores.mean("ssim") == pytest.approx(1.0, abs=1e-6)
+
+
+def test_a_run_scores_the_recorded_events_and_every_simulator():
+    recordings = [moving_bar("one"), moving_bar("two", frames=13)]
+    report = run_reconstruction(recordings, scorer(skip=2))
+    assert [(row.recording, row.source) for row in report.rows] == [
+        ("one", RECORDED),
+        ("one", ESIM.name),
+        ("two", RECORDED),
+        ("two", ESIM.name),
+    ]
+    assert [len(row.scores.t_us) for row in report.rows_of(RECORDED)] == [FRAMES - 3, 10]
+    recorded, simulated = report.rows[:2]
+    assert recorded.threshold is None
+    assert simulated.threshold is not None
+    assert recorded.scores.mean("mse") < simulated.scores.mean("mse")
+
+
+def test_a_simulator_that_cannot_run_is_skipped_with_the_reason():
+    report = run_reconstruction(
+        [moving_bar()], scorer(entries=(Entry(simulator="v2ce", interpolate="none"), ESIM))
+    )
+    assert [row.source for row in report.rows] == [RECORDED, ESIM.name]
+    assert "v2ce_3d.pt" in report.skipped["v2ce, none"]
+
+
+def test_by_default_the_part_that_evreal_names_counts_else_all_but_the_first_images():
+    plan = ReconstructionPlan()
+    assert plan.scored_part(moving_bar("slider_depth")) == ((1_000_000, 2_500_000), 0)
+    assert plan.scored_part(moving_bar()) == (None, DEFAULT_SKIP)
+    chosen = ReconstructionPlan(span_us=(5, 6))
+    assert chosen.scored_part(moving_bar("slider_depth")) == ((5, 6), 0)
+    assert ReconstructionPlan(skip=3).scored_part(moving_bar("slider_depth")) == (None, 3)
+
+
+def test_nothing_is_reconstructed_after_the_part_that_counts():
+    seen = []
+    end_us = 5 * STEP_US
+    one = scorer(span_us=(2 * STEP_US, end_us))
+    reporting = dataclasses.replace(one, on_image=lambda *seen_one: seen.append(seen_one[2]))
+    row = reporting.score(moving_bar(), moving_bar().events)
+    assert row.scores.t_us == [number * STEP_US for number in range(2, 6)]
+    assert seen == [number * STEP_US for number in range(1, 6)]
+    assert row.events == len(moving_bar().events.collect().between(0, end_us))
+
+
+def test_a_fitted_threshold_gives_about_the_recorded_number_of_events():
+    recording = moving_bar()
+    plan = ReconstructionPlan(is_rate_matched=True)
+    simulated = simulate_recording(recording, ESIM, plan).packets.collect()
+    seconds = (FRAMES - 1) * STEP_US / 1e6
+    assert len(simulated) / seconds == pytest.approx(recorded_rate_hz(recording), rel=0.1)
+
+
+def test_frames_of_a_sensor_are_linear_for_models_that_ask():
+    plan = ReconstructionPlan(frames_gamma=1.5)
+    entry = Entry(simulator="physical", interpolate="none")
+    assert simulate_recording(moving_bar(), entry, plan).settings.simulate.gamma == 1.5
+
+
+def test_an_unknown_simulator_is_refused_before_any_work():
+    with pytest.raises(ConfigError, match="unknown simulator"):
+        ReconstructionPlan(entries=(Entry(simulator="esimm", interpolate="none"),))
+
+
+def test_more_noise_degrades_the_images_more():
+    levels = [NoiseLevel("scattered", share) for share in (0.0, 0.1, 0.5)]
+    levels += [NoiseLevel("background", rate_hz) for rate_hz in (0.0, 5.0, 50.0)]
+    points = noise_curve(moving_bar(), scorer(skip=0), levels)
+    for kind in ("scattered", "background"):
+        for scores in ("against_clean", "against_frames"):
+            errors = [
+                getattr(point, scores).mean("mse") for point in points if point.level.kind == kind
+            ]
+            assert errors[0] < 1e-12
+            assert errors[0] < errors[1] < errors[2]
+
+
+def test_noise_is_the_same_each_time_and_of_the_amount_asked_for():
+    events = moving_bar().events.collect()
+    level = NoiseLevel("background", 100.0)
+    noisy = level.apply(events, 0, 560_000, seed=0)
+    assert noisy.equals(level.apply(events, 0, 560_000, seed=0))
+    assert not noisy.equals(level.apply(events, 0, 560_000, seed=1))
+    expected = 100.0 * SIZE.width * SIZE.height * 0.56
+    assert len(noisy) - len(events) == pytest.approx(expected, abs=4 * math.sqrt(expected))
+    scattered = NoiseLevel("scattered", 1.0).apply(events, 0, 560_000, seed=0)
+    assert len(scattered) == len(events)
+
+
+def test_scattered_events_keep_their_number_and_the_others_stay():
+    events = moving_bar().events.collect()
+    rng = np.random.default_rng(0)
+    assert scatter(events, rng, share=0.0).equals(events)
+    moved = scatter(events, rng, share=0.25)
+
+    def cells(one):
+        return set(zip(one.x.tolist(), one.y.tolist(), one.t.tolist(), strict=True))
+
+    assert len(cells(events) & cells(moved)) / len(cells(events)) == pytest.approx(0.75, abs=0.1)
+    background = add_background(events, rng, rate_hz=0.0, span_us=(0, 10))
+    assert background.equals(events)
+
+
+@pytest.mark.parametrize(("kind", "amount"), [("scattered", 1.1), ("background", -1.0)])
+def test_noise_out_of_range_is_refused(kind, amount):
+    with pytest.raises(ConfigError, match=kind):
+        NoiseLevel(kind, amount)
+
+
+def test_tables_and_document_state_every_figure():
+    recordings = [moving_bar("one"), moving_bar("two")]
+    report = run_reconstruction(recordings, scorer())
+    noise = noise_curve(recordings[0], scorer(), [NoiseLevel("scattered", 0.05)])
+    text = reconstruction_tables(report, noise)
+    for part in ("### one, stand-in (4 images)", "### all recordings", "| esim, blend | ×"):
+        assert part in text
+    assert "| 5% of the events scattered |" in text
+    assert "not measured: lpips: LPIPS's weights are not here" in text
+    document = json.loads(json.dumps(reconstruction_document(report, noise), allow_nan=False))
+    assert document["schema"] == "texvent-reconstruction-1"
+    assert len(document["rows"]) == 4
+    assert len(document["rows"][0]["values"]["ssim"]) == 4
+    assert document["rows"][1]["mean"]["mse"] == pytest.approx(report.rows[1].scores.mean("mse"))
+    assert document["noise"][0]["amount"] == 0.05
+    assert document["network"] == {
+        "name": "stand-in",
+        "sha256": "0" * 64,
+        "is_published": False,
+    }
+
+
+def test_the_grid_shows_frames_and_every_source():
+    cv2 = pytest.importorskip("cv2")
+    recording = moving_bar()
+    grid = ReconstructionGrid(recording, [90_000, 300_000])
+    grid("bar", RECORDED, 120_000, np.full(SIZE.shape, 1.0))
+    grid("bar", RECORDED, 160_000, np.full(SIZE.shape, 0.0))  # not one of the instants
+    grid("other", "esim", 120_000, np.full(SIZE.shape, 0.0))
+    image = cv2.imdecode(np.frombuffer(grid.png(), np.uint8), cv2.IMREAD_GRAYSCALE)
+    height, width = image.shape
+    assert width == 2 * (SIZE.width + 6) + 6
+    assert height == 2 * (SIZE.height + 11 + 12) + 6
+    top = 6 + 11 + 6
+    frame = image[top : top + SIZE.height, 6 : 6 + SIZE.width]
+    assert frame[0, 3] == 178
+    assert frame[0, 8] == 128
+    below = top + SIZE.height + 11 + 12
+    assert (image[below : below + SIZE.height, 6 : 6 + SIZE.width] == 255).all()

@@ -1,0 +1,175 @@
+"""LPIPS against its definition, its properties, and files that are not its weights."""
+
+import math
+import os
+import pickle
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.errors import FileFormatError, InputError
+from texvent.events import EventStream
+from texvent.metrics.event_frames import EventFrameLpips
+from texvent.metrics.lpips import distance as lpips
+from texvent.metrics.lpips import weights as lpips_weights
+from texvent.metrics.lpips.distance import lpips_distance
+from texvent.metrics.lpips.layout import ALEX, VGG
+from texvent.metrics.lpips.weights import (
+    find_lpips_weights,
+    read_lpips_weights,
+    write_lpips_weights,
+)
+from texvent.represent.event_frame import event_frame
+from texvent.sensor import SensorSize
+
+from ..recordings import random_events
+from .lpips_files import NARROW, narrow_weights, published, slow_distance, write_published
+
+WEIGHTS = narrow_weights()
+
+
+@pytest.fixture(autouse=True)
+def _known_layouts(monkeypatch):
+    monkeypatch.setattr(lpips_weights, "LAYOUTS", (NARROW, ALEX))
+
+
+def images(seed, height=37, width=43):
+    return np.random.default_rng(seed).random((2, height, width, 3))
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_the_distance_agrees_with_its_slow_twin(seed):
+    a, b = images(seed)
+    weights = narrow_weights(seed)
+    expected = slow_distance(a, b, weights)
+    assert expected > 0.01
+    assert lpips_distance(a, b, weights) == pytest.approx(expected, rel=1e-5)
+
+
+def test_rows_in_blocks_give_the_same_distance(monkeypatch):
+    a, b = images(2)
+    whole = lpips_distance(a, b, WEIGHTS)
+    monkeypatch.setattr(lpips, "BLOCK_VALUES", 1)
+    assert lpips_distance(a, b, WEIGHTS) == pytest.approx(whole, rel=1e-6)
+
+
+@given(seed=st.integers(0, 100))
+@settings(max_examples=5, deadline=None)
+def test_the_distance_is_symmetric_and_zero_for_equal_images(seed):
+    a, b = images(seed, 31, 33)
+    assert lpips_distance(a, a, WEIGHTS) == 0.0
+    assert lpips_distance(a, b, WEIGHTS) == pytest.approx(lpips_distance(b, a, WEIGHTS))
+
+
+def test_a_grey_image_is_one_with_equal_colours():
+    grey = images(3)[..., 0]
+    colours = np.repeat(grey[..., None], 3, axis=3)
+    assert lpips_distance(*grey, WEIGHTS) == lpips_distance(*colours, WEIGHTS)
+
+
+def test_an_image_too_small_for_the_network_is_undefined():
+    small, enough = np.zeros((30, 90)), np.zeros((31, 90))
+    assert math.isnan(lpips_distance(small, small, WEIGHTS))
+    assert lpips_distance(enough, enough, WEIGHTS) == 0.0
+    assert (ALEX.least_side, VGG.least_side) == (31, 16)
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "complaint"),
+    [
+        (np.zeros((40, 40)), np.zeros((40, 41)), "40x40 px with one of 41x40 px"),
+        (np.zeros((40, 40, 4)), np.zeros((40, 40, 4)), r"\[40, 40, 4\]; it must be"),
+        (np.zeros((0, 40)), np.zeros((0, 40)), "it must be"),
+        (np.full((40, 40), 255.0), np.zeros((40, 40)), "divide 8-bit images by 255"),
+        (np.full((40, 40), np.nan), np.zeros((40, 40)), "from nan to nan"),
+    ],
+)
+def test_what_is_no_pair_of_images_is_refused(a, b, complaint):
+    with pytest.raises(InputError, match=complaint):
+        lpips_distance(a, b, WEIGHTS)
+
+
+def test_the_published_file_and_the_converted_one_hold_the_same_arrays(tmp_path):
+    read = read_lpips_weights(write_published(WEIGHTS, tmp_path / "alexnet.ckpt"))
+    write_lpips_weights(read, tmp_path / "lpips.npz")
+    again = read_lpips_weights(tmp_path / "lpips.npz")
+    assert read.layout == again.layout == NARROW
+    for name, array in WEIGHTS.arrays.items():
+        np.testing.assert_array_equal(again.arrays[name], array)
+
+
+class Evil:
+    def __reduce__(self):
+        return (os.mkdir, ("was_run",))
+
+
+def test_a_pickle_that_would_run_something_is_refused_unrun(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "evil.ckpt").write_bytes(pickle.dumps({"AlexNet_0": Evil()}))
+    with pytest.raises(FileFormatError, match=r"evil\.ckpt.*mkdir, which weights do not need"):
+        read_lpips_weights(tmp_path / "evil.ckpt")
+    assert not (tmp_path / "was_run").exists()
+
+
+@pytest.mark.parametrize("suffix", [".ckpt", ".npz"])
+def test_a_truncated_file_is_refused_by_name(tmp_path, suffix):
+    whole = tmp_path / f"whole{suffix}"
+    if suffix == ".npz":
+        write_lpips_weights(WEIGHTS, whole)
+    else:
+        write_published(WEIGHTS, whole)
+    for size in (0, 10, whole.stat().st_size // 2):
+        part = tmp_path / f"part{suffix}"
+        part.write_bytes(whole.read_bytes()[:size])
+        with pytest.raises(FileFormatError, match=r"part\..* cannot be read as LPIPS's weights"):
+            read_lpips_weights(part)
+
+
+def test_other_arrays_are_refused(tmp_path):
+    path = tmp_path / "other.npz"
+    np.savez(path, kernel0=np.zeros(3, np.float32))
+    with pytest.raises(FileFormatError, match="does not hold the arrays of LPIPS's network"):
+        read_lpips_weights(path)
+    content = published(narrow_weights())
+    content["AlexNet_0"]["Conv_2"]["bias"] = "text"
+    path = tmp_path / "text.ckpt"
+    path.write_bytes(pickle.dumps(content))
+    with pytest.raises(FileFormatError, match=r"text\.ckpt cannot be read as LPIPS's weights"):
+        read_lpips_weights(path)
+    content = published(narrow_weights())
+    content["NetLinLayer_1"]["Conv_0"]["kernel"][0, 0, 0, 0] = np.nan
+    path = tmp_path / "nan.ckpt"
+    path.write_bytes(pickle.dumps(content))
+    with pytest.raises(FileFormatError, match="head1 holds"):
+        read_lpips_weights(path)
+
+
+def test_weights_that_were_not_pulled_are_named_with_the_command(tmp_path, monkeypatch):
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path))
+    with pytest.raises(InputError, match=r"texvent weights pull lpips$"):
+        find_lpips_weights()
+    with pytest.raises(InputError, match=r"texvent weights pull lpips-vgg$"):
+        find_lpips_weights("vgg")
+
+
+def test_event_frames_are_compared_as_grey_images(tmp_path):
+    write_lpips_weights(WEIGHTS, tmp_path / "narrow.npz")
+    metric = EventFrameLpips(weights=tmp_path / "narrow.npz")
+    size = SensorSize(40, 33)
+    a, b = random_events(1, 600, size, 40_000), random_events(2, 600, size, 40_000)
+    frames = [event_frame(one, "polarity").astype(np.float64) for one in (a, b)]
+    assert metric(a, b) == pytest.approx(lpips_distance(*frames, WEIGHTS))
+    assert metric(a, a) == 0.0
+    assert metric.missing() is None
+    # A second frame that is empty in both counts 0.
+    later = EventStream([0], [0], [90_000], [1], size)
+    both = [EventStream.concat([one, later]) for one in (a, b)]
+    assert metric(*both) == pytest.approx(metric(a, b) / 3)
+
+
+def test_event_frames_of_a_small_sensor_have_no_lpips(tmp_path):
+    write_lpips_weights(WEIGHTS, tmp_path / "narrow.npz")
+    small = random_events(1)
+    assert math.isnan(EventFrameLpips(weights=tmp_path / "narrow.npz")(small, small))

@@ -1,0 +1,151 @@
+"""EQS: RVT's backbone against loops, its checkpoints, and the score. Needs torch."""
+
+import math
+
+import numpy as np
+import pytest
+
+from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.events import EventStream
+from texvent.metrics.rvt.eqs import EventQualityScore, load_eqs
+from texvent.metrics.rvt.latent_similarity import LatentSimilarity
+from texvent.metrics.rvt.layout import LAYOUTS
+from texvent.metrics.rvt.network import RvtBackbone
+from texvent.metrics.rvt.weights import RvtWeights, read_rvt_weights
+from texvent.sensor import SensorSize
+
+from ..recordings import one_event, random_events
+from .rvt_files import TINY, checkpoint, random_tensors, slow_backbone
+
+RVT_T = LAYOUTS[0]
+
+
+def test_eqs_without_weights_says_what_it_needs():
+    assert "--rvt-weights FILE" in EventQualityScore().missing()
+    with pytest.raises(ConfigError, match=r"rvt-s\.ckpt"):
+        EventQualityScore()(one_event(), one_event())
+
+
+def test_a_weights_file_that_is_not_there_is_named(tmp_path):
+    with pytest.raises(InputError, match=r"no weights file .*none\.ckpt"):
+        load_eqs(tmp_path / "none.ckpt")
+
+
+def test_published_sizes_have_as_many_numbers_as_in_rvts_own_code():
+    counts = [sum(math.prod(s) for s in one.tensor_shapes().values()) for one in LAYOUTS]
+    assert counts == [3_220_032, 7_209_312, 12_784_768]
+
+
+@pytest.fixture(scope="module")
+def torch():
+    return pytest.importorskip("torch")
+
+
+def tiny_backbone(torch, stages=3):
+    tensors = random_tensors(TINY)
+    return RvtBackbone(
+        RvtWeights(TINY, {name: torch.from_numpy(one).float() for name, one in tensors.items()}),
+        stages=stages,
+    )
+
+
+@pytest.mark.torch
+@pytest.mark.parametrize("shape", [(70, 129), (64, 64)])
+def test_the_backbone_agrees_with_loops_over_pixels(torch, shape):
+    histogram = np.random.default_rng(1).poisson(0.3, (20, *shape)).astype(np.float32)
+    found = tiny_backbone(torch)(histogram)
+    expected = slow_backbone(histogram, random_tensors(TINY), TINY, stages=3)
+    for stage, (one, other) in enumerate(zip(found, expected, strict=True)):
+        stride = 4 * 2**stage
+        rows, columns = (-(-side // stride) for side in shape)
+        assert one.shape == (8 * 2**stage, rows, columns)
+        np.testing.assert_allclose(one, other[:, :rows, :columns], atol=2e-5)
+        assert np.abs(one).max() > 0.05
+
+
+@pytest.mark.torch
+def test_a_window_does_not_remember_the_one_before(torch):
+    backbone = tiny_backbone(torch, stages=1)
+    first, second = np.random.default_rng(2).poisson(1, (2, 20, 64, 64)).astype(np.float32)
+    alone = backbone(second)[0]
+    backbone(first)
+    np.testing.assert_array_equal(backbone(second)[0], alone)
+
+
+@pytest.fixture
+def published(torch, tmp_path):
+    """`published(change)`: a checkpoint of RVT-T's shape, changed before it is stored."""
+
+    def write(change=lambda content: None, name="rvt-t.ckpt"):
+        content = checkpoint(RVT_T)
+        change(content)
+        torch.save(content, tmp_path / name)
+        return tmp_path / name
+
+    return write
+
+
+@pytest.mark.torch
+def test_a_checkpoint_is_read_strictly_and_the_detector_left_out(published):
+    weights = read_rvt_weights(published())
+    assert weights.layout is RVT_T
+    assert {n: tuple(t.shape) for n, t in weights.tensors.items()} == RVT_T.tensor_shapes()
+    assert all(str(tensor.dtype) == "torch.float32" for tensor in weights.tensors.values())
+
+
+GAMMA_HERE = "stages.3.att_blocks.0.att_grid.ls2.gamma"
+GAMMA = f"mdl.backbone.{GAMMA_HERE}"
+
+
+@pytest.mark.torch
+@pytest.mark.parametrize(
+    ("change", "complaint"),
+    [
+        (lambda c: c.pop("state_dict"), "holds no state_dict"),
+        (lambda c: c["state_dict"].clear(), "has no tensor mdl.backbone.stages.0"),
+        (lambda c: c["state_dict"].pop(GAMMA), f"is not rvt-t: mdl.backbone lacks {GAMMA_HERE}"),
+        (
+            lambda c: c["state_dict"].update({GAMMA: c["state_dict"][GAMMA][:5]}),
+            rf"has {GAMMA_HERE} of shape \[5\] instead of \[256\]",
+        ),
+        (
+            lambda c: c["state_dict"].update({"mdl.backbone.extra": c["state_dict"][GAMMA]}),
+            "has the unknown extra",
+        ),
+        (lambda c: c["state_dict"][GAMMA].fill_(math.nan), "ls2.gamma holds values that are NaN"),
+    ],
+)
+def test_a_checkpoint_of_another_network_is_refused(published, change, complaint):
+    with pytest.raises(FileFormatError, match=complaint):
+        read_rvt_weights(published(change, "other.ckpt"))
+
+
+@pytest.mark.torch
+def test_a_backbone_of_unknown_width_is_refused(torch, tmp_path):
+    torch.save(checkpoint(TINY), tmp_path / "tiny.ckpt")
+    with pytest.raises(FileFormatError, match="8 channels in its first stage; known are 32"):
+        read_rvt_weights(tmp_path / "tiny.ckpt")
+
+
+@pytest.mark.torch
+def test_a_truncated_checkpoint_is_refused_by_name(published):
+    path = published()
+    path.write_bytes(path.read_bytes()[:100_000])
+    with pytest.raises(FileFormatError, match=r"rvt-t\.ckpt cannot be read as network weights"):
+        read_rvt_weights(path)
+    path.write_text("no weights")
+    with pytest.raises(FileFormatError, match=r"\(UnpicklingError\)"):
+        read_rvt_weights(path)
+
+
+@pytest.mark.torch
+def test_eqs_is_lfs_with_the_backbone_of_the_file(torch, published):
+    eqs = load_eqs(published())
+    size = SensorSize(64, 64)
+    a, b = random_events(1, 500, size, 50_000), random_events(2, 500, size, 50_000)
+    assert eqs.missing() is None
+    assert eqs(a, a) == pytest.approx(1.0)
+    assert eqs(a, b) < 1.0
+    assert eqs(a, b) == LatentSimilarity(backbone=eqs.backbone)(a, b)
+    nothing = EventStream.empty(size)
+    assert math.isnan(eqs(nothing, nothing))

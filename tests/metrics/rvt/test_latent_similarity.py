@@ -1,0 +1,49 @@
+import math
+
+import numpy as np
+import pytest
+
+from texvent.events import EventStream
+from texvent.metrics.rvt.latent_similarity import LatentSimilarity, patch_cosine
+from texvent.sensor import SensorSize
+
+from ..recordings import one_event, random_events
+
+
+def test_cosine_is_taken_between_averages_of_three_by_three_patches():
+    a, b = np.zeros((2, 2, 4), np.float32), np.zeros((2, 2, 4), np.float32)
+    a[0, 0, 0], b[0, 1, 2] = 1, 7  # the same patch: cosine 1
+    a[0, 0, 3], b[0, 0, 3], b[1, 0, 3] = 1, 1, 1  # 45 degrees
+    assert patch_cosine(a, b) == pytest.approx((1 + math.sqrt(0.5)) / 2)
+
+
+def test_patches_empty_in_both_are_left_out_and_empty_in_one_count_zero():
+    a, b = np.zeros((1, 3, 9), np.float32), np.zeros((1, 3, 9), np.float32)
+    a[0, 0, 0] = b[0, 0, 0] = 1
+    assert patch_cosine(a, b) == 1.0
+    b[0, 0, 8] = 1
+    assert patch_cosine(a, b) == 0.5
+    assert math.isnan(patch_cosine(a * 0, b * 0))
+
+
+def test_a_backbone_sees_the_stacked_histogram_and_its_stages_are_averaged():
+    shapes = []
+
+    def backbone(histogram):
+        shapes.append(histogram.shape)
+        assert histogram.dtype == np.float32
+        constant = np.ones((1, 3, 3), np.float32)
+        return histogram, constant
+
+    a = EventStream([0], [0], [10], [1], SensorSize(9, 6))
+    b = EventStream([0], [0], [10], [0], SensorSize(9, 6))
+    # Histogram: nothing in common, 0; constant features: 1.
+    assert LatentSimilarity(backbone=backbone)(a, b) == pytest.approx(0.5)
+    assert shapes == [(20, 6, 9)] * 2
+
+
+def test_streams_without_events_are_undefined_and_equal_ones_score_one():
+    nothing = EventStream.empty(one_event().size)
+    assert math.isnan(LatentSimilarity()(nothing, nothing))
+    a = random_events(1)
+    assert LatentSimilarity()(a, a) == pytest.approx(1.0)
