@@ -14,27 +14,30 @@ from texvent.errors import FileFormatError, InputError
 from texvent.io.atomic import atomic_file
 
 DIGITS = 7
-"""Significant digits of the numbers in a document: more than any table shows."""
+"""Significant digits of the numbers in a compressed document: more than any table shows."""
 COMPRESSED = ".gz"
 
 
 def write_document(path: Path, document: Any, *, overwrite: bool) -> None:
-    """Write a result; the file appears when it is complete, and the same result gives equal bytes.
+    """Write a result; the file appears when it is complete.
 
     Args:
-        path: the JSON file; a name that ends in .gz compresses it.
-        document: plain values; none is NaN.
+        path: the JSON file. A name that ends in .gz compresses it, for results to be published:
+            numbers are rounded to `DIGITS`, and equal results give equal bytes.
+        document: numbers, texts, mappings and sequences; NaN and infinity become null.
         overwrite: whether an existing file is replaced.
 
     Raises:
         OutputError: the file exists already, or cannot be written.
     """
-    is_compressed = path.suffix == COMPRESSED
-    indent = None if is_compressed else 2
-    text = json.dumps(document, indent=indent, ensure_ascii=False, allow_nan=False)
-    content = f"{text}\n".encode()
+    if path.suffix == COMPRESSED:
+        text = json.dumps(plain_values(document, digits=DIGITS), ensure_ascii=False)
+        content = gzip.compress(f"{text}\n".encode(), mtime=0)
+    else:
+        text = json.dumps(plain_values(document), indent=2, ensure_ascii=False)
+        content = f"{text}\n".encode()
     with atomic_file(path, overwrite=overwrite) as part:
-        part.write_bytes(gzip.compress(content, mtime=0) if is_compressed else content)
+        part.write_bytes(content)
 
 
 def read_document(path: Path) -> dict[str, Any]:
@@ -61,15 +64,22 @@ def result_name(file_name: str) -> str:
     return Path(file_name.removesuffix(COMPRESSED)).stem
 
 
-def plain_values(value: Any) -> Any:
-    """Values as JSON holds them: rounded to `DIGITS`, and None for what is NaN or infinite."""
+def plain_values(value: Any, *, digits: int | None = None) -> Any:
+    """Values as JSON holds them: None for what is NaN or infinite.
+
+    Args:
+        value: numbers, texts, and mappings and sequences of them.
+        digits: significant digits that numbers keep; None keeps all.
+    """
     if isinstance(value, Mapping):
-        return {key: plain_values(item) for key, item in value.items()}
+        return {key: plain_values(item, digits=digits) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [plain_values(item) for item in value]
-    if isinstance(value, float):
-        return float(f"{value:.{DIGITS}g}") if math.isfinite(value) else None
-    return value
+        return [plain_values(item, digits=digits) for item in value]
+    if not isinstance(value, float):
+        return value
+    if not math.isfinite(value):
+        return None
+    return float(value) if digits is None else float(f"{value:.{digits}g}")
 
 
 def restore_nan(value: Any) -> Any:

@@ -69,36 +69,34 @@ def _panel(title: str, body: str) -> str:
 
 
 def _level_panel(details: Details, colour: str) -> str:
-    parts = []
-    for row, (cells, values) in enumerate(zip(TIME_CELLS, details.levels, strict=True)):
+    """A coloured cell per level, its value in it; white on cells above 0.6."""
+    cells, values, labels = [], [], []
+    for row, (parts, shares) in enumerate(zip(TIME_CELLS, details.levels, strict=True)):
         y = HEAD_PX + row * CELL_HEIGHT
-        label = f"{50 / cells:g} ms"
-        parts.append(svg_text(label, LEFT_PX + 4, y + 13, f"text-anchor='end' {SMALL}"))
-        for column, value in enumerate(values):
+        labels.append(svg_text(f"{50 / parts:g} ms", LEFT_PX + 4, y + 13, "text-anchor='end'"))
+        for column, share in enumerate(shares):
             x = LEFT_PX + 8 + column * CELL_WIDTH
-            ink = "#ffffff" if value > 0.6 else "#26262e"
-            parts.append(
+            cells.append(
                 f"<rect x='{x}' y='{y}' width='{CELL_WIDTH}' height='{CELL_HEIGHT}' "
-                f"fill='{colour}' fill-opacity='{value:.3f}' stroke='#ffffff'/>"
+                f"fill-opacity='{share:.3f}'/>"
             )
-            middle = f"text-anchor='middle' {SMALL} style='fill:{ink}'"
-            parts.append(svg_text(f"{value:.2f}"[1:], x + CELL_WIDTH / 2, y + 13, middle))
+            ink = "fill='#ffffff'" if share > 0.6 else ""
+            values.append(svg_text(f"{share:.2f}"[1:], x + CELL_WIDTH / 2, y + 13, ink))
     bottom = HEAD_PX + len(TIME_CELLS) * CELL_HEIGHT + 11
-    for column, cells in enumerate(SPACE_CELLS):
-        middle_x = LEFT_PX + 8 + (column + 0.5) * CELL_WIDTH
-        parts.append(svg_text(f"1/{cells}", middle_x, bottom, f"text-anchor='middle' {SMALL}"))
-    return "".join(parts)
+    for column, parts in enumerate(SPACE_CELLS):
+        values.append(svg_text(f"1/{parts}", LEFT_PX + 8 + (column + 0.5) * CELL_WIDTH, bottom))
+    return (
+        f"<g fill='{colour}' stroke='#ffffff'>{''.join(cells)}</g>"
+        f"<g {SMALL}>{''.join(labels)}<g text-anchor='middle'>{''.join(values)}</g></g>"
+    )
 
 
 def _time_panel(details: Details, colour: str, *, highest: float) -> str:
     left, bottom = 14, HEAD_PX + TIME_HEIGHT
     width = TIME_WIDTH / BINS
-    bars = [
-        f"<rect x='{left + number * width:.2f}' y='{bottom - height:.2f}' width='{width:.2f}' "
-        f"height='{height:.2f}' fill='{colour}'/>"
-        for number, share in enumerate(details.time_error)
-        for height in [TIME_HEIGHT * share / highest]
-    ]
+    steps = "".join(
+        f"V{bottom - TIME_HEIGHT * share / highest:.2f}h{width:g}" for share in details.time_error
+    )
     middle = left + TIME_WIDTH / 2
     near = 1_000 // BIN_US
     within = sum(details.time_error[BINS // 2 - near : BINS // 2 + near])
@@ -106,7 +104,7 @@ def _time_panel(details: Details, colour: str, *, highest: float) -> str:
     note = f"text-anchor='middle' {SMALL}"
     return "".join(
         [
-            *bars,
+            f"<path d='M{left} {bottom}{steps}V{bottom}' fill='{colour}'/>",
             f"<line x1='{left}' y1='{bottom}' x2='{left + TIME_WIDTH}' y2='{bottom}' "
             "stroke='#26262e'/>",
             f"<line x1='{middle}' y1='{HEAD_PX}' x2='{middle}' y2='{bottom}' stroke='#b04a4a' "

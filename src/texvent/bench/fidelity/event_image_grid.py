@@ -47,7 +47,7 @@ def event_image_grid(report: FidelityReport, scene: str) -> bytes:
     for title, events in streams.items():
         counts = event_frame(_cut(events), "count")
         panels.append(_panel(title, draw_events(counts, get_palette("paper"), ceiling=ceiling)))
-    return png_bytes(_arrange(panels))
+    return png_bytes(_arrange(panels), level=9)
 
 
 def _cut(events: EventStream) -> EventStream:

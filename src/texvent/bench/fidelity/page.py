@@ -31,7 +31,8 @@ def page_files(
     """
     name = result_name(result)
     charts = _chart_files(report, name) if has_charts else {}
-    command = f"texvent bench page {result}{'' if has_charts else ' --no-charts'}"
+    compared = "" if baseline == BASELINE else f' --baseline "{baseline}"'
+    command = f"texvent bench page {result}{compared}{'' if has_charts else ' --no-charts'}"
     parts = [
         f"# Simulators against {'true' if report.score_seeds else 'recorded'} events: the tables",
         f"Written by `{command}`; [benchmark.md](../benchmark.md) and "

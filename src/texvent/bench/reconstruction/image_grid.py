@@ -57,7 +57,7 @@ class ReconstructionGrid:
                 left = column * step_x + MARGIN_PX
                 if t_us in images:
                     whole[top : top + height, left : left + width] = _grey(images[t_us])
-        return png_bytes(whole)
+        return png_bytes(whole, level=9)
 
 
 def _grey(image: Intensity) -> Image:

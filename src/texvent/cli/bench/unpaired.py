@@ -10,7 +10,7 @@ from typing import ClassVar
 
 from rich.console import Console
 
-from texvent.bench.document import plain_values, write_document
+from texvent.bench.document import write_document
 from texvent.bench.environment import describe_environment
 from texvent.bench.unpaired import compare_folders
 from texvent.cli.option_types import REQUIRED
@@ -73,7 +73,7 @@ def run(arguments: Sequence[str]) -> None:
             **asdict(report),
             "normalised": report.normalised,
         }
-        write_document(options.out, plain_values(document), overwrite=options.overwrite)
+        write_document(options.out, document, overwrite=options.overwrite)
     sys.stdout.write(
         f"Fréchet distance {report.simulated:.2f} (floor {report.floor:.2f}, null "
         f"{report.null:.2f}; S* {report.normalised:.2f}), {report.simulated_files} simulated and "

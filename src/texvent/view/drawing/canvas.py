@@ -97,14 +97,20 @@ def fit_text(text: str, height: int, width: int) -> str:
     return text[:low].rstrip() + "..." if low else ""
 
 
-def png_bytes(image: Image) -> bytes:
+def png_bytes(image: Image, *, level: int | None = None) -> bytes:
     """The image, RGB or grey [H, W], as a PNG file in memory.
+
+    Args:
+        image: uint8 levels.
+        level: zlib's, 1..9, 9 for the smallest file; None for OpenCV's own, which is fast.
 
     Raises:
         OutputError: OpenCV refuses the image.
     """
     is_grey = image.ndim == 2
-    done, data = cv2.imencode(".png", image if is_grey else cv2.cvtColor(image, cv2.COLOR_RGB2BGR))
+    options = [] if level is None else [cv2.IMWRITE_PNG_COMPRESSION, level]
+    bgr = image if is_grey else cv2.cvtColor(image, cv2.COLOR_RGB2BGR)
+    done, data = cv2.imencode(".png", bgr, options)
     if not done:
         raise OutputError(f"an image of shape {image.shape} cannot be written as PNG")
     encoded: Any = data
