@@ -5,7 +5,7 @@ from types import ModuleType
 
 import numpy as np
 
-from texvent._registry import RECONSTRUCTORS, load_object
+from texvent._registry import RECONSTRUCTORS
 
 WIDTH, BINS, SIDE = 4, 5, 3
 """Instead of 16 or 32 channels; every name and relation of shapes stays."""
@@ -21,7 +21,7 @@ HEADS = {
 
 
 def network_class(name):
-    return load_object(RECONSTRUCTORS.load(name).network)
+    return RECONSTRUCTORS.load(name).network
 
 
 def small_shapes(name, *marks):
