@@ -12,19 +12,15 @@ Importing texvent loads neither torch nor numba nor OpenCV; each loads when a pa
 from __future__ import annotations
 
 import importlib
+import sys
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-# Two stage packages share their name with an API function. Importing the (empty) packages here,
-# before the functions exist, keeps Python from replacing `texvent.generate` by the package when
-# something imports a module inside it later.
-import texvent.generate
-import texvent.simulate  # noqa: F401
 from texvent._version import __version__
 
-del generate, simulate  # noqa: F821
-
 if TYPE_CHECKING:
-    from texvent.api import generate, load, simulate
+    from texvent import pixel_models
+    from texvent.api import compare, generate, load, open, simulate, video
     from texvent.errors import (
         ConfigError,
         FileFormatError,
@@ -35,11 +31,20 @@ if TYPE_CHECKING:
     )
     from texvent.event_packets import EventPackets
     from texvent.events import EventStream
+    from texvent.listings import (
+        formats,
+        generators,
+        interpolators,
+        presets,
+        representations,
+        sensors,
+        simulators,
+    )
     from texvent.sensor import SENSORS, Sensor, SensorSize
     from texvent.video import Frame, FrameStream, Video
 
 _HOMES = {
-    "api": ("generate", "load", "simulate"),
+    "api": ("compare", "generate", "load", "open", "simulate", "video"),
     "errors": (
         "ConfigError",
         "FileFormatError",
@@ -50,6 +55,15 @@ _HOMES = {
     ),
     "event_packets": ("EventPackets",),
     "events": ("EventStream",),
+    "listings": (
+        "formats",
+        "generators",
+        "interpolators",
+        "presets",
+        "representations",
+        "sensors",
+        "simulators",
+    ),
     "sensor": ("SENSORS", "Sensor", "SensorSize"),
     "video": ("Frame", "FrameStream", "Video"),
 }
@@ -71,14 +85,42 @@ __all__ = [
     "TexventError",
     "Video",
     "__version__",
+    "compare",
+    "formats",
     "generate",
+    "generators",
+    "interpolators",
     "load",
+    "open",
+    "pixel_models",
+    "presets",
+    "representations",
+    "sensors",
     "simulate",
+    "simulators",
+    "video",
 ]
+
+
+class _Package(ModuleType):
+    """This package: where a module inside it has the name of a function, the function stays.
+
+    Python makes every imported module an attribute of its package: `import texvent.simulate.esim`
+    would put the package `simulate` in the place of the function.
+    """
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not (isinstance(value, ModuleType) and name in _HOME_OF):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package
 
 
 def __getattr__(name: str) -> Any:
     """Load a public name on first use (PEP 562)."""
+    if name == "pixel_models":
+        return importlib.import_module("texvent.pixel_models")
     if name not in _HOME_OF:
         raise AttributeError(f"module 'texvent' has no attribute {name!r}")
     value = getattr(importlib.import_module(f"texvent.{_HOME_OF[name]}"), name)

@@ -1,74 +1,82 @@
-"""The Python API: `generate`, `simulate`, `load`.
+"""The Python API: `generate`, `simulate`, `video`, `open`, `load` and `compare`.
 
-Keywords are the options of the command line: the same names and the same defaults, from the same
+Options are those of the command line: the same names and the same defaults, from the same
 dataclasses; None means "as the preset has it".
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from fractions import Fraction
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Literal, TypeAlias, overload
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, Unpack, overload
 
 from numpy.typing import NDArray
 
-from texvent._registry import load_object
-from texvent.calibrate.rate import reach_target_rate
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
-from texvent.pipeline import Simulation, text_to_events, video_to_events
-from texvent.settings import resolve
+from texvent.generate.prompts.upsample_config import UpsampleConfig
+from texvent.option_fields import option_names
+from texvent.option_keywords import GenerateOptions, SimulateOptions
+from texvent.option_values import with_options
+from texvent.progress import ProgressOption, open_progress
+from texvent.runs import make_video, prepare_prompt, prepare_source
+from texvent.settings import Settings, resolve
 from texvent.video import FrameStream
 
-Rate: TypeAlias = int | float | str | Fraction
-Source: TypeAlias = str | Path | FrameStream | NDArray[Any] | Iterable[Any]
+if TYPE_CHECKING:
+    from texvent.metrics.protocol import Metric
 
-__all__ = ["generate", "load", "simulate"]
+Source: TypeAlias = str | Path | FrameStream | NDArray[Any] | Iterable[Any]
+Events: TypeAlias = str | Path | EventStream | EventPackets
+
+__all__ = ["compare", "generate", "load", "open", "simulate", "video"]
 
 
 @overload
 def generate(
     prompt: str,
     *,
-    generator: str | None = None,
-    simulator: str | None = None,
-    preset: str | None = None,
     as_packets: Literal[False] = False,
-    **options: Any,
+    config: str | Path | None = None,
+    progress: ProgressOption = None,
+    **options: Unpack[GenerateOptions],
 ) -> EventStream: ...
 @overload
 def generate(
     prompt: str,
     *,
-    generator: str | None = None,
-    simulator: str | None = None,
-    preset: str | None = None,
     as_packets: Literal[True],
-    **options: Any,
+    config: str | Path | None = None,
+    progress: ProgressOption = None,
+    **options: Unpack[GenerateOptions],
 ) -> EventPackets: ...
+@overload
 def generate(
     prompt: str,
     *,
-    generator: str | None = None,
-    simulator: str | None = None,
-    preset: str | None = None,
+    as_packets: bool,
+    config: str | Path | None = None,
+    progress: ProgressOption = None,
+    **options: Unpack[GenerateOptions],
+) -> EventStream | EventPackets: ...
+def generate(
+    prompt: str,
+    *,
     as_packets: bool = False,
     config: str | Path | None = None,
-    **options: Any,
+    progress: ProgressOption = None,
+    **options: Unpack[GenerateOptions],
 ) -> EventStream | EventPackets:
     """Events of the scene that a prompt describes.
 
     Args:
         prompt: what to show, such as "a red car drives left past two trees at dusk".
-        generator: text-to-video generator; default "procedural", the embedded one.
-        simulator: pixel model; default "texvent".
-        preset: named set of simulator options; default the simulator's first, "paper".
         as_packets: give packets one by one, with flat memory, instead of one stream.
         config: a TOML or YAML file with options.
-        **options: further options of `texvent generate --help`, such as `seed=3`,
-            `sensor="davis346"`, `duration=2.0`, `interpolate="exact"`, `contrast_threshold=0.2`,
-            `noise="none"`.
+        progress: a bar (True), none (False), or a function that takes steps done, steps in all or
+            None, and what is done; default: a bar in a terminal or notebook.
+        **options: those of `texvent generate --help`, such as `seed=3`, `sensor="davis346"`,
+            `duration=2.0`, `interpolate="exact"`, `simulator="esim"`, `noise="none"`.
 
     Returns:
         The events, with their provenance in `metadata`.
@@ -77,9 +85,10 @@ def generate(
         InputError: the prompt is empty.
         ConfigError: an unknown option, or a value out of range.
     """
-    named = {"generator": generator, "simulator": simulator, "preset": preset}
-    settings = resolve("generate", {**options, **named}, config=config)
-    return _events(text_to_events(prompt, settings), as_packets)
+    settings, upsample = _generation(options, config)
+    with open_progress(progress) as shown:
+        run = prepare_prompt(prompt, settings, upsample=upsample, progress=shown)
+    return run.packets if as_packets else run.packets.collect(progress=progress)
 
 
 @overload
@@ -87,33 +96,43 @@ def simulate(
     source: Source,
     *,
     t_us: Sequence[int] | None = None,
-    fps: Rate | None = None,
-    simulator: str | None = None,
-    preset: str | None = None,
+    prompt: str | None = None,
     as_packets: Literal[False] = False,
-    **options: Any,
+    config: str | Path | None = None,
+    progress: ProgressOption = None,
+    **options: Unpack[SimulateOptions],
 ) -> EventStream: ...
 @overload
 def simulate(
     source: Source,
     *,
     t_us: Sequence[int] | None = None,
-    fps: Rate | None = None,
-    simulator: str | None = None,
-    preset: str | None = None,
+    prompt: str | None = None,
     as_packets: Literal[True],
-    **options: Any,
+    config: str | Path | None = None,
+    progress: ProgressOption = None,
+    **options: Unpack[SimulateOptions],
 ) -> EventPackets: ...
+@overload
 def simulate(
     source: Source,
     *,
     t_us: Sequence[int] | None = None,
-    fps: Rate | None = None,
-    simulator: str | None = None,
-    preset: str | None = None,
+    prompt: str | None = None,
+    as_packets: bool,
+    config: str | Path | None = None,
+    progress: ProgressOption = None,
+    **options: Unpack[SimulateOptions],
+) -> EventStream | EventPackets: ...
+def simulate(
+    source: Source,
+    *,
+    t_us: Sequence[int] | None = None,
+    prompt: str | None = None,
     as_packets: bool = False,
     config: str | Path | None = None,
-    **options: Any,
+    progress: ProgressOption = None,
+    **options: Unpack[SimulateOptions],
 ) -> EventStream | EventPackets:
     """Events that an event camera would have recorded of a video.
 
@@ -121,13 +140,12 @@ def simulate(
         source: a video file, an image folder, a camera or network address, an array [N, H, W] or
             [N, H, W, 3] (uint8, uint16, or float on the 0..255 scale), or a FrameStream.
         t_us: frame times, µs, for arrays; otherwise give `fps`.
-        fps: frame rate, such as 24, 29.97 or "30000/1001"; video files know their own times.
-        simulator: pixel model; default "texvent".
-        preset: named set of simulator options; default the simulator's first, "paper".
+        prompt: what the video shows, stored with the events.
         as_packets: give packets one by one, with flat memory, instead of one stream.
         config: a TOML or YAML file with options.
-        **options: further options of `texvent simulate --help`, such as `interpolate="flow"`,
-            `sensor="davis346"`, `contrast_threshold=0.2`, `noise="none"`, `seed=0`.
+        progress: as `generate`.
+        **options: those of `texvent simulate --help`, such as `fps="30000/1001"`,
+            `interpolate="flow"`, `sensor="davis346"`, `contrast_threshold=0.2`, `noise="none"`.
 
     Returns:
         The events, with their provenance in `metadata`.
@@ -136,18 +154,55 @@ def simulate(
         InputError: the source cannot be read, or holds NaN, negative or infinite intensities.
         ConfigError: an unknown option, or a value out of range.
     """
-    named = {"fps": fps, "simulator": simulator, "preset": preset}
-    settings = resolve("simulate", {**options, **named}, config=config)
-    open_frames = load_object("texvent.capture.open:open_frames")
-    video = open_frames(source, settings.source, size=settings.size, t_us=t_us)
-    return _events(video_to_events(video, settings), as_packets)
+    settings = resolve("simulate", dict(options), config=config)
+    with open_progress(progress) as shown:
+        run = prepare_source(source, settings, t_us=t_us, prompt=prompt, progress=shown)
+    return run.packets if as_packets else run.packets.collect(progress=progress)
 
 
-def load(path: str | Path, *, format: str | None = None, size: Any = None) -> EventStream:
-    """Events of a file, in memory; see `texvent.io.files` for the formats.
+def video(
+    prompt: str,
+    *,
+    config: str | Path | None = None,
+    progress: ProgressOption = None,
+    **options: Unpack[GenerateOptions],
+) -> FrameStream:
+    """The frames alone of the scene that a prompt describes.
 
     Args:
-        path: the file.
+        prompt: what to show.
+        config: a TOML or YAML file with options.
+        progress: as `generate`.
+        **options: as `generate`; those of the simulator have no effect.
+
+    Returns:
+        Frames at the generator's rate, fitted to the sensor; `simulate` takes them. The embedded
+        generator renders them when they are iterated.
+
+    Raises:
+        InputError, ConfigError: as `generate`.
+
+    Example:
+        >>> frames = video("a red ball bounces", sensor="48x36", duration=0.2)
+        >>> frames.size, next(iter(frames)).pixels.shape
+        (SensorSize(width=48, height=36), (36, 48, 3))
+    """
+    settings, upsample = _generation(options, config)
+    with open_progress(progress) as shown:
+        return make_video(prompt, settings, upsample=upsample, progress=shown)
+
+
+def open(
+    path: str | Path, *, format: str | None = None, size: tuple[int, int] | None = None
+) -> EventPackets:
+    """Events of a file, which is read when they are asked for, with flat memory.
+
+    Iterate over the packets, cut with `between(start_us, stop_us)`, ask for `size`, `metadata` and
+    `time_range`, or take all with `collect()`. An HDF5 file finds a time without reading what lies
+    before; others are read from the start, and no further than needed.
+
+    Args:
+        path: the file or folder; see `formats()`.
         format: its format, where the extension does not say.
         size: sensor size (width, height), for formats that do not store it.
 
@@ -155,10 +210,60 @@ def load(path: str | Path, *, format: str | None = None, size: Any = None) -> Ev
         InputError: no such file, or the size is not stored and not given.
         FileFormatError: the file is damaged or of another format.
     """
-    events: EventStream = load_object("texvent.io.files:load")(path, format=format, size=size)
-    return events
+    from texvent.io.files import open_events
+
+    return open_events(path, format=format, size=size)
 
 
-def _events(simulation: Simulation, as_packets: bool) -> EventStream | EventPackets:
-    packets = reach_target_rate(simulation)[0].packets
-    return packets if as_packets else packets.collect()
+def load(
+    path: str | Path, *, format: str | None = None, size: tuple[int, int] | None = None
+) -> EventStream:
+    """Events of a file, in memory; arguments and errors as `open`."""
+    return open(path, format=format, size=size).collect()
+
+
+def compare(
+    events: Events,
+    reference: Events,
+    metrics: Iterable[str | Metric] | None = None,
+    *,
+    span_us: tuple[int, int] | None = None,
+) -> dict[str, float]:
+    """How close events are to a reference, by many metrics.
+
+    Args:
+        events: the stream to judge, or its file.
+        reference: the true stream, or its file.
+        metrics: names, such as "stpp" or "count_ratio"; default: all but those whose weights are
+            missing.
+        span_us: compare only events with `start <= t < stop`, µs; default: all.
+
+    Returns:
+        Name → value, NaN where a metric is undefined for these streams.
+
+    Raises:
+        InputError: the sensors differ in size, or a metric's weights are not here.
+        ConfigError: an unknown metric, or a span that is not longer than 0.
+    """
+    from texvent.metrics.compare import compare as compare_streams
+
+    return compare_streams(_stream(events), _stream(reference), metrics, span_us=span_us)
+
+
+def _stream(events: Events) -> EventStream:
+    """Events in memory, of a file or of packets too."""
+    if isinstance(events, EventStream):
+        return events
+    return events.collect() if isinstance(events, EventPackets) else load(events)
+
+
+def _generation(
+    options: Mapping[str, Any], config: str | Path | None
+) -> tuple[Settings, UpsampleConfig]:
+    """Settings of a run from a prompt, and its prompt upsampling."""
+    names = option_names(UpsampleConfig)
+    own = {name: value for name, value in options.items() if name in names}
+    rest = {name: value for name, value in options.items() if name not in names}
+    return resolve("generate", rest, config=config), with_options(
+        UpsampleConfig(), own, where="options"
+    )

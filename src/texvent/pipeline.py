@@ -116,12 +116,21 @@ class Simulation:
             for frame, packet in simulator.finish():
                 yield frame, select_events(packet, run)
 
+    def __iter__(self) -> Iterator[EventStream]:
+        return (packet for _, packet in self.steps())
+
+    def report_to(self, progress: Progress) -> Iterator[EventStream]:
+        """The packets; `progress` receives the number of source frames done."""
+        done = 0
+        for frame, packet in self.steps():
+            done += frame.is_source
+            progress.advance("simulate", done, self.video.frame_count)
+            yield packet
+
     @property
     def packets(self) -> EventPackets:
-        """The events alone, packet by packet."""
-        return EventPackets(
-            (packet for _, packet in self.steps()), self.video.size, self.provenance
-        )
+        """The events alone, packet by packet; simulated anew for each pass."""
+        return EventPackets(self, self.video.size, self.provenance)
 
     @property
     def provenance(self) -> dict[str, Any]:

@@ -21,9 +21,20 @@ PUBLIC = {
     "TexventError",
     "Video",
     "__version__",
+    "compare",
+    "formats",
     "generate",
+    "generators",
+    "interpolators",
     "load",
+    "open",
+    "pixel_models",
+    "presets",
+    "representations",
+    "sensors",
     "simulate",
+    "simulators",
+    "video",
 }
 HEAVY = ("torch", "numba", "cv2", "av", "h5py", "tyro", "rich")
 
@@ -36,6 +47,7 @@ def loaded_by(statement: str) -> set[str]:
 
 def test_the_public_names_are_these_and_all_exist():
     assert set(texvent.__all__) == PUBLIC
+    assert len(PUBLIC) <= 40
     assert all(hasattr(texvent, name) for name in PUBLIC)
     assert set(dir(texvent)) == PUBLIC
 
@@ -45,15 +57,21 @@ def test_importing_texvent_loads_no_heavy_package():
 
 
 def test_the_api_and_the_value_types_load_no_heavy_package():
-    loaded = loaded_by("import texvent; texvent.generate; texvent.simulate; texvent.EventStream")
+    names = ("generate", "simulate", "video", "open", "compare", "EventStream", "EventPackets")
+    loaded = loaded_by(f"import texvent; {'; '.join(f'texvent.{name}' for name in names)}")
     assert not set(HEAVY) & loaded
 
 
 def test_api_functions_stay_functions_when_their_stage_packages_are_imported():
     code = (
         "import texvent, texvent.generate.protocol, texvent.simulate.protocol;"
+        "import texvent.metrics.compare, texvent.video;"
         "from texvent.generate import protocol;"
-        "assert callable(texvent.generate) and callable(texvent.simulate)"
+        "from texvent import video;"
+        "names = ('generate', 'simulate', 'video');"
+        "assert all(type(getattr(texvent, one)).__name__ == 'function' for one in names);"
+        "from texvent.simulate.protocol import Simulator;"
+        "from texvent.video import Frame"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
 

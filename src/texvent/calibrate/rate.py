@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 from collections.abc import Callable
 from typing import NamedTuple
 
-from texvent.calibrate.threshold_search import HIGHEST, LOWEST, find_threshold
+from texvent.calibrate.threshold_search import HIGHEST, LOWEST, MAX_STEPS, find_threshold
 from texvent.config import check_range
 from texvent.errors import InputError
 from texvent.pipeline import Simulation
+from texvent.progress import Progress
 from texvent.simulate.thresholds import contrast_threshold_of, with_contrast_threshold
 from texvent.video import MICROSECONDS
 
@@ -28,18 +30,30 @@ class RateMatch(NamedTuple):
     """Number of trials."""
 
 
-def reach_target_rate(simulation: Simulation) -> tuple[Simulation, RateMatch | None]:
-    """The run as its option `target_rate` wants it, and what the search found, if it was set.
+def reach_target_rate(simulation: Simulation, *, progress: Progress | None = None) -> Simulation:
+    """The run with the contrast threshold that its option `target_rate` asks for, if it is set.
 
     Raises:
         ConfigError, InputError: as `match_rate`.
     """
     target_hz = simulation.settings.run.target_rate
-    return (simulation, None) if target_hz is None else match_rate(simulation, target_hz)
+    if target_hz is None:
+        return simulation
+    simulation, match = match_rate(simulation, target_hz, progress=progress)
+    if progress is not None:
+        progress.announce(
+            f"rate     {match.rate_hz:,.0f} events per second in the first second, with contrast "
+            f"threshold {match.contrast_threshold:.4g} ({match.steps} trials)"
+        )
+    return simulation
 
 
 def match_rate(
-    simulation: Simulation, target_hz: float, *, seconds: float = 1.0
+    simulation: Simulation,
+    target_hz: float,
+    *,
+    seconds: float = 1.0,
+    progress: Progress | None = None,
 ) -> tuple[Simulation, RateMatch]:
     """A simulation whose contrast threshold makes its start fire at a wanted rate.
 
@@ -47,6 +61,7 @@ def match_rate(
         simulation: the run; its frames are read several times.
         target_hz: events per second of the whole sensor, above 0.
         seconds: how much of the clip, from its start, is simulated to measure the rate.
+        progress: told of every trial.
 
     Returns:
         The same run with another threshold (ON and OFF keep their ratio), and what was found.
@@ -69,7 +84,14 @@ def match_rate(
         settings = dataclasses.replace(simulation.settings, simulate=config)
         return dataclasses.replace(simulation, settings=settings)
 
-    match = threshold_for_rate(lambda δ: measure_rate(with_threshold(δ), seconds), target_hz)
+    trials = itertools.count(1)
+
+    def rate_of(threshold: float) -> float:
+        if progress is not None:
+            progress.advance("target rate", next(trials), MAX_STEPS)
+        return measure_rate(with_threshold(threshold), seconds)
+
+    match = threshold_for_rate(rate_of, target_hz)
     return with_threshold(match.contrast_threshold), match
 
 

@@ -5,32 +5,23 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, Protocol
 
 import tomli_w
-from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    SpinnerColumn,
-    TextColumn,
-    TimeElapsedColumn,
-    TimeRemainingColumn,
-)
 
 from texvent._registry import load_object
-from texvent.calibrate.rate import reach_target_rate
 from texvent.cli.estimate import describe_estimate, estimate_run
 from texvent.cli.outputs import OutputOptions
+from texvent.console_progress import ConsoleProgress
 from texvent.events import EventStream
 from texvent.io.files import open_writer
 from texvent.pairs.scene_change import SceneChange
 from texvent.pipeline import Simulation
+from texvent.runs import prepare_source
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.settings import Settings, unmeasured_sensor
 from texvent.video import MICROSECONDS, Frame
@@ -86,6 +77,32 @@ class Sink(Protocol):
         ...
 
 
+def run_source(
+    source: str | Path,
+    settings: Settings,
+    options: OutputOptions,
+    *,
+    prompt: str | None,
+    subject: str,
+) -> int:
+    """Simulate a video into its files; returns exit code 0.
+
+    Args:
+        source: as `texvent simulate` takes it.
+        settings: all options.
+        options: what is written, and where.
+        prompt: what the video shows, if that is known.
+        subject: what the event file is named after, unless it has a name.
+
+    Raises:
+        TexventError: as `execute`, and as `texvent.runs.prepare_source`.
+    """
+    options.check(subject)
+    with ConsoleProgress(is_quiet=options.quiet) as progress:
+        simulation = prepare_source(source, settings, prompt=prompt, progress=progress)
+    return execute(simulation, options, subject=subject)
+
+
 def execute(simulation: Simulation, options: OutputOptions, subject: str) -> int:
     """Run a simulation into its files; nothing appears under its name before it is complete.
 
@@ -97,39 +114,30 @@ def execute(simulation: Simulation, options: OutputOptions, subject: str) -> int
         InputError: the frames cannot be used.
     """
     path = options.event_file(subject)
-    console = Console(stderr=True, quiet=options.quiet, highlight=False)
-    simulation, match = reach_target_rate(simulation)
-    if match is not None:
-        console.print(
-            f"rate     {match.rate_hz:,.0f} events per second in the first second, with contrast "
-            f"threshold {match.contrast_threshold:.4g} ({match.steps} trials)",
-            markup=False,
-        )
     if options.dry_run:
         sys.stdout.write(describe_estimate(estimate_run(simulation)) + "\n")
         return 0
-    _report_understanding(console, simulation)
-    unmeasured = unmeasured_sensor(simulation.settings.run)
-    if unmeasured is not None:
-        console.print(f"note     {unmeasured}", markup=False)
-    tally, started = Tally(), time.perf_counter()
+    progress = ConsoleProgress(is_quiet=options.quiet)
+    for line in _notes(simulation):
+        progress.announce(line)
+    tally, started, total = Tally(), time.perf_counter(), simulation.video.frame_count
     with ExitStack() as outputs:
         sinks = _open_outputs(outputs, simulation, options, path)
-        advance = outputs.enter_context(_progress(simulation, console))
+        outputs.enter_context(progress)
         for frame, packet in simulation.steps(tally.add_scene_change):
             for sink in sinks:
                 sink.append(frame, packet)
             tally.add(frame, packet)
-            advance(frame)
-    _report(console, tally, time.perf_counter() - started)
+            progress.advance("frames", tally.source_frames, total)
+    progress.announce(_summary(tally, time.perf_counter() - started))
     if not options.quiet:
         for written in (path, *(path.with_suffix(f".{kind}") for kind in options.previews)):
             sys.stdout.write(f"{written}\n")
     return 0
 
 
-class _EventFile:
-    """The event file as a sink: it wants packets, not frames."""
+class _PacketSink:
+    """The event file as a sink: it takes packets, not frames."""
 
     def __init__(self, writer: Any) -> None:
         self._writer = writer
@@ -161,49 +169,33 @@ def _open_outputs(
         )
         sinks.append(outputs.enter_context(BackgroundWriter(outputs.enter_context(preview))))
     writer = open_writer(path, size=size, metadata=metadata, overwrite=options.overwrite)
-    events = _EventFile(outputs.enter_context(writer))
+    events = _PacketSink(outputs.enter_context(writer))
     sinks.append(outputs.enter_context(BackgroundWriter(events)))
     return sinks
 
 
-@contextmanager
-def _progress(simulation: Simulation, console: Console) -> Iterator[Any]:
-    """A progress bar on stderr over source frames; silent when stderr is not a terminal."""
-    bar = Progress(
-        SpinnerColumn(),
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TextColumn("frames"),
-        TimeElapsedColumn(),
-        TimeRemainingColumn(),
-        console=console,
-        disable=console.quiet or not console.is_terminal,
-        transient=True,
-    )
-    with bar:
-        task = bar.add_task("events", total=simulation.video.frame_count)
-        yield lambda frame: bar.advance(task, 1 if frame.is_source else 0)
-
-
-def _report_understanding(console: Console, simulation: Simulation) -> None:
+def _notes(simulation: Simulation) -> Iterator[str]:
     """What the generator made of the prompt, the words it did not understand included."""
     for line in simulation.video.metadata.get("understood", ()):
-        console.print(f"scene    {line}", markup=False)
+        yield f"scene    {line}"
+    unmeasured = unmeasured_sensor(simulation.settings.run)
+    if unmeasured is not None:
+        yield f"note     {unmeasured}"
 
 
-def _report(console: Console, tally: Tally, seconds: float) -> None:
+def _summary(tally: Tally, seconds: float) -> str:
+    """What a run made in `seconds` of work, in a few lines."""
     rate = tally.events / tally.seconds if tally.seconds else 0.0
     share = f", {tally.on_events / tally.events:.0%} ON" if tally.events else ""
-    console.print(
-        f"events   {tally.events:,} in {tally.seconds:.3f} s ({rate:,.0f} per second{share})\n"
+    lines = [
+        f"events   {tally.events:,} in {tally.seconds:.3f} s ({rate:,.0f} per second{share})",
         f"frames   {tally.source_frames:,} source + {tally.intermediate_frames:,} intermediate, "
         f"{seconds:.1f} s of work",
-        markup=False,
-    )
+    ]
     if tally.scene_changes:
         more = ", ..." if len(tally.scene_changes) > 8 else ""
         shown = ", ".join(tally.scene_changes[:8]) + more
-        console.print(f"note     not smeared over the interval: {shown}", markup=False)
+        lines.append(f"note     not smeared over the interval: {shown}")
     if tally.source_frames == 1:
-        console.print("note     one frame only, so nothing could change", markup=False)
+        lines.append("note     one frame only, so nothing could change")
+    return "\n".join(lines)

@@ -8,15 +8,15 @@ from typing import Any, TypeAlias, get_args
 
 import numpy as np
 
-from texvent._registry import load_object, suggest
+from texvent._registry import suggest
 from texvent.api import Source
-from texvent.calibrate.rate import reach_target_rate
 from texvent.config import check_range
 from texvent.dataset.targets import Clip, Target, film, target_of
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.pipeline import Simulation, text_to_events, video_to_events
+from texvent.pipeline import Simulation
 from texvent.represent.named import load_representation, represent_window
+from texvent.runs import prepare_prompt, prepare_source
 from texvent.settings import Settings, resolve
 from texvent.simulate.random.draws import frame_key
 
@@ -139,11 +139,5 @@ class SimulatedSamples:
     def _simulation(self, number: int) -> Simulation:
         settings = self._resolve(number)
         if self.prompts:
-            run = text_to_events(self.prompts[number % len(self.prompts)], settings)
-        else:
-            open_frames = load_object("texvent.capture.open:open_frames")
-            source = self.videos[number % len(self.videos)]
-            run = video_to_events(
-                open_frames(source, settings.source, size=settings.size), settings
-            )
-        return reach_target_rate(run)[0]
+            return prepare_prompt(self.prompts[number % len(self.prompts)], settings)
+        return prepare_source(self.videos[number % len(self.videos)], settings)

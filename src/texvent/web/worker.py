@@ -17,7 +17,8 @@ from texvent._registry import CODECS
 from texvent.capture.open import open_frames
 from texvent.errors import InputError, TexventError
 from texvent.io.files import open_events, open_writer, save
-from texvent.pipeline import Simulation, text_to_events, video_to_events
+from texvent.pipeline import Simulation
+from texvent.runs import prepare_prompt, prepare_video
 from texvent.sensor import SensorSize
 from texvent.settings import resolve
 from texvent.video import MICROSECONDS
@@ -146,11 +147,11 @@ def _prepare(job: SimulateJob, progress: _JobProgress) -> Simulation:
             )
         settings = resolve("generate", options)
         _check_size(settings.size or SensorSize(1, 1), job.limits)
-        return text_to_events(job.prompt or "", settings, progress=progress)
+        return prepare_prompt(job.prompt or "", settings, progress=progress)
     settings = resolve("simulate", options)
     video = open_frames(job.video, settings.source, size=settings.size)
     _check_length(video, job.limits)
-    return video_to_events(video, settings)
+    return prepare_video(video, settings, progress=progress)
 
 
 def _check_length(video: Any, limits: Limits) -> None:

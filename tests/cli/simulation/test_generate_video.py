@@ -69,6 +69,31 @@ def test_any_other_video_can_stand_for_the_prompts_video(folder):
     assert len(texvent.load("blinks.h5")) > 0
 
 
+@pytest.mark.parametrize("flag", ["--duration", "--generator", "--video-only", "--upsample"])
+def test_a_flag_that_makes_a_video_is_refused_beside_a_ready_one(folder, capsys, flag):
+    value = [] if flag == "--video-only" else ["procedural" if flag == "--generator" else "3"]
+    assert run("generate", "a ball", "--from-video", "ball.avi", flag, *value) == 2
+    said = capsys.readouterr().err
+    assert f"{flag} says how to make a video, but --from-video takes one that is ready" in said
+
+
+def test_a_wrong_flag_beside_a_ready_video_points_to_the_options_of_simulate(folder, capsys):
+    assert run("generate", "a ball", "--from-video", "ball.avi", "--contrast-treshold", "1") == 2
+    said = capsys.readouterr().err
+    assert "did you mean --contrast-threshold?" in said
+    assert "(see texvent simulate --help)" in said
+
+
+def test_simulate_with_a_prompt_does_what_from_video_does(folder):
+    assert run("generate", PROMPT, *SMALL, "--video-only", "-o", "ball.avi") == 0
+    assert run("generate", "a ball", "--from-video", "ball.avi", "--events-only", "-o", "a.h5") == 0
+    assert run("simulate", "ball.avi", "--prompt", "a ball", "--events-only", "-o", "b.h5") == 0
+    first, second = texvent.load("a.h5"), texvent.load("b.h5")
+    assert first.equals(second)
+    assert first.metadata["prompt"] == second.metadata["prompt"] == "a ball"
+    assert first.metadata["source"] == second.metadata["source"]
+
+
 @pytest.mark.parametrize(
     ("words", "code", "why"),
     [

@@ -12,7 +12,7 @@ from texvent.bench.oracle.recording import TrueFrames, render_video
 from texvent.bench.oracle.scenes import Scene
 from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.pipeline import video_to_events
+from texvent.runs import prepare_video
 from texvent.settings import Settings, resolve
 from texvent.simulate.thresholds import contrast_threshold_of, with_contrast_threshold
 from texvent.video import FrameStream
@@ -101,7 +101,7 @@ def simulate_video(video: FrameStream, settings: Settings, threshold: float | No
     if threshold is not None:
         simulate = with_contrast_threshold(settings.simulate, threshold)
         settings = dataclasses.replace(settings, simulate=simulate)
-    return video_to_events(video, settings).packets.collect()
+    return prepare_video(video, settings).packets.collect()
 
 
 MORE_PRESETS: Mapping[str, tuple[str, ...]] = {"texvent": ("accurate",)}

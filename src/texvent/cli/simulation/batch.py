@@ -14,7 +14,7 @@ from texvent.cli.command import resolve_command
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.outputs import OutputOptions
 from texvent.cli.run import execute, print_settings
-from texvent.cli.simulation.generate import PromptOptions, detail
+from texvent.cli.simulation.generate import PromptOptions
 from texvent.console_progress import ConsoleProgress
 from texvent.errors import (
     ConfigError,
@@ -25,7 +25,7 @@ from texvent.errors import (
 )
 from texvent.generate.prompts.prompt_files import PromptLine, read_prompts
 from texvent.generate.prompts.upsample_config import UpsampleConfig
-from texvent.pipeline import text_to_video, video_to_events
+from texvent.runs import prepare_prompt
 from texvent.settings import Settings, apply_options
 
 DESCRIPTION = """Events for every prompt of a file: .txt (one per line), .csv or .jsonl (prompt, and
@@ -70,8 +70,7 @@ def run(arguments: Sequence[str]) -> int:
                 continue
             try:
                 one = dataclasses.replace(output, out=target)
-                prompt = detail(line.prompt, own, progress)
-                _run_one(line, prompt, settings, output=one, progress=progress)
+                _run_one(line, settings, own, output=one, progress=progress)
             except (ConfigError, OutputError, MissingDependencyError):
                 raise
             except TexventError as error:
@@ -85,18 +84,18 @@ def run(arguments: Sequence[str]) -> int:
 
 def _run_one(
     line: PromptLine,
-    prompt: str,
     settings: Settings,
+    upsample: UpsampleConfig,
     *,
     output: OutputOptions,
     progress: ConsoleProgress,
 ) -> None:
-    """Events of a line; `prompt` is what the generator is given for it."""
+    """Events of a line."""
     if line.seed is not None:
         settings = apply_options(settings, {"seed": line.seed}, where=f"line {line.line}")
     output.check(line.prompt)
-    video = text_to_video(prompt, settings, progress=progress)
-    execute(video_to_events(video, settings, prompt=line.prompt), output, subject=line.prompt)
+    simulation = prepare_prompt(line.prompt, settings, upsample=upsample, progress=progress)
+    execute(simulation, output, subject=line.prompt)
 
 
 def _name_results(lines: Sequence[PromptLine], folder: Path) -> list[Path]:

@@ -8,19 +8,20 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from texvent._registry import GENERATORS, load_object
-from texvent.capture.open import open_frames
+from texvent._registry import GENERATORS
 from texvent.cli.command import resolve_command
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import peek_options
 from texvent.cli.outputs import OutputOptions
-from texvent.cli.run import execute, print_settings
+from texvent.cli.run import execute, print_settings, run_source
+from texvent.config import CaptureConfig
 from texvent.console_progress import ConsoleProgress
 from texvent.errors import ConfigError, InputError
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.io.atomic import check_output
-from texvent.pipeline import text_to_video, video_to_events
-from texvent.settings import Settings
+from texvent.option_fields import option_names
+from texvent.runs import check_run, make_video, prepare_prompt
+from texvent.settings import Settings, default_settings
 
 DESCRIPTION = """Turn a sentence into the events that an event camera would record. The embedded
 generator renders simple 3-D shapes, without weights or download; `texvent generators` lists learned
@@ -28,7 +29,6 @@ models, whose videos are cached.
 
   texvent generate "a red car drives left past two trees at dusk" -o out.h5
   texvent generate "a dog runs" --generator wan-1.3b --simulator v2e --seed 3"""
-STORED_VIDEO = "texvent.generate.videos.stored_video"
 VIDEO_EXTENSION = ".avi"
 
 
@@ -51,8 +51,8 @@ class PromptOptions(UpsampleConfig):
     video_only: bool = False
     """Write the generated video (.avi, lossless, 16 bits) instead of events, and stop."""
     from_video: Path | None = None
-    """Take this video for the prompt's instead of generating one; the options are then those of
-    texvent simulate."""
+    """Take this video for the prompt's instead of generating one; all further options are then
+    those of texvent simulate, which does the same: texvent simulate VIDEO --prompt TEXT."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,13 +78,13 @@ def run(arguments: Sequence[str]) -> int:
         return print_settings(settings)
     if own.video_only:
         return _write_video(own, settings, output)
+    check_run(settings)
     if output.dry_run and (plan := _plan(own.prompt, settings)) is not None:
         sys.stdout.write(f"{plan}\n")
         return 0
     output.check(own.prompt)
     with ConsoleProgress(is_quiet=output.quiet) as progress:
-        video = text_to_video(detail(own.prompt, own, progress), settings, progress=progress)
-    simulation = video_to_events(video, settings, prompt=own.prompt)
+        simulation = prepare_prompt(own.prompt, settings, upsample=own, progress=progress)
     return execute(simulation, output, subject=own.prompt)
 
 
@@ -96,18 +96,8 @@ def _plan(prompt: str, settings: Settings) -> str | None:
     return None if plan is None else plan(prompt)
 
 
-def detail(prompt: str, options: UpsampleConfig, progress: ConsoleProgress) -> str:
-    """The prompt that the generator is given: the user's, made detailed if that is wanted."""
-    if options.upsample is None:
-        return prompt
-    detailed: str = load_object("texvent.generate.prompts.upsample:upsample_prompt")(
-        prompt, options
-    )
-    progress.announce(f"prompt   {detailed}")
-    return detailed
-
-
 def _run_from_video(arguments: Sequence[str]) -> int:
+    _refuse_generation(arguments)
     settings, own, output = resolve_command(
         "simulate", arguments, FromVideoOptions(), description=DESCRIPTION
     )
@@ -115,17 +105,33 @@ def _run_from_video(arguments: Sequence[str]) -> int:
         return print_settings(settings)
     if not own.from_video.is_file():
         raise InputError(f"no such video: {own.from_video}")
-    output.check(own.prompt)
-    # A video of ours knows what made it; any other is read as texvent simulate reads it.
-    known = load_object(f"{STORED_VIDEO}:reopen")(own.from_video)
-    source = known if known is not None and settings.source.fps is None else own.from_video
-    video = open_frames(source, settings.source, size=settings.size)
-    simulation = video_to_events(video, settings, prompt=own.prompt)
-    return execute(simulation, output, subject=own.prompt)
+    return run_source(own.from_video, settings, output, prompt=own.prompt, subject=own.prompt)
+
+
+def _refuse_generation(arguments: Sequence[str]) -> None:
+    """Refuse flags that say how a video is made beside one that is ready.
+
+    Raises:
+        ConfigError: there is such a flag.
+    """
+    generator = peek_options(arguments, ("generator",))["generator"]
+    source = default_settings("generate", generator=generator).source
+    making = {*option_names(PromptOptions), *option_names(type(source))}
+    taken = {*option_names(FromVideoOptions), *option_names(CaptureConfig)}
+    for word in arguments:
+        flag = word.partition("=")[0]
+        name = flag.removeprefix("--").removeprefix("no-").replace("-", "_")
+        if flag.startswith("--") and name in making - taken:
+            raise ConfigError(
+                f"{flag} says how to make a video, but --from-video takes one that is ready; leave "
+                "one of them out"
+            )
 
 
 def _write_video(own: PromptOptions, settings: Settings, output: OutputOptions) -> int:
     """Write the video of a prompt and print its path."""
+    from texvent.generate.videos.stored_video import write_stream  # brings PyAV
+
     named = output.event_file(own.prompt)
     path = named if output.out is not None else named.with_suffix(VIDEO_EXTENSION)
     if path.suffix.lower() != VIDEO_EXTENSION:
@@ -134,8 +140,8 @@ def _write_video(own: PromptOptions, settings: Settings, output: OutputOptions) 
         )
     check_output(path, overwrite=output.overwrite)
     with ConsoleProgress(is_quiet=output.quiet) as progress:
-        video = text_to_video(detail(own.prompt, own, progress), settings, progress=progress)
-        load_object(f"{STORED_VIDEO}:write_stream")(video, path, overwrite=output.overwrite)
+        video = make_video(own.prompt, settings, upsample=own, progress=progress)
+        write_stream(video, path, overwrite=output.overwrite)
     if not output.quiet:
         sys.stdout.write(f"{path}\n")
     return 0

@@ -7,11 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from texvent.capture.open import open_frames
 from texvent.cli.command import resolve_command
 from texvent.cli.option_types import REQUIRED
-from texvent.cli.run import execute, print_settings
-from texvent.pipeline import video_to_events
+from texvent.cli.run import print_settings, run_source
 
 DESCRIPTION = """Turn a video into the events that an event camera would have recorded.
 
@@ -31,6 +29,8 @@ class VideoOptions:
 
     source: str = REQUIRED
     """Video file, image folder, camera (/dev/video0), stream (rtsp://...), - (standard input)."""
+    prompt: str | None = None
+    """What the video shows; stored with the events."""
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -40,6 +40,5 @@ def run(arguments: Sequence[str]) -> int:
     )
     if output.print_config:
         return print_settings(settings)
-    video = open_frames(own.source, settings.source, size=settings.size)
     subject = "standard input" if own.source == "-" else Path(own.source).stem
-    return execute(video_to_events(video, settings), output, subject=subject)
+    return run_source(own.source, settings, output, prompt=own.prompt, subject=subject)

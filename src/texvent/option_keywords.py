@@ -1,0 +1,178 @@
+"""Options of the Python API, for editors and type checkers.
+
+Written by `python -m tests.contract.option_keywords` from the option dataclasses, which say what
+each option means; so does `--help all`. None means "not given".
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+from typing import Literal, TypeAlias, TypedDict
+
+from texvent.sensor import Sensor
+
+Rate: TypeAlias = int | float | str | Fraction
+"""24, 29.97 or "30000/1001"."""
+SensorName: TypeAlias = str | Path | Sensor | tuple[int, int]
+"""A name such as "davis346", (width, height), or a file that `texvent calibrate` wrote."""
+
+
+class RunOptions(TypedDict, total=False):
+    """Options of every run."""
+
+    simulator: str | None
+    preset: str | None
+    sensor: SensorName | None
+    engine: Literal["frames", "continuous"] | None
+    seed: int | None
+    backend: Literal["auto", "cpu", "reference", "gpu"] | None
+    events: Literal["all", "signal", "noise"] | None
+    label_noise: bool | None
+    target_rate: float | None
+    randomize: Literal["none", "stoffregen", "v2v"] | None
+
+
+class InterpolateOptions(TypedDict, total=False):
+    """Options of the intermediate frames."""
+
+    interpolate: str | None
+    count: Literal["brightness", "fixed"] | None
+    fixed_count: int | None
+    max_intermediate: int | None
+    count_percentile: float | None
+    count_threshold: float | None
+    count_balance: float | None
+    motion_floor: bool | None
+    max_frames_per_second: float | None
+    deflicker: bool | None
+    detect_cuts: bool | None
+    interpolator_weights: str | Path | None
+    interpolator_device: Literal["auto", "cpu", "cuda"] | None
+    interpolator_precision: Literal["float32", "float16", "bfloat16"] | None
+    interpolator_compile: bool | None
+    interpolator_tile: int | None
+    rife_flow: Literal["shared", "each"] | None
+
+
+class SimulatorOptions(TypedDict, total=False):
+    """Options of all pixel models."""
+
+    contrast_threshold: float | None
+    balance: float | None
+    cache: Literal["local", "global", "none", "leaky"] | None
+    cache_reset_pairs: int | None
+    cache_leak: float | None
+    reset: Literal["current", "step"] | None
+    multi_event: bool | None
+    noise: Literal["adaptive", "gaussian", "random", "none"] | None
+    noise_rate_hz: float | None
+    noise_scale: float | None
+    noise_intensity: float | None
+    noise_on_fraction: float | None
+    stamp: Literal["eq7", "random", "linear", "hyperbolic", "even", "end"] | None
+    stamp_scale: float | None
+    gamma: float | None
+    on_off_ratio: float | None
+    threshold_sigma: float | None
+    initial_phase: Literal["random", "zero"] | None
+    residual_decay_hz: float | None
+    cutoff_hz: float | None
+    refractory_period_us: int | None
+    leak_rate_hz: float | None
+    leak_rate_decades: float | None
+    noise_curve: str | None
+    noise_decades: float | None
+    noise_resets: bool | None
+    hot_pixel_fraction: float | None
+    hot_pixel_rate_hz: float | None
+    sensor_seed: int | None
+    readout_latency_us: int | None
+    readout_jitter_us: int | None
+    clock_step_us: int | None
+    rate_limit_hz: float | None
+    rate_limit_window_us: int | None
+    contrast_threshold_on: float | None
+    contrast_threshold_off: float | None
+    threshold_redraw: Literal["frame", "never"] | None
+    log_eps: float | None
+    linear_below: float | None
+    shot_noise_rate_hz: float | None
+    photoreceptor_noise: bool | None
+    well_capacity: float | None
+    hot_fraction: float | None
+    hot_rate_hz: float | None
+    shot_noise: bool | None
+    dark_electrons: float | None
+    exposure_us: int | None
+    weights: str | Path | None
+    device: Literal["auto", "cpu", "cuda"] | None
+    sequence_length: int | None
+    rounding: Literal["published", "stochastic"] | None
+    bidirectional: bool | None
+    k1: float | None
+    k2: float | None
+    k3: float | None
+    k4: float | None
+    k5: float | None
+    k6: float | None
+    start_voltage: Literal["random", "zero"] | None
+
+
+class CaptureOptions(TypedDict, total=False):
+    """Options of recorded frames."""
+
+    fps: Rate | None
+    timestamps: str | Path | None
+    timestamps_unit: Literal["s", "ms", "us", "ns"] | None
+    start: float | None
+    stop: float | None
+    white_level: float | None
+    fit: Literal["cover", "contain", "stretch"] | None
+
+
+class GeneratorOptions(TypedDict, total=False):
+    """Options of all generators, and of prompt upsampling."""
+
+    generator: str | None
+    fps: Rate | None
+    duration: float | None
+    samples: int | None
+    shadows: bool | None
+    fit: Literal["cover", "contain", "stretch"] | None
+    reuse_video: bool | None
+    on_failure: Literal["ignore", "warn", "reject", "retry"] | None
+    retries: int | None
+    agreement_model: str | Path | None
+    min_agreement: float | None
+    opensora_root: str | Path | None
+    opensora_launcher: str | Path | None
+    resolution: Literal["256px", "768px"] | None
+    aspect_ratio: Literal["16:9", "9:16", "1:1"] | None
+    frames: int | None
+    steps: int | None
+    guidance: float | None
+    offload: bool | Literal["auto", "none", "model", "sequential"] | None
+    width: int | None
+    height: int | None
+    negative_prompt: str | None
+    image: str | Path | None
+    dtype: Literal["auto", "float32", "bfloat16", "float16"] | None
+    quantize: Literal["auto", "none", "8bit", "4bit"] | None
+    decoder: str | Path | None
+    motion_adapter: str | Path | None
+    generator_device: str | None
+    upsample: str | None
+    upsample_model: str | None
+
+
+class SimulateOptions(
+    RunOptions, CaptureOptions, InterpolateOptions, SimulatorOptions, total=False
+):
+    """Options of `texvent.simulate`."""
+
+
+class GenerateOptions(
+    RunOptions, GeneratorOptions, InterpolateOptions, SimulatorOptions, total=False
+):
+    """Options of `texvent.generate`."""

@@ -1,0 +1,140 @@
+"""A run made ready: everything checked, its video there, its target rate reached.
+
+The Python API, the command line, the web page, training samples and benchmarks all start here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from texvent.calibrate.rate import reach_target_rate
+from texvent.generate.prompts.upsample_config import UpsampleConfig
+from texvent.pipeline import (
+    Simulation,
+    build_simulator,
+    check_engine,
+    text_to_events,
+    text_to_video,
+    video_to_events,
+    weight_files,
+)
+from texvent.progress import Progress
+from texvent.settings import Settings
+from texvent.video import FrameStream
+
+
+def check_run(settings: Settings) -> None:
+    """Refuse a run that cannot be, before any work.
+
+    Raises:
+        ConfigError: the engine cannot run the simulator, or there is no such backend.
+        InputError: weights of the simulator or the interpolator are not here.
+        MissingDependencyError: the backend or a network needs a package.
+    """
+    check_engine(settings)
+    weight_files(settings)
+    if settings.run.backend != "auto":
+        build_simulator(settings)
+
+
+def prepare_prompt(
+    prompt: str,
+    settings: Settings,
+    *,
+    upsample: UpsampleConfig | None = None,
+    progress: Progress | None = None,
+) -> Simulation:
+    """The run of a prompt; a learned model makes its video here.
+
+    Args:
+        prompt: what to show; stored with the events as it is given here.
+        settings: all options.
+        upsample: the chat model that makes the prompt detailed first, if any.
+        progress: told how the model and the search for the target rate get on.
+
+    Raises:
+        ConfigError: the run is impossible, which is found before the model starts.
+        InputError: the prompt is empty, a file is missing, or the target rate is out of reach.
+    """
+    check_run(settings)
+    detailed = _detailed(prompt, upsample, progress)
+    simulation = replace(text_to_events(detailed, settings, progress=progress), prompt=prompt)
+    return reach_target_rate(simulation, progress=progress)
+
+
+def make_video(
+    prompt: str,
+    settings: Settings,
+    *,
+    upsample: UpsampleConfig | None = None,
+    progress: Progress | None = None,
+) -> FrameStream:
+    """The video of a prompt, fitted to the sensor; arguments and errors as `prepare_prompt`."""
+    return text_to_video(_detailed(prompt, upsample, progress), settings, progress=progress)
+
+
+def prepare_source(
+    source: Any,
+    settings: Settings,
+    *,
+    t_us: Any = None,
+    prompt: str | None = None,
+    progress: Progress | None = None,
+) -> Simulation:
+    """The run of recorded frames.
+
+    Args:
+        source: as `texvent.capture.open.open_frames` takes it.
+        settings: all options.
+        t_us: frame times of an array, µs.
+        prompt: what the video shows; stored with the events. A video that texvent generated and
+            wrote brings the facts of its generation along.
+        progress: told how the search for the target rate gets on.
+
+    Raises:
+        ConfigError: the run is impossible.
+        InputError: the frames cannot be read, or the target rate is out of reach.
+    """
+    from texvent.capture.open import open_frames  # brings readers that a prompt does not need
+
+    check_run(settings)
+    if prompt is not None and settings.source.fps is None and t_us is None:
+        source = _stored_video(source) or source
+    video = open_frames(source, settings.source, size=settings.size, t_us=t_us)
+    return prepare_video(video, settings, prompt=prompt, progress=progress)
+
+
+def prepare_video(
+    video: FrameStream,
+    settings: Settings,
+    *,
+    prompt: str | None = None,
+    progress: Progress | None = None,
+) -> Simulation:
+    """The run of a video that is open already; arguments and errors as `prepare_source`."""
+    check_run(settings)
+    simulation = video_to_events(video, settings, prompt=prompt)
+    return reach_target_rate(simulation, progress=progress)
+
+
+def _stored_video(source: Any) -> FrameStream | None:
+    """A video file that texvent wrote, with what made it; None for any other source."""
+    if not isinstance(source, str | Path) or not Path(source).is_file():
+        return None
+    from texvent.generate.videos.stored_video import reopen  # brings PyAV
+
+    return reopen(Path(source))
+
+
+def _detailed(prompt: str, upsample: UpsampleConfig | None, progress: Progress | None) -> str:
+    """The prompt that the generator gets."""
+    if upsample is None or upsample.upsample is None:
+        return prompt
+    from texvent.generate.prompts.upsample import upsample_prompt  # brings requests
+
+    detailed = upsample_prompt(prompt, upsample)
+    if progress is not None:
+        progress.announce(f"prompt   {detailed}")
+    return detailed

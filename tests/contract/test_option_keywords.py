@@ -1,0 +1,30 @@
+"""The typed keywords of the Python API are the options of the dataclasses."""
+
+import ast
+import typing
+
+from tests.contract import option_keywords
+
+from texvent.api import generate, simulate
+from texvent.option_fields import option_names
+from texvent.option_keywords import GenerateOptions, SimulateOptions
+from texvent.settings import default_settings
+
+
+def test_the_typed_keywords_are_up_to_date():
+    committed = option_keywords.FILE.read_text(encoding="utf-8")
+    assert ast.dump(ast.parse(committed)) == ast.dump(ast.parse(option_keywords.text())), (
+        "an option changed; run: python -m tests.contract.option_keywords"
+    )
+
+
+def test_every_option_of_a_run_is_a_typed_keyword():
+    for command, keywords in (("generate", GenerateOptions), ("simulate", SimulateOptions)):
+        groups = default_settings(command).groups().values()
+        names = {name for group in groups for name in option_names(type(group))}
+        assert names <= set(keywords.__annotations__)
+
+
+def test_every_overload_takes_the_same_keywords():
+    for function in (generate, simulate):
+        assert len(typing.get_overloads(function)) == 3

@@ -1,0 +1,113 @@
+"""The Python API as a user meets it: frames, events, files and scores in a few calls."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import texvent
+from texvent.api import compare
+from texvent.errors import ConfigError, InputError
+
+PROMPT = "a red ball bounces"
+SMALL = {"sensor": "48x36", "duration": 0.2, "seed": 3}
+
+
+@pytest.fixture(scope="module")
+def events():
+    return texvent.generate(PROMPT, **SMALL)
+
+
+@pytest.fixture(scope="module")
+def path(events, tmp_path_factory):
+    return events.save(tmp_path_factory.mktemp("api") / "events.h5")
+
+
+def test_the_frames_alone_give_the_events_of_the_prompt():
+    frames = texvent.video(PROMPT, **SMALL, interpolate="blend")
+    assert frames.size == (48, 36)
+    first = next(iter(frames))
+    assert first.pixels.shape == (36, 48, 3)
+    from_frames = texvent.simulate(frames, interpolate="blend", seed=3)
+    assert from_frames.equals(texvent.generate(PROMPT, **SMALL, interpolate="blend"))
+
+
+def test_an_opened_file_is_cut_by_time_and_read_lazily(events, path):
+    opened = texvent.open(path)
+    assert opened.size == events.size
+    assert opened.metadata["prompt"] == PROMPT
+    assert opened.time_range == events.time_range
+    assert opened.between(50_000, 80_000).collect().equals(events.between(50_000, 80_000))
+    assert opened.collect().equals(events)
+    with pytest.raises(InputError, match=r"nope\.h5"):
+        texvent.open("nope.h5")
+
+
+def test_files_packets_and_streams_are_compared(events, path):
+    names = ["count_ratio", "stpp"]
+    want = {"count_ratio": 1.0, "stpp": 1.0}
+    assert compare(events, path, names) == want
+    assert texvent.compare(str(path), texvent.open(path), names) == want
+
+
+def test_packets_can_be_saved_and_read_again(events, tmp_path):
+    packets = texvent.generate(PROMPT, **SMALL, as_packets=True)
+    saved = packets.save(tmp_path / "events.h5", progress=False)
+    assert texvent.load(saved).equals(events)
+    assert packets.collect().equals(events)  # simulated a second time
+
+
+@pytest.mark.parametrize("as_packets", [False, True])
+def test_a_function_is_told_how_far_the_simulation_is(as_packets, tmp_path):
+    calls = []
+    frames = np.random.default_rng(0).uniform(0, 255, (4, 12, 16)).astype(np.float32)
+    options = {"fps": 100, "interpolate": "none"}
+    if as_packets:
+        packets = texvent.simulate(frames, **options, as_packets=True)
+        packets.save(tmp_path / "out.h5", progress=lambda *step: calls.append(step))
+    else:
+        texvent.simulate(frames, **options, progress=lambda *step: calls.append(step))
+    assert calls == [(number, 4, "simulate") for number in (1, 2, 3, 4)]
+
+
+def test_prompt_upsampling_is_a_keyword_too(monkeypatch):
+    asked = []
+
+    def upsample(prompt, config):
+        asked.append((prompt, config.upsample))
+        return "a red ball bounces on the grass"
+
+    monkeypatch.setattr("texvent.generate.prompts.upsample.upsample_prompt", upsample)
+    made = texvent.generate("ball", **SMALL, upsample="http://localhost:1/v1")
+    assert asked == [("ball", "http://localhost:1/v1")]
+    assert made.metadata["prompt"] == "ball"
+    with pytest.raises(ConfigError, match="upsample_model is set"):
+        texvent.generate("ball", **SMALL, upsample_model="small")
+
+
+def test_what_there_is_to_choose_from_is_listed():
+    assert texvent.generators()[0] == "procedural"
+    assert texvent.simulators()[0] == "texvent"
+    assert "flow" in texvent.interpolators()
+    assert texvent.presets()[0] == "paper"
+    assert "noisy" in texvent.presets("v2e")
+    assert "davis346" in texvent.sensors()
+    assert "aedat4" in texvent.formats()
+    assert "voxel-e2vid" in texvent.representations()
+    with pytest.raises(ConfigError, match="unknown simulator"):
+        texvent.presets("v3e")
+
+
+def test_pixel_models_are_there_by_class_and_load_when_named():
+    code = (
+        "import sys, texvent;"
+        "models = texvent.pixel_models;"
+        "assert not any(name.startswith('texvent.simulate.') for name in sys.modules);"
+        "assert models.EsimSimulator(models.EsimConfig()).contrast_threshold > 0;"
+        "from texvent.pixel_models import V2eConfig, V2eSimulator;"
+        "assert V2eSimulator.config_type is V2eConfig;"
+        "assert all(getattr(models, name).__name__ == name for name in models.__all__);"
+        "assert not hasattr(models, 'OtherSimulator')"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)

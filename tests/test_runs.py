@@ -1,0 +1,133 @@
+"""Every way into a run: what is impossible is refused before any work, and options are honoured."""
+
+import numpy as np
+import pytest
+
+import texvent
+from texvent.bench.fidelity.entries import simulate_video
+from texvent.cli.app import main
+from texvent.dataset.samples import SimulatedSamples
+from texvent.errors import ConfigError, InputError, MissingDependencyError
+from texvent.generate.procedural import ProceduralGenerator
+from texvent.progress import CallbackProgress
+from texvent.runs import make_video, prepare_prompt, prepare_source, prepare_video
+from texvent.settings import resolve
+from texvent.simulate.thresholds import contrast_threshold_of
+from texvent.web.job import SimulateJob
+from texvent.web.worker import simulate
+
+PROMPT = "a red ball bounces"
+SMALL = {"sensor": "48x36", "duration": 0.2}
+IMPOSSIBLE = {**SMALL, "engine": "continuous", "simulator": "v2e"}
+
+
+@pytest.fixture
+def prompts(monkeypatch):
+    """The prompts that the generator was called with."""
+    called = []
+
+    def record(self, prompt, *, progress=None):
+        called.append(prompt)
+        raise InputError("a generator was started")
+
+    monkeypatch.setattr(ProceduralGenerator, "generate", record)
+    return called
+
+
+def job(folder, **values):
+    return simulate(SimulateJob(folder=str(folder), **values), lambda answer: None)
+
+
+def words(options):
+    return [word for name, value in options.items() for word in (f"--{name}", str(value))]
+
+
+def of_api(folder, options):
+    texvent.generate(PROMPT, **options)
+
+
+def of_web(folder, options):
+    job(folder, prompt=PROMPT, options=options)
+
+
+def of_samples(folder, options):
+    SimulatedSamples(prompts=[PROMPT], simulation=options).make(0)
+
+
+@pytest.mark.parametrize("enter", [of_api, of_web, of_samples])
+def test_an_impossible_engine_is_refused_before_a_generator_starts(tmp_path, prompts, enter):
+    with pytest.raises(ConfigError, match="engine 'continuous' cannot run simulator 'v2e'"):
+        enter(tmp_path, IMPOSSIBLE)
+    assert prompts == []
+
+
+@pytest.mark.parametrize("command", ["generate", "batch"])
+def test_commands_refuse_an_impossible_engine_before_a_generator_starts(
+    tmp_path, monkeypatch, prompts, capsys, command
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "prompts.txt").write_text(PROMPT, encoding="utf-8")
+    subject = {"generate": PROMPT, "batch": "prompts.txt"}[command]
+    assert main([command, subject, *words(IMPOSSIBLE)]) == ConfigError.exit_code
+    assert "cannot run simulator 'v2e'" in capsys.readouterr().err
+    assert prompts == []
+
+
+def test_missing_weights_are_named_before_a_generator_starts(tmp_path, prompts):
+    options = {**SMALL, "simulator": "v2ce", "weights": str(tmp_path / "none.pt")}
+    with pytest.raises((InputError, MissingDependencyError), match=r"no such|none\.pt|torch"):
+        prepare_prompt(PROMPT, resolve("generate", options))
+    assert prompts == []
+
+
+def test_a_backend_that_a_model_has_not_is_refused_before_a_generator_starts(prompts):
+    options = {**SMALL, "simulator": "v2e", "backend": "gpu"}
+    with pytest.raises(ConfigError, match="backend"):
+        prepare_prompt(PROMPT, resolve("generate", options))
+    assert prompts == []
+
+
+def test_a_web_job_reaches_its_target_rate(tmp_path):
+    options = {**SMALL, "noise": "none", "target_rate": 20_000.0}
+    done = job(tmp_path, prompt=PROMPT, options=options)
+    events = texvent.load(done.files["events"])
+    assert len(events) / 0.2 == pytest.approx(20_000, rel=0.3)
+    assert events.equals(texvent.generate(PROMPT, **options))
+
+
+def test_the_search_for_a_target_rate_says_how_far_it_is():
+    calls = []
+    settings = resolve("generate", {**SMALL, "noise": "none", "target_rate": 20_000.0})
+    run = prepare_prompt(
+        PROMPT, settings, progress=CallbackProgress(lambda *step: calls.append(step))
+    )
+    assert calls[0] == (1, 9, "target rate")
+    assert calls[-1][2].startswith("rate     ")
+    threshold = contrast_threshold_of(run.settings.simulate)
+    assert threshold != contrast_threshold_of(settings.simulate)
+
+
+def test_a_prompt_a_source_and_a_video_make_the_same_run():
+    settings = resolve("generate", {**SMALL, "interpolate": "blend"})
+    video = make_video(PROMPT, settings)
+    runs = [
+        prepare_prompt(PROMPT, settings),
+        prepare_source(video, resolve("simulate", {"interpolate": "blend"}), prompt=PROMPT),
+        prepare_video(video, settings, prompt=PROMPT),
+    ]
+    first, *others = [run.packets.collect() for run in runs]
+    assert all(one.equals(first) for one in others)
+    assert [run.prompt for run in runs] == [PROMPT] * 3
+    assert simulate_video(video, settings, None).equals(first)
+
+
+def test_samples_of_videos_honour_the_target_rate():
+    frames = np.random.default_rng(0).uniform(0, 255, (6, 24, 32)).astype(np.float32)
+    options = {"fps": 10, "noise": "none", "interpolate": "none", "target_rate": 4_000.0}
+    sample = SimulatedSamples(
+        videos=[frames],
+        simulation=options,
+        representation="event-frame",
+        representation_options={"kind": "count"},
+    ).make(0)
+    assert sample["representation"].sum() / 0.5 == pytest.approx(4_000, rel=0.15)
