@@ -3,12 +3,12 @@
 import subprocess
 import sys
 
-import numpy as np
 import pytest
 
 import texvent
 from texvent.api import compare
 from texvent.errors import ConfigError, InputError
+from texvent.generate.prompts import upsample as upsampling
 
 PROMPT = "a red ball bounces"
 SMALL = {"sensor": "48x36", "duration": 0.2, "seed": 3}
@@ -55,20 +55,6 @@ def test_packets_can_be_saved_and_read_again(events, tmp_path):
     packets = texvent.generate(PROMPT, **SMALL, as_packets=True)
     saved = packets.save(tmp_path / "events.h5", progress=False)
     assert texvent.load(saved).equals(events)
-    assert packets.collect().equals(events)  # simulated a second time
-
-
-@pytest.mark.parametrize("as_packets", [False, True])
-def test_a_function_is_told_how_far_the_simulation_is(as_packets, tmp_path):
-    calls = []
-    frames = np.random.default_rng(0).uniform(0, 255, (4, 12, 16)).astype(np.float32)
-    options = {"fps": 100, "interpolate": "none"}
-    if as_packets:
-        packets = texvent.simulate(frames, **options, as_packets=True)
-        packets.save(tmp_path / "out.h5", progress=lambda *step: calls.append(step))
-    else:
-        texvent.simulate(frames, **options, progress=lambda *step: calls.append(step))
-    assert calls == [(number, 4, "simulate") for number in (1, 2, 3, 4)]
 
 
 def test_prompt_upsampling_is_a_keyword_too(monkeypatch):
@@ -78,7 +64,7 @@ def test_prompt_upsampling_is_a_keyword_too(monkeypatch):
         asked.append((prompt, config.upsample))
         return "a red ball bounces on the grass"
 
-    monkeypatch.setattr("texvent.generate.prompts.upsample.upsample_prompt", upsample)
+    monkeypatch.setattr(upsampling, "upsample_prompt", upsample)
     made = texvent.generate("ball", **SMALL, upsample="http://localhost:1/v1")
     assert asked == [("ball", "http://localhost:1/v1")]
     assert made.metadata["prompt"] == "ball"
