@@ -3,6 +3,7 @@
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 import texvent
@@ -55,6 +56,7 @@ def test_packets_can_be_saved_and_read_again(events, tmp_path):
     packets = texvent.generate(PROMPT, **SMALL, as_packets=True)
     saved = packets.save(tmp_path / "events.h5", progress=False)
     assert texvent.load(saved).equals(events)
+    assert packets.collect().equals(events)  # simulated a second time
 
 
 def test_prompt_upsampling_is_a_keyword_too(monkeypatch):
@@ -97,3 +99,16 @@ def test_pixel_models_are_there_by_class_and_load_when_named():
         "assert not hasattr(models, 'OtherSimulator')"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+@pytest.mark.parametrize("as_packets", [False, True])
+def test_a_function_is_told_how_far_the_simulation_is(as_packets, tmp_path):
+    calls = []
+    frames = np.random.default_rng(0).uniform(0, 255, (4, 12, 16)).astype(np.float32)
+    options = {"fps": 100, "interpolate": "none"}
+    if as_packets:
+        packets = texvent.simulate(frames, **options, as_packets=True)
+        packets.save(tmp_path / "out.h5", progress=lambda *step: calls.append(step))
+    else:
+        texvent.simulate(frames, **options, progress=lambda *step: calls.append(step))
+    assert calls == [(number, 4, "simulate") for number in (1, 2, 3, 4)]
