@@ -30,11 +30,11 @@ def describe_run(
         "seed": run.seed,
         "settings": settings.as_tables(),
         "texvent_version": __version__,
-        **_weight_files(settings),
+        **describe_weights(settings),
     }
 
 
-def _weight_files(settings: Settings) -> dict[str, Any]:
+def describe_weights(settings: Settings) -> dict[str, Any]:
     """Which weight files the networks of a run read, under "weights"; nothing where it has none."""
     interpolator = INTERPOLATORS.load(settings.interpolate.interpolate)
     simulator = SIMULATORS.load(settings.run.simulator)

@@ -11,17 +11,11 @@ from typing import Any
 
 from texvent.calibrate.rate import reach_target_rate
 from texvent.generate.prompts.upsample_config import UpsampleConfig
-from texvent.pipeline import (
-    Simulation,
-    build_simulator,
-    check_engine,
-    text_to_events,
-    text_to_video,
-    video_to_events,
-    weight_files,
-)
+from texvent.pipeline import Simulation, text_to_events, text_to_video, video_to_events
 from texvent.progress import Progress
+from texvent.provenance import describe_weights
 from texvent.settings import Settings
+from texvent.simulate.build import build_simulator, check_engine
 from texvent.video import FrameStream
 
 
@@ -33,10 +27,10 @@ def check_run(settings: Settings) -> None:
         InputError: weights of the simulator or the interpolator are not here.
         MissingDependencyError: the backend or a network needs a package.
     """
-    check_engine(settings)
-    weight_files(settings)
+    check_engine(settings.run, settings.simulate, settings.interpolate)
+    describe_weights(settings)
     if settings.run.backend != "auto":
-        build_simulator(settings)
+        build_simulator(settings.run, settings.simulate)
 
 
 def prepare_prompt(
