@@ -14,7 +14,7 @@ from texvent.cli.app import main
 from texvent.events import NOISE, SIGNAL
 from texvent.io.files import save
 
-from .published import moving_texture
+from .pixel_frames import moving_texture
 
 RATE_HZ = 4.0
 DARK = 10.0

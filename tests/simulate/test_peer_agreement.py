@@ -17,7 +17,7 @@ from texvent.simulate.v2e.simulator import V2eSimulator
 from texvent.simulate.voltmeter.simulator import VoltmeterSimulator
 from texvent.video import Frame
 
-from .published import moving_texture
+from .pixel_frames import moving_texture
 
 PEERS = Path(__file__).parents[2].parent / "shared" / "peers"
 MISSING = f"no event streams of the original programs in {PEERS.parent.name}/{PEERS.name}"

@@ -9,11 +9,12 @@ import pytest
 from texvent.simulate.physical.config import PRESETS, PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.simulate.senpi.simulator import SenpiSimulator
-from texvent.simulate.v2e.simulator import V2eConfig, V2eSimulator
+from texvent.simulate.v2e.config import V2eConfig
+from texvent.simulate.v2e.simulator import V2eSimulator
 from texvent.simulate.voltmeter.simulator import VoltmeterSimulator
 from texvent.video import Frame
 
-from .published import run
+from .pixel_frames import run
 
 SHAPE = (61, 83)
 """Several blocks of pixels, the last one cut short."""
@@ -94,15 +95,15 @@ def test_blocks_that_come_to_rest_and_move_again_fire_as_in_the_reference(simula
 @pytest.mark.parametrize(
     ("simulator_class", "module"),
     [
-        (PhysicalSimulator, "physical.kernels.circuit"),
-        (V2eSimulator, "v2e.kernels.low_pass"),
-        (VoltmeterSimulator, "voltmeter.kernels.first_passage"),
+        (PhysicalSimulator, "physical.circuit"),
+        (V2eSimulator, "v2e.low_pass"),
+        (VoltmeterSimulator, "voltmeter.first_passage"),
     ],
 )
 def test_threads_do_not_change_an_event(simulator_class, module, monkeypatch):
     frames = patches([np.uint8] * 5)
     kernels = importlib.import_module(f"texvent.simulate.{module}_cpu")
-    monkeypatch.setattr(kernels, "SHARE", 512)
+    monkeypatch.setattr(kernels, "PIXELS_PER_THREAD", 512)
     streams = []
     for threads in ("1", "2", "5"):
         monkeypatch.setenv("TEXVENT_NUM_THREADS", threads)

@@ -11,7 +11,7 @@ from texvent.events import EventStream
 from texvent.simulate.esim.simulator import EsimSimulator
 from texvent.simulate.stepping import SteppedPlugIn, with_advance
 
-from .published import moving_texture
+from .pixel_frames import moving_texture
 
 
 class OnlySteps:

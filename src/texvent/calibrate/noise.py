@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from texvent.calibrate.recording import Recording, TimeSpan
 from texvent.represent.event_frame import count_events
-from texvent.simulate.physical.kernels.circuit import linearize
+from texvent.simulate.physical.circuit import linearize
 from texvent.simulate.physical.noise_curve import NoiseCurve
 from texvent.video import MICROSECONDS, Frame
 

@@ -16,8 +16,8 @@ from texvent.simulate.thresholds import with_contrast_threshold
 Config = TypeVar("Config")
 Recipe: TypeAlias = Literal["stoffregen", "v2v"]
 
-CLIP = -2
-"""Stands for the frame in keys of draws that belong to the whole clip; the sensor has −1."""
+CLIP_FRAME = -2
+"""Frame number in keys of draws that belong to the whole clip; the sensor's have −1."""
 
 
 class Range(NamedTuple):
@@ -76,7 +76,7 @@ def draw_training_config(config: Config, recipe: Recipe, *, seed: int) -> Config
     """
     if recipe not in THRESHOLDS:
         raise ConfigError(f"unknown recipe {recipe!r}; {suggest(recipe, tuple(THRESHOLDS))}")
-    key = frame_key(seed, CLIP)
+    key = frame_key(seed, CLIP_FRAME)
     chances = draw_uniforms(key, 0, 0, range(2 + len(NOISE))).tolist()
     if recipe == "v2v":
         ratio = math.pow(RATIO_LIMIT, 2 * chances[1] - 1)

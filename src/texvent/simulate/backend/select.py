@@ -38,7 +38,8 @@ def check_backend(backend: str, *, has_gpu: bool = False) -> str:
 def load_kernel(kernels: str, function: str, backend: str) -> object:
     """`function` of the module `<kernels>_<backend>`.
 
-    Where a model has nothing of its own for "numpy" its reference serves, which is NumPy too.
+    The module for "reference" may also be `reference` in the same folder. Where there is none for
+    "numpy" the reference serves, which is NumPy too.
 
     Raises:
         ConfigError: no backend has that name.
@@ -57,10 +58,17 @@ def load_kernel(kernels: str, function: str, backend: str) -> object:
 def _load(kernels: str, function: str, backend: str) -> object:
     if backend in _PACKAGES:
         require(_PACKAGES[backend])
+    return getattr(importlib.import_module(_module_of(kernels, backend)), function)
+
+
+def _module_of(kernels: str, backend: str) -> str:
+    """`<kernels>_<backend>`, or `reference` in the same folder, which defines a whole model."""
     module = f"{kernels}_{backend}"
-    if backend == "numpy" and importlib.util.find_spec(module) is None:
+    if importlib.util.find_spec(module) is None and backend == "numpy":
         module = f"{kernels}_reference"
-    return getattr(importlib.import_module(module), function)
+    if importlib.util.find_spec(module) is None:
+        module = f"{kernels.rpartition('.')[0]}.reference"
+    return module
 
 
 def load_kernel_when_ready(kernels: str, function: str, backend: str, *variant: str) -> object:
@@ -68,7 +76,7 @@ def load_kernel_when_ready(kernels: str, function: str, backend: str, *variant: 
 
     Args:
         kernels: full name of the module that describes the kernels; beside it stand `<kernels>_cpu`
-            with a function `warm_up(*variant)`, `<kernels>_reference` and so on.
+            with a function `warm_up(*variant)`, and the modules that `load_kernel` names.
         function: its name.
         backend: "auto" or a backend's name.
         variant: what has to be compiled, such as the type of the frames.

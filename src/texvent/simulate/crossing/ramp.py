@@ -1,7 +1,7 @@
-"""What a kernel gets and gives when brightness runs in a straight line between two frames.
+"""Threshold crossings of brightness that changes in a straight line between two frames.
 
-ESIM and v2e share it: both compare a signal with a reference level per pixel, fire at every
-threshold crossed, and let the reference follow in steps.
+ESIM and v2e share them. Both compare the brightness of a pixel with its reference, fire at every
+threshold that is crossed, and move the reference by one threshold per event.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.simulate.backend.select import AUTO, load_kernel_when_ready
-from texvent.simulate.crossing.levels import Thresholds
 from texvent.simulate.packets.sorting import SortedEvents
+from texvent.simulate.random.mismatch import Thresholds
 
 Float64Array: TypeAlias = NDArray[np.float64]
 
@@ -34,14 +34,14 @@ class Ramp(NamedTuple):
     """[n] above 0."""
 
 
-class Rest(NamedTuple):
-    """Refractory period: how long a pixel cannot fire after it fired."""
+class RefractoryPeriod(NamedTuple):
+    """How long a pixel cannot fire after an event."""
 
     period_us: int
     """µs; 0 is none."""
     is_level_lost: bool
-    """Whether a crossing that fell into the period is forgotten (ESIM: the reference steps over
-    it) or may still fire in a later interval (v2e: the reference stays)."""
+    """Whether a crossing within the period is lost (ESIM: the reference moves past it) or may still
+    fire in a later interval (v2e: the reference stays)."""
 
 
 class RampCrossings(NamedTuple):
@@ -54,12 +54,11 @@ class RampCrossings(NamedTuple):
     p: NDArray[np.uint8]
     """[m] 1 = ON, 0 = OFF."""
     steps: NDArray[np.int64]
-    """[n] by how many thresholds the reference of each pixel of the ramp moves: up (ON) above 0,
-    down (OFF) below."""
+    """[n] by how many thresholds the reference of each pixel of the ramp moves; OFF below 0."""
 
 
-class Candidates(NamedTuple):
-    """Pixels that may fire, whose brightness is a logarithm of their luma; [n] each."""
+class RampPixels(NamedTuple):
+    """Pixels that may fire, and their luma or brightness at both ends; [n] each."""
 
     pixel: NDArray[np.int64]
     """Flat index, ascending."""
@@ -73,8 +72,8 @@ class Candidates(NamedTuple):
     """Of these pixels."""
 
 
-class Levels(NamedTuple):
-    """What pixels compare with; a kernel moves both."""
+class References(NamedTuple):
+    """What pixels remember of their last event; a kernel changes both."""
 
     reference: Float64Array
     """[H · W] brightness at the last event, log units."""
@@ -83,18 +82,20 @@ class Levels(NamedTuple):
     period."""
 
 
-CrossLevels: TypeAlias = Callable[
-    [Candidates, Levels, tuple[int, int], Rest, tuple[int, int]], SortedEvents
+CrossThresholds: TypeAlias = Callable[
+    [RampPixels, References, tuple[int, int], RefractoryPeriod, tuple[int, int]], SortedEvents
 ]
-"""`cross_levels(candidates, levels, (start_us, stop_us), rest, (height, width))`, see
-`ramp_reference.cross_levels`."""
+"""`cross_thresholds(pixels, references, (start_us, stop_us), refractory, (height, width))`, see
+`ramp_reference.cross_thresholds`."""
 
 
-def load_cross_levels(dtype: np.dtype[Any], backend: str = AUTO) -> CrossLevels:
+def load_cross_thresholds(dtype: np.dtype[Any], backend: str = AUTO) -> CrossThresholds:
     """The function of a backend; "auto" is NumPy until the compiled one is ready.
 
     Raises:
         ConfigError: no backend has that name.
         MissingDependencyError: what the backend needs is not installed.
     """
-    return cast("CrossLevels", load_kernel_when_ready(__name__, "cross_levels", backend, dtype.str))
+    return cast(
+        "CrossThresholds", load_kernel_when_ready(__name__, "cross_thresholds", backend, dtype.str)
+    )

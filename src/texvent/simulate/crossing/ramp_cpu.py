@@ -15,12 +15,11 @@ from numpy.typing import NDArray
 from texvent.runtime.jit import jit
 from texvent.runtime.scratch import take_scratch
 from texvent.simulate.crossing import ramp_reference
-from texvent.simulate.crossing.levels import Thresholds
 from texvent.simulate.crossing.ramp import (
-    Candidates,
     Float64Array,
-    Levels,
-    Rest,
+    RampPixels,
+    References,
+    RefractoryPeriod,
 )
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.sorting_cpu import (
@@ -29,14 +28,15 @@ from texvent.simulate.packets.sorting_cpu import (
     key_bits,
     sort_keyed_events,
 )
+from texvent.simulate.random.mismatch import Thresholds
 
 _1, _2 = np.uint64(1), np.uint64(2)
 FEW = 2
 """Events that most pixels that fire have at most in an interval."""
 
 
-class Lines(NamedTuple):
-    """What becomes of each pixel; [n] each."""
+class RampChanges(NamedTuple):
+    """Change of each pixel, and how many thresholds it crosses; [n] each."""
 
     start: Float64Array
     """Change at the start of the interval, log units."""
@@ -48,8 +48,8 @@ class Lines(NamedTuple):
     """Thresholds that it has passed at the end; OFF below 0."""
 
 
-class Clock(NamedTuple):
-    """The interval, and what an event's key is made of."""
+class KeyLayout(NamedTuple):
+    """What turns the time of an event into the high bits of its key."""
 
     start_us: int
     duration_us: int
@@ -57,27 +57,27 @@ class Clock(NamedTuple):
     """Bits of a key below its time."""
 
 
-def cross_levels(
-    candidates: Candidates,
-    levels: Levels,
+def cross_thresholds(
+    pixels: RampPixels,
+    references: References,
     span_us: tuple[int, int],
-    rest: Rest,
+    refractory: RefractoryPeriod,
     shape: tuple[int, int],
 ) -> SortedEvents:
-    """See `ramp_reference.cross_levels`."""
-    clock = clock_of(span_us, shape)
-    if clock is None:
-        return ramp_reference.cross_levels(candidates, levels, span_us, rest, shape)
+    """See `ramp_reference.cross_thresholds`."""
+    layout = key_layout(span_us, shape)
+    if layout is None:
+        return ramp_reference.cross_thresholds(pixels, references, span_us, refractory, shape)
     # Numba leaves out branches for arguments that are None, but not for their fields.
-    pixel, before, now, table, thresholds = candidates
+    pixel, before, now, table, thresholds = pixels
     start, stop, threshold = (
         take_scratch(use, len(pixel), np.float64) for use in ("start", "stop", "threshold")
     )
-    lines = Lines(start, stop, threshold, take_scratch("steps", len(pixel), np.int64))
-    _compare((pixel, before, now), table, levels.reference, lines)
-    count_steps(lines, thresholds)
-    keys = list_events(pixel, lines, levels.fired_us, clock, rest)
-    _step(pixel, lines, levels.reference)
+    changes = RampChanges(start, stop, threshold, take_scratch("steps", len(pixel), np.int64))
+    _compare((pixel, before, now), table, references.reference, changes)
+    count_crossings(changes, thresholds)
+    keys = list_crossing_keys(pixel, changes, references.fired_us, layout, refractory)
+    _step(pixel, changes, references.reference)
     return sort_keyed_events(keys, span_us, shape)
 
 
@@ -86,41 +86,43 @@ def warm_up(dtype: str) -> None:
     one, pixel = np.ones(1), np.zeros(1, np.int64)
     end = np.zeros(1, dtype)
     table = np.ones(256) if end.dtype == np.uint8 else None
-    candidates = Candidates(pixel, end, end, table, Thresholds(one, one))
-    cross_levels(candidates, Levels(one.copy(), pixel.copy()), (0, 1), Rest(0, False), (1, 1))
+    pixels = RampPixels(pixel, end, end, table, Thresholds(one, one))
+    cross_thresholds(
+        pixels, References(one.copy(), pixel.copy()), (0, 1), RefractoryPeriod(0, False), (1, 1)
+    )
 
 
-def clock_of(span_us: tuple[int, int], shape: tuple[int, int]) -> Clock | None:
+def key_layout(span_us: tuple[int, int], shape: tuple[int, int]) -> KeyLayout | None:
     """None where time and pixel do not fit a key."""
     start_us, stop_us = span_us
     if not has_room_for_keys(stop_us - start_us, shape):
         return None
-    return Clock(start_us, stop_us - start_us, key_bits(shape[0] * shape[1]))
+    return KeyLayout(start_us, stop_us - start_us, key_bits(shape[0] * shape[1]))
 
 
-def list_events(
+def list_crossing_keys(
     pixel: NDArray[np.int64],
-    lines: Lines,
+    changes: RampChanges,
     fired_us: NDArray[np.int64],
-    clock: Clock,
-    rest: Rest,
+    layout: KeyLayout,
+    refractory: RefractoryPeriod,
 ) -> NDArray[np.uint64]:
     """Keys of all events, by pixel and then in time."""
-    keys = take_scratch(KEY_USES[0], _add_up(lines.steps) + FEW, np.uint64)
+    keys = take_scratch(KEY_USES[0], _add_up(changes.steps) + FEW, np.uint64)
     with np.errstate(all="ignore"):
-        return keys[: _list_crossings(pixel, lines, fired_us, clock, rest, keys)]
+        return keys[: _list_crossings(pixel, changes, fired_us, layout, refractory, keys)]
 
 
 @jit
 def _compare(
-    candidates: tuple[NDArray[np.int64], NDArray[Any], NDArray[Any]],
+    pixels: tuple[NDArray[np.int64], NDArray[Any], NDArray[Any]],
     table: Float64Array | None,
     reference: Float64Array,
-    lines: Lines,
+    changes: RampChanges,
 ) -> None:
     """Fill in the changes against the references."""
-    pixel, before, now = candidates
-    start, stop, _, _ = lines
+    pixel, before, now = pixels
+    start, stop, _, _ = changes
     for n in range(pixel.size):
         level = reference[pixel[n]]
         if table is not None:
@@ -130,9 +132,9 @@ def _compare(
 
 
 @jit(error_model="numpy")
-def count_steps(lines: Lines, thresholds: Thresholds) -> None:
+def count_crossings(changes: RampChanges, thresholds: Thresholds) -> None:
     """Fill in thresholds and steps."""
-    _, stop, threshold, steps = lines
+    _, stop, threshold, steps = changes
     on, off = thresholds
     # Loops over few arrays each, which become vector instructions.
     if on.size == 1:
@@ -153,7 +155,7 @@ def count_steps(lines: Lines, thresholds: Thresholds) -> None:
 
 @jit
 def _add_up(steps: NDArray[np.int64]) -> int:
-    """How many thresholds have been passed in all."""
+    """How many crossings there are in all."""
     total = 0
     for n in range(steps.size):
         total += abs(steps[n])
@@ -163,37 +165,36 @@ def _add_up(steps: NDArray[np.int64]) -> int:
 @jit(error_model="numpy")
 def _list_crossings(
     pixel: NDArray[np.int64],
-    lines: Lines,
+    changes: RampChanges,
     fired_us: NDArray[np.int64],
-    clock: Clock,
-    rest: Rest,
+    layout: KeyLayout,
+    refractory: RefractoryPeriod,
     keys: NDArray[np.uint64],
 ) -> int:
-    """Fill in the keys of all events, by pixel and then in time; return how many fired."""
-    start, stop, thresholds, steps = lines
-    low, found = np.uint64(clock.low), 0
-    duration = np.float64(clock.duration_us)
+    """Fill in the keys of all events, by pixel and then in time; how many there are."""
+    start, stop, thresholds, steps = changes
+    low, found = np.uint64(layout.low), 0
+    duration = np.float64(layout.duration_us)
     for i in range(pixel.size):
         is_on, count, threshold = steps[i] > 0, abs(steps[i]), thresholds[i]
-        # By a product: whether a pixel fires ON or OFF cannot be foreseen either.
+        # By a product: a branch on ON or OFF would be mispredicted too.
         begin, end = math.copysign(1.0, stop[i]) * start[i], abs(stop[i])
         place = np.uint64(pixel[i]) << _2 | np.uint64(is_on) << _1
-        # The first few always, also beyond the count: a loop that ends after each pixel's own
-        # number of rounds is one that no processor foresees. The next pixel overwrites what is
-        # too many.
+        # The first few always, also beyond the count: the end of a loop whose length differs
+        # from pixel to pixel is mispredicted. The next pixel overwrites what is too many.
         for k in range(FEW):
             keys[found + k] = _key((k + 1) * threshold, (begin, end), duration, low) | place
         for k in range(FEW, count):
             keys[found + k] = _key((k + 1) * threshold, (begin, end), duration, low) | place
-        if rest.period_us > 0 and count > 0:
+        if refractory.period_us > 0 and count > 0:
             # Far apart in memory, so not even looked at where it does not matter.
-            last_us = fired_us[pixel[i]] - clock.start_us
-            if not _is_rested(keys[found : found + FEW], count, last_us, rest, low):
-                count = _leave_rested(keys[found : found + count], last_us, rest, low)
-                if not rest.is_level_lost:
+            last_us = fired_us[pixel[i]] - layout.start_us
+            if not _none_refractory(keys[found : found + FEW], count, last_us, refractory, low):
+                count = _drop_refractory(keys[found : found + count], last_us, refractory, low)
+                if not refractory.is_level_lost:
                     steps[i] = count if is_on else -count
             if count > 0:
-                fired_us[pixel[i]] = clock.start_us + np.int64(keys[found + count - 1] >> low)
+                fired_us[pixel[i]] = layout.start_us + np.int64(keys[found + count - 1] >> low)
         found += count
     return found
 
@@ -207,33 +208,35 @@ def _key(level: float, ends: tuple[float, float], duration: float, low: np.uint6
 
 
 @jit(inline="always")
-def _is_rested(
-    keys: NDArray[np.uint64], count: int, last_us: int, rest: Rest, low: np.uint64
+def _none_refractory(
+    keys: NDArray[np.uint64], count: int, last_us: int, refractory: RefractoryPeriod, low: np.uint64
 ) -> bool:
-    """Whether none of at most `FEW` events is too early; False says nothing of more."""
-    is_rested, before_us = bool(count <= FEW), last_us
+    """Whether none of at most `FEW` events is in a refractory period; False for more."""
+    is_allowed, before_us = bool(count <= FEW), last_us
     for k in range(FEW):
         offset_us = np.int64(keys[k] >> low)
-        is_rested &= bool((k >= count) | (offset_us - before_us >= rest.period_us))
+        is_allowed &= bool((k >= count) | (offset_us - before_us >= refractory.period_us))
         before_us = int(offset_us)
-    return is_rested
+    return is_allowed
 
 
 @jit
-def _leave_rested(keys: NDArray[np.uint64], last_us: int, rest: Rest, low: np.uint64) -> int:
-    """Keep a pixel's events that are not too early; how many those are."""
+def _drop_refractory(
+    keys: NDArray[np.uint64], last_us: int, refractory: RefractoryPeriod, low: np.uint64
+) -> int:
+    """Drop a pixel's events within refractory periods; how many are left."""
     found = 0
     for key in keys:
         offset_us = np.int64(key >> low)
-        if offset_us - last_us >= rest.period_us:
+        if offset_us - last_us >= refractory.period_us:
             keys[found], last_us = key, int(offset_us)
             found += 1
     return found
 
 
 @jit
-def _step(pixel: NDArray[np.int64], lines: Lines, reference: Float64Array) -> None:
-    """Let the references make their steps."""
-    _, _, threshold, steps = lines
+def _step(pixel: NDArray[np.int64], changes: RampChanges, reference: Float64Array) -> None:
+    """Move the references by the thresholds crossed."""
+    _, _, threshold, steps = changes
     for n in range(pixel.size):
         reference[pixel[n]] += steps[n] * threshold[n]

@@ -6,14 +6,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import SIGNAL
-from texvent.simulate.crossing.ramp import Candidates, Levels, Ramp, RampCrossings, Rest
+from texvent.simulate.crossing.ramp import (
+    Ramp,
+    RampCrossings,
+    RampPixels,
+    References,
+    RefractoryPeriod,
+)
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.sorting_reference import sort_events
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 
 
 def cross_ramp(
-    ramp: Ramp, fired_us: NDArray[np.int64], span_us: tuple[int, int], rest: Rest
+    ramp: Ramp, fired_us: NDArray[np.int64], span_us: tuple[int, int], refractory: RefractoryPeriod
 ) -> RampCrossings:
     """Every threshold that each pixel's change crosses, at the time the line crosses it.
 
@@ -27,7 +33,7 @@ def cross_ramp(
         fired_us: time of each pixel's last event, µs, [H · W]; brought up to date here, but not
             looked at without a refractory period.
         span_us: start (included) and stop (excluded) of the interval, µs.
-        rest: the refractory period.
+        refractory: the refractory period.
 
     Returns:
         The events, times rounded down, never the stop itself; and the steps of the references.
@@ -50,11 +56,11 @@ def cross_ramp(
             offset = np.floor(fraction * (stop_us - start_us)).astype(np.int64)
             t = np.minimum(start_us + offset, stop_us - 1)
             fires = np.ones(len(own), np.bool_)
-            if rest.period_us > 0:
-                fires = t - fired_us[ramp.pixel[own]] >= rest.period_us
+            if refractory.period_us > 0:
+                fires = t - fired_us[ramp.pixel[own]] >= refractory.period_us
                 fired_us[ramp.pixel[own[fires]]] = t[fires]
             fired = ramp.pixel[own[fires]]
-            steps[own] += sign * (1 if rest.is_level_lost else fires)
+            steps[own] += sign * (1 if refractory.is_level_lost else fires)
             pixels.append(fired)
             times.append(t[fires])
             polarities.append(np.full(len(fired), sign > 0, np.uint8))
@@ -68,34 +74,34 @@ def cross_ramp(
     return RampCrossings(pixel[order], t[order], p[order], steps)
 
 
-def cross_levels(
-    candidates: Candidates,
-    levels: Levels,
+def cross_thresholds(
+    pixels: RampPixels,
+    references: References,
     span_us: tuple[int, int],
-    rest: Rest,
+    refractory: RefractoryPeriod,
     shape: tuple[int, int],
 ) -> SortedEvents:
-    """As `cross_ramp`, for the brightness of candidates; the references make their steps.
+    """As `cross_ramp`, from the brightness at both ends; moves the references.
 
     Args:
-        candidates: pixels that may fire, and their brightness at both ends.
-        levels: what they compare with; changed in place.
+        pixels: those that may fire, and their brightness at both ends.
+        references: what they compare with; changed in place.
         span_us: as for `cross_ramp`.
-        rest: as for `cross_ramp`.
+        refractory: as for `cross_ramp`.
         shape: (height, width) of the sensor.
 
     Returns:
         The events in the order of a packet, all of them signal.
     """
-    pixel, before, now, table, thresholds = candidates
+    pixel, before, now, table, thresholds = pixels
     if table is not None:
         before, now = table[before], table[now]
-    reference = levels.reference[pixel]
+    reference = references.reference[pixel]
     on, off = (np.broadcast_to(one, pixel.shape) for one in thresholds)
     ramp = Ramp(pixel, before - reference, now - reference, on, off)
-    crossings = cross_ramp(ramp, levels.fired_us, span_us, rest)
+    crossings = cross_ramp(ramp, references.fired_us, span_us, refractory)
     steps = crossings.steps
-    levels.reference[pixel] = reference + steps * np.where(steps > 0, on, off)
+    references.reference[pixel] = reference + steps * np.where(steps > 0, on, off)
     fired, t, p, _ = crossings
     label = np.full(len(t), SIGNAL, np.uint8)
     return sort_events(UnsortedEvents(fired, t, p, label), span_us, shape)

@@ -1,44 +1,118 @@
-"""Trigger levels: the two intensities at which each pixel would fire, so a scan needs no logarithm.
+"""Trigger levels: the two intensities at which a pixel fires, so that a scan needs no logarithm.
 
-A pixel whose brightness is L(I) and whose reference is R fires if L(I) − R reaches a threshold. As
-L rises with I, that is a comparison of I with two levels. They are kept a little narrower than they
-are, so that rounding hides no event: who is outside *may* fire, and only there the model computes.
+Brightness is a logarithm of intensity, L = ln((I − offset) / scale). A pixel with the reference
+brightness R fires where L reaches R + θ_on or R − θ_off. As L rises with I, that is
+
+    I ≥ A · e^θ_on + offset   or   I ≤ A · e^−θ_off + offset ,   A = scale · e^R.
+
+`trigger_factors` gives the two factors. Texvent has scale 1 and offset −α: A = α + R's intensity.
+
+**Margin.** A scan rounds, and rounding must hide no event. So each level is moved towards the
+reference by `MARGIN`, relative to the level and to the offset. No scan makes more than four float32
+roundings, of 6·10⁻⁸ each, on the way to a level: the margin is four times as wide. A pixel
+outside its levels *may* fire, and there the model decides with the logarithm in float64. A pixel
+inside cannot.
+
+`TriggerLevels` keeps the levels of every pixel for models whose references stay between frames.
 """
 
 from __future__ import annotations
 
-from typing import Any
+import math
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.crossing.levels import (
-    Curve,
-    Float64Array,
-    Luma,
-    Outside,
-    Thresholds,
-    load_find_outside,
-    load_look_up,
-    load_narrow,
-)
-from texvent.simulate.random.mismatch import (
-    NominalThresholds,
-    Shape,
-    draw_threshold_pair,
-    sensor_key,
-)
+from texvent.simulate.backend.select import AUTO, load_kernel_when_ready
+from texvent.simulate.random.mismatch import Thresholds, thresholds_at
 from texvent.simulate.streaming import IntensityArray
 
-Int64Array = NDArray[np.int64]
-AT_A_TIME = 1 << 14
+Float64Array: TypeAlias = NDArray[np.float64]
+Int64Array: TypeAlias = NDArray[np.int64]
+Luma: TypeAlias = NDArray[Any]
+"""[n] 0..255 scale, uint8 or float32."""
+
+MARGIN = 1e-6
+"""By how much trigger levels are moved towards the reference; relative, see above."""
+BRIGHTNESS_SLACK = 1e-9
+"""Log units by which a brightness must be out of reach, for what is rounded."""
+PIXELS_AT_A_TIME = 1 << 14
+_BYTE = np.dtype(np.uint8).str
+
+
+class TriggerFactors(NamedTuple):
+    """What a reference's A is multiplied by to get the trigger levels."""
+
+    up: float
+    """e^θ_on."""
+    down: float
+    """e^−θ_off."""
+
+
+def trigger_factors(threshold_on: float, threshold_off: float) -> TriggerFactors:
+    """The factors of two thresholds, log units."""
+    return TriggerFactors(math.exp(threshold_on), math.exp(-threshold_off))
+
+
+class OutsidePixels(NamedTuple):
+    """Pixels outside their trigger levels, which may fire; the next call overwrites the arrays."""
+
+    pixel: Int64Array
+    """[m] flat index, ascending."""
+    before: Luma
+    """[m] luma in the frame before."""
+    now: Luma
+    """[m] luma in this frame."""
+
+
+class BrightnessCurve(NamedTuple):
+    """How brightness and intensity belong together."""
+
+    scale: float
+    """A pixel of brightness v has the intensity `scale · e^v + offset`."""
+    offset: float
+    darkest: float = -np.inf
+    """No intensity is as dark as a brightness below this, log units."""
+
+
+FindOutside: TypeAlias = Callable[[Luma, Luma, Luma, Luma], OutsidePixels]
+"""`find_outside(luma, seen, low, high)`, see `trigger_levels_reference.find_outside`."""
+SetLevels: TypeAlias = Callable[
+    [Int64Array, Float64Array, Thresholds, BrightnessCurve, Luma, Luma], None
+]
+"""`set_levels(pixel, reference, thresholds, curve, low, high)`, see
+`trigger_levels_reference.set_levels`."""
+LookUp: TypeAlias = Callable[[NDArray[Any], NDArray[np.uint8]], NDArray[Any]]
+"""`look_up(table, luma)`, see `trigger_levels_reference.look_up`."""
+
+
+def load_find_outside(dtype: np.dtype[Any], backend: str = AUTO) -> FindOutside:
+    """The function of a backend; "auto" is NumPy until the compiled one is ready.
+
+    Raises:
+        ConfigError: no backend has that name.
+        MissingDependencyError: what the backend needs is not installed.
+    """
+    return cast("FindOutside", load_kernel_when_ready(__name__, "find_outside", backend, dtype.str))
+
+
+def load_set_levels(dtype: np.dtype[Any], backend: str = AUTO) -> SetLevels:
+    """As `load_find_outside`."""
+    return cast("SetLevels", load_kernel_when_ready(__name__, "set_levels", backend, dtype.str))
+
+
+def load_look_up(backend: str = AUTO) -> LookUp:
+    """As `load_find_outside`."""
+    return cast("LookUp", load_kernel_when_ready(__name__, "look_up", backend, _BYTE))
 
 
 class TriggerLevels:
-    """The levels of every pixel, and the luma that it saw last, in the type of the frames."""
+    """The trigger levels of every pixel and its last luma, in the type of the frames."""
 
-    def __init__(self, luma: IntensityArray, curve: Curve, *, backend: str) -> None:
-        """Look at the first frame; every pixel has to be looked at until its levels are set.
+    def __init__(self, luma: IntensityArray, curve: BrightnessCurve, *, backend: str) -> None:
+        """Start from the first frame; every pixel may fire until its levels are set.
 
         Args:
             luma: 0..255 scale, [H, W], uint8 or float32; copied.
@@ -51,8 +125,8 @@ class TriggerLevels:
         self._low = np.full(self._seen.size, 255, self._seen.dtype)
         self._high = np.zeros(self._seen.size, self._seen.dtype)
 
-    def find_outside(self, luma: IntensityArray) -> Outside:
-        """Pixels that may fire at a frame, which from now on is the last one seen.
+    def find_outside(self, luma: IntensityArray) -> OutsidePixels:
+        """Pixels that may fire at a frame, which becomes the last one seen.
 
         Args:
             luma: [H, W].
@@ -66,15 +140,15 @@ class TriggerLevels:
         return find_outside(now, self._seen, self._low, self._high)
 
     def set(self, pixel: Int64Array, reference: Float64Array, thresholds: Thresholds) -> None:
-        """Say at what brightness some pixels fire: at their references ± θ.
+        """Set the levels of some pixels from their references.
 
         Args:
             pixel: flat index, [n].
             reference: of all pixels, [H · W] log units.
             thresholds: of the chosen pixels.
         """
-        narrow = load_narrow(self._seen.dtype, self._backend)
-        narrow(pixel, reference, thresholds, self._curve, self._low, self._high)
+        set_levels = load_set_levels(self._seen.dtype, self._backend)
+        set_levels(pixel, reference, thresholds, self._curve, self._low, self._high)
 
     def set_all(
         self,
@@ -83,7 +157,7 @@ class TriggerLevels:
         *,
         of_luma: Float64Array | None = None,
     ) -> None:
-        """Say it of all pixels.
+        """Set the levels of all pixels.
 
         Args:
             reference: [H · W] log units.
@@ -92,31 +166,16 @@ class TriggerLevels:
         """
         if of_luma is not None and thresholds.on.size == 1:
             low, high = np.empty(256, np.uint8), np.empty(256, np.uint8)
-            narrow = load_narrow(self._seen.dtype, self._backend)
-            narrow(np.arange(256), of_luma, thresholds, self._curve, low, high)
+            set_levels = load_set_levels(self._seen.dtype, self._backend)
+            set_levels(np.arange(256), of_luma, thresholds, self._curve, low, high)
             look_up = load_look_up(self._backend)
             self._low, self._high = look_up(low, self._seen), look_up(high, self._seen)
             return
         # Some at a time: one list of all is larger than most frames.
-        for first in range(0, self._seen.size, AT_A_TIME):
-            pixel = np.arange(first, min(first + AT_A_TIME, self._seen.size))
+        for first in range(0, self._seen.size, PIXELS_AT_A_TIME):
+            pixel = np.arange(first, min(first + PIXELS_AT_A_TIME, self._seen.size))
             self.set(pixel, reference, thresholds_at(pixel, thresholds))
 
     @staticmethod
     def _as_float(luma: NDArray[Any]) -> Luma:
         return luma.astype(np.float32, copy=False)
-
-
-def sensor_thresholds(shape: Shape, seed: int, nominal: NominalThresholds) -> Thresholds:
-    """Thresholds that differ from pixel to pixel and never change; [1] each if all are alike."""
-    if nominal.threshold_sigma == 0:
-        on, off = nominal.contrast_threshold_on, nominal.contrast_threshold_off
-        return Thresholds(np.array([float(on)]), np.array([float(off)]))
-    pair = draw_threshold_pair(shape, sensor_key(seed), nominal)
-    return Thresholds(*(one.reshape(-1) for one in pair))
-
-
-def thresholds_at(pixel: Int64Array, thresholds: Thresholds) -> Thresholds:
-    """Those of some pixels, of thresholds of all, [H · W] each, or [1] if all have the same."""
-    on, off = (one if one.size == 1 else one[pixel] for one in thresholds)
-    return Thresholds(on, off)

@@ -7,7 +7,7 @@ from typing import Literal
 
 from texvent.config import check_range
 from texvent.errors import ConfigError
-from texvent.simulate.random.mismatch import LOWEST_THRESHOLD
+from texvent.simulate.random.mismatch import check_nominal_thresholds
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,9 +33,7 @@ class EsimConfig:
     """Time after an event in which the pixel cannot fire; crossings in it are lost."""
 
     def __post_init__(self) -> None:
-        check_range("contrast_threshold_on", self.contrast_threshold_on, LOWEST_THRESHOLD, 10.0)
-        check_range("contrast_threshold_off", self.contrast_threshold_off, LOWEST_THRESHOLD, 10.0)
-        check_range("threshold_sigma", self.threshold_sigma, 0.0, 10.0)
+        check_nominal_thresholds(self)
         check_range("log_eps", self.log_eps, 1e-9, 1.0)
         check_range("refractory_period_us", self.refractory_period_us, 0, 10**9)
         if self.threshold_redraw not in ("frame", "never"):

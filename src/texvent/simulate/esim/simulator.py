@@ -17,13 +17,13 @@ from numpy.typing import NDArray
 from texvent.events import EventStream
 from texvent.pairs.frame_pair import FramePair
 from texvent.simulate.backend.select import AUTO, GPU
-from texvent.simulate.crossing.levels import Curve, Thresholds, load_look_up
-from texvent.simulate.crossing.ramp import Candidates, Levels, Rest, load_cross_levels
-from texvent.simulate.crossing.trigger_levels import (
-    TriggerLevels,
-    sensor_thresholds,
-    thresholds_at,
+from texvent.simulate.crossing.ramp import (
+    RampPixels,
+    References,
+    RefractoryPeriod,
+    load_cross_thresholds,
 )
+from texvent.simulate.crossing.trigger_levels import BrightnessCurve, TriggerLevels, load_look_up
 from texvent.simulate.esim.config import EsimConfig
 from texvent.simulate.fused.candidates import find_bounds, one_grid
 from texvent.simulate.fused.continuous import plan_segments
@@ -36,7 +36,11 @@ from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.mismatch import (
     LONG_AGO_US,
     LOWEST_THRESHOLD,
+    Thresholds,
     draw_threshold_pair_at,
+    sensor_thresholds,
+    smaller_threshold,
+    thresholds_at,
 )
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 from texvent.video import Frame
@@ -105,7 +109,7 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
     @property
     def contrast_threshold(self) -> float:
         """The smaller threshold, log units."""
-        return min(self.config.contrast_threshold_on, self.config.contrast_threshold_off)
+        return smaller_threshold(self.config)
 
     @property
     def balance(self) -> float:
@@ -192,10 +196,10 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         else:
             reference = load_look_up(self._backend)(of_luma, intensity.reshape(-1))
         rested = reference.size if config.refractory_period_us else 0
-        self._levels = Levels(reference, np.full(rested, LONG_AGO_US))
+        self._references = References(reference, np.full(rested, LONG_AGO_US))
         height, width = intensity.shape
         self._shape = height, width
-        self._segments.watch(CrossingState(*self._levels), self._shape)
+        self._segments.watch(CrossingState(*self._references), self._shape)
         self._is_redrawn = config.threshold_sigma > 0 and config.threshold_redraw == "frame"
         # Any threshold may be drawn anew, but none below the floor.
         self._fixed = FLOOR
@@ -207,9 +211,9 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         self, intensity: IntensityArray, of_luma: Float64Array | None = None
     ) -> TriggerLevels:
         """The trigger levels of all pixels; arguments as for `TriggerLevels.set_all`."""
-        curve = Curve(WHITE, -WHITE * self.config.log_eps)
+        curve = BrightnessCurve(WHITE, -WHITE * self.config.log_eps)
         triggers = TriggerLevels(intensity, curve, backend=self._backend)
-        triggers.set_all(self._levels.reference, self._fixed, of_luma=of_luma)
+        triggers.set_all(self._references.reference, self._fixed, of_luma=of_luma)
         return triggers
 
     def _advance(self, intensity: IntensityArray, interval: FrameInterval) -> SortedEvents:
@@ -218,18 +222,18 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         table = self._table if now.dtype == np.uint8 else None
         if table is None:
             before, now = self._log_intensity(before), self._log_intensity(now)
-        cross_levels = load_cross_levels(now.dtype, self._backend)
-        columns = cross_levels(
-            Candidates(pixel, before, now, table, self._thresholds(pixel, interval.key)),
-            self._levels,
+        cross_thresholds = load_cross_thresholds(now.dtype, self._backend)
+        columns = cross_thresholds(
+            RampPixels(pixel, before, now, table, self._thresholds(pixel, interval.key)),
+            self._references,
             (interval.start_us, interval.stop_us),
-            Rest(self.config.refractory_period_us, is_level_lost=True),
+            RefractoryPeriod(self.config.refractory_period_us, is_level_lost=True),
             self._shape,
         )
-        triggers.set(pixel, self._levels.reference, thresholds_at(pixel, self._fixed))
+        triggers.set(pixel, self._references.reference, thresholds_at(pixel, self._fixed))
         self._triggers = triggers
         # The references have moved.
-        self._segments.watch(CrossingState(*self._levels), self._shape)
+        self._segments.watch(CrossingState(*self._references), self._shape)
         return columns
 
     def _log_intensity(self, intensity: IntensityArray) -> Float64Array:

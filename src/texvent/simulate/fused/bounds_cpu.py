@@ -19,7 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.simulate.fused.definitions import MARGIN, PairArrays, ReferenceLevels
+from texvent.simulate.crossing.trigger_levels import MARGIN
+from texvent.simulate.fused.definitions import PairArrays, ReferenceLevels
 
 CELL = 8
 """Side of a cell, px."""

@@ -22,10 +22,10 @@ from texvent.pairs.warp_cpu import (
     warp_points,
 )
 from texvent.runtime.jit import jit
+from texvent.simulate.crossing.trigger_levels import MARGIN
 from texvent.simulate.fused.bounds_cpu import find_luma_bounds, list_active
 from texvent.simulate.fused.definitions import (
     FOLLOWS,
-    MARGIN,
     STEPS,
     TAKES,
     CrossingCandidates,

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.pairs.warp_reference import warp_between
+from texvent.simulate.crossing.trigger_levels import MARGIN
 from texvent.simulate.fused.definitions import (
     FOLLOWS,
-    MARGIN,
     STEPS,
     TAKES,
     CrossingCandidates,

@@ -4,8 +4,8 @@
 two differ by θ_on upwards or θ_off downwards: where α + I ≥ A·e^θ_on or α + I ≤ A·e^−θ_off. So two
 multiplications tell where a pixel may fire, without a logarithm. `find_candidates` evaluates the
 pixels of one pair of frames at every intermediate instant and lists each place where this is so,
-with a margin (`MARGIN`). The simulator then decides in NumPy, with its own logarithm. Where the
-margin leaves open whether a pixel fired, all its later instants are listed.
+with a margin (`trigger_levels.MARGIN`). The simulator then decides in NumPy, with its own
+logarithm. Where the margin leaves open whether a pixel fired, all its later instants are listed.
 
 **Sample grids.** When a pixel is evaluated: grid g divides the pair into `parts[g]` segments that
 end at the positions `positions[g, :parts[g] − 1]` and at 1. With one grid, all pixels share the
@@ -27,9 +27,6 @@ Float64Array: TypeAlias = NDArray[np.float64]
 Int64Array: TypeAlias = NDArray[np.int64]
 LumaBounds: TypeAlias = Float32Array
 """Darkest and brightest luma that each cell of a pair can reach; see `bounds_cpu`."""
-
-MARGIN = 1e-6
-"""Relative distance from a trigger level within which the simulator's logarithm decides."""
 
 FOLLOWS, TAKES, STEPS_ONCE, STEPS = range(4)
 """How a reference moves: it becomes the level at every instant; where the pixel fires it becomes

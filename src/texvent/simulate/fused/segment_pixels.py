@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.pairs.motion_interpolation import MotionInterpolation
+from texvent.simulate.crossing.trigger_levels import trigger_factors
 from texvent.simulate.fused.candidates import map_candidates
 from texvent.simulate.fused.definitions import (
     STEPS,
@@ -75,7 +75,7 @@ class SegmentPixels:
     def levels(self) -> ReferenceLevels:
         """What the pixels are compared with now."""
         rules, scale = self._rules, self._scale
-        up, down = math.exp(rules.threshold_on), math.exp(-rules.threshold_off)
+        up, down = trigger_factors(rules.threshold_on, rules.threshold_off)
         if self._level is None:
             self._level = scale.unit * np.exp(self._state.reference.reshape(self._shape))
         return ReferenceLevels(self._level, scale.balance, up, down, STEPS)

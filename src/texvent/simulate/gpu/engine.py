@@ -20,7 +20,8 @@ from texvent.simulate.gpu.intervals import Clock, Span
 from texvent.simulate.gpu.kernel_types import Call, Frames, Intervals, NoiseRules, Tensor
 from texvent.simulate.gpu.launch import alignment, to_device
 from texvent.simulate.gpu.ordering import order_events
-from texvent.simulate.gpu.passes import GpuPixels, run_passes
+from texvent.simulate.gpu.passes import run_passes
+from texvent.simulate.gpu.pixels import GpuPixels
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.gpu.noise import noise_rules
 from texvent.simulate.texvent.gpu.pixels import TexventPixels
@@ -35,7 +36,7 @@ class _Clips:
 
     size: SensorSize
     clock: Clock
-    pixels: GpuPixels
+    pixels: GpuPixels[Any]
     previous: Tensor
     """[B, H, W] the last frame of every clip; None before the first."""
 
@@ -177,7 +178,7 @@ class GpuSimulator:
         return Call(layout, Intervals(*plan), alignment(area, strides[0], strides[1])), rules
 
 
-def _make_pixels(config: object, seeds: Sequence[int]) -> GpuPixels:
+def _make_pixels(config: object, seeds: Sequence[int]) -> GpuPixels[Any]:
     if isinstance(config, TexventConfig):
         return TexventPixels(config, seeds)
     if isinstance(config, EsimConfig):

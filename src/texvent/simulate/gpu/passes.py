@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent._require import require
 from texvent.errors import InputError
-from texvent.simulate.esim.gpu.pixels import EsimPixels
 from texvent.simulate.gpu.device import EXTRA
 from texvent.simulate.gpu.kernel_types import PIXELS_PER_MARK, Call, NoiseRules, Tally, Tensor
+from texvent.simulate.gpu.pixels import GpuPixels
 from texvent.simulate.texvent.gpu.noise import NoiseDraw
-from texvent.simulate.texvent.gpu.pixels import TexventPixels
-
-GpuPixels = TexventPixels | EsimPixels
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +30,7 @@ class Words:
 
 
 def run_passes(
-    pixels: GpuPixels, call: Call, noise: NoiseRules | None, *, on_resting: bool
+    pixels: GpuPixels[Any], call: Call, noise: NoiseRules | None, *, on_resting: bool
 ) -> Words:
     """Find the events of a call and move the pixels' state along.
 

@@ -199,7 +199,7 @@ def count_to_start(place: NDArray[np.uint32]) -> None:
 
 @jit
 def unpack_keys(keys: Uint64Array, start_us: int, width: int, low: int) -> Any:
-    """SortedEvents x, y, t, p, label of sorted keys.
+    """Columns x, y, t, p, label of sorted keys.
 
     Args:
         keys: [n].

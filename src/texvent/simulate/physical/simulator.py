@@ -4,9 +4,9 @@ Per frame interval, for every pixel:
 
 1. intensity I = 255 · (luma / 255)^gamma, brightness L = ln(α + I), a straight line between
    frames;
-2. the photoreceptor follows L as a first-order low-pass whose corner grows with I;
-3. the change since the last reset, leak included, fires where it crosses a threshold of the
-   pixel's own, at that very time, as often as it does; the event resets the pixel;
+2. the photoreceptor follows L as a first-order low-pass whose cutoff grows with I;
+3. the change since the last reset, leak included, fires where and when it crosses a threshold of
+   the pixel; every event resets the pixel;
 4. noise events come at a rate that depends on intensity, and reset the pixel too;
 5. the readout delays events, limits their rate and rounds their times, if asked to.
 
@@ -26,32 +26,32 @@ from numpy.typing import NDArray
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
-from texvent.simulate.physical.config import PRESETS, PhysicalConfig
-from texvent.simulate.physical.kernels.circuit import (
+from texvent.simulate.physical.circuit import (
     WHITE,
-    Light,
     NoiseEvents,
-    Pixels,
+    PhotoreceptorInput,
     ResetRules,
     load_advance_pixels,
     new_state,
 )
+from texvent.simulate.physical.config import PRESETS, PhysicalConfig
 from texvent.simulate.physical.noise_curve import parse_noise_curve
-from texvent.simulate.physical.photoreceptor import Sight
+from texvent.simulate.physical.photoreceptor import InputFrames
 from texvent.simulate.physical.readout import Readout
 from texvent.simulate.random.draws import Purpose, draw_uniforms
 from texvent.simulate.random.mismatch import (
+    PixelMismatch,
     draw_chosen,
     draw_rate_factors,
     draw_threshold_pair,
     sensor_key,
 )
-from texvent.simulate.random.rate_noise import Float64Array, NoiseRates
+from texvent.simulate.random.poisson_noise import Float64Array, PoissonNoise
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 from texvent.video import MICROSECONDS
 
 HOT = 1
-"""The stream of noise of hot pixels."""
+"""Number of the noise process of hot pixels."""
 
 
 class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
@@ -89,28 +89,28 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
         config, shape = self.config, intensity.shape
         self._draw_sensor(shape)
         self._readout = Readout(config.readout, first_us=self._last_us, width=shape[1])
-        self._sight = Sight(
+        self._frames = InputFrames(
             intensity, gamma=config.gamma, balance=config.balance, cutoff_hz=config.cutoff_hz
         )
-        output = self._sight.brightness()
+        output = self._frames.brightness()
         level = output.copy()
         if config.initial_phase == "random":
             y, x = np.ogrid[: shape[0], : shape[1]]
             phase = draw_uniforms(sensor_key(self._seed), y, x, Purpose.PHASE.draw()).reshape(-1)
-            on, off = self._pixels[:2]
+            on, off = self._mismatch[:2]
             level -= phase * (on + off) - off
         self._state = new_state(output, level, self._last_us)
 
     def _advance(
         self, intensity: IntensityArray, interval: FrameInterval
     ) -> UnsortedEvents | SortedEvents:
-        light = self._sight.towards(intensity)
+        light = self._frames.until(intensity)
         noise = self._draw_noise(light, interval)
         rules = ResetRules(self.config.refractory_period_us, self.config.noise_resets)
         fired = load_advance_pixels(light.now.dtype, self._backend)(
-            light, self._pixels, self._state, noise, rules, (interval.start_us, interval.stop_us)
+            light, self._mismatch, self._state, noise, rules, (interval.start_us, interval.stop_us)
         )
-        self._forget(interval)
+        self._decay_residual(interval)
         if self.config.readout.is_ideal:
             return fired
         if not isinstance(fired, UnsortedEvents):
@@ -118,7 +118,7 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
         return self._readout.read(fired, interval)
 
     def _draw_sensor(self, shape: tuple[int, ...]) -> None:
-        """What is fixed to a pixel: thresholds, leak, noise factor, additional noise if hot."""
+        """Draw mismatch: thresholds, leak, noise factors, hot pixels."""
         config = self.config
         key = sensor_key(self._seed if config.sensor_seed is None else config.sensor_seed)
         on, off = draw_threshold_pair(shape, key, config)
@@ -126,35 +126,37 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
             shape, key, Purpose.LEAK_RATE, config.leak_rate_decades
         )
         leak_per_us = leak * on / MICROSECONDS
-        self._pixels = Pixels(
+        self._mismatch = PixelMismatch(
             *(column.reshape(-1).astype(np.float32) for column in (on, off, leak_per_us))
         )
         self._noise_curve = parse_noise_curve(config.noise_curve)
         factor = _factors_of_mean_1(shape, key, Purpose.NOISE_RATE, config.noise_decades)
-        self._noise = NoiseRates(config.noise_scale * self._noise_curve.highest_hz * factor)
+        self._noise = PoissonNoise(config.noise_scale * self._noise_curve.highest_hz * factor)
         hot = draw_chosen(shape, key, Purpose.HOT_PIXEL, fraction=config.hot_pixel_fraction)
-        self._hot_noise = NoiseRates(config.hot_pixel_rate_hz * hot, stream=HOT)
+        self._hot_noise = PoissonNoise(config.hot_pixel_rate_hz * hot, stream=HOT)
 
-    def _draw_noise(self, light: Light, interval: FrameInterval) -> NoiseEvents:
-        curve, sight = self._noise_curve, self._sight
+    def _draw_noise(self, light: PhotoreceptorInput, interval: FrameInterval) -> NoiseEvents:
+        curve, frames = self._noise_curve, self._frames
 
-        def share(pixel: NDArray[np.int64]) -> Float64Array:
+        def rate_fraction(pixel: NDArray[np.int64]) -> Float64Array:
             """The noise curve at the pixels, the mean over both frames, relative to its top."""
             start, stop = (
-                curve.rate_at(sight.intensity(luma[pixel])) for luma in (light.before, light.now)
+                curve.rate_at(frames.intensity(luma[pixel])) for luma in (light.before, light.now)
             )
             return np.asarray((start + stop) / (2.0 * curve.highest_hz))
 
         on_fraction, backend = self.config.noise_on_fraction, self._backend
-        noise = self._noise.draw(interval, share=share, on_fraction=on_fraction, backend=backend)
+        noise = self._noise.draw(
+            interval, rate_fraction=rate_fraction, on_fraction=on_fraction, backend=backend
+        )
         if not self._hot_noise.is_silent:
             hot = self._hot_noise.draw(interval, on_fraction=on_fraction, backend=backend)
             noise = UnsortedEvents.concat((noise, hot))
         order = np.lexsort((noise.p, noise.t, noise.pixel))
         return NoiseEvents(noise.pixel[order], noise.t[order], noise.p[order])
 
-    def _forget(self, interval: FrameInterval) -> None:
-        """Let change that has not fired decay, what leaked and what light made alike."""
+    def _decay_residual(self, interval: FrameInterval) -> None:
+        """Let change that has not fired decay, whether leak or light caused it."""
         if self.config.residual_decay_hz > 0:
             kept = math.exp(-self.config.residual_decay_hz * interval.duration_s)
             state, stop_us = self._state, interval.stop_us
@@ -162,7 +164,7 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
             age = np.rint(kept * (stop_us - state.since_us)).astype(np.int64)
             is_free = state.since_us <= stop_us
             state.since_us[is_free] = stop_us - age[is_free]
-            state.calm_until_us[:] = stop_us
+            state.quiescent_until_us[:] = stop_us
 
 
 def _factors_of_mean_1(

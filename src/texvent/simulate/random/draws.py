@@ -1,7 +1,7 @@
-"""Random numbers that depend on what they are for, never on when they are asked for.
+"""Keyed random draws: numbers that depend on what they are for, never on when they are drawn.
 
 A draw is a hash of (seed, frame, y, x, draw): the same five numbers give the same 64 bits in any
-order, on any number of threads, in NumPy here and in the compiled twin `kernels.cpu_draws`. So a
+order, on any number of threads, in NumPy here and in the compiled twin `draws_cpu`. So a
 clip can be cut, tiled or run on another backend without moving one noise event.
 
 The hash is two rounds of the SplitMix64 finaliser (Steele, Lea and Flood, "Fast splittable
@@ -44,7 +44,7 @@ class Purpose(IntEnum):
     THRESHOLD_OFF = 6
     LEAK_RATE = 7
     HOT_PIXEL = 8
-    PASSAGE = 9
+    FIRST_PASSAGE = 9
     PHASE = 10
     NOISE_RATE = 11
     READOUT = 12

@@ -1,13 +1,14 @@
-"""What differs from pixel to pixel of one sensor: drawn once, the same in every frame of a seed."""
+"""Mismatch between the pixels of a sensor: drawn once, the same in every frame of a seed."""
 
 from __future__ import annotations
 
 import math
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.config import check_range
 from texvent.simulate.random.draws import Purpose, draw_normals, draw_uniforms, frame_key
 
 Float64Array = NDArray[np.float64]
@@ -16,9 +17,9 @@ Shape = tuple[int, ...]
 LOWEST_THRESHOLD = 0.01
 """Floor of drawn thresholds, log units: v2e's and ESIM's, so that no pixel fires without end."""
 LONG_AGO_US = -(2**62)
-"""Time of the last event of a pixel that has not fired yet, µs."""
-SENSOR = -1
-"""Stands for the frame in keys of draws that belong to the sensor; frames count from 0."""
+"""Stands for the last event of a pixel that has not fired yet, µs."""
+SENSOR_FRAME = -1
+"""Frame number in keys of draws that belong to the sensor; frames count from 0."""
 
 
 def draw_thresholds(
@@ -37,7 +38,15 @@ def draw_thresholds(
         [H, W] float64, at least `LOWEST_THRESHOLD`.
     """
     y, x = np.ogrid[: shape[0], : shape[1]]
-    return np.broadcast_to(_thresholds_at(y, x, key, purpose, (mean, sigma)), shape).copy()
+    drawn = _thresholds_at(y, x, key, purpose, _Normal(mean, sigma))
+    return np.broadcast_to(drawn, shape).copy()
+
+
+class _Normal(NamedTuple):
+    """A normal distribution."""
+
+    mean: float
+    sigma: float
 
 
 def _thresholds_at(
@@ -45,12 +54,21 @@ def _thresholds_at(
     x: NDArray[np.int64],
     key: np.uint64,
     purpose: Purpose,
-    normal: tuple[float, float],
+    nominal: _Normal,
 ) -> Float64Array:
-    mean, sigma = normal
+    mean, sigma = nominal
     if sigma == 0:
         return np.full(np.broadcast_shapes(y.shape, x.shape), float(mean))
     return np.maximum(mean + sigma * draw_normals(key, y, x, purpose.draw()), LOWEST_THRESHOLD)
+
+
+class Thresholds(NamedTuple):
+    """By how much a pixel's brightness must change to fire, log units."""
+
+    on: Float64Array
+    """[n], or [1] where all pixels have the same."""
+    off: Float64Array
+    """[n] or [1]."""
 
 
 class NominalThresholds(Protocol):
@@ -70,6 +88,38 @@ class NominalThresholds(Protocol):
     def threshold_sigma(self) -> float:
         """Standard deviation of both, log units."""
         ...
+
+
+class PixelMismatch(NamedTuple):
+    """What differs from pixel to pixel and never changes, as compiled kernels read it."""
+
+    threshold_on: NDArray[np.float32]
+    """[n] log units, above 0."""
+    threshold_off: NDArray[np.float32]
+    """[n] log units, above 0."""
+    leak: NDArray[np.float32]
+    """[n] log units per µs by which the change grows on its own, at least 0; [0] without leak."""
+
+    def part(self, part: slice) -> PixelMismatch:
+        """That of some pixels."""
+        return PixelMismatch(self.threshold_on[part], self.threshold_off[part], self.leak[part])
+
+
+def check_nominal_thresholds(nominal: NominalThresholds) -> None:
+    """Check the ranges of three options.
+
+    Raises:
+        ConfigError: one is out of range.
+    """
+    on, off = nominal.contrast_threshold_on, nominal.contrast_threshold_off
+    check_range("contrast_threshold_on", on, LOWEST_THRESHOLD, 10.0)
+    check_range("contrast_threshold_off", off, LOWEST_THRESHOLD, 10.0)
+    check_range("threshold_sigma", nominal.threshold_sigma, 0.0, 10.0)
+
+
+def smaller_threshold(nominal: NominalThresholds) -> float:
+    """The smaller of the two nominal thresholds, log units."""
+    return min(nominal.contrast_threshold_on, nominal.contrast_threshold_off)
 
 
 def draw_threshold_pair(
@@ -101,9 +151,24 @@ def draw_threshold_pair_at(
     on, off = nominal.contrast_threshold_on, nominal.contrast_threshold_off
     sigma = nominal.threshold_sigma
     return (
-        _thresholds_at(y, x, key, Purpose.THRESHOLD_ON, (on, sigma)),
-        _thresholds_at(y, x, key, Purpose.THRESHOLD_OFF, (off, sigma)),
+        _thresholds_at(y, x, key, Purpose.THRESHOLD_ON, _Normal(on, sigma)),
+        _thresholds_at(y, x, key, Purpose.THRESHOLD_OFF, _Normal(off, sigma)),
     )
+
+
+def sensor_thresholds(shape: Shape, seed: int, nominal: NominalThresholds) -> Thresholds:
+    """Thresholds that differ from pixel to pixel and never change; [1] each if all are alike."""
+    if nominal.threshold_sigma == 0:
+        on, off = nominal.contrast_threshold_on, nominal.contrast_threshold_off
+        return Thresholds(np.array([float(on)]), np.array([float(off)]))
+    pair = draw_threshold_pair(shape, sensor_key(seed), nominal)
+    return Thresholds(*(one.reshape(-1) for one in pair))
+
+
+def thresholds_at(pixel: NDArray[np.int64], thresholds: Thresholds) -> Thresholds:
+    """Those of some pixels, of thresholds of all, [H · W] each, or [1] if all have the same."""
+    on, off = (one if one.size == 1 else one[pixel] for one in thresholds)
+    return Thresholds(on, off)
 
 
 def draw_rate_factors(
@@ -136,4 +201,4 @@ def draw_chosen(
 
 def sensor_key(seed: int) -> np.uint64:
     """Key of the draws that are made once for the sensor."""
-    return frame_key(seed, SENSOR)
+    return frame_key(seed, SENSOR_FRAME)

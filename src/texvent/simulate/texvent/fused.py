@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import functools
 import itertools
-import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -18,6 +17,7 @@ from texvent.brightness import Float64Array, balanced_log
 from texvent.events import EventStream
 from texvent.pairs.frame_pair import FramePair
 from texvent.simulate.backend.select import AUTO
+from texvent.simulate.crossing.trigger_levels import trigger_factors
 from texvent.simulate.fused.candidates import (
     find_bounds,
     map_candidates,
@@ -120,7 +120,7 @@ class FusedPass:
             rule = TAKES
         else:
             rule = STEPS if config.multi_event else STEPS_ONCE
-        up, down = math.exp(config.contrast_threshold), math.exp(-config.contrast_threshold)
+        up, down = trigger_factors(config.contrast_threshold, config.contrast_threshold)
         level = np.empty((0, 0))
         if memory is not None:
             # Rounded to float32, which the margin of the search covers.

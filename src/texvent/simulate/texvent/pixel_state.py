@@ -8,12 +8,12 @@ import math
 import numpy as np
 
 from texvent.brightness import Float64Array, balanced_log
+from texvent.simulate.crossing.trigger_levels import MARGIN, trigger_factors
 from texvent.simulate.packets.sorting import read_only
 from texvent.simulate.texvent.brightness_cache import Renewal
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.kernels.scan import (
     SCAN_FLOOR,
-    SCAN_MARGIN,
     Intensity,
     Levels,
     Memory,
@@ -129,9 +129,10 @@ def scan_levels(config: TexventConfig, memory: Memory) -> Levels:
     is_full_scale = memory.reference.dtype == np.uint16
     balance = config.balance * (UINT16_PER_LEVEL if is_full_scale else 1.0)
     in_reference = 0.0 if memory.level.size else balance
-    up = math.exp(config.contrast_threshold) * (1 - SCAN_MARGIN)
-    down = math.exp(-config.contrast_threshold) * (1 + SCAN_MARGIN)
-    room = balance * SCAN_MARGIN + SCAN_FLOOR
+    factors = trigger_factors(config.contrast_threshold, config.contrast_threshold)
+    up = factors.up * (1 - MARGIN)
+    down = factors.down * (1 + MARGIN)
+    room = balance * MARGIN + SCAN_FLOOR
     return Levels(
         up=np.float32(up),
         up_offset=np.float32(in_reference * up - balance - room),

@@ -8,13 +8,10 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
 
-from texvent.config import check_range
 from texvent.events import EventStream
 from texvent.pairs.frame_pair import FramePair
 from texvent.runtime.network_files import describe_file
@@ -23,38 +20,14 @@ from texvent.simulate.packets.sorting import make_packet
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 from texvent.simulate.v2ce import ldati, ldati_reference
-from texvent.simulate.v2ce.ldati import Rounding
-from texvent.simulate.v2ce.network import Device, Float32Array, load_network
+from texvent.simulate.v2ce.config import V2ceConfig
+from texvent.simulate.v2ce.network import Float32Array, load_network
 from texvent.simulate.v2ce.weights import check_weights_path
 from texvent.video import Frame
 
 WHITE = 255.0
 MEAN, SPREAD = 0.153, 0.165
 """Mean and standard deviation of the training frames, of full scale: the network's unit."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class V2ceConfig:
-    """Options of V2CE; the defaults are those of its program.
-
-    Raises:
-        ConfigError: an option is out of range.
-    """
-
-    weights: Path | None = None
-    """File with the network's weights, v2ce_3d.pt; it is never downloaded."""
-    device: Device = "auto"
-    """Where the network runs: cpu, cuda (an NVIDIA GPU), or auto for a GPU if there is one."""
-    sequence_length: int = 16
-    """Frame pairs that the network sees at once; it was trained on 16."""
-    rounding: Rounding = "published"
-    """What becomes of parts of an event: published rounds each pixel's number up or down by where
-    the part is; stochastic rounds it by chance, right on average."""
-    bidirectional: bool = False
-    """Infer times from both ends of the interval instead of from its start."""
-
-    def __post_init__(self) -> None:
-        check_range("sequence_length", self.sequence_length, 1, 1024)
 
 
 class V2ceSimulator(StreamingSimulator[V2ceConfig]):

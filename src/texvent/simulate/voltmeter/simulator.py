@@ -7,62 +7,23 @@ for dynamic vision sensors", ECCV 2022. docs/simulators.md gives the equations a
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import ClassVar
 
 import numpy as np
 
-from texvent.config import check_range
-from texvent.errors import ConfigError
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import Purpose, draw_uniforms
 from texvent.simulate.random.mismatch import sensor_key
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
-from texvent.simulate.voltmeter.kernels.first_passage import (
+from texvent.simulate.voltmeter.config import PRESETS, VoltmeterConfig
+from texvent.simulate.voltmeter.first_passage import (
     Constants,
-    Light,
-    load_find_passages,
+    FirstPassageInput,
+    load_find_first_passages,
     new_voltage,
 )
-
-
-@dataclass(frozen=True, kw_only=True)
-class VoltmeterConfig:
-    """Constants of the DVS-Voltmeter pixel model, for intensities 0..255 and times in µs.
-
-    The defaults are the DAVIS346's. Voltage is measured in thresholds.
-
-    Raises:
-        ConfigError: a constant is out of range.
-    """
-
-    k1: float = 5.265
-    """Gain: events per unit of relative change of light, ΔL / (L + k2)."""
-    k2: float = 20.0
-    """Dark offset of the light, in levels of 0..255."""
-    k3: float = 1e-4
-    """Photon noise: its share of the diffusion is k3 √L / (L + k2), per √µs."""
-    k4: float = 1e-7
-    """Leakage: constant drift, thresholds per µs."""
-    k5: float = 5e-9
-    """Parasitic photocurrent: drift per level of light, thresholds per µs."""
-    k6: float = 1e-5
-    """Leakage noise: constant diffusion, per √µs."""
-    start_voltage: Literal["random", "zero"] = "random"
-    """Where pixels stand at the first frame: somewhere on the way to their next leak event
-    (random), or all at rest (zero), which makes equal pixels leak in unison."""
-
-    def __post_init__(self) -> None:
-        check_range("k1", self.k1, 1e-3, 1e3)
-        check_range("k2", self.k2, 0.1, 1e6)
-        check_range("k3", self.k3, 0.0, 0.1)
-        check_range("k4", self.k4, -0.01, 0.01)
-        check_range("k5", self.k5, -1e-4, 1e-4)
-        check_range("k6", self.k6, 0.0, 0.1)
-        if self.start_voltage not in ("random", "zero"):
-            raise ConfigError(f"start_voltage is {self.start_voltage!r}; allowed: random, zero")
 
 
 class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
@@ -80,11 +41,7 @@ class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
     """
 
     config_type: ClassVar[type] = VoltmeterConfig
-    presets: ClassVar[Mapping[str, VoltmeterConfig]] = {
-        "davis346": VoltmeterConfig(),
-        "davis240": VoltmeterConfig(k1=4.424, k2=23.0, k3=2e-4, k5=5e-8),
-        "peer-common": VoltmeterConfig(start_voltage="zero"),
-    }
+    presets: ClassVar[Mapping[str, VoltmeterConfig]] = PRESETS
 
     @property
     def contrast_threshold(self) -> float:
@@ -102,13 +59,13 @@ class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
         self._constants = Constants(
             config.k1, config.k2, config.k3, config.k4, config.k5, config.k6
         )
-        residual = np.zeros(intensity.shape)
+        displacement = np.zeros(intensity.shape)
         if config.start_voltage == "random":
             leak = config.k4 + config.k5 * intensity.astype(np.float64)
             y, x = np.ogrid[: intensity.shape[0], : intensity.shape[1]]
             chance = draw_uniforms(sensor_key(self._seed), y, x, Purpose.PHASE.draw())
-            residual = np.sign(leak) * chance
-        self._voltage = new_voltage(residual)
+            displacement = np.sign(leak) * chance
+        self._voltage = new_voltage(displacement)
         self._begin_us = self._last_us
 
     def _advance(
@@ -118,6 +75,6 @@ class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
             # Frames of two types: from now on all are float32, which holds 8-bit levels exactly.
             self._seen = self._seen.astype(np.float32, copy=False)
             intensity = intensity.astype(np.float32, copy=False)
-        light = Light(self._seen, intensity, self._constants)
-        find_passages = load_find_passages(intensity.dtype, self._backend)
-        return find_passages(light, self._voltage, interval, self._begin_us)
+        light = FirstPassageInput(self._seen, intensity, self._constants)
+        find_first_passages = load_find_first_passages(intensity.dtype, self._backend)
+        return find_first_passages(light, self._voltage, interval, self._begin_us)

@@ -16,19 +16,24 @@ from texvent.simulate.gpu.intervals import Int64Array, Span
 from texvent.simulate.gpu.kernel_types import FORGET, KEEP, Call, Records, Tally, Tensor
 from texvent.simulate.gpu.launch import (
     Walk,
-    choose_walk,
     make_records,
     segment_grid,
     to_device,
     walk_grid,
 )
-from texvent.simulate.random.mismatch import LONG_AGO_US, draw_threshold_pair, sensor_key
+from texvent.simulate.gpu.pixels import GpuPixels
+from texvent.simulate.random.mismatch import (
+    LONG_AGO_US,
+    draw_threshold_pair,
+    sensor_key,
+    smaller_threshold,
+)
 
 _BLOCK = 512
 RAMP_WALK = Walk(512, 4)
 
 
-class EsimPixels:
+class EsimPixels(GpuPixels[EsimConfig]):
     """The pixels of a batch of clips under ESIM."""
 
     def __init__(self, config: EsimConfig, seeds: Sequence[int]) -> None:
@@ -42,27 +47,20 @@ class EsimPixels:
             ConfigError: an option that only the CPU has.
         """
         check_options(config)
-        self.config = config
-        self._seeds = tuple(seeds)
-        self._walk = choose_walk(RAMP_WALK)
+        super().__init__(config, seeds, RAMP_WALK)
 
     @property
     def contrast_threshold(self) -> float:
         """The smallest contrast threshold, log units."""
-        return min(self.config.contrast_threshold_on, self.config.contrast_threshold_off)
+        return smaller_threshold(self.config)
 
     @property
     def balance(self) -> float:
         """`255 · log_eps`: with it, Eq. 4's logarithm is the model's own."""
         return WHITE * self.config.log_eps
 
-    @property
-    def block(self) -> int:
-        """Pixels that a program walks."""
-        return self._walk.block
-
     def begin(self, frames: Tensor) -> None:
-        """Make room for the state and put the options on the device of `frames`, [B, H, W]."""
+        """See `GpuPixels`."""
         torch = require("torch", extra=EXTRA)
         config, device, shape = self.config, frames.device, frames.shape
         rests = config.refractory_period_us > 0
@@ -101,11 +99,8 @@ class EsimPixels:
             policy[:, 0] = FORGET
         return policy
 
-    def advance(self, span: Span) -> None:
-        """Nothing is kept on the host."""
-
     def walk(self, call: Call, tally: Tally, records: Records | None) -> None:
-        """Count the events of all intervals (`records` None), or write them down and move on."""
+        """See `GpuPixels`."""
         esim_triton.walk_ramp[walk_grid(call, self.block)](
             call.frames,
             call.intervals,
@@ -120,7 +115,7 @@ class EsimPixels:
         )
 
     def records(self, count: int) -> Records:
-        """Room for `count` events."""
+        """See `GpuPixels`."""
         return make_records(count, self._state.level, has_order=True)
 
     def stamp(self, call: Call, records: Records, ends: Tensor, words: Tensor) -> None:

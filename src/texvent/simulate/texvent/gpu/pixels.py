@@ -21,12 +21,12 @@ from texvent.simulate.gpu.kernel_types import (
 )
 from texvent.simulate.gpu.launch import (
     Walk,
-    choose_walk,
     make_records,
     segment_grid,
     to_device,
     walk_grid,
 )
+from texvent.simulate.gpu.pixels import GpuPixels
 from texvent.simulate.random.draws import frame_keys
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.gpu import rules as texvent_rules
@@ -38,7 +38,7 @@ LEVELS_WALK = Walk(128, 1)
 BRIGHTNESS_WALK = Walk(512, 4)
 
 
-class TexventPixels:
+class TexventPixels(GpuPixels[TexventConfig]):
     """The pixels of a batch of clips under Eqs. 5 and 7."""
 
     def __init__(self, config: TexventConfig, seeds: Sequence[int]) -> None:
@@ -52,11 +52,9 @@ class TexventPixels:
             ConfigError: an option that only the CPU has.
         """
         check_options(config)
-        self.config = config
-        self._seeds = tuple(seeds)
-        self._pairs_seen = np.zeros((len(seeds), 1), np.int64)
         self._tracks_intensity = texvent_rules.tracks_intensity(config)
-        self._walk = choose_walk(LEVELS_WALK if self._tracks_intensity else BRIGHTNESS_WALK)
+        super().__init__(config, seeds, LEVELS_WALK if self._tracks_intensity else BRIGHTNESS_WALK)
+        self._pairs_seen = np.zeros((len(seeds), 1), np.int64)
 
     @property
     def contrast_threshold(self) -> float:
@@ -68,13 +66,8 @@ class TexventPixels:
         """α, on the 0..255 scale."""
         return self.config.balance
 
-    @property
-    def block(self) -> int:
-        """Pixels that a program walks."""
-        return self._walk.block
-
     def begin(self, frames: Tensor) -> None:
-        """Make room for the state and put the options on the device of `frames`, [B, H, W]."""
+        """See `GpuPixels`."""
         torch = require("torch", extra=EXTRA)
         dtype = frames.dtype if self._tracks_intensity else torch.float64
         # What it holds does not matter: the first interval forgets.
@@ -90,7 +83,7 @@ class TexventPixels:
         )
 
     def keys(self, span: Span) -> Int64Array:
-        """Keys of the random draws of every interval, as bits, [B, T]."""
+        """See `GpuPixels`."""
         keys = [
             frame_keys(seed, times_us)
             for seed, times_us in zip(self._seeds, span.stop_us, strict=True)
@@ -114,11 +107,11 @@ class TexventPixels:
         return np.where(forgets, FORGET, policy)
 
     def advance(self, span: Span) -> None:
-        """Take the intervals for passed."""
+        """Count the pairs of source frames."""
         self._pairs_seen += span.from_source.sum(axis=1, keepdims=True)
 
     def walk(self, call: Call, tally: Tally, records: Records | None) -> None:
-        """Count the events of all intervals (`records` None), or write them down and move on."""
+        """See `GpuPixels`."""
         if self._tracks_intensity:
             kernel = texvent_triton.walk_levels
             # Exact: float32 holds every byte.
@@ -139,7 +132,7 @@ class TexventPixels:
         )
 
     def records(self, count: int) -> Records:
-        """Room for `count` events."""
+        """See `GpuPixels`."""
         return make_records(count, self._reference, has_order=self.config.multi_event)
 
     def stamp(self, call: Call, records: Records, ends: Tensor, words: Tensor) -> None:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.brightness import balanced_log
+from texvent.simulate.crossing.trigger_levels import trigger_factors
 from texvent.simulate.gpu.kernel_types import Tensor
 from texvent.simulate.random.draws import Purpose
 from texvent.simulate.texvent.config import TexventConfig
@@ -42,8 +42,8 @@ def list_numbers(config: TexventConfig) -> NDArray[np.float64]:
     numbers = np.empty(6)
     numbers[BALANCE] = config.balance
     numbers[THRESHOLD] = config.contrast_threshold
-    numbers[UP] = math.exp(config.contrast_threshold)
-    numbers[DOWN] = math.exp(-config.contrast_threshold)
+    factors = trigger_factors(config.contrast_threshold, config.contrast_threshold)
+    numbers[UP], numbers[DOWN] = factors
     numbers[LEAK_SHARE] = config.cache_leak
     numbers[SCALE] = config.stamp_scale
     return numbers

@@ -17,14 +17,14 @@ balanced intensity exp(level), for the scan alone, rounded any way, within a rel
 
     |L(I) − L(R)| ≥ δ   ⇔   α + I ≥ (α + R)·e^δ   or   α + I ≤ (α + R)·e^−δ ,
 
-so a scan needs two multiplications and two comparisons per pixel, in float32. To be sure that
-rounding hides no event the levels are brought together by a margin (`SCAN_MARGIN`, ten times the
-rounding error): a pixel outside them *may* fire (a candidate), a pixel inside cannot. A candidate
-fires if and only if `L(I) − L(R)`, both in float64 as `brightness.balanced_log` computes them,
-differs from 0 by δ or more. For 8-bit frames a look-up table of 256 logarithms does that, for
-16-bit ones one of 65,536; float frames take NumPy's logarithm of the candidates. For 8-bit frames
-there is an even cheaper scan, on bytes: no pixel fires whose intensity differs from R by less than
-the smallest difference of any two levels that fires.
+so a scan needs two multiplications and two comparisons per pixel, in float32. The levels are moved
+towards R by the margin of `crossing.trigger_levels`: a pixel outside them *may* fire (a candidate),
+a pixel inside cannot. A candidate fires if and only if `L(I) − L(R)`, both in float64 as
+`brightness.balanced_log` computes them, differs from 0 by δ or more. For 8-bit frames a look-up
+table of 256 logarithms does that, for 16-bit ones one of 65,536; float frames take NumPy's
+logarithm of the candidates. For 8-bit frames there is an even cheaper scan, on bytes: no pixel
+fires whose intensity differs from R by less than the smallest difference of any two levels that
+fires.
 
 **Noise.** Eq. 6 is a Poisson process of `mean` = λ1·λ2 events per pixel. The frame is cut into runs
 of `NOISE_BLOCK` pixels in row-major order. Block b draws how many events its pixels would have if
@@ -63,11 +63,9 @@ NOISE_BLOCK = 4096
 """Pixels per noise block; also what a scan works on at a time."""
 NOISE_PLACE_SHIFT = 52
 """By how many bits a place word is shifted to give the pixel in its block."""
-SCAN_MARGIN = 1e-6
-"""Distance by which the scan's levels are brought together, relative to the level and to the
-balance: over four roundings of each."""
 SCAN_FLOOR = 1e-37
-"""The same as a number, for intensities so small that float32 has no relative precision."""
+"""Added to `trigger_levels.MARGIN`, for intensities so small that float32 has no relative
+precision."""
 
 
 class Levels(NamedTuple):

@@ -1,6 +1,6 @@
 """Trigger levels compiled by Numba: one pass over the frame, close work only at candidates.
 
-Tile by tile the frame is scanned (`marks_cpu`), and what may fire is settled by the exact
+Tile by tile the frame is scanned (`scan_bitmask_cpu`), and what may fire is settled by the exact
 logarithms of the definition: from a table for integers, from NumPy for floats, which takes a pass
 of its own.
 """
@@ -14,15 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.simulate.crossing.bitmask_cpu import (
-    LARGEST_FLOAT,
-    RUN,
-    Marks,
-    largest_word,
-    mark_bytes,
-    mark_levels,
-    number_of,
-)
+from texvent.simulate.crossing.bitmask_cpu import RUN, MarkedRuns, number_of
 from texvent.simulate.packets.sorting import read_only
 from texvent.simulate.random.draws_cpu import allow_wrap_around
 from texvent.simulate.texvent.kernels import scan_numpy as texvent_numpy
@@ -33,6 +25,12 @@ from texvent.simulate.texvent.kernels.scan import (
     Intensity,
     Levels,
     Memory,
+)
+from texvent.simulate.texvent.kernels.scan_bitmask_cpu import (
+    LARGEST_FLOAT,
+    largest_word,
+    mark_bytes,
+    mark_levels,
 )
 
 Int64Array = NDArray[np.int64]
@@ -219,7 +217,7 @@ def _find_candidates(pictures: Pictures, levels: Levels, pixel: Int64Array) -> i
 
 @jit
 def _fire_integers(
-    pictures: Pictures, marks: Marks, table: Float64Array, threshold: float, out: Fired
+    pictures: Pictures, marks: MarkedRuns, table: Float64Array, threshold: float, out: Fired
 ) -> int:
     """Let the marked pixels of uint8 or uint16 frames fire; how many did."""
     frame, reference, renewed, previous = pictures

@@ -135,7 +135,7 @@ def _measure(changes: Float64Array, rule: _Rule) -> tuple[int, float, float]:
 def _order(
     signal: Uint64Array, noise: NoisePlaces, rule: _Rule, span: FrameInterval, bits: int
 ) -> Any:
-    """SortedEvents of the packet."""
+    """Columns of the packet."""
     keys = signal
     if noise.pixel.size:
         keys = _merge(signal, _list_noise(noise, rule, span), rule)

@@ -1,0 +1,71 @@
+"""What a pixel model offers to the GPU backend."""
+
+from __future__ import annotations
+
+import abc
+from collections.abc import Sequence
+from typing import Generic, TypeVar
+
+from texvent.simulate.gpu.intervals import Int64Array, Span
+from texvent.simulate.gpu.kernel_types import Call, Records, Tally, Tensor
+from texvent.simulate.gpu.launch import Walk, choose_walk
+
+Config = TypeVar("Config")
+
+
+class GpuPixels(abc.ABC, Generic[Config]):
+    """The pixels of a batch of clips under one model: options, state, and kernels to launch."""
+
+    def __init__(self, config: Config, seeds: Sequence[int], walk: Walk) -> None:
+        """Pixels that have seen no frame.
+
+        Args:
+            config: the options.
+            seeds: one per clip.
+            walk: how the kernels of `walk` are launched by default.
+        """
+        self.config = config
+        self._seeds = tuple(seeds)
+        self._walk = choose_walk(walk)
+
+    @property
+    @abc.abstractmethod
+    def contrast_threshold(self) -> float:
+        """The smallest contrast threshold, log units."""
+
+    @property
+    @abc.abstractmethod
+    def balance(self) -> float:
+        """α that Eq. 4 should count with, on the 0..255 scale."""
+
+    @property
+    def block(self) -> int:
+        """Pixels of a program of `walk`."""
+        return self._walk.block
+
+    @abc.abstractmethod
+    def begin(self, frames: Tensor) -> None:
+        """Make room for the state and put the options on the device of `frames`, [B, H, W]."""
+
+    @abc.abstractmethod
+    def keys(self, span: Span) -> Int64Array:
+        """Keys of the random draws of every interval, as bits, [B, T]."""
+
+    @abc.abstractmethod
+    def policy(self, span: Span) -> Int64Array:
+        """What references do before every interval, [B, T]: KEEP, LEAK or FORGET."""
+
+    def advance(self, span: Span) -> None:
+        """Update what is kept on the host after a call; nothing by default."""
+
+    @abc.abstractmethod
+    def walk(self, call: Call, tally: Tally, records: Records | None) -> None:
+        """Count the events of all intervals (`records` None), or write them and move on."""
+
+    @abc.abstractmethod
+    def records(self, count: int) -> Records:
+        """Room for `count` events."""
+
+    @abc.abstractmethod
+    def stamp(self, call: Call, records: Records, ends: Tensor, words: Tensor) -> None:
+        """Give every record its time, and write it to `words`."""

@@ -1,0 +1,164 @@
+"""The pixel circuits of the `physical` model over one interval: input, state, kernel by backend.
+
+Pixels are numbered y · W + x, every array is flat, and times are µs. A pixel remembers the output
+of its photoreceptor at its last reset; every event resets it, whatever its cause.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeAlias, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.simulate.backend.elementary import exponential, natural_log
+from texvent.simulate.backend.select import AUTO, load_kernel_when_ready
+from texvent.simulate.packets.sorting import SortedEvents
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
+from texvent.simulate.random.mismatch import PixelMismatch
+
+Float64Array: TypeAlias = NDArray[np.float64]
+Int64Array: TypeAlias = NDArray[np.int64]
+Luma: TypeAlias = NDArray[Any]
+"""[n] 0..255 scale, uint8 or float32."""
+
+WHITE = 255.0
+DARK_OFFSET = 20.0
+"""Intensity, linear levels, that stands for the dark current; v2e's value."""
+ALMOST_BLACK = 1e-25
+"""Added to luma before the logarithm that makes it linear; too small to change any but black."""
+BLOCK = 256
+"""Pixels that a fast kernel looks at together, and skips together if nothing happens to them."""
+
+
+class Optics(NamedTuple):
+    """How luma is turned into brightness and bandwidth."""
+
+    gamma: float
+    """Exponent that makes the luma linear; 1 if it is already."""
+    balance: float
+    """α, linear levels, above 0."""
+    cutoff_per_level: float
+    """Cutoff frequency ω of a photoreceptor per linear level, 1/µs; 0 is unlimited."""
+
+
+class PhotoreceptorInput(NamedTuple):
+    """Luma at both ends of an interval; brightness is a straight line in time between them."""
+
+    before: Luma
+    """[n] luma at the start; a kernel overwrites it with `now`."""
+    now: Luma
+    """[n] luma at the end, of the same type."""
+    optics: Optics
+    table: tuple[Float64Array, Float64Array] | None
+    """`brightness_and_cutoff` of all levels of 8-bit luma, which saves logarithms; else None."""
+    shape: tuple[int, int]
+    """(height, width) of the sensor."""
+
+
+class CircuitState(NamedTuple):
+    """What a pixel remembers; a kernel changes it in place.
+
+    The change that fires a pixel is `output − level + leak · (t − since)`.
+    """
+
+    output: Float64Array
+    """[n] output of the photoreceptor, which follows the brightness, log units."""
+    level: Float64Array
+    """[n] that output when the pixel was last reset; NaN while the pixel is held in reset."""
+    since_us: Int64Array
+    """[n] when the pixel was last reset, or will be released if it is held, µs."""
+    quiescent_until_us: Int64Array
+    """[blocks] time up to which no pixel of a block fires if its luma does not change; only the
+    fast kernel reads it."""
+
+
+class NoiseEvents(NamedTuple):
+    """Noise of one interval, by pixel and then by time."""
+
+    pixel: Int64Array
+    """[m] flat index."""
+    t: Int64Array
+    """[m] µs, in the interval."""
+    p: NDArray[np.uint8]
+    """[m] 1 = ON, 0 = OFF."""
+
+
+class ResetRules(NamedTuple):
+    """What an event does to its pixel besides resetting it."""
+
+    refractory_us: int
+    """The refractory period: how long the pixel is held in reset, and change is lost; 0 is none."""
+    by_noise: bool
+    """Whether noise events reset their pixels too."""
+
+
+AdvancePixels: TypeAlias = Callable[
+    [PhotoreceptorInput, PixelMismatch, CircuitState, NoiseEvents, ResetRules, tuple[int, int]],
+    UnsortedEvents | SortedEvents,
+]
+"""`advance_pixels(light, mismatch, state, noise, rules, (start_us, stop_us))`, see
+`reference.advance_pixels`."""
+
+
+def load_advance_pixels(dtype: np.dtype[Any], backend: str = AUTO) -> AdvancePixels:
+    """The function of a backend; "auto" is NumPy until the compiled one is ready.
+
+    Raises:
+        ConfigError: no backend has that name.
+        MissingDependencyError: what the backend needs is not installed.
+    """
+    function = load_kernel_when_ready(__name__, "advance_pixels", backend, dtype.name)
+    return cast("AdvancePixels", function)
+
+
+def brightness_and_cutoff(luma: Float64Array, optics: Optics) -> tuple[Float64Array, Float64Array]:
+    """Brightness and cutoff frequency of the photoreceptor.
+
+    Args:
+        luma: 0..255 scale, any shape.
+        optics: the constants.
+
+    Returns:
+        `L = ln(α + I)`, log units, and `ω = cutoff_per_level · (I + 20)`, 1/µs, with the linear
+        intensity `I = 255 · (luma / 255)^gamma`.
+    """
+    intensity = linearize(luma, optics.gamma)
+    return (
+        natural_log(optics.balance + intensity),
+        optics.cutoff_per_level * (intensity + DARK_OFFSET),
+    )
+
+
+def linearize(luma: Float64Array, gamma: float) -> Float64Array:
+    """Linear intensity of gamma-coded luma.
+
+    Args:
+        luma: 0..255 scale, any shape.
+        gamma: exponent; 1 leaves the luma as it is.
+
+    Returns:
+        `255 · (luma / 255)^gamma`.
+
+    Example:
+        >>> linearize(np.array([0.0, 128.0, 255.0]), 2.2).round(2).tolist()
+        [0.0, 55.98, 255.0]
+    """
+    if gamma == 1.0:
+        return luma
+    exponent = gamma * natural_log((luma + ALMOST_BLACK) / WHITE)
+    return np.asarray(WHITE * exponential(exponent))
+
+
+def new_state(output: Float64Array, level: Float64Array, first_us: int) -> CircuitState:
+    """The state of pixels that start at the first frame.
+
+    Args:
+        output: of the photoreceptors, [n], log units.
+        level: at the last reset, [n], log units.
+        first_us: time of the frame, µs.
+    """
+    blocks = -(-output.size // BLOCK)
+    since = np.full(output.size, first_us, np.int64)
+    return CircuitState(output, level, since, np.full(blocks, first_us, np.int64))

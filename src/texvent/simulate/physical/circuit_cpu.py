@@ -1,0 +1,247 @@
+"""The pixel circuits, compiled by Numba: the reference's bits, block of pixels by block.
+
+A block whose luma did not change and in which no pixel can fire is skipped. Otherwise all its
+pixels are first advanced as if none fired, in loops that fill vector registers. Those that may fire
+are then advanced again in lanes, event by event; see `circuit_segments_cpu`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.runtime.jit import jit
+from texvent.runtime.threads import count_threads, run_parts, split
+from texvent.simulate.backend.elementary_cpu import decay_and_gain, exponential, natural_log
+from texvent.simulate.backend.lanes_cpu import append_by_lane, is_equal
+from texvent.simulate.packets.sorting import SortedEvents, read_only
+from texvent.simulate.packets.sorting_cpu import has_room_for_keys, key_bits, sort_keyed_events
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
+from texvent.simulate.physical import reference
+from texvent.simulate.physical.circuit import (
+    ALMOST_BLACK,
+    BLOCK,
+    DARK_OFFSET,
+    WHITE,
+    CircuitState,
+    Float64Array,
+    Luma,
+    NoiseEvents,
+    Optics,
+    PhotoreceptorInput,
+    ResetRules,
+    new_state,
+)
+from texvent.simulate.physical.circuit_lanes_cpu import (
+    LANES,
+    Block,
+    load_lanes,
+    new_block,
+    new_work,
+)
+from texvent.simulate.physical.circuit_segments_cpu import EventRules, advance_lanes
+from texvent.simulate.physical.reference import SETTLED
+from texvent.simulate.random.mismatch import PixelMismatch
+
+PIXELS_PER_THREAD = 64 * BLOCK
+"""Fewest pixels that are worth a thread of their own."""
+Uint64Array = NDArray[np.uint64]
+NOT_QUIESCENT = -(2**62)
+FOREVER = 2**62
+
+
+def advance_pixels(
+    light: PhotoreceptorInput,
+    mismatch: PixelMismatch,
+    state: CircuitState,
+    noise: NoiseEvents,
+    rules: ResetRules,
+    span_us: tuple[int, int],
+) -> UnsortedEvents | SortedEvents:
+    """Every event between two frames; see `reference.advance_pixels`."""
+    shape = light.shape
+    if not has_room_for_keys(span_us[1] - span_us[0], shape):
+        return reference.advance_pixels(light, mismatch, state, noise, rules, span_us)
+    table = None if light.table is None else np.stack(light.table)
+    low = key_bits(light.now.size)
+
+    def advance(part: slice) -> Uint64Array:
+        first, last = part.start, part.stop
+        noisy = slice(*np.searchsorted(noise.pixel, [first, last]))
+        noise_times = (noise.t[noisy] - span_us[0]) * 2 + noise.p[noisy]
+        # With NUMBA_DISABLE_JIT=1 this runs in NumPy, which would warn where extremes overflow.
+        with np.errstate(all="ignore"):
+            keys: Uint64Array = _advance_blocks(
+                (light.before[part], read_only(light.now[part]), table, light.optics),
+                mismatch.part(part),
+                CircuitState(
+                    state.output[part],
+                    state.level[part],
+                    state.since_us[part],
+                    state.quiescent_until_us[first // BLOCK : -(-last // BLOCK)],
+                ),
+                (noise.pixel[noisy] - first, noise_times),
+                EventRules(*rules, first, low, span_us[0], span_us[1] - span_us[0]),
+            )
+        return keys
+
+    parts = run_parts(advance, split(light.now.size, count_threads(), unit=PIXELS_PER_THREAD))
+    keys = parts[0] if len(parts) == 1 else np.concatenate(parts)
+    return sort_keyed_events(keys, span_us, shape)
+
+
+def warm_up(dtype: str) -> None:
+    """Compile for one type of frames, or load what was compiled before."""
+    luma, one, none = np.zeros(1, dtype), np.ones(1, np.float32), np.zeros(0, np.int64)
+    table = (np.ones(256), np.ones(256)) if dtype == "uint8" else None
+    light = PhotoreceptorInput(luma.copy(), luma, Optics(1.0, 1.0, 0.0), table, (1, 1))
+    state = new_state(np.zeros(1), np.zeros(1), 0)
+    noise = NoiseEvents(none, none, none.astype(np.uint8))
+    advance_pixels(light, PixelMismatch(one, one, one), state, noise, ResetRules(0, True), (0, 1))
+
+
+@jit(error_model="numpy")
+def _advance_blocks(
+    light: tuple[Luma, Luma, Float64Array | None, Optics],
+    mismatch: PixelMismatch,
+    state: CircuitState,
+    noise: tuple[NDArray[np.int64], NDArray[np.int64]],
+    rules: EventRules,
+) -> Uint64Array:
+    before, now, table, optics = light
+    start_us, duration = rules.start_us, float(rules.duration_us)
+    stop_us = start_us + rules.duration_us
+    keys, found = np.empty(now.size // 16 + noise[0].size + 64, np.uint64), 0
+    events, work = np.empty((2, 2 * LANES), np.uint64), new_work()
+    noise_pixel, noise_done, loaded = noise[0], 0, 0
+    block = new_block()
+    for first in range(0, now.size, BLOCK):
+        last = min(first + BLOCK, now.size)
+        noise_first = noise_done
+        while noise_done < noise_pixel.size and noise_pixel[noise_done] < last:
+            noise_done += 1
+        is_static = is_equal(before[first:last], now[first:last])
+        is_undisturbed = is_static and noise_first == noise_done
+        if is_undisturbed and stop_us <= state.quiescent_until_us[first // BLOCK]:
+            continue
+        _convert(before[first:last], table, optics, block.brightness, block.cutoff)
+        _convert(now[first:last], table, optics, block.brightness_stop, block.cutoff_stop)
+        before[first:last] = now[first:last]
+        own = (
+            PixelMismatch(
+                mismatch.threshold_on[first:last],
+                mismatch.threshold_off[first:last],
+                mismatch.leak[first:last],
+            ),
+            CircuitState(
+                state.output[first:last],
+                state.level[first:last],
+                state.since_us[first:last],
+                state.quiescent_until_us,
+            ),
+        )
+        _advance_without_events(block, own[1].output, duration, optics.cutoff_per_level > 0)
+        active = _list_active(block, own, stop_us, noise_pixel[noise_first:noise_done] - first)
+        until_us = NOT_QUIESCENT
+        if is_undisturbed and active == 0:
+            until_us = _quiescent_until_us(block, own, stop_us)
+        state.quiescent_until_us[first // BLOCK] = until_us
+        if loaded + active > LANES:
+            events, made = advance_lanes(work, loaded, state, optics, noise[1], rules, events)
+            keys, found = append_by_lane(events[:, :made], work.events[:loaded], keys, found)
+            loaded = 0
+        load_lanes(work, loaded, (first, active, noise_first), block, own, noise, start_us)
+        loaded += active
+        own[1].output[:] = block.output[: last - first]
+    events, made = advance_lanes(work, loaded, state, optics, noise[1], rules, events)
+    keys, found = append_by_lane(events[:, :made], work.events[:loaded], keys, found)
+    return keys[:found]
+
+
+@jit(error_model="numpy")
+def _convert(
+    luma: Luma,
+    table: Float64Array | None,
+    optics: Optics,
+    brightness: Float64Array,
+    cutoff: Float64Array,
+) -> None:
+    """Fill in brightness and cutoff frequency; see `circuit.brightness_and_cutoff`."""
+    if table is not None:
+        for j in range(luma.size):
+            brightness[j], cutoff[j] = table[0, luma[j]], table[1, luma[j]]
+    else:
+        for j in range(luma.size):
+            level: float = np.float64(luma[j])
+            if optics.gamma != 1.0:
+                exponent = optics.gamma * natural_log((level + ALMOST_BLACK) / WHITE)
+                level = WHITE * exponential(exponent)
+            brightness[j] = natural_log(optics.balance + level)
+            cutoff[j] = optics.cutoff_per_level * (level + DARK_OFFSET)
+
+
+@jit(error_model="numpy")
+def _advance_without_events(
+    block: Block, output: Float64Array, duration: float, is_limited: bool
+) -> None:
+    """Where the outputs go if nothing fires, and between which bounds.
+
+    Short loops over few arrays each: Numba fills vector registers in no others.
+    """
+    size = output.size
+    for j in range(size):
+        block.low[j] = min(output[j], min(block.brightness[j], block.brightness_stop[j]))
+        block.high[j] = max(output[j], max(block.brightness[j], block.brightness_stop[j]))
+    if not is_limited:
+        block.output[:size] = block.brightness_stop[:size]
+        return
+    for j in range(size):
+        angle = (block.cutoff[j] + block.cutoff_stop[j]) * 0.5 * duration
+        block.decay[j], block.gain[j] = decay_and_gain(angle)
+    for j in range(size):
+        begin, end = block.brightness[j], block.brightness_stop[j]
+        lag = block.decay[j] * (begin - output[j]) + block.gain[j] * (end - begin)
+        block.output[j] = end - (0.0 if abs(lag) < SETTLED else lag)
+
+
+@jit(error_model="numpy")
+def _list_active(
+    block: Block, own: tuple[PixelMismatch, CircuitState], stop_us: int, noisy: NDArray[np.int64]
+) -> int:
+    """List the pixels that may fire, those with noise among them; return how many."""
+    mismatch, state = own
+    size = state.level.size
+    for j in range(size):
+        drift = np.float64(mismatch.leak[j]) * np.float64(stop_us - state.since_us[j])
+        # Written so that a pixel held in reset, whose level is NaN, may fire.
+        block.cannot_fire[j] = block.high[j] - state.level[j] + drift < mismatch.threshold_on[j]
+    quiet = 0
+    for j in range(size):
+        cannot_fire = block.cannot_fire[j] & (
+            state.level[j] - block.low[j] < mismatch.threshold_off[j]
+        )
+        block.cannot_fire[j] = cannot_fire
+        quiet += cannot_fire
+    if quiet == size and noisy.size == 0:
+        return 0
+    for k in range(noisy.size):
+        block.cannot_fire[noisy[k]] = False
+    active = 0
+    for j in range(size):
+        block.active[active] = j
+        active += not block.cannot_fire[j]
+    return active
+
+
+@jit(error_model="numpy")
+def _quiescent_until_us(block: Block, own: tuple[PixelMismatch, CircuitState], stop_us: int) -> int:
+    """The time up to which no pixel of a settled block fires by its leak; else `stop_us`."""
+    mismatch, state = own
+    soonest, unsettled = np.inf, 0
+    for j in range(state.output.size):
+        unsettled |= block.output[j] != block.brightness[j]
+        left = mismatch.threshold_on[j] - (block.output[j] - state.level[j])
+        after = left / np.float64(mismatch.leak[j]) + np.float64(state.since_us[j])
+        soonest = min(soonest, float(after))
+    # A microsecond for rounding.
+    return stop_us if unsettled else int(min(soonest, float(FOREVER))) - 1

@@ -1,1 +1,0 @@
-"""Kernels of the physical model: the pixel circuit and its threshold crossings."""

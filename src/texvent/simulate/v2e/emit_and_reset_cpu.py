@@ -1,0 +1,135 @@
+"""Events and resets of v2e's crossing pixels, compiled by Numba: the reference's bits."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.events import NOISE
+from texvent.runtime.jit import jit
+from texvent.runtime.scratch import take_scratch
+from texvent.simulate.crossing.ramp import RefractoryPeriod
+from texvent.simulate.crossing.ramp_cpu import (
+    KeyLayout,
+    RampChanges,
+    count_crossings,
+    key_layout,
+    list_crossing_keys,
+)
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import SortedEvents
+from texvent.simulate.packets.sorting_cpu import merge_keys, sort_keyed_events
+from texvent.simulate.packets.unsorted_events import UnsortedEvents
+from texvent.simulate.random.mismatch import PixelMismatch, Thresholds
+from texvent.simulate.v2e import reference
+from texvent.simulate.v2e.emit_and_reset import EmissionRules, LastEvents
+from texvent.simulate.v2e.low_pass import CrossingPixels, Float64Array, V2ePixelState
+
+Uint64Array = NDArray[np.uint64]
+_1, _2 = np.uint64(1), np.uint64(2)
+_NOISE = np.uint64(NOISE)
+
+
+def emit_and_reset(
+    crossing: CrossingPixels,
+    circuits: tuple[PixelMismatch, V2ePixelState],
+    last: LastEvents,
+    noise: UnsortedEvents,
+    rules: EmissionRules,
+) -> UnsortedEvents | SortedEvents:
+    """See `reference.emit_and_reset`."""
+    interval = rules.interval
+    span_us = interval.start_us, interval.stop_us
+    layout = key_layout(span_us, rules.shape)
+    if layout is None:
+        return reference.emit_and_reset(crossing, circuits, last, noise, rules)
+    (pixel, start, stop), (mismatch, state) = crossing, circuits
+    on, off, threshold = (
+        take_scratch(use, len(pixel), np.float64) for use in ("on", "off", "threshold")
+    )
+    _take_thresholds(pixel, mismatch, on, off)
+    changes = RampChanges(start, stop, threshold, take_scratch("steps", len(pixel), np.int64))
+    count_crossings(changes, Thresholds(on, off))
+    refractory = RefractoryPeriod(rules.refractory_us, is_level_lost=False)
+    keys = list_crossing_keys(pixel, changes, last.fired_us, layout, refractory)
+    moves = _Moves(pixel, changes.threshold, changes.steps)
+    _reset(keys, moves, mismatch.leak, state, last, interval.stop_us)
+    if len(noise.t):
+        keys = merge_keys(keys, _keys_of(noise, layout), layout.low)
+    return sort_keyed_events(keys, span_us, rules.shape)
+
+
+def warm_up() -> None:
+    """Compile, or load what was compiled before."""
+    one, pixel, threshold = np.ones(1), np.zeros(1, np.int64), np.ones(1, np.float32)
+    nothing = np.empty(0)
+    state = V2ePixelState(one, one.copy(), (nothing, nothing), one)
+    circuits = PixelMismatch(threshold, threshold, threshold[:0]), state
+    noise = UnsortedEvents.noise(pixel, pixel, np.zeros(1, np.uint8))
+    last = LastEvents(pixel.copy(), pixel.copy(), nothing)
+    rules = EmissionRules(FrameInterval(0, 1, np.uint64(0)), 0, (1, 1))
+    emit_and_reset(CrossingPixels(pixel, one, one), circuits, last, noise, rules)
+
+
+class _Moves(NamedTuple):
+    """By how much references move; [n] each."""
+
+    pixel: NDArray[np.int64]
+    threshold: Float64Array
+    steps: NDArray[np.int64]
+    """Thresholds to move by; OFF below 0."""
+
+
+@jit
+def _take_thresholds(
+    pixel: NDArray[np.int64], mismatch: PixelMismatch, on: Float64Array, off: Float64Array
+) -> None:
+    """Thresholds of some pixels."""
+    all_on, all_off, _ = mismatch
+    for n in range(pixel.size):
+        on[n], off[n] = all_on[pixel[n]], all_off[pixel[n]]
+
+
+@jit
+def _reset(
+    keys: Uint64Array,
+    moves: _Moves,
+    leak: NDArray[np.float32],
+    state: V2ePixelState,
+    last: LastEvents,
+    stop_us: int,
+) -> None:
+    """Move the references of pixels that fired, and label what is noise."""
+    pixel, thresholds, steps = moves
+    _, reference, (_, noise_now), _ = state
+    _, interval_us, noise_then = last
+    found = 0
+    for n in range(pixel.size):
+        count = abs(steps[n])
+        if count == 0:
+            continue
+        i = pixel[n]
+        moved, by_noise = steps[n] * thresholds[n], 0.0
+        reference[i] += moved
+        if leak.size > 0:
+            by_noise += np.float64(leak[i]) * (stop_us - interval_us[i])
+        if noise_now.size > 0:
+            by_noise += noise_now[i] - noise_then[i]
+            noise_then[i] = noise_now[i]
+        interval_us[i] = stop_us
+        if (by_noise if steps[n] > 0 else -by_noise) >= 0.5 * abs(moved):
+            for k in range(found, found + count):
+                keys[k] |= _NOISE
+        found += count
+
+
+@jit
+def _keys_of(noise: UnsortedEvents, layout: KeyLayout) -> Uint64Array:
+    pixel, t, p, _ = noise
+    keys = np.empty(pixel.size, np.uint64)
+    for i in range(pixel.size):
+        place = np.uint64(pixel[i]) << _2 | np.uint64(p[i]) << _1 | _NOISE
+        keys[i] = np.uint64(t[i] - layout.start_us) << np.uint64(layout.low) | place
+    return keys

@@ -1,1 +1,0 @@
-"""Kernels of v2e: photoreceptor low-pass, emit and reset."""

@@ -1,1 +1,0 @@
-"""Kernels of DVS-Voltmeter: first-passage times."""

@@ -1,0 +1,152 @@
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from texvent.errors import ConfigError
+from texvent.simulate.esim.simulator import EsimConfig, EsimSimulator, log_intensity
+from texvent.video import Frame
+
+from ..pixel_frames import curve, frames_of, run, static
+
+
+def on_log_scale(value: float) -> float:
+    """The intensity whose ln(I / 255 + 0.001) is `value`."""
+    return 255 * (math.exp(value) - 1e-3)
+
+
+def test_log_intensity_is_the_published_one():
+    levels = np.array([[0, 51, 255]], np.uint8)
+    expected = [[math.log(1e-3), math.log(0.2 + 1e-3), math.log(1 + 1e-3)]]
+    assert log_intensity(levels, 1e-3) == pytest.approx(np.array(expected), abs=1e-15)
+    assert log_intensity(levels.astype(np.float32), 1e-3) == pytest.approx(np.array(expected))
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_ramp_fires_where_it_crosses_each_threshold(backend, sign):
+    frames = frames_of([on_log_scale(-3), on_log_scale(-3 + sign * 1.05)], [0, 1_000_000])
+    events = run(EsimSimulator(backend=backend), frames)
+    assert events.t == pytest.approx([k * 0.2 / 1.05 * 1e6 for k in range(1, 6)], abs=1)
+    assert (events.polarity == sign).all()
+
+
+def test_the_reference_is_carried_in_steps_across_frames(backend):
+    # Ramp B' of docs/equations.md: 0.055 per frame, so crossings lie 0.2 / 0.055 frames apart.
+    frames = frames_of([on_log_scale(-3 + 0.055 * i) for i in range(21)], range(0, 21_000, 1000))
+    events = run(EsimSimulator(backend=backend), frames)
+    assert events.t == pytest.approx([k * 0.2 / 0.055 * 1000 for k in range(1, 6)], abs=1)
+    assert events.p.all()
+
+
+def test_a_step_fires_once_per_threshold_and_keeps_the_rest(backend):
+    frames = frames_of([on_log_scale(v) for v in (-3, -2.5, -2.5, -2.39)], [0, 1000, 2000, 3000])
+    events = run(EsimSimulator(backend=backend), frames)
+    # 0.5 crosses 0.2 and 0.4; of the 0.1 left, 0.11 more crosses the third at 0.1 / 0.11.
+    assert events.t == pytest.approx([400, 800, 2909], abs=1)
+
+
+def test_a_sinusoid_fires_at_its_levels(backend):
+    amplitude = 0.51
+    frames = curve(
+        lambda s: on_log_scale(-3 + amplitude * math.sin(math.tau * s)), fps=1000, seconds=1.97
+    )
+    events = run(EsimSimulator(backend=backend), frames)
+    rising = [math.asin(level / amplitude) / math.tau for level in (-0.2, 0.0, 0.2, 0.4)]
+    # From level 0: up to 0.4, down through 0.2, 0, -0.2, -0.4, and so on.
+    falling = [0.5 - math.asin(level / amplitude) / math.tau for level in (0.2, 0.0, -0.2, -0.4)]
+    expected = [(t, 1) for t in rising[2:]]
+    for period in (0, 1):
+        expected += [(period + t, 0) for t in falling]
+        expected += [(period + 1 + t, 1) for t in rising if period + 1 + t < 1.97]
+    assert events.p.tolist() == [p for _, p in expected]
+    # The samples' straight lines miss the sine by at most dt² A (2π)² / 8 = 2.5e-6.
+    assert events.t == pytest.approx([t * 1e6 for t, _ in expected], abs=4)
+
+
+def test_unequal_thresholds_count_apart(backend):
+    config = EsimConfig(contrast_threshold_on=0.3, contrast_threshold_off=0.1)
+    frames = frames_of([on_log_scale(v) for v in (-3, -2.05, -3)], [0, 1000, 2000])
+    events = run(EsimSimulator(config, backend=backend), frames)
+    # Up 0.95: three ON, reference at 0.9. Down to 0: nine OFF (0.9 / 0.1, minus rounding).
+    assert int(events.p.sum()) == 3
+    assert int((1 - events.p).sum()) in (8, 9)
+
+
+def test_crossings_in_the_refractory_period_are_lost(backend):
+    # One crossing every 10 ms; a period of 25 ms lets every third through.
+    config = EsimConfig(refractory_period_us=25_000)
+    frames = frames_of([on_log_scale(-3), on_log_scale(-3 + 2.01)], [0, 100_500])
+    events = run(EsimSimulator(config, backend=backend), frames)
+    assert events.t == pytest.approx([10_000, 40_000, 70_000, 100_000], abs=1)
+
+
+def test_the_reference_steps_over_lost_crossings(backend):
+    config = EsimConfig(refractory_period_us=25_000)
+    values = [on_log_scale(v) for v in (-3, -2.39, -2.39)]
+    events = run(EsimSimulator(config, backend=backend), frames_of(values, [0, 1000, 500_000]))
+    assert len(events) == 1
+
+
+def test_thresholds_fixed_per_pixel_have_the_stated_mean_and_sd(backend):
+    config = EsimConfig(threshold_sigma=0.03, threshold_redraw="never")
+    simulator = EsimSimulator(config, seed=5, backend=backend)
+    shape = (60, 60)
+    first = np.full(shape, on_log_scale(-3))
+    second = np.full(shape, on_log_scale(-2.5))
+    events = run(simulator, [Frame(first, 0), Frame(second, 500_000)])
+    earliest = np.full(shape, np.iinfo(np.int64).max)
+    np.minimum.at(earliest, (events.y, events.x), events.t)
+    thresholds = earliest * 1e-6  # the ramp rises by 1 per second
+    assert thresholds.mean() == pytest.approx(0.2, abs=4 * 0.03 / 60)
+    assert thresholds.std() == pytest.approx(0.03, rel=4 / math.sqrt(2 * 3600))
+
+
+def test_thresholds_drawn_per_frame_change_from_frame_toFrame(backend):
+    def first_times(redraw):
+        config = EsimConfig(threshold_sigma=0.03, threshold_redraw=redraw)
+        simulator = EsimSimulator(config, backend=backend)
+        low, high = np.full((4, 5), on_log_scale(-3)), np.full((4, 5), on_log_scale(-2.75))
+        simulator.step(Frame(low, 0))
+        up = simulator.step(Frame(high, 1_000_000))
+        simulator.reset()
+        simulator.step(Frame(high, 0))
+        simulator.step(Frame(high, 1_000_000))
+        simulator.step(Frame(low, 2_000_000))
+        simulator.reset()
+        simulator.step(Frame(low, 0))
+        simulator.step(Frame(low, 1_000_000))
+        return up, simulator.step(Frame(high, 2_000_000))
+
+    early, late = first_times("never")
+    assert np.array_equal(early.t, late.t - 1_000_000)
+    early, late = first_times("frame")
+    assert not np.array_equal(early.t, late.t - 1_000_000)
+
+
+@pytest.mark.parametrize("fps", [24, 240, 1000])
+def test_a_static_scene_gives_nothing(backend, fps):
+    frames = static(90.0, fps=fps, seconds=0.1, shape=(3, 4))
+    assert len(run(EsimSimulator(backend=backend), frames)) == 0
+
+
+def test_eq4_counts_with_the_smaller_threshold_and_the_models_logarithm():
+    simulator = EsimSimulator(EsimConfig(contrast_threshold_on=0.3, contrast_threshold_off=0.25))
+    assert simulator.contrast_threshold == 0.25
+    assert simulator.balance == pytest.approx(0.255)
+
+
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [
+        ("contrast_threshold_on", 0.0),
+        ("contrast_threshold_off", float("nan")),
+        ("threshold_sigma", -0.1),
+        ("log_eps", 0.0),
+        ("refractory_period_us", -1),
+        ("threshold_redraw", "always"),
+    ],
+)
+def test_impossible_options_fail_by_name(option, value):
+    with pytest.raises(ConfigError, match=option):
+        dataclasses.replace(EsimConfig(), **{option: value})

@@ -1,0 +1,161 @@
+"""Leak, noise and mismatch of the physical model against their definition."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from texvent.events import NOISE, SIGNAL
+from texvent.simulate.physical.config import PRESETS
+from texvent.simulate.physical.simulator import PhysicalSimulator
+from texvent.video import Frame
+
+from ..pixel_frames import curve, frames_of, run, static
+from .physical_pixels import clean, intensity, noisy, poisson_interval
+
+# Leak.
+
+
+def test_leak_fires_on_events_at_its_rate_labelled_noise(backend):
+    simulator = clean(backend, leak_rate_hz=5.0, leak_rate_decades=0.0)
+    events = run(simulator, static(90.0, fps=24, seconds=1.0))
+    assert events.t == pytest.approx([200_000, 400_000, 600_000, 800_000], abs=2)
+    assert events.p.all()
+    assert (events.label == NOISE).all()
+
+
+@pytest.mark.parametrize("fps", [24, 240, 1000])
+def test_the_leak_rate_is_per_second_at_any_frame_rate(fps):
+    simulator = clean(
+        "cpu", leak_rate_hz=4.0, leak_rate_decades=0.1, initial_phase="random", threshold_sigma=0.03
+    )
+    events = run(simulator, static(90.0, fps=fps, seconds=1.0, shape=(30, 40)))
+    # The first event of a pixel is early: its phase is uniform over both thresholds.
+    mean = 4.0 * 1200
+    late = events.between(500_000, 1_000_000)
+    assert len(late) == pytest.approx(mean / 2, abs=poisson_interval(mean / 2))
+
+
+def test_an_event_that_light_made_more_than_leak_is_signal(backend):
+    # The leak makes a sixth of the change.
+    frames = frames_of([intensity(4), intensity(5)], [0, 1_000_000])[:1] + frames_of(
+        [intensity(4.99)], [990_000]
+    )
+    events = run(clean(backend, leak_rate_hz=1.0, leak_rate_decades=0.0), frames)
+    assert events.t == pytest.approx([k / 6 * 1e6 for k in range(1, 6)], abs=2)
+    assert (events.label == SIGNAL).all()
+
+
+# Noise.
+
+
+@pytest.mark.parametrize("fps", [24, 240, 1000])
+@pytest.mark.parametrize(("level", "rate"), [(0.5, 0.46), (3.5, 0.77), (25.0, 0.015)])
+def test_noise_has_the_measured_rate_at_any_frame_rate(fps, level, rate):
+    frames = static(level, fps=fps, seconds=0.5, shape=(60, 80))
+    events = run(noisy(noise_scale=10.0), frames)
+    mean = 10 * rate * 0.5 * 4800
+    assert len(events) == pytest.approx(mean, abs=poisson_interval(mean))
+    assert (events.label == NOISE).all()
+
+
+@pytest.mark.parametrize("intermediate", [0, 9, 30])
+def test_noise_does_not_depend_on_intermediate_frames(intermediate):
+    steps = 5 * (intermediate + 1)
+    frames = [
+        Frame(np.full((60, 80), 3.5, np.float32), round(i * 200_000 / steps), i % 5 == 0)
+        for i in range(steps + 1)
+    ]
+    mean = 10 * 0.77 * 0.2 * 4800
+    assert len(run(noisy(noise_scale=10.0), frames)) == pytest.approx(
+        mean, abs=poisson_interval(mean)
+    )
+
+
+def test_noise_has_the_stated_share_of_on():
+    events = run(
+        noisy(noise_scale=20.0, noise_on_fraction=0.3),
+        static(3.5, fps=24, seconds=1, shape=(40, 40)),
+    )
+    assert events.p.mean() == pytest.approx(0.3, abs=5 * math.sqrt(0.21 / len(events)))
+
+
+def test_noise_of_pixels_varies_around_the_stated_mean():
+    frames = static(3.5, fps=24, seconds=1.0, shape=(60, 80))
+    even, uneven = (run(noisy(noise_scale=20.0, noise_decades=d), frames) for d in (0.0, 0.25))
+    counts = [np.bincount(e.y.astype(int) * 80 + e.x, minlength=4800) for e in (even, uneven)]
+    # Log-normal with sd 0.5756 of its logarithm: relative sd 0.627; its mean over 4800 pixels.
+    mean = 20 * 0.77
+    assert counts[1].mean() == pytest.approx(mean, rel=5 * 0.63 / math.sqrt(4800))
+    assert counts[0].var() == pytest.approx(mean, rel=0.15)
+    assert counts[1].var() == pytest.approx(mean + (0.627 * mean) ** 2, rel=0.2)
+
+
+def test_noise_resets_its_pixel_unless_told_not_to():
+    # 0.1 of 0.2 log units per 0.1 s, and noise every 10 ms: with resets no signal is left.
+    frames = curve(lambda s: intensity(math.log(13) + s), fps=100, seconds=1.0)
+    options = {"noise_scale": 100 / 0.77, "noise_curve": "0:0.77"}
+    reset = run(noisy(**options), frames)
+    added = run(noisy(**options, noise_resets=False), frames)
+    assert (reset.label == NOISE).all()
+    assert int((added.label == SIGNAL).sum()) in (4, 5)  # the fifth falls on the end
+
+
+def test_hot_pixels_are_as_many_and_as_hot_as_stated():
+    simulator = clean("cpu", hot_pixel_fraction=0.01, hot_pixel_rate_hz=100.0)
+    events = run(simulator, static(200.0, fps=24, seconds=1.0, shape=(100, 100)))
+    count = np.bincount(events.y.astype(int) * 100 + events.x, minlength=10_000)
+    hot = count > 0
+    assert hot.sum() == pytest.approx(100, abs=poisson_interval(100))
+    mean = 100 * hot.sum()
+    assert len(events) == pytest.approx(mean, abs=poisson_interval(mean))
+
+
+def test_a_static_scene_at_the_default_preset_fires_at_the_sum_of_its_rates():
+    config = dataclasses.replace(PRESETS["davis346"], gamma=1.0)
+    frames = static(10.0, fps=24, seconds=3.0, shape=(100, 120))
+    events = run(PhysicalSimulator(config, backend="cpu"), frames)
+    rate = math.exp(np.interp(10, [7.5, 15], np.log([0.30, 0.12])))
+    mean = rate * 3 * 12_000
+    # 2 %: the mean of 12,000 log-normal factors.
+    assert len(events) == pytest.approx(mean, abs=poisson_interval(mean) + 0.02 * mean)
+
+
+# The sensor.
+
+
+def first_times(simulator) -> np.ndarray:
+    frames = [
+        Frame(np.full((20, 30), intensity(v), np.float32), t) for v, t in ((4, 0), (5, 10**6))
+    ]
+    events = run(simulator, frames)
+    times = np.full((20, 30), 10**6)
+    np.minimum.at(times, (events.y, events.x), events.t)
+    return times
+
+
+def test_thresholds_have_the_stated_mean_and_mismatch(backend):
+    thresholds = first_times(clean(backend, threshold_sigma=0.03)) * 1e-6
+    assert thresholds.mean() == pytest.approx(0.2, abs=5 * 0.03 / math.sqrt(600))
+    assert thresholds.std() == pytest.approx(0.03, rel=5 / math.sqrt(1200))
+
+
+def test_the_sensor_seed_fixes_the_sensor_and_nothing_else():
+    maps = [
+        first_times(clean(seed=seed, sensor_seed=sensor, threshold_sigma=0.03))
+        for seed, sensor in ((0, None), (1, None), (1, 0), (2, 0))
+    ]
+    assert not np.array_equal(maps[0], maps[1])
+    assert np.array_equal(maps[0], maps[2])
+    assert np.array_equal(maps[0], maps[3])
+    frames = static(3.5, fps=24, seconds=1, shape=(20, 20))
+    noise = [run(noisy(seed=seed, sensor_seed=0, noise_scale=5.0), frames) for seed in (0, 1)]
+    assert not noise[0].equals(noise[1])
+
+
+def test_the_first_frame_finds_pixels_in_random_phase(backend):
+    times = first_times(clean(backend, initial_phase="random")) * 1e-6
+    # From anywhere in -0.2..0.2 up to 0.2: uniform over 0..0.4 s.
+    assert np.quantile(times, [0.25, 0.5, 0.75]) == pytest.approx([0.1, 0.2, 0.3], abs=0.05)
+    assert times.max() <= 0.4

@@ -1,0 +1,95 @@
+"""The bandwidth of the physical model against closed forms."""
+
+import math
+
+import numpy as np
+import pytest
+
+from texvent.simulate.physical import reference
+
+from ..pixel_frames import curve, frames_of, moving_texture, run
+from .physical_pixels import clean, intensity
+
+
+def follow_line(t: float, slope: float, tau: float) -> float:
+    """Answer of a first-order low-pass to a line from rest."""
+    return slope * (t - tau * (1 - math.exp(-t / tau)))
+
+
+@pytest.mark.parametrize("count", [1, 7, 100])
+def test_the_low_pass_follows_a_line_by_its_closed_form(backend, count):
+    # So small a contrast that the corner frequency, (100 + 20) / 275 of the cutoff, stays.
+    cutoff, threshold, balance = 5.0, 0.011, 10.0
+    tau = 1 / (math.tau * cutoff * 120 / 275)
+    start = math.log(110)
+    values = [intensity(start + 0.05 * i / count, balance) for i in range(count + 1)]
+    times = [round(i * 500_000 / count) for i in range(count + 1)]
+    simulator = clean(backend, cutoff_hz=cutoff, contrast_threshold=threshold)
+    events = run(simulator, frames_of(values, times))
+    assert len(events) == 3
+    reached = [follow_line(t * 1e-6, 0.1, tau) for t in events.t]
+    # The corner rises by 5 % on the way, in as many steps as there are frames.
+    assert reached == pytest.approx([threshold, 2 * threshold, 3 * threshold], rel=0.02)
+
+
+def test_frames_an_hour_apart_are_simulated_at_once(backend):
+    hour_us = 3_600_000_000
+    start = math.log(110)
+    values = [intensity(start, 10.0), intensity(start + 0.65, 10.0)]
+    events = run(clean(backend, cutoff_hz=250.0), frames_of(values, [0, hour_us]))
+    expected = np.array([0.2, 0.4, 0.6]) / 0.65 * hour_us
+    assert events.t == pytest.approx(expected, abs=hour_us / 1024)
+
+
+@pytest.mark.parametrize("fps", [240, 1000])
+def test_bandwidth_does_not_depend_on_the_frame_rate(backend, fps):
+    knots = np.array([4.0, 4.4, 5.2, 4.9, 4.1, 4.1, 4.8, 3.9, 4.0])
+
+    def sampled(rate):
+        wave = lambda s: intensity(float(np.interp(s * 24, np.arange(len(knots)), knots)))  # noqa: E731
+        return run(clean(backend, cutoff_hz=60.0), curve(wave, fps=rate, seconds=8 / 24))
+
+    slow, fast = sampled(24), sampled(fps)
+    assert len(slow) > 10
+    assert fast.p.tolist() == slow.p.tolist()
+    # What is left: corners are averaged over pieces of an interval; time constants are 12 ms here.
+    assert fast.t == pytest.approx(slow.t, abs=200)
+
+
+@pytest.mark.parametrize("frame_us", [1000, 5000, 41_667])
+@pytest.mark.parametrize("cutoff_hz", [30.0, 250.0])
+def test_few_pieces_are_as_good_as_many(frame_us, cutoff_hz, monkeypatch):
+    # Not back to 30, where the last threshold would lie at the end of an endless approach.
+    levels = [30.0, *[90.0] * 4, *[31.0] * 4]
+    frames = frames_of(levels, range(0, 9 * frame_us, frame_us))
+
+    def times():
+        simulator = clean("reference", cutoff_hz=cutoff_hz, contrast_threshold=0.1)
+        return run(simulator, frames).t
+
+    few = times()
+    monkeypatch.setattr(reference, "FEWEST_PER_LOG", 200.0)
+    monkeypatch.setattr(reference, "MOST_PER_LOG", 200.0)
+    assert few == pytest.approx(times(), abs=0.01 * frame_us)
+
+
+def test_dark_pixels_are_slower_than_bright_ones(backend):
+    def delay(level):
+        start = math.log(10 + level)
+        values = [level, intensity(start + 0.4), intensity(start + 0.4)]
+        events = run(clean(backend, cutoff_hz=100.0), frames_of(values, [0, 100, 500_000]))
+        return int(events.t[0])
+
+    # Half of a step of 0.4 is reached after ln 2 · τ.
+    for level in (20.0, 150.0):
+        end = (level + intensity(math.log(10 + level) + 0.4)) / 2
+        tau = 275 / (math.tau * 100 * (end + 20)) * 1e6
+        assert delay(level) == pytest.approx(tau * math.log(2), rel=0.35)
+    assert delay(20.0) > 2 * delay(150.0)
+
+
+def test_more_bandwidth_converges_to_no_limit():
+    frames = moving_texture(4)
+    limited = run(clean("cpu", cutoff_hz=1e5), frames)
+    unlimited = run(clean("cpu"), frames)
+    assert abs(len(limited) - len(unlimited)) <= 0.01 * len(unlimited)

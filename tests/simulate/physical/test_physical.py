@@ -1,0 +1,239 @@
+"""The physical model: ideal pixels against closed forms, and any options at all."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.errors import ConfigError
+from texvent.simulate.physical.config import PRESETS, RANGES, PhysicalConfig
+from texvent.simulate.physical.simulator import PhysicalSimulator
+from texvent.video import Frame
+
+from ..pixel_frames import curve, frames_of, moving_texture, run, static
+from .physical_pixels import clean, intensity
+
+# One pixel, closed forms.
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_ramp_fires_where_it_crosses_each_threshold(backend, sign):
+    frames = frames_of([intensity(4), intensity(4 + sign * 1.05)], [0, 1_000_000])
+    events = run(clean(backend), frames)
+    assert events.t == pytest.approx([k * 0.2 / 1.05 * 1e6 for k in range(1, 6)], abs=2)
+    assert (events.polarity == sign).all()
+
+
+def test_a_slow_ramp_is_summed_over_frames_and_keeps_the_rest(backend):
+    # Ramp B' of docs/equations.md: 0.055 per frame.
+    frames = frames_of([intensity(4 + 0.055 * i) for i in range(21)], range(0, 21_000, 1000))
+    events = run(clean(backend), frames)
+    assert events.t == pytest.approx([k * 0.2 / 0.055 * 1000 for k in range(1, 6)], abs=1)
+
+
+def test_a_step_fires_once_per_threshold(backend):
+    frames = frames_of([intensity(v) for v in (4, 4, 4.9, 4.9)], [0, 1000, 1001, 500_000])
+    events = run(clean(backend), frames)
+    assert events.t.tolist() == [1000] * 4
+    assert events.p.all()
+
+
+def test_a_sinusoid_fires_at_its_levels(backend):
+    amplitude = 0.51
+    frames = curve(lambda s: intensity(4 + amplitude * math.sin(math.tau * s)), fps=1000, seconds=1)
+    events = run(clean(backend), frames)
+    up = [math.asin(level / amplitude) / math.tau for level in (0.2, 0.4)]
+    down = [0.5 - math.asin(level / amplitude) / math.tau for level in (0.2, 0.0, -0.2, -0.4)]
+    back = [1 + math.asin(level / amplitude) / math.tau for level in (-0.2, 0.0)]
+    # The last one is the end of the clip, and the clip does not contain its end.
+    expected = up + down + back[:1]
+    assert events.t[:7] == pytest.approx([t * 1e6 for t in expected], abs=6)
+    assert events.p[:7].tolist() == [1, 1, 0, 0, 0, 0, 1]
+
+
+@pytest.mark.parametrize("fps", [24, 240, 1000])
+def test_a_static_scene_without_noise_gives_nothing(backend, fps):
+    assert len(run(clean(backend), static(90.0, fps=fps, seconds=0.2, shape=(3, 4)))) == 0
+
+
+def test_gamma_makes_video_linear(backend):
+    levels = [255 * (linear / 255) ** (1 / 2.2) for linear in (50, 120)]
+    coded = run(clean(backend, gamma=2.2), frames_of(levels, [0, 100_000]))
+    linear = run(clean(backend), frames_of([50, 120], [0, 100_000]))
+    assert len(coded) == 3  # ln(130 / 60) = 0.773
+    assert coded.t == pytest.approx(linear.t, abs=2)
+
+
+def test_on_and_off_have_their_own_thresholds(backend):
+    simulator = clean(backend, contrast_threshold=0.2, on_off_ratio=1.44)
+    assert simulator.config.contrast_threshold_on == pytest.approx(0.24)
+    assert simulator.config.contrast_threshold_off == pytest.approx(0.2 / 1.2)
+    events = run(
+        simulator, frames_of([intensity(v) for v in (4, 5, 5.1, 4)], [0, 10**6, 2 * 10**6, 10**7])
+    )
+    # Up by 1.1: 4 at 0.24 (the rest, 0.14, stays). Down by 1.1: 0.14 + 5 at 0.1667.
+    assert int(events.p.sum()) == 4
+    assert int((events.p == 0).sum()) == 5
+
+
+def test_refractory_time_adds_to_the_time_between_events(backend):
+    # 1 log unit per second, threshold 0.2: 200 ms to charge after each 50 ms in reset.
+    frames = frames_of([intensity(4), intensity(5)], [0, 1_000_000])
+    events = run(clean(backend, refractory_period_us=50_000), frames)
+    # Times are rounded down, and the next period starts from the rounded one.
+    assert events.t == pytest.approx([200_000, 450_000, 700_000, 950_000], abs=6)
+
+
+def test_a_change_in_the_refractory_period_is_lost(backend):
+    values, times = [intensity(v) for v in (4, 4.25, 4.25, 4.45, 4.45)], [0, 10, 20, 30, 10**6]
+    kept = run(clean(backend), frames_of(values, times))
+    lost = run(clean(backend, refractory_period_us=1000), frames_of(values, times))
+    assert len(kept) == 2
+    assert len(lost) == 1
+
+
+def test_unfired_change_decays_at_its_rate(backend):
+    # Jumps of 0.15 that are 0.1 s apart; at 5 per second 0.15 becomes 0.0910 in between.
+    values = [intensity(v) for v in (4, 4.15, 4.15, 4.3)]
+    times = [0, 1, 100_001, 100_002]
+    decaying = run(clean(backend, residual_decay_hz=5.0), frames_of(values, times))
+    assert len(decaying) == 1  # 0.0910 + 0.15 > 0.2
+    assert len(run(clean(backend, residual_decay_hz=12.0), frames_of(values, times))) == 0
+    assert len(run(clean(backend), frames_of(values, times))) == 1
+
+
+# Everything at once.
+
+
+def test_ideal_events_are_recovered_from_240_frames_per_second(backend):
+    """An ideal camera, written down independently: every threshold passed at 4800 fps."""
+
+    def radiance(t: float) -> np.ndarray:
+        y, x = np.mgrid[:12, :16]
+        wave = np.sin(0.7 * (x - 40 * t)) + np.sin(0.5 * (y + 25 * t)) * np.cos(0.4 * (x + 30 * t))
+        return 0.12 + 0.2 * (wave + 2)
+
+    level = np.log(radiance(0) + 0.004)
+    truth = []
+    for i in range(1, 4801):
+        now = np.log(radiance(i / 4800 / 4) + 0.004)
+        steps = np.trunc((now - level) / 0.2).astype(int)
+        level = level + 0.2 * steps
+        truth += [(i, p, s) for p, s in enumerate(steps.ravel()) if s]
+    counts = np.zeros((2, 192), int)
+    for _, pixel, steps in truth:
+        counts[int(steps > 0), pixel] += abs(steps)
+
+    def photograph(t: float) -> np.ndarray:
+        return np.round(255 * np.clip(0.9 * radiance(t), 0, 1) ** (1 / 2.2)).astype(np.uint8)
+
+    frames = [Frame(photograph(i / 240), round(i * 1e6 / 240)) for i in range(61)]
+    camera = clean(backend, gamma=2.2, balance=0.004 * 0.9 * 255)
+    events = run(camera, frames)
+    assert counts.sum() > 1000
+    assert len(events) / counts.sum() == pytest.approx(1, abs=0.03)
+    mine = np.zeros((2, 192), int)
+    np.add.at(mine, (events.p, events.y.astype(int) * 16 + events.x), 1)
+    assert np.abs(mine - counts).sum() <= 0.06 * counts.sum()
+
+
+CONFIGS = st.builds(
+    PhysicalConfig,
+    gamma=st.sampled_from([1.0, 2.2]),
+    balance=st.floats(0.5, 40),
+    contrast_threshold=st.floats(0.03, 0.6),
+    on_off_ratio=st.floats(0.6, 1.6),
+    threshold_sigma=st.sampled_from([0.0, 0.05]),
+    initial_phase=st.sampled_from(["zero", "random"]),
+    residual_decay_hz=st.sampled_from([0.0, 3.0]),
+    cutoff_hz=st.sampled_from([0.0, 5.0, 250.0]),
+    refractory_period_us=st.sampled_from([0, 1, 300, 60_000]),
+    leak_rate_hz=st.sampled_from([0.0, 0.1, 30.0]),
+    noise_scale=st.sampled_from([0.0, 1.0, 300.0]),
+    noise_resets=st.booleans(),
+    hot_pixel_fraction=st.sampled_from([0.0, 0.2]),
+    readout_latency_us=st.sampled_from([0, 20_000]),
+    readout_jitter_us=st.sampled_from([0, 70_000]),
+    clock_step_us=st.sampled_from([1, 1000]),
+    rate_limit_hz=st.sampled_from([0.0, 2000.0]),
+)
+
+
+@settings(max_examples=60, deadline=None)
+@given(CONFIGS, st.integers(0, 2**63 - 1), st.integers(0, 99))
+def test_backends_agree_and_packets_are_sound_for_any_options(config, seed, scene):
+    frames = moving_texture(5, (4, 6), step_us=41_667, seed=scene)
+    streams = []
+    for backend in ("reference", "cpu"):
+        simulator = PhysicalSimulator(config, seed=seed, backend=backend)
+        last = frames[0].t_us
+        packets = []
+        for frame in frames:
+            packets.append(simulator.step(frame))
+            assert not len(packets[-1]) or last <= packets[-1].t[0]
+            assert not len(packets[-1]) or packets[-1].t[-1] < frame.t_us
+            last = frame.t_us
+        streams.append(packets)
+    assert all(one.equals(two) for one, two in zip(*streams, strict=True))
+
+
+def events_of_pixels(events) -> list:
+    """The events of each pixel on its own."""
+    return [
+        events[(events.y == y) & (events.x == x)]
+        for y in range(events.size.height)
+        for x in range(events.size.width)
+    ]
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.integers(0, 2**32))
+def test_inverted_contrast_swaps_on_and_off(scene):
+    logs = np.random.default_rng(scene).uniform(-1, 1, (5, 3, 4))
+    events, inverted = (
+        run(
+            clean("cpu"),
+            [Frame(80 * np.exp(s * log) - 10, i * 10_000) for i, log in enumerate(logs)],
+        )
+        for s in (1, -1)
+    )
+    assert len(events) == len(inverted)
+    by_pixel = [events_of_pixels(e) for e in (events, inverted)]
+    for here, there in zip(*by_pixel, strict=True):
+        # Frames are float32, so a crossing may move by a microsecond.
+        assert here.t == pytest.approx(there.t, abs=2)
+        assert here.p.tolist() == (1 - there.p).tolist()
+
+
+def test_eq4_counts_in_the_gamma_coded_scale():
+    simulator = PhysicalSimulator(
+        PhysicalConfig(contrast_threshold=0.22, on_off_ratio=1.21, balance=255.0)
+    )
+    assert simulator.contrast_threshold == pytest.approx(0.2 / 2.2)
+    assert simulator.balance == pytest.approx(255.0)
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_every_preset_makes_events_of_a_moving_texture(preset):
+    events = run(PhysicalSimulator(PRESETS[preset]), moving_texture())
+    assert len(events) > 100
+
+
+@pytest.mark.parametrize("option", RANGES)
+def test_options_out_of_range_fail_by_name(option):
+    low, high = RANGES[option]
+    for value in (low - 1, high * 2 + 1, float("nan")):
+        with pytest.raises(ConfigError, match=option):
+            dataclasses.replace(PhysicalConfig(), **{option: value})
+
+
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [("initial_phase", "half"), ("sensor_seed", -1), ("noise_curve", "dark")],
+)
+def test_impossible_choices_fail_by_name(option, value):
+    with pytest.raises(ConfigError, match=option):
+        dataclasses.replace(PhysicalConfig(), **{option: value})

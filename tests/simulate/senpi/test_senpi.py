@@ -1,0 +1,152 @@
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from texvent.errors import ConfigError
+from texvent.events import NOISE, SIGNAL
+from texvent.simulate.senpi.config import SenpiConfig
+from texvent.simulate.senpi.simulator import SenpiSimulator, photons, shot_noise_rate_hz
+
+from ..pixel_frames import curve, frames_of, run, static
+
+CLEAN = SenpiSimulator.presets["peer-common"]
+
+
+def with_only(**options) -> SenpiConfig:
+    """Nothing but these options: everything else of the model is off."""
+    return dataclasses.replace(CLEAN, **options)
+
+
+def test_photons_have_a_floor_and_a_full_well():
+    levels = np.array([[0, 1, 51, 255]], np.uint8)
+    assert photons(levels, 15_000.0) == pytest.approx(np.array([[58.8235, 58.8235, 3000, 15_000]]))
+
+
+def test_a_change_fires_once_at_the_end_of_the_interval(backend):
+    frames = frames_of([40, 90, 90, 40], [0, 1000, 2000, 3000])
+    events = run(SenpiSimulator(CLEAN, backend=backend), frames)
+    # The frame time itself belongs to the next packet, so the event comes 1 µs before it.
+    assert events.t.tolist() == [999, 2999]
+    assert events.polarity.tolist() == [1, -1]
+
+
+def test_firing_memorises_the_present_voltage(backend):
+    # Every fifth frame has risen by 0.25 since the last event; the rest of 0.05 is forgotten.
+    frames = frames_of([40 * math.exp(0.05 * i) for i in range(21)], range(0, 21_000, 1000))
+    config = with_only(contrast_threshold_on=0.22)
+    events = run(SenpiSimulator(config, backend=backend), frames)
+    assert events.t.tolist() == [4999, 9999, 14_999, 19_999]
+
+
+def test_a_sinusoid_fires_at_every_turn_of_the_threshold(backend):
+    # ln I swings by ±0.25 at 4 samples a period: 0, +, 0, -, so each frame changes by 0.25.
+    frames = curve(lambda s: 80 * math.exp(0.25 * math.sin(math.tau * s)), fps=4, seconds=2.0)
+    events = run(SenpiSimulator(CLEAN, backend=backend), frames)
+    assert events.p.tolist() == [1, 0, 0, 1, 1, 0, 0, 1]
+    assert events.t.tolist() == [k * 250_000 - 1 for k in range(1, 9)]
+
+
+def test_below_the_threshold_nothing_fires(backend):
+    frames = frames_of([40, 40 * math.exp(0.19), 40, 40 * math.exp(-0.19)], range(0, 4000, 1000))
+    assert len(run(SenpiSimulator(CLEAN, backend=backend), frames)) == 0
+
+
+def test_a_black_scene_stays_black(backend):
+    # ln 0 does not exist: the original turns it into NaN, here the darkest level is 1.
+    frames = frames_of([0, 0.5, 1, 0], range(0, 4000, 1000))
+    assert len(run(SenpiSimulator(CLEAN, backend=backend), frames)) == 0
+
+
+def test_a_pixel_at_rest_is_not_fired_by_a_change(backend):
+    config = with_only(refractory_period_us=1500)
+    frames = frames_of([40, 80, 160, 160], [0, 1000, 2000, 3000])
+    events = run(SenpiSimulator(config, backend=backend), frames)
+    # The change at 2000 µs comes 1 ms after the first event; it is seen in the next frame.
+    assert events.t.tolist() == [999, 2999]
+
+
+@pytest.mark.parametrize("fps", [24, 240, 1000])
+def test_noise_has_its_rate_per_second_at_any_frame_rate(fps):
+    config = with_only(noise_rate_hz=5.0)
+    frames = static(90.0, fps=fps, seconds=0.5, shape=(60, 80))
+    events = run(SenpiSimulator(config, seed=3), frames)
+    expected = 5.0 * 0.5 * 60 * 80
+    assert abs(len(events) - expected) < 4 * math.sqrt(expected)
+    assert abs(events.p.mean() - 0.5) < 4 * 0.5 / math.sqrt(len(events))
+    assert (events.label == NOISE).all()
+
+
+def test_hot_pixels_are_few_and_busy():
+    config = with_only(hot_fraction=0.02, hot_rate_hz=500.0)
+    events = run(SenpiSimulator(config), static(90.0, fps=24, seconds=1.0, shape=(60, 80)))
+    counts = np.zeros((60, 80), int)
+    np.add.at(counts, (events.y, events.x), 1)
+    hot = counts > 0
+    assert abs(hot.sum() - 96) < 4 * math.sqrt(96)
+    assert counts[hot].mean() == pytest.approx(500, rel=0.03)
+
+
+@pytest.mark.parametrize("fps", [24, 240, 1000])
+def test_shot_noise_has_the_rate_of_its_tails(fps):
+    # sd of ln N at 1 level: 1 / sqrt(58.8) = 0.130; of the difference of two samples 0.184.
+    config = with_only(shot_noise=True, dark_electrons=0.0, exposure_us=10_000)
+    frames = static(1.0, fps=fps, seconds=0.25, shape=(40, 60))
+    tail = 0.5 * math.erfc(0.2 / (math.sqrt(2 / (15_000 / 255)) * math.sqrt(2)))
+    expected = 2 * tail / 0.01 * 0.25 * 40 * 60
+    events = run(SenpiSimulator(config), frames)
+    assert abs(len(events) - expected) < 4 * math.sqrt(expected)
+
+
+def test_shot_noise_spares_bright_pixels_and_grows_with_dark_electrons():
+    electrons, threshold = np.array([[58.8, 15_000.0]]), np.full((1, 2), 0.2)
+    quiet = shot_noise_rate_hz(electrons, threshold, with_only(dark_electrons=0.0))
+    noisy = shot_noise_rate_hz(electrons, threshold, with_only(dark_electrons=20.0))
+    assert quiet[0, 0] > 1.0
+    assert quiet[0, 1] < 1e-12
+    assert noisy[0, 0] > quiet[0, 0]
+
+
+@pytest.mark.parametrize("fps", [24, 240, 1000])
+def test_a_static_scene_without_noise_gives_nothing(backend, fps):
+    frames = static(90.0, fps=fps, seconds=0.1, shape=(3, 4))
+    assert len(run(SenpiSimulator(CLEAN, backend=backend), frames)) == 0
+
+
+def test_mismatch_shifts_the_change_that_fires(backend):
+    config = with_only(threshold_sigma=0.03)
+    shape = (40, 50)
+    simulator = SenpiSimulator(config, backend=backend)
+    simulator.step(static(40.0, fps=1, seconds=0, shape=shape)[0])
+    frame = static(40.0 * math.exp(0.23), fps=1, seconds=1, shape=shape)[1]
+    events = simulator.step(frame)
+    # One sd above the mean: 84 % of the pixels have a lower threshold.
+    assert len(events) / 2000 == pytest.approx(0.8413, abs=4 * math.sqrt(0.84 * 0.16 / 2000))
+    assert (events.label == SIGNAL).all()
+
+
+def test_the_default_threshold_is_a_tenth_of_full_scale():
+    assert SenpiConfig().contrast_threshold_on == pytest.approx(0.1 * math.log(15_000), abs=1e-4)
+    assert SenpiSimulator().contrast_threshold == SenpiConfig().contrast_threshold_on
+    assert SenpiSimulator().balance == 1.0
+
+
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [
+        ("contrast_threshold_on", 0.0),
+        ("contrast_threshold_off", 11.0),
+        ("threshold_sigma", -0.1),
+        ("well_capacity", 0.0),
+        ("noise_rate_hz", -1.0),
+        ("hot_fraction", 1.5),
+        ("hot_rate_hz", float("nan")),
+        ("dark_electrons", -2.0),
+        ("exposure_us", 0),
+        ("refractory_period_us", -1),
+    ],
+)
+def test_impossible_options_fail_by_name(option, value):
+    with pytest.raises(ConfigError, match=option):
+        dataclasses.replace(SenpiConfig(), **{option: value})

@@ -1,0 +1,289 @@
+"""V2CE's sequences, options and errors; the network itself is in test_v2ce_network."""
+
+import copy
+import hashlib
+import itertools
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.frame_pairs import advance_through
+
+import texvent
+from texvent.cli.app import main
+from texvent.config import option_help, option_names, with_options
+from texvent.errors import ConfigError, InputError, MissingDependencyError
+from texvent.events import SIGNAL, EventStream
+from texvent.pipeline import video_to_events
+from texvent.settings import default_settings, resolve
+from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.sorting import make_packet
+from texvent.simulate.random.draws import frame_key
+from texvent.simulate.v2ce import ldati
+from texvent.simulate.v2ce.config import V2ceConfig
+from texvent.simulate.v2ce.simulator import V2ceSimulator, normalise
+from texvent.video import Frame, Video
+
+from ..pixel_frames import moving_texture
+from .v2ce_files import StandInNetwork
+
+
+@pytest.fixture
+def weights(tmp_path) -> Path:
+    path = tmp_path / "v2ce_3d.pt"
+    path.write_bytes(b"stands for the weights")
+    return path
+
+
+@pytest.fixture
+def stand_in(monkeypatch) -> None:
+    module = sys.modules[V2ceSimulator.__module__]
+    monkeypatch.setattr(module, "load_network", lambda *_: StandInNetwork())
+
+
+@pytest.fixture
+def model(stand_in, weights):
+    def build(seed=0, backend="auto", **options):
+        return V2ceSimulator(V2ceConfig(weights=weights, **options), seed=seed, backend=backend)
+
+    return build
+
+
+def ramp(count: int, shape=(3, 4), **options) -> list[Frame]:
+    """Frames that all differ, so that their order can be told."""
+    texture = moving_texture(count, shape, **options)
+    return [Frame(f.pixels // 2 + np.uint8(2 * i), f.t_us) for i, f in enumerate(texture)]
+
+
+def answers(simulator, frames) -> EventStream:
+    return EventStream.concat([packet for _, packet in advance_through(simulator, frames)])
+
+
+def means(frames) -> list[float]:
+    return [float(normalise(frame.luma).mean()) for frame in frames]
+
+
+def test_sequences_follow_one_another_and_the_last_reaches_back(model):
+    simulator, frames = model(sequence_length=4), ramp(11)
+    answers(simulator, frames)
+    first = means(frames)
+    expected = [first[0:4], first[4:8], first[6:10]]
+    assert simulator._network.seen == [pytest.approx(one) for one in expected]
+
+
+def test_a_clip_shorter_than_a_sequence_is_one_sequence(model):
+    simulator, frames = model(), ramp(4)
+    found = list(advance_through(simulator, frames))
+    assert [len(one) for one in simulator._network.seen] == [3]
+    assert [frame for frame, _ in found] == frames
+
+
+def test_every_packet_is_the_voxel_grid_of_its_own_pair(model):
+    frames = ramp(8)
+    found = dict(
+        enumerate(packet for _, packet in advance_through(model(sequence_length=5), frames))
+    )
+    network = StandInNetwork()
+    levels = np.stack([normalise(frame.luma) for frame in frames])
+    pairs = np.stack([levels[:-1], levels[1:]], axis=1)
+    for pair, start in ((1, 0), (4, 0), (5, 2), (6, 2)):
+        grid = network.predict(pairs[start : start + 5])[pair - start]
+        before, after = frames[pair].t_us, frames[pair + 1].t_us
+        interval = FrameInterval(before, after, frame_key(0, after - frames[0].t_us))
+        expected = make_packet(ldati.sample_events(grid, interval), interval, frames[0].size)
+        assert found[pair + 1].equals(expected)
+        assert len(expected) > 0
+
+
+def test_answers_come_a_sequence_late_and_no_later(model):
+    fed = []
+
+    def feed():
+        for frame in ramp(9):
+            fed.append(frame)
+            yield frame
+
+    answered = advance_through(model(sequence_length=4), feed())
+    lag = [len(fed) - i for i, _ in enumerate(answered, start=1)]
+    assert lag == [0, 3, 2, 1, 0, 3, 2, 1, 0]
+
+
+def test_packets_are_half_open_sorted_and_labelled(model):
+    frames = moving_texture(7)
+    found = list(advance_through(model(sequence_length=4), frames))
+    assert len(found[0][1]) == 0
+    assert found[0][1].label is not None
+    for (before, _), (frame, packet) in itertools.pairwise(found):
+        assert before.t_us <= packet.t.min()
+        assert packet.t.max() < frame.t_us
+        columns = np.stack([packet.t, packet.y, packet.x, packet.p], axis=1).tolist()
+        assert columns == sorted(columns)
+        assert (packet.label == SIGNAL).all()
+
+
+def test_one_frame_gives_an_empty_stream_and_none_gives_nothing(model):
+    assert len(answers(model(), ramp(1))) == 0
+    assert list(advance_through(model(), [])) == []
+
+
+def test_a_single_step_answers_from_the_last_pairs(model):
+    simulator, frames = model(sequence_length=3), ramp(6)
+    packets = [simulator.step(frame) for frame in frames]
+    first = means(frames)
+    expected = [first[0:1], first[0:2], first[0:3], first[1:4], first[2:5]]
+    assert simulator._network.seen == [pytest.approx(one) for one in expected]
+    for before, frame, packet in zip(frames, frames[1:], packets[1:], strict=False):
+        assert before.t_us <= packet.t.min() <= packet.t.max() < frame.t_us
+
+
+def test_static_frames_give_nothing(model):
+    frames = [Frame(np.full((3, 4), 90, np.uint8), 1000 * i) for i in range(5)]
+    assert len(answers(model(), frames)) == 0
+
+
+def test_brighter_is_on_and_darker_is_off(model):
+    levels = [np.array([[50, 200]], np.uint8), np.array([[200, 50]], np.uint8)]
+    events = answers(model(), [Frame(level, 1000 * i) for i, level in enumerate(levels)])
+    assert set(events.p[events.x == 0].tolist()) == {1}
+    assert set(events.p[events.x == 1].tolist()) == {0}
+
+
+def test_shifting_the_clip_shifts_the_events(model):
+    events = answers(model(), moving_texture())
+    shifted = answers(model(), moving_texture(start_us=7_000_001))
+    assert np.array_equal(shifted.t, events.t + 7_000_001)
+    for column in "xyp":
+        assert np.array_equal(getattr(shifted, column), getattr(events, column))
+
+
+def test_the_seed_decides_everything_random(model):
+    frames = moving_texture()
+    events = answers(model(seed=0), frames)
+    assert answers(model(seed=0), frames).equals(events)
+    assert not answers(model(seed=1), frames).equals(events)
+
+
+@pytest.mark.parametrize("options", [{}, {"rounding": "stochastic"}, {"bidirectional": True}])
+def test_backends_give_equal_events(model, options):
+    frames = moving_texture()
+    reference = answers(model(backend="reference", **options), frames)
+    assert len(reference) > 50
+    assert answers(model(**options), frames).equals(reference)
+    assert options == {} or not answers(model(), frames).equals(reference)
+
+
+def test_reset_forgets_everything(model):
+    simulator = model()
+    first = answers(simulator, moving_texture())
+    simulator.reset()
+    assert answers(simulator, moving_texture()).equals(first)
+
+
+def test_a_copied_simulator_goes_on_alike(model):
+    frames = moving_texture(8)
+    whole = model()
+    for frame in frames[:4]:
+        whole.step(frame)
+    twin = copy.deepcopy(whole)
+    for frame in frames[4:]:
+        assert whole.step(frame).equals(twin.step(frame))
+
+
+def test_bad_frames_fail_once_and_clearly(model):
+    good = Frame(np.full((2, 2), 9.0, np.float32), 1000)
+    for bad, message in (
+        (Frame(np.array([[np.nan, 1], [1, 1]], np.float32), 2000), "NaN"),
+        (Frame(np.zeros((2, 3), np.float32), 2000), "3x2"),
+        (Frame(np.zeros((2, 2), np.float32), 1000), "strictly increase"),
+    ):
+        with pytest.raises(InputError, match=message):
+            answers(model(), [good, bad])
+
+
+def test_frames_are_scaled_as_in_training():
+    # Mean 0.153 and standard deviation 0.165 of full scale.
+    assert normalise(np.array([[0, 255]], np.uint8)) == pytest.approx(
+        np.array([[-0.153 / 0.165, 0.847 / 0.165]]), rel=1e-6
+    )
+
+
+def test_every_option_has_a_help_text_and_a_name_of_its_own():
+    assert set(option_help(V2ceConfig)) == set(option_names(V2ceConfig))
+    settings = default_settings("simulate", simulator="v2ce")
+    names = [name for group in settings.groups().values() for name in option_names(type(group))]
+    assert len(names) == len(set(names))
+
+
+def test_the_frames_of_the_video_are_used_unless_asked_otherwise():
+    for command in ("simulate", "generate"):
+        assert resolve(command, {"simulator": "v2ce"}).interpolate.interpolate == "none"
+        asked = resolve(command, {"simulator": "v2ce", "interpolate": "blend"})
+        assert asked.interpolate.interpolate == "blend"
+    assert resolve("simulate", {}).interpolate.interpolate == "flow"
+    assert resolve("generate", {}).interpolate.interpolate == "exact"
+
+
+def test_a_run_uses_whole_sequences(model, weights):
+    frames = ramp(9)
+    video = Video(np.stack([f.pixels for f in frames]), [f.t_us for f in frames])
+    settings = resolve(
+        "simulate", {"simulator": "v2ce", "weights": str(weights), "sequence_length": 4}
+    )
+    simulation = video_to_events(video, settings)
+    expected = answers(model(sequence_length=4), frames)
+    assert simulation.packets.collect().equals(expected.without_label())
+    assert simulation.provenance["settings"]["simulate"]["weights"] == str(weights)
+    sha256 = hashlib.sha256(weights.read_bytes()).hexdigest()
+    assert simulation.provenance["weights"] == {
+        "simulator": {"file": weights.name, "sha256": sha256}
+    }
+    found = texvent.simulate(video, simulator="v2ce", weights=weights, sequence_length=4)
+    assert found.equals(expected.without_label())
+
+
+def test_intermediate_frames_can_be_asked_for(model):
+    simulator = model()
+    assert simulator.contrast_threshold > 0
+    assert simulator.balance > 0
+
+
+def test_no_weights_is_one_clear_error_that_says_where_they_are(tmp_path, capsys):
+    with pytest.raises(ConfigError, match=r"v2ce_3d\.pt.*V2CE-Toolbox.*--weights PATH"):
+        V2ceSimulator()
+    clip = tmp_path / "clip.npy"
+    np.save(clip, np.zeros((3, 4, 5), np.uint8))
+    out = tmp_path / "out.h5"
+    words = ["simulate", str(clip), "--fps", "30", "--simulator", "v2ce", "-o", str(out)]
+    assert main(words) == ConfigError.exit_code
+    message = capsys.readouterr().err
+    assert re.search(r"--weights PATH", message)
+    assert "Traceback" not in message
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["clip.npy"]
+
+
+def test_a_weights_file_that_is_not_there_is_named(tmp_path):
+    with pytest.raises(InputError, match="nowhere"):
+        V2ceSimulator(V2ceConfig(weights=tmp_path / "nowhere.pt"))
+
+
+def test_without_torch_the_error_names_the_extra(weights, monkeypatch):
+    monkeypatch.setitem(sys.modules, "torch", None)
+    with pytest.raises(MissingDependencyError, match=r"texvent\[v2ce\]"):
+        V2ceSimulator(V2ceConfig(weights=weights))
+
+
+@pytest.mark.parametrize(
+    ("option", "value"), [("sequence_length", 0), ("rounding", "down"), ("device", "abacus")]
+)
+def test_impossible_options_fail_by_name(option, value):
+    with pytest.raises(ConfigError, match=option):
+        with_options(V2ceConfig(), {option: value}, where="options")
+
+
+def test_impossible_seeds_and_backends_fail(model):
+    with pytest.raises(ConfigError, match="seed"):
+        model(seed=-1)
+    with pytest.raises(ConfigError, match="backend"):
+        model(backend="abacus")

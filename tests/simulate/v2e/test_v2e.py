@@ -1,0 +1,188 @@
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from texvent.errors import ConfigError
+from texvent.events import NOISE, SIGNAL
+from texvent.simulate.v2e.config import V2eConfig
+from texvent.simulate.v2e.reference import lin_log
+from texvent.simulate.v2e.shot_noise import photoreceptor_noise_rms, relative_intensity
+from texvent.simulate.v2e.simulator import V2eSimulator
+
+from ..pixel_frames import curve, frames_of, run, static
+
+CLEAN = V2eSimulator.presets["peer-common"]
+
+
+def with_only(**options) -> V2eConfig:
+    """Nothing but these options: everything else of the model is off."""
+    return dataclasses.replace(CLEAN, **options)
+
+
+def test_brightness_is_linear_below_20_and_logarithmic_above():
+    levels = np.array([0.0, 10.0, 20.0, 21.0, 255.0])
+    expected = [0, math.log(20) / 2, math.log(20), math.log(21), math.log(255)]
+    assert lin_log(levels, 20.0) == pytest.approx(expected, rel=1e-15)
+
+
+def test_a_ramp_of_the_logarithm_fires_at_each_threshold(backend):
+    frames = frames_of([40, 40 * math.exp(1.05)], [0, 1_000_000])
+    events = run(V2eSimulator(CLEAN, backend=backend), frames)
+    assert events.t == pytest.approx([k * 0.2 / 1.05 * 1e6 for k in range(1, 6)], abs=1)
+    assert events.p.all()
+
+
+def test_dark_pixels_fire_in_proportion_to_intensity(backend):
+    events = run(V2eSimulator(CLEAN, backend=backend), frames_of([0, 20], [0, 1_000_000]))
+    assert events.t == pytest.approx([k * 0.2 / math.log(20) * 1e6 for k in range(1, 15)], abs=1)
+
+
+def test_a_sinusoid_fires_as_often_up_as_down(backend):
+    # The amplitude 0.51 spans the levels -0.4..0.4: after the first rise, 4 OFF and 4 ON a period.
+    frames = curve(lambda s: 80 * math.exp(0.51 * math.sin(math.tau * s)), fps=500, seconds=3.2)
+    events = run(V2eSimulator(CLEAN, backend=backend), frames)
+    rise, fall = [1] * 4, [0] * 4
+    assert events.p.tolist() == [1, 1, *fall, *rise, *fall, *rise, *fall, *rise]
+    first = [math.asin(level / 0.51) / math.tau * 1e6 for level in (0.2, 0.4)]
+    assert events.t[:2] == pytest.approx(first, abs=8)
+
+
+def test_the_photoreceptor_follows_a_step_by_its_bandwidth(backend):
+    # Weight per frame: (80 + 20) / 275 * 2 pi * f * 1 ms = 0.1, so 1 - 0.9^n of the step is seen.
+    cutoff_hz = 0.1 / (100 / 275 * math.tau * 1e-3)
+    config = with_only(cutoff_hz=cutoff_hz, contrast_threshold_on=0.05)
+    simulator = V2eSimulator(config, backend=backend)
+    frames = frames_of([40] + [80] * 30, range(0, 31_000, 1000))
+    total = 0
+    for n, frame in enumerate(frames):
+        total += len(simulator.step(frame))
+        assert total == math.floor(math.log(2) * (1 - 0.9**n) / 0.05)
+
+
+def test_a_bandwidth_above_the_frame_rate_follows_at_once(backend):
+    frames = frames_of([40, 80, 80], [0, 41_667, 83_333])
+    fast = run(V2eSimulator(with_only(cutoff_hz=300.0), backend=backend), frames)
+    assert fast.equals(run(V2eSimulator(CLEAN, backend=backend), frames))
+
+
+@pytest.mark.parametrize("fps", [24, 240, 1000])
+def test_leak_fires_on_events_at_its_rate_at_any_frame_rate(backend, fps):
+    config = with_only(leak_rate_hz=10.0, leak_rate_decades=0.0)
+    frames = static(100.0, fps=fps, seconds=1.05)
+    events = run(V2eSimulator(config, backend=backend), frames)
+    assert events.t == pytest.approx([k * 100_000 for k in range(1, 11)], abs=1)
+    assert events.p.all()
+    assert (events.label == NOISE).all()
+
+
+@pytest.mark.parametrize("fps", [24, 240, 1000])
+@pytest.mark.parametrize("intensity", [0.0, 255.0])
+def test_shot_noise_has_its_rate_at_any_frame_rate(fps, intensity):
+    config = with_only(shot_noise_rate_hz=5.0)
+    frames = static(intensity, fps=fps, seconds=0.5, shape=(60, 80))
+    events = run(V2eSimulator(config, seed=1), frames)
+    expected = 5.0 * (1 - 0.75 * (intensity + 20) / 275) * 0.5 * 60 * 80
+    assert abs(len(events) - expected) < 4 * math.sqrt(expected)
+    assert abs(events.p.mean() - 0.5) < 4 * 0.5 / math.sqrt(len(events))
+    assert (events.label == NOISE).all()
+    # Uniform within every frame interval, not at one shared time.
+    place = events.t * fps / 1e6 % 1
+    assert place.mean() == pytest.approx(0.5, abs=4 / math.sqrt(12 * len(events)))
+
+
+def test_pixels_with_a_low_threshold_have_more_shot_noise():
+    config = with_only(shot_noise_rate_hz=50.0, threshold_sigma=0.03)
+    simulator = V2eSimulator(config, seed=2)
+    events = run(simulator, static(60.0, fps=24, seconds=1.0, shape=(60, 80)))
+    counts = np.zeros((60, 80))
+    np.add.at(counts, (events.y, events.x), 1)
+    thresholds = simulator._mismatch.threshold_on + simulator._mismatch.threshold_off
+    assert np.corrcoef(counts.reshape(-1), 1 / thresholds.reshape(-1))[0, 1] > 0.2
+
+
+def test_shot_noise_resets_its_pixel_to_the_present_brightness(backend):
+    config = with_only(shot_noise_rate_hz=1000.0)
+    simulator = V2eSimulator(config, backend=backend)
+    # 0.15 up, then noise (certain in 1 s), then 0.15 up: without the reset, 0.3 would fire.
+    values = [40, 40 * math.exp(0.15), 40 * math.exp(0.30)]
+    events = run(simulator, frames_of(values, [0, 1_000_000, 2_000_000]))
+    assert (events.label == NOISE).all()
+
+
+def test_photoreceptor_noise_comes_near_its_rate_and_alternates():
+    config = with_only(shot_noise_rate_hz=20.0, cutoff_hz=100.0, photoreceptor_noise=True)
+    # The fit is for continuous time: coarser frames miss excursions (docs/simulators.md).
+    frames = static(235.0, fps=20_000, seconds=0.1, shape=(16, 20))
+    events = run(V2eSimulator(config), frames)
+    assert len(events) / (0.1 * 16 * 20) == pytest.approx(20.0, rel=0.25)
+    assert (events.label == NOISE).all()
+    order = np.lexsort((events.t, events.x, events.y))
+    pixel = (events.y.astype(int) * 20 + events.x)[order]
+    flips = np.diff(events.p[order].astype(int))[np.diff(pixel) == 0] != 0
+    assert flips.mean() > 0.8
+
+
+def test_photoreceptor_noise_level_is_the_published_fit():
+    # At an ON rate of a tenth of the bandwidth, x = -1.
+    exponent = 0.0026 - 0.036 + 0.1949 + 0.321
+    assert photoreceptor_noise_rms(20.0, 100.0, 0.2) == pytest.approx(0.2 / 10**exponent)
+
+
+def test_a_change_kept_back_by_the_refractory_period_fires_later(backend):
+    config = with_only(refractory_period_us=25_000)
+    values = [40, 40 * math.exp(2.01), 40 * math.exp(2.01), 40 * math.exp(2.01)]
+    frames = frames_of(values, [0, 100_500, 140_500, 180_500])
+    events = run(V2eSimulator(config, backend=backend), frames)
+    # Crossings every 10 ms; what the period kept back is due when an interval starts after it.
+    assert events.t == pytest.approx([10_000, 40_000, 70_000, 100_000, 140_500], abs=1)
+
+
+@pytest.mark.parametrize("fps", [24, 240, 1000])
+def test_a_static_scene_without_noise_gives_nothing(backend, fps):
+    config = with_only(threshold_sigma=0.05, cutoff_hz=30.0, refractory_period_us=500)
+    frames = static(90.0, fps=fps, seconds=0.1, shape=(3, 4))
+    assert len(run(V2eSimulator(config, backend=backend), frames)) == 0
+
+
+def test_moving_light_is_labelled_signal(backend):
+    config = with_only(leak_rate_hz=0.1)
+    frames = frames_of([40, 80], [0, 41_667])
+    assert (run(V2eSimulator(config, backend=backend), frames).label == SIGNAL).all()
+
+
+def test_eq4_counts_as_steeply_as_the_model_at_black():
+    simulator = V2eSimulator(with_only(contrast_threshold_on=0.3, contrast_threshold_off=0.25))
+    assert simulator.contrast_threshold == 0.25
+    slope = (lin_log(np.array([[1.0]]), 20.0) - lin_log(np.array([[0.0]]), 20.0))[0, 0]
+    assert 1 / simulator.balance == pytest.approx(slope)
+
+
+def test_bandwidth_and_shot_noise_scale_with_the_published_intensity():
+    levels = np.array([[0, 255]], np.uint8)
+    assert relative_intensity(levels).tolist() == [[20 / 275, 1.0]]
+
+
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [
+        ("contrast_threshold_on", 0.001),
+        ("contrast_threshold_off", -0.2),
+        ("threshold_sigma", float("nan")),
+        ("linear_below", 1.0),
+        ("cutoff_hz", -1.0),
+        ("leak_rate_hz", -0.1),
+        ("leak_rate_decades", 2.0),
+        ("shot_noise_rate_hz", 1e6),
+        ("refractory_period_us", -5),
+    ],
+)
+def test_impossible_options_fail_by_name(option, value):
+    with pytest.raises(ConfigError, match=option):
+        dataclasses.replace(V2eConfig(), **{option: value})
+
+
+def test_photoreceptor_noise_without_bandwidth_fails():
+    with pytest.raises(ConfigError, match="photoreceptor_noise needs"):
+        with_only(photoreceptor_noise=True, shot_noise_rate_hz=5.0)

@@ -1,0 +1,226 @@
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from texvent.errors import ConfigError
+from texvent.events import NOISE, SIGNAL
+from texvent.simulate.voltmeter.config import VoltmeterConfig
+from texvent.simulate.voltmeter.first_passage import Constants
+from texvent.simulate.voltmeter.reference import (
+    drift_and_diffusion,
+    first_passage_time,
+    probability_along_drift,
+)
+from texvent.simulate.voltmeter.simulator import VoltmeterSimulator
+from texvent.video import Frame
+
+from ..pixel_frames import curve, frames_of, run, static
+
+QUIET = VoltmeterConfig(k3=0.0, k4=0.0, k5=0.0, k6=0.0, start_voltage="zero")
+ABOVE_99_9_PERCENT = 1.95
+"""Kolmogorov-Smirnov distance times √n that a true sample exceeds once in a thousand."""
+
+
+def with_only(**options) -> VoltmeterConfig:
+    """Nothing but these constants: no other noise, no other drift."""
+    return dataclasses.replace(QUIET, **options)
+
+
+def column(*values: float) -> np.ndarray:
+    return np.array(values, np.float64)
+
+
+def normal_cdf(values):
+    return np.array([0.5 * math.erfc(-value / math.sqrt(2)) for value in values])
+
+
+def inverse_gaussian_cdf(times, mean, shape):
+    root = np.sqrt(shape / times)
+    reflected = math.exp(2 * shape / mean) * normal_cdf(-root * (times / mean + 1))
+    return normal_cdf(root * (times / mean - 1)) + reflected
+
+
+def distance_to(cdf, sample) -> float:
+    """Kolmogorov-Smirnov distance times √n."""
+    ordered = np.sort(sample)
+    steps = np.arange(len(ordered) + 1) / len(ordered)
+    theory = cdf(ordered)
+    largest = max(np.max(steps[1:] - theory), np.max(theory - steps[:-1]))
+    return float(largest * math.sqrt(len(ordered)))
+
+
+def test_drift_and_diffusion_are_equations_10_and_11():
+    constants = Constants(k1=5.0, k2=20.0, k3=1e-4, k4=1e-7, k5=5e-9, k6=1e-5)
+    signal, drift, sigma = drift_and_diffusion(column(90.0), column(110.0), 1000, constants)
+    assert signal == pytest.approx(5.0 * 20 / 1000 / 120)
+    assert drift == pytest.approx(5.0 * 20 / 1000 / 120 + 1e-7 + 5e-7)
+    assert sigma == pytest.approx(1e-4 * 10 / 120 + 1e-5)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_without_noise_a_change_fires_evenly(backend, sign):
+    values = (80, 160) if sign > 0 else (160, 80)
+    events = run(VoltmeterSimulator(QUIET, backend=backend), frames_of(values, [0, 1_000_000]))
+    volts = 5.265 * 80 / 140
+    assert events.t == pytest.approx([k / volts * 1e6 for k in (1, 2, 3)], abs=1)
+    assert (events.polarity == sign).all()
+    assert (events.label == SIGNAL).all()
+
+
+def test_without_noise_the_residual_is_carried_over(backend):
+    # Each frame moves by 5.265 * 5 / (L + 22.5); the sum decides, however it is cut.
+    levels = [80 + 5 * i for i in range(17)]
+    simulator = VoltmeterSimulator(QUIET, backend=backend)
+    events = run(simulator, frames_of(levels, range(0, 17_000, 1000)))
+    way = np.cumsum([0.0] + [5.265 * 5 / (level + 22.5) for level in levels[:-1]])
+    expected = np.interp([1.0, 2.0, 3.0], way, np.arange(17) * 1000)
+    assert events.t == pytest.approx(expected, abs=1)
+
+
+def test_without_noise_a_sinusoid_fires_at_its_levels(backend):
+    # ln(L + k2) swings by ±0.45 about its mean: ±2.37 thresholds, levels −2..2.
+    frames = curve(
+        lambda s: 100 * math.exp(0.45 * math.sin(math.tau * s)) - 20, fps=1000, seconds=1.2
+    )
+    events = run(VoltmeterSimulator(QUIET, backend=backend), frames)
+    assert events.p.tolist() == [1, 1, 0, 0, 0, 0, 1, 1, 1, 1]
+    levels = [math.asin(n / (5.265 * 0.45)) / math.tau for n in (-1, 0, 1, 2)]
+    rising, falling = [t + 1 for t in levels], [0.5 - t for t in (levels[2], levels[1], levels[0])]
+    assert events.t[:2] == pytest.approx([t * 1e6 for t in levels[2:]], abs=20)
+    assert events.t[2:5] == pytest.approx([t * 1e6 for t in falling], abs=20)
+    assert events.t[6:] == pytest.approx([t * 1e6 for t in rising], abs=20)
+
+
+@pytest.mark.parametrize("fps", [24, 240, 1000])
+def test_leakage_fires_on_events_at_its_rate_at_any_frame_rate(backend, fps):
+    config = with_only(k4=1e-5)
+    events = run(VoltmeterSimulator(config, backend=backend), static(90, fps=fps, seconds=1.05))
+    assert events.t == pytest.approx([k * 100_000 for k in range(1, 11)], abs=1)
+    assert events.p.all()
+    assert (events.label == NOISE).all()
+
+
+@pytest.mark.parametrize("fps", [24, 240, 1000])
+@pytest.mark.parametrize("preset", ["davis346", "davis240"])
+def test_a_static_scene_has_the_rate_of_its_drift_at_any_frame_rate(preset, fps):
+    config = VoltmeterSimulator.presets[preset]
+    frames = static(250.0, fps=fps, seconds=1.0, shape=(40, 50))
+    events = run(VoltmeterSimulator(config), frames)
+    expected = (config.k4 + config.k5 * 250) * 1e6 * 40 * 50
+    assert abs(len(events) - expected) < 4 * math.sqrt(expected)
+    assert (events.label == NOISE).all()
+    # Never in unison: pixels start anywhere on the way to their first event.
+    assert events.t.mean() == pytest.approx(500_000, abs=4e6 / math.sqrt(12 * expected))
+
+
+def test_pixels_that_start_at_zero_leak_in_unison(backend):
+    config = dataclasses.replace(VoltmeterConfig(k3=0.0, k6=0.0), start_voltage="zero")
+    frames = static(250.0, fps=24, seconds=1.0, shape=(3, 4))
+    events = run(VoltmeterSimulator(config, backend=backend), frames)
+    assert len(events) == 12
+    assert np.ptp(events.t) == 0
+
+
+@pytest.mark.parametrize("frame_us", [400_000, 2000, 100])
+def test_intervals_with_drift_are_inverse_gaussian_at_any_frame_rate(frame_us):
+    # Mean 1 / μ = 1 ms, shape 1 / σ² = 10 ms; OFF first is a matter of exp(−20).
+    config = with_only(k4=1e-3, k6=math.sqrt(1e-4))
+    simulator = VoltmeterSimulator(config, seed=1, backend="cpu")
+    frames = [Frame(np.full((2, 3), 90.0), t) for t in range(0, 400_001, frame_us)]
+    events = run(simulator, frames)
+    assert events.p.all()
+    order = np.lexsort((events.t, events.x, events.y))
+    pixel = (events.y.astype(int) * 3 + events.x)[order]
+    gaps = np.diff(events.t[order])[np.diff(pixel) == 0]
+    assert len(gaps) > 2000
+    # Whole microseconds blur the gaps by less than a thousandth of their mean.
+    assert distance_to(lambda t: inverse_gaussian_cdf(t, 1000.0, 10_000.0), gaps) < (
+        ABOVE_99_9_PERCENT
+    )
+
+
+def test_passage_times_are_inverse_gaussian_at_any_ratio_of_drift_to_noise():
+    random = np.random.default_rng(2)
+    square, chance = random.standard_normal(4000) ** 2, random.uniform(size=4000)
+    for sigma in (0.1, 1.0, 10.0):
+        ones = np.ones(4000)
+        times = first_passage_time(ones, ones, sigma * ones, square, chance)
+
+        def cdf(t, shape=1 / sigma**2):
+            return inverse_gaussian_cdf(t, 1.0, shape)
+
+        assert distance_to(cdf, times) < ABOVE_99_9_PERCENT
+
+
+def test_passage_times_without_drift_are_levy():
+    random = np.random.default_rng(3)
+    square, chance = random.standard_normal(4000) ** 2, random.uniform(size=4000)
+    ones = np.ones(4000)
+    times = first_passage_time(2 * ones, 0 * ones, 0.5 * ones, square, chance)
+
+    def cdf(t):
+        return 2 * normal_cdf(-2 / 0.5 / np.sqrt(t))
+
+    assert distance_to(cdf, times) < ABOVE_99_9_PERCENT
+
+
+def test_passage_times_without_noise_are_certain():
+    times = first_passage_time(
+        column(1, 3, 1), column(2, 2, 0), column(0, 0, 0), column(1, 1, 1), column(0.9, 0.9, 0.9)
+    )
+    assert times.tolist() == [0.5, 1.5, math.inf]
+
+
+def test_the_first_polarity_has_its_closed_form():
+    # (1 − e^{−sb}) / (1 − e^{−s(a+b)}), s = 2 μ / σ² = 1, a = 0.5, b = 1.5.
+    expected = (1 - math.exp(-1.5)) / (1 - math.exp(-2.0))
+    chance = probability_along_drift(column(0.5), column(1.0), column(0.5), column(1.5))
+    assert chance == pytest.approx(expected)
+    without_drift = probability_along_drift(column(0.0), column(1.0), column(0.5), column(1.5))
+    assert without_drift == pytest.approx(1.5 / 2.0)
+    almost = probability_along_drift(column(1e-300), column(1.0), column(0.5), column(1.5))
+    assert almost == pytest.approx(1.5 / 2.0)
+    assert probability_along_drift(column(1.0), column(0.0), column(1.0), column(1.0)) == 1.0
+    assert probability_along_drift(column(0.0), column(0.0), column(1.0), column(1.0)) == 0.5
+
+
+def test_pure_noise_fires_both_polarities_alike(backend):
+    config = with_only(k6=0.05)
+    simulator = VoltmeterSimulator(config, backend=backend)
+    frames = [Frame(np.full((12, 15), 90.0), t) for t in (0, 100_000)]
+    events = run(simulator, frames)
+    assert len(events) > 1000
+    # The gap between events is heavy-tailed, but each polarity is a fair coin.
+    assert abs(events.p.mean() - 0.5) < 4 * 0.5 / math.sqrt(len(events))
+    assert (events.label == NOISE).all()
+
+
+@pytest.mark.parametrize("fps", [24, 240, 1000])
+def test_a_static_scene_without_noise_gives_nothing(backend, fps):
+    frames = static(90.0, fps=fps, seconds=0.1, shape=(3, 4))
+    assert len(run(VoltmeterSimulator(QUIET, backend=backend), frames)) == 0
+
+
+def test_eq4_counts_with_the_gain_and_the_dark_offset():
+    simulator = VoltmeterSimulator(VoltmeterSimulator.presets["davis240"])
+    assert simulator.contrast_threshold == pytest.approx(1 / 4.424)
+    assert simulator.balance == 23.0
+
+
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [
+        ("k1", 0.0),
+        ("k2", 0.0),
+        ("k3", -1e-4),
+        ("k4", 1.0),
+        ("k5", float("nan")),
+        ("k6", 1.0),
+        ("start_voltage", "high"),
+    ],
+)
+def test_impossible_constants_fail_by_name(option, value):
+    with pytest.raises(ConfigError, match=option):
+        dataclasses.replace(VoltmeterConfig(), **{option: value})
