@@ -10,15 +10,15 @@ from texvent.simulate.physical import crossing_time_cpu, crossing_time_reference
 from texvent.simulate.physical.crossing_time_reference import ChangeCurve
 
 
-def course_of(change, slope, transient, corner, room) -> ChangeCurve:
-    columns = [np.atleast_1d(np.float64(x)) for x in (change, slope, transient, corner, room)]
+def curve_of(change, slope, transient, cutoff, duration) -> ChangeCurve:
+    columns = [np.atleast_1d(np.float64(x)) for x in (change, slope, transient, cutoff, duration)]
     return ChangeCurve(*columns, kept=exponential(-columns[3] * columns[4]))
 
 
 def first_crossing(curve: ChangeCurve, on: float, off: float) -> float:
     """By looking everywhere."""
-    u = np.linspace(0, 1, 200_001) * curve.room
-    change = curve.after(u, np.exp(-curve.corner * u))
+    u = np.linspace(0, 1, 200_001) * curve.duration
+    change = curve.after(u, np.exp(-curve.cutoff * u))
     hits = np.flatnonzero((change >= on) | (-change >= off))
     return float(u[hits[0]]) if len(hits) else np.inf
 
@@ -29,32 +29,32 @@ def time_of(curve: ChangeCurve, on=0.2, off=0.2) -> tuple[float, int]:
 
 
 def test_a_straight_line_crosses_where_it_should():
-    assert time_of(course_of(0.05, 1e-4, 0.0, 1e-3, 4000.0)) == (pytest.approx(1500.0), 1)
-    assert time_of(course_of(0.05, -1e-4, 0.0, 1e-3, 4000.0)) == (pytest.approx(2500.0), 0)
-    assert time_of(course_of(0.05, 1e-4, 0.0, 1e-3, 1400.0))[0] == np.inf
-    assert time_of(course_of(0.05, 0.0, 0.0, 1e-3, 1400.0))[0] == np.inf
+    assert time_of(curve_of(0.05, 1e-4, 0.0, 1e-3, 4000.0)) == (pytest.approx(1500.0), 1)
+    assert time_of(curve_of(0.05, -1e-4, 0.0, 1e-3, 4000.0)) == (pytest.approx(2500.0), 0)
+    assert time_of(curve_of(0.05, 1e-4, 0.0, 1e-3, 1400.0))[0] == np.inf
+    assert time_of(curve_of(0.05, 0.0, 0.0, 1e-3, 1400.0))[0] == np.inf
 
 
 def test_a_transient_alone_crosses_where_it_should():
     # 0.4 (1 - e^(-u / 1000)) = 0.2 after ln 2 time constants, however long it may take.
-    for room in (1000.0, 1e6, 1e9):
-        assert time_of(course_of(0.0, 0.0, 0.4, 1e-3, room)) == (pytest.approx(693.147), 1)
+    for duration in (1000.0, 1e6, 1e9):
+        assert time_of(curve_of(0.0, 0.0, 0.4, 1e-3, duration)) == (pytest.approx(693.147), 1)
 
 
 def test_a_curve_that_turns_may_meet_the_other_threshold():
     # Up by 0.15 at most, then down.
-    wait, p = time_of(course_of(0.0, -2e-5, 0.18, 1e-3, 30_000.0))
+    wait, p = time_of(curve_of(0.0, -2e-5, 0.18, 1e-3, 30_000.0))
     assert p == 0
     assert wait == pytest.approx(0.38 / 2e-5, rel=1e-6)
 
 
 def test_what_is_past_a_threshold_already_fires_at_once():
-    assert time_of(course_of(0.2, -1.0, 0.3, 1e-3, 10.0)) == (0.0, 1)
-    assert time_of(course_of(-0.25, 1.0, 0.3, 1e-3, 10.0)) == (0.0, 0)
+    assert time_of(curve_of(0.2, -1.0, 0.3, 1e-3, 10.0)) == (0.0, 1)
+    assert time_of(curve_of(-0.25, 1.0, 0.3, 1e-3, 10.0)) == (0.0, 0)
 
 
-COURSES = st.builds(
-    course_of,
+CURVES = st.builds(
+    curve_of,
     st.floats(-0.19, 0.19),
     st.sampled_from([0.0, 1e-9, 1e-6, -3e-5, 2e-4, -1e-2]),
     st.sampled_from([0.0, 1e-8, -1e-3, 0.05, -0.3, 1.7]),
@@ -64,12 +64,12 @@ COURSES = st.builds(
 
 
 @settings(max_examples=200, deadline=None)
-@given(COURSES, st.floats(0.05, 0.6))
-@example(course_of(0.0, 1e-6, 1e-8, 1e-4, 1e6), 0.05)
+@given(CURVES, st.floats(0.05, 0.6))
+@example(curve_of(0.0, 1e-6, 1e-8, 1e-4, 1e6), 0.05)
 def test_backends_agree_and_find_the_first_crossing(curve, on):
     wait, p = time_of(curve, on)
     # Beside other lanes, on a line and on a curve.
-    others = course_of([0.0, 0.1], [1e-4, 1e-5], [0.0, 0.2], [1e-3, 1e-3], [1e4, 1e4])
+    others = curve_of([0.0, 0.1], [1e-4, 1e-5], [0.0, 0.2], [1e-3, 1e-3], [1e4, 1e4])
     lanes = ChangeCurve(*(np.concatenate(columns) for columns in zip(others, curve, strict=True)))
     limits = np.array([0.2, 0.2, on]), np.full(3, 0.2)
     waits, polarities = crossing_time_cpu.time_to_threshold(lanes, *limits)
@@ -79,9 +79,9 @@ def test_backends_agree_and_find_the_first_crossing(curve, on):
     # A curve may creep up to a threshold and touch it by rounding; small transients are forgotten.
     forgotten = crossing_time_reference.NEGLIGIBLE * min(on, 0.2) + 1e-9
     early, late = (first_crossing(curve, on + d, 0.2 + d) for d in (-forgotten, forgotten))
-    assert early - 1e-5 * curve.room[0] <= wait
+    assert early - 1e-5 * curve.duration[0] <= wait
     assert wait <= late
     if 0 < wait < np.inf:
         assert polarities[2] == p
-        change = curve.after(np.array([wait]), np.exp(-curve.corner * wait))
+        change = curve.after(np.array([wait]), np.exp(-curve.cutoff * wait))
         assert abs(change[0] - (on if p else -0.2)) < 1e-4
