@@ -13,10 +13,10 @@ from tests.frame_pairs import advance_through
 
 import texvent
 from texvent.cli.app import main
-from texvent.config import with_options
 from texvent.errors import ConfigError, InputError, MissingDependencyError
 from texvent.events import SIGNAL, EventStream
 from texvent.option_fields import option_help, option_names
+from texvent.option_values import with_options
 from texvent.pipeline import video_to_events
 from texvent.settings import default_settings, resolve
 from texvent.simulate.packets.interval import FrameInterval
