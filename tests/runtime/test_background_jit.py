@@ -8,8 +8,8 @@ import types
 import pytest
 
 from texvent.runtime import background_jit
-from texvent.simulate.backend.select import load_kernel_when_ready
-from texvent.simulate.packets import sorting, sorting_cpu, sorting_reference
+from texvent.simulate.packets import sorting_cpu, sorting_reference
+from texvent.simulate.packets.sorting import SORT_EVENTS
 
 
 @pytest.fixture(autouse=True)
@@ -77,18 +77,10 @@ def test_without_numba_no_kernel_is_ready_and_there_is_no_warning(monkeypatch, c
         background_jit.wait_until_ready("texvent.simulate.packets.sorting_cpu")
     assert not background_jit.is_ready("texvent.simulate.packets.sorting_cpu")
     assert not caplog.records
-    assert (
-        load_kernel_when_ready(sorting.__name__, "sort_events", "auto")
-        is sorting_reference.sort_events
-    )
+    assert SORT_EVENTS.load("auto") is sorting_reference.sort_events
 
 
 def test_auto_changes_to_the_compiled_kernel_when_it_is_ready():
     background_jit.wait_until_ready("texvent.simulate.packets.sorting_cpu")
-    assert (
-        load_kernel_when_ready(sorting.__name__, "sort_events", "auto") is sorting_cpu.sort_events
-    )
-    assert (
-        load_kernel_when_ready(sorting.__name__, "sort_events", "numpy")
-        is sorting_reference.sort_events
-    )
+    assert SORT_EVENTS.load("auto") is sorting_cpu.sort_events
+    assert SORT_EVENTS.load("numpy") is sorting_reference.sort_events

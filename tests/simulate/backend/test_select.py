@@ -2,13 +2,17 @@
 
 import sys
 
+import numpy as np
 import pytest
 
 from texvent.errors import ConfigError, MissingDependencyError
 from texvent.simulate.backend import select
-from texvent.simulate.backend.select import load_kernel
-from texvent.simulate.crossing import ramp, ramp_cpu, ramp_reference
-from texvent.simulate.packets import sorting, sorting_reference
+from texvent.simulate.crossing import ramp_cpu, ramp_reference
+from texvent.simulate.crossing.ramp import CROSS_THRESHOLDS
+from texvent.simulate.packets import sorting_reference
+from texvent.simulate.packets.sorting import SORT_EVENTS
+from texvent.simulate.v2e import reference
+from texvent.simulate.v2e.low_pass import APPLY_LOW_PASS
 
 
 @pytest.fixture
@@ -19,25 +23,35 @@ def without_numba(monkeypatch):
     select._load.cache_clear()
 
 
-def test_auto_is_cpu():
-    assert load_kernel(ramp.__name__, "cross_thresholds", "auto") is ramp_cpu.cross_thresholds
+@pytest.mark.parametrize(("is_ready", "module"), [(True, ramp_cpu), (False, ramp_reference)])
+def test_auto_is_the_compiled_kernel_once_it_is_ready(is_ready, module, monkeypatch):
+    monkeypatch.setattr(select, "is_ready", lambda *_: is_ready)
+    kernel = CROSS_THRESHOLDS.load("auto", np.dtype(np.uint8))
+    assert kernel is module.cross_thresholds
 
 
-@pytest.mark.usefixtures("without_numba")
-def test_auto_falls_back_to_the_reference_without_numba():
-    assert load_kernel(ramp.__name__, "cross_thresholds", "auto") is ramp_reference.cross_thresholds
+def test_a_kernel_is_compiled_for_the_type_of_the_frames(monkeypatch):
+    asked = []
+    monkeypatch.setattr(select, "is_ready", lambda *module: asked.append(module))
+    CROSS_THRESHOLDS.load("auto", np.dtype(np.uint8))
+    assert asked == [("texvent.simulate.crossing.ramp_cpu", "uint8")]
 
 
 def test_the_reference_serves_as_numpy_where_a_model_has_no_other():
-    assert load_kernel(sorting.__name__, "sort_events", "numpy") is sorting_reference.sort_events
+    assert SORT_EVENTS.load("numpy") is sorting_reference.sort_events
+
+
+@pytest.mark.parametrize("backend", ["reference", "numpy"])
+def test_a_module_named_reference_defines_the_kernels_of_its_folder(backend):
+    assert APPLY_LOW_PASS.load(backend) is reference.apply_low_pass
 
 
 @pytest.mark.usefixtures("without_numba")
 def test_cpu_without_numba_fails_with_the_command_that_installs_it():
     with pytest.raises(MissingDependencyError, match="pip install"):
-        load_kernel(ramp.__name__, "cross_thresholds", "cpu")
+        CROSS_THRESHOLDS.load("cpu")
 
 
 def test_unknown_backend_fails():
     with pytest.raises(ConfigError, match=r"unknown backend 'cqu'.*did you mean 'cpu'"):
-        load_kernel(ramp.__name__, "cross_thresholds", "cqu")
+        CROSS_THRESHOLDS.load("cqu")

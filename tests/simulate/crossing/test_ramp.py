@@ -8,11 +8,11 @@ from hypothesis.extra.numpy import arrays
 
 from texvent.errors import ConfigError
 from texvent.simulate.crossing.ramp import (
+    CROSS_THRESHOLDS,
     Ramp,
     RampPixels,
     References,
     RefractoryPeriod,
-    load_cross_thresholds,
 )
 from texvent.simulate.crossing.ramp_reference import cross_ramp
 from texvent.simulate.random.mismatch import Thresholds
@@ -30,7 +30,7 @@ def cross(backend, ramp, fired_us=None, *, span=(0, 1000), rest=None):
     fired = np.full(SENSOR[0] * SENSOR[1], NEVER) if fired_us is None else fired_us
     candidates = RampPixels(*ramp[:3], None, Thresholds(*ramp[3:]))
     levels = References(np.zeros(fired.size), fired)
-    cross_thresholds = load_cross_thresholds(np.dtype(np.float64), backend)
+    cross_thresholds = CROSS_THRESHOLDS.load(backend, np.dtype(np.float64))
     events = cross_thresholds(candidates, levels, span, rest or RefractoryPeriod(0, True), SENSOR)
     return events, levels.reference
 
@@ -110,7 +110,7 @@ def test_backends_agree_on_many_crossings_of_many_pixels(rest):
     for backend in ("reference", "cpu"):
         rng = np.random.default_rng(0)
         ramp = Ramp(np.arange(1500), *rng.normal(0, 0.7, (2, 1500)), *np.full((2, 1500), 0.02))
-        cross_thresholds = load_cross_thresholds(np.dtype(np.float64), backend)
+        cross_thresholds = CROSS_THRESHOLDS.load(backend, np.dtype(np.float64))
         levels = References(np.zeros(1500), np.full(1500, NEVER))
         candidates = RampPixels(*ramp[:3], None, Thresholds(*ramp[3:]))
         events = cross_thresholds(candidates, levels, (0, 5000), rest, (30, 50))
@@ -127,4 +127,4 @@ def test_a_crossing_far_in_time_is_exact(backend):
 
 def test_an_unknown_backend_fails_by_name():
     with pytest.raises(ConfigError, match="abacus"):
-        load_cross_thresholds(np.dtype(np.float64), "abacus")
+        CROSS_THRESHOLDS.load("abacus", np.dtype(np.float64))

@@ -197,8 +197,8 @@ def test_auto_prepares_the_kernels_of_the_frames_it_gets():
     simulator.step(frame(np.zeros((2, 2)), np.uint8, 0))
     simulator.step(frame(np.zeros((2, 2)), np.uint8, 1))
     folder = "texvent.simulate.texvent.kernels"
-    readiness.wait_until_ready(f"{folder}.scan_cpu", "|u1")
-    assert readiness.is_ready(f"{folder}.scan_cpu", "|u1")
+    readiness.wait_until_ready(f"{folder}.scan_cpu", "uint8")
+    assert readiness.is_ready(f"{folder}.scan_cpu", "uint8")
 
 
 @pytest.mark.parametrize("backend", FAST)

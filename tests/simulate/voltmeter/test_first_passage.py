@@ -11,9 +11,9 @@ from texvent.simulate.packets.sorting_reference import sort_events
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.voltmeter.first_passage import (
+    FIND_FIRST_PASSAGES,
     Constants,
     FirstPassageInput,
-    load_find_first_passages,
     new_voltage,
 )
 from texvent.simulate.voltmeter.reference import MOST_DISPLACEMENT
@@ -30,7 +30,7 @@ class Sensor:
     """Pixels of given constants, stepped by one backend every 1000 µs."""
 
     def __init__(self, backend, constants, light, residual):
-        self.step = load_find_first_passages(np.dtype(np.float32), backend)
+        self.step = FIND_FIRST_PASSAGES.load(backend, np.dtype(np.float32))
         self.constants, self.seen = constants, np.array(light, np.float32)
         self.voltage, self.start_us = new_voltage(np.array(residual, np.float64)), 7000
 

@@ -5,11 +5,16 @@ from __future__ import annotations
 import functools
 import importlib
 import importlib.util
+from typing import Any, Generic, TypeVar
+
+import numpy as np
 
 from texvent._registry import suggest
 from texvent._require import require
-from texvent.errors import ConfigError, MissingDependencyError
+from texvent.errors import ConfigError
 from texvent.runtime.background_jit import is_ready
+
+Function = TypeVar("Function")
 
 AUTO = "auto"
 _PACKAGES = {"cpu": "numba"}
@@ -35,56 +40,51 @@ def check_backend(backend: str, *, has_gpu: bool = False) -> str:
     return backend
 
 
-def load_kernel(kernels: str, function: str, backend: str) -> object:
-    """`function` of the module `<kernels>_<backend>`.
+class Kernel(Generic[Function]):
+    """A function that several backends compute, all with the same results.
 
-    The module for "reference" may also be `reference` in the same folder. Where there is none for
-    "numpy" the reference serves, which is NumPy too.
-
-    Raises:
-        ConfigError: no backend has that name.
-        MissingDependencyError: what the backend needs is not installed.
+    It is `<home>_cpu.NAME`, compiled, `<home>_numpy.NAME`, or `<home>_reference.NAME`, the readable
+    definition. The definition may also be in the module `reference` of the same folder, and serves
+    for "numpy" where there is no other. `<home>_cpu.warm_up(*variant)` compiles.
     """
-    if check_backend(backend) == AUTO:
-        try:
-            return load_kernel(kernels, function, "cpu")
-        except MissingDependencyError:
-            # Not an error: the reference gives the same events, only later.
-            return load_kernel(kernels, function, "reference")
-    return _load(kernels, function, backend)
+
+    def __init__(self, home: str, name: str) -> None:
+        """Name a kernel; nothing is imported.
+
+        Args:
+            home: full name of the module that describes the kernel.
+            name: of the function.
+        """
+        self._home, self._name = home, name
+
+    def load(self, backend: str = AUTO, dtype: np.dtype[Any] | None = None) -> Function:
+        """The function of a backend; "auto" is "numpy" until the compiled one is ready.
+
+        Args:
+            backend: one of `BACKENDS`.
+            dtype: type of the frames, where the kernel is compiled for one.
+
+        Raises:
+            ConfigError: no backend has that name.
+            MissingDependencyError: what the backend needs is not installed.
+        """
+        if check_backend(backend) == AUTO:
+            variant = () if dtype is None else (dtype.name,)
+            backend = "cpu" if is_ready(f"{self._home}_cpu", *variant) else "numpy"
+        function: Function = _load(self._home, self._name, backend)
+        return function
 
 
 @functools.cache
-def _load(kernels: str, function: str, backend: str) -> object:
+def _load(home: str, name: str, backend: str) -> Any:
     if backend in _PACKAGES:
         require(_PACKAGES[backend])
-    return getattr(importlib.import_module(_module_of(kernels, backend)), function)
+    return getattr(importlib.import_module(_module_of(home, backend)), name)
 
 
-def _module_of(kernels: str, backend: str) -> str:
-    """`<kernels>_<backend>`, or `reference` in the same folder, which defines a whole model."""
-    module = f"{kernels}_{backend}"
-    if importlib.util.find_spec(module) is None and backend == "numpy":
-        module = f"{kernels}_reference"
-    if importlib.util.find_spec(module) is None:
-        module = f"{kernels.rpartition('.')[0]}.reference"
-    return module
-
-
-def load_kernel_when_ready(kernels: str, function: str, backend: str, *variant: str) -> object:
-    """As `load_kernel`, but "auto" is "numpy" until the compiled module is ready to run.
-
-    Args:
-        kernels: full name of the module that describes the kernels; beside it stand `<kernels>_cpu`
-            with a function `warm_up(*variant)`, and the modules that `load_kernel` names.
-        function: its name.
-        backend: "auto" or a backend's name.
-        variant: what has to be compiled, such as the type of the frames.
-
-    Raises:
-        ConfigError: no backend has that name.
-        MissingDependencyError: what the backend needs is not installed.
-    """
-    if check_backend(backend) == AUTO:
-        backend = "cpu" if is_ready(f"{kernels}_cpu", *variant) else "numpy"
-    return _load(kernels, function, backend)
+def _module_of(home: str, backend: str) -> str:
+    names = [f"{home}_{backend}"]
+    if backend == "numpy":
+        names.append(f"{home}_reference")
+    found = (name for name in names if importlib.util.find_spec(name) is not None)
+    return next(found, f"{home.rpartition('.')[0]}.reference")

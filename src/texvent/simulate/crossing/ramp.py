@@ -7,12 +7,12 @@ threshold that is crossed, and move the reference by one threshold per event.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple, TypeAlias, cast
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.backend.select import AUTO, load_kernel_when_ready
+from texvent.simulate.backend.select import Kernel
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.random.mismatch import Thresholds
 
@@ -87,15 +87,4 @@ CrossThresholds: TypeAlias = Callable[
 ]
 """`cross_thresholds(pixels, references, (start_us, stop_us), refractory, (height, width))`, see
 `ramp_reference.cross_thresholds`."""
-
-
-def load_cross_thresholds(dtype: np.dtype[Any], backend: str = AUTO) -> CrossThresholds:
-    """The function of a backend; "auto" is NumPy until the compiled one is ready.
-
-    Raises:
-        ConfigError: no backend has that name.
-        MissingDependencyError: what the backend needs is not installed.
-    """
-    return cast(
-        "CrossThresholds", load_kernel_when_ready(__name__, "cross_thresholds", backend, dtype.str)
-    )
+CROSS_THRESHOLDS = Kernel[CrossThresholds](__name__, "cross_thresholds")

@@ -20,12 +20,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple, TypeAlias, cast
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.backend.select import AUTO, load_kernel_when_ready
+from texvent.simulate.backend.select import Kernel
 from texvent.simulate.random.mismatch import Thresholds, thresholds_at
 from texvent.simulate.streaming import IntensityArray
 
@@ -79,33 +79,16 @@ class BrightnessCurve(NamedTuple):
 
 FindOutside: TypeAlias = Callable[[Luma, Luma, Luma, Luma], OutsidePixels]
 """`find_outside(luma, seen, low, high)`, see `trigger_levels_reference.find_outside`."""
+FIND_OUTSIDE = Kernel[FindOutside](__name__, "find_outside")
 SetLevels: TypeAlias = Callable[
     [Int64Array, Float64Array, Thresholds, BrightnessCurve, Luma, Luma], None
 ]
 """`set_levels(pixel, reference, thresholds, curve, low, high)`, see
 `trigger_levels_reference.set_levels`."""
+SET_LEVELS = Kernel[SetLevels](__name__, "set_levels")
 LookUp: TypeAlias = Callable[[NDArray[Any], NDArray[np.uint8]], NDArray[Any]]
 """`look_up(table, luma)`, see `trigger_levels_reference.look_up`."""
-
-
-def load_find_outside(dtype: np.dtype[Any], backend: str = AUTO) -> FindOutside:
-    """The function of a backend; "auto" is NumPy until the compiled one is ready.
-
-    Raises:
-        ConfigError: no backend has that name.
-        MissingDependencyError: what the backend needs is not installed.
-    """
-    return cast("FindOutside", load_kernel_when_ready(__name__, "find_outside", backend, dtype.str))
-
-
-def load_set_levels(dtype: np.dtype[Any], backend: str = AUTO) -> SetLevels:
-    """As `load_find_outside`."""
-    return cast("SetLevels", load_kernel_when_ready(__name__, "set_levels", backend, dtype.str))
-
-
-def load_look_up(backend: str = AUTO) -> LookUp:
-    """As `load_find_outside`."""
-    return cast("LookUp", load_kernel_when_ready(__name__, "look_up", backend, _BYTE))
+LOOK_UP = Kernel[LookUp](__name__, "look_up")
 
 
 class TriggerLevels:
@@ -136,7 +119,7 @@ class TriggerLevels:
             # Frames of two types: from now on all are float32, which holds 8-bit levels exactly.
             self._seen, now = self._as_float(self._seen), self._as_float(now)
             self._low, self._high = self._as_float(self._low), self._as_float(self._high)
-        find_outside = load_find_outside(now.dtype, self._backend)
+        find_outside = FIND_OUTSIDE.load(self._backend, now.dtype)
         return find_outside(now, self._seen, self._low, self._high)
 
     def set(self, pixel: Int64Array, reference: Float64Array, thresholds: Thresholds) -> None:
@@ -147,7 +130,7 @@ class TriggerLevels:
             reference: of all pixels, [H · W] log units.
             thresholds: of the chosen pixels.
         """
-        set_levels = load_set_levels(self._seen.dtype, self._backend)
+        set_levels = SET_LEVELS.load(self._backend, self._seen.dtype)
         set_levels(pixel, reference, thresholds, self._curve, self._low, self._high)
 
     def set_all(
@@ -166,9 +149,9 @@ class TriggerLevels:
         """
         if of_luma is not None and thresholds.on.size == 1:
             low, high = np.empty(256, np.uint8), np.empty(256, np.uint8)
-            set_levels = load_set_levels(self._seen.dtype, self._backend)
+            set_levels = SET_LEVELS.load(self._backend, self._seen.dtype)
             set_levels(np.arange(256), of_luma, thresholds, self._curve, low, high)
-            look_up = load_look_up(self._backend)
+            look_up = LOOK_UP.load(self._backend, np.dtype(np.uint8))
             self._low, self._high = look_up(low, self._seen), look_up(high, self._seen)
             return
         # Some at a time: one list of all is larger than most frames.

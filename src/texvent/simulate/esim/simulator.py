@@ -18,12 +18,12 @@ from texvent.events import EventStream
 from texvent.pairs.frame_pair import FramePair
 from texvent.simulate.backend.select import AUTO, GPU
 from texvent.simulate.crossing.ramp import (
+    CROSS_THRESHOLDS,
     RampPixels,
     References,
     RefractoryPeriod,
-    load_cross_thresholds,
 )
-from texvent.simulate.crossing.trigger_levels import BrightnessCurve, TriggerLevels, load_look_up
+from texvent.simulate.crossing.trigger_levels import LOOK_UP, BrightnessCurve, TriggerLevels
 from texvent.simulate.esim.config import EsimConfig
 from texvent.simulate.fused.candidates import find_bounds, one_grid
 from texvent.simulate.fused.continuous import plan_segments
@@ -194,7 +194,9 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         if of_luma is None:
             reference = self._log_intensity(intensity).reshape(-1)
         else:
-            reference = load_look_up(self._backend)(of_luma, intensity.reshape(-1))
+            reference = LOOK_UP.load(self._backend, np.dtype(np.uint8))(
+                of_luma, intensity.reshape(-1)
+            )
         rested = reference.size if config.refractory_period_us else 0
         self._references = References(reference, np.full(rested, LONG_AGO_US))
         height, width = intensity.shape
@@ -222,7 +224,7 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         table = self._table if now.dtype == np.uint8 else None
         if table is None:
             before, now = self._log_intensity(before), self._log_intensity(now)
-        cross_thresholds = load_cross_thresholds(now.dtype, self._backend)
+        cross_thresholds = CROSS_THRESHOLDS.load(self._backend, now.dtype)
         columns = cross_thresholds(
             RampPixels(pixel, before, now, table, self._thresholds(pixel, interval.key)),
             self._references,

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple, TypeAlias, cast
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.simulate.backend.select import AUTO, load_kernel_when_ready
+from texvent.simulate.backend.select import AUTO, Kernel
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 
@@ -31,16 +31,7 @@ class SortedEvents(NamedTuple):
 
 SortEvents: TypeAlias = Callable[[UnsortedEvents, tuple[int, int], tuple[int, int]], SortedEvents]
 """`sort_events(events, (start_us, stop_us), (height, width))`, see `sorting_reference`."""
-
-
-def load_sort_events(backend: str = AUTO) -> SortEvents:
-    """The function of a backend; "auto" sorts in NumPy until the compiled one is ready.
-
-    Raises:
-        ConfigError: no backend has that name.
-        MissingDependencyError: what the backend needs is not installed.
-    """
-    return cast("SortEvents", load_kernel_when_ready(__name__, "sort_events", backend))
+SORT_EVENTS = Kernel[SortEvents](__name__, "sort_events")
 
 
 def make_packet(
@@ -48,7 +39,7 @@ def make_packet(
 ) -> EventStream:
     """The events in the order every packet has: by (t, y, x, p), labels included."""
     span_us = (interval.start_us, interval.stop_us)
-    x, y, t, p, label = load_sort_events(backend)(events, span_us, size.shape)
+    x, y, t, p, label = SORT_EVENTS.load(backend)(events, span_us, size.shape)
     return EventStream.unchecked(x, y, t, p, size=size, label=label)
 
 

@@ -7,13 +7,13 @@ of its photoreceptor at its last reset; every event resets it, whatever its caus
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple, TypeAlias, cast
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.simulate.backend.elementary import exponential, natural_log
-from texvent.simulate.backend.select import AUTO, load_kernel_when_ready
+from texvent.simulate.backend.select import Kernel
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.mismatch import PixelMismatch
@@ -100,17 +100,7 @@ AdvancePixels: TypeAlias = Callable[
 ]
 """`advance_pixels(light, mismatch, state, noise, rules, (start_us, stop_us))`, see
 `reference.advance_pixels`."""
-
-
-def load_advance_pixels(dtype: np.dtype[Any], backend: str = AUTO) -> AdvancePixels:
-    """The function of a backend; "auto" is NumPy until the compiled one is ready.
-
-    Raises:
-        ConfigError: no backend has that name.
-        MissingDependencyError: what the backend needs is not installed.
-    """
-    function = load_kernel_when_ready(__name__, "advance_pixels", backend, dtype.name)
-    return cast("AdvancePixels", function)
+ADVANCE_PIXELS = Kernel[AdvancePixels](__name__, "advance_pixels")
 
 
 def brightness_and_cutoff(luma: Float64Array, optics: Optics) -> tuple[Float64Array, Float64Array]:

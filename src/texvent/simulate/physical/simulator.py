@@ -27,11 +27,11 @@ from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.physical.circuit import (
+    ADVANCE_PIXELS,
     WHITE,
     NoiseEvents,
     PhotoreceptorInput,
     ResetRules,
-    load_advance_pixels,
     new_state,
 )
 from texvent.simulate.physical.config import PRESETS, PhysicalConfig
@@ -107,7 +107,7 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
         light = self._frames.until(intensity)
         noise = self._draw_noise(light, interval)
         rules = ResetRules(self.config.refractory_period_us, self.config.noise_resets)
-        fired = load_advance_pixels(light.now.dtype, self._backend)(
+        fired = ADVANCE_PIXELS.load(self._backend, light.now.dtype)(
             light, self._mismatch, self._state, noise, rules, (interval.start_us, interval.stop_us)
         )
         self._decay_residual(interval)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple, TypeAlias, cast
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.backend.select import AUTO, load_kernel_when_ready
+from texvent.simulate.backend.select import Kernel
 from texvent.simulate.random.draws import Purpose
 
 FIRST_DRAW: int = Purpose.NOISE_TIME.draw()
@@ -28,13 +28,4 @@ class Arrivals(NamedTuple):
 DrawArrivals: TypeAlias = Callable[[NDArray[np.float64], float, np.uint64, int], Arrivals]
 """`draw_arrivals(cumulative_hz, duration_s, key, stream)`, see
 `poisson_arrivals_reference.draw_arrivals`."""
-
-
-def load_draw_arrivals(backend: str = AUTO) -> DrawArrivals:
-    """The function of a backend; "auto" is NumPy until the compiled one is ready.
-
-    Raises:
-        ConfigError: no backend has that name.
-        MissingDependencyError: what the backend needs is not installed.
-    """
-    return cast("DrawArrivals", load_kernel_when_ready(__name__, "draw_arrivals", backend))
+DRAW_ARRIVALS = Kernel[DrawArrivals](__name__, "draw_arrivals")

@@ -12,7 +12,7 @@ from texvent.simulate.backend.select import AUTO
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import Purpose, draw_uniforms
-from texvent.simulate.random.poisson_arrivals import load_draw_arrivals
+from texvent.simulate.random.poisson_arrivals import DRAW_ARRIVALS
 
 Float64Array: TypeAlias = NDArray[np.float64]
 RateFraction: TypeAlias = Callable[[NDArray[np.int64]], Float64Array]
@@ -61,7 +61,7 @@ class PoissonNoise:
         """
         if self.is_silent:
             return UnsortedEvents.none()
-        pixel, fraction, order = load_draw_arrivals(backend)(
+        pixel, fraction, order = DRAW_ARRIVALS.load(backend)(
             self._cumulative_hz, interval.duration_s, interval.key, self._stream
         )
         row = pixel // self._cumulative_hz.shape[1]

@@ -38,7 +38,7 @@ from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.kernels.scan import Fired, Memory
-from texvent.simulate.texvent.kernels.timestamping import load_stamp_events
+from texvent.simulate.texvent.kernels.timestamping import STAMP_EVENTS
 from texvent.simulate.texvent.pixels import draw_noise_places, timing_of
 from texvent.video import Frame
 
@@ -102,7 +102,7 @@ class FusedPass:
     ) -> Iterator[tuple[Frame, EventStream]]:
         """Eqs. 6 and 7 for each sub-interval."""
         motion, size = pair.motion, pair.second.size
-        stamp_events = load_stamp_events(AUTO)
+        stamp_events = STAMP_EVENTS.load(AUTO)
         spans = itertools.pairwise(edges_us)
         for part, (frame, span_us) in enumerate(zip(pair.undrawn_frames, spans, strict=True)):
             span = FrameInterval(*span_us, frame_key(self._seed, span_us[1]))

@@ -20,7 +20,7 @@ from texvent.simulate.backend.select import AUTO
 from texvent.simulate.packets.interval import FrameInterval, place_in
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import UNIT, Purpose, draw_normals
-from texvent.simulate.texvent.kernels.noise_blocks import Block, load_place_noise
+from texvent.simulate.texvent.kernels.noise_blocks import PLACE_NOISE, Block
 from texvent.simulate.texvent.kernels.scan import NOISE_BLOCK
 
 NoiseKind = Literal["adaptive", "gaussian", "random", "none"]
@@ -51,7 +51,7 @@ def draw_noise(
         because its change is below δ; real background activity is uniform in time.
     """
     noise = Block(span.key, poisson_cumulative(mean * NOISE_BLOCK), float(on_fraction))
-    places = load_place_noise(backend)(noise, pixels)
+    places = PLACE_NOISE.load(backend)(noise, pixels)
     return UnsortedEvents.noise(places.pixel, place_in(span, places.fraction), places.p)
 
 

@@ -18,16 +18,16 @@ from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.sorting import read_only
 from texvent.simulate.texvent.brightness_cache import CacheSchedule, Renewal
 from texvent.simulate.texvent.config import TexventConfig
-from texvent.simulate.texvent.kernels.noise_blocks import Block, NoisePlaces, load_place_noise
+from texvent.simulate.texvent.kernels.noise_blocks import PLACE_NOISE, Block, NoisePlaces
 from texvent.simulate.texvent.kernels.scan import (
+    FIND_FIRED,
     NOISE_BLOCK,
     Fired,
     FireRule,
     Intensity,
     Memory,
-    load_find_fired,
 )
-from texvent.simulate.texvent.kernels.timestamping import Timing, load_stamp_events
+from texvent.simulate.texvent.kernels.timestamping import STAMP_EVENTS, Timing
 from texvent.simulate.texvent.noise import poisson_cumulative
 from texvent.simulate.texvent.pixel_state import (
     as_luma,
@@ -82,7 +82,7 @@ class SparsePixels:
             raise bad_intensity(frame.pixels, where)
         self._schedule.pass_frame(is_source=frame.is_source)
         noise = self._draw_noise(intensity, span)
-        stamp_events = load_stamp_events(self._backend)
+        stamp_events = STAMP_EVENTS.load(self._backend)
         x, y, t, p, label = stamp_events([fired], noise, self._timing, span, frame.size.shape)
         return EventStream.unchecked(x, y, t, p, size=frame.size, label=label)
 
@@ -111,7 +111,7 @@ class SparsePixels:
         memory = self._memory
         has_levels = memory.level.size > 0
         rule = self._rule_that_renews if renewal == "renew" and not has_levels else self._rule
-        find_fired = load_find_fired(self._backend, intensity.dtype.str)
+        find_fired = FIND_FIRED.load(self._backend, intensity.dtype)
         fired = find_fired(intensity, memory, self._levels, rule)
         if has_levels and renewal != "keep" and fired is not None:
             move_levels(memory, intensity, self._config, renewal)
@@ -173,7 +173,7 @@ def draw_noise_places(
         return _QUIET
     cumulative = poisson_cumulative(config.expected_noise(span.duration_s) * NOISE_BLOCK)
     block = Block(span.key, cumulative, config.noise_on_fraction)
-    noise = load_place_noise(backend)(block, size)
+    noise = PLACE_NOISE.load(backend)(block, size)
     if config.noise == "random" or not len(noise.pixel):
         return noise
     dark = np.flatnonzero(luma_of(noise.pixel) < config.noise_intensity)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple, TypeAlias, cast
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.backend.select import AUTO, load_kernel_when_ready
+from texvent.simulate.backend.select import Kernel
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
@@ -48,13 +48,4 @@ EmitAndReset: TypeAlias = Callable[
 ]
 """`emit_and_reset(crossing, (mismatch, state), last, noise, rules)`, see
 `reference.emit_and_reset`."""
-
-
-def load_emit_and_reset(backend: str = AUTO) -> EmitAndReset:
-    """The function of a backend; "auto" is NumPy until the compiled one is ready.
-
-    Raises:
-        ConfigError: no backend has that name.
-        MissingDependencyError: what the backend needs is not installed.
-    """
-    return cast("EmitAndReset", load_kernel_when_ready(__name__, "emit_and_reset", backend))
+EMIT_AND_RESET = Kernel[EmitAndReset](__name__, "emit_and_reset")

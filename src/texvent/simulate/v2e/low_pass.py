@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple, TypeAlias, cast
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.backend.select import AUTO, load_kernel_when_ready
+from texvent.simulate.backend.select import Kernel
 from texvent.simulate.random.mismatch import PixelMismatch
 
 Float64Array: TypeAlias = NDArray[np.float64]
@@ -70,17 +70,7 @@ class CrossingPixels(NamedTuple):
 
 ApplyLowPass: TypeAlias = Callable[[LowPassInput, PixelMismatch, V2ePixelState], CrossingPixels]
 """`apply_low_pass(light, mismatch, state)`, see `reference.apply_low_pass`."""
-
-
-def load_apply_low_pass(dtype: np.dtype[Any], backend: str = AUTO) -> ApplyLowPass:
-    """The function of a backend; "auto" is NumPy until the compiled one is ready.
-
-    Raises:
-        ConfigError: no backend has that name.
-        MissingDependencyError: what the backend needs is not installed.
-    """
-    kernel = load_kernel_when_ready(__name__, "apply_low_pass", backend, dtype.name)
-    return cast("ApplyLowPass", kernel)
+APPLY_LOW_PASS = Kernel[ApplyLowPass](__name__, "apply_low_pass")
 
 
 def new_state(brightness: Float64Array, *, has_noise: bool) -> V2ePixelState:

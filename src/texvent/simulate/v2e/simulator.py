@@ -29,11 +29,11 @@ from texvent.simulate.random.mismatch import (
 )
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 from texvent.simulate.v2e.config import PRESETS, V2eConfig
-from texvent.simulate.v2e.emit_and_reset import EmissionRules, LastEvents, load_emit_and_reset
+from texvent.simulate.v2e.emit_and_reset import EMIT_AND_RESET, EmissionRules, LastEvents
 from texvent.simulate.v2e.low_pass import (
+    APPLY_LOW_PASS,
     CrossingPixels,
     LowPassInput,
-    load_apply_low_pass,
     new_state,
 )
 from texvent.simulate.v2e.reference import lin_log
@@ -114,7 +114,7 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
             self._move_photoreceptor_noise(intensity.shape, interval)
         crossing = self._apply_low_pass(intensity.reshape(-1), interval)
         noise = self._shot_noise.draw(intensity.reshape(-1), interval)
-        events = load_emit_and_reset(self._backend)(
+        events = EMIT_AND_RESET.load(self._backend)(
             crossing,
             (self._mismatch, self._state),
             self._last,
@@ -133,7 +133,7 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
         table = self._table if luma.dtype == np.uint8 else None
         start_us, stop_us = interval.start_us - self._start_us, interval.stop_us - self._start_us
         elapsed_us = float(start_us), float(stop_us)
-        return load_apply_low_pass(luma.dtype, self._backend)(
+        return APPLY_LOW_PASS.load(self._backend, luma.dtype)(
             LowPassInput(self._seen, luma, table, self.config.linear_below, angle, elapsed_us),
             self._mismatch,
             self._state,

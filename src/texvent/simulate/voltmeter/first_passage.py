@@ -7,12 +7,12 @@ drawn once holds until it happens or the luma changes, over as many frames as th
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple, TypeAlias, cast
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.backend.select import AUTO, load_kernel_when_ready
+from texvent.simulate.backend.select import Kernel
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
@@ -79,17 +79,7 @@ FindFirstPassages: TypeAlias = Callable[
 ]
 """`find_first_passages(light, voltage, interval, first_us)`, see
 `reference.find_first_passages`."""
-
-
-def load_find_first_passages(dtype: np.dtype[Any], backend: str = AUTO) -> FindFirstPassages:
-    """The function of a backend; "auto" is NumPy until the compiled one is ready.
-
-    Raises:
-        ConfigError: no backend has that name.
-        MissingDependencyError: what the backend needs is not installed.
-    """
-    function = load_kernel_when_ready(__name__, "find_first_passages", backend, dtype.name)
-    return cast("FindFirstPassages", function)
+FIND_FIRST_PASSAGES = Kernel[FindFirstPassages](__name__, "find_first_passages")
 
 
 def new_voltage(displacement: Float64Array) -> Voltage:

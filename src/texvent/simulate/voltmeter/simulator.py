@@ -19,9 +19,9 @@ from texvent.simulate.random.mismatch import sensor_key
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 from texvent.simulate.voltmeter.config import PRESETS, VoltmeterConfig
 from texvent.simulate.voltmeter.first_passage import (
+    FIND_FIRST_PASSAGES,
     Constants,
     FirstPassageInput,
-    load_find_first_passages,
     new_voltage,
 )
 
@@ -76,5 +76,5 @@ class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
             self._seen = self._seen.astype(np.float32, copy=False)
             intensity = intensity.astype(np.float32, copy=False)
         light = FirstPassageInput(self._seen, intensity, self._constants)
-        find_first_passages = load_find_first_passages(intensity.dtype, self._backend)
+        find_first_passages = FIND_FIRST_PASSAGES.load(self._backend, intensity.dtype)
         return find_first_passages(light, self._voltage, interval, self._begin_us)

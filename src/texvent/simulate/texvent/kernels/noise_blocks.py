@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple, TypeAlias, cast
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.backend.select import AUTO, load_kernel_when_ready
+from texvent.simulate.backend.select import Kernel
 
 
 class NoisePlaces(NamedTuple):
@@ -36,13 +36,4 @@ class Block(NamedTuple):
 
 PlaceNoise: TypeAlias = Callable[[Block, int], NoisePlaces]
 """`place_noise(block, pixels)`, see `noise_reference.place_noise`."""
-
-
-def load_place_noise(backend: str = AUTO) -> PlaceNoise:
-    """The function of a backend. All return equal bits.
-
-    Raises:
-        ConfigError: no backend has that name.
-        MissingDependencyError: what the backend needs is not installed.
-    """
-    return cast("PlaceNoise", load_kernel_when_ready(__name__, "place_noise", backend))
+PLACE_NOISE = Kernel[PlaceNoise](__name__, "place_noise")

@@ -48,12 +48,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, TypeAlias, cast
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.backend.select import load_kernel_when_ready
+from texvent.simulate.backend.select import Kernel
 
 Float64Array: TypeAlias = NDArray[np.float64]
 Intensity: TypeAlias = NDArray[Any]
@@ -156,13 +156,4 @@ class Memory:
 
 FindFired: TypeAlias = Callable[[Intensity, Memory, Levels, FireRule], "Fired | None"]
 """`find_fired(frame, memory, levels, rule)`, see `texvent_numpy.find_fired`."""
-
-
-def load_find_fired(backend: str, dtype: str) -> FindFired:
-    """The function of a backend for one type of frames. All return equal bits.
-
-    Raises:
-        ConfigError: no backend has that name.
-        MissingDependencyError: what the backend needs is not installed.
-    """
-    return cast("FindFired", load_kernel_when_ready(__name__, "find_fired", backend, dtype))
+FIND_FIRED = Kernel[FindFired](__name__, "find_fired")

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple, TypeAlias, cast
+from typing import NamedTuple, TypeAlias
 
-from texvent.simulate.backend.select import load_kernel_when_ready
+from texvent.simulate.backend.select import Kernel
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.texvent.kernels.noise_blocks import NoisePlaces
@@ -31,13 +31,4 @@ StampEvents: TypeAlias = Callable[
     [Sequence[Fired], NoisePlaces, Timing, FrameInterval, tuple[int, int]], SortedEvents
 ]
 """`stamp_events(bands, noise, timing, span, (height, width))`, see `stamp_numpy.stamp_events`."""
-
-
-def load_stamp_events(backend: str) -> StampEvents:
-    """The function of a backend. All return equal bits.
-
-    Raises:
-        ConfigError: no backend has that name.
-        MissingDependencyError: what the backend needs is not installed.
-    """
-    return cast("StampEvents", load_kernel_when_ready(__name__, "stamp_events", backend))
+STAMP_EVENTS = Kernel[StampEvents](__name__, "stamp_events")
