@@ -1,4 +1,4 @@
-"""The shell that the published pixel models share: check a frame, advance, hand out a packet."""
+"""What pixel models share that see one frame interval at a time: check a frame, advance, sort."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ IntensityArray = NDArray[Any]
 class StreamingSimulator(SteppingSimulator, Generic[Config]):
     """A pixel model that looks at one frame interval at a time; see `simulate.protocol.Simulator`.
 
-    A model says what it remembers of the first frame (`_begin`) and what fires until the next
-    (`_advance`); this class does the rest, so all models treat bad frames, times and order alike.
+    A model sets up its pixels from the first frame (`_begin`) and gives the events until the next
+    (`_advance`). This class does the rest, so all models treat bad frames, times and order alike.
     Random draws are keyed by the time since the first frame, so shifting a clip in time shifts
     its events and nothing else.
     """
@@ -101,4 +101,4 @@ class StreamingSimulator(SteppingSimulator, Generic[Config]):
     def _advance(
         self, intensity: IntensityArray, interval: FrameInterval
     ) -> UnsortedEvents | SortedEvents:
-        """What fires between the frame before and this one; moves every pixel's state along."""
+        """Events between the frame before and this one; updates the state of every pixel."""

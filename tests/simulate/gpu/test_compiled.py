@@ -32,9 +32,9 @@ def test_every_kernel_compiles_for_hopper_without_spilling_registers(tmp_path):
         "stamp_crossings",
         "stamp_events",
         "unpack_events",
-        "walk_brightness",
-        "walk_levels",
-        "walk_ramp",
+        "scan_brightness",
+        "scan_levels",
+        "scan_ramp",
     }
     for name, used in usage.items():
         assert 0 < used["REG"] <= MOST_REGISTERS, (name, used)

@@ -1,4 +1,8 @@
-"""What kernels share that look at blocks of pixels and send some of each side by side, in lanes."""
+"""Lanes: pixels that a kernel processes side by side, in loops that fill vector registers.
+
+A kernel marks the pixels of a block that need work, lists them, and gives each a lane. Events come
+lane by lane.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +15,7 @@ from texvent.runtime.jit import jit
 
 Uint64Array = NDArray[np.uint64]
 WORD = 8
-"""Pixels that are passed over together if none of them is marked."""
+"""Pixels that are skipped together if none of them is marked."""
 
 
 @jit

@@ -12,7 +12,7 @@ _PER_MARK = tl.constexpr(kernel_types.PIXELS_PER_MARK)
 
 @triton.jit
 def own_pixels(frames: tl.tuple, ALIGN: tl.constexpr, BLOCK: tl.constexpr) -> tl.tuple:
-    """The pixels of a program of a walk.
+    """The pixels of a program that scans.
 
     Returns:
         The clip; the pixels' flat index; whether they exist; their place in arrays [B, area]; and

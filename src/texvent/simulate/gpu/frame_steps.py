@@ -18,8 +18,8 @@ from texvent.video import Frame
 class FrameSteps:
     """A pixel model on the GPU that takes frames from the host and gives packets back.
 
-    Every frame and every event crosses the bus. Who makes frames on the GPU, or has several clips,
-    gets more from `GpuSimulator`.
+    Every frame and every event crosses the bus. For frames made on the GPU, or several clips, use
+    `GpuSimulator`.
     """
 
     def __init__(self, config: TexventConfig | EsimConfig, seed: int) -> None:

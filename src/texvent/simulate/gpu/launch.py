@@ -15,8 +15,8 @@ from texvent.simulate.gpu.kernel_types import Call, Records, Tensor
 _MOST_ALIGNED = 16
 
 
-class Walk(NamedTuple):
-    """How a kernel walks over the pixels."""
+class LaunchSize(NamedTuple):
+    """Size of the programs of a kernel that scans pixels."""
 
     block: int
     """Pixels of a program, at least 8."""
@@ -24,12 +24,12 @@ class Walk(NamedTuple):
     """Threads of a program, in groups of 32."""
 
 
-def choose_walk(compiled: Walk) -> Walk:
-    """How to walk: as is best on a GPU, or with few programs in the interpreter's loop."""
-    return Walk(256, 1) if is_interpreted() else compiled
+def choose_launch_size(compiled: LaunchSize) -> LaunchSize:
+    """The size that is best on a GPU, or one for few programs in the interpreter's loop."""
+    return LaunchSize(256, 1) if is_interpreted() else compiled
 
 
-def walk_grid(call: Call, block: int) -> tuple[int, int]:
+def pixel_grid(call: Call, block: int) -> tuple[int, int]:
     """One program per block of pixels and clip."""
     return math.ceil(call.frames.area / block), call.clips
 

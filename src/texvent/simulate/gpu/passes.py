@@ -55,7 +55,7 @@ def run_passes(
         else None,
         torch.zeros(1, dtype=torch.int32, device=device),
     )
-    pixels.walk(call, tally, None)
+    pixels.find_events(call, tally, None)
     starts, ends = scan_counts(tally.events, call.segments)
     drawn = NoiseDraw(call, noise, tally.fired) if noise is not None else None
     noise_starts, noise_ends = starts, torch.zeros_like(ends)
@@ -68,7 +68,7 @@ def run_passes(
     signal = int(host_ends[-1])
     words = torch.empty(signal + int(host_noise_ends[-1]), dtype=torch.int64, device=device)
     records = pixels.records(signal)
-    pixels.walk(call, tally._replace(events=starts), records)
+    pixels.find_events(call, tally._replace(events=starts), records)
     if signal:
         pixels.stamp(call, records, ends, words)
     if drawn is not None and len(words) > signal:

@@ -8,7 +8,7 @@ from typing import Generic, TypeVar
 
 from texvent.simulate.gpu.intervals import Int64Array, Span
 from texvent.simulate.gpu.kernel_types import Call, Records, Tally, Tensor
-from texvent.simulate.gpu.launch import Walk, choose_walk
+from texvent.simulate.gpu.launch import LaunchSize, choose_launch_size
 
 Config = TypeVar("Config")
 
@@ -16,17 +16,17 @@ Config = TypeVar("Config")
 class GpuPixels(abc.ABC, Generic[Config]):
     """The pixels of a batch of clips under one model: options, state, and kernels to launch."""
 
-    def __init__(self, config: Config, seeds: Sequence[int], walk: Walk) -> None:
+    def __init__(self, config: Config, seeds: Sequence[int], launch: LaunchSize) -> None:
         """Pixels that have seen no frame.
 
         Args:
             config: the options.
             seeds: one per clip.
-            walk: how the kernels of `walk` are launched by default.
+            launch: size of the programs of `find_events` on a GPU.
         """
         self.config = config
         self._seeds = tuple(seeds)
-        self._walk = choose_walk(walk)
+        self._launch = choose_launch_size(launch)
 
     @property
     @abc.abstractmethod
@@ -40,8 +40,8 @@ class GpuPixels(abc.ABC, Generic[Config]):
 
     @property
     def block(self) -> int:
-        """Pixels of a program of `walk`."""
-        return self._walk.block
+        """Pixels of a program of `find_events`."""
+        return self._launch.block
 
     @abc.abstractmethod
     def begin(self, frames: Tensor) -> None:
@@ -59,7 +59,7 @@ class GpuPixels(abc.ABC, Generic[Config]):
         """Update what is kept on the host after a call; nothing by default."""
 
     @abc.abstractmethod
-    def walk(self, call: Call, tally: Tally, records: Records | None) -> None:
+    def find_events(self, call: Call, tally: Tally, records: Records | None) -> None:
         """Count the events of all intervals (`records` None), or write them and move on."""
 
     @abc.abstractmethod

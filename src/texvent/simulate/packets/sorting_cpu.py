@@ -2,7 +2,7 @@
 
 An event is one 64-bit key: from the highest bits down its time since the start of the interval, its
 pixel, p and label, so that the order of the keys is the order of a packet. A stable counting sort
-by digits, lowest first (radix sort), sorts them. Most models hand over their events by pixel, p and
+by digits, lowest first (radix sort), sorts them. Most models give their events by pixel, p and
 label; then only the digits of the time are left, and an interval of few µs is a single digit.
 """
 

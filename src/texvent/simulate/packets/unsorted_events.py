@@ -1,4 +1,4 @@
-"""Events of one frame interval before they are sorted: what a pixel model hands over."""
+"""Events of one frame interval before they are sorted: what a pixel model returns."""
 
 from __future__ import annotations
 

@@ -79,10 +79,10 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
     def _advance(self, intensity: IntensityArray, interval: FrameInterval) -> UnsortedEvents:
         fired = self._compare(intensity, interval)
         noise = self._draw_noise(intensity, interval)
-        # What fired memorises the present voltage, whatever the reason.
+        # Every event resets its pixel to the present voltage.
         pixel = np.concatenate([fired.pixel, noise.pixel])
         self._reference[pixel] = self._voltage(intensity.reshape(-1)[pixel])
-        # The last of a pixel's events stays: noise comes in time, and a change fires at the end.
+        # A pixel's last event counts: noise is in order of time, and a change fires at the end.
         for events in (noise, fired):
             self._fired_us[events.pixel] = events.t
         self._levels.set(pixel, self._reference, thresholds_at(pixel, self._thresholds))

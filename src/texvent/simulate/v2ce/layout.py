@@ -1,7 +1,7 @@
 """What a file of V2CE weights holds: the name and shape of every tensor.
 
 The names are those of the published file, `v2ce_3d.pt`. It describes a 3-D U-Net (Zhang et al.,
-ICRA 2024, section on the network): head, four encoders that halve the picture and double the
+ICRA 2024, section on the network): head, four encoders that halve the image and double the
 channels, two residual blocks, four decoders, and a last layer that gives 2 polarities × 10 nodes.
 """
 

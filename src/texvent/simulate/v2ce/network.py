@@ -29,7 +29,7 @@ Device: TypeAlias = Literal["auto", "cpu", "cuda"]
 Float32Array: TypeAlias = NDArray[np.float32]
 
 HALVED = (1, 2, 2)
-"""Stride of an encoder: half the picture, all of the time."""
+"""Stride of an encoder: half the image size, all of the time."""
 HEAD_LEAK = 0.01
 """Slope of the head's activation below 0."""
 
@@ -54,7 +54,7 @@ class V2ceNetwork:
     """A U-Net over time, rows and columns; every convolution also looks one pair back and ahead.
 
     Each residual block is convolution, batch norm, ReLU, convolution, batch norm, plus a
-    convolution of one pixel around them, then ReLU. Each decoder first doubles the picture by
+    convolution of one pixel around them, then ReLU. Each decoder first doubles the image by
     repeating pixels. The output is at least 0.
     """
 
@@ -86,7 +86,7 @@ class V2ceNetwork:
 
         Raises:
             FileFormatError: the weights give numbers that are NaN or infinite.
-            InputError: the pictures do not fit into the device's memory.
+            InputError: the frames do not fit into the device's memory.
         """
         torch = self._torch
         count, _, height, width = pairs.shape

@@ -33,8 +33,8 @@ class VoltmeterConfig:
     k6: float = 1e-5
     """Leakage noise: constant diffusion, per √µs."""
     start_voltage: Literal["random", "zero"] = "random"
-    """Where pixels stand at the first frame: somewhere on the way to their next leak event
-    (random), or all at rest (zero), which makes equal pixels leak in unison."""
+    """Voltages at the first frame: anywhere up to the next leak event (random), or all zero (zero),
+    which makes equal pixels leak in unison."""
 
     def __post_init__(self) -> None:
         check_range("k1", self.k1, 1e-3, 1e3)

@@ -1,7 +1,7 @@
-"""ESIM's pixel model as Triton kernels; `esim_pixels` launches them.
+"""ESIM's pixel model as Triton kernels; `pixels` launches them.
 
-As with Texvent, a program owns a block of pixels and walks all intervals of a call, once to count
-and once to write down; `stamp_crossings` then gives the events their times.
+As with Texvent, a program owns a block of pixels and goes through all intervals of a call, once to
+count the events and once to write them; `stamp_crossings` then gives them their times.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _WHITE = tl.constexpr(esim_rules.WHITE)
 
 
 @triton.jit
-def walk_ramp(
+def scan_ramp(
     frames: tl.tuple,
     intervals: tl.tuple,
     rules: tl.tuple,
@@ -44,7 +44,7 @@ def walk_ramp(
 ) -> None:
     """Find every threshold that a straight line of log intensity crosses in every interval.
 
-    Arguments as for `texvent_triton.walk_levels`, but `rules` are `esim_rules.Rules`, and `state`,
+    Arguments as for `texvent_triton.scan_levels`, but `rules` are `esim_rules.Rules`, and `state`,
     an `esim_rules.State`, is brought up to date in pass 2.
 
     Source: as `kernels.ramp_reference.cross_ramp`, whose events these are.

@@ -15,11 +15,11 @@ from texvent.simulate.gpu.device import EXTRA, LAUNCH
 from texvent.simulate.gpu.intervals import Int64Array, Span
 from texvent.simulate.gpu.kernel_types import FORGET, KEEP, Call, Records, Tally, Tensor
 from texvent.simulate.gpu.launch import (
-    Walk,
+    LaunchSize,
     make_records,
+    pixel_grid,
     segment_grid,
     to_device,
-    walk_grid,
 )
 from texvent.simulate.gpu.pixels import GpuPixels
 from texvent.simulate.random.mismatch import (
@@ -30,7 +30,7 @@ from texvent.simulate.random.mismatch import (
 )
 
 _BLOCK = 512
-RAMP_WALK = Walk(512, 4)
+RAMP_LAUNCH = LaunchSize(512, 4)
 
 
 class EsimPixels(GpuPixels[EsimConfig]):
@@ -47,7 +47,7 @@ class EsimPixels(GpuPixels[EsimConfig]):
             ConfigError: an option that only the CPU has.
         """
         check_options(config)
-        super().__init__(config, seeds, RAMP_WALK)
+        super().__init__(config, seeds, RAMP_LAUNCH)
 
     @property
     def contrast_threshold(self) -> float:
@@ -99,9 +99,9 @@ class EsimPixels(GpuPixels[EsimConfig]):
             policy[:, 0] = FORGET
         return policy
 
-    def walk(self, call: Call, tally: Tally, records: Records | None) -> None:
+    def find_events(self, call: Call, tally: Tally, records: Records | None) -> None:
         """See `GpuPixels`."""
-        esim_triton.walk_ramp[walk_grid(call, self.block)](
+        esim_triton.scan_ramp[pixel_grid(call, self.block)](
             call.frames,
             call.intervals,
             self._rules,
@@ -110,7 +110,7 @@ class EsimPixels(GpuPixels[EsimConfig]):
             records,
             ALIGN=call.align,
             BLOCK=self.block,
-            num_warps=self._walk.warps,
+            num_warps=self._launch.warps,
             **LAUNCH,
         )
 

@@ -20,11 +20,11 @@ from texvent.simulate.gpu.kernel_types import (
     Tensor,
 )
 from texvent.simulate.gpu.launch import (
-    Walk,
+    LaunchSize,
     make_records,
+    pixel_grid,
     segment_grid,
     to_device,
-    walk_grid,
 )
 from texvent.simulate.gpu.pixels import GpuPixels
 from texvent.simulate.random.draws import frame_keys
@@ -33,9 +33,9 @@ from texvent.simulate.texvent.gpu import rules as texvent_rules
 from texvent.simulate.texvent.gpu import scan_triton as texvent_triton
 
 _BLOCK = 512
-LEVELS_WALK = Walk(128, 1)
+LEVELS_LAUNCH = LaunchSize(128, 1)
 """One warp: nothing waits at a barrier, and a quiet one has little to do."""
-BRIGHTNESS_WALK = Walk(512, 4)
+BRIGHTNESS_LAUNCH = LaunchSize(512, 4)
 
 
 class TexventPixels(GpuPixels[TexventConfig]):
@@ -53,7 +53,9 @@ class TexventPixels(GpuPixels[TexventConfig]):
         """
         check_options(config)
         self._tracks_intensity = texvent_rules.tracks_intensity(config)
-        super().__init__(config, seeds, LEVELS_WALK if self._tracks_intensity else BRIGHTNESS_WALK)
+        super().__init__(
+            config, seeds, LEVELS_LAUNCH if self._tracks_intensity else BRIGHTNESS_LAUNCH
+        )
         self._pairs_seen = np.zeros((len(seeds), 1), np.int64)
 
     @property
@@ -110,15 +112,15 @@ class TexventPixels(GpuPixels[TexventConfig]):
         """Count the pairs of source frames."""
         self._pairs_seen += span.from_source.sum(axis=1, keepdims=True)
 
-    def walk(self, call: Call, tally: Tally, records: Records | None) -> None:
+    def find_events(self, call: Call, tally: Tally, records: Records | None) -> None:
         """See `GpuPixels`."""
         if self._tracks_intensity:
-            kernel = texvent_triton.walk_levels
+            kernel = texvent_triton.scan_levels
             # Exact: float32 holds every byte.
             self._reference = self._reference.to(call.frames.pixels.dtype)
         else:
-            kernel = texvent_triton.walk_brightness
-        kernel[walk_grid(call, self.block)](
+            kernel = texvent_triton.scan_brightness
+        kernel[pixel_grid(call, self.block)](
             call.frames,
             call.intervals,
             self._rules,
@@ -127,7 +129,7 @@ class TexventPixels(GpuPixels[TexventConfig]):
             records,
             ALIGN=call.align,
             BLOCK=self.block,
-            num_warps=self._walk.warps,
+            num_warps=self._launch.warps,
             **LAUNCH,
         )
 

@@ -1,8 +1,8 @@
-"""Texvent's pixel model (Eqs. 5 and 7) as Triton kernels; `texvent_pixels` launches them.
+"""Texvent's pixel model (Eqs. 5 and 7) as Triton kernels; `pixels` launches them.
 
-A program owns a block of pixels of one clip and walks all intervals of a call with their state in
-registers: once to count the events, once more to write them down. What costs more per event than
-per pixel (the logarithm, the time) is left to `stamp_events`, which sees events only.
+A program owns a block of pixels of one clip and goes through all intervals of a call with their
+state in registers: once to count the events, once more to write them. What costs more per event
+than per pixel (the logarithm, the time) is left to `stamp_events`, which reads events only.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ _TIMESTAMP_DRAW = tl.constexpr(texvent_rules.TIMESTAMP_DRAW)
 
 
 @triton.jit
-def walk_levels(
+def scan_levels(
     frames: tl.tuple,
     intervals: tl.tuple,
     rules: tl.tuple,
@@ -142,7 +142,7 @@ def _round_down(number: tl.tensor) -> tl.tensor:
 
 
 @triton.jit
-def walk_brightness(
+def scan_brightness(
     frames: tl.tuple,
     intervals: tl.tuple,
     rules: tl.tuple,
@@ -154,7 +154,7 @@ def walk_brightness(
 ) -> None:
     """Find the events of every interval where references move freely: a leak, steps, many events.
 
-    Arguments as for `walk_levels`, but `reference` is a brightness, float64, log units. It compares
+    Arguments as for `scan_levels`, but `reference` is a brightness, float64, log units. It compares
     brightness itself, so every pixel of every frame costs a logarithm or a look-up.
 
     Equation: (5), section 3.2.2.
