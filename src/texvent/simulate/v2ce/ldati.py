@@ -142,17 +142,17 @@ def infer_counts(
 ) -> PlacedCounts:
     """Events per sub-interval, so that their linear voxel grid is close to `voxel`.
 
-    From the start, node i less the debt of the events before it is what sub-interval i's events
-    left there; the next whole number above is their count, and the difference their debt, to be
-    paid by node i + 1. From the end, the last node is the credit of the last sub-interval, and the
-    whole part of node plus credit is its count. In the end a rest remains, which the settling
-    sub-interval (the last, or the middle one if bidirectional) takes.
+    From the start: node i, less the carry of the events before it, is what the events of
+    sub-interval i added to it. The next whole number is their count. The difference, which they
+    must have added to node i + 1, is carried there. From the end: the last node is carried back,
+    and the whole part of node i plus what was carried back is the count of sub-interval i. What
+    remains, the remainder, goes to one sub-interval: the last, or the middle one if bidirectional.
 
     Args:
         voxel: events per node, [2, B, H, W].
         key: of the draws, for stochastic rounding.
-        rounding: "published": the rest is rounded down (bidirectional: up), and a debt that is
-            left is forgotten, so a pixel's number of events is its sum rounded down or up.
+        rounding: "published": the remainder is rounded down (bidirectional: up) and is never below
+            0, so a pixel's number of events is its sum rounded down or up.
             "stochastic": rounded to either side, so that the mean number is the sum.
         bidirectional: go from both ends to the middle.
 
@@ -161,30 +161,30 @@ def infer_counts(
     """
     nodes = np.asarray(voxel, np.float64)
     last = nodes.shape[1] - 2
-    settling = last // 2 if bidirectional else last
+    remainder_at = last // 2 if bidirectional else last
     shape = (nodes.shape[0], last + 1, *nodes.shape[2:])
     counts, fraction = np.zeros(shape, np.int64), np.zeros(shape)
-    debt = np.zeros_like(nodes[:, 0])
-    for i in range(settling if bidirectional else last + 1):
-        due = nodes[:, i] - debt
-        counts[:, i] = np.ceil(due - TOLERANCE)
-        debt = counts[:, i] - due
-        fraction[:, i] = debt
-    credit = nodes[:, last + 1]
-    for i in range(last, settling, -1):
-        fraction[:, i] = credit
-        held = nodes[:, i] + credit
-        counts[:, i] = np.floor(held + TOLERANCE)
-        credit = np.maximum(held - counts[:, i], 0.0)
-    rest = credit - debt
+    carry = np.zeros_like(nodes[:, 0])
+    for i in range(remainder_at if bidirectional else last + 1):
+        left = nodes[:, i] - carry
+        counts[:, i] = np.ceil(left - TOLERANCE)
+        carry = counts[:, i] - left
+        fraction[:, i] = carry
+    carry_back = nodes[:, last + 1]
+    for i in range(last, remainder_at, -1):
+        fraction[:, i] = carry_back
+        sum_back = nodes[:, i] + carry_back
+        counts[:, i] = np.floor(sum_back + TOLERANCE)
+        carry_back = np.maximum(sum_back - counts[:, i], 0.0)
+    remainder = carry_back - carry
     if bidirectional:
-        fraction[:, settling] = credit
-        rest = rest + nodes[:, settling]
+        fraction[:, remainder_at] = carry_back
+        remainder = remainder + nodes[:, remainder_at]
     if rounding == "published":
-        whole = np.ceil(rest - TOLERANCE) if bidirectional else np.floor(rest + TOLERANCE)
-        counts[:, settling] += np.maximum(whole, 0.0).astype(np.int64)
+        whole = np.ceil(remainder - TOLERANCE) if bidirectional else np.floor(remainder + TOLERANCE)
+        counts[:, remainder_at] += np.maximum(whole, 0.0).astype(np.int64)
     else:
-        _settle_by_chance(counts, rest, settling, key)
+        _round_at_random(counts, remainder, remainder_at, key)
     if int(counts.max()) > MAX_COUNT:
         raise InputError(
             f"the voxel grid holds {int(counts.max())} events of one pixel between two nodes; "
@@ -193,19 +193,19 @@ def infer_counts(
     return PlacedCounts(counts, np.clip(fraction, 0.0, JUST_BELOW_ONE))
 
 
-def _settle_by_chance(
-    counts: NDArray[np.int64], rest: Float64Array, settling: int, key: np.uint64
+def _round_at_random(
+    counts: NDArray[np.int64], remainder: Float64Array, remainder_at: int, key: np.uint64
 ) -> None:
-    """Add the rest, rounded to either side; a negative one takes away the latest event before."""
-    height, width = rest.shape[1:]
-    polarity, row, column = np.ogrid[: rest.shape[0], :height, :width]
+    """Add the remainder, rounded up or down at random; a negative one removes the latest event."""
+    height, width = remainder.shape[1:]
+    polarity, row, column = np.ogrid[: remainder.shape[0], :height, :width]
     chance = draw_uniforms(key, row, column, rounding_draw(polarity))
-    whole = np.floor(rest + TOLERANCE)
-    counts[:, settling] += (whole + (chance < rest - whole)).astype(np.int64)
-    p, y, x = np.nonzero(counts[:, settling] < 0)
-    counts[p, settling, y, x] = 0
-    is_held = counts[p, : settling + 1, y, x] > 0
-    latest = settling - np.argmax(is_held[:, ::-1], axis=1)
+    whole = np.floor(remainder + TOLERANCE)
+    counts[:, remainder_at] += (whole + (chance < remainder - whole)).astype(np.int64)
+    p, y, x = np.nonzero(counts[:, remainder_at] < 0)
+    counts[p, remainder_at, y, x] = 0
+    has_events = counts[p, : remainder_at + 1, y, x] > 0
+    latest = remainder_at - np.argmax(has_events[:, ::-1], axis=1)
     counts[p, latest, y, x] -= 1
 
 
@@ -264,7 +264,7 @@ def time_draw(place: Any, order: Any) -> Any:
 
 
 def rounding_draw(polarity: Any) -> Any:
-    """Number of the draw that rounds the rest of a polarity (0 = ON, 1 = OFF)."""
+    """Number of the draw that rounds the remainder of a polarity (0 = ON, 1 = OFF)."""
     return Purpose.VOXEL.draw(ROUNDING_ORDER + polarity)
 
 

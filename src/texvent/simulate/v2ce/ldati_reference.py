@@ -35,8 +35,8 @@ def sample_events(
     for polarity, y, x in np.ndindex(2, height, width):
         column = [float(value) for value in voxel[polarity, :, y, x]]
         chance = float(draw_uniforms(interval.key, y, x, rounding_draw(polarity)))
-        settle = None if rounding == "published" else chance
-        counts, lone = place_column(column, settle, bidirectional=bidirectional)
+        to_round = None if rounding == "published" else chance
+        counts, lone = place_column(column, to_round, bidirectional=bidirectional)
         for i in range(length):
             for k in range(counts[i]):
                 if counts[i] == 1:
@@ -59,40 +59,42 @@ def place_column(
 
     Args:
         column: events per node, B numbers.
-        chance: uniform number that rounds the rest, or None for the published rounding.
+        chance: uniform number that rounds the remainder, or None for the published rounding.
         bidirectional: go from both ends to the middle.
 
     Returns:
         B − 1 counts, and B − 1 fractions in [0, 1).
     """
     last = len(column) - 2
-    settling = last // 2 if bidirectional else last
+    remainder_at = last // 2 if bidirectional else last
     counts, lone = [0] * (last + 1), [0.0] * (last + 1)
-    debt = 0.0
-    for i in range(settling if bidirectional else last + 1):
-        due = column[i] - debt
-        counts[i] = math.ceil(due - TOLERANCE)
-        debt = lone[i] = counts[i] - due
-    credit = column[last + 1]
-    for i in range(last, settling, -1):
-        lone[i] = credit
-        held = column[i] + credit
-        counts[i] = math.floor(held + TOLERANCE)
-        credit = max(held - counts[i], 0.0)
-    rest = credit - debt
+    carry = 0.0
+    for i in range(remainder_at if bidirectional else last + 1):
+        left = column[i] - carry
+        counts[i] = math.ceil(left - TOLERANCE)
+        carry = lone[i] = counts[i] - left
+    carry_back = column[last + 1]
+    for i in range(last, remainder_at, -1):
+        lone[i] = carry_back
+        sum_back = column[i] + carry_back
+        counts[i] = math.floor(sum_back + TOLERANCE)
+        carry_back = max(sum_back - counts[i], 0.0)
+    remainder = carry_back - carry
     if bidirectional:
-        lone[settling] = credit
-        rest += column[settling]
+        lone[remainder_at] = carry_back
+        remainder += column[remainder_at]
     if chance is not None:
-        whole = math.floor(rest + TOLERANCE)
-        whole += chance < rest - whole
+        whole = math.floor(remainder + TOLERANCE)
+        whole += chance < remainder - whole
     else:
-        whole = math.ceil(rest - TOLERANCE) if bidirectional else math.floor(rest + TOLERANCE)
+        whole = (
+            math.ceil(remainder - TOLERANCE) if bidirectional else math.floor(remainder + TOLERANCE)
+        )
         whole = max(whole, 0)
-    counts[settling] += whole
-    if counts[settling] < 0:
-        counts[settling] = 0
-        counts[max(i for i in range(settling + 1) if counts[i])] -= 1
+    counts[remainder_at] += whole
+    if counts[remainder_at] < 0:
+        counts[remainder_at] = 0
+        counts[max(i for i in range(remainder_at + 1) if counts[i])] -= 1
     return counts, [min(max(place, 0.0), JUST_BELOW_ONE) for place in lone]
 
 
