@@ -7,7 +7,7 @@ pixel is computed on its own, so the number of threads changes nothing.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numba
 import numpy as np
@@ -22,6 +22,7 @@ from texvent.pairs.warp_tolerance import (
     VISIBLE_RELATIVE,
 )
 from texvent.runtime.jit import jit
+from texvent.runtime.read_only import read_only
 
 Floats = NDArray[np.float32]
 Numbers = NDArray[np.int32]
@@ -141,13 +142,6 @@ def prepare_pair(first: Floats, second: Floats, forward: Floats, backward: Float
         for flow in (forward, backward)
     ]
     return WarpPair(*frames, *pixels, *flows)
-
-
-def read_only(array: NDArray[Any]) -> NDArray[Any]:
-    """A C-contiguous view (or copy) that cannot be written."""
-    view = np.ascontiguousarray(array).view()
-    view.flags.writeable = False
-    return view
 
 
 def warm_up() -> None:

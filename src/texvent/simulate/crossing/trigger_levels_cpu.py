@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
+from texvent.runtime.read_only import read_only
 from texvent.runtime.scratch import take_scratch
 from texvent.simulate.backend.elementary_cpu import exponential
 from texvent.simulate.crossing.bitmask_cpu import (
@@ -26,7 +27,6 @@ from texvent.simulate.crossing.trigger_levels import (
     Luma,
     OutsidePixels,
 )
-from texvent.simulate.packets.sorting import read_only
 from texvent.simulate.random.draws_cpu import allow_wrap_around
 from texvent.simulate.random.mismatch import Thresholds
 

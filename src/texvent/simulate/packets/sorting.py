@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,10 +41,3 @@ def make_packet(
     span_us = (interval.start_us, interval.stop_us)
     x, y, t, p, label = SORT_EVENTS.load(backend)(events, span_us, size.shape)
     return EventStream.unchecked(x, y, t, p, size=size, label=label)
-
-
-def read_only(array: NDArray[Any]) -> NDArray[Any]:
-    """A flat view that cannot be written, so that Numba compiles for one kind of array only."""
-    view = np.ascontiguousarray(array).reshape(-1).view()
-    view.flags.writeable = False
-    return view

@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
+from texvent.runtime.read_only import read_only
 from texvent.runtime.scratch import take_scratch
 from texvent.simulate.packets import sorting_reference
-from texvent.simulate.packets.sorting import SortedEvents, read_only
+from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 
 Uint64Array = NDArray[np.uint64]

@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
+from texvent.runtime.read_only import read_only
 from texvent.runtime.threads import count_threads, run_parts, split
 from texvent.simulate.backend.elementary_cpu import decay_and_gain, exponential, natural_log
 from texvent.simulate.backend.lanes_cpu import append_by_lane, is_equal
-from texvent.simulate.packets.sorting import SortedEvents, read_only
+from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.sorting_cpu import has_room_for_keys, key_bits, sort_keyed_events
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.physical import reference

@@ -8,8 +8,8 @@ import math
 import numpy as np
 
 from texvent.brightness import Float64Array, balanced_log
+from texvent.runtime.read_only import read_only
 from texvent.simulate.crossing.trigger_levels import MARGIN, trigger_factors
-from texvent.simulate.packets.sorting import read_only
 from texvent.simulate.texvent.brightness_cache import Renewal
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.kernels.scan import (

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from texvent.brightness import check_balance
 from texvent.events import EventStream
+from texvent.runtime.read_only import read_only
 from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.packets.sorting import read_only
 from texvent.simulate.texvent.brightness_cache import CacheSchedule, Renewal
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.kernels.noise_blocks import PLACE_NOISE, Block, NoisePlaces
@@ -185,4 +185,4 @@ def draw_noise_places(
 def _native_intensity(frame: Frame) -> Intensity:
     """The intensity in the smallest type that holds it: grey integers as they are, else luma."""
     is_grey_integer = frame.pixels.ndim == 2 and frame.pixels.dtype in (np.uint8, np.uint16)
-    return read_only(frame.pixels if is_grey_integer else frame.luma)
+    return read_only((frame.pixels if is_grey_integer else frame.luma).reshape(-1))

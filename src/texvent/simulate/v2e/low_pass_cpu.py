@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
+from texvent.runtime.read_only import read_only
 from texvent.runtime.scratch import take_scratch
 from texvent.runtime.threads import count_threads, run_parts, split
 from texvent.simulate.backend.elementary_cpu import natural_log
 from texvent.simulate.backend.lanes_cpu import WORD, is_equal, list_marked
-from texvent.simulate.packets.sorting import read_only
 from texvent.simulate.random.mismatch import PixelMismatch
 from texvent.simulate.v2e.low_pass import (
     BLOCK,

@@ -16,11 +16,12 @@ from numpy.typing import NDArray
 
 from texvent.events import NOISE
 from texvent.runtime.jit import jit
+from texvent.runtime.read_only import read_only
 from texvent.runtime.threads import count_threads, run_parts, split
 from texvent.simulate.backend.elementary_cpu import cosine_of_turns, natural_log
 from texvent.simulate.backend.lanes_cpu import WORD, append_by_lane, list_marked, make_room
 from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.packets.sorting import SortedEvents, read_only
+from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.sorting_cpu import has_room_for_keys, key_bits, sort_keyed_events
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws_cpu import draw_halves_at, draw_uniform_at, place_of
@@ -82,7 +83,7 @@ def find_first_passages(
     shape = light.now.shape
     if not has_room_for_keys(interval.duration_us, shape):
         return reference.find_first_passages(light, voltage, interval, first_us)
-    before, now = light.before.reshape(-1), read_only(light.now)
+    before, now = light.before.reshape(-1), read_only(light.now.reshape(-1))
     span = float(interval.start_us - first_us), float(interval.stop_us - first_us)
 
     def find(part: slice) -> Uint64Array:

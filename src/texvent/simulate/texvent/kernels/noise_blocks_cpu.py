@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.simulate.packets.sorting import read_only
+from texvent.runtime.read_only import read_only
 from texvent.simulate.packets.sorting_cpu import sort_almost_sorted, sort_keys
 from texvent.simulate.random.draws import Purpose
 from texvent.simulate.random.draws_cpu import allow_wrap_around, draw_uniform, draw_word

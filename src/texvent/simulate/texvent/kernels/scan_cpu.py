@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
+from texvent.runtime.read_only import read_only
 from texvent.simulate.crossing.bitmask_cpu import RUN, MarkedRuns, number_of
-from texvent.simulate.packets.sorting import read_only
 from texvent.simulate.random.draws_cpu import allow_wrap_around
 from texvent.simulate.texvent.kernels import scan_numpy as texvent_numpy
 from texvent.simulate.texvent.kernels.scan import (
