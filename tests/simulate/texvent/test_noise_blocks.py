@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.texvent.kernels import noise_blocks_cpu as noise_cpu
 from texvent.simulate.texvent.kernels import noise_blocks_reference as noise_reference
-from texvent.simulate.texvent.kernels.noise_blocks import Block
+from texvent.simulate.texvent.kernels.noise_blocks import NoiseBlock
 from texvent.simulate.texvent.kernels.scan import NOISE_BLOCK
 from texvent.simulate.texvent.noise import poisson_cumulative
 
@@ -20,7 +20,7 @@ from texvent.simulate.texvent.noise import poisson_cumulative
     st.floats(0, 1),
 )
 def test_backends_place_noise_alike(seed, pixels, mean, on_fraction):
-    noise = Block(frame_key(seed, 5), poisson_cumulative(mean * NOISE_BLOCK), on_fraction)
+    noise = NoiseBlock(frame_key(seed, 5), poisson_cumulative(mean * NOISE_BLOCK), on_fraction)
     one, two = (module.place_noise(noise, pixels) for module in (noise_reference, noise_cpu))
     assert [column.dtype for column in one] == [column.dtype for column in two]
     assert all(np.array_equal(a, b) for a, b in zip(one, two, strict=True))

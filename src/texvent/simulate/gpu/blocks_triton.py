@@ -34,7 +34,7 @@ def skip_frames(frames: tl.tuple, count: tl.tensor, ALIGN: tl.constexpr) -> tl.t
 
 @triton.jit
 def find_cell(tally: tl.tuple, segment: tl.tensor) -> tl.tensor:
-    """Address of what `Tally.events` holds for a program in a segment."""
+    """Address of what `PassCounts.events` holds for a program in a segment."""
     return tally.events + segment * tl.num_programs(0) + tl.program_id(0)
 
 
@@ -87,7 +87,7 @@ def mark_fired(
     fired: tl.tensor,
     BLOCK: tl.constexpr,
 ) -> None:
-    """Keep a bit for every pixel that fired, where anybody asks for it (`Tally.fired`)."""
+    """Keep a bit for every pixel that fired, where anybody asks for it (`PassCounts.fired`)."""
     if tally.fired is not None:
         size = (area + _PER_MARK - 1) // _PER_MARK
         bits = fired.to(tl.int32) << (tl.arange(0, BLOCK) % _PER_MARK)

@@ -60,7 +60,7 @@ class NoiseRules(NamedTuple):
     """Entries of a table."""
 
 
-class Tally(NamedTuple):
+class PassCounts(NamedTuple):
     """What the first pass over the frames counts, and the second one knows."""
 
     events: Tensor
@@ -85,7 +85,7 @@ class Records(NamedTuple):
 
 
 PIXELS_PER_MARK = 4
-"""Pixels in a byte of `Tally.fired`: those of one thread, so that no thread waits for another."""
+"""Pixels in a byte of `PassCounts.fired`: those of one thread, so that none waits for another."""
 KEEP, FORGET, LEAK = range(3)
 """Values of `Intervals.policy`."""
 ON_FRACTION, DARK_BELOW = range(2)

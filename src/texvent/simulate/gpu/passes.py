@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from texvent._require import require
 from texvent.errors import InputError
 from texvent.simulate.gpu.device import EXTRA
-from texvent.simulate.gpu.kernel_types import PIXELS_PER_MARK, Call, NoiseRules, Tally, Tensor
+from texvent.simulate.gpu.kernel_types import PIXELS_PER_MARK, Call, NoiseRules, PassCounts, Tensor
 from texvent.simulate.gpu.pixels import GpuPixels
 from texvent.simulate.texvent.gpu.noise import NoiseDraw
 
@@ -46,7 +46,7 @@ def run_passes(
     torch = require("torch", extra=EXTRA)
     device, area = call.frames.pixels.device, call.frames.area
     blocks = math.ceil(area / pixels.block)
-    tally = Tally(
+    tally = PassCounts(
         torch.empty(call.segments * blocks, dtype=torch.int32, device=device),
         torch.empty(
             call.segments, math.ceil(area / PIXELS_PER_MARK), dtype=torch.uint8, device=device

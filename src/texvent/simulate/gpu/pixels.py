@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Generic, TypeVar
 
 from texvent.simulate.gpu.intervals import Int64Array, Span
-from texvent.simulate.gpu.kernel_types import Call, Records, Tally, Tensor
+from texvent.simulate.gpu.kernel_types import Call, PassCounts, Records, Tensor
 from texvent.simulate.gpu.launch import LaunchSize, choose_launch_size
 
 Config = TypeVar("Config")
@@ -59,7 +59,7 @@ class GpuPixels(abc.ABC, Generic[Config]):
         """Update what is kept on the host after a call; nothing by default."""
 
     @abc.abstractmethod
-    def find_events(self, call: Call, tally: Tally, records: Records | None) -> None:
+    def find_events(self, call: Call, tally: PassCounts, records: Records | None) -> None:
         """Count the events of all intervals (`records` None), or write them and move on."""
 
     @abc.abstractmethod

@@ -35,7 +35,7 @@ from texvent.simulate.physical.circuit import (
 )
 from texvent.simulate.physical.circuit_lanes_cpu import (
     LANES,
-    Block,
+    PixelBlock,
     load_lanes,
     new_block,
     new_work,
@@ -183,7 +183,7 @@ def _convert(
 
 @jit(error_model="numpy")
 def _advance_without_events(
-    block: Block, output: Float64Array, duration: float, is_limited: bool
+    block: PixelBlock, output: Float64Array, duration: float, is_limited: bool
 ) -> None:
     """Where the outputs go if nothing fires, and between which bounds.
 
@@ -207,7 +207,10 @@ def _advance_without_events(
 
 @jit(error_model="numpy")
 def _list_active(
-    block: Block, own: tuple[PixelMismatch, CircuitState], stop_us: int, noisy: NDArray[np.int64]
+    block: PixelBlock,
+    own: tuple[PixelMismatch, CircuitState],
+    stop_us: int,
+    noisy: NDArray[np.int64],
 ) -> int:
     """List the pixels that may fire, those with noise among them; return how many."""
     mismatch, state = own
@@ -235,7 +238,9 @@ def _list_active(
 
 
 @jit(error_model="numpy")
-def _quiescent_until_us(block: Block, own: tuple[PixelMismatch, CircuitState], stop_us: int) -> int:
+def _quiescent_until_us(
+    block: PixelBlock, own: tuple[PixelMismatch, CircuitState], stop_us: int
+) -> int:
     """The time up to which no pixel of a settled block fires by its leak; else `stop_us`."""
     mismatch, state = own
     soonest, unsettled = np.inf, 0

@@ -30,7 +30,7 @@ Uint64Array = NDArray[np.uint64]
     L_GROWTH_RATIO,
     L_CUTOFF_START,
 ) = range(7)
-"""Rows of lanes, [LANE_ROWS, LANES] float64: the input, see `reference._ActivePixels`."""
+"""Rows of lanes, [LANE_ROWS, LANES] float64: the input, see `reference._CircuitPixels`."""
 L_SEGMENTS, L_SEGMENT_US = 7, 8
 """Number of segments of the interval, and their duration."""
 L_ON, L_OFF, L_LEAK, L_LEVEL, L_SINCE, L_ARRIVAL = range(9, 15)
@@ -48,7 +48,7 @@ LANES = 1512
 """Lanes advanced together. Rows a power of two apart would share few lines of the cache."""
 
 
-class Block(NamedTuple):
+class PixelBlock(NamedTuple):
     """The pixels of one block, [BLOCK] each."""
 
     brightness: Float64Array
@@ -82,9 +82,9 @@ class Work(NamedTuple):
 
 
 @jit
-def new_block() -> Block:
+def new_block() -> PixelBlock:
     """Uninitialised memory."""
-    return Block(
+    return PixelBlock(
         np.empty(BLOCK),
         np.empty(BLOCK),
         np.empty(BLOCK),
@@ -118,7 +118,7 @@ def load_lanes(
     work: Work,
     n: int,
     where: tuple[int, int, int],
-    block: Block,
+    block: PixelBlock,
     own: tuple[PixelMismatch, CircuitState],
     noise: tuple[Int64Array, Int64Array],
     start_us: int,

@@ -162,7 +162,7 @@ def _cut_into_segments(lanes: Float64Array, size: int, duration: float, is_limit
 def _enter_segment(
     lanes: Float64Array, size: int, segment: float, duration: float, constants: tuple[float, float]
 ) -> None:
-    """The photoreceptors on the next segment; see `reference._ActivePixels.enter_segment`."""
+    """The photoreceptors on the next segment; see `reference._CircuitPixels.enter_segment`."""
     per_level, offset = constants
     for j in range(size):
         segments, length = lanes[L_SEGMENTS, j], lanes[L_SEGMENT_US, j]

@@ -76,7 +76,7 @@ def advance_pixels(
     pixel = np.flatnonzero(may_fire)
     duration = float(span_us[1] - span_us[0])
     received = brightness, rise, cutoff, cutoff_stop
-    active = _ActivePixels.begin(pixel, received, mismatch, state, span_us)
+    active = _CircuitPixels.begin(pixel, received, mismatch, state, span_us)
     active.next_noise, active.noise_stop = np.searchsorted(noise.pixel, [pixel, pixel + 1])
 
     lag = brightness - state.output
@@ -122,7 +122,7 @@ def _cannot_fire(
 
 
 @dataclass
-class _ActivePixels:
+class _CircuitPixels:
     """Pixels that may fire, during the interval; [n] each, times in µs since its start."""
 
     pixel: Int64Array
@@ -172,7 +172,7 @@ class _ActivePixels:
         mismatch: PixelMismatch,
         state: CircuitState,
         span_us: tuple[int, int],
-    ) -> _ActivePixels:
+    ) -> _CircuitPixels:
         """Some pixels at the start of the interval."""
         brightness, rise, cutoff, cutoff_stop = (column[pixel] for column in received)
         duration = float(span_us[1] - span_us[0])
@@ -208,11 +208,11 @@ class _ActivePixels:
             noise_stop=none,
         )
 
-    def only(self, chosen: BoolArray) -> _ActivePixels:
+    def only(self, chosen: BoolArray) -> _CircuitPixels:
         """Some of the pixels."""
-        return _ActivePixels(*(getattr(self, field.name)[chosen] for field in fields(self)))
+        return _CircuitPixels(*(getattr(self, field.name)[chosen] for field in fields(self)))
 
-    def put(self, chosen: BoolArray, other: _ActivePixels) -> None:
+    def put(self, chosen: BoolArray, other: _CircuitPixels) -> None:
         """Take over the state of some pixels."""
         for field in fields(self):
             getattr(self, field.name)[chosen] = getattr(other, field.name)
@@ -276,7 +276,7 @@ class _EventFinder:
         kinds = p.astype(np.uint8), label.astype(np.uint8)
         return UnsortedEvents(pixel[order], t[order], kinds[0][order], kinds[1][order])
 
-    def run(self, active: _ActivePixels, light: PhotoreceptorInput) -> _ActivePixels:
+    def run(self, active: _CircuitPixels, light: PhotoreceptorInput) -> _CircuitPixels:
         """Advance every pixel to its next segment, event or release, until all are at the end."""
         duration = float(self._span_us[1] - self._span_us[0])
         active.enter_segment(light, duration)
@@ -292,7 +292,7 @@ class _EventFinder:
             unfinished[unfinished] = ~reaches_end | goes_on
         return active
 
-    def _advance(self, active: _ActivePixels) -> BoolArray:
+    def _advance(self, active: _CircuitPixels) -> BoolArray:
         """Advance to the next event or the end of the segment; which pixels reached the end."""
         held = active.since > active.now
         while (passed := held & (self._next_noise(active) < active.since)).any():
@@ -322,13 +322,13 @@ class _EventFinder:
         self._fire(active, fires, fires & (arrival <= crossing), p)
         return ~fires
 
-    def _next_noise(self, active: _ActivePixels) -> Float64Array:
+    def _next_noise(self, active: _CircuitPixels) -> Float64Array:
         is_left = active.next_noise < active.noise_stop
         return np.where(is_left, self._noise_after[active.next_noise], NEVER)
 
     def _fire(
         self,
-        active: _ActivePixels,
+        active: _CircuitPixels,
         fires: BoolArray,
         by_noise: BoolArray,
         p: NDArray[np.uint8],

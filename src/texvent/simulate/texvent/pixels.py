@@ -18,7 +18,7 @@ from texvent.runtime.read_only import read_only
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.texvent.brightness_cache import CacheSchedule, Renewal
 from texvent.simulate.texvent.config import TexventConfig
-from texvent.simulate.texvent.kernels.noise_blocks import PLACE_NOISE, Block, NoisePlaces
+from texvent.simulate.texvent.kernels.noise_blocks import PLACE_NOISE, NoiseBlock, NoisePlaces
 from texvent.simulate.texvent.kernels.scan import (
     FIND_FIRED,
     NOISE_BLOCK,
@@ -172,7 +172,7 @@ def draw_noise_places(
     if not config.has_added_noise:
         return _QUIET
     cumulative = poisson_cumulative(config.expected_noise(span.duration_s) * NOISE_BLOCK)
-    block = Block(span.key, cumulative, config.noise_on_fraction)
+    block = NoiseBlock(span.key, cumulative, config.noise_on_fraction)
     noise = PLACE_NOISE.load(backend)(block, size)
     if config.noise == "random" or not len(noise.pixel):
         return noise

@@ -44,7 +44,7 @@ def scan_ramp(
 ) -> None:
     """Find every threshold that a straight line of log intensity crosses in every interval.
 
-    Arguments as for `texvent_triton.scan_levels`, but `rules` are `esim_rules.Rules`, and `state`,
+    Arguments as for `texvent_triton.scan_levels`, but `rules` are `EsimRules`, and `state`,
     an `esim_rules.State`, is brought up to date in pass 2.
 
     Source: as `kernels.ramp_reference.cross_ramp`, whose events these are.
@@ -141,7 +141,7 @@ def stamp_crossings(
     Args:
         frames: `kernel_types.Frames`.
         intervals: `kernel_types.Intervals`.
-        rules: `esim_rules.Rules`.
+        rules: `esim_rules.EsimRules`.
         records: `kernel_types.Records`.
         ends: [S + 1] int64, where the records of each segment begin, and their number.
         words: [n] int64, see `blocks_triton.pack_event`.

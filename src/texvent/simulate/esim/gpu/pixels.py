@@ -13,7 +13,7 @@ from texvent.simulate.esim.gpu import rules as esim_rules
 from texvent.simulate.esim.simulator import WHITE, EsimConfig, log_intensity
 from texvent.simulate.gpu.device import EXTRA, LAUNCH
 from texvent.simulate.gpu.intervals import Int64Array, Span
-from texvent.simulate.gpu.kernel_types import FORGET, KEEP, Call, Records, Tally, Tensor
+from texvent.simulate.gpu.kernel_types import FORGET, KEEP, Call, PassCounts, Records, Tensor
 from texvent.simulate.gpu.launch import (
     LaunchSize,
     make_records,
@@ -81,7 +81,7 @@ class EsimPixels(GpuPixels[EsimConfig]):
         numbers[esim_rules.THRESHOLD_OFF] = config.contrast_threshold_off
         numbers[esim_rules.LOG_EPS] = config.log_eps
         logs = log_intensity(np.arange(256, dtype=np.uint8), config.log_eps)
-        self._rules = esim_rules.Rules(
+        self._rules = esim_rules.EsimRules(
             to_device(numbers, device),
             to_device(logs, device),
             *maps,
@@ -99,7 +99,7 @@ class EsimPixels(GpuPixels[EsimConfig]):
             policy[:, 0] = FORGET
         return policy
 
-    def find_events(self, call: Call, tally: Tally, records: Records | None) -> None:
+    def find_events(self, call: Call, tally: PassCounts, records: Records | None) -> None:
         """See `GpuPixels`."""
         esim_triton.scan_ramp[pixel_grid(call, self.block)](
             call.frames,

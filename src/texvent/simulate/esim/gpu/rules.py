@@ -8,11 +8,11 @@ from texvent.simulate.esim import simulator as esim
 from texvent.simulate.gpu.kernel_types import Tensor
 
 THRESHOLD_ON, THRESHOLD_OFF, LOG_EPS = range(3)
-"""Where each number lies in `Rules.numbers`."""
+"""Where each number lies in `EsimRules.numbers`."""
 WHITE = esim.WHITE
 
 
-class Rules(NamedTuple):
+class EsimRules(NamedTuple):
     """The options of the model, on the device."""
 
     numbers: Tensor

@@ -71,7 +71,7 @@ class NoiseDraw:
         Args:
             call: frames and intervals.
             rules: of `noise_rules`.
-            fired: `Tally.fired`; None where noise falls on any pixel.
+            fired: `PassCounts.fired`; None where noise falls on any pixel.
         """
         torch = require("torch", extra=EXTRA)
         self._call, self._rules, self._fired = call, rules, fired

@@ -40,7 +40,7 @@ def draw_noise(
         frames: `kernel_types.Frames`.
         intervals: `kernel_types.Intervals`.
         rules: `kernel_types.NoiseRules`.
-        fired: `Tally.fired`, or None where noise falls anywhere, not on dark, resting pixels only.
+        fired: `PassCounts.fired`, or None where noise is not on dark, resting pixels only.
         tally: [S, noise blocks]: pass 1 leaves the number of events here, int32; pass 2 finds where
             the block's events begin among all words, int64.
         words: [n] int64, see `blocks_triton.pack_event`; None in pass 1.

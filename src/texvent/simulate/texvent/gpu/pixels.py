@@ -15,8 +15,8 @@ from texvent.simulate.gpu.kernel_types import (
     KEEP,
     LEAK,
     Call,
+    PassCounts,
     Records,
-    Tally,
     Tensor,
 )
 from texvent.simulate.gpu.launch import (
@@ -76,7 +76,7 @@ class TexventPixels(GpuPixels[TexventConfig]):
         self._reference = torch.zeros(frames.shape, dtype=dtype, device=frames.device)
         brightness = texvent_rules.byte_brightness(self.config.balance)
         levels = texvent_rules.byte_trigger_levels(brightness, self.config.contrast_threshold)
-        self._rules = texvent_rules.Rules(
+        self._rules = texvent_rules.TexventRules(
             to_device(texvent_rules.list_numbers(self.config), frames.device),
             to_device(levels, frames.device),
             to_device(brightness, frames.device),
@@ -112,7 +112,7 @@ class TexventPixels(GpuPixels[TexventConfig]):
         """Count the pairs of source frames."""
         self._pairs_seen += span.from_source.sum(axis=1, keepdims=True)
 
-    def find_events(self, call: Call, tally: Tally, records: Records | None) -> None:
+    def find_events(self, call: Call, tally: PassCounts, records: Records | None) -> None:
         """See `GpuPixels`."""
         if self._tracks_intensity:
             kernel = texvent_triton.scan_levels

@@ -14,14 +14,14 @@ from texvent.simulate.random.draws import Purpose
 from texvent.simulate.texvent.config import TexventConfig
 
 BALANCE, THRESHOLD, UP, DOWN, LEAK_SHARE, SCALE = range(6)
-"""Where each number lies in `Rules.numbers`."""
+"""Where each number lies in `TexventRules.numbers`."""
 STAMPS = {"eq7": 0, "random": 1, "linear": 2, "hyperbolic": 3, "even": 4, "end": 5}
 """How the kernels are told the rule for times."""
 TIMESTAMP_DRAW = Purpose.TIMESTAMP.draw()
 LEVELS = 256
 
 
-class Rules(NamedTuple):
+class TexventRules(NamedTuple):
     """The options of the model, on the device."""
 
     numbers: Tensor
@@ -38,7 +38,7 @@ class Rules(NamedTuple):
 
 
 def list_numbers(config: TexventConfig) -> NDArray[np.float64]:
-    """The values of `Rules.numbers`."""
+    """The values of `TexventRules.numbers`."""
     numbers = np.empty(6)
     numbers[BALANCE] = config.balance
     numbers[THRESHOLD] = config.contrast_threshold
@@ -55,7 +55,7 @@ def byte_brightness(balance: float) -> NDArray[np.float64]:
 
 
 def byte_trigger_levels(brightness: NDArray[np.float64], threshold: float) -> NDArray[np.int32]:
-    """The values of `Rules.levels`: exactly where Eq. 5 fires, in float64.
+    """The values of `TexventRules.levels`: exactly where Eq. 5 fires, in float64.
 
     Args:
         brightness: of every byte, [256], increasing.

@@ -63,9 +63,9 @@ def scan_levels(
     Args:
         frames: `kernel_types.Frames`.
         intervals: `kernel_types.Intervals`.
-        rules: `texvent_rules.Rules`.
+        rules: `texvent_rules.TexventRules`.
         reference: [B, area] intensity each pixel compares with; brought up to date in pass 2.
-        tally: `kernel_types.Tally`.
+        tally: `kernel_types.PassCounts`.
         records: `kernel_types.Records`, or None for pass 1, which counts.
         ALIGN: see `kernel_types.Call`.
         BLOCK: pixels of a program.
@@ -234,7 +234,7 @@ def find_extremes(
 
     Args:
         frames: `kernel_types.Frames`.
-        rules: `texvent_rules.Rules`.
+        rules: `texvent_rules.TexventRules`.
         records: `kernel_types.Records`.
         ends: [S + 1] int64, where the records of each segment begin, and their number.
         extremes: [S, 2] float64, set to +∞ and −∞ before.
@@ -285,7 +285,7 @@ def stamp_events(
     Args:
         frames: `kernel_types.Frames`.
         intervals: `kernel_types.Intervals`.
-        rules: `texvent_rules.Rules`.
+        rules: `texvent_rules.TexventRules`.
         records: `kernel_types.Records`.
         ends: [S + 1] where the records of each segment begin, and `find_extremes`'s result or None.
         words: [n] int64, see `blocks_triton.pack_event`.

@@ -22,7 +22,7 @@ class NoisePlaces(NamedTuple):
     """[n] 1 = ON, 0 = OFF."""
 
 
-class Block(NamedTuple):
+class NoiseBlock(NamedTuple):
     """What the noise of every block of a frame shares."""
 
     key: np.uint64
@@ -34,6 +34,6 @@ class Block(NamedTuple):
     """Probability of ON."""
 
 
-PlaceNoise: TypeAlias = Callable[[Block, int], NoisePlaces]
+PlaceNoise: TypeAlias = Callable[[NoiseBlock, int], NoisePlaces]
 """`place_noise(block, pixels)`, see `noise_reference.place_noise`."""
 PLACE_NOISE = Kernel[PlaceNoise](__name__, "place_noise")

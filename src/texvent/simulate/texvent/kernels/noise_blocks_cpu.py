@@ -12,7 +12,7 @@ from texvent.runtime.read_only import read_only
 from texvent.simulate.packets.sorting_cpu import sort_almost_sorted, sort_keys
 from texvent.simulate.random.draws import Purpose
 from texvent.simulate.random.draws_cpu import allow_wrap_around, draw_uniform, draw_word
-from texvent.simulate.texvent.kernels.noise_blocks import Block, NoisePlaces
+from texvent.simulate.texvent.kernels.noise_blocks import NoiseBlock, NoisePlaces
 from texvent.simulate.texvent.kernels.noise_blocks_reference import TIME_UNIT
 from texvent.simulate.texvent.kernels.scan import NOISE_BLOCK, NOISE_PLACE_SHIFT
 
@@ -27,7 +27,7 @@ FEW_PIXELS = NOISE_BLOCK // 32
 """With an event for fewer pixels than these, 32 a block, sorting them by digits is faster."""
 
 
-def place_noise(noise: Block, pixels: int) -> NoisePlaces:
+def place_noise(noise: NoiseBlock, pixels: int) -> NoisePlaces:
     """See `noise_reference.place_noise`."""
     with allow_wrap_around():
         places = _place_noise(noise.key, noise.cumulative, noise.on_fraction, pixels)
@@ -36,7 +36,7 @@ def place_noise(noise: Block, pixels: int) -> NoisePlaces:
 
 def warm_up() -> None:
     """Compile, or load what was compiled before."""
-    place_noise(Block(np.uint64(0), read_only(np.ones(1)), 0.5), 1)
+    place_noise(NoiseBlock(np.uint64(0), read_only(np.ones(1)), 0.5), 1)
 
 
 @jit

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from texvent.simulate.random.draws import Purpose, draw_uniforms, draw_words
-from texvent.simulate.texvent.kernels.noise_blocks import Block, NoisePlaces
+from texvent.simulate.texvent.kernels.noise_blocks import NoiseBlock, NoisePlaces
 from texvent.simulate.texvent.kernels.scan import NOISE_BLOCK, NOISE_PLACE_SHIFT
 
 TIME_UNIT = 2.0**-NOISE_PLACE_SHIFT
 """Spacing of the times, as fractions of the interval: what a word has left below the place."""
 
 
-def place_noise(noise: Block, pixels: int) -> NoisePlaces:
+def place_noise(noise: NoiseBlock, pixels: int) -> NoisePlaces:
     """Where, when and of what polarity noise fires in one sub-interval, before any mask.
 
     Args:
