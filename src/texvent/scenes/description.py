@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from texvent.scenes.language.tokens import pluralise
-from texvent.scenes.models.protocol import Colour
+from texvent.scenes.inflection import pluralise
+from texvent.scenes.scene import Colour
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class ObjectMotion:
     "fall", "rise", "orbit", "swing", "jump", "hover", "throw", "sway", "slide" or "stand"."""
     direction: str | None = None
     """"left", "right", "towards", "away", "up", "down", "across", "circle" or "to and fro";
-    None = not said."""
+    None = not stated."""
     pace: float = 1.0
     """Multiple of the usual speed."""
     speed_m_s: float | None = None
@@ -39,12 +39,14 @@ class ObjectMotion:
         return self.kind != "stand"
 
 
+SPIN_RATE_HZ = 0.5
+"""Usual turns per second of what spins."""
 STANDING = ObjectMotion("stand")
 
 
 @dataclass(frozen=True)
 class SceneObject:
-    """One noun of the prompt with all that is said about it."""
+    """One noun of the prompt with everything the prompt says about it."""
 
     noun: str
     """Key of the noun table."""
@@ -55,9 +57,9 @@ class SceneObject:
     scale: float = 1.0
     """Multiple of its usual size."""
     motion: ObjectMotion | None = None
-    """What it does; None = not said."""
+    """What it does; None = not stated."""
     side: str | None = None
-    """Where in the image: "left", "right", "centre", "far" or "near"; None = not said."""
+    """Where in the image: "left", "right", "centre", "far" or "near"; None = not stated."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +77,7 @@ class Relation:
 
 @dataclass(frozen=True)
 class CameraMove:
-    """One object the camera does."""
+    """One move of the camera."""
 
     kind: str
     """"static", "pan", "tilt", "zoom", "dolly", "truck", "pedestal", "orbit", "follow" or
@@ -115,7 +117,7 @@ class Illumination:
     flicker_hz: float | None = None
     """Frequency at which all light is modulated, Hz; None = steady."""
     shadows: bool | None = None
-    """Whether shadows are asked for; None = as the light gives."""
+    """Whether shadows are stated; None = the light's default."""
 
 
 @dataclass(frozen=True)
@@ -128,11 +130,11 @@ class Surroundings:
     colour: NamedColour | None = None
     """Colour of the ground, where the place has a ground to paint."""
     sky: NamedColour | None = None
-    """Colour of the sky; None = as the light gives."""
+    """Colour of the sky; None = the light's default."""
     weather: str | None = None
     """"fog", "rain" or "snow"; None = fair."""
     clouds: float | None = None
-    """0 = none .. 1 = covered; None = as the light gives."""
+    """0 = none .. 1 = covered; None = the light's default."""
     backdrops: tuple[str, ...] = ()
     """"mountain", "forest" or "city": what stands around a road, a field or a lake. A slope is
     shown as mountains around; the ground itself stays flat."""
@@ -157,7 +159,7 @@ class SceneDescription:
     not_understood: tuple[str, ...] = ()
     """Words that had no effect on the scene, in order, each once."""
     understood_nothing: bool = False
-    """Whether no word had an effect, so that a default scene stands in."""
+    """Whether no word had an effect, so that a default scene replaces it."""
     notes: tuple[str, ...] = ()
     """What the parser decided or left out, as sentences."""
 
@@ -169,10 +171,10 @@ class SceneDescription:
             >>> SceneDescription("a left-driving car", objects=(car,)).summary()
             ['1 car, drives left', 'place: what suits the things', 'light: day', 'camera: static']
         """
-        lines = [self._say_object(index) for index in range(len(self.objects))]
-        lines.append(f"place: {_say_surroundings(self.surroundings)}")
-        lines.append(f"light: {_say_light(self.light)}")
-        lines.append(f"camera: {_say_shot(self.shot)}")
+        lines = [self._describe_object(index) for index in range(len(self.objects))]
+        lines.append(f"place: {_describe_surroundings(self.surroundings)}")
+        lines.append(f"light: {_describe_light(self.light)}")
+        lines.append(f"camera: {_describe_shot(self.shot)}")
         if self.absent:
             lines.append(f"left out as asked: {', '.join(self.absent)}")
         lines.extend(self.notes)
@@ -180,21 +182,21 @@ class SceneDescription:
             lines.append(f"not understood: {', '.join(self.not_understood)}")
         return lines
 
-    def _say_object(self, index: int) -> str:
+    def _describe_object(self, index: int) -> str:
         scene_object = self.objects[index]
-        words = [_say_count(scene_object)]
+        words = [_describe_count(scene_object)]
         if scene_object.colour is not None:
             words.append(scene_object.colour.name)
         if scene_object.scale != 1.0:
             words.append(f"{scene_object.scale:g} times its usual size")
         if scene_object.motion is not None:
-            words.append(_say_motion(scene_object.motion, is_plural=scene_object.count > 1))
+            words.append(_describe_motion(scene_object.motion, is_plural=scene_object.count > 1))
         if scene_object.side is not None:
             words.append(_SIDES[scene_object.side])
         for relation in self.relations:
             if relation.subject == index:
                 targets = " and ".join(
-                    _say_count(self.objects[target]) for target in relation.targets
+                    _describe_count(self.objects[target]) for target in relation.targets
                 )
                 words.append(f"{_RELATIONS.get(relation.kind, relation.kind)} {targets}")
         return ", ".join(words)
@@ -225,12 +227,12 @@ _DIRECTIONS = {
 }
 
 
-def _say_count(scene_object: SceneObject) -> str:
+def _describe_count(scene_object: SceneObject) -> str:
     name = scene_object.noun
     return f"{scene_object.count} {name if scene_object.count == 1 else pluralise(name)}"
 
 
-def _say_motion(motion: ObjectMotion, *, is_plural: bool) -> str:
+def _describe_motion(motion: ObjectMotion, *, is_plural: bool) -> str:
     verb, *rest = _PHRASES.get(motion.kind, motion.kind).split()
     words = [verb if is_plural else _third_person(verb), *rest]
     if motion.direction is not None:
@@ -251,7 +253,7 @@ def _third_person(verb: str) -> str:
     return f"{verb}s"
 
 
-def _say_surroundings(surroundings: Surroundings) -> str:
+def _describe_surroundings(surroundings: Surroundings) -> str:
     words = [surroundings.place or "what suits the things"]
     if surroundings.colour is not None:
         words.append(surroundings.colour.name)
@@ -269,7 +271,7 @@ def _say_surroundings(surroundings: Surroundings) -> str:
     return ", ".join(words)
 
 
-def _say_light(light: Illumination) -> str:
+def _describe_light(light: Illumination) -> str:
     words = [light.kind or "day"]
     if light.flicker_hz is not None:
         words.append(f"flickering at {light.flicker_hz:g} Hz")
@@ -278,7 +280,7 @@ def _say_light(light: Illumination) -> str:
     return ", ".join(words)
 
 
-def _say_shot(shot: Shot) -> str:
+def _describe_shot(shot: Shot) -> str:
     words = [" ".join(filter(None, (move.kind, move.direction))) for move in shot.moves]
     if not words:
         words = ["static"]

@@ -16,6 +16,8 @@ from numpy.typing import NDArray
 
 Float64Array = NDArray[np.float64]
 Float32Array = NDArray[np.float32]
+Colour = tuple[float, float, float]
+"""Linear-light RGB, 1.0 = white."""
 
 
 class Shape(IntEnum):

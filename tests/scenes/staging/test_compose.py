@@ -1,4 +1,4 @@
-"""Scenes: who stands where, seen from where, in what light."""
+"""Scenes: actors, scenery, camera and light."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 
 from texvent.errors import InputError
+from texvent.scenes import projection
 from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.scene import Float64Array, Ground
+from texvent.scenes.scene import Camera, Float64Array, Ground
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
-from texvent.scenes.staging.framing import fit, look, project
+from texvent.scenes.staging.framing import fit, look_at
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(346, 260)
-ASPECT = SIZE.height / SIZE.width
 PROMPTS = (
     "a red car drives left past two trees at dusk",
     "The camera follows behind a white SUV with a black roof rack as it speeds up a steep dirt "
@@ -54,8 +54,15 @@ def staged(prompt: str, seed: int = 0, duration_s: float = 2.0) -> ComposedScene
     return compose_scene(parse_prompt(prompt), seed=seed, size=SIZE, duration_s=duration_s)
 
 
+def project(camera: Camera, points: Float64Array, size: SensorSize) -> Float64Array:
+    """Right and down in half image sizes from the middle (-1..1 is inside), and depth, m."""
+    half = np.array([0.5 * size.width, 0.5 * size.height])
+    image_points = projection.project(camera, size, points)
+    return np.column_stack([image_points[:, :2] / half - 1.0, image_points[:, 2]])
+
+
 def seen(scene: ComposedScene, actor: Actor, time_s: float) -> Float64Array:
-    return project(scene.camera(time_s), actor.corners(time_s), ASPECT)
+    return project(scene.camera(time_s), actor.corners(time_s), SIZE)
 
 
 @pytest.mark.parametrize("prompt", PROMPTS)
@@ -64,7 +71,7 @@ def test_the_subjects_are_in_the_image_throughout(prompt: str) -> None:
     movers = [actor for actor in scene.actors if actor.is_mover] or list(scene.actors)
     for actor in movers:
         for time in TIMES:
-            middle = project(scene.camera(time), actor.middle(time)[None], ASPECT)[0]
+            middle = project(scene.camera(time), actor.middle(time)[None], SIZE)[0]
             if parse_prompt(prompt).objects[actor.object_index].side != "far":
                 assert middle[2] > 0.0
                 assert np.abs(middle[:2]).max() < 0.98, (actor.noun.name, time)
@@ -169,7 +176,7 @@ def test_flicker_dims_lamps_and_glowing_parts_too() -> None:
 def test_a_following_camera_keeps_its_subject_in_place() -> None:
     scene = staged(PROMPTS[1])
     suv = scene.actors[0]
-    spots = [project(scene.camera(t), suv.middle(t)[None], ASPECT)[0, :2] for t in TIMES]
+    spots = [project(scene.camera(t), suv.middle(t)[None], SIZE)[0, :2] for t in TIMES]
     np.testing.assert_allclose(spots, np.tile(spots[0], (len(TIMES), 1)), atol=1e-9)
     assert np.linalg.norm(suv.middle(2.0) - suv.middle(0.0)) > 5.0
 
@@ -184,7 +191,7 @@ def test_directions_are_as_the_viewer_sees_them(direction: str, axis: int, sign:
     assert sign * step[axis] > 3.0
     if axis == 0:
         start, end = (
-            project(scene.camera(t), scene.actors[0].middle(t)[None], ASPECT)[0] for t in (0.0, 2.0)
+            project(scene.camera(t), scene.actors[0].middle(t)[None], SIZE)[0] for t in (0.0, 2.0)
         )
         assert sign * (end[0] - start[0]) > 0.3
 
@@ -245,9 +252,7 @@ def test_every_noun_alone_is_large_in_the_image(name: str) -> None:
 def test_short_and_long_clips_keep_the_subject_in_view(duration_s: float) -> None:
     scene = staged("a dog runs left past a bench", duration_s=duration_s)
     for time in np.linspace(0.0, duration_s, 5):
-        middle = project(
-            scene.camera(float(time)), scene.actors[0].middle(float(time))[None], ASPECT
-        )
+        middle = project(scene.camera(float(time)), scene.actors[0].middle(float(time))[None], SIZE)
         assert np.abs(middle[0, :2]).max() < 0.98
 
 
@@ -264,7 +269,9 @@ def test_the_framing_suits_the_shape_of_the_image(size: tuple[int, int]) -> None
         parse_prompt(PROMPTS[0]), seed=0, size=SensorSize(width, height), duration_s=2.0
     )
     for time in TIMES:
-        points = project(scene.camera(time), scene.actors[0].corners(time), height / width)
+        points = project(
+            scene.camera(time), scene.actors[0].corners(time), SensorSize(width, height)
+        )
         assert np.abs(points[:, :2]).max() < 1.0
 
 
@@ -272,13 +279,13 @@ def test_fit_gives_the_nearest_station_that_holds_all_points() -> None:
     points = np.array([[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
     framing = fit(points, azimuth=0.0, elevation=0.0, aspect=0.75, fill=0.8, focal=1.0)
     assert framing.distance_m == pytest.approx(2.0 * 2.0 / 0.8)
-    camera = look(framing.position, framing.target, framing.focal)
-    assert np.abs(project(camera, points, 0.75)[:, 0]).max() == pytest.approx(0.8)
+    camera = look_at(framing.position, framing.target, framing.focal)
+    assert np.abs(project(camera, points, SensorSize(4, 3))[:, 0]).max() == pytest.approx(0.8)
 
 
 def test_project_follows_the_camera_conventions() -> None:
-    camera = look(np.array([0.0, -10.0, 1.0]), np.array([0.0, 0.0, 1.0]), 1.0)
-    right_up = project(camera, np.array([[5.0, 0.0, 1.0], [0.0, 0.0, 3.0]]), 1.0)
+    camera = look_at(np.array([0.0, -10.0, 1.0]), np.array([0.0, 0.0, 1.0]), 1.0)
+    right_up = project(camera, np.array([[5.0, 0.0, 1.0], [0.0, 0.0, 3.0]]), SensorSize(2, 2))
     np.testing.assert_allclose(right_up, [[1.0, 0.0, 10.0], [0.0, -0.4, 10.0]], atol=1e-12)
 
 

@@ -1,4 +1,4 @@
-"""Run a long program of somebody else's: watched, stoppable as a whole, its last words kept."""
+"""Run an external program: it stops with all its children, and its last output is kept."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 from texvent.errors import TexventError
 
 GRACE_S = 10.0
-"""Time to end by itself after being asked to."""
+"""Time to end by itself after SIGTERM."""
 LAST_LINES = 4
 LONGEST_LINE = 300
 
@@ -48,12 +48,12 @@ def run_program(command: Sequence[str], *, cwd: Path | None, log: Path) -> None:
             raise
     if code != 0:
         raise TexventError(
-            f"{Path(command[0]).name} ended with code {code}; its last words: {_last_words(log)}"
+            f"{Path(command[0]).name} ended with code {code}; its last output: {_last_output(log)}"
         )
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
-    """Ask the whole group to end, then insist."""
+    """End the whole process group: SIGTERM, then SIGKILL."""
     for request in (signal.SIGTERM, signal.SIGKILL):
         try:
             os.killpg(process.pid, request)
@@ -65,7 +65,7 @@ def _end(process: subprocess.Popen[bytes]) -> None:
         return
 
 
-def _last_words(log: Path) -> str:
+def _last_output(log: Path) -> str:
     lines = [line.strip() for line in log.read_text("utf-8", "replace").splitlines()]
     words = [line[:LONGEST_LINE] for line in lines if line][-LAST_LINES:]
     return " | ".join(words) if words else "(none)"

@@ -135,7 +135,7 @@ class OpenSoraGenerator:
 
         Raises:
             InputError: the prompt is empty.
-            TexventError: Open-Sora is not there, lacks something, or fails; its last words follow.
+            TexventError: Open-Sora is missing, lacks a file, or fails; its last output follows.
         """
         if not prompt.strip():
             raise InputError("the prompt is empty; describe a scene, such as 'a car drives left'")

@@ -1,1 +1,1 @@
-"""A sentence becomes a description: words, tags, links."""
+"""Sentence → scene description: tokens, phrases with roles, objects and relations."""

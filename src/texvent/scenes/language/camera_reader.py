@@ -6,7 +6,8 @@ from dataclasses import replace
 
 from texvent.scenes.description import CameraMove, Shot
 from texvent.scenes.language import vocabulary_scene
-from texvent.scenes.language.tagging import Phrase, Role
+from texvent.scenes.language.lexicon import Role
+from texvent.scenes.language.tagging import Phrase
 from texvent.scenes.language.vocabulary_motion import Verb
 
 _SIDE_BY_RELATION = {
@@ -33,7 +34,7 @@ class CameraReader:
         self._named: Phrase | None = None
 
     def read(self, phrase: Phrase) -> bool:
-        """Take a phrase that is about the camera; say whether it was one."""
+        """Take a phrase that is about the camera; return whether it was one."""
         if phrase.role is Role.CAMERA:
             self.has_focus, self._named = True, phrase
             phrase.is_used = bool(self._moves)
@@ -59,7 +60,7 @@ class CameraReader:
         return True
 
     def aim(self, object_index: int, relation: str | None) -> bool:
-        """Point the camera at an object that its sentence names; say whether it does that."""
+        """Point the camera at an object that its sentence names; return whether it does that."""
         if not self._moves or not self.has_focus:
             return False
         last = self._moves[-1]
@@ -70,7 +71,7 @@ class CameraReader:
         self._target, self.has_focus = object_index, False
         return True
 
-    def finish(self) -> Shot:
+    def build(self) -> Shot:
         """The shot as understood."""
         return Shot(tuple(self._moves), self._view, self._framing, self._target)
 

@@ -1,4 +1,4 @@
-"""Where a scene takes place when the prompt does not say, or says it only in part."""
+"""The place of a scene that the prompt leaves open, or states only in part."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _USUAL_PLACES: dict[str, tuple[str, ...]] = {
 
 
 def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> str:
-    """Where the scene is: as said, or what suits its objects.
+    """The place of the scene: as stated, or the usual one for its objects.
 
     Fish "in the sea" are shown under water, and a house "by the sea" on the beach.
     """

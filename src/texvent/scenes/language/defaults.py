@@ -1,4 +1,4 @@
-"""Fills in what a prompt leaves open, and says so."""
+"""Defaults for what a prompt leaves open, each with a note."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from texvent.scenes.description import (
     SceneDescription,
     SceneObject,
 )
+from texvent.scenes.inflection import pluralise
 from texvent.scenes.language.default_place import choose_place
-from texvent.scenes.language.tokens import pluralise
 from texvent.scenes.language.vocabulary_objects import COLOURS, MAX_BODIES
 from texvent.scenes.models.protocol import Noun
 
@@ -34,18 +34,18 @@ def complete_description(
     if description.understood_nothing:
         description = _show_default(description, nouns)
     description = _add_crew(description, nouns)
-    description = _limit_bodies(_stand_back(_seat_riders(description), nouns))
+    description = _limit_bodies(_move_to_background(_drop_riders(description), nouns))
     objects = tuple(
         _decide_motion(scene_object, nouns[scene_object.noun])
         for scene_object in description.objects
     )
-    description = _let_chased_move(replace(description, objects=objects), nouns)
+    description = _move_followed(replace(description, objects=objects), nouns)
     objects = description.objects
     said = replace(description.surroundings, place=choose_place(description, nouns))
-    description = _put_to_work(replace(description, surroundings=said))
-    if description.shot.is_moving or any(_moves(scene_object) for scene_object in objects):
-        return _settle_rest(description)
-    return _settle_rest(_set_in_motion(description, nouns))
+    description = _give_usual_work(replace(description, surroundings=said))
+    if description.shot.is_moving or any(_is_moving(scene_object) for scene_object in objects):
+        return _rest_the_others(description)
+    return _rest_the_others(_set_in_motion(description, nouns))
 
 
 _CREWS: dict[str, tuple[SceneObject, ...]] = {
@@ -56,7 +56,7 @@ _CREWS: dict[str, tuple[SceneObject, ...]] = {
         SceneObject("traffic cone", 4),
     ),
 }
-"""Places that are known by what is done there."""
+"""Places with usual objects at work."""
 
 
 WORKING = frozenset(
@@ -66,7 +66,7 @@ WORKING = frozenset(
 
 
 def _add_crew(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """Objects that make a place what it is, where the prompt names none."""
+    """Add the usual objects of a place where the prompt names none."""
     crew = _CREWS.get(description.surroundings.place or "", ())
     shown = tuple(
         scene_object
@@ -80,8 +80,8 @@ def _add_crew(description: SceneDescription, nouns: Mapping[str, Noun]) -> Scene
     return replace(description, objects=shown, notes=(*description.notes, note))
 
 
-def _put_to_work(description: SceneDescription) -> SceneDescription:
-    """At a place that is known by what is done there, it is done, unless the prompt says what is.
+def _give_usual_work(description: SceneDescription) -> SceneDescription:
+    """Give the usual objects of a place their usual motion, unless the prompt states one.
 
     A crane that turns slowly in the distance would else count as all the motion there is.
     """
@@ -102,7 +102,7 @@ HAS_RIDER = frozenset({"bicycle", "motorcycle"})
 """Nouns whose models come with the person who rides them."""
 
 
-def _seat_riders(description: SceneDescription) -> SceneDescription:
+def _drop_riders(description: SceneDescription) -> SceneDescription:
     """Leave out the person on a bicycle, which has its rider already."""
     riders = {
         relation.subject
@@ -128,13 +128,15 @@ TOWERING = frozenset(
     {"crane", "building", "mountain", "windmill", "wind turbine", "ship", "bridge", "pyramid"}
 )
 """Nouns that stand far behind smaller objects, unless the prompt relates them."""
-_MOST_COMPANIONS = 6
+_MAX_COMPANIONS = 6
 
 
-def _stand_back(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """Move towering objects to the background, and let living surroundings keep company.
+def _move_to_background(
+    description: SceneDescription, nouns: Mapping[str, Noun]
+) -> SceneDescription:
+    """Move towering objects to the background; let animals that surround something go with it.
 
-    Animals that surround something move along with it, because scenery stands still.
+    Animals are not scenery, because scenery stands still.
     """
     objects = list(description.objects)
     relations = []
@@ -145,7 +147,7 @@ def _stand_back(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sce
             and nouns[objects[target].noun].habitat != "fixed"
         ):
             objects[target] = replace(
-                objects[target], count=min(objects[target].count, _MOST_COMPANIONS)
+                objects[target], count=min(objects[target].count, _MAX_COMPANIONS)
             )
             relation = replace(relation, kind="with")
         relations.append(relation)
@@ -172,8 +174,8 @@ def _limit_bodies(description: SceneDescription) -> SceneDescription:
     return replace(description, objects=tuple(objects), notes=(*description.notes, note))
 
 
-def _let_chased_move(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """What is followed goes ahead, if it can move and the prompt does not say that it rests."""
+def _move_followed(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
+    """Let a followed object move, if it can and the prompt does not say that it rests."""
     objects = list(description.objects)
     for relation in description.relations:
         target = relation.targets[0]
@@ -183,7 +185,7 @@ def _let_chased_move(description: SceneDescription, nouns: Mapping[str, Noun]) -
     return replace(description, objects=tuple(objects))
 
 
-def _moves(scene_object: SceneObject) -> bool:
+def _is_moving(scene_object: SceneObject) -> bool:
     return (
         scene_object.motion is not None
         and scene_object.motion.is_moving
@@ -222,7 +224,7 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
     return replace(description, shot=shot, notes=(*description.notes, note))
 
 
-def _settle_rest(description: SceneDescription) -> SceneDescription:
+def _rest_the_others(description: SceneDescription) -> SceneDescription:
     objects = tuple(
         scene_object if scene_object.motion is not None else replace(scene_object, motion=STANDING)
         for scene_object in description.objects

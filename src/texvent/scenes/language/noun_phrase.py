@@ -1,4 +1,4 @@
-"""Objects and noun groups of a prompt while more may still be said about them."""
+"""Objects and noun phrases of a prompt, while the parser is still reading about them."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 
 from texvent.scenes.description import NamedColour, ObjectMotion, SceneObject
 from texvent.scenes.language import vocabulary_objects
-from texvent.scenes.language.tagging import Phrase, Role
+from texvent.scenes.language.lexicon import Role
+from texvent.scenes.language.tagging import Phrase
 from texvent.scenes.models.protocol import Noun
 
 _GREY_LEVELS = {"light": "silver", "pale": "silver", "dark": "black"}
@@ -15,7 +16,7 @@ _GREY_LEVELS = {"light": "silver", "pale": "silver", "dark": "black"}
 
 @dataclass
 class PartialObject:
-    """An object while more may still be said about it."""
+    """An object that the parser is still reading about."""
 
     noun: str
     count: int = 1
@@ -25,7 +26,7 @@ class PartialObject:
     pace: float = 1.0
     side: str | None = None
 
-    def finish(self) -> SceneObject:
+    def build(self) -> SceneObject:
         """The object as understood."""
         motion = self.motion
         if motion is None and self.pace != 1.0:
@@ -43,7 +44,7 @@ _TRAVEL_KINDS = ("walk", "run", "drive", "fly", "swim", "sail")
 def list_capable(
     subjects: Sequence[PartialObject], motion: ObjectMotion, nouns: Mapping[str, Noun]
 ) -> Sequence[PartialObject]:
-    """Those of several subjects that can do it: of "a crane, workers walking", the workers."""
+    """The subjects that are capable of a motion: of "a crane, workers walking", the workers."""
     if motion.kind not in _TRAVEL_KINDS:
         return subjects
     capable = [partial for partial in subjects if nouns[partial.noun].habitat != "fixed"]
@@ -86,7 +87,7 @@ class NounPhrase:
         return None
 
     def decide_count(self, *, is_plural: bool, is_all_around: bool) -> int:
-        """How many: as said, at most `MAX_COUNT`, or what a bare singular or plural means."""
+        """How many: as stated, at most `MAX_COUNT`, or what a bare singular or plural means."""
         if self.number is not None:
             return round(min(self.number, vocabulary_objects.MAX_COUNT))
         if self.count is not None:

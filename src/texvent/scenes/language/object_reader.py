@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from texvent.scenes.description import NamedColour, ObjectMotion, Relation
+from texvent.scenes.description import SPIN_RATE_HZ, NamedColour, ObjectMotion, Relation
 from texvent.scenes.language import vocabulary_objects, vocabulary_scene
+from texvent.scenes.language.lexicon import Role
 from texvent.scenes.language.noun_phrase import NounPhrase, PartialObject, list_capable
 from texvent.scenes.language.relation_builder import RelationBuilder
-from texvent.scenes.language.tagging import Phrase, Role
-from texvent.scenes.language.vocabulary_motion import SPIN_RATE_HZ, Verb
+from texvent.scenes.language.tagging import Phrase
+from texvent.scenes.language.vocabulary_motion import Verb
 from texvent.scenes.models.protocol import Noun
 
 MAX_OBJECTS = 16
@@ -27,7 +28,7 @@ class ObjectReader:
         self.partial_objects: list[PartialObject] = []
         self.absent: list[str] = []
         self.notes: list[str] = []
-        self.group = NounPhrase()
+        self.noun_phrase = NounPhrase()
         self.subjects: list[int] = []
         """Objects that the next verb is about."""
         self.mentioned: list[int] = []
@@ -48,58 +49,61 @@ class ObjectReader:
         """All relations so far."""
         return self._relation_builder.relations
 
-    def open_group(self, phrase: Phrase) -> None:
-        """A determiner starts a new noun group."""
-        self.settle()
+    def open_noun_phrase(self, phrase: Phrase) -> None:
+        """A determiner starts a new noun phrase."""
+        self.apply_adjectives()
         if self.negation is not None and self.negation.is_used:
             self.negation = None
-        self.group = NounPhrase(
-            is_definite=phrase.text in _DEFINITE, motion=self.group.motion, side=self.group.side,
-            phrases=self.group.phrases if self.group.motion or self.group.side else [],
-        )  # fmt: skip
+        before = self.noun_phrase
+        self.noun_phrase = NounPhrase(
+            is_definite=phrase.text in _DEFINITE,
+            motion=before.motion,
+            side=before.side,
+            phrases=before.phrases if before.motion or before.side else [],
+        )
         if phrase.text in ("a", "an", "another", "each", "every"):
-            self.group.count = 1
+            self.noun_phrase.count = 1
 
     def read_adjective(self, phrase: Phrase) -> None:
         """A count, number, colour, shade or size."""
-        group, value = self.group, phrase.meaning.value
+        noun_phrase, value = self.noun_phrase, phrase.meaning.value
         if phrase.role is Role.COUNT:
-            group.count = value
+            noun_phrase.count = value
         elif phrase.role is Role.NUMBER:
-            group.number = value
+            noun_phrase.number = value
         elif phrase.role is Role.SHADE:
-            group.shade = phrase.text
+            noun_phrase.shade = phrase.text
         elif phrase.role is Role.SIZE:
-            group.scale = value
+            noun_phrase.scale = value
         elif phrase.role is Role.COLOUR:
             rgb, name = vocabulary_objects.COLOURS[phrase.text], phrase.text
-            if group.shade is not None:
+            if noun_phrase.shade is not None:
                 rgb, name = (
-                    vocabulary_objects.shade_colour(rgb, group.shade),
-                    f"{group.shade} {name}",
+                    vocabulary_objects.shade_colour(rgb, noun_phrase.shade),
+                    f"{noun_phrase.shade} {name}",
                 )
-                group.shade = None
-            group.colour = NamedColour(name, rgb)
-        group.phrases.append(phrase)
+                noun_phrase.shade = None
+            noun_phrase.colour = NamedColour(name, rgb)
+        noun_phrase.phrases.append(phrase)
 
     def take_number(self) -> tuple[float, Phrase] | None:
         """The number just read, when a unit after it shows that it is no count."""
-        return self.group.take_number()
+        return self.noun_phrase.take_number()
 
     def take_colour(self) -> tuple[NamedColour | None, list[Phrase]]:
         """The colour waiting for a noun, when a place or the sky comes instead."""
-        colour, phrases = self.group.colour, self.group.phrases
-        self.group = NounPhrase()
+        colour, phrases = self.noun_phrase.colour, self.noun_phrase.phrases
+        self.noun_phrase = NounPhrase()
         return colour, [p for p in phrases if p.role in (Role.COLOUR, Role.SHADE)]
 
     def read_noun(self, phrase: Phrase) -> int | None:
-        """A noun closes its group; its object's index, or None if it shows nothing new."""
+        """A noun ends its noun phrase. Its object's index, or None if it shows nothing new."""
         name: str = phrase.meaning.value
         phrase.is_used = True
         if self.negation is not None:
             self.negation.is_used = True
-            self.group.mark_used()
-            self.group = NounPhrase()
+            self.noun_phrase.mark_used()
+            self.noun_phrase = NounPhrase()
             if name not in self.absent:
                 self.absent.append(name)
             return None
@@ -108,48 +112,48 @@ class ObjectReader:
             index = self._add_object(name, phrase)
         if index is None:
             return None
-        self.group.mark_used()
-        self.group = NounPhrase()
+        self.noun_phrase.mark_used()
+        self.noun_phrase = NounPhrase()
         self._connect(index)
         self.mentioned = [index]
         return index
 
-    def settle(self) -> None:
+    def apply_adjectives(self) -> None:
         """Give adjectives that met no noun to the subject: "the car is red"."""
-        group = self.group
-        if not self.subjects or not group.phrases:
+        noun_phrase = self.noun_phrase
+        if not self.subjects or not noun_phrase.phrases:
             return
         for index in self.subjects:
             partial = self.partial_objects[index]
-            if group.colour is not None and partial.colour is None:
-                partial.colour = group.colour
-                group.mark_roles(Role.COLOUR, Role.SHADE)
-            if group.scale is not None and partial.scale == 1.0:
-                partial.scale = group.scale
-                group.mark_roles(Role.SIZE)
-            if group.pace != 1.0:
-                partial.pace *= group.pace
-                group.mark_roles(Role.PACE)
-        self.group = NounPhrase()
+            if noun_phrase.colour is not None and partial.colour is None:
+                partial.colour = noun_phrase.colour
+                noun_phrase.mark_roles(Role.COLOUR, Role.SHADE)
+            if noun_phrase.scale is not None and partial.scale == 1.0:
+                partial.scale = noun_phrase.scale
+                noun_phrase.mark_roles(Role.SIZE)
+            if noun_phrase.pace != 1.0:
+                partial.pace *= noun_phrase.pace
+                noun_phrase.mark_roles(Role.PACE)
+        self.noun_phrase = NounPhrase()
 
     def read_attribute(self, phrase: Phrase) -> None:
         """A participle before its noun: "a running dog"."""
         verb: Verb = phrase.meaning.value
-        self.group.motion = ObjectMotion(verb.kind, verb.direction, verb.pace)
-        self.group.phrases.append(phrase)
+        self.noun_phrase.motion = ObjectMotion(verb.kind, verb.direction, verb.pace)
+        self.noun_phrase.phrases.append(phrase)
 
     def read_verb(self, phrase: Phrase, has_object: bool) -> None:
         """A verb about the subjects; with an object, some verbs are about the object."""
-        self.settle()
+        self.apply_adjectives()
         verb: Verb = phrase.meaning.value
-        motion = ObjectMotion(verb.kind, verb.direction, verb.pace * self.group.pace)
+        motion = ObjectMotion(verb.kind, verb.direction, verb.pace * self.noun_phrase.pace)
         if self.negation is not None:
             motion = ObjectMotion("stand")
             self.negation.is_used, self.negation = True, None
         if not self.subjects:
             if not self._is_lost:
-                self.group.motion = motion
-                self.group.phrases.append(phrase)
+                self.noun_phrase.motion = motion
+                self.noun_phrase.phrases.append(phrase)
             return
         phrase.is_used = True
         if phrase.meaning.form == "participle" and self._act_on_mentioned(motion):
@@ -187,8 +191,8 @@ class ObjectReader:
                 self.partial_objects[index].motion = ObjectMotion("stand")
             phrase.is_used = True
         else:
-            self.group.motion = ObjectMotion("stand")
-            self.group.phrases.append(phrase)
+            self.noun_phrase.motion = ObjectMotion("stand")
+            self.noun_phrase.phrases.append(phrase)
 
     def read_direction(self, phrase: Phrase) -> None:
         """Which way the subjects go; without a verb they move that way.
@@ -215,8 +219,8 @@ class ObjectReader:
                 self.partial_objects[index].pace *= phrase.meaning.value
             phrase.is_used = True
         else:
-            self.group.pace *= phrase.meaning.value
-            self.group.phrases.append(phrase)
+            self.noun_phrase.pace *= phrase.meaning.value
+            self.noun_phrase.phrases.append(phrase)
 
     def read_speed(self, speed_m_s: float, phrases: list[Phrase]) -> None:
         """A speed in numbers, m/s."""
@@ -245,9 +249,11 @@ class ObjectReader:
 
     def read_relation(self, phrase: Phrase) -> None:
         """A preposition waits for its noun."""
-        self.settle()
+        self.apply_adjectives()
         self._relation = (phrase.meaning.value, phrase)
-        self.group = NounPhrase(motion=self.group.motion, phrases=self.group.phrases)
+        self.noun_phrase = NounPhrase(
+            motion=self.noun_phrase.motion, phrases=self.noun_phrase.phrases
+        )
 
     @property
     def relation(self) -> str | None:
@@ -267,11 +273,11 @@ class ObjectReader:
                 self.partial_objects[index].side = phrase.meaning.value
             phrase.is_used = True
         else:
-            self.group.side = phrase.meaning.value
-            self.group.phrases.append(phrase)
+            self.noun_phrase.side = phrase.meaning.value
+            self.noun_phrase.phrases.append(phrase)
 
     def read_part(self, phrase: Phrase) -> None:
-        """A part that the model shows anyway, if the colour said of it is the one it has."""
+        """A part that the model shows anyway, if the stated colour is its own."""
         for index in self.mentioned:
             noun = self._nouns[self.partial_objects[index].noun]
             natural = vocabulary_scene.PARTS.get((noun.name, phrase.text))
@@ -279,22 +285,22 @@ class ObjectReader:
             if natural is None and not is_shown:
                 continue
             phrase.is_used = True
-            if self.group.colour is None or self.group.colour.name == natural:
-                self.group.mark_used()
+            if self.noun_phrase.colour is None or self.noun_phrase.colour.name == natural:
+                self.noun_phrase.mark_used()
         self.drop_relation(is_used=phrase.is_used)
-        self.group = NounPhrase()
+        self.noun_phrase = NounPhrase()
 
     def close_subjects(self) -> None:
-        """Place or light was said: the next noun starts a list of subjects of its own."""
+        """A place or light was read: the next noun starts a list of subjects of its own."""
         self._has_acted = True
 
-    def join(self) -> None:
+    def read_and(self) -> None:
         """The word and: the next noun joins the last one."""
         self._is_joined = True
 
     def end_clause(self, sign: str) -> None:
         """A comma or full stop."""
-        self.settle()
+        self.apply_adjectives()
         self._relation = None
         self._relation_builder.close()
         self._is_joined = sign == ","
@@ -302,21 +308,21 @@ class ObjectReader:
         if sign != ",":
             self.negation = None
 
-    def refer(self, phrase: Phrase) -> None:
+    def read_pronoun(self, phrase: Phrase) -> None:
         """A pronoun: "which" and "who" mean the object named last, "it" the last subject."""
         if phrase.text in ("which", "who") and self.mentioned:
             self.subjects = list(self.mentioned)
         else:
             self.mentioned = list(self.subjects)
 
-    def meet_unknown(self) -> None:
+    def read_unknown_noun(self) -> None:
         """A word that may be an unknown noun: what follows is not about the last subject."""
         if self._relation is not None:
             self._relation = None
         else:
             self.subjects, self.mentioned = [], []
             self._is_lost = True
-        self.group = NounPhrase()
+        self.noun_phrase = NounPhrase()
 
     def _movers(self) -> list[int]:
         """The subjects, or what they ride: "a man rides a horse to the left"."""
@@ -330,7 +336,7 @@ class ObjectReader:
 
     def _recall(self, name: str, phrase: Phrase) -> int | None:
         """The object that "the dog" refers to, if there is one already."""
-        if not self.group.is_definite or self.group.colour is not None:
+        if not self.noun_phrase.is_definite or self.noun_phrase.colour is not None:
             return None
         for index, partial in enumerate(self.partial_objects):
             if partial.noun == name and (partial.count > 1) == (phrase.meaning.form == "plural"):
@@ -338,28 +344,34 @@ class ObjectReader:
         return None
 
     def _add_object(self, name: str, phrase: Phrase) -> int | None:
-        group = self.group
+        noun_phrase = self.noun_phrase
         if len(self.partial_objects) >= MAX_OBJECTS:
             note = f"only the first {MAX_OBJECTS} things are shown"
             self.notes.extend([note] if note not in self.notes else [])
             phrase.is_used = False
             return None
-        if group.number is not None and group.number > vocabulary_objects.MAX_COUNT:
+        if noun_phrase.number is not None and noun_phrase.number > vocabulary_objects.MAX_COUNT:
             most = f"{vocabulary_objects.MAX_COUNT}, the most of one thing"
-            self.notes.append(f"a count of {group.number:g} is shown as {most}")
-        count = group.decide_count(
+            self.notes.append(f"a count of {noun_phrase.number:g} is shown as {most}")
+        count = noun_phrase.decide_count(
             is_plural=phrase.meaning.form == "plural",
             is_all_around=self.relation in ("surround", "among"),
         )
         if count == 0:
             self.absent.append(name)
-            group.mark_used()
-            self.group = NounPhrase()
+            noun_phrase.mark_used()
+            self.noun_phrase = NounPhrase()
             return None
         partial = PartialObject(
-            name, count, group.decide_colour(), group.scale or 1.0, None, group.pace, group.side
+            name,
+            count,
+            noun_phrase.decide_colour(),
+            noun_phrase.scale or 1.0,
+            None,
+            noun_phrase.pace,
+            noun_phrase.side,
         )
-        motion = group.motion
+        motion = noun_phrase.motion
         if self._object_motion is not None:
             motion, self._object_motion = self._object_motion, None
         if motion is not None:

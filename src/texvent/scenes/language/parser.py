@@ -1,6 +1,6 @@
-"""Prompt to scene description: a closed grammar over a lexicon, no downloads.
+"""Prompt to scene description: a closed grammar over a lexicon.
 
-A prompt goes through three steps: words (`words.split_words`), phrases with a role each
+A prompt goes through three steps: tokens (`tokens.tokenize_prompt`), phrases with a role each
 (`tagging.tag_phrases`) and, phrase by phrase, three readers: of objects, of the camera, and of
 the surroundings. What no reader could use is reported word by word.
 """
@@ -15,15 +15,10 @@ from texvent.scenes.description import SceneDescription
 from texvent.scenes.language import vocabulary_objects, vocabulary_scene
 from texvent.scenes.language.camera_reader import CameraReader
 from texvent.scenes.language.defaults import complete_description
+from texvent.scenes.language.lexicon import ADJECTIVES, Lexicon, Role
 from texvent.scenes.language.object_reader import ObjectReader
 from texvent.scenes.language.surroundings_reader import SurroundingsReader
-from texvent.scenes.language.tagging import (
-    ADJECTIVES,
-    Lexicon,
-    Phrase,
-    Role,
-    tag_phrases,
-)
+from texvent.scenes.language.tagging import Phrase, tag_phrases
 from texvent.scenes.language.tokens import tokenize_prompt
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Noun
@@ -94,17 +89,17 @@ class _PromptParser:
             if self._is_about_light(position, phrase):
                 phrase.is_used = True
             elif self._camera.read(phrase):
-                self._objects.group.count = None
+                self._objects.noun_phrase.count = None
             else:
                 self._read_phrase(position, phrase)
-        self._objects.settle()
-        surroundings, light = self._scene.finish()
-        objects = tuple(partial.finish() for partial in self._objects.partial_objects)
+        self._objects.apply_adjectives()
+        surroundings, light = self._scene.build()
+        objects = tuple(partial.build() for partial in self._objects.partial_objects)
         return SceneDescription(
             prompt=prompt,
             objects=objects,
             relations=tuple(self._objects.relations),
-            shot=self._camera.finish(),
+            shot=self._camera.build(),
             light=light,
             surroundings=surroundings,
             absent=tuple(self._objects.absent),
@@ -139,7 +134,7 @@ class _PromptParser:
         """Words that steer the reading of objects."""
         role = phrase.role
         if role is Role.DETERMINER:
-            self._objects.open_group(phrase)
+            self._objects.open_noun_phrase(phrase)
         elif role in ADJECTIVES:
             self._objects.read_adjective(phrase)
         elif role is Role.NEGATION:
@@ -149,10 +144,10 @@ class _PromptParser:
         elif role in (Role.STILL, Role.PART, Role.SIDE):
             self._read_remark(phrase)
         elif role is Role.AND:
-            self._objects.join()
+            self._objects.read_and()
         elif role is Role.PRONOUN:
             self._camera.has_focus = False
-            self._objects.refer(phrase)
+            self._objects.read_pronoun(phrase)
         elif role is Role.BREAK and phrase.text in _CLAUSE_SIGNS:
             self._camera.has_focus &= phrase.text == ","
             self._objects.end_clause(phrase.text)
@@ -236,7 +231,7 @@ class _PromptParser:
         if self._following(position, ADJECTIVES | {Role.UNKNOWN}) is Role.NOUN:
             return
         if before in ADJECTIVES or before in (Role.DETERMINER, Role.RELATION, Role.BREAK):
-            self._objects.meet_unknown()
+            self._objects.read_unknown_noun()
 
     def _read_scene_word(self, phrase: Phrase) -> None:
         negation = self._objects.negation

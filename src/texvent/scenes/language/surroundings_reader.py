@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from texvent.scenes.description import Illumination, NamedColour, Surroundings
 from texvent.scenes.language import vocabulary_scene
-from texvent.scenes.language.tagging import Phrase, Role
+from texvent.scenes.language.lexicon import Role
+from texvent.scenes.language.tagging import Phrase
 
 _BACKDROPS = {"mountain": "mountain", "forest": "forest", "city": "city"}
 _OPEN_PLACES = ("road", "dirt road", "grass", "savanna", "sea", "sand", "snow", "mountain")
@@ -29,7 +30,7 @@ class SurroundingsReader:
         self._hertz: tuple[float, list[Phrase]] | None = None
 
     def read_place(self, place: str, colour: NamedColour | None) -> tuple[bool, bool]:
-        """Take a place and the colour said of it; say which of the two had an effect."""
+        """Take a place and its stated colour; return which of the two had an effect."""
         if self._place is None or self._place == "sky":
             self._place = place
         elif place in _BACKDROPS and self._place in _OPEN_PLACES:
@@ -52,7 +53,7 @@ class SurroundingsReader:
         self._sky = colour
 
     def read_light(self, light: str) -> bool:
-        """Take a time of day or a light; say whether it had an effect."""
+        """Take a time of day or a light; return whether it had an effect."""
         if self._light is None or self._light == "day":
             self._light = light
             return True
@@ -85,7 +86,7 @@ class SurroundingsReader:
         """Keep a frequency, Hz, until it is clear what flickers."""
         self._hertz = (frequency, phrases)
 
-    def finish(self) -> tuple[Surroundings, Illumination]:
+    def build(self) -> tuple[Surroundings, Illumination]:
         """The surroundings and the light as understood."""
         if self._hertz is not None and (self._flicker_hz is not None or self._is_lit()):
             self._flicker_hz, phrases = self._hertz

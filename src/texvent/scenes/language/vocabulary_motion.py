@@ -147,9 +147,6 @@ VERBS: tuple[Verb, ...] = (
     Verb("graze", "stand"),
 )
 
-SPIN_RATE_HZ = 0.5
-"""Usual turns per second of what spins."""
-
 STILL_WORDS = ("still", "motionless", "stationary", "unmoving")
 
 DIRECTIONS: dict[str, str] = {

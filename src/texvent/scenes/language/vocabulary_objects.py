@@ -1,8 +1,8 @@
-"""Words for how many, how big and what colour; and words that carry no image."""
+"""Words for how many, how big and what colour; and stop words."""
 
 from __future__ import annotations
 
-from texvent.scenes.models.protocol import Colour
+from texvent.scenes.scene import Colour
 
 MAX_COUNT = 24
 """Most copies of one object; a larger count is shown as this many, and said."""

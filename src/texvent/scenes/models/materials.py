@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from texvent.scenes.models.protocol import Colour
-from texvent.scenes.scene import Texture
+from texvent.scenes.scene import Colour, Texture
 
 
 @dataclass(frozen=True)

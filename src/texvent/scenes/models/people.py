@@ -17,9 +17,10 @@ from texvent.scenes.models.materials import (
     YELLOW,
     Material,
 )
-from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import Point, ball, limb, peak
 from texvent.scenes.models.variation import choose
+from texvent.scenes.scene import Colour
 
 WALK = Gait(stride=1.25, duty=0.60, lift=0.12)
 RUN = Gait(stride=2.40, duty=0.34, lift=0.32)

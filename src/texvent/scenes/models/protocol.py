@@ -13,13 +13,10 @@ from typing import Literal, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.scenes.scene import Shape, Texture
+from texvent.scenes.scene import Colour, Shape, Texture
 
 Habitat = Literal["ground", "air", "water", "fixed"]
 """Where an object belongs: moves on the ground, in the air, in the water; or does not move."""
-
-Colour = tuple[float, float, float]
-"""Linear-light RGB, 1.0 = white."""
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 """Shapes placed in body coordinates: boxes, balls, rods, limbs, cones and fins.
 
 All lengths are metres; `size` is always the full extent, `radius` half of it. Maps are [3, 4]
-affine matrices from unit-shape to body coordinates (`Part.to_body`), always with a positive
+affine matrices from unit-shape to body coordinates (`ModelPart.to_body`), always with a positive
 determinant: a mirror image would turn surfaces inside out.
 """
 
@@ -25,7 +25,7 @@ _PARALLEL = 0.95  # cosine from which a direction counts as parallel to the refe
 
 
 def part(shape: Shape, material: Material, to_body: Affine) -> ModelPart:
-    """Cover a placed unit shape with paint."""
+    """A placed unit shape with a material."""
     return ModelPart(
         shape=shape,
         to_body=to_body,

@@ -14,7 +14,7 @@ from texvent.scenes.models.materials import (
     mottled,
     shade,
 )
-from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
     ball,
     box,
@@ -27,6 +27,7 @@ from texvent.scenes.models.shapes import (
 )
 from texvent.scenes.models.variation import choose
 from texvent.scenes.models.vehicles.wheels import Wheel, car_wheels
+from texvent.scenes.scene import Colour
 
 _HUES: tuple[Colour, ...] = (RED, BLUE, GREEN, YELLOW)
 

@@ -29,18 +29,18 @@ from texvent.scenes.raycast.trace import (
     sun_reaches,
     surface_normal,
 )
-from texvent.scenes.raycast.uncounted import uncounted
+from texvent.scenes.raycast.uncounted import uncounted_world
 from texvent.scenes.scene import Float64Array
 
 _THIN = -(1 << 40)
 """Probe value that agrees with nothing: something thin is near."""
 _BISECTIONS = 6
 """Steps that place an edge between two probes: to 1/128 pixel with two probes per pixel side."""
-_MOST_BORDERS = 4
+_MAX_EDGES = 4
 """Edges that are placed between two neighbouring probes."""
-_MOST_SURFACES = 64
+_MAX_SURFACES = 64
 """Surfaces that may share a pixel."""
-_SHOULDER = 0.75
+_SOFT_CLIP_START = 0.75
 """Light above this share of white is compressed instead of cut off."""
 
 
@@ -68,21 +68,21 @@ def _probe(world: World, x: float, y: float) -> int:
 
 
 @jit(error_model="numpy")
-def _shoulder(light: float) -> float:
-    """Linear light as a share of white: unchanged up to `_SHOULDER`, then bent smoothly to 1."""
-    if light <= _SHOULDER:
+def _soft_clip(light: float) -> float:
+    """Linear light as a share of white: unchanged up to `_SOFT_CLIP_START`, then smoothly to 1."""
+    if light <= _SOFT_CLIP_START:
         return max(light, 0.0)
-    room = 1.0 - _SHOULDER
-    return _SHOULDER + room * (1.0 - math.exp((_SHOULDER - light) / room))
+    room = 1.0 - _SOFT_CLIP_START
+    return _SOFT_CLIP_START + room * (1.0 - math.exp((_SOFT_CLIP_START - light) / room))
 
 
 @jit(error_model="numpy")
-def _exposed(world: World, light: Colour) -> Colour:
+def _expose(world: World, light: Colour) -> Colour:
     exposure = world.instant[0].exposure
     return (
-        _shoulder(light[0] * exposure),
-        _shoulder(light[1] * exposure),
-        _shoulder(light[2] * exposure),
+        _soft_clip(light[0] * exposure),
+        _soft_clip(light[1] * exposure),
+        _soft_clip(light[2] * exposure),
     )
 
 
@@ -96,43 +96,43 @@ def _shade(world: World, x: float, y: float, probe: int) -> Colour:
     if depth == math.inf:
         instant = world.instant[0]
         depth, number, face = background_hit(instant, ray_direction(instant, x, y))
-    return _exposed(world, shade_hit(world, x, y, (depth, number, face), lit))
+    return _expose(world, shade_hit(world, x, y, (depth, number, face), lit))
 
 
 @jit(error_model="numpy")
 def _add_share(
-    groups: Float64Array, count: int, probe: int, share: float, place: tuple[float, float]
+    shares: Float64Array, count: int, probe: int, share: float, place: tuple[float, float]
 ) -> int:
     """Add a piece of a pixel, at `place`, to the surface it shows; the new number of surfaces.
 
-    `groups` is [k, 4]: probe, share, and share · x and share · y summed.
+    `shares` is [k, 4]: probe, share, and share · x and share · y summed.
     """
     group = 0
-    while group < count and groups[group, 0] != probe:
+    while group < count and shares[group, 0] != probe:
         group += 1
-    if group == len(groups):
+    if group == len(shares):
         group -= 1  # more surfaces in a pixel than there is room for: the last ones count as one
     elif group == count:
-        groups[group, 0] = probe
-        groups[group, 1] = groups[group, 2] = groups[group, 3] = 0.0
+        shares[group, 0] = probe
+        shares[group, 1] = shares[group, 2] = shares[group, 3] = 0.0
         count += 1
-    groups[group, 1] += share
-    groups[group, 2] += share * place[0]
-    groups[group, 3] += share * place[1]
+    shares[group, 1] += share
+    shares[group, 2] += share * place[0]
+    shares[group, 3] += share * place[1]
     return count
 
 
 @jit(error_model="numpy")
-def _sum_groups(world: World, groups: Float64Array, count: int) -> Colour:
+def _mean_light(world: World, shares: Float64Array, count: int) -> Colour:
     """Mean light of a pixel that several surfaces share.
 
     Each is shaded once, in the middle of its pieces: textures are averaged over the pixel anyway.
     """
     red, green, blue, total = 0.0, 0.0, 0.0, 0.0
     for group in range(count):
-        share = groups[group, 1]
-        x, y = groups[group, 2] / share, groups[group, 3] / share
-        light = _shade(world, x, y, int(groups[group, 0]))
+        share = shares[group, 1]
+        x, y = shares[group, 2] / share, shares[group, 3] / share
+        light = _shade(world, x, y, int(shares[group, 0]))
         red += share * light[0]
         green += share * light[1]
         blue += share * light[2]
@@ -142,14 +142,14 @@ def _sum_groups(world: World, groups: Float64Array, count: int) -> Colour:
 
 @jit(error_model="numpy")
 def _sample_pixel(
-    world: World, column: int, row: int, pattern: Float64Array, groups: Float64Array
+    world: World, column: int, row: int, pattern: Float64Array, shares: Float64Array
 ) -> Colour:
     """Mean light over a pixel with something thin in it, from the samples of `pattern`."""
     count = 0
     for index in range(len(pattern)):
         x, y = column + pattern[index, 0], row + pattern[index, 1]
-        count = _add_share(groups, count, _probe(world, x, y), 1.0, (x, y))
-    return _sum_groups(world, groups, count)
+        count = _add_share(shares, count, _probe(world, x, y), 1.0, (x, y))
+    return _mean_light(world, shares, count)
 
 
 @jit(error_model="numpy")
@@ -160,7 +160,7 @@ def _between(
 
 
 @jit(error_model="numpy")
-def _find_border(
+def _find_edge(
     world: World,
     ends: tuple[tuple[float, float], tuple[float, float]],
     low: float,
@@ -197,7 +197,7 @@ def _find_border(
 @jit(error_model="numpy")
 def _add_line(
     world: World,
-    groups: Float64Array,
+    shares: Float64Array,
     count: int,
     ends: tuple[tuple[float, float], tuple[float, float]],
     probes: tuple[int, int],
@@ -207,7 +207,7 @@ def _add_line(
 
     Args:
         world: the scene.
-        groups: as in `_add_share`.
+        shares: as in `_add_share`.
         count: surfaces so far.
         ends: where the line starts and stops.
         probes: what is there.
@@ -218,21 +218,21 @@ def _add_line(
     """
     start, stop = ends
     low, probe = 0.0, probes[0]
-    for _ in range(_MOST_BORDERS):
+    for _ in range(_MAX_EDGES):
         if probe == probes[1]:
             break
         first = low
-        low, beyond = _find_border(world, ends, low, (probe, probes[1]))
+        low, beyond = _find_edge(world, ends, low, (probe, probes[1]))
         place = _between(start, stop, 0.5 * (first + low))
-        count = _add_share(groups, count, probe, share * (low - first), place)
+        count = _add_share(shares, count, probe, share * (low - first), place)
         probe = beyond
     place = _between(start, stop, 0.5 * (low + 1.0))
-    return _add_share(groups, count, probes[1], share * (1.0 - low), place)
+    return _add_share(shares, count, probes[1], share * (1.0 - low), place)
 
 
 @jit(error_model="numpy")
 def _split_pixel(
-    world: World, column: int, row: int, probes: NDArray[np.int64], groups: Float64Array
+    world: World, column: int, row: int, probes: NDArray[np.int64], shares: Float64Array
 ) -> Colour:
     """Mean light over a pixel with an edge in it.
 
@@ -241,7 +241,7 @@ def _split_pixel(
         column: pixel column.
         row: pixel row.
         probes: [k, k] what is at the lattice points in and around the pixel.
-        groups: scratch space, [any, 4].
+        shares: scratch space, [any, 4].
 
     The pixel is cut into lines between lattice points, in the direction that crosses more edges;
     on each line the edge is found by bisection. So coverage grows continuously as an edge moves,
@@ -266,8 +266,8 @@ def _split_pixel(
                 first, second = probes[piece, line], probes[piece + 1, line]
                 start = (column + line / last, row + piece / last)
                 stop = (start[0], row + (piece + 1) / last)
-            count = _add_line(world, groups, count, (start, stop), (first, second), share)
-    return _sum_groups(world, groups, count)
+            count = _add_line(world, shares, count, (start, stop), (first, second), share)
+    return _mean_light(world, shares, count)
 
 
 @jit(error_model="numpy")
@@ -293,7 +293,7 @@ def _probe_tile(
 
 
 @jit(error_model="numpy")
-def _refresh(
+def _probe_shadows(
     world: World, column: int, row: int, lattice: tuple[int, int], probes: NDArray[np.int64]
 ) -> None:
     """Look for shadow at the lattice points of a pixel that took it over from a neighbour.
@@ -341,16 +341,11 @@ def render_tile_row(
         pattern: [k, 2] sample positions in [0, 1)² for pixels with something thin.
         image: [H, W, 3] linear light, 0..1; this row of tiles is written.
     """
-    world = World(
-        uncounted(owner.instant),
-        uncounted(owner.shapes),
-        uncounted(owner.lists),
-        uncounted(owner.lamps),
-    )
+    world = uncounted_world(owner)
     height, width = image.shape[0], image.shape[1]
     top, bottom = tile_row * TILE, min((tile_row + 1) * TILE, height)
     probes = np.empty((TILE * samples + 1, TILE * samples + 1), dtype=np.int64)
-    groups = np.empty((_MOST_SURFACES, 4), dtype=np.float64)
+    shares = np.empty((_MAX_SURFACES, 4), dtype=np.float64)
     around = np.empty((samples + 1, samples + 1), dtype=np.int64)
     for left in range(0, width, TILE):
         right = min(left + TILE, width)
@@ -359,13 +354,13 @@ def render_tile_row(
             for column in range(left, right):
                 j, i = (row - top) * samples, (column - left) * samples
                 if _any_thin(probes, j, i, samples):
-                    light = _sample_pixel(world, column, row, pattern, groups)
+                    light = _sample_pixel(world, column, row, pattern, shares)
                 elif _agree(probes, j, i, samples):
                     light = _shade(world, column + 0.5, row + 0.5, int(probes[j, i]))
                 else:
                     around[:] = probes[j : j + samples + 1, i : i + samples + 1]
-                    _refresh(world, column, row, (j, i), around)
-                    light = _split_pixel(world, column, row, around, groups)
+                    _probe_shadows(world, column, row, (j, i), around)
+                    light = _split_pixel(world, column, row, around, shares)
                 image[row, column, 0] = light[0]
                 image[row, column, 1] = light[1]
                 image[row, column, 2] = light[2]

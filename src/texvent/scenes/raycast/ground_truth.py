@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from texvent.scenes.projection import camera_rays, project, project_direction
 from texvent.scenes.raycast.records import World
-from texvent.scenes.raycast.render import look
+from texvent.scenes.raycast.render import world_at
 from texvent.scenes.raycast.trace import SKY
 from texvent.scenes.raycast.visibility import cast_points, count_unoccluded
 from texvent.scenes.scene import Camera, Float32Array, Float64Array, Scene
@@ -91,13 +91,13 @@ def ground_truth(scene: Scene, t0_s: float, t1_s: float, size: SensorSize) -> Gr
         t1_s: instant that flow leads to, s.
         size: image size, pixels.
     """
-    world = look(scene, t0_s, size)
-    seen = _look_at_centres(world, size)
+    world = world_at(scene, t0_s, size)
+    seen = _cast_centres(world, size)
     instances = _instances(scene, t0_s, seen.number)
-    place = _follow(scene, (t0_s, t1_s), size, seen)
+    place = _move_to(scene, (t0_s, t1_s), size, seen)
     in_front = place[:, 2] > 0.0
     flow = np.where(in_front[:, None], place[:, :2] - seen.points, np.nan)
-    hidden = _hidden(look(scene, t1_s, size), place, size)
+    hidden = _hidden(world_at(scene, t1_s, size), place, size)
     shape = size.shape
     return GroundTruth(
         t0_s,
@@ -110,13 +110,13 @@ def ground_truth(scene: Scene, t0_s: float, t1_s: float, size: SensorSize) -> Gr
     )
 
 
-def _look_at_centres(world: World, size: SensorSize) -> _Seen:
+def _cast_centres(world: World, size: SensorSize) -> _Seen:
     row, column = np.indices(size.shape)
     points = np.stack([column.ravel() + 0.5, row.ravel() + 0.5], axis=1)
-    return _Seen(points, *_look(world, points))
+    return _Seen(points, *_cast(world, points))
 
 
-def _look(world: World, points: Float64Array) -> tuple[Float64Array, NDArray[np.int32]]:
+def _cast(world: World, points: Float64Array) -> tuple[Float64Array, NDArray[np.int32]]:
     depth = np.empty(len(points), dtype=np.float64)
     number = np.empty(len(points), dtype=np.int32)
     cast_points(world, points, depth, number)
@@ -129,7 +129,7 @@ def _instances(scene: Scene, time_s: float, number: NDArray[np.int32]) -> NDArra
     return np.asarray(owner[np.where(number >= 0, number, -1)], dtype=np.int32)
 
 
-def _follow(
+def _move_to(
     scene: Scene, times_s: tuple[float, float], size: SensorSize, seen: _Seen
 ) -> Float64Array:
     """Image point and depth at t1 of the surface seen through each pixel centre at t0."""
@@ -163,7 +163,7 @@ def _hidden(world: World, place: Float64Array, size: SensorSize) -> NDArray[np.b
     inside = (depth > 0) & (x >= 0) & (x < size.width) & (y >= 0) & (y < size.height)
     hidden = ~inside
     index = np.flatnonzero(inside)
-    first, _ = _look(world, np.ascontiguousarray(place[index, :2]))
+    first, _ = _cast(world, np.ascontiguousarray(place[index, :2]))
     hidden[index] = first < depth[index] * (1.0 - _DEPTH_TOLERANCE)
     return np.asarray(hidden, dtype=np.bool_)
 

@@ -18,7 +18,7 @@ from texvent.scenes.scene import Environment, Float64Array, Primitives
 NIGHT_SKY = 0.06
 """Stars show where the sky at the zenith is darker than this (linear luma)."""
 SUN_RADIUS = 0.022
-"""Angular radius of the sun or moon, radians: about five times life, as images show it."""
+"""Angular radius of the sun or moon, radians: about five times the real one, as in photographs."""
 
 INSTANT_RECORD = np.dtype(
     [
@@ -89,7 +89,7 @@ SHAPE_RECORD = np.dtype(
 
 
 class World(NamedTuple):
-    """One instant, as the kernels read it."""
+    """One instant of a scene, as the kernels read it."""
 
     instant: NDArray[Any]
     """[1] `INSTANT_RECORD`."""

@@ -20,7 +20,7 @@ from texvent.scenes.scene import Float32Array, Float64Array, Scene
 from texvent.sensor import SensorSize
 
 
-def look(
+def world_at(
     scene: Scene, time_s: float, size: SensorSize, *, shadows: bool = True, samples: int = 2
 ) -> World:
     """What the kernels read about one instant of a scene."""
@@ -65,7 +65,7 @@ def render(
     """
     if samples < 1:
         raise InputError(f"samples is {samples}; it must be at least 1")
-    world = look(scene, time_s, size, shadows=shadows, samples=samples)
+    world = world_at(scene, time_s, size, shadows=shadows, samples=samples)
     rows = -(-size.height // TILE)
     image = np.empty((size.height, size.width, 3), dtype=np.float64)
     pattern = sample_pattern((4 * samples) ** 2)

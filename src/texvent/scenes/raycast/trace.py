@@ -112,7 +112,7 @@ def background_hit(instant: Record, direction: Vector) -> tuple[float, int, int]
 
 
 @jit(error_model="numpy")
-def _cell_blocks(world: World, cell: int, point: Vector, place: Vector) -> tuple[bool, bool]:
+def _blocked_in_cell(world: World, cell: int, point: Vector, place: Vector) -> tuple[bool, bool]:
     """As `sun_blocked`, by the shapes that one cell of the sun grid lists.
 
     `place` is the point along the sun plane's axes and towards the sun.
@@ -157,11 +157,11 @@ def sun_blocked(world: World, point: Vector) -> tuple[bool, bool]:
     thin = False
     if 0.0 <= column < SUN_CELLS and 0.0 <= row < SUN_CELLS:
         cell = instant.sun_cells + int(row) * SUN_CELLS + int(column)
-        blocked, thin = _cell_blocks(world, cell, point, place)
+        blocked, thin = _blocked_in_cell(world, cell, point, place)
         if blocked:
             return True, thin
     last = instant.sun_cells + SUN_CELLS * SUN_CELLS
-    blocked, big_thin = _cell_blocks(world, last, point, place)
+    blocked, big_thin = _blocked_in_cell(world, last, point, place)
     return blocked, thin or big_thin
 
 

@@ -13,6 +13,9 @@ from numba.core.imputils import impl_ret_untracked
 from numba.extending import intrinsic
 from numba.np.arrayobj import make_array
 
+from texvent.runtime.jit import jit
+from texvent.scenes.raycast.records import World
+
 _null_of: Any = cgutils.get_null_value
 _array_view: Any = make_array
 _untracked: Any = impl_ret_untracked
@@ -31,4 +34,15 @@ def _build_view(typing_context: Any, array: Any) -> Any:
 
 
 uncounted: Any = intrinsic(_build_view)
-"""`borrow(array)`, in a kernel: the same array without an owner, valid while its owner lives."""
+"""`uncounted(array)`, in a kernel: the same array without an owner, valid while its owner lives."""
+
+
+@jit(error_model="numpy")
+def uncounted_world(world: World) -> World:
+    """The same scene in arrays without an owner."""
+    return World(
+        uncounted(world.instant),
+        uncounted(world.shapes),
+        uncounted(world.lists),
+        uncounted(world.lamps),
+    )

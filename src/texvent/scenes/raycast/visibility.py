@@ -14,7 +14,7 @@ from texvent.scenes.raycast.trace import (
     hit_again,
     ray_direction,
 )
-from texvent.scenes.raycast.uncounted import uncounted
+from texvent.scenes.raycast.uncounted import uncounted_world
 from texvent.scenes.scene import Float64Array
 
 
@@ -30,12 +30,7 @@ def cast_points(
         depth: [k] metres along the optical axis is written; inf for the sky.
         number: [k] shape number, or GROUND, SKY or ROOM, is written.
     """
-    world = World(
-        uncounted(owner.instant),
-        uncounted(owner.shapes),
-        uncounted(owner.lists),
-        uncounted(owner.lamps),
-    )
+    world = uncounted_world(owner)
     for index in range(len(points)):
         t, found, _, _ = first_hit(world, points[index, 0], points[index, 1])
         depth[index], number[index] = t, found
@@ -54,12 +49,7 @@ def count_unoccluded(
         width: image width, pixels.
         counts: [1 + highest instance] is added to.
     """
-    world = World(
-        uncounted(owner.instant),
-        uncounted(owner.shapes),
-        uncounted(owner.lists),
-        uncounted(owner.lamps),
-    )
+    world = uncounted_world(owner)
     instant = world.instant[0]
     lists, columns = world.lists, instant.tile_columns
     last = np.full(len(counts), -1, dtype=np.int64)

@@ -1,1 +1,1 @@
-"""A description becomes a scene: places, placement, motion, camera, weather."""
+"""Scene description → animated scene: environment, positions, trajectories, camera, weather."""

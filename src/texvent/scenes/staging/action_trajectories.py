@@ -1,7 +1,7 @@
 """Motions in one place or under gravity: spin, bounce, climb, swing, jump, hover, sway.
 
-Like those of `motion`, they are pure, continuous functions of time; angles in radians, lengths in
-metres, times in seconds.
+Like those of `trajectory`, they are pure, continuous functions of time; angles in radians,
+lengths in metres, times in seconds.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from texvent.scenes.staging.trajectory import BodyState, Vector
+from texvent.scenes.staging.trajectory import BodyState, Vector, ahead
 
 GRAVITY_M_S2 = 9.81
 
@@ -53,13 +53,8 @@ class Bounce:
         """State at that instant."""
         elapsed = max(time_s - self.start_s, 0.0)
         along = self.along_m_s * elapsed
-        x, y, _ = self.start
         return BodyState(
-            (
-                x + along * math.cos(self.yaw),
-                y + along * math.sin(self.yaw),
-                self.floor_m + self.height_m(elapsed),
-            ),
+            ahead(self.start, self.yaw, along, self.floor_m + self.height_m(elapsed)),
             self.yaw,
             pitch=self.tumble_rad_s * elapsed,
             distance_m=abs(along),
@@ -155,10 +150,9 @@ class Hop:
         height = 0.5 * GRAVITY_M_S2 * into * (flight - into)
         hops = number + into / flight
         along = self.hop_m * (hops - (self.mid_s + self.phase_s) / period)
-        x, y, z = self.home
         swing = self.sway_rad * math.sin(math.pi * clock / period)
         return BodyState(
-            (x + along * math.cos(self.yaw), y + along * math.sin(self.yaw), z + height),
+            ahead(self.home, self.yaw, along, self.home[2] + height),
             self.yaw + swing,
             distance_m=max(self.hop_m * (hops - self.phase_s / period), 0.0),
             speed_m_s=self.hop_m / period,

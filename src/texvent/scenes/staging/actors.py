@@ -1,4 +1,4 @@
-"""Bodies on the stage: a model on a trajectory."""
+"""Actors: a model on a trajectory."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from texvent.scenes.staging.trajectory import Trajectory
 
 
 def seeded(seed: int, *role: object) -> np.random.Generator:
-    """A generator of its own for every role, so that no draw depends on the order of others."""
+    """A random generator for every role, so that no draw depends on the order of others."""
     words = "/".join(str(part) for part in role)
     return np.random.default_rng([seed, zlib.crc32(words.encode())])
 

@@ -54,7 +54,7 @@ def assemble(placed: Sequence[PlacedModel]) -> Primitives:
 
 
 def join_primitives(first: Primitives, second: Primitives) -> Primitives:
-    """Two lots of shapes as one, in order."""
+    """The shapes of both, in order."""
     return Primitives(
         shape=np.concatenate([first.shape, second.shape]),
         to_world=np.concatenate([first.to_world, second.to_world]),

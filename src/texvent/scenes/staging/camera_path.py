@@ -1,4 +1,4 @@
-"""The camera as a function of time: a station plus moves that add up."""
+"""The camera as a function of time: a position plus moves that add up."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from texvent.scenes.description import CameraMove
 from texvent.scenes.scene import Camera, Float64Array
-from texvent.scenes.staging.framing import Framing, direction, look
+from texvent.scenes.staging.framing import Framing, direction, look_at
 from texvent.scenes.staging.trajectory import Trajectory
 
 PAN_RAD = 0.36
@@ -64,7 +64,7 @@ class CameraPath:
         position = self._keep_inside(framing.target + offset + slide)
         target = framing.target + slide
         target = position + _turned(target - position, *turn)
-        return look(position, target, focal)
+        return look_at(position, target, focal)
 
     def _slide(self, move: CameraMove, amount: float, share: float, time_s: float) -> Float64Array:
         """Metres by which camera and target move together."""

@@ -1,4 +1,4 @@
-"""Chooses the camera's station and moves for a scene."""
+"""Camera placement: where the camera stands and how it moves."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ def place_camera(
     aspect: float,
     duration_s: float,
 ) -> CameraPath:
-    """The camera over the clip: near enough to name the objects, far enough to keep them in.
+    """The camera over the clip: near enough to recognise the objects and far enough to show them.
 
     Args:
         description: what the prompt says of the camera.
         actors: the objects of the prompt on their trajectories.
-        place: key of `places.PLACES`.
+        place: key of `environment.PLACES`.
         seed: decides the angle where nothing is said.
         aspect: image height over width.
         duration_s: length of the clip, s.
@@ -57,29 +57,40 @@ def place_camera(
                           has_floor=has_floor)  # fmt: skip
     main = _choose_main(description, actors)
     moves = _plan_moves(description, main, duration_s)
-    follows = any(move.kind == "follow" for move in moves)
-    times = np.linspace(0.0, duration_s, INSTANTS)
-    points = _points_to_frame(description, actors, main, times, follows)
+    points, fill = _choose_framing(description, actors, main, moves, duration_s)
     azimuth, elevation = _choose_angles(description, main, moves, place, seed)
-    fill = min([FILL, *(_FILL_BY_MOVE.get(move.kind, FILL) for move in moves)])
-    if description.shot.framing == "close":
-        fill = 0.95
-        points = main.corners(0.0) if follows else np.vstack([main.corners(t) for t in times])
-    elif follows and main.is_mover:
-        fill = min(fill, 0.5)
-    if description.shot.framing == "wide":
-        fill = 0.45
-    if main.object_index == description.shot.target and any(
-        m.kind in ("zoom", "dolly") for m in moves
-    ):
-        fill = 0.55
-        points = np.vstack([main.corners(float(time)) for time in times])
     is_open = has_floor and place not in ("underwater", "indoor")
     lift = SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
     framing = fit(points, azimuth=azimuth, elevation=elevation, aspect=aspect, fill=fill, lift=lift)
     room = _size_room(framing, points) if place == "indoor" else math.inf
     follows_height = main.noun.habitat != "ground"
     return CameraPath(framing, moves, duration_s, main.trajectory, follows_height, has_floor, room)
+
+
+def _choose_framing(
+    description: SceneDescription,
+    actors: Sequence[Actor],
+    main: Actor,
+    moves: Sequence[CameraMove],
+    duration_s: float,
+) -> tuple[Float64Array, float]:
+    """[n, 3] points that must fit, m, and the share of the image that they may fill."""
+    shot = description.shot
+    follows = any(move.kind == "follow" for move in moves)
+    approaches = any(move.kind in ("zoom", "dolly") for move in moves)
+    times = np.linspace(0.0, duration_s, INSTANTS)
+    is_aimed = approaches and main.object_index == shot.target
+    if is_aimed or shot.framing == "close":
+        is_still = follows and not is_aimed
+        points = [main.corners(float(time)) for time in (times[:1] if is_still else times)]
+        return np.vstack(points), 0.55 if is_aimed else 0.95
+    points_to_frame = _points_to_frame(description, actors, main, times, follows)
+    if shot.framing == "wide":
+        return points_to_frame, 0.45
+    fill = min([FILL, *(_FILL_BY_MOVE.get(move.kind, FILL) for move in moves)])
+    if follows and main.is_mover:
+        fill = min(fill, 0.5)
+    return points_to_frame, fill
 
 
 def _choose_main(description: SceneDescription, actors: Sequence[Actor]) -> Actor:

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from texvent.scenes.description import ObjectMotion
-from texvent.scenes.language.vocabulary_motion import SPIN_RATE_HZ
+from texvent.scenes.description import SPIN_RATE_HZ, ObjectMotion
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.staging.action_trajectories import (
     GRAVITY_M_S2,
@@ -124,7 +123,7 @@ def plan_motion(
 
 
 def _face_camera(noun: Noun, model: Model, motion: ObjectMotion, toss: float) -> float:
-    """Heading of what stays in place: animals from the side, the rest so that one sees its face.
+    """Heading of what stays in place: animals from the side, the rest facing the camera.
 
     Fronts are at +x. Flat objects turn it to the camera; others stand at an angle to it.
     """

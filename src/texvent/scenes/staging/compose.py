@@ -1,4 +1,4 @@
-"""Scene description to animated 3-D scene: who stands where, seen from where, in what light."""
+"""Scene description to animated 3-D scene: actors, scenery, camera and light."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ _WARM = (1.0, 0.72, 0.40)
 
 @dataclass(frozen=True)
 class ComposedScene:
-    """A scene as a continuous function of time; implements `primitives.Scene`."""
+    """A scene as a continuous function of time; implements `scene.Scene`."""
 
     actors: tuple[Actor, ...]
     still: Primitives
@@ -95,7 +95,7 @@ def compose_scene(
     duration_s: float,
     nouns: Mapping[str, Noun] = NOUNS,
 ) -> ComposedScene:
-    """Stage a description.
+    """An animated scene from a description.
 
     Args:
         description: from `grammar.parse_prompt`.
@@ -172,7 +172,7 @@ def _describe_view(
 ) -> ViewClearance:
     times = [duration_s * step / (VIEW_INSTANTS - 1) for step in range(VIEW_INSTANTS)]
     has_road = PLACES[place].ground in (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY)
-    angle, offset = _lay_road(actors, path)
+    angle, offset = _road_line(actors, path)
     points = [
         np.vstack([actor.corners(t)[::2] for actor in actors]) if actors else np.zeros((0, 3))
         for t in times
@@ -184,7 +184,7 @@ def _describe_view(
     )  # fmt: skip
 
 
-def _lay_road(actors: Sequence[Actor], path: CameraPath) -> tuple[float, tuple[float, float]]:
+def _road_line(actors: Sequence[Actor], path: CameraPath) -> tuple[float, tuple[float, float]]:
     """The road runs along the path of the first object on the ground that moves."""
     for actor in actors:
         if actor.is_mover and actor.noun.habitat == "ground":

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent.scenes.description import Illumination, SceneDescription, Surroundings
-from texvent.scenes.models.protocol import Colour
-from texvent.scenes.scene import Environment, Float32Array, Float64Array, Ground
+from texvent.scenes.models.materials import mix
+from texvent.scenes.scene import Colour, Environment, Float32Array, Float64Array, Ground
 
 FLICKER_DEPTH = 0.8
 """Share of the light that a flicker takes away at its darkest."""
@@ -54,7 +54,7 @@ PLACES: dict[str, GroundAppearance] = {
 
 @dataclass(frozen=True)
 class Lighting:
-    """Direct and ambient light, sky, and what the camera makes of them."""
+    """Direct and ambient light, sky, and exposure."""
 
     sun_direction: tuple[float, float, float]
     sun: Colour
@@ -122,7 +122,7 @@ _FOG_SIGHT = 3.0
 
 @dataclass(frozen=True)
 class PointLight:
-    """A lamp on the stage."""
+    """A point light."""
 
     position: tuple[float, float, float]
     colour: Colour
@@ -197,7 +197,7 @@ def build_environment(
         place: key of `PLACES`.
         road_angle: direction of the road, radians.
         road_offset: a point on its centre line, m.
-        lamps: lamps on the stage; they shine as far as the light lets them.
+        lamps: point lights; they shine as far as the light lets them.
         distance_m: from the camera to what it looks at: fog is scaled to it.
         room_m: half the side of a room, m.
     """
@@ -209,12 +209,12 @@ def build_environment(
     colour, second = _ground_colours(ground, said)
     sky_top, horizon = lighting.sky_top, lighting.sky_horizon
     if said.sky is not None:
-        sky_top, horizon = said.sky.rgb, _mix(said.sky.rgb, horizon, 0.5)
+        sky_top, horizon = said.sky.rgb, mix(said.sky.rgb, horizon, 0.5)
     fog_distance, fog_colour = _choose_fog(place, said.weather, horizon, distance_m)
     clouds = lighting.clouds if said.clouds is None else said.clouds
     if said.weather in ("rain", "snow"):
         clouds = max(clouds, 0.8)
-        lighting = replace(lighting, sun=_mix(lighting.sun, (0.0, 0.0, 0.0), 0.4))
+        lighting = replace(lighting, sun=mix(lighting.sun, (0.0, 0.0, 0.0), 0.4))
     sun = np.array(lighting.sun_direction)
     base = Environment(
         ground=ground.ground,
@@ -249,8 +249,8 @@ def _ground_colours(ground: GroundAppearance, said: Surroundings) -> tuple[Colou
     if said.colour is not None:
         # Grass is darker than paint: blades shade one another.
         depth = 0.45 if ground.ground is Ground.GRASS else 0.8
-        colour = _mix((0.0, 0.0, 0.0), said.colour.rgb, depth)
-        second = _mix((0.0, 0.0, 0.0), said.colour.rgb, min(1.5 * depth, 1.0))
+        colour = mix((0.0, 0.0, 0.0), said.colour.rgb, depth)
+        second = mix((0.0, 0.0, 0.0), said.colour.rgb, min(1.5 * depth, 1.0))
     return colour, second
 
 
@@ -261,7 +261,7 @@ def _choose_fog(
         return max(_UNDERWATER_SIGHT_M, 3.5 * distance_m), _WATER_COLOUR
     if weather == "fog":
         grey = sum(horizon) / 3.0
-        return _FOG_SIGHT * distance_m, _mix(horizon, (grey, grey, grey), 0.7)
+        return _FOG_SIGHT * distance_m, mix(horizon, (grey, grey, grey), 0.7)
     if weather in ("rain", "snow"):
         return 14.0 * distance_m, horizon
     return math.inf, horizon
@@ -273,11 +273,6 @@ def _lamp_array(lamps: list[PointLight], strength: float) -> Float64Array:
         for lamp in lamps
     ]
     return np.array(rows if strength > 0.0 else [], dtype=np.float64).reshape(-1, 7)
-
-
-def _mix(first: Colour, second: Colour, share: float) -> Colour:
-    red, green, blue = (a + share * (b - a) for a, b in zip(first, second, strict=True))
-    return (red, green, blue)
 
 
 def _array(colour: Colour) -> Float32Array:

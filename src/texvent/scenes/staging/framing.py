@@ -1,4 +1,4 @@
-"""Where the camera stands so that everything that matters fits the image."""
+"""Framing: the camera position from which everything that matters fits the image."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from texvent.scenes.scene import Camera, Float64Array
 
 @dataclass(frozen=True)
 class Framing:
-    """A camera station: looks from `target + distance · offset` at the target."""
+    """A camera position: looks from `target + distance · offset` at the target."""
 
     target: Float64Array
     """[3] m."""
@@ -40,7 +40,7 @@ def direction(azimuth: float, elevation: float) -> Float64Array:
     return np.array([flat * math.sin(azimuth), -flat * math.cos(azimuth), math.sin(elevation)])
 
 
-def look(position: Float64Array, target: Float64Array, focal: float) -> Camera:
+def look_at(position: Float64Array, target: Float64Array, focal: float) -> Camera:
     """A camera at `position` that looks at `target`, the horizon level."""
     forward = np.asarray(target - position, dtype=np.float64)
     forward = forward / np.linalg.norm(forward)
@@ -53,26 +53,6 @@ def look(position: Float64Array, target: Float64Array, focal: float) -> Camera:
     )
 
 
-def project(camera: Camera, points: Float64Array, aspect: float) -> Float64Array:
-    """Where points appear.
-
-    Args:
-        camera: the camera.
-        points: [n, 3] world positions, m.
-        aspect: image height over width.
-
-    Returns:
-        [n, 3]: x and y in half image widths and heights from the middle (-1..1 is inside),
-        and depth, m.
-    """
-    local = (points - camera.position) @ camera.rotation.T
-    depth = local[:, 2]
-    safe = np.where(np.abs(depth) < 1e-9, 1e-9, depth)
-    x = 2.0 * camera.focal * local[:, 0] / safe
-    y = 2.0 * camera.focal * local[:, 1] / safe / aspect
-    return np.column_stack([x, y, depth])
-
-
 def fit(
     points: Float64Array, *, azimuth: float, elevation: float, aspect: float, fill: float,
     lift: float = 0.0, focal: float = 1.1,
@@ -81,7 +61,7 @@ def fit(
 
     A point (r right, u up, f further than the target) is inside when |r| is at most
     fill · (distance + f) / (2 · focal), and likewise for u with the image's height: each point
-    asks for a distance, the largest wins.
+    needs a distance; the largest is taken.
 
     Args:
         points: [n, 3] what must be seen, m.

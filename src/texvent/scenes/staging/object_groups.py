@@ -1,4 +1,4 @@
-"""All copies of one object: how they stand to one another, and the room they take."""
+"""All copies of one object: their positions in the group, and the room they take."""
 
 from __future__ import annotations
 
@@ -44,48 +44,58 @@ class ObjectGroup:
         return max(model.length, model.width, model.height)
 
 
-def arrange_copies(
+def place_copies(
     models: list[Model], plan: MotionPlan, noun: Noun, rng: np.random.Generator
 ) -> list[Vector]:
     """Places of the copies about the middle of their group, m, staggered so none hides another."""
     count = len(models)
     if count == 1:
         return [(0.0, 0.0, 0.0)]
-    length = max(model.length for model in models)
-    width = max(model.width for model in models)
     tall = max(model.height for model in models)
-    is_deep = is_centred(noun)
-    along = (0.8 if is_deep else 1.2) * length + 0.3
-    across = 1.4 * width + 0.4
-    if not plan.is_path and not is_deep:
-        along = 1.2 * max(length, width) + 0.3
-    if noun.motion == "drive":
-        along, across = 1.45 * length + 0.5, max(width + 0.9, 2.9)
-    if plan.motion.direction == "circle":
-        along = across = 4.0 * max(length, width)
-    columns = count if count <= 3 else math.ceil(math.sqrt(1.6 * count))
-    if noun.motion == "drive":
-        columns = math.ceil(count / 2)
-    cosine, sine = (abs(math.cos(plan.yaw)) > 0.5), (abs(math.sin(plan.yaw)) > 0.5)
+    along, across = _spacing(models, plan, noun)
+    is_driven, is_deep = noun.motion == "drive", is_centred(noun)
+    columns = _count_columns(count, is_driven)
+    in_depth = plan.is_path and abs(math.sin(plan.yaw)) > 0.5 >= abs(math.cos(plan.yaw))
     offsets: list[Vector] = []
     for number in range(count):
         row, column = divmod(number, columns)
         in_row = min(columns, count - row * columns)
         a = (column - 0.5 * (in_row - 1) + 0.3 * (row % 2)) * along
-        b = (row - 0.5 * ((count - 1) // columns)) * across + (0.6 * across * (number % 2))
+        b = (row - 0.5 * ((count - 1) // columns)) * across
         a += float(rng.uniform(-0.12, 0.12)) * along
-        b += float(rng.uniform(-0.08, 0.08)) * across
-        if noun.motion == "drive":
-            b = (row - 0.5 * ((count - 1) // columns)) * across
+        stray = float(rng.uniform(-0.08, 0.08)) * across
+        if not is_driven:  # vehicles keep to their lanes
+            b = b + 0.6 * across * (number % 2) + stray
         up = 0.0
         if is_deep:
             up = (0.9 * (-1.0) ** number + float(rng.uniform(-0.35, 0.35))) * tall
-        in_depth = plan.is_path and sine and not cosine
         offsets.append((b * 1.6, a, up) if in_depth else (a, b, up))
     return offsets
 
 
-def measure_room(models: list[Model], offsets: list[Vector], plan: MotionPlan) -> Float64Array:
+def _spacing(models: list[Model], plan: MotionPlan, noun: Noun) -> tuple[float, float]:
+    """Metres from one copy to the next, along the heading and across it."""
+    length = max(model.length for model in models)
+    width = max(model.width for model in models)
+    if plan.motion.direction == "circle":
+        return 4.0 * max(length, width), 4.0 * max(length, width)
+    if noun.motion == "drive":
+        return 1.45 * length + 0.5, max(width + 0.9, 2.9)
+    across = 1.4 * width + 0.4
+    if is_centred(noun):
+        return 0.8 * length + 0.3, across
+    return 1.2 * (length if plan.is_path else max(length, width)) + 0.3, across
+
+
+def _count_columns(count: int, is_driven: bool) -> int:
+    if is_driven:
+        return math.ceil(count / 2)
+    return count if count <= 3 else math.ceil(math.sqrt(1.6 * count))
+
+
+def half_extents_over_clip(
+    models: list[Model], offsets: list[Vector], plan: MotionPlan
+) -> Float64Array:
     """[3] half extents of what the group takes up over the clip, m."""
     model = models[0]
     cosine, sine = abs(math.cos(plan.yaw)), abs(math.sin(plan.yaw))
@@ -103,7 +113,7 @@ def measure_room(models: list[Model], offsets: list[Vector], plan: MotionPlan) -
 
 
 def overlap(centre: Float64Array, group: ObjectGroup, other: ObjectGroup) -> bool:
-    """Whether a group with its middle at `centre` would share room with another, ever."""
+    """Whether a group with its middle at `centre` would overlap with another at any time."""
     gap = GAP_M * min(group.size_m, other.size_m)
     apart = np.abs(centre - other.centre) - (group.half + other.half)
     if group.noun.habitat == other.noun.habitat:

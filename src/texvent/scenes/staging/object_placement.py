@@ -1,9 +1,10 @@
-"""Where objects stand: relations become positions, and no two objects share a place."""
+"""Where objects stand: relations become positions, and no two objects overlap."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -13,17 +14,16 @@ from texvent.scenes.scene import Float64Array, Shape
 from texvent.scenes.staging.action_trajectories import Swing
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.choose_trajectory import (
-    MotionPlan,
     choose_trajectory,
     plan_motion,
 )
 from texvent.scenes.staging.object_groups import (
     ObjectGroup,
-    arrange_copies,
-    measure_room,
+    half_extents_over_clip,
     overlap,
+    place_copies,
 )
-from texvent.scenes.staging.spatial_relations import place_by_subject, place_on_targets
+from texvent.scenes.staging.spatial_relations import Goal, place_by_subject, place_on_targets
 from texvent.scenes.staging.trajectory import Circle, Riding, Trajectory, Vector
 
 ON_TARGET = frozenset({"on", "above", "around", "under", "between", "follow"})
@@ -80,9 +80,15 @@ class ObjectPlacer:
             for _ in range(scene_object.count)
         ]
         plan = plan_motion(scene_object.motion or STANDING, noun, models[0], self._duration_s, rng)
-        offsets = arrange_copies(models, plan, noun, rng)
+        offsets = place_copies(models, plan, noun, rng)
         return ObjectGroup(
-            index, scene_object, noun, models, plan, offsets, measure_room(models, offsets, plan)
+            index,
+            scene_object,
+            noun,
+            models,
+            plan,
+            offsets,
+            half_extents_over_clip(models, offsets, plan),
         )
 
     def _place(self, index: int, waiting: frozenset[int]) -> None:
@@ -95,13 +101,13 @@ class ObjectPlacer:
             if relation.kind in ON_TARGET:
                 for target in relation.targets:
                     self._place(target, waiting | {index})
-        wanted, slide = self._wanted_position(group, related)
+        goal = self._choose_goal(group, related)
         self._align(group, related)
-        group.centre = self._find_free_position(group, wanted, slide)
+        group.centre = self._find_free_position(group, goal)
         self.groups[index] = group
 
     def _align(self, group: ObjectGroup, related: list[Relation]) -> None:
-        """Let a follower, a companion and a passer-by go the same way as the other."""
+        """Give a follower or companion the heading and speed of its partner."""
         for relation in self._description.relations:
             partner = None
             if relation.subject == group.index and relation.kind == "follow":
@@ -109,16 +115,11 @@ class ObjectPlacer:
             elif group.index in relation.targets and relation.kind == "with":
                 partner = self.groups.get(relation.subject)
             if partner is not None and partner.plan.is_path and group.plan.is_path:
-                plan = partner.plan
-                group.plan = MotionPlan(
-                    group.plan.motion, plan.yaw, plan.speed_m_s, plan.duration_s
-                )
-                group.half = measure_room(group.models, group.offsets, group.plan)
+                group.plan = replace(partner.plan, motion=group.plan.motion)
+                group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
 
-    def _wanted_position(
-        self, group: ObjectGroup, related: list[Relation]
-    ) -> tuple[Float64Array, Float64Array]:
-        """Where the prompt wants a group, and which way it may be moved from there."""
+    def _choose_goal(self, group: ObjectGroup, related: list[Relation]) -> Goal:
+        """Where the prompt wants a group."""
         height = self._height(group)
         for relation in related:
             targets = [self.groups[t] for t in relation.targets if t in self.groups]
@@ -140,8 +141,8 @@ class ObjectPlacer:
         if group.plan.is_path or group.noun.habitat in ("air", "water"):
             # Smaller objects go nearer to the camera, so that none hides behind a larger one.
             larger = any(other.size_m > group.size_m for other in self.groups.values())
-            return wanted, np.array([0.0, -1.0 if larger else 1.0, 0.0])
-        return wanted, np.array([1.0, 0.35, 0.0])
+            return Goal(wanted, np.array([0.0, -1.0 if larger else 1.0, 0.0]))
+        return Goal(wanted, np.array([1.0, 0.35, 0.0]))
 
     def _spread_apart(self, group: ObjectGroup) -> float:
         """Metres to the side that leave room for what is to stand between this and another."""
@@ -178,10 +179,9 @@ class ObjectPlacer:
         clear = self._level_m.get("clear", 0.0) if flies else 0.0
         return level * max(group.size_m, 1.0) + clear
 
-    def _find_free_position(
-        self, group: ObjectGroup, wanted: Float64Array, slide: Float64Array
-    ) -> Float64Array:
-        """The wanted place, or the nearest free one along `slide`, alternating sides."""
+    def _find_free_position(self, group: ObjectGroup, goal: Goal) -> Float64Array:
+        """The goal, or the nearest free position along its slide, alternating sides."""
+        wanted, slide = goal
         if not slide.any():
             return wanted
         step = 0.25 * float(np.max(group.half[:2])) + 0.1

@@ -1,4 +1,4 @@
-"""What stands around: trees along a road, houses in a city, pines on a mountain.
+"""Scenery: trees along a road, houses in a city, pines on a mountain.
 
 Scenery never stands between the camera and the objects of the prompt, on the road, or in
 another's place; nouns that the prompt excludes are left out.
@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from texvent.scenes.models.protocol import Colour, Model, Noun, Pose
-from texvent.scenes.scene import Camera, Float64Array
+from texvent.scenes.models.protocol import Model, Noun, Pose
+from texvent.scenes.scene import Camera, Colour, Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.assemble import PlacedModel
 from texvent.scenes.staging.trajectory import BodyState
@@ -21,7 +21,7 @@ from texvent.scenes.staging.trajectory import BodyState
 
 @dataclass(frozen=True)
 class ScatterRule:
-    """So many of one noun, in a band of distances from the camera."""
+    """How many of one noun to scatter, in a band of distances from the camera."""
 
     noun: str
     count: int
@@ -146,7 +146,7 @@ def scatter(
     rng: np.random.Generator,
     taken: Sequence[SceneryItem] = (),
 ) -> list[SceneryItem]:
-    """Scatter scenery where the camera sees it and it is in nobody's way.
+    """Scatter scenery where the camera sees it and it hides and blocks nothing.
 
     Args:
         rules: what, how many and how far.
@@ -157,7 +157,7 @@ def scatter(
         taken: scenery that stands already.
 
     Returns:
-        The pieces that found a place; fewer than asked for where it is crowded.
+        The pieces that found a place; fewer than wanted where it is crowded.
     """
     items = list(taken)
     bodies = _list_bodies(actors)

@@ -3,59 +3,117 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.choose_trajectory import PEOPLE
-from texvent.scenes.staging.object_groups import GAP_M, ObjectGroup, measure_room
+from texvent.scenes.staging.object_groups import GAP_M, ObjectGroup, half_extents_over_clip
+
+
+class Goal(NamedTuple):
+    """Where a group should be."""
+
+    position: Float64Array
+    """[3] middle of the group, m."""
+    slide: Float64Array
+    """[3] direction in which it may move from there to find room; zero = it stays."""
+
+
+_FIXED = np.zeros(3)
+_ON_GROUND = np.array([1.0, 1.0, 0.0])
+_AWAY = np.array([0.0, 1.0, 0.0])
+_ALONG_X = np.array([1.0, 0.0, 0.0])
 
 
 def place_on_targets(
     group: ObjectGroup, kind: str, targets: list[ObjectGroup], height: float, neighbours: list[int]
-) -> tuple[Float64Array, Float64Array]:
-    """A subject's place with respect to objects that stand already."""
-    target = targets[0]
-    top = target.models[0].height * (0.5 if is_centred(target.noun) else 1.0)
-    lift = 0.5 * group.models[0].height if is_centred(group.noun) else 0.0
-    still = np.zeros(3)
-    if kind == "around":
-        group.orbits = target
-        level = target.centre[2] if group.noun.habitat != "air" else target.centre[2] + 0.8 * top
-        return np.array([target.centre[0], target.centre[1], max(level, 0.0)]), still
+) -> Goal:
+    """A subject's position with respect to objects that are placed already.
+
+    Args:
+        group: the subject; what it does may change: it rides, orbits or jumps over the target.
+        kind: one of `object_placement.ON_TARGET`.
+        targets: what it is related to.
+        height: of its origin where the relation does not decide it, m.
+        neighbours: for "on", the indices of all objects on the target.
+    """
     if kind == "on":
-        if target.plan.motion.is_moving:
-            group.carrier = target
-        seat = _seat_height(target, group) + lift
-        _sit_in_row(group, target, neighbours)
-        return target.centre + np.array([0.0, 0.0, seat]), still
-    if kind == "above" and group.plan.motion.kind == "jump":
-        group.clear_m = min(top, 2.0 * group.models[0].height)
-        return target.centre * [1.0, 1.0, 0.0], still
-    if kind == "above" and group.noun.habitat == "fixed" and group.models[0].height > top:
+        return _place_on(group, targets[0], neighbours)
+    return _PLACE_BY_KIND[kind](group, targets, height)
+
+
+def _place_on(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> Goal:
+    if target.plan.motion.is_moving:
+        group.carrier = target
+    seat = _seat_height(target, group) + _origin_height(group)
+    _sit_in_row(group, target, neighbours)
+    return Goal(target.centre + np.array([0.0, 0.0, seat]), _FIXED)
+
+
+def _place_around(group: ObjectGroup, targets: list[ObjectGroup], height: float) -> Goal:
+    target = group.orbits = targets[0]
+    x, y, level = target.centre
+    if group.noun.habitat == "air":
+        level += 0.8 * _top(target)
+    return Goal(np.array([x, y, max(level, 0.0)]), _FIXED)
+
+
+def _place_above(group: ObjectGroup, targets: list[ObjectGroup], height: float) -> Goal:
+    target, own = targets[0], group.models[0].height
+    top = _top(target)
+    if group.plan.motion.kind == "jump":
+        group.clear_m = min(top, 2.0 * own)
+        return Goal(target.centre * _ON_GROUND, _FIXED)
+    if group.noun.habitat == "fixed" and own > top:
         # A street lamp over a car stands on the ground and reaches over it.
         back = target.half[1] + group.half[1] + 0.3
-        return target.centre * [1.0, 1.0, 0.0] + [0.0, back, height], np.array([0.0, 1.0, 0.0])
-    if kind == "above":
-        clear = top + 0.7 * group.models[0].height + 0.3
-        return target.centre + np.array([0.0, 0.0, max(clear + lift, height)]), still
-    if kind == "under":
-        return target.centre * [1.0, 1.0, 0.0] + [0.0, -0.9, height], np.array([0.0, -1.0, 0.0])
-    if kind == "between":
-        middle = np.mean([other.centre for other in targets], axis=0)
-        if len(targets) == 1 and len(target.offsets) > 1:
-            middle = target.centre
-        return np.array([middle[0], middle[1], height]), np.array([0.0, -1.0, 0.0])
-    behind = target.half[:2] + group.half[:2]
+        return Goal(target.centre * _ON_GROUND + [0.0, back, height], _AWAY)
+    clear = top + 0.7 * own + 0.3 + _origin_height(group)
+    return Goal(target.centre + np.array([0.0, 0.0, max(clear, height)]), _FIXED)
+
+
+def _place_under(group: ObjectGroup, targets: list[ObjectGroup], height: float) -> Goal:
+    return Goal(targets[0].centre * _ON_GROUND + [0.0, -0.9, height], -_AWAY)
+
+
+def _place_between(group: ObjectGroup, targets: list[ObjectGroup], height: float) -> Goal:
+    middle = np.mean([target.centre for target in targets], axis=0)
+    return Goal(np.array([middle[0], middle[1], height]), -_AWAY)
+
+
+def _place_behind(group: ObjectGroup, targets: list[ObjectGroup], height: float) -> Goal:
+    """A follower: behind its target, on the same path."""
+    target, own = targets[0], group.models[0]
+    sizes = target.half[:2] + group.half[:2]
     heading = np.array([math.cos(target.plan.yaw), math.sin(target.plan.yaw)])
-    reach = 0.5 * (target.models[0].length + group.models[0].length)
-    wanted = target.centre[:2] - heading * min(1.6 * reach + 0.4, float(behind.max()) + reach)
-    group.half = 0.5 * np.array(
-        [group.models[0].length, group.models[0].width, group.models[0].height]
-    )
-    return np.array([*wanted, height]), still
+    reach = 0.5 * (target.models[0].length + own.length)
+    wanted = target.centre[:2] - heading * min(1.6 * reach + 0.4, float(sizes.max()) + reach)
+    group.half = 0.5 * np.array([own.length, own.width, own.height])
+    return Goal(np.array([*wanted, height]), _FIXED)
+
+
+_PLACE_BY_KIND: dict[str, Callable[[ObjectGroup, list[ObjectGroup], float], Goal]] = {
+    "around": _place_around,
+    "above": _place_above,
+    "under": _place_under,
+    "between": _place_between,
+    "follow": _place_behind,
+}
+
+
+def _top(target: ObjectGroup) -> float:
+    """Height of a target's top above its origin, m."""
+    return target.models[0].height * (0.5 if is_centred(target.noun) else 1.0)
+
+
+def _origin_height(group: ObjectGroup) -> float:
+    """Height of a group's origin above what it rests on, m."""
+    return 0.5 * group.models[0].height if is_centred(group.noun) else 0.0
 
 
 def _sit_in_row(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> None:
@@ -76,7 +134,7 @@ def _sit_in_row(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) 
     ]
     if group.plan.motion.kind in ("sit", "stand") and group.noun.name in PEOPLE:
         group.plan = replace(group.plan, yaw=target.plan.yaw)
-    group.half = measure_room(group.models, group.offsets, group.plan)
+    group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
 
 
 def _seat_height(target: ObjectGroup, group: ObjectGroup) -> float:
@@ -96,33 +154,37 @@ _SADDLES = {"chair": 0.02, "sofa": 0.02, "bench": 0.02, "bed": 0.05, "horse": 0.
 """The same for people who sit: their origin is under their feet."""
 
 
-def place_by_subject(
-    group: ObjectGroup, kind: str, subject: ObjectGroup, height: float
-) -> tuple[Float64Array, Float64Array]:
-    """A target's place with respect to the subject that the prompt relates to it."""
-    clear = subject.half + group.half + GAP_M * min(subject.size_m, group.size_m)
-    sideways = abs(math.cos(subject.plan.yaw)) > 0.5 or not subject.plan.is_path
-    here = subject.centre * [1.0, 1.0, 0.0] + [0.0, 0.0, height]
-    away, along = np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0])
-    if kind == "with" and subject.plan.is_path and sideways:
-        ahead = 0.55 * (subject.models[0].length + group.models[0].length) + 0.2
-        return _shift(here, ahead * math.cos(subject.plan.yaw), clear[1] + 0.1), away
-    if kind in ("past", "beside", "with") and subject.plan.is_path and sideways:
-        return _shift(here, 0.0, clear[1] + 0.3), away
-    if kind == "past" or (subject.plan.is_path and kind == "beside"):
-        return _shift(here, clear[0] + 0.3, 0.0), along
-    if kind == "behind":
-        return _shift(here, -0.55 * clear[0], -clear[1]), -away
-    if kind == "front":
-        return _shift(here, 0.0, clear[1]), away
-    if kind == "left of":
-        return _shift(here, clear[0], 0.0), along
-    if kind == "right of":
-        return _shift(here, -clear[0], 0.0), -along
-    if kind == "towards":
-        yaw = subject.plan.yaw
-        return _shift(here, clear[0] * math.cos(yaw), clear[1] * math.sin(yaw)), away
-    return _shift(here, clear[0], 0.0), along
+def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height: float) -> Goal:
+    """A target's position with respect to the subject that the prompt relates to it.
+
+    Args:
+        group: the target.
+        kind: of the relation.
+        subject: what is placed already.
+        height: of the target's origin, m.
+    """
+    x, y, _ = subject.half + group.half + GAP_M * min(subject.size_m, group.size_m)
+    yaw, is_path = subject.plan.yaw, subject.plan.is_path
+    here = subject.centre * _ON_GROUND + [0.0, 0.0, height]
+    if is_path and kind in ("past", "beside", "with"):
+        goes_sideways = abs(math.cos(yaw)) > 0.5
+        if not goes_sideways and kind != "with":
+            return Goal(_shift(here, x + 0.3, 0.0), _ALONG_X)
+        if goes_sideways and kind == "with":
+            ahead = 0.55 * (subject.models[0].length + group.models[0].length) + 0.2
+            return Goal(_shift(here, ahead * math.cos(yaw), y + 0.1), _AWAY)
+        if goes_sideways:
+            return Goal(_shift(here, 0.0, y + 0.3), _AWAY)
+    goals = {
+        "past": (x + 0.3, 0.0, _ALONG_X),
+        "behind": (-0.55 * x, -y, -_AWAY),
+        "front": (0.0, y, _AWAY),
+        "left of": (x, 0.0, _ALONG_X),
+        "right of": (-x, 0.0, -_ALONG_X),
+        "towards": (x * math.cos(yaw), y * math.sin(yaw), _AWAY),
+    }
+    right, away, slide = goals.get(kind, (x, 0.0, _ALONG_X))
+    return Goal(_shift(here, right, away), slide)
 
 
 def _shift(place: Float64Array, x: float, y: float) -> Float64Array:

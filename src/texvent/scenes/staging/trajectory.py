@@ -46,6 +46,12 @@ class BodyState:
         return np.column_stack([turn, offset])
 
 
+def ahead(home: Vector, yaw: float, along_m: float, height_m: float) -> Vector:
+    """The point `along_m` from `home` along a heading, at a height, m."""
+    x, y, _ = home
+    return (x + along_m * math.cos(yaw), y + along_m * math.sin(yaw), height_m)
+
+
 def rotation(yaw: float, pitch: float, roll: float) -> Float64Array:
     """[3, 3] rotation: roll about x, then pitch about y, then yaw about z.
 
@@ -106,14 +112,10 @@ class Straight:
         """State at that instant."""
         facing = self.yaw if self.facing_rad is None else self.facing_rad
         along = self.speed_m_s * (time_s - self.mid_s)
-        x, y, z = self.home
         wave = 2.0 * math.pi * 0.4 * time_s + self.phase
+        height = self.home[2] + along * self.climb + self.bob_m * math.sin(wave)
         return BodyState(
-            (
-                x + along * math.cos(self.yaw),
-                y + along * math.sin(self.yaw),
-                z + along * self.climb + self.bob_m * math.sin(wave),
-            ),
+            ahead(self.home, self.yaw, along, height),
             facing + self.weave_rad * math.sin(1.7 * wave),
             -math.atan(self.climb),
             distance_m=self.speed_m_s * time_s,
@@ -152,14 +154,9 @@ class Shuttle:
         """State at that instant."""
         rate = 2.0 * math.pi / self.period_s
         offset = self.amplitude_m * math.sin(rate * time_s)
-        x, y, z = self.home
-        along = 0.0 if self.vertical else offset
+        along, up = (0.0, offset) if self.vertical else (offset, 0.0)
         return BodyState(
-            (
-                x + along * math.cos(self.yaw),
-                y + along * math.sin(self.yaw),
-                z + (offset if self.vertical else 0.0),
-            ),
+            ahead(self.home, self.yaw, along, self.home[2] + up),
             self.yaw,
             distance_m=self.amplitude_m * _sine_path(rate * time_s),
             speed_m_s=abs(self.amplitude_m * rate * math.cos(rate * time_s)),

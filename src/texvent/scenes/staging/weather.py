@@ -18,7 +18,7 @@ RAIN_DROPS = 130
 SNOW_FLAKES = 170
 DUST_PUFFS = 44
 _DEPTH_BELOW_M = 0.6
-"""Drops return to the top when they are this far under the ground, where nobody sees it."""
+"""Drops return to the top when they are this far under the ground, out of sight."""
 
 
 @dataclass(frozen=True)

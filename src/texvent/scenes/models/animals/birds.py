@@ -8,7 +8,7 @@ from functools import partial
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import BLACK, WHITE, Material, mottled, shade
-from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
     Point,
     ball,
@@ -20,6 +20,7 @@ from texvent.scenes.models.shapes import (
     turn_z,
 )
 from texvent.scenes.models.variation import choose, fraction
+from texvent.scenes.scene import Colour
 
 
 @dataclass(frozen=True)

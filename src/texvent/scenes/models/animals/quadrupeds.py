@@ -16,8 +16,9 @@ from texvent.scenes.models.materials import (
     shade,
     striped,
 )
-from texvent.scenes.models.protocol import Colour, Noun
+from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.variation import choose
+from texvent.scenes.scene import Colour
 
 
 @dataclass(frozen=True)

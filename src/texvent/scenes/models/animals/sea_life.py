@@ -8,7 +8,7 @@ from functools import partial
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import BLACK, Material, checked, mottled, shade
-from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
     Affine,
     Point,
@@ -25,6 +25,7 @@ from texvent.scenes.models.shapes import (
     turn_z,
 )
 from texvent.scenes.models.variation import choose, fraction
+from texvent.scenes.scene import Colour
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from texvent.scenes.models.materials import (
     shade,
     striped,
 )
-from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
     Point,
     ball,
@@ -26,6 +26,7 @@ from texvent.scenes.models.shapes import (
     turn_x,
 )
 from texvent.scenes.models.variation import choose, fraction
+from texvent.scenes.scene import Colour
 
 
 @dataclass(frozen=True)

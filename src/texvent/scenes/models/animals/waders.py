@@ -9,9 +9,10 @@ from functools import partial
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limb_kinematics import Gait, bend, foot_path, step_amount
 from texvent.scenes.models.materials import BLACK, ORANGE, WHITE, Material, mottled
-from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import Point, ball, limb, moved, shift, spike
 from texvent.scenes.models.variation import fraction
+from texvent.scenes.scene import Colour
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from texvent.scenes.models.materials import (
     mottled,
     shade,
 )
-from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
     Point,
     ball,
@@ -34,6 +34,7 @@ from texvent.scenes.models.shapes import (
     turn_z,
 )
 from texvent.scenes.models.variation import between, choose, fraction
+from texvent.scenes.scene import Colour
 
 _WALLS: tuple[Colour, ...] = ((0.62, 0.55, 0.42), (0.66, 0.64, 0.60), (0.50, 0.28, 0.18))
 _ROOFS: tuple[Colour, ...] = ((0.30, 0.07, 0.035), (0.10, 0.09, 0.095), (0.20, 0.11, 0.06))

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import WHITE, WOOD, Material, mottled, shade
-from texvent.scenes.models.protocol import Colour, Noun
+from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.shapes import ball, box, limb
 from texvent.scenes.models.variation import choose, fraction
+from texvent.scenes.scene import Colour
 
 _FABRICS: tuple[Colour, ...] = ((0.05, 0.16, 0.32), (0.36, 0.07, 0.05), (0.24, 0.24, 0.22))
 

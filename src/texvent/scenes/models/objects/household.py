@@ -18,7 +18,7 @@ from texvent.scenes.models.materials import (
     glowing,
     shade,
 )
-from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
     ball,
     blade,
@@ -33,6 +33,7 @@ from texvent.scenes.models.shapes import (
     turn_x,
 )
 from texvent.scenes.models.variation import choose, fraction
+from texvent.scenes.scene import Colour
 
 _GLAZES: tuple[Colour, ...] = (RED, (0.05, 0.20, 0.45), WHITE, YELLOW)
 

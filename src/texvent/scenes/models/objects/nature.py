@@ -6,9 +6,10 @@ import math
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import Material, mottled, shade
-from texvent.scenes.models.protocol import Colour, Noun
+from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.shapes import ball, moved, peak, turn_z
 from texvent.scenes.models.variation import between, fraction
+from texvent.scenes.scene import Colour
 
 _STONE: Colour = (0.30, 0.28, 0.26)
 

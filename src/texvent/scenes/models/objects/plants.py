@@ -15,7 +15,7 @@ from texvent.scenes.models.materials import (
     shade,
     striped,
 )
-from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
     ball,
     blade,
@@ -28,6 +28,7 @@ from texvent.scenes.models.shapes import (
     turn_y,
 )
 from texvent.scenes.models.variation import between, choose, fraction
+from texvent.scenes.scene import Colour
 
 _LEAF: Colour = (0.075, 0.20, 0.035)
 _NEEDLE: Colour = (0.025, 0.105, 0.045)

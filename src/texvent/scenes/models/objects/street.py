@@ -18,9 +18,10 @@ from texvent.scenes.models.materials import (
     shade,
     striped,
 )
-from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import ball, box, peak, plank, post, rod, spike
 from texvent.scenes.models.variation import choose, fraction
+from texvent.scenes.scene import Colour
 
 _CYCLE_S = 4.0
 """A traffic light's whole cycle, s: short, so that clips of a few seconds show it change."""

@@ -21,7 +21,7 @@ from texvent.scenes.models.materials import (
     checked,
     shade,
 )
-from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
     Affine,
     ball,
@@ -36,6 +36,7 @@ from texvent.scenes.models.shapes import (
     turn_z,
 )
 from texvent.scenes.models.variation import choose, fraction
+from texvent.scenes.scene import Colour
 
 _BRIGHT: tuple[Colour, ...] = (RED, YELLOW, (0.05, 0.30, 0.60), (0.10, 0.42, 0.10))
 

@@ -17,7 +17,7 @@ from texvent.scenes.models.materials import (
     glowing,
     striped,
 )
-from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
     Point,
     ball,
@@ -36,6 +36,7 @@ from texvent.scenes.models.shapes import (
     turn_z,
 )
 from texvent.scenes.models.variation import choose, fraction
+from texvent.scenes.scene import Colour
 
 
 def build_airplane(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:

@@ -16,7 +16,7 @@ from texvent.scenes.models.materials import (
     Material,
     shade,
 )
-from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
     ball,
     box,
@@ -30,6 +30,7 @@ from texvent.scenes.models.shapes import (
     turn_y,
 )
 from texvent.scenes.models.variation import choose, fraction
+from texvent.scenes.scene import Colour
 
 
 def build_boat(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:

@@ -21,10 +21,11 @@ from texvent.scenes.models.materials import (
     checked,
     shade,
 )
-from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import ball, box, rod
 from texvent.scenes.models.variation import choose
 from texvent.scenes.models.vehicles.wheels import Wheel, car_wheels
+from texvent.scenes.scene import Colour
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from texvent.scenes.models.materials import (
     checked,
     shade,
 )
-from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
     Point,
     ball,
@@ -29,6 +29,7 @@ from texvent.scenes.models.shapes import (
     turn_z,
 )
 from texvent.scenes.models.variation import fraction
+from texvent.scenes.scene import Colour
 
 
 def build_crane(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:

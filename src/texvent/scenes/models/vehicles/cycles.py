@@ -27,10 +27,11 @@ from texvent.scenes.models.people import (
     draw_torso,
     dress_person,
 )
-from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import Point, ball, box, rod
 from texvent.scenes.models.variation import choose
 from texvent.scenes.models.vehicles.wheels import Wheel, car_wheels, spoked_wheels
+from texvent.scenes.scene import Colour
 
 _FRAMES: tuple[Colour, ...] = (RED, (0.04, 0.14, 0.45), (0.05, 0.30, 0.12))
 _GEAR = 0.45

@@ -16,10 +16,11 @@ from texvent.scenes.models.materials import (
     Material,
     shade,
 )
-from texvent.scenes.models.protocol import Colour, ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import ball, box, post, rod
 from texvent.scenes.models.variation import choose
 from texvent.scenes.models.vehicles.wheels import Wheel, car_wheels
+from texvent.scenes.scene import Colour
 
 
 def build_truck(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:

@@ -48,7 +48,7 @@ def _speckled(colour: Colour, x: float, y: float, footprint: float, contrast: fl
 def _asphalt(instant: Record, along: float, across: float, footprints: Colour) -> Colour:
     """Carriageway with a dashed middle line and edge lines.
 
-    `feet` are metres that a pixel covers along and across, and the pixel's longest side.
+    `footprints` are metres that a pixel covers along and across, and the pixel's longest side.
     """
     half = instant.road[2]
     footprint_along, footprint_across, pixel = footprints

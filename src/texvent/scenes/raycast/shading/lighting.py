@@ -54,7 +54,7 @@ def _lamp_light(lamps: Float64Array, point: Colour, normal: Colour) -> Colour:
 
 
 @jit(error_model="numpy")
-def _fogged(instant: Record, colour: Colour, distance: float) -> Colour:
+def _add_fog(instant: Record, colour: Colour, distance: float) -> Colour:
     if instant.fog == 0.0:
         return colour
     return mix(triple(instant.fog_colour), colour, math.exp(-distance * instant.fog))
@@ -64,7 +64,7 @@ def _fogged(instant: Record, colour: Colour, distance: float) -> Colour:
 def _sky_light(instant: Record, direction: Colour, pixel: float) -> Colour:
     """Sky in a unit direction, behind the fog."""
     path = _FOG_HEIGHT_M / max(abs(direction[2]), 1e-6)
-    return _fogged(instant, sky_colour(instant, direction, pixel), path)
+    return _add_fog(instant, sky_colour(instant, direction, pixel), path)
 
 
 @jit(error_model="numpy")
@@ -174,4 +174,4 @@ def shade_hit(
         light = _reflected(world, colour, point, normal, footprint, False)
     else:
         light = _shape_light(world, hit, point, direction, is_lit)
-    return _fogged(instant, light, distance)
+    return _add_fog(instant, light, distance)
