@@ -11,23 +11,31 @@ import pytest
 SOURCE = Path(__file__).parents[2] / "src" / "texvent"
 
 ENTRY = """
-import numpy as np
 from texvent.runtime.jit import jit
 from kernels.inner import (
     add,
 )
 from kernels import limits
+from kernels.limits import Limits
 
 @jit
-def run(x):
-    return add(x) + below(x) + limits.LIMIT
+def run(x, limits):
+    return add(x) + below(x) + limits.upper
 
 @jit(error_model="numpy", inner=True)
 def below(x):
     return 0 * x
 
-result = run(1)
+result = run(1, Limits(limits.LIMIT))
 print(result, sum(run.stats.cache_hits.values()) if hasattr(run, "stats") else 0)
+"""
+LIMITS = """
+from typing import NamedTuple
+
+LIMIT = 100
+
+class Limits(NamedTuple):
+    upper: int
 """
 INNER = """
 from texvent.runtime.jit import jit
@@ -44,7 +52,7 @@ def package(tmp_path):
     folder = tmp_path / "kernels"
     folder.mkdir()
     files = {"__init__": "", "entry": ENTRY, "inner": INNER, "steps": "STEP = 10\n"}
-    for name, text in (files | {"limits": "LIMIT = 100\n"}).items():
+    for name, text in (files | {"limits": LIMITS}).items():
         (folder / f"{name}.py").write_text(text)
     return folder
 
@@ -83,6 +91,13 @@ def test_a_kernel_is_compiled_again_when_a_file_that_it_uses_changes(package):
     for name, before, after, result in EDITS:
         edit(package / f"{name}.py", before, after)
         assert run(package) == (result, 0)
+
+
+def test_a_kernel_is_compiled_again_when_a_type_of_its_arguments_is_renamed(package):
+    run(package)
+    for name in ("limits", "entry"):
+        edit(package / f"{name}.py", "Limits", "Bounds")
+    assert run(package) == (111, 0)
 
 
 def test_a_kernel_is_read_from_disk_when_other_files_change(package):

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, TypeVar, overload
 
 import numba
+from numba.core.caching import FunctionCache, IndexDataCacheFile
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -44,14 +45,33 @@ def jit(function: Any = None, /, *, nogil: bool = True, inner: bool = False, **o
         options |= {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
     def decorate(function: Any) -> Any:
-        kernel: Any = numba.njit(cache=True, nogil=nogil, **options)(function)
+        kernel: Any = numba.njit(nogil=nogil, **options)(function)
         if hasattr(kernel, "py_func"):  # not with NUMBA_DISABLE_JIT=1
-            # Numba compares this with what it finds on disk. Its own stamp is of one file.
-            file = kernel._cache._cache_file
-            file._source_stamp = (file._source_stamp, _stamp(function.__module__))
+            kernel._cache = _KernelCache(function)
         return kernel
 
     return decorate if function is None else decorate(function)
+
+
+class _KernelCache(FunctionCache):
+    """Numba's cache of a function on disk, valid for one state of all files that it depends on."""
+
+    def __init__(self, function: Any) -> None:
+        super().__init__(function)  # type: ignore[no-untyped-call]
+        # Numba compares the stamp with that on disk. Its own is of one file.
+        stamp = (self._cache_file._source_stamp, _stamp(function.__module__))
+        name = self._impl.filename_base
+        self._cache_file = _KernelIndex(self._cache_path, name, stamp)  # type: ignore[no-untyped-call]
+
+
+class _KernelIndex(IndexDataCacheFile):
+    """The compiled signatures of a kernel; they may name types that were renamed since."""
+
+    def _load_index(self) -> Any:
+        try:
+            return super()._load_index()  # type: ignore[no-untyped-call]
+        except (AttributeError, ImportError):
+            return {}
 
 
 @functools.cache
