@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, Self, TypeAlias
+from typing import Literal, TypeAlias
 
 Device: TypeAlias = Literal["auto", "cpu", "cuda"]
 
@@ -20,8 +20,3 @@ class ReconstructConfig:
     place in the weights folder."""
     device: Device = "auto"
     """Where it runs: cpu, cuda (an NVIDIA GPU), or auto for a GPU if there is one."""
-
-    @classmethod
-    def take(cls, values: dict[str, Any]) -> Self:
-        """A config from a command's values, which are removed from them."""
-        return cls(**{field.name: values.pop(field.name) for field in fields(cls)})

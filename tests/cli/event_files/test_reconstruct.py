@@ -104,7 +104,7 @@ def test_the_benchmark_prints_its_tables_and_keeps_every_value(
 ):
     out, picture = tmp_path / "result.json", tmp_path / "grid.png"
     words = ("--simulators", "esim", "--interpolations", "blend", "--skip-frames", "2", "--noise")
-    files = ("-o", out, "--picture", picture, "-q")
+    files = ("-o", out, "--image", picture, "-q")
     code, said = run(
         capsys, "bench", "reconstruction", recording, *words, *files, *network(weights)
     )

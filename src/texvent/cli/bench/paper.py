@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, ClassVar
 
-from rich.console import Console
-
-from texvent.bench.document import write_document
 from texvent.bench.environment import describe_environment
 from texvent.bench.fidelity.run import FidelityPlan, run_fidelity
 from texvent.bench.fidelity.table import check_baseline, fidelity_tables
@@ -27,18 +24,17 @@ from texvent.bench.paper.run import PaperInputs, measure_table
 from texvent.bench.progress import Progress
 from texvent.bench.real.run import RealPlan, run_real
 from texvent.bench.real.scene import open_scene
-from texvent.cli.options import parse_options
+from texvent.cli.bench.result_options import ResultOptions
+from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError
-from texvent.io.atomic import check_output
 
 SCHEMA = "texvent-paper-1"
 
 
 @dataclass(frozen=True, kw_only=True)
 class PaperOptions:
-    """Which table, from what, and where to keep the result."""
+    """Which table, from what."""
 
-    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
     main_options: ClassVar[tuple[str, ...]] = (
         "table", "scenes", "recordings", "configs", "weights", "match_rate", "seed", "out",
         "overwrite", "quiet",
@@ -74,12 +70,6 @@ class PaperOptions:
     """Table 9: names of the classes in the classifier's order, one per line."""
     jobs: int = 2
     """Processes for simulating on recordings and scenes."""
-    out: Path | None = None
-    """JSON file with every value."""
-    overwrite: bool = False
-    """Replace a file that exists already."""
-    quiet: bool = False
-    """No progress; only the tables."""
 
     def __post_init__(self) -> None:
         if self.table is not None and self.table not in TABLES:
@@ -107,36 +97,30 @@ class PaperOptions:
 
 def run(arguments: Sequence[str]) -> None:
     """Run the command."""
-    values = parse_options(
+    options, output = parse_configs(
         arguments,
-        {"options": PaperOptions()},
+        {"options": PaperOptions(), "output": ResultOptions()},
         prog="texvent bench paper",
         description="The paper's tables: what can be measured here, next to the paper's figures, "
         "and what input is missing for the rest. docs/ablations.md explains tables 4 and 5, "
         "docs/benchmark.md the others.",
     )
-    options = PaperOptions(**values)
-    if options.out is not None:
-        check_output(options.out, overwrite=options.overwrite)
-    console = Console(stderr=True, quiet=options.quiet, highlight=False)
-
-    def progress(line: str) -> None:
-        console.print(line, style="dim")
+    output.check()
 
     if options.table is None or options.table in TABLES_HERE:
-        found = _run_ablations(options, progress)
+        found = _run_ablations(options, output.progress)
     else:
-        figures = measure_table(options.table, options.inputs, progress)
+        figures = measure_table(options.table, options.inputs, output.progress)
         sys.stdout.write(compare_with_paper(TABLES[options.table], figures))
         found = {f"table {options.table}": asdict(figures)}
-    if options.out is not None:
-        document = {
+    output.write(
+        lambda: {
             "schema": SCHEMA,
             "environment": describe_environment(),
             "is_rate_matched": options.match_rate,
             **found,
         }
-        write_document(options.out, document, overwrite=options.overwrite)
+    )
 
 
 def _run_ablations(options: PaperOptions, progress: Progress) -> dict[str, Any]:

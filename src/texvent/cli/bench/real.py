@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from rich.console import Console
-
-from texvent.bench.document import write_document
 from texvent.bench.fidelity.entries import Entry, choose_entries
 from texvent.bench.fidelity.table import (
     BASELINE,
@@ -21,12 +18,12 @@ from texvent.bench.fidelity.table import (
 from texvent.bench.paper.config_entry import ConfigEntry
 from texvent.bench.real.run import INTERPOLATIONS, RealPlan, real_entries, run_real
 from texvent.bench.real.scene import WITH_FRAMES, RecordingPart, open_scene
-from texvent.cli.options import parse_options
+from texvent.cli.bench.result_options import ResultOptions
+from texvent.cli.options import parse_configs
 from texvent.config import check_range
-from texvent.io.atomic import check_output
 
 DESCRIPTION = """\
-Simulators get the frames that a sensor recorded, and are judged by the events it recorded.
+Simulators get the frames that a sensor recorded, and are scored by the events it recorded.
 
 A source is a pulled data set (slider_depth, davis346), a folder of the Event-Camera Dataset, an
 EVREAL folder with images, a DSEC sequence, or an AEDAT4 file with frames. docs/real-data.md
@@ -35,10 +32,13 @@ explains the tables."""
 
 @dataclass(frozen=True, kw_only=True)
 class RealOptions:
-    """What to run, and where to keep the result."""
+    """What to run."""
 
     positional: ClassVar[tuple[str, ...]] = ("sources",)
-    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+    main_options: ClassVar[tuple[str, ...]] = (
+        "start", "seconds", "simulators", "interpolations", "config", "baseline", "out",
+        "overwrite",
+    )  # fmt: skip
 
     sources: tuple[str, ...] = WITH_FRAMES
     """Names of pulled data sets, or paths of recordings."""
@@ -63,12 +63,6 @@ class RealOptions:
     """Row that the others are compared with, pair by pair."""
     jobs: int = 2
     """Processes to use."""
-    out: Path | None = None
-    """JSON file with every value; `texvent bench page` makes a page of it."""
-    overwrite: bool = False
-    """Replace a file that exists already."""
-    quiet: bool = False
-    """No progress; only the tables."""
 
     def __post_init__(self) -> None:
         check_range("start", self.start, 0.0)
@@ -77,25 +71,24 @@ class RealOptions:
 
 def run(arguments: Sequence[str]) -> None:
     """Run the command."""
-    values = parse_options(
-        arguments, {"options": RealOptions()}, prog="texvent bench real", description=DESCRIPTION
+    options, output = parse_configs(
+        arguments,
+        {"options": RealOptions(), "output": ResultOptions()},
+        prog="texvent bench real",
+        description=DESCRIPTION,
     )
-    options = RealOptions(**values)
-    if options.out is not None:
-        check_output(options.out, overwrite=options.overwrite)
+    output.check()
     entries = _choose_entries(options)
     check_baseline(options.baseline, [entry.name for entry in entries])
     part = RecordingPart(options.start, options.seconds, options.offset_us, options.frames_gamma)
     scenes = [open_scene(source, part) for source in options.sources]
-    console = Console(stderr=True, quiet=options.quiet, highlight=False)
     report = run_real(
         scenes,
         RealPlan(entries=entries),
         jobs=options.jobs,
-        progress=lambda line: console.print(line, style="dim"),
+        progress=output.progress,
     )
-    if options.out is not None:
-        write_document(options.out, report.document(), overwrite=options.overwrite)
+    output.write(report.document)
     sys.stdout.write(fidelity_tables(report, baseline=options.baseline))
     sys.stdout.write(f"\n{motion_table(report)}")
 

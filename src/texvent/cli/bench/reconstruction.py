@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import ClassVar
 
-from rich.console import Console
-
-from texvent.bench.document import write_document
 from texvent.bench.fidelity.entries import choose_entries
 from texvent.bench.real.frame_recording import FrameRecording, open_recording
 from texvent.bench.real.scene import locate_source
@@ -23,10 +20,12 @@ from texvent.bench.reconstruction.run import (
     run_reconstruction,
 )
 from texvent.bench.reconstruction.table import reconstruction_document, reconstruction_tables
+from texvent.cli.bench.result_options import ResultOptions
 from texvent.cli.event_files.time_option import parse_time_range
-from texvent.cli.options import parse_options
+from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError
-from texvent.io.atomic import atomic_file, check_output
+from texvent.io.atomic import atomic_file
+from texvent.option_fields import renamed
 from texvent.reconstruct.config import ReconstructConfig
 from texvent.reconstruct.reconstructor import load_reconstructor
 from texvent.sensor import parse_sensor
@@ -39,18 +38,17 @@ A recording is a pulled data set (slider_depth, davis346), a folder of the Event
 EVREAL folder with images, an AEDAT4 file with frames, or an event file with --frames. The
 network's weights must be yours: docs/reconstruction.md says where they come from."""
 GRID_PARTS = (0.2, 0.4, 0.6, 0.8)
-"""Where in the scored part the images of --picture are taken."""
+"""Where in the scored part the images of --image are taken."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ReconstructionOptions:
-    """What to run, and where to keep the result."""
+    """What to run."""
 
     positional: ClassVar[tuple[str, ...]] = ("recordings",)
-    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
     main_options: ClassVar[tuple[str, ...]] = (
         "network", "weights", "simulators", "interpolations", "match_rate", "time", "noise", "out",
-        "picture", "overwrite",
+        "image", "overwrite",
     )  # fmt: skip
 
     recordings: tuple[str, ...] = ("slider_depth",)
@@ -78,14 +76,8 @@ class ReconstructionOptions:
     """Also add noise to the recorded events step by step: the paper's Table 7."""
     seed: int = 0
     """Of the simulators and of the noise."""
-    out: Path | None = None
-    """JSON file with every value; docs/reconstruction.md describes it."""
-    picture: Path | None = None
+    image: Path | None = renamed(None, was="picture")  # noqa: RUF009
     """PNG file with the images of the first recording, a row per source of events."""
-    overwrite: bool = False
-    """Replace a file that exists already."""
-    quiet: bool = False
-    """No progress; only the tables."""
 
     def plan(self) -> ReconstructionPlan:
         """What these options ask for.
@@ -126,37 +118,32 @@ class ReconstructionOptions:
 
 def run(arguments: Sequence[str]) -> None:
     """Run the command."""
-    values = parse_options(
+    options, network, output = parse_configs(
         arguments,
-        {"input": ReconstructionOptions(), "network": ReconstructConfig()},
+        {
+            "input": ReconstructionOptions(),
+            "network": ReconstructConfig(),
+            "output": ResultOptions(),
+        },
         prog="texvent bench reconstruction",
         description=DESCRIPTION,
     )
-    network = ReconstructConfig.take(values)
-    options = ReconstructionOptions(**values)
-    for path in (options.out, options.picture):
-        if path is not None:
-            check_output(path, overwrite=options.overwrite)
+    output.check(options.image)
     plan = options.plan()
     reconstructor = load_reconstructor(network.network, network.weights, device=network.device)
     recordings = options.open_recordings()
     scorer = ReconstructionScorer(reconstructor=reconstructor, measures=load_measures(), plan=plan)
-    console = Console(stderr=True, quiet=options.quiet, highlight=False)
-    if options.picture is not None:
+    if options.image is not None:
         grid = ReconstructionGrid(recordings[0], _instants(recordings[0], plan))
         scorer = replace(scorer, on_image=grid)
-    report = run_reconstruction(
-        recordings, scorer, progress=lambda line: console.print(line, style="dim", markup=False)
-    )
+    report = run_reconstruction(recordings, scorer, progress=output.progress)
     noise: list[NoiseScore] = []
     for recording in recordings if options.noise else ():
-        console.print(f"{recording.name}: noise", style="dim", markup=False)
+        output.progress(f"{recording.name}: noise")
         noise += noise_curve(recording, scorer)
-    if options.out is not None:
-        document = reconstruction_document(report, noise)
-        write_document(options.out, document, overwrite=options.overwrite)
-    if options.picture is not None:
-        with atomic_file(options.picture, overwrite=options.overwrite) as part:
+    output.write(lambda: reconstruction_document(report, noise))
+    if options.image is not None:
+        with atomic_file(options.image, overwrite=output.overwrite) as part:
             part.write_bytes(grid.png())
     sys.stdout.write(reconstruction_tables(report, noise))
 

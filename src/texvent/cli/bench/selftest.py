@@ -3,71 +3,57 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar
 
-from rich.console import Console
-
-from texvent.bench.document import write_document
 from texvent.bench.selftest.chart import selftest_chart
 from texvent.bench.selftest.run import SelftestRow, run_selftest
 from texvent.bench.selftest.table import read_selftest, selftest_document, selftest_table
-from texvent.cli.options import parse_options
+from texvent.cli.bench.result_options import ResultOptions
+from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError
-from texvent.io.atomic import atomic_file, check_output
+from texvent.io.atomic import atomic_file
 
 
 @dataclass(frozen=True, kw_only=True)
 class SelftestOptions:
-    """What to test, and where to keep the result."""
-
-    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+    """What to test."""
 
     metrics: str | None = None
     """Names of metrics, separated by commas; default: all whose weights are here."""
     result: Path | None = None
     """Show the table of this JSON file, which --out wrote, instead of testing. Alone or with
     --chart."""
-    out: Path | None = None
-    """JSON file with every value and z-score."""
     chart: Path | None = None
     """SVG image of the z-scores of every metric and perturbation."""
-    overwrite: bool = False
-    """Replace a file that exists already."""
-    quiet: bool = False
-    """No progress; only the table."""
 
 
 def run(arguments: Sequence[str]) -> None:
     """Run the command."""
-    values = parse_options(
+    options, output = parse_configs(
         arguments,
-        {"options": SelftestOptions()},
+        {"options": SelftestOptions(), "output": ResultOptions()},
         prog="texvent bench selftest",
         description="Which of 20 perturbations of a recording does each metric see? "
         "docs/metrics.md explains the table.",
     )
-    options = SelftestOptions(**values)
-    if options.result is not None and (options.out or options.metrics):
+    if options.result is not None and (output.out or options.metrics):
         raise ConfigError("result shows a file as it is: leave out out and metrics, or test anew")
-    for path in (options.out, options.chart):
-        if path is not None:
-            check_output(path, overwrite=options.overwrite)
-    rows = _run_selftest(options) if options.result is None else read_selftest(options.result)
+    output.check(options.chart)
+    rows = (
+        _run_selftest(options, output) if options.result is None else read_selftest(options.result)
+    )
     if options.chart is not None:
-        with atomic_file(options.chart, overwrite=options.overwrite) as part:
+        with atomic_file(options.chart, overwrite=output.overwrite) as part:
             part.write_text(selftest_chart(rows), encoding="utf-8")
     sys.stdout.write(selftest_table(rows))
 
 
-def _run_selftest(options: SelftestOptions) -> list[SelftestRow]:
-    console = Console(stderr=True, quiet=options.quiet, highlight=False)
+def _run_selftest(options: SelftestOptions, output: ResultOptions) -> list[SelftestRow]:
     rows = run_selftest(
         options.metrics.split(",") if options.metrics else None,
-        progress=lambda line: console.print(line, style="dim"),
+        progress=output.progress,
     )
-    if options.out is not None:
-        write_document(options.out, selftest_document(rows), overwrite=options.overwrite)
+    output.write(lambda: selftest_document(rows))
     return rows
