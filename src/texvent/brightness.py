@@ -23,7 +23,7 @@ Float64Array: TypeAlias = NDArray[np.float64]
 
 
 def luma_bt601(rgb: NDArray[Any]) -> NDArray[np.float32]:
-    """Luma of an RGB picture, never rounded to whole levels.
+    """Luma of an RGB image, never rounded to whole levels.
 
     Args:
         rgb: [H, W, 3], any numeric type.

@@ -46,7 +46,7 @@ def frame_time_us(index: int, fps: Fraction, start_us: int = 0) -> int:
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """One picture and its time.
+    """One image and its time.
 
     Raises:
         InputError: pixels are not [H, W] or [H, W, 3], or not uint8, uint16 or float.

@@ -11,9 +11,9 @@ WIDTH, HEIGHT = 32, 24
 def write_sequence(folder, *, rotation=None, scale=2.0, frames=3):
     """A frame camera of `scale` times the focal length and resolution, turned by `rotation`."""
     events = folder / "events" / "left"
-    pictures = folder / "images" / "left" / "rectified"
+    images = folder / "images" / "left" / "rectified"
     calibration = folder / "calibration"
-    for one in (events, pictures, calibration):
+    for one in (events, images, calibration):
         one.mkdir(parents=True)
     column, row = np.meshgrid(np.arange(WIDTH), np.arange(HEIGHT))
     with h5py.File(events / "events.h5", "w") as file:
@@ -23,7 +23,7 @@ def write_sequence(folder, *, rotation=None, scale=2.0, frames=3):
     big = (int(WIDTH * scale), int(HEIGHT * scale))
     for number in range(frames):
         ramp = np.tile(np.linspace(0, 250, big[0]), (big[1], 1)).astype(np.uint8)
-        cv2.imwrite(str(pictures / f"{number:06d}.png"), ramp)
+        cv2.imwrite(str(images / f"{number:06d}.png"), ramp)
     times = (f"{1_000_000 + 50_000 * number}\n" for number in range(frames))
     (folder / "images" / "timestamps.txt").write_text("".join(times))
     extrinsics = np.eye(4)

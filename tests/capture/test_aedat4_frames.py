@@ -166,15 +166,15 @@ def test_frames_that_dv_processing_writes_are_read(tmp_path):
     path = tmp_path / "dv.aedat4"
     config = dv.io.MonoCameraWriter.FrameOnlyConfig("camera", tuple(SIZE))
     writer = dv.io.MonoCameraWriter(str(path), config)
-    pictures = [np.arange(24, dtype=np.uint8).reshape(4, 6) + i for i in range(3)]
-    for i, picture in enumerate(pictures):
-        frame = dv.Frame(1_000_000 + 40_000 * i, picture)
+    images = [np.arange(24, dtype=np.uint8).reshape(4, 6) + i for i in range(3)]
+    for i, image in enumerate(images):
+        frame = dv.Frame(1_000_000 + 40_000 * i, image)
         frame.exposure = datetime.timedelta(microseconds=10_000)
         writer.writeFrame(frame)
     del writer
     frames = list(open_frames(path, CaptureConfig()))
     assert [frame.t_us for frame in frames] == [1_005_000, 1_045_000, 1_085_000]
-    np.testing.assert_array_equal([frame.pixels for frame in frames], pictures)
+    np.testing.assert_array_equal([frame.pixels for frame in frames], images)
 
 
 @pytest.mark.network

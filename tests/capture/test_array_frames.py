@@ -39,15 +39,13 @@ def test_half_floats_and_booleans_are_widened():
 
 
 def test_a_list_can_be_read_again_and_a_generator_once():
-    pictures = list(ramp(np.uint8))
-    stream = open_frames(pictures, AT_100)
+    images = list(ramp(np.uint8))
+    stream = open_frames(images, AT_100)
     assert (len(list(stream)), len(list(stream)), stream.is_live) == (3, 3, False)
-    stream = open_frames((picture for picture in pictures), AT_100)
+    stream = open_frames((image for image in images), AT_100)
     assert stream.is_live
     frames = list(stream)
-    assert [np.array_equal(f.pixels, p) for f, p in zip(frames, pictures, strict=True)] == [
-        True
-    ] * 3
+    assert [np.array_equal(f.pixels, p) for f, p in zip(frames, images, strict=True)] == [True] * 3
 
 
 def test_npy_files_are_read(tmp_path):
@@ -94,7 +92,7 @@ def test_intensities_that_are_not_finite_and_positive_are_refused(bad, index):
     [
         (np.zeros((0, 4, 6), np.uint8), "there is no frame"),
         (np.zeros((1, 4, 6), np.uint8), "only one frame"),
-        (np.zeros((4, 6), np.uint8), "One picture holds no change"),
+        (np.zeros((4, 6), np.uint8), "One image holds no change"),
         (np.zeros((2, 4, 6, 4), np.uint8), r"Drop the alpha channel"),
         (np.zeros((2, 3, 4, 6), np.uint8), r"Channels come last"),
         (np.zeros((2, 0, 6), np.uint8), r"must be \[H, W\]"),

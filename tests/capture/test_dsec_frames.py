@@ -1,4 +1,4 @@
-"""DSEC's pictures seen from its event camera."""
+"""DSEC's images seen from its event camera."""
 
 import cv2
 import numpy as np
@@ -19,7 +19,7 @@ def test_frames_come_in_the_pixels_of_the_event_camera(tmp_path):
     assert frames.size == SensorSize(WIDTH, HEIGHT)
     shown = list(frames)
     assert [frame.t_us for frame in shown] == [1_000_000, 1_050_000, 1_100_000]
-    # Twice the resolution: pixel x of the event camera is column 2x of the picture.
+    # Twice the resolution: pixel x of the event camera is column 2x of the image.
     expected = np.linspace(0, 250, 2 * WIDTH).astype(np.uint8)[::2]
     assert np.abs(shown[0].pixels[5].astype(int) - expected).max() <= 1
 

@@ -4,13 +4,13 @@ import cv2
 import numpy as np
 import pytest
 
-from texvent.capture.image_folder import list_pictures
+from texvent.capture.image_folder import list_images
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError
 
 
-def save_pictures(folder, count=3, dtype=np.uint8, channels=(), name="frame{}.png", step=1):
+def save_images(folder, count=3, dtype=np.uint8, channels=(), name="frame{}.png", step=1):
     folder.mkdir(parents=True, exist_ok=True)
     for index in range(count):
         pixels = np.full((4, 6, *channels), 100 + step * index, dtype)
@@ -19,20 +19,20 @@ def save_pictures(folder, count=3, dtype=np.uint8, channels=(), name="frame{}.pn
 
 
 def test_numbers_in_names_sort_as_numbers(tmp_path):
-    save_pictures(tmp_path, 12)
-    names = [path.name for path in list_pictures(tmp_path)]
+    save_images(tmp_path, 12)
+    names = [path.name for path in list_images(tmp_path)]
     assert names == [f"frame{i}.png" for i in range(12)]
 
 
 def test_a_frame_rate_gives_the_times(tmp_path):
-    save_pictures(tmp_path)
+    save_images(tmp_path)
     stream = open_frames(tmp_path, CaptureConfig(fps=Fraction(30_000, 1001)))
     assert [frame.t_us for frame in stream] == [0, 33_367, 66_733]
     assert stream.frame_count == 3
 
 
 def test_ecd_layout_is_found_without_options_and_keeps_its_clock(tmp_path):
-    save_pictures(tmp_path / "images")
+    save_images(tmp_path / "images")
     (tmp_path / "images.txt").write_text(
         "# time name\n0.5 images/frame0.png\n0.538766001 images/frame2.png\n"
     )
@@ -42,7 +42,7 @@ def test_ecd_layout_is_found_without_options_and_keeps_its_clock(tmp_path):
 
 
 def test_sixteen_bits_stay(tmp_path):
-    save_pictures(tmp_path, dtype=np.uint16, step=30_000)
+    save_images(tmp_path, dtype=np.uint16, step=30_000)
     frames = list(open_frames(tmp_path, CaptureConfig(fps=Fraction(10))))
     assert frames[1].pixels.dtype == np.uint16
     assert int(frames[1].pixels[0, 0]) == 30_100
@@ -57,7 +57,7 @@ def test_colour_comes_as_rgb_and_alpha_goes(tmp_path):
     assert frame.pixels[0, 0].tolist() == [200, 20, 10]
 
 
-def test_float_pictures_up_to_one_need_a_white_level(tmp_path):
+def test_float_images_up_to_one_need_a_white_level(tmp_path):
     for index in range(2):
         cv2.imwrite(str(tmp_path / f"{index}.tiff"), np.full((4, 6), 0.5, np.float32))
     fps = Fraction(10)
@@ -68,39 +68,39 @@ def test_float_pictures_up_to_one_need_a_white_level(tmp_path):
 
 
 def test_without_times_the_message_says_what_to_give(tmp_path):
-    save_pictures(tmp_path / "a")
-    with pytest.raises(InputError, match=r"times of its pictures are unknown.*--fps.*--timestamps"):
+    save_images(tmp_path / "a")
+    with pytest.raises(InputError, match=r"times of its images are unknown.*--fps.*--timestamps"):
         open_frames(tmp_path / "a", CaptureConfig())
 
 
 def test_a_wrong_number_of_times_is_refused(tmp_path):
-    save_pictures(tmp_path)
+    save_images(tmp_path)
     (tmp_path / "timestamps.txt").write_text("0\n0.1\n")
     with pytest.raises(InputError, match=r"timestamps\.txt has 2 times for 3 frames"):
         open_frames(tmp_path, CaptureConfig())
 
 
 def test_an_empty_folder_is_refused(tmp_path):
-    with pytest.raises(InputError, match="holds no picture"):
+    with pytest.raises(InputError, match="holds no image"):
         open_frames(tmp_path, CaptureConfig(fps=Fraction(10)))
 
 
-def test_a_listed_picture_that_is_missing_is_named(tmp_path):
-    save_pictures(tmp_path)
+def test_a_listed_image_that_is_missing_is_named(tmp_path):
+    save_images(tmp_path)
     (tmp_path / "images.txt").write_text("0 frame0.png\n1 frame9.png\n")
     with pytest.raises(InputError, match=r"names frame9\.png"):
         open_frames(tmp_path, CaptureConfig())
 
 
-def test_a_damaged_picture_is_named(tmp_path):
-    save_pictures(tmp_path)
-    (tmp_path / "frame1.png").write_bytes(b"not a picture")
+def test_a_damaged_image_is_named(tmp_path):
+    save_images(tmp_path)
+    (tmp_path / "frame1.png").write_bytes(b"not an image")
     with pytest.raises(FileFormatError, match=r"frame1\.png cannot be decoded"):
         list(open_frames(tmp_path, CaptureConfig(fps=Fraction(10))))
 
 
-def test_pictures_of_two_sizes_are_refused_unless_fitted(tmp_path):
-    save_pictures(tmp_path)
+def test_images_of_two_sizes_are_refused_unless_fitted(tmp_path):
+    save_images(tmp_path)
     cv2.imwrite(str(tmp_path / "frame1.png"), np.zeros((8, 8), np.uint8))
     config = CaptureConfig(fps=Fraction(10))
     with pytest.raises(InputError, match="is 8x8, the frames before it are 6x4"):

@@ -52,8 +52,8 @@ def film(clips):
 
 
 def jpegs(count):
-    pictures = (np.full((48, 64, 3), 30 * i, np.uint8) for i in range(count))
-    return [cv2.imencode(".jpg", picture)[1].tobytes() for picture in pictures]
+    images = (np.full((48, 64, 3), 30 * i, np.uint8) for i in range(count))
+    return [cv2.imencode(".jpg", image)[1].tobytes() for image in images]
 
 
 def test_a_named_pipe_is_live_and_keeps_the_streams_times(pipe, film):

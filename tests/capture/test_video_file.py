@@ -5,8 +5,8 @@ import cv2
 import numpy as np
 import pytest
 
+from texvent.capture.frame_times import FrameTimes
 from texvent.capture.open import open_frames
-from texvent.capture.times import FrameTimes
 from texvent.capture.video_file import PresentationClock, VideoFile
 from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError

@@ -251,5 +251,7 @@ def test_the_folder_follows_the_environment(monkeypatch, tmp_path):
     monkeypatch.delenv("TEXVENT_DATA", raising=False)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     assert data_folder() == tmp_path / "texvent"
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))
+    assert data_folder() == tmp_path / "cache"
     monkeypatch.setenv("TEXVENT_DATA", str(tmp_path / "own"))
     assert data_folder() == tmp_path / "own"

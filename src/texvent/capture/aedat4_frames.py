@@ -6,7 +6,7 @@ Each packet of the stream FRME is one table:
     slot 5 i8 OpenCV's number of the pixel type · 6, 7 i16 width, height · 8, 9 i16 position
     slot 10 vector of bytes, the pixels row by row · 11 i64 length of the exposure
 
-A picture shows the mean of its exposure, so a frame's time is the middle of it. Slot 0 cannot be
+An image shows the mean of its exposure, so a frame's time is the middle of it. Slot 0 cannot be
 relied on for that: the first DV software wrote the middle there, later versions the start.
 
 Source: iniVation, AEDAT 4.0 file format and dv-processing's description of frames.
@@ -15,13 +15,12 @@ Source: iniVation, AEDAT 4.0 file format and dv-processing's description of fram
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from texvent.capture.times import FrameTimes
+from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.frame_times import FrameTimes
 from texvent.errors import FileFormatError
 from texvent.io.aedat.aedat4_container import MAGIC, Container, open_container, stored_size
 from texvent.io.aedat.aedat4_tables import StreamInfo
@@ -40,7 +39,7 @@ def is_aedat4(path: Path) -> bool:
     return begins_with(path, MAGIC)
 
 
-class Aedat4Frames:
+class Aedat4Frames(FrameSource):
     """The frames of an AEDAT4 file; every iteration opens the file anew.
 
     Times are the middle of each exposure on the recording's own clock, that of its events, unless
@@ -60,40 +59,17 @@ class Aedat4Frames:
     def __init__(self, path: Path, times: FrameTimes | None = None) -> None:
         self._times = times
         self._container, self._stream = _open_stream(path)
-        self._frame_count = self._container.count_packets(self._stream)
+        frame_count = self._container.count_packets(self._stream)
         if times is not None:
-            times.check_count(self._frame_count)
-        self._size = self._find_size()
-
-    @property
-    def size(self) -> SensorSize:
-        """Width and height, pixels."""
-        return self._size
-
-    @property
-    def fps(self) -> Fraction | None:
-        """The frame rate that was given, or None: each frame has its own time."""
-        return None if self._times is None else self._times.fps
-
-    @property
-    def frame_count(self) -> int:
-        """Number of frames."""
-        return self._frame_count
-
-    @property
-    def is_live(self) -> bool:
-        """False: the file can be read again."""
-        return False
-
-    @property
-    def metadata(self) -> Mapping[str, Any]:
-        """Path, the camera's name, and what the times mean."""
-        return {
-            "source": str(self._container.path),
+            times.check_count(frame_count)
+        metadata = {
+            "source": str(path),
             "kind": "AEDAT4 frames",
             "camera": self._stream.attributes.get("source"),
-            "times": "given" if self._times else "middle of the exposure",
+            "times": "given" if times else "middle of the exposure",
         }
+        fps = None if times is None else times.fps
+        self._facts = SourceFacts(self._find_size(), fps, frame_count, metadata)
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in order; see the class for what can go wrong."""
@@ -103,10 +79,10 @@ class Aedat4Frames:
             except FileFormatError as error:
                 raise FileFormatError(f"{self._container.path}, frame {index}: {error}") from error
             height, width = pixels.shape[:2]
-            if (width, height) != self._size:
+            if (width, height) != self.size:
                 raise FileFormatError(
                     f"{self._container.path}, frame {index} is {width}x{height}, the sensor "
-                    f"{self._size}; frames of a part of the sensor cannot be used"
+                    f"{self.size}; frames of a part of the sensor cannot be used"
                 )
             yield Frame(pixels, t_us if self._times is None else self._times(index))
 

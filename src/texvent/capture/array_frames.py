@@ -1,24 +1,24 @@
-"""Frames in memory: NumPy arrays, anything that converts to one, and iterables of pictures."""
+"""Frames in memory: NumPy arrays, anything that converts to one, and iterables of images."""
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Iterator, Mapping, Sized
-from fractions import Fraction
+from collections.abc import Iterable, Iterator, Sized
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.frame_times import FrameTimes
 from texvent.capture.intensity_scale import refuse_unit_range, usable_pixels
-from texvent.capture.times import FrameTimes
 from texvent.errors import InputError
-from texvent.sensor import SensorSize, checked_size
+from texvent.sensor import checked_size
 from texvent.video import Frame, PixelArray
 
 
-class ArrayFrames:
-    """Frames from an array [N, H, W] or [N, H, W, 3] (RGB), or from an iterable of pictures.
+class ArrayFrames(FrameSource):
+    """Frames from an array [N, H, W] or [N, H, W, 3] (RGB), or from an iterable of images.
 
     An array or a list can be read again; an iterator (a generator, a camera loop) only once.
 
@@ -39,63 +39,39 @@ class ArrayFrames:
         if hasattr(frames, "__array__"):
             frames = _checked_array(np.asarray(frames))
         self._frames: Iterable[Any] = frames
-        self._is_live = isinstance(frames, Iterator)
+        is_live = isinstance(frames, Iterator)
         self._times = times
-        self._frame_count = len(frames) if isinstance(frames, Sized) else None
-        if self._frame_count is not None:
-            _refuse_if_empty(self._frame_count == 0)
-            times.check_count(self._frame_count)
-        first = self._peek()
-        self._size = checked_size(first.shape[1], first.shape[0])
-        self._pixel_type = str(first.dtype)
-        if white_level is None and not self._is_live:
+        count = len(frames) if isinstance(frames, Sized) else None
+        if count is not None:
+            _refuse_if_empty(count == 0)
+            times.check_count(count)
+        first = self._peek(is_live)
+        metadata = {"source": "array", "kind": "array", "pixel_type": str(first.dtype)}
+        size = checked_size(first.shape[1], first.shape[0])
+        self._facts = SourceFacts(size, times.fps, count, metadata, is_live)
+        if white_level is None and not is_live:
             _refuse_unit_floats(self._frames)
-
-    @property
-    def size(self) -> SensorSize:
-        """Width and height, pixels."""
-        return self._size
-
-    @property
-    def fps(self) -> Fraction | None:
-        """The frame rate that was given, or None where each frame has its own time."""
-        return self._times.fps
-
-    @property
-    def frame_count(self) -> int | None:
-        """Number of frames, or None for an iterator."""
-        return self._frame_count
-
-    @property
-    def is_live(self) -> bool:
-        """True for an iterator, which can be read only once."""
-        return self._is_live
-
-    @property
-    def metadata(self) -> Mapping[str, Any]:
-        """That they came from memory, and their type."""
-        return {"source": "array", "kind": "array", "pixel_type": self._pixel_type}
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in order.
 
         Raises:
-            InputError: a picture of an iterable has a wrong shape or type.
+            InputError: an image of an iterable has a wrong shape or type.
         """
         count = 0
-        for count, picture in enumerate(self._frames, start=1):
-            pixels = _checked_picture(picture, f"frame {count - 1}")
+        for count, image in enumerate(self._frames, start=1):
+            pixels = _checked_image(image, f"frame {count - 1}")
             yield Frame(pixels, self._times(count - 1))
         self._times.check_count(count)
 
-    def _peek(self) -> PixelArray:
-        """The first picture; an iterator gets it back in front."""
+    def _peek(self, is_live: bool) -> PixelArray:
+        """The first image; an iterator gets it back in front."""
         iterator = iter(self._frames)
         first = next(iterator, None)
         _refuse_if_empty(first is None)
-        if self._is_live:
+        if is_live:
             self._frames = itertools.chain((first,), iterator)
-        return _checked_picture(first, "frame 0")
+        return _checked_image(first, "frame 0")
 
 
 def _checked_array(array: NDArray[Any]) -> NDArray[Any]:
@@ -112,7 +88,7 @@ def _checked_array(array: NDArray[Any]) -> NDArray[Any]:
 
 def _shape_hint(shape: tuple[int, ...]) -> str:
     if len(shape) == 2:
-        return ". One picture holds no change; stack at least two"
+        return ". One image holds no change; stack at least two"
     if len(shape) == 4 and shape[-1] == 4:
         return ". Drop the alpha channel: frames[..., :3]"
     if len(shape) == 4 and shape[1] in (1, 3):
@@ -120,8 +96,8 @@ def _shape_hint(shape: tuple[int, ...]) -> str:
     return ""
 
 
-def _checked_picture(picture: Any, where: str) -> PixelArray:
-    pixels = usable_pixels(np.asarray(picture), where)
+def _checked_image(image: Any, where: str) -> PixelArray:
+    pixels = usable_pixels(np.asarray(image), where)
     if pixels.ndim == 3 and pixels.shape[-1] == 1:
         pixels = pixels[..., 0]
     if not (pixels.ndim == 2 or (pixels.ndim == 3 and pixels.shape[-1] == 3)) or 0 in pixels.shape:
@@ -137,8 +113,8 @@ def _refuse_if_empty(is_empty: bool) -> None:
 def _refuse_unit_floats(frames: Iterable[Any]) -> None:
     """Look for the first value above 1; usually the first frame has it."""
     highest = 0.0
-    for picture in frames:
-        pixels = np.asarray(picture)
+    for image in frames:
+        pixels = np.asarray(image)
         if pixels.dtype.kind != "f":
             return
         highest = max(highest, float(pixels.max()))

@@ -1,4 +1,4 @@
-"""A decoded PyAV frame → an upright NumPy picture at its own precision."""
+"""A decoded PyAV frame → an upright NumPy image at its own precision."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ def decoded_pixels(frame: VideoFrame) -> PixelArray:
         the file states; files that state none are read as BT.601 limited range, as libav does.
         libav's 16-bit RGB of deep YUV has its white at 65283, 0.4 % below full scale.
     """
-    picture = frame.reformat(format=pixel_format(frame.format), dst_color_range=ColorRange.JPEG)
-    pixels = picture.to_ndarray()
+    image = frame.reformat(format=pixel_format(frame.format), dst_color_range=ColorRange.JPEG)
+    pixels = image.to_ndarray()
     turns = round(frame.rotation / QUARTER_TURN) % 4
     return np.ascontiguousarray(np.rot90(pixels, turns)) if turns else pixels
 

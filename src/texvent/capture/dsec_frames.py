@@ -1,5 +1,13 @@
 """Frames of a DSEC sequence as the left event camera would see them.
 
+Where the files lie, once the archives are unpacked into one folder:
+
+    events/left/events.h5          the left event camera, 640x480
+    events/left/rectify_map.h5     rectify_map f4 [480, 640, 2]: raw pixel → rectified (x, y)
+    images/left/rectified/*.png    the left frame camera, rectified, another resolution
+    images/timestamps.txt          µs, on the clock of the events
+    calibration/cam_to_cam.yaml    intrinsics camRect0, camRect1; extrinsics T_10, R_rect0, R_rect1
+
 The two cameras stand 4.5 cm apart. The frames are turned into the raw pixels of the event camera
 as if everything were far away: what is near stays displaced (1 px beyond about 25 m).
 
@@ -10,80 +18,68 @@ its description of calibration files.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent._require import require
-from texvent.capture.dsec_layout import CALIBRATION, PICTURES, RECTIFY_MAP, TIMESTAMPS
+from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.image_folder import ImageFolder
 from texvent.errors import FileFormatError
 from texvent.sensor import SensorSize
 from texvent.video import Frame
 
+EVENTS = Path("events/left/events.h5")
+RECTIFY_MAP = Path("events/left/rectify_map.h5")
+IMAGES = Path("images/left/rectified")
+TIMESTAMPS = Path("images/timestamps.txt")
+CALIBRATION = Path("calibration/cam_to_cam.yaml")
 
-@dataclass(frozen=True, eq=False)
-class DsecFrames:
-    """The left frame camera's pictures in the pixels of the left event camera."""
 
-    folder: Path
-    pictures: ImageFolder
-    column: NDArray[np.float32]
-    """[480, 640] column of the frame that each pixel of the event camera sees."""
-    row: NDArray[np.float32]
+def is_dsec(folder: Path) -> bool:
+    """True for the folder of a DSEC sequence."""
+    return (folder / IMAGES).is_dir() and (folder / EVENTS).is_file()
 
-    @classmethod
-    def open(cls, folder: Path) -> DsecFrames:
-        """A sequence; the calibration is read, the pictures are not yet.
 
-        Raises:
-            InputError: pictures or times are missing.
-            FileFormatError: the calibration is missing, damaged or lacks an entry.
-        """
-        pictures = ImageFolder(folder / PICTURES, timestamps=folder / TIMESTAMPS, unit="us")
+class DsecFrames(FrameSource):
+    """The left frame camera's images in the pixels of the left event camera.
+
+    The calibration is read when the sequence is opened, the images one by one.
+
+    Args:
+        folder: the sequence.
+
+    Raises:
+        InputError: images or times are missing.
+        FileFormatError: the calibration is missing, damaged or lacks an entry.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._images = ImageFolder(folder / IMAGES, timestamps=folder / TIMESTAMPS, unit="us")
         rectified = _read_rectify_map(folder / RECTIFY_MAP)
         homography = _read_homography(folder / CALIBRATION)
-        ones = np.ones((*rectified.shape[:2], 1))
-        seen = np.concatenate([rectified, ones], axis=2) @ homography.T
-        column, row = (seen[..., axis] / seen[..., 2] for axis in (0, 1))
-        return cls(folder, pictures, column.astype(np.float32), row.astype(np.float32))
-
-    @property
-    def size(self) -> SensorSize:
-        """Width and height of the event camera, pixels."""
-        height, width = self.column.shape
-        return SensorSize(width, height)
-
-    @property
-    def fps(self) -> Fraction | None:
-        """None: each frame has its own time."""
-        return self.pictures.fps
-
-    @property
-    def frame_count(self) -> int:
-        """Number of pictures."""
-        return self.pictures.frame_count
-
-    @property
-    def is_live(self) -> bool:
-        """False: the folder can be read again."""
-        return False
-
-    @property
-    def metadata(self) -> Mapping[str, Any]:
-        """Folder and kind."""
-        return {"source": str(self.folder), "kind": "DSEC sequence"}
+        height, width = rectified.shape[:2]
+        seen = np.concatenate([rectified, np.ones((height, width, 1))], axis=2) @ homography.T
+        # Column and row of the frame that each pixel of the event camera sees, [480, 640].
+        self._column, self._row = (
+            (seen[..., axis] / seen[..., 2]).astype(np.float32) for axis in (0, 1)
+        )
+        self._facts = SourceFacts(
+            SensorSize(width, height),
+            self._images.fps,
+            self._images.frame_count,
+            {"source": str(folder), "kind": "DSEC sequence"},
+        )
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in order, read one by one; places that no frame shows are black."""
-        for frame in self.pictures:
+        import cv2  # only frames of DSEC need it here
+
+        for frame in self._images:
             pixels = cv2.remap(
-                np.asarray(frame.pixels), self.column, self.row, interpolation=cv2.INTER_LINEAR
+                np.asarray(frame.pixels), self._column, self._row, interpolation=cv2.INTER_LINEAR
             )
             yield Frame(np.asarray(pixels), frame.t_us)
 
@@ -108,7 +104,7 @@ def _read_homography(path: Path) -> NDArray[np.float64]:
     yaml = require("yaml")
     try:
         facts = yaml.safe_load(path.read_text(encoding="utf-8"))
-        event, picture = (_camera_matrix(facts["intrinsics"][f"camRect{i}"]) for i in (0, 1))
+        event, frame = (_camera_matrix(facts["intrinsics"][f"camRect{i}"]) for i in (0, 1))
         extrinsics = facts["extrinsics"]
         between = np.asarray(extrinsics["T_10"], np.float64)[:3, :3]
         turns = [np.asarray(extrinsics[f"R_rect{i}"], np.float64) for i in (0, 1)]
@@ -117,7 +113,7 @@ def _read_homography(path: Path) -> NDArray[np.float64]:
         raise FileFormatError(f"calibration {path} cannot be read ({error})") from error
     except (KeyError, TypeError, ValueError, IndexError) as error:
         raise FileFormatError(f"calibration {path} lacks an entry ({error!r})") from error
-    return np.asarray(picture @ turn @ np.linalg.inv(event))
+    return np.asarray(frame @ turn @ np.linalg.inv(event))
 
 
 def _camera_matrix(camera: Mapping[str, Any]) -> NDArray[np.float64]:

@@ -1,4 +1,4 @@
-"""Frames of EVREAL's folders: pictures and their times as memory-mapped arrays.
+"""Frames of EVREAL's folders: images and their times as memory-mapped arrays.
 
     images.npy     u1 [n, H, W] or [n, H, W, 1]
     images_ts.npy  f8 [n] or [n, 1], seconds, on the clock of the events
@@ -9,30 +9,29 @@ Event-based Video Reconstruction, CVPRW 2023, and its reader.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from fractions import Fraction
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
+from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.frame_times import FrameTimes, listed_times
 from texvent.capture.intensity_scale import usable_pixels
-from texvent.capture.times import FrameTimes, listed_times
 from texvent.errors import FileFormatError
 from texvent.io.arrays.npy_file import map_array
-from texvent.sensor import SensorSize, checked_size
+from texvent.sensor import checked_size
 from texvent.video import MICROSECONDS, Frame
 
-PICTURES, TIMES = "images.npy", "images_ts.npy"
+IMAGES, TIMES = "images.npy", "images_ts.npy"
 
 
 def is_evreal(folder: Path) -> bool:
-    """True for a folder with EVREAL's arrays of pictures and their times."""
-    return all((folder / name).is_file() for name in (PICTURES, TIMES))
+    """True for a folder with EVREAL's arrays of images and their times."""
+    return all((folder / name).is_file() for name in (IMAGES, TIMES))
 
 
-class EvrealFrames:
-    """The pictures of a folder in order; they are mapped, not read, until they are asked for.
+class EvrealFrames(FrameSource):
+    """The images of a folder in order; they are mapped, not read, until they are asked for.
 
     Args:
         folder: holds images.npy and images_ts.npy.
@@ -40,53 +39,33 @@ class EvrealFrames:
 
     Raises:
         FileFormatError: an array is damaged or of another shape.
-        InputError: another number of times is given than there are pictures, or times that do not
+        InputError: another number of times is given than there are images, or times that do not
             increase.
     """
 
     def __init__(self, folder: Path, times: FrameTimes | None = None) -> None:
         self._folder = folder
-        pictures = map_array(folder / PICTURES)
-        if pictures.ndim == 4 and pictures.shape[3] == 1:
-            pictures = pictures[..., 0]
-        if pictures.ndim not in (3, 4):
+        images = map_array(folder / IMAGES)
+        if images.ndim == 4 and images.shape[3] == 1:
+            images = images[..., 0]
+        if images.ndim not in (3, 4):
             raise FileFormatError(
-                f"{folder / PICTURES} has shape {pictures.shape}; pictures are [n, H, W]"
+                f"{folder / IMAGES} has shape {images.shape}; images are [n, H, W]"
             )
-        self._pictures = pictures
+        self._images = images
         self._times = times or _read_times(folder / TIMES)
-        self._times.check_count(len(pictures))
-        self._size = checked_size(pictures.shape[2], pictures.shape[1])
-
-    @property
-    def size(self) -> SensorSize:
-        """Width and height, pixels."""
-        return self._size
-
-    @property
-    def fps(self) -> Fraction | None:
-        """The frame rate that was given, or None: each frame has its own time."""
-        return self._times.fps
-
-    @property
-    def frame_count(self) -> int:
-        """Number of pictures."""
-        return len(self._pictures)
-
-    @property
-    def is_live(self) -> bool:
-        """False: the folder can be read again."""
-        return False
-
-    @property
-    def metadata(self) -> Mapping[str, Any]:
-        """Folder and kind."""
-        return {"source": str(self._folder), "kind": "EVREAL folder"}
+        self._times.check_count(len(images))
+        self._facts = SourceFacts(
+            checked_size(images.shape[2], images.shape[1]),
+            self._times.fps,
+            len(images),
+            {"source": str(folder), "kind": "EVREAL folder"},
+        )
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in order, read one by one."""
-        for index, picture in enumerate(self._pictures):
-            pixels = usable_pixels(np.array(picture), str(self._folder / PICTURES))
+        for index, image in enumerate(self._images):
+            pixels = usable_pixels(np.array(image), str(self._folder / IMAGES))
             yield Frame(pixels, self._times(index))
 
 

@@ -12,7 +12,7 @@ from texvent.video import PixelArray
 
 
 def fit_pixels(pixels: PixelArray, size: SensorSize, fit: str) -> PixelArray:
-    """A picture of the wanted size.
+    """An image of the wanted size.
 
     Args:
         pixels: [H, W] or [H, W, 3], any type of `Frame.pixels`.

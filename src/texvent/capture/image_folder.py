@@ -1,47 +1,42 @@
-"""Folders of numbered pictures, with a timestamp file or a frame rate."""
+"""Folders of numbered images, with a timestamp file or a frame rate."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
-from fractions import Fraction
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
-import cv2
 import numpy as np
 
+from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.frame_times import FrameTimes, Timestamps, read_timestamps
 from texvent.capture.intensity_scale import usable_pixels
-from texvent.capture.times import FrameTimes
-from texvent.capture.timestamps import Timestamps, read_timestamps
 from texvent.errors import FileFormatError, InputError
-from texvent.sensor import SensorSize, checked_size
+from texvent.sensor import checked_size
 from texvent.video import Frame, PixelArray
 
 SUFFIXES = frozenset(
     (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".webp", ".pgm", ".ppm", ".pnm", ".jp2")
 )
-"""Extensions that count as pictures."""
+"""Extensions that count as images."""
 TIMESTAMP_NAMES = ("timestamps.txt", "images.txt")
 """Names under which a timestamp file is found in the folder or beside it."""
 INNER_FOLDERS = ("images", "frames", "imgs")
-"""Where a recording's folder keeps its pictures."""
-# Grey stays grey, 16-bit and float stay, alpha goes, and JPEG orientation is applied.
-READ_FLAGS = cv2.IMREAD_ANYCOLOR | cv2.IMREAD_ANYDEPTH
+"""Where a recording's folder keeps its images."""
 
 
-class ImageFolder:
-    """Pictures of a folder in natural order (2 before 10), or in the timestamp file's order.
+class ImageFolder(FrameSource):
+    """Images of a folder in natural order (2 before 10), or in the timestamp file's order.
 
     Args:
-        folder: holds the pictures, or a sub-folder `images`, `frames` or `imgs` that does.
+        folder: holds the images, or a sub-folder `images`, `frames` or `imgs` that does.
         times: frame times; without them, a timestamp file in or beside the folder is used.
         timestamps: the timestamp file, where it is not `timestamps.txt` or `images.txt`.
         unit: unit of the times in that file: s, ms, us or ns.
 
     Raises:
-        InputError: no picture, no times, or as many times as pictures are not given.
-        FileFormatError: a picture cannot be decoded.
+        InputError: no image, no times, or as many times as images are not given.
+        FileFormatError: an image cannot be decoded.
     """
 
     def __init__(
@@ -52,102 +47,82 @@ class ImageFolder:
         timestamps: Path | None = None,
         unit: str = "s",
     ) -> None:
-        pictures_folder = find_pictures_folder(folder)
-        file = timestamps or (None if times else find_timestamps(pictures_folder))
+        images_folder = find_images_folder(folder)
+        file = timestamps or (None if times else find_timestamps(images_folder))
         listing = read_timestamps(file, unit) if file else None
         if file is not None and listing is not None and listing.names is not None:
-            self._paths = _named_pictures(listing, file, pictures_folder)
+            self._paths = _named_images(listing, file, images_folder)
         else:
-            self._paths = list_pictures(pictures_folder)
+            self._paths = list_images(images_folder)
         self._times = times or (listing.times if listing else None) or _refuse_without_times(folder)
         self._times.check_count(len(self._paths))
-        first = read_picture(self._paths[0])
-        self._size = checked_size(first.shape[1], first.shape[0])
-        self._metadata: dict[str, Any] = {
+        first = read_image(self._paths[0])
+        metadata = {
             "source": str(folder),
             "kind": "image folder",
             "pixel_type": str(first.dtype),
             "timestamps": str(file) if file else None,
         }
-
-    @property
-    def size(self) -> SensorSize:
-        """Width and height of the first picture, pixels."""
-        return self._size
-
-    @property
-    def fps(self) -> Fraction | None:
-        """The frame rate that was given, or None where each frame has its own time."""
-        return self._times.fps
-
-    @property
-    def frame_count(self) -> int:
-        """Number of pictures."""
-        return len(self._paths)
-
-    @property
-    def is_live(self) -> bool:
-        """False: the folder can be read again."""
-        return False
-
-    @property
-    def metadata(self) -> Mapping[str, Any]:
-        """Folder, pixel type, timestamp file."""
-        return self._metadata
+        size = checked_size(first.shape[1], first.shape[0])
+        self._facts = SourceFacts(size, self._times.fps, len(self._paths), metadata)
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in order, read one by one.
 
         Raises:
-            FileFormatError: a picture cannot be decoded.
+            FileFormatError: an image cannot be decoded.
         """
         for index, path in enumerate(self._paths):
-            yield Frame(read_picture(path), self._times(index))
+            yield Frame(read_image(path), self._times(index))
 
 
-def read_picture(path: Path) -> PixelArray:
-    """A picture at its own precision: [H, W] or [H, W, 3] RGB.
+def read_image(path: Path) -> PixelArray:
+    """An image at its own precision: [H, W] or [H, W, 3] RGB.
 
     Raises:
         InputError: it holds a pixel type that frames cannot have.
         FileFormatError: it cannot be decoded.
     """
+    import cv2  # only image folders need it here
+
     data = np.fromfile(path, dtype=np.uint8)
-    picture = cv2.imdecode(data, READ_FLAGS) if data.size else None
-    if picture is None:
-        raise FileFormatError(f"picture {path} cannot be decoded; it may be cut off or damaged")
-    if picture.ndim == 3:
-        picture = cv2.cvtColor(picture, cv2.COLOR_BGR2RGB)
-    return usable_pixels(np.asarray(picture), str(path))
+    # Grey stays grey, 16-bit and float stay, alpha goes, and JPEG orientation is applied.
+    flags = cv2.IMREAD_ANYCOLOR | cv2.IMREAD_ANYDEPTH
+    image = cv2.imdecode(data, flags) if data.size else None
+    if image is None:
+        raise FileFormatError(f"image {path} cannot be decoded; it may be cut off or damaged")
+    if image.ndim == 3:
+        image = cv2.cvtColor(image, cv2.COLOR_BGR2RGB)
+    return usable_pixels(np.asarray(image), str(path))
 
 
-def find_pictures_folder(folder: Path) -> Path:
-    """The folder itself if it holds pictures, else its first usual sub-folder that does.
+def find_images_folder(folder: Path) -> Path:
+    """The folder itself if it holds images, else its first usual sub-folder that does.
 
     Raises:
-        InputError: there is no picture in any of them.
+        InputError: there is no image in any of them.
     """
     for candidate in (folder, *(folder / name for name in INNER_FOLDERS)):
-        if candidate.is_dir() and any(_is_picture(path) for path in candidate.iterdir()):
+        if candidate.is_dir() and any(_is_image(path) for path in candidate.iterdir()):
             return candidate
     raise InputError(
-        f"{folder} holds no picture; looked for {', '.join(sorted(SUFFIXES))} in it and in its "
+        f"{folder} holds no image; looked for {', '.join(sorted(SUFFIXES))} in it and in its "
         f"sub-folders {', '.join(INNER_FOLDERS)}"
     )
 
 
-def list_pictures(folder: Path) -> list[Path]:
-    """Pictures of a folder in natural order: frame2 comes before frame10."""
-    return sorted((path for path in folder.iterdir() if _is_picture(path)), key=_natural_key)
+def list_images(folder: Path) -> list[Path]:
+    """Images of a folder in natural order: frame2 comes before frame10."""
+    return sorted((path for path in folder.iterdir() if _is_image(path)), key=_natural_key)
 
 
 def find_timestamps(folder: Path) -> Path | None:
-    """A timestamp file in the folder of the pictures or beside it, or None."""
+    """A timestamp file in the folder of the images or beside it, or None."""
     candidates = (place / name for place in (folder, folder.parent) for name in TIMESTAMP_NAMES)
     return next((path for path in candidates if path.is_file()), None)
 
 
-def _is_picture(path: Path) -> bool:
+def _is_image(path: Path) -> bool:
     return path.suffix.lower() in SUFFIXES and not path.name.startswith(".") and path.is_file()
 
 
@@ -157,7 +132,7 @@ def _natural_key(path: Path) -> tuple[tuple[tuple[int, int | str], ...], str]:
     return tuple((0, int(part)) if part.isdigit() else (1, part) for part in parts), path.name
 
 
-def _named_pictures(listing: Timestamps, file: Path, folder: Path) -> list[Path]:
+def _named_images(listing: Timestamps, file: Path, folder: Path) -> list[Path]:
     paths: list[Path] = []
     for name in listing.names or ():
         candidates = (file.parent / name, folder / name, folder / Path(name).name)
@@ -165,7 +140,7 @@ def _named_pictures(listing: Timestamps, file: Path, folder: Path) -> list[Path]
         if path is None:
             raise InputError(
                 f"{file} names {name}, which is neither beside it nor in {folder}; "
-                "remove the line or restore the picture"
+                "remove the line or restore the image"
             )
         paths.append(path)
     return paths
@@ -173,6 +148,6 @@ def _named_pictures(listing: Timestamps, file: Path, folder: Path) -> list[Path]
 
 def _refuse_without_times(folder: Path) -> FrameTimes:
     raise InputError(
-        f"{folder} has no {' or '.join(TIMESTAMP_NAMES)}, so the times of its pictures are "
+        f"{folder} has no {' or '.join(TIMESTAMP_NAMES)}, so the times of its images are "
         "unknown; give a frame rate (--fps 25) or a file of times (--timestamps FILE)"
     )

@@ -76,5 +76,5 @@ def refuse_unit_range(highest: float, where: str) -> None:
         raise InputError(
             f"{where} holds floats that never exceed {highest:g}, so they are probably 0..1, while "
             "texvent's intensities are 0..255. Give white_level=1 if 1 means white, or "
-            "white_level=255 if the pictures really are that dark"
+            "white_level=255 if the images really are that dark"
         )

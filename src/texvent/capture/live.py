@@ -8,8 +8,7 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Iterator, Mapping
-from fractions import Fraction
+from collections.abc import Iterator
 from types import FrameType
 from typing import Any
 
@@ -20,9 +19,10 @@ from av.video.frame import VideoFrame
 from av.video.stream import VideoStream
 
 from texvent.capture.decode import decoded_pixels
-from texvent.capture.times import FrameTimes
+from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.frame_times import FrameTimes
 from texvent.errors import InputError
-from texvent.sensor import SensorSize, checked_size
+from texvent.sensor import checked_size
 from texvent.video import MICROSECONDS, Frame
 
 STANDARD_INPUT = "-"
@@ -35,7 +35,7 @@ OPTIONS = {"fpsprobesize": "0"}
 """Do not collect frames to guess a rate: they would then all arrive at once."""
 
 
-class LiveFrames:
+class LiveFrames(FrameSource):
     """Frames as they arrive; memory stays flat because one frame is read only when asked for.
 
     Times are the stream's own presentation times, or, where its format has none (MJPEG over a pipe
@@ -64,7 +64,6 @@ class LiveFrames:
         self._first, self._arrived_us = first, _now_us()
         self._clock = _clock_name(self._container, first, times)
         pixels = decoded_pixels(first)
-        self._size = checked_size(pixels.shape[1], pixels.shape[0])
         self._metadata: dict[str, Any] = {
             "source": self._name,
             "kind": "live",
@@ -72,31 +71,9 @@ class LiveFrames:
             "clock": self._clock,
             "frames_dropped": 0,
         }
-
-    @property
-    def size(self) -> SensorSize:
-        """Width and height after rotation, pixels."""
-        return self._size
-
-    @property
-    def fps(self) -> Fraction | None:
-        """The rate that was given, else None: frames come when they come."""
-        return self._times.fps if self._times else None
-
-    @property
-    def frame_count(self) -> None:
-        """None: nobody knows."""
-        return None
-
-    @property
-    def is_live(self) -> bool:
-        """True."""
-        return True
-
-    @property
-    def metadata(self) -> Mapping[str, Any]:
-        """Address (without password), pixel format, clock, and how many frames were dropped."""
-        return self._metadata
+        size = checked_size(pixels.shape[1], pixels.shape[0])
+        fps = times.fps if times else None
+        self._facts = SourceFacts(size, fps, None, self._metadata, is_live=True)
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames until the stream ends or Ctrl-C.

@@ -11,24 +11,17 @@ from typing import Any
 
 import numpy as np
 
-from texvent._registry import load_object
 from texvent.capture.aedat4_frames import Aedat4Frames, is_aedat4
 from texvent.capture.array_frames import ArrayFrames
-from texvent.capture.dsec_layout import is_dsec
+from texvent.capture.dsec_frames import DsecFrames, is_dsec
 from texvent.capture.evreal_frames import EvrealFrames, is_evreal
+from texvent.capture.frame_times import FrameTimes, listed_times, read_timestamps
+from texvent.capture.image_folder import ImageFolder
 from texvent.capture.prepare import PreparedFrames
-from texvent.capture.times import FrameTimes, listed_times
-from texvent.capture.timestamps import read_timestamps
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.sensor import SensorSize
 from texvent.video import FrameStream
-
-# By name, so that PyAV and OpenCV load only when a source needs them.
-VIDEO_FILE = "texvent.capture.video_file:VideoFile"
-IMAGE_FOLDER = "texvent.capture.image_folder:ImageFolder"
-DSEC_FRAMES = "texvent.capture.dsec_frames:DsecFrames"
-LIVE = "texvent.capture.live:LiveFrames"
 
 
 def open_frames(
@@ -40,7 +33,7 @@ def open_frames(
         source: a path of a video file, an image folder, an EVREAL folder, a DSEC sequence, a .npy
             file or an AEDAT4 recording with frames; a device such as /dev/video0, an address such
             as rtsp://..., a named pipe, or "-" for standard input; an array [N, H, W] or
-            [N, H, W, 3] (RGB) or an iterable of such pictures; or a FrameStream.
+            [N, H, W, 3] (RGB) or an iterable of such images; or a FrameStream.
         config: frame rate, times, start, stop, fit and white level.
         size: sensor size to fit the frames to, or None to keep theirs.
         t_us: [N] frame times, integer µs.
@@ -89,24 +82,23 @@ def _open_address(
 ) -> FrameStream:
     path = Path(address.removeprefix("file://")).expanduser()
     if _is_live(address, path):
-        live: FrameStream = load_object(LIVE)(address, _file_times(config, given))
-        return PreparedFrames(live, config, size=size)
+        from texvent.capture.live import LiveFrames  # brings PyAV
+
+        return PreparedFrames(LiveFrames(address, _file_times(config, given)), config, size=size)
     if is_evreal(path):
         return PreparedFrames(EvrealFrames(path, _file_times(config, given)), config, size=size)
     if is_dsec(path) and given is None and config.timestamps is None:
-        sequence: FrameStream = load_object(DSEC_FRAMES).open(path)
-        return PreparedFrames(sequence, config, size=size)
+        return PreparedFrames(DsecFrames(path), config, size=size)
     if path.is_dir():
-        folder: FrameStream = load_object(IMAGE_FOLDER)(
-            path, given, timestamps=config.timestamps, unit=config.timestamps_unit
-        )
+        folder = ImageFolder(path, given, timestamps=config.timestamps, unit=config.timestamps_unit)
         return PreparedFrames(folder, config, size=size)
     if path.suffix.lower() == ".npy" and path.is_file():
         return _open_array(_read_npy(path), config, size, given)
     if is_aedat4(path):
         return PreparedFrames(Aedat4Frames(path, _file_times(config, given)), config, size=size)
-    video: FrameStream = load_object(VIDEO_FILE)(path, _file_times(config, given))
-    return PreparedFrames(video, config, size=size)
+    from texvent.capture.video_file import VideoFile  # brings PyAV
+
+    return PreparedFrames(VideoFile(path, _file_times(config, given)), config, size=size)
 
 
 def _is_live(address: str, path: Path) -> bool:
@@ -125,7 +117,7 @@ def _open_array(
             "frames in memory have no times; give fps=, or t_us= with one time per frame in µs"
         )
     stream = ArrayFrames(frames, times, white_level=config.white_level)
-    # What can be read twice was looked through already, more patiently.
+    # What can be read twice was looked through as a whole already.
     return PreparedFrames(stream, config, size=size, check_scale=stream.is_live)
 
 

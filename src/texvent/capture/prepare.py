@@ -6,7 +6,6 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Any
 
-from texvent._registry import load_object
 from texvent.capture.intensity_scale import refuse_unit_range, scale_to_levels
 from texvent.config import CaptureConfig
 from texvent.errors import InputError
@@ -108,10 +107,9 @@ class PreparedFrames:
         if self._config.white_level is not None:
             pixels = scale_to_levels(pixels, self._config.white_level)
         if self._is_fitted:
-            # Loaded here because it brings OpenCV, which frames of the right size do not need.
-            pixels = load_object("texvent.capture.fit:fit_pixels")(
-                pixels, self._size, self._config.fit
-            )
+            from texvent.capture.fit import fit_pixels  # brings OpenCV
+
+            pixels = fit_pixels(pixels, self._size, self._config.fit)
         return checker.check(Frame(pixels, frame.t_us, frame.is_source))
 
     def _decide_scale(self, pixels: PixelArray, t_us: int) -> None:

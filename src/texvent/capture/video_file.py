@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -17,9 +17,10 @@ from av.video.frame import VideoFrame
 from av.video.stream import VideoStream
 
 from texvent.capture.decode import decoded_pixels
-from texvent.capture.times import FrameTimes
+from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.frame_times import FrameTimes
 from texvent.errors import FileFormatError, InputError
-from texvent.sensor import SensorSize, checked_size
+from texvent.sensor import checked_size
 from texvent.video import MICROSECONDS, Frame, frame_time_us
 
 SLACK_US = 100_000
@@ -28,7 +29,7 @@ TEXT_ART = "tty"
 """libav "plays" any .txt file as terminal art; nobody means that."""
 
 
-class VideoFile:
+class VideoFile(FrameSource):
     """The frames of a video file; every iteration opens the file anew.
 
     Times are the file's own presentation times, `round(pts · time_base · 10⁶)` in exact
@@ -50,14 +51,13 @@ class VideoFile:
         self._times = times
         with _opened(path) as (container, stream):
             self._rate = stream.average_rate or stream.guessed_rate
-            self._frame_count = stream.frames or _count_by_duration(stream, container)
+            count = stream.frames or _count_by_duration(stream, container)
             first = next(self._decode(container, stream), None)
             if first is None:
                 raise FileFormatError(
                     f"{path} has no frame that can be decoded; it may be cut off or empty"
                 )
             pixels = decoded_pixels(first)
-            self._size = checked_size(pixels.shape[1], pixels.shape[0])
             self._metadata: dict[str, Any] = {
                 "source": str(path),
                 "kind": "video file",
@@ -66,31 +66,9 @@ class VideoFile:
                 "rotation": int(first.rotation),
                 "duplicate_times_dropped": 0,
             }
-
-    @property
-    def size(self) -> SensorSize:
-        """Width and height after rotation, pixels."""
-        return self._size
-
-    @property
-    def fps(self) -> Fraction | None:
-        """The rate that was given, else the average rate that the file states."""
-        return self._times.fps if self._times else self._rate
-
-    @property
-    def frame_count(self) -> int | None:
-        """Number of frames by the file's header, which may be a little off."""
-        return self._frame_count
-
-    @property
-    def is_live(self) -> bool:
-        """False: the file can be read again."""
-        return False
-
-    @property
-    def metadata(self) -> Mapping[str, Any]:
-        """Path, codec, pixel format, rotation, and how many repeated times were dropped."""
-        return self._metadata
+            size = checked_size(pixels.shape[1], pixels.shape[0])
+            fps = times.fps if times else self._rate
+            self._facts = SourceFacts(size, fps, count, self._metadata)
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order; see the class for what can go wrong."""

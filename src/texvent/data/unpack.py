@@ -8,8 +8,12 @@ import zipfile
 from pathlib import Path
 
 from texvent.data.catalogue import DataFolder, DataSet
-from texvent.errors import FileFormatError, OutputError
+from texvent.errors import FileFormatError
 from texvent.io.atomic import atomic_file
+from texvent.runtime.cache_folder import make_folder
+
+DATA_VARIABLE = "TEXVENT_DATA"
+"""Environment variable that names the data folder."""
 
 
 def file_sha256(path: Path) -> str:
@@ -111,21 +115,6 @@ def _listing_sha256(digests: list[tuple[str, str]]) -> str:
 
 
 def _write(path: Path, content: bytes) -> None:
-    make_folder(path.parent)
+    make_folder(path.parent, DATA_VARIABLE)
     with atomic_file(path, overwrite=True) as part:
         part.write_bytes(content)
-
-
-def make_folder(folder: Path) -> None:
-    """Make a folder and its parents.
-
-    Raises:
-        OutputError: that is not possible.
-    """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(
-            f"cannot make the folder {folder} ({error.strerror}); choose another data folder with "
-            "the environment variable TEXVENT_DATA"
-        ) from error

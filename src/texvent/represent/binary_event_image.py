@@ -11,7 +11,7 @@ def binary_event_image(events: Events, *, size: tuple[int, int] | None = None) -
 
     Args:
         events: the slice; N-ImageNet takes 30,000 events.
-        size: (width, height) of the picture, to which coordinates are scaled; N-ImageNet takes
+        size: (width, height) of the image, to which coordinates are scaled; N-ImageNet takes
             (224, 224). None: the sensor's.
 
     Returns:

@@ -1,4 +1,4 @@
-"""Event frame: all events of a slice in one picture, one value per pixel."""
+"""Event frame: all events of a slice in one image, one value per pixel."""
 
 from __future__ import annotations
 

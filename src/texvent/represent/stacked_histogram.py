@@ -8,7 +8,7 @@ from texvent.represent.voxel_grid import MAX_BINS
 
 
 def stacked_histogram(events: Events, *, bins: int = 10, cutoff: int = 10) -> Array:
-    """Events of one slice as a [2 · bins, H, W] picture.
+    """Events of one slice as a [2 · bins, H, W] image.
 
     Args:
         events: the slice, usually 50 ms.

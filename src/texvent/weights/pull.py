@@ -16,8 +16,8 @@ from pypi_simple import PyPISimple
 from texvent._require import require
 from texvent.data.pull import ARCHIVES, Progress, data_folder, describe, fetch_archive
 from texvent.data.unpack import unpack
-from texvent.errors import FileFormatError, OutputError
-from texvent.runtime.cache_folder import CACHE_VARIABLE, cache_folder
+from texvent.errors import FileFormatError
+from texvent.runtime.cache_folder import cache_folder, make_folder
 from texvent.weights.catalogue import PublishedWeights, find_weights
 from texvent.weights.networks import NETWORKS
 
@@ -63,7 +63,7 @@ def pull_weights(
         archive = fetch_archive(
             entry.source.archive, data_folder() / ARCHIVES, progress=progress, client=client
         )
-        _make_folder(target.parent)
+        make_folder(target.parent)
         with tempfile.TemporaryDirectory(prefix=".texvent-", dir=target.parent) as scratch:
             unpack(archive, entry.source, Path(scratch))
             _convert(Path(scratch) / entry.source.path, entry, target)
@@ -96,13 +96,3 @@ def _convert(source: Path, entry: PublishedWeights, target: Path) -> None:
 
 def _layout_name(weights: Any) -> str:
     return str(weights.layout.name)
-
-
-def _make_folder(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(
-            f"cannot make the folder {folder} ({error.strerror}); choose another with the "
-            f"environment variable {CACHE_VARIABLE}"
-        ) from error

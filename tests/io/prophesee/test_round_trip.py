@@ -61,9 +61,7 @@ def test_packet_sizes_do_not_change_the_file(tmp_path: Path, format: str) -> Non
         back = open_events(path)
         assert back.collect().equals(whole)
         assert back.collect().equals(whole), "packets of a file can be read again"
-    if format != "evt21":
-        # EVT2.1 shares words between neighbours within a packet only.
-        assert files[0].read_bytes() == files[1].read_bytes()
+    assert files[0].read_bytes() == files[1].read_bytes()
 
 
 @settings(max_examples=40, deadline=None)

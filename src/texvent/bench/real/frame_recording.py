@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from texvent.capture.dsec_layout import EVENTS as DSEC_EVENTS
-from texvent.capture.dsec_layout import is_dsec
+from texvent.capture.dsec_frames import EVENTS as DSEC_EVENTS
+from texvent.capture.dsec_frames import is_dsec
 from texvent.capture.evreal_frames import is_evreal
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig

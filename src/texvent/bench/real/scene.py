@@ -11,7 +11,7 @@ import numpy as np
 
 from texvent.bench.real.frame_recording import FrameRecording, open_recording
 from texvent.calibrate.recording import WARM_UP_US, TimeSpan
-from texvent.capture.dsec_layout import is_dsec
+from texvent.capture.dsec_frames import is_dsec
 from texvent.data.catalogue import DATA_SETS
 from texvent.data.pull import find_pulled
 from texvent.errors import InputError

@@ -1,6 +1,6 @@
 import pytest
 
-from texvent.capture.timestamps import read_timestamps
+from texvent.capture.frame_times import read_timestamps
 from texvent.errors import FileFormatError, InputError
 
 

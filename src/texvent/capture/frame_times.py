@@ -1,0 +1,166 @@
+"""When a frame is shown: by a frame rate, by a list of times, or by a text file of times."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.video import frame_time_us
+
+PER_SECOND = {"s": 1, "ms": 1_000, "us": 1_000_000, "ns": 1_000_000_000}
+"""How many of a unit are a second."""
+
+
+@dataclass(frozen=True)
+class FrameTimes:
+    """Times the user gave, by frame index; exactly one of `fps` and `listed_us` is set."""
+
+    fps: Fraction | None = None
+    """Frames per second."""
+    listed_us: Sequence[int] | None = None
+    """One time per frame, µs, strictly increasing."""
+    origin: str = "fps"
+    """What to call the times in messages, such as `images.txt`."""
+
+    def __call__(self, index: int) -> int:
+        """Time of frame `index`, µs.
+
+        Raises:
+            InputError: there are more frames than times.
+        """
+        if self.listed_us is None:
+            return frame_time_us(index, self._rate())
+        if index >= len(self.listed_us):
+            raise InputError(
+                f"{self.origin} has {len(self.listed_us)} times, but there are more frames; "
+                "give one time per frame"
+            )
+        return int(self.listed_us[index])
+
+    def check_count(self, frames: int) -> None:
+        """Refuse a list of another length than there are frames.
+
+        Raises:
+            InputError: with both numbers.
+        """
+        if self.listed_us is not None and len(self.listed_us) != frames:
+            raise InputError(
+                f"{self.origin} has {len(self.listed_us)} times for {frames} frames; "
+                "give one time per frame"
+            )
+
+    def _rate(self) -> Fraction:
+        if self.fps is None:
+            raise ConfigError("frame times need fps or a list of times; give one of them")
+        return self.fps
+
+
+@dataclass(frozen=True)
+class Timestamps:
+    """What a timestamp file says."""
+
+    times: FrameTimes
+    names: tuple[str, ...] | None
+    """File name of each frame, or None where the file has times only."""
+
+
+def listed_times(t_us: Any, origin: str = "t_us") -> FrameTimes:
+    """Frame times from a list of integer µs.
+
+    Args:
+        t_us: [N] integers, µs.
+        origin: what to call them in messages.
+
+    Raises:
+        InputError: they are not integers, not one-dimensional, or do not strictly increase.
+    """
+    times = np.asarray(t_us)
+    if times.ndim != 1 or times.dtype.kind not in "iu":
+        raise InputError(
+            f"{origin} must be one-dimensional whole microseconds; got {times.dtype} of shape "
+            f"{list(times.shape)}. For seconds: np.round(seconds * 1e6).astype(np.int64)"
+        )
+    check_increasing([int(time) for time in times], origin)
+    return FrameTimes(listed_us=[int(time) for time in times], origin=origin)
+
+
+def check_increasing(times_us: Sequence[int], origin: str, hint: str = "") -> None:
+    """Refuse times that do not strictly increase.
+
+    Raises:
+        InputError: with the first offending pair.
+    """
+    for index in range(1, len(times_us)):
+        if times_us[index] <= times_us[index - 1]:
+            raise InputError(
+                f"{origin}: time {index} ({times_us[index]} µs) is not after time {index - 1} "
+                f"({times_us[index - 1]} µs); frame times must strictly increase{hint}"
+            )
+
+
+def read_timestamps(path: Path, unit: str) -> Timestamps:
+    """Read a text file with a time per line, which a file name may follow.
+
+    Blank lines and lines that start with `#` do not count.
+
+    Args:
+        path: the file; columns are separated by spaces, tabs or commas.
+        unit: unit of the times: s, ms, us or ns.
+
+    Returns:
+        Times rounded to whole µs from the exact decimal number, and the names if all lines have
+        one. The times are kept as they are: they share a clock with whatever was recorded beside
+        the frames.
+
+    Raises:
+        InputError: the file does not exist, or its times do not strictly increase.
+        FileFormatError: a line does not begin with a number, or only some lines have a name.
+
+    Source: `images.txt` of the Event-Camera Dataset (Mueggler et al. 2017).
+    """
+    times_us: list[int] = []
+    names: list[str] = []
+    for number, line in enumerate(_lines(path), start=1):
+        words = line.replace(",", " ").split(maxsplit=1)
+        if not words or words[0].startswith("#"):
+            continue
+        times_us.append(_microseconds(words[0], unit, f"{path}, line {number}"))
+        names.extend(word.strip() for word in words[1:])
+    if not times_us:
+        raise FileFormatError(f"{path} has no times; it needs one per frame")
+    if names and len(names) != len(times_us):
+        raise FileFormatError(
+            f"{path}: {len(names)} of {len(times_us)} lines name a file; name all of them or none"
+        )
+    hint = f" (times are read as {unit}; another unit: --timestamps-unit)"
+    check_increasing(times_us, str(path), hint)
+    times = FrameTimes(listed_us=times_us, origin=path.name)
+    return Timestamps(times, tuple(names) if names else None)
+
+
+def _lines(path: Path) -> list[str]:
+    try:
+        return path.read_text(encoding="utf-8").splitlines()
+    except FileNotFoundError:
+        raise InputError(f"timestamp file {path} does not exist; check --timestamps") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise FileFormatError(
+            f"timestamp file {path} cannot be read ({error}); it must be plain text"
+        ) from error
+
+
+def _microseconds(text: str, unit: str, where: str) -> int:
+    """Exact: a float64 of a Unix time in ns would be off by up to 128 ns."""
+    try:
+        return round(Fraction(text) * 1_000_000 / PER_SECOND[unit])
+    except (ValueError, ZeroDivisionError):
+        raise FileFormatError(
+            f"{where} begins with {text!r}; each line must begin with a time in {unit}, "
+            "optionally followed by a file name"
+        ) from None
