@@ -25,7 +25,7 @@ COMMANDS = {
     "batch": ("texvent.cli.simulation.batch", "Events for every prompt of a file."),
     "caption": (
         "texvent.cli.simulation.caption",
-        "Prompts from images, by an image-and-text model of yours.",
+        "Prompts from images, by a vision-language model of yours.",
     ),
     "simulate": (
         "texvent.cli.simulation.simulate",

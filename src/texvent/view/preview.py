@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from contextlib import ExitStack
 from fractions import Fraction
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError, InputError
@@ -15,6 +14,7 @@ from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, check_output
 from texvent.sensor import SensorSize
 from texvent.video import Frame
+from texvent.view.atomic_output import AtomicOutput
 from texvent.view.drawing.caption import title_of
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
 from texvent.view.page.writer import PageWriter
@@ -25,7 +25,7 @@ from texvent.view.windows.event_window import EventWindow, WindowCollector
 PREVIEW_KINDS = ("mp4", "gif", "png", "html")
 
 
-class Preview:
+class Preview(AtomicOutput):
     """Writes `out.mp4`, `out.png` and `out.html` while a run goes on; memory stays flat.
 
     The files appear when the `with` block ends; an exception inside it leaves none.
@@ -58,6 +58,7 @@ class Preview:
             overwrite: whether existing files may be replaced.
             metadata: facts of the run; a prompt becomes the title.
         """
+        super().__init__()
         unknown = [kind for kind in kinds if kind not in PREVIEW_KINDS]
         if unknown:
             raise ConfigError(
@@ -85,7 +86,6 @@ class Preview:
                 palette=colours,
                 overwrite=overwrite,
             )
-        self._stack = ExitStack()
         self._png_part: Path | None = None
         self._shown = 0
 
@@ -94,17 +94,14 @@ class Preview:
         """The files it writes."""
         return tuple(self._paths.values())
 
-    def __enter__(self) -> Self:
-        with ExitStack() as stack:
-            for video in self._videos:
-                stack.enter_context(video)
-            if self._page is not None:
-                stack.enter_context(self._page)
-            if "png" in self._paths:
-                part = atomic_file(self._paths["png"], overwrite=self._overwrite)
-                self._png_part = stack.enter_context(part)
-            self._stack = stack.pop_all()
-        return self
+    def _open(self, stack: ExitStack) -> None:
+        for video in self._videos:
+            stack.enter_context(video)
+        if self._page is not None:
+            stack.enter_context(self._page)
+        if "png" in self._paths:
+            part = atomic_file(self._paths["png"], overwrite=self._overwrite)
+            self._png_part = stack.enter_context(part)
 
     def append(self, frame: Frame, packet: EventStream) -> None:
         """Add a dense frame and the events before it, `[time of the frame before, frame.t_us)`.
@@ -118,26 +115,17 @@ class Preview:
         if window is not None:
             self._show(window)
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        if error is not None:
-            self._stack.__exit__(kind, error, trace)
-            return
-        with self._stack:
-            only = self._collector.single_frame()
-            if self._shown == 0 and only is not None:
-                self._show(only)
-            png = self._still.png()
-            if png is None:
-                raise InputError("no frame was given, so there is nothing to show")
-            if self._page is not None:
-                self._page.still = png
-            if self._png_part is not None:
-                self._png_part.write_bytes(png)
+    def _complete(self) -> None:
+        only = self._collector.single_frame()
+        if self._shown == 0 and only is not None:
+            self._show(only)
+        png = self._still.png()
+        if png is None:
+            raise InputError("no frame was given, so there is nothing to show")
+        if self._page is not None:
+            self._page.still = png
+        if self._png_part is not None:
+            self._png_part.write_bytes(png)
 
     def _show(self, window: EventWindow) -> None:
         self._shown += 1

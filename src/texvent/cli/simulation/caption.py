@@ -1,4 +1,4 @@
-"""`texvent caption PICTURES`: prompts from pictures, ready for `texvent batch`."""
+"""`texvent caption IMAGES`: prompts from images, ready for `texvent batch`."""
 
 from __future__ import annotations
 
@@ -11,15 +11,14 @@ from typing import ClassVar
 
 from rich.console import Console
 
-from texvent._registry import load_object
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
-from texvent.generate.prompts.caption import INSTRUCTION, find_images
+from texvent.generate.prompts.caption import INSTRUCTION, Captioner, find_images
 from texvent.io.atomic import atomic_file, check_output
 
-DESCRIPTION = """Describe pictures with an image-and-text model of yours (LLaVA and its kin, run by
+DESCRIPTION = """Describe images with a vision-language model of yours (such as LLaVA, run by
 transformers), one line each. The result of -o is a file for texvent batch:
 
   texvent caption photos/ --model hub:llava-hf/llava-1.5-7b-hf -o prompts.csv
@@ -28,15 +27,15 @@ transformers), one line each. The result of -o is a file for texvent batch:
 
 @dataclass(frozen=True, kw_only=True)
 class CaptionOptions:
-    """Which pictures, which model, what to ask."""
+    """Which images, which model, what to ask."""
 
-    positional: ClassVar[tuple[str, ...]] = ("pictures",)
+    positional: ClassVar[tuple[str, ...]] = ("images",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
 
-    pictures: Path = REQUIRED
-    """Picture, or folder of pictures."""
+    images: Path = REQUIRED
+    """Image, or folder of images."""
     model: str = REQUIRED
-    """Folder of an image-and-text model saved by transformers, or hub:org/name."""
+    """Folder of a vision-language model saved by transformers, or hub:org/name."""
     out: Path | None = None
     """CSV file for the captions (columns name, prompt); without it they are printed."""
     instruction: str = INSTRUCTION
@@ -60,32 +59,30 @@ def run(arguments: Sequence[str]) -> int:
     """Run the command; returns 0.
 
     Raises:
-        TexventError: some pictures have no caption; those of the others are written.
+        TexventError: some images have no caption; those of the others are written.
     """
     (options,) = parse_configs(
         arguments, {"input": CaptionOptions()}, prog="texvent caption", description=DESCRIPTION
     )
     if options.out is not None:
         check_output(options.out, overwrite=options.overwrite)
-    pictures = find_images(options.pictures)
+    images = find_images(options.images)
     console = Console(stderr=True, quiet=options.quiet, highlight=False)
-    captioner = load_object("texvent.generate.prompts.caption:Captioner")(
-        options.model, device=options.generator_device
-    )
+    captioner = Captioner(options.model, device=options.generator_device)
     rows: list[tuple[str, str]] = []
-    for number, picture in enumerate(pictures, start=1):
-        console.print(f"{number}/{len(pictures)} {picture}", markup=False)
+    for number, image in enumerate(images, start=1):
+        console.print(f"{number}/{len(images)} {image}", markup=False)
         try:
             text = captioner.caption(
-                picture, instruction=options.instruction, longest=options.longest
+                image, instruction=options.instruction, longest=options.longest
             )
         except InputError as error:
-            # One damaged picture must not cost the captions of the others.
-            if len(pictures) == 1:
+            # The other images keep their captions.
+            if len(images) == 1:
                 raise
             sys.stderr.write(f"failed   {error}\n")
             continue
-        rows.append((_row_name(picture, pictures), text))
+        rows.append((_row_name(image, images), text))
         if options.out is None:
             sys.stdout.write(f"{text}\n")
     if options.out is not None and rows:
@@ -95,13 +92,13 @@ def run(arguments: Sequence[str]) -> int:
         ):
             csv.writer(file).writerows([("name", "prompt"), *rows])
         sys.stdout.write(f"{options.out}\n")
-    if len(rows) < len(pictures):
-        failed = len(pictures) - len(rows)
-        raise TexventError(f"{failed} of {len(pictures)} pictures have no caption")
+    if len(rows) < len(images):
+        failed = len(images) - len(rows)
+        raise TexventError(f"{failed} of {len(images)} images have no caption")
     return 0
 
 
-def _row_name(picture: Path, pictures: Sequence[Path]) -> str:
+def _row_name(image: Path, images: Sequence[Path]) -> str:
     """The stem, or the whole name where a.png and a.jpg would share it: `batch` wants each once."""
-    is_shared = sum(other.stem == picture.stem for other in pictures) > 1
-    return picture.name if is_shared else picture.stem
+    is_shared = sum(other.stem == image.stem for other in images) > 1
+    return image.name if is_shared else image.stem

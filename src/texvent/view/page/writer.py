@@ -10,8 +10,7 @@ from collections.abc import Mapping
 from contextlib import ExitStack
 from importlib import resources
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
 from texvent.errors import OutputError
 from texvent.event_packets import EventPackets
@@ -19,6 +18,7 @@ from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, check_output
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS, Frame
+from texvent.view.atomic_output import AtomicOutput
 from texvent.view.drawing.caption import title_of
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
 from texvent.view.page import html_parts
@@ -30,7 +30,7 @@ SCRIPTS = ("state.js", "cloud.js", "plane.js", "rate.js", "controls.js")
 """Parts of the viewer, in the order in which they build on one another."""
 
 
-class PageWriter:
+class PageWriter(AtomicOutput):
     """Gathers a sample and a rate curve while packets come in, and writes the page at the end.
 
     Memory holds at most twice the sample and 64 small frames, however long the recording is.
@@ -60,6 +60,7 @@ class PageWriter:
             overwrite: whether an existing file may be replaced.
             sample_limit: most events shown in the cloud.
         """
+        super().__init__()
         check_output(path, overwrite=overwrite)
         self._path = Path(path)
         self._size = size
@@ -71,14 +72,12 @@ class PageWriter:
         self._strip = FrameStrip()
         self._on_events = 0
         self._stop_us = 0
-        self._stack = ExitStack()
         self._part: Path | None = None
         self.still: bytes | None = None
         """PNG file shown below the curve; set it before the `with` block ends."""
 
-    def __enter__(self) -> Self:
-        self._part = self._stack.enter_context(atomic_file(self._path, overwrite=self._overwrite))
-        return self
+    def _open(self, stack: ExitStack) -> None:
+        self._part = stack.enter_context(atomic_file(self._path, overwrite=self._overwrite))
 
     def append(self, packet: EventStream) -> None:
         """Add the events of a packet, which starts no earlier than the one before it ended."""
@@ -93,19 +92,10 @@ class PageWriter:
         """Offer a frame of the source video; the page keeps a few."""
         self._strip.append(frame)
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        if error is not None:
-            self._stack.__exit__(kind, error, trace)
-            return
-        with self._stack:
-            if self._part is None:
-                raise OutputError(f"{self._path} is not open; use the writer in a with block")
-            self._part.write_text(self._page(), encoding="utf-8")
+    def _complete(self) -> None:
+        if self._part is None:
+            raise OutputError(f"{self._path} is not open; use the writer in a with block")
+        self._part.write_text(self._page(), encoding="utf-8")
 
     def _page(self) -> str:
         seen, sample, palette = self._sample.seen, self._sample.events(), self._palette

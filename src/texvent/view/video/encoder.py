@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from fractions import Fraction
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
 import av
 import av.filter
@@ -15,6 +14,7 @@ import av.filter
 from texvent.errors import ConfigError, InputError, OutputError
 from texvent.io.atomic import atomic_file, check_output, is_disk_full
 from texvent.video import MICROSECONDS
+from texvent.view.atomic_output import AtomicOutput
 from texvent.view.drawing.canvas import Image
 
 TIME_BASE = Fraction(1, MICROSECONDS)
@@ -24,7 +24,7 @@ GIF_TICKS_PER_S = 100
 VIDEO_EXTENSIONS = (".mp4", ".gif")
 
 
-class VideoEncoder:
+class VideoEncoder(AtomicOutput):
     """Streams images into an mp4 (H.264, yuv420p, BT.709, index first) or gif file.
 
     Raises:
@@ -45,6 +45,7 @@ class VideoEncoder:
             fps: nominal rate; the times given with the images are what counts.
             overwrite: whether an existing file may be replaced.
         """
+        super().__init__()
         self._path = Path(path)
         if self._path.suffix.lower() not in VIDEO_EXTENSIONS:
             raise ConfigError(f"{path} is no video; its name must end in .mp4 or .gif")
@@ -52,25 +53,21 @@ class VideoEncoder:
         self._is_gif = self._path.suffix.lower() == ".gif"
         self._width, self._height, self._fps = width, height, fps
         self._overwrite = overwrite
-        self._stack = ExitStack()
         self._container: Any = None
         self._stream: Any = None
         self._last: tuple[int, Any] | None = None
         self._durations: dict[int, int] = {}
         self._count = 0
 
-    def __enter__(self) -> Self:
-        with ExitStack() as stack:
-            part = stack.enter_context(atomic_file(self._path, overwrite=self._overwrite))
-            options = {} if self._is_gif else {"movflags": "faststart"}
-            kind = "gif" if self._is_gif else "mp4"
-            with _reporting(self._path):
-                self._container = stack.enter_context(
-                    av.open(str(part), "w", format=kind, options=options)
-                )
-                self._add_stream()
-            self._stack = stack.pop_all()
-        return self
+    def _open(self, stack: ExitStack) -> None:
+        part = stack.enter_context(atomic_file(self._path, overwrite=self._overwrite))
+        options = {} if self._is_gif else {"movflags": "faststart"}
+        container = "gif" if self._is_gif else "mp4"
+        with _reporting(self._path):
+            self._container = stack.enter_context(
+                av.open(str(part), "w", format=container, options=options)
+            )
+            self._add_stream()
 
     def write(self, image: Image, t_us: int) -> None:
         """Show `image` from `t_us` on (µs from the start of the video, increasing)."""
@@ -96,23 +93,14 @@ class VideoEncoder:
         self._put_last(ticks)
         self._last = None
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        if error is not None:
-            self._stack.__exit__(kind, error, trace)
-            return
-        with self._stack:
-            if self._count == 0:
-                raise InputError(f"no image for {self._path}; a video needs at least one frame")
-            if self._last is not None:
-                self.end(self._last[0] + self._frame_ticks())
-            self._encode(None)
-            with _reporting(self._path):
-                self._container.close()
+    def _complete(self) -> None:
+        if self._count == 0:
+            raise InputError(f"no image for {self._path}; a video needs at least one frame")
+        if self._last is not None:
+            self.end(self._last[0] + self._frame_ticks())
+        self._encode(None)
+        with _reporting(self._path):
+            self._container.close()
 
     def _frame_ticks(self) -> int:
         ticks = GIF_TICKS_PER_S if self._is_gif else MICROSECONDS

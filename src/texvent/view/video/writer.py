@@ -5,12 +5,11 @@ from __future__ import annotations
 from contextlib import ExitStack
 from fractions import Fraction
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Frame
+from texvent.view.atomic_output import AtomicOutput
 from texvent.view.drawing.event_image import count_ceiling
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
 from texvent.view.drawing.panels import TARGET_WIDTH, PanelLayout
@@ -24,7 +23,7 @@ CEILING_MEMORY = 0.9
 """Share of the colour scale that is kept from one video frame to the next, against flicker."""
 
 
-class VideoWriter:
+class VideoWriter(AtomicOutput):
     """Writes an mp4 or gif while frames and packets come in; memory stays flat.
 
     Each source frame is shown with all events until the next one, at the speed of the source.
@@ -57,6 +56,7 @@ class VideoWriter:
             overwrite: whether an existing file may be replaced.
             title: text of the caption, such as the prompt.
         """
+        super().__init__()
         width = GIF_WIDTH if Path(path).suffix.lower() == ".gif" else TARGET_WIDTH
         self._layout = PanelLayout(size, get_palette(palette), side_by_side, width)
         self._encoder = VideoEncoder(
@@ -68,14 +68,12 @@ class VideoWriter:
         )
         self._title = title
         self._collector = WindowCollector(size)
-        self._stack = ExitStack()
         self._first_us: int | None = None
         self._stop_us: int | None = None
         self._ceiling = 1.0
 
-    def __enter__(self) -> Self:
-        self._stack.enter_context(self._encoder)
-        return self
+    def _open(self, stack: ExitStack) -> None:
+        stack.enter_context(self._encoder)
 
     def append(self, frame: Frame, packet: EventStream) -> None:
         """Add a dense frame and the events before it, `[time of the frame before, frame.t_us)`."""
@@ -106,18 +104,9 @@ class VideoWriter:
         # With its own timing, the caller's nominal rate decides how long the last one stays.
         self._stop_us = window.stop_us - self._first_us if video_start_us is None else None
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        if error is not None:
-            self._stack.__exit__(kind, error, trace)
-            return
-        with self._stack:
-            only = self._collector.single_frame()
-            if self._first_us is None and only is not None:
-                self.show(only)
-            if self._stop_us is not None:
-                self._encoder.end(self._stop_us)
+    def _complete(self) -> None:
+        only = self._collector.single_frame()
+        if self._first_us is None and only is not None:
+            self.show(only)
+        if self._stop_us is not None:
+            self._encoder.end(self._stop_us)
