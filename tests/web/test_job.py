@@ -38,7 +38,7 @@ def test_other_lines_are_no_jobs(line: str) -> None:
 
 
 def test_an_answer_survives_its_line_and_other_output_is_passed_over() -> None:
-    answer = Answer(kind="done", text="x\ny", files={"film": "/a.mp4"})
+    answer = Answer(kind="done", text="x\ny", files={"video": "/a.mp4"})
     assert read_answer(answer_line(answer)) == answer
     assert read_answer("Downloading 3 %\n") is None
     assert read_answer('{"a": 1}') is None

@@ -26,7 +26,7 @@ def test_a_job_is_done_in_a_process_of_its_own(tmp_path: Path) -> None:
     answers = list(Supervisor(time_limit_s=120).run(job(tmp_path)))
     assert answers[-1].kind == "done"
     assert {answer.kind for answer in answers[:-1]} == {"progress"}
-    assert Path(answers[-1].files["film"]).exists()
+    assert Path(answers[-1].files["video"]).exists()
 
 
 def test_a_refusal_reaches_the_visitor_in_its_own_words(tmp_path: Path) -> None:

@@ -280,7 +280,7 @@ class WebPage:
                 else:
                     files = answer.files
                     viewer = viewer_html(files["page"])
-                    yield [summary_html(answer), files["film"], viewer, None, files["events"]]
+                    yield [summary_html(answer), files["video"], viewer, None, files["events"]]
         except TexventError as error:
             # Results of an earlier job are removed: they could be mistaken for this one's.
             yield [failure_html(str(error)), None, "", None, None]

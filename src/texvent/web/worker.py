@@ -32,34 +32,34 @@ from texvent.web.job import (
 )
 from texvent.web.limits import Limits
 
-Tell = Callable[[Answer], None]
+SendAnswer = Callable[[Answer], None]
 
 
 def main() -> int:
-    """Do the job on stdin; returns 0, or 1 after an answer that says what was wrong."""
+    """Do the job on stdin; returns 0, or 1 after an answer with the error."""
 
-    def tell(answer: Answer) -> None:
+    def send(answer: Answer) -> None:
         sys.stdout.write(answer_line(answer) + "\n")
         sys.stdout.flush()
 
     try:
         job = read_job(sys.stdin.readline())
-        tell(convert(job) if isinstance(job, ConvertJob) else simulate(job, tell))
+        send(convert(job) if isinstance(job, ConvertJob) else simulate(job, send))
     except TexventError as error:
-        tell(Answer(kind="failed", text=str(error)))
+        send(Answer(kind="failed", text=str(error)))
         return 1
     return 0
 
 
-def simulate(job: SimulateJob, tell: Tell) -> Answer:
-    """Events, film and page in the job's folder.
+def simulate(job: SimulateJob, send: SendAnswer) -> Answer:
+    """Events, preview video and page in the job's folder.
 
     Raises:
         InputError: the job is larger than its limits allow, or its input cannot be used.
         ConfigError: an unknown option, or a value out of range.
     """
-    tell(Answer(kind="progress", text="starting"))
-    simulation = _prepare(job, _JobProgress(tell))
+    send(Answer(kind="progress", text="starting"))
+    simulation = _prepare(job, _JobProgress(send))
     _check_size(simulation.video.size, job.limits)
     folder = Path(job.folder)
     events = folder / "events.h5"
@@ -87,8 +87,8 @@ def simulate(job: SimulateJob, tell: Tell) -> Answer:
             if frame.is_source:
                 seen += 1
                 share = min(1.0, seen / total) if total else None
-                tell(Answer(kind="progress", share=share, text=f"frame {seen}, {count:,} events"))
-    files = {"events": events, "film": folder / "events.mp4", "page": folder / "events.html"}
+                send(Answer(kind="progress", share=share, text=f"frame {seen}, {count:,} events"))
+    files = {"events": events, "video": folder / "events.mp4", "page": folder / "events.html"}
     return Answer(
         kind="done",
         text=_summary(simulation, count),
@@ -127,15 +127,15 @@ def extension_of(format: str) -> str:
 class _JobProgress:
     """Passes on what a slow generator reports."""
 
-    def __init__(self, tell: Tell) -> None:
-        self._tell = tell
+    def __init__(self, send: SendAnswer) -> None:
+        self._send = send
 
     def announce(self, line: str) -> None:
-        self._tell(Answer(kind="progress", text=line))
+        self._send(Answer(kind="progress", text=line))
 
     def advance(self, stage: str, done: int, total: int | None) -> None:
         share = done / total if total else None
-        self._tell(Answer(kind="progress", share=share, text=stage))
+        self._send(Answer(kind="progress", share=share, text=stage))
 
 
 def _prepare(job: SimulateJob, progress: _JobProgress) -> Simulation:
