@@ -13,7 +13,6 @@ from typing import Any, Protocol
 
 import tomli_w
 
-from texvent._registry import load_object
 from texvent.cli.estimate import describe_estimate, estimate_run
 from texvent.cli.outputs import OutputOptions
 from texvent.console_progress import ConsoleProgress
@@ -28,8 +27,6 @@ from texvent.video import MICROSECONDS, Frame
 
 FALLBACK_FPS = Fraction(30)
 """Film rate where the source states none."""
-PREVIEW = "texvent.view.preview:Preview"
-"""By name: it brings PyAV and OpenCV, which help and the event file alone do not need."""
 
 
 def print_settings(settings: Settings) -> int:
@@ -158,7 +155,9 @@ def _open_outputs(
     sinks: list[Sink] = []
     # The exit stack closes in reverse: the event file is safe on disk before the previews end.
     if options.previews:
-        preview = load_object(PREVIEW)(
+        from texvent.view.preview import Preview  # brings PyAV and OpenCV, which help needs not
+
+        preview = Preview(
             path.with_suffix(""),
             size=size,
             fps=simulation.video.fps or FALLBACK_FPS,
