@@ -152,7 +152,7 @@ def _config(model: str) -> TexventConfig | EsimConfig:
     if model == "esim":
         return EsimConfig()
     if model == "accurate":
-        return TexventConfig(cache="leaky", reset="step", multi_event=True, stamp="linear")
+        return TexventConfig(cache="leaky", reset="step", multi_event=True, timestamp_rule="linear")
     return TexventConfig()
 
 

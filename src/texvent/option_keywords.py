@@ -71,7 +71,7 @@ class SimulatorOptions(TypedDict, total=False):
     noise_intensity: float | None
     noise_on_fraction: float | None
     stamp: Literal["eq7", "random", "linear", "hyperbolic", "even", "end"] | None
-    stamp_scale: float | None
+    timestamp_scale: float | None
     gamma: float | None
     on_off_ratio: float | None
     threshold_sigma: float | None

@@ -28,7 +28,7 @@ def test_the_paper_has_twelve_ablations_in_their_order():
         ("E9", {"noise": "none"}),
         ("E10", {"noise": "gaussian"}),
         ("E11", {"noise": "random"}),
-        ("E12", {"stamp": "random"}),
+        ("E12", {"timestamp_rule": "random"}),
     ],
 )
 def test_each_ablation_changes_what_the_paper_says(name, changes):

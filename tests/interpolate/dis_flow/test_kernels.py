@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent.interpolate.dis_flow import flow_cpu as dis_cpu
-from texvent.interpolate.dis_flow import flow_reference as dis_reference
+from texvent.interpolate.dis_flow import flow_cpu, flow_reference
 from texvent.interpolate.dis_flow.definitions import (
     MARGIN,
     count_levels,
@@ -18,7 +17,7 @@ from texvent.interpolate.dis_flow.definitions import (
     size_of,
 )
 
-KERNELS = pytest.mark.parametrize("kernels", [dis_reference, dis_cpu], ids=["reference", "cpu"])
+KERNELS = pytest.mark.parametrize("kernels", [flow_reference, flow_cpu], ids=["reference", "cpu"])
 
 
 def waves(shape, dx=0.0, dy=0.0, seed=0):
@@ -125,27 +124,27 @@ def test_compiled_parts_equal_their_definitions(shape, spread, is_coarsest, seed
     pictures = waves(shape, seed=seed), waves(shape, 2.3, 1.1, seed=seed)
     pictures = [one + rng.normal(0, 1 + spread, shape).astype(np.float32) for one in pictures]
     flow = rng.normal(0, 1 + spread, (2, *shape)).astype(np.float32)
-    wanted = [dis_reference.make_level(one) for one in pictures]
+    wanted = [flow_reference.make_level(one) for one in pictures]
     for got, level, picture in zip(
-        map(dis_cpu.make_level, pictures), wanted, pictures, strict=True
+        map(flow_cpu.make_level, pictures), wanted, pictures, strict=True
     ):
         np.testing.assert_array_equal(got, level)
-        np.testing.assert_array_equal(dis_cpu.halve(picture), dis_reference.halve(picture))
+        np.testing.assert_array_equal(flow_cpu.halve(picture), flow_reference.halve(picture))
     twice = tuple(2 * side - seed % 2 for side in shape)
-    np.testing.assert_array_equal(dis_cpu.double(flow, twice), dis_reference.double(flow, twice))
-    patches = dis_reference.search(*wanted, flow, is_coarsest)
-    np.testing.assert_array_equal(dis_cpu.search(*wanted, flow, is_coarsest), patches)
-    joined = dis_reference.join(*wanted, patches)
-    np.testing.assert_array_equal(dis_cpu.join(*wanted, patches), joined)
+    np.testing.assert_array_equal(flow_cpu.double(flow, twice), flow_reference.double(flow, twice))
+    patches = flow_reference.search(*wanted, flow, is_coarsest)
+    np.testing.assert_array_equal(flow_cpu.search(*wanted, flow, is_coarsest), patches)
+    joined = flow_reference.join(*wanted, patches)
+    np.testing.assert_array_equal(flow_cpu.join(*wanted, patches), joined)
     np.testing.assert_array_equal(
-        dis_cpu.refine(*wanted, joined), dis_reference.refine(*wanted, joined)
+        flow_cpu.refine(*wanted, joined), flow_reference.refine(*wanted, joined)
     )
 
 
 def test_the_whole_way_is_equal_too_and_finds_a_far_shift():
     pictures = waves((64, 80), seed=3), waves((64, 80), 5.0, -2.0, seed=3)
     flows = []
-    for kernels in (dis_reference, dis_cpu):
+    for kernels in (flow_reference, flow_cpu):
         start, stop = (make_pyramid(one, 0, 1, kernels) for one in pictures)
         flows.append(follow_levels(start, stop, kernels))
     np.testing.assert_array_equal(*flows)
@@ -153,7 +152,7 @@ def test_the_whole_way_is_equal_too_and_finds_a_far_shift():
 
 
 def test_frames_that_are_no_numbers_do_no_harm():
-    level = dis_cpu.make_level(np.full((16, 24), np.nan, np.float32))
+    level = flow_cpu.make_level(np.full((16, 24), np.nan, np.float32))
     start = np.full((2, 16, 24), np.nan, np.float32)
-    flow = match(level, level, start, True, kernels=dis_cpu)
+    flow = match(level, level, start, True, kernels=flow_cpu)
     assert flow.shape == (2, 16, 24)

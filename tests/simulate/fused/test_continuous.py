@@ -20,7 +20,7 @@ from texvent.video import Video
 
 from .clips import panning, plan, readable
 
-LINES = {"multi_event": True, "reset": "step", "stamp": "linear"}
+LINES = {"multi_event": True, "reset": "step", "timestamp_rule": "linear"}
 
 
 def continuous(video, **options):

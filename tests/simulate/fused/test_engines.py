@@ -15,14 +15,14 @@ from texvent.simulate.fused.load import find_compiled
 
 from .clips import panning
 
-LINES = {"multi_event": True, "reset": "step", "stamp": "linear"}
+LINES = {"multi_event": True, "reset": "step", "timestamp_rule": "linear"}
 
 
 @pytest.mark.parametrize(
     ("options", "message"),
     [
         ({"simulator": "v2e"}, "cannot run simulator 'v2e'; it runs esim, and texvent"),
-        ({}, "multi_event, reset 'step' and stamp 'linear' only"),
+        ({}, "multi_event, reset 'step' and timestamp_rule 'linear' only"),
         ({**LINES, "cache": "none"}, "cache local, leaky or global"),
         ({**LINES, "noise": "gaussian"}, "noise adaptive, random or none"),
         ({"simulator": "esim", "threshold_sigma": 0.03}, "threshold_sigma 0"),

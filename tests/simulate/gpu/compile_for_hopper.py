@@ -26,14 +26,17 @@ from texvent.simulate.gpu import engine
 from texvent.simulate.texvent.simulator import TexventConfig
 
 TOOL = Path(triton.__file__).parent / "backends" / "nvidia" / "bin" / "cuobjdump"
-RANDOM = {"noise": "random", "stamp": "random"}
+RANDOM = {"noise": "random", "timestamp_rule": "random"}
 ACCURATE = {"cache": "leaky", "reset": "step", "multi_event": True}
 RESTING = {"threshold_sigma": 0.1, "threshold_redraw": "never", "refractory_period_us": 5}
 CONFIGS: dict[str, Any] = {
     "paper": TexventConfig(),
     "random": TexventConfig(**RANDOM),
-    **{name: TexventConfig(**ACCURATE, stamp=name) for name in ("linear", "hyperbolic", "even")},
-    "end": TexventConfig(cache="global", reset="step", stamp="end"),
+    **{
+        name: TexventConfig(**ACCURATE, timestamp_rule=name)
+        for name in ("linear", "hyperbolic", "even")
+    },
+    "end": TexventConfig(cache="global", reset="step", timestamp_rule="end"),
     "esim": EsimConfig(),
     "resting esim": EsimConfig(**RESTING),
 }

@@ -30,7 +30,7 @@ def test_every_kernel_compiles_for_hopper_without_spilling_registers(tmp_path):
         "draw_noise",
         "find_extremes",
         "stamp_crossings",
-        "stamp_events",
+        "timestamp_events",
         "unpack_events",
         "scan_brightness",
         "scan_levels",

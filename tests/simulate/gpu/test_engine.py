@@ -36,15 +36,18 @@ from texvent.simulate.gpu import GpuSimulator  # noqa: E402
 TEXVENT = {
     "paper": {"noise_rate_hz": 5.0},
     "other noise": {"noise": "random", "noise_rate_hz": 9.0, "noise_on_fraction": 0.3},
-    "dark": {"noise_rate_hz": 9.0, "noise_intensity": 120.5, "stamp_scale": 0.6},
-    "no cache": {"noise": "none", "cache": "none", "stamp": "random"},
-    "periodic": {"cache": "global", "cache_reset_pairs": 2, "stamp": "hyperbolic"},
+    "dark": {"noise_rate_hz": 9.0, "noise_intensity": 120.5, "timestamp_scale": 0.6},
+    "no cache": {"noise": "none", "cache": "none", "timestamp_rule": "random"},
+    "periodic": {"cache": "global", "cache_reset_pairs": 2, "timestamp_rule": "hyperbolic"},
     "accurate": {
-        "noise": "none", "cache": "leaky", "reset": "step", "multi_event": True, "stamp": "linear",
+        "noise": "none", "cache": "leaky", "reset": "step", "multi_event": True,
+        "timestamp_rule": "linear",
     },
-    "even": {"cache": "global", "multi_event": True, "stamp": "even", "noise_rate_hz": 5.0},
-    "steps": {"noise": "none", "cache": "global", "reset": "step", "stamp": "eq7"},
-    "end": {"noise": "none", "balance": 5.0, "contrast_threshold": 0.3, "stamp": "end"},
+    "even": {
+        "cache": "global", "multi_event": True, "timestamp_rule": "even", "noise_rate_hz": 5.0,
+    },
+    "steps": {"noise": "none", "cache": "global", "reset": "step", "timestamp_rule": "eq7"},
+    "end": {"noise": "none", "balance": 5.0, "contrast_threshold": 0.3, "timestamp_rule": "end"},
 }  # fmt: skip
 FEW: dict[str, Any] = {"log_eps": 0.1, "threshold_redraw": "never"}
 """Few crossings per pixel, each of which costs the interpreter time."""
@@ -114,7 +117,7 @@ def test_floats_differ_from_the_cpu_at_most_within_rounding_of_the_threshold(dev
     # Every float32 around the intensity that lies exactly on the threshold.
     around = (np.float32(130.0).view(np.int32) + steps).view(np.float32).reshape(20, 24)
     clip = np.stack([np.full((20, 24), reference), around])[None]
-    config = TexventConfig(noise="none", contrast_threshold=float(tie), stamp="end")
+    config = TexventConfig(noise="none", contrast_threshold=float(tie), timestamp_rule="end")
     found = on_gpu(torch, GpuSimulator(config), clip, np.array([[0, 9]]), [True] * 2, device=device)
     expected = on_cpu(TexventSimulator(config, backend="reference"), clip[0], [0, 9], [True] * 2)
     pixels = [set((one.y.astype(int) * 24 + one.x).tolist()) for one in (found[0], expected)]

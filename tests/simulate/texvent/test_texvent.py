@@ -51,7 +51,7 @@ def ramp_b() -> list[Frame]:
 
 
 @pytest.mark.parametrize(
-    ("reset", "stamp", "times"),
+    ("reset", "timestamp_rule", "times"),
     [
         ("current", "end", (0.333, 0.667, 1.0)),
         ("current", "eq7", (0.250, 0.583, 0.917)),
@@ -64,7 +64,7 @@ def ramp_b() -> list[Frame]:
     ],
 )
 def test_eq5_fires_on_ramp_a_as_worked_out(reset, stamp, times, backend):
-    events = simulate(ramp_a(), reset=reset, stamp=stamp, backend=backend)
+    events = simulate(ramp_a(), reset=reset, timestamp_rule=stamp, backend=backend)
     assert seconds(events) == pytest.approx(times, abs=1e-9)
     assert set(events.p.tolist()) == {1}
 
@@ -74,30 +74,30 @@ def test_eq5_fires_on_ramp_a_as_worked_out(reset, stamp, times, backend):
     [("current", (0.124, 0.324, 0.528, 0.936)), ("step", (0.124, 0.269, 0.446, 0.660, 0.927))],
 )
 def test_blended_frames_bend_the_times_of_ramp_a(reset, times, backend):
-    events = simulate(ramp_a(blended=True), reset=reset, stamp="linear", backend=backend)
+    events = simulate(ramp_a(blended=True), reset=reset, timestamp_rule="linear", backend=backend)
     assert seconds(events) == pytest.approx(times, abs=1e-9)
 
 
 def test_a_falling_ramp_fires_off_events_at_the_same_times(backend):
-    events = simulate(ramp_a(reverse=True), reset="step", stamp="linear", backend=backend)
+    events = simulate(ramp_a(reverse=True), reset="step", timestamp_rule="linear", backend=backend)
     assert seconds(events) == pytest.approx(TRUE_CROSSINGS, abs=1e-9)
     assert set(events.polarity.tolist()) == {-1}
 
 
 def test_multi_event_recovers_all_crossings_without_interpolation(backend):
     events = simulate(
-        ramp_a(inner=0), reset="step", stamp="linear", multi_event=True, backend=backend
+        ramp_a(inner=0), reset="step", timestamp_rule="linear", multi_event=True, backend=backend
     )
     assert events.t.tolist() == pytest.approx([190476, 380952, 571429, 761905, 952381], abs=1)
 
 
 def test_a_single_event_per_frame_keeps_the_first_crossing_only(backend):
-    events = simulate(ramp_a(inner=0), reset="step", stamp="linear", backend=backend)
+    events = simulate(ramp_a(inner=0), reset="step", timestamp_rule="linear", backend=backend)
     assert seconds(events) == [0.190]
 
 
 def test_even_spacing_divides_the_interval(backend):
-    events = simulate(ramp_a(inner=0), stamp="even", multi_event=True, backend=backend)
+    events = simulate(ramp_a(inner=0), timestamp_rule="even", multi_event=True, backend=backend)
     assert seconds(events) == pytest.approx([0.2, 0.4, 0.6, 0.8, 1.0], abs=1e-6)
 
 
@@ -123,7 +123,9 @@ GLOBAL_STEP = (3.636, 7.273, 10.909, 14.545, 18.182)
     ids=str,
 )
 def test_cache_decides_how_slow_a_ramp_still_fires(options, times, backend):
-    events = simulate(ramp_b(), stamp="linear", **({"reset": "step"} | options), backend=backend)
+    events = simulate(
+        ramp_b(), timestamp_rule="linear", **({"reset": "step"} | options), backend=backend
+    )
     assert seconds(events) == pytest.approx(times, abs=1e-9)
 
 
@@ -156,7 +158,7 @@ def test_eq7_spreads_the_events_of_a_frame_over_its_interval(backend):
 
 def test_eq7_scale_shrinks_the_spread(backend):
     frames = [Frame(np.full((1, 1), 50.0), 0), Frame(np.full((1, 1), 90.0), 1000)]
-    assert simulate(frames, stamp_scale=0.5, backend=backend).t.tolist() == [250]
+    assert simulate(frames, timestamp_scale=0.5, backend=backend).t.tolist() == [250]
 
 
 def test_local_cache_adds_up_inside_a_pair_and_forgets_at_its_end(backend):
@@ -231,7 +233,7 @@ def test_the_paper_preset_is_the_default(backend):
     config = TexventSimulator.presets["paper"]
     assert config == TexventConfig() == TexventSimulator(backend=backend).config
     assert (config.contrast_threshold, config.balance) == (0.2, 30.0)
-    assert (config.cache, config.reset, config.noise, config.stamp) == (
+    assert (config.cache, config.reset, config.noise, config.timestamp_rule) == (
         "local",
         "current",
         "adaptive",
@@ -304,16 +306,16 @@ def test_step_fails_if_gaussian_noise_would_fire_every_time(backend):
         ({"cache": "none", "cache_reset_pairs": 1}, "use cache 'global' or 'leaky'"),
         ({"cache_leak": 1.5}, "cache_leak is 1.5; it must be 0..1"),
         ({"reset": "half"}, "reset is 'half'; allowed: current, step"),
-        ({"multi_event": True}, "use stamp 'linear'"),
+        ({"multi_event": True}, "use timestamp_rule 'linear'"),
         ({"noise": "poisson"}, "noise is 'poisson'; allowed: adaptive, gaussian, random, none"),
         ({"noise": True}, "noise is True; allowed: adaptive"),
         ({"noise_rate_hz": -0.1}, "noise_rate_hz is -0.1"),
         ({"noise_scale": -1.0}, "noise_scale is -1"),
         ({"noise_intensity": -1.0}, "noise_intensity is -1"),
         ({"noise_on_fraction": 1.1}, "noise_on_fraction is 1.1; it must be 0..1"),
-        ({"stamp": "hyper"}, "did you mean 'hyperbolic'|allowed: eq7"),
-        ({"stamp_scale": 0.0}, "stamp_scale is 0"),
-        ({"stamp_scale": 1.5}, "stamp_scale is 1.5"),
+        ({"timestamp_rule": "hyper"}, "did you mean 'hyperbolic'|allowed: eq7"),
+        ({"timestamp_scale": 0.0}, "timestamp_scale is 0"),
+        ({"timestamp_scale": 1.5}, "timestamp_scale is 1.5"),
     ],
     ids=str,
 )

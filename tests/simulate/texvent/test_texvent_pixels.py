@@ -21,7 +21,7 @@ from texvent.video import Frame
 FAST = ("numpy", "cpu")
 TYPES = (np.uint8, np.uint16, np.float32, np.float64)
 OPTIONS = [
-    {"cache": cache, "cache_reset_pairs": pairs, "reset": reset, "stamp": stamp}
+    {"cache": cache, "cache_reset_pairs": pairs, "reset": reset, "timestamp_rule": stamp}
     | {"multi_event": multi_event}
     for cache, pairs, reset, stamp, multi_event in itertools.product(
         ("local", "global", "none", "leaky"),
@@ -183,7 +183,7 @@ def test_backends_can_change_in_the_middle_of_a_stream(monkeypatch):
 def test_a_simulator_can_be_copied_and_sent_to_another_process(carry, backend):
     rng = np.random.default_rng(8)
     frames = [frame(rng.uniform(0, 255, (40, 50)), np.uint8, 10 * k) for k in range(6)]
-    options = {"cache": "global", "stamp": "linear"}
+    options = {"cache": "global", "timestamp_rule": "linear"}
     simulator = TexventSimulator(TexventConfig(**options), backend=backend)
     packets = [simulator.step(one) for one in frames[:3]]
     twin = carry(simulator)
@@ -208,8 +208,8 @@ def test_frames_belong_to_the_caller(dtype, backend):
     rng = np.random.default_rng(1)
     pictures = [rng.integers(0, 256, (30, 40)).astype(np.float64) for _ in range(4)]
     frames = [frame(one, dtype, 10 * k, is_source=k == 0) for k, one in enumerate(pictures)]
-    expected = simulate(frames, backend="reference", stamp="linear")
-    simulator = TexventSimulator(TexventConfig(stamp="linear"), backend=backend)
+    expected = simulate(frames, backend="reference", timestamp_rule="linear")
+    simulator = TexventSimulator(TexventConfig(timestamp_rule="linear"), backend=backend)
     buffer, packets = np.empty((30, 40), dtype), []
     for one in frames:
         buffer[:] = one.pixels

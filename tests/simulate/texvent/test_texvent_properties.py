@@ -44,7 +44,7 @@ SWITCHES = [
     if is_possible(
         options := dict(
             zip(
-                ("cache", "cache_reset_pairs", "reset", "multi_event", "stamp"),
+                ("cache", "cache_reset_pairs", "reset", "multi_event", "timestamp_rule"),
                 values,
                 strict=True,
             )
@@ -100,7 +100,7 @@ def naive_events(frames, config: TexventConfig) -> list[tuple[int, int, int, int
             for k in range(1, number + 1):
                 moved = sign * k * config.contrast_threshold
                 u = naive_fraction(
-                    config.stamp,
+                    config.timestamp_rule,
                     sizes,
                     abs(change),
                     (before[y][x], now[y][x], reference[y][x] + moved, sign),
@@ -144,7 +144,7 @@ def rows(events: EventStream) -> list[tuple[int, int, int, int]]:
 
 
 @settings(max_examples=150, deadline=None)
-@given(clips(), st.sampled_from([one for one in SWITCHES if one["stamp"] != "random"]))
+@given(clips(), st.sampled_from([one for one in SWITCHES if one["timestamp_rule"] != "random"]))
 def test_events_are_those_of_the_naive_simulator(frames, options):
     config = TexventConfig(noise="none", **options)
     events = simulate(frames, noise="none", **options)
@@ -212,7 +212,7 @@ def test_local_cache_needs_no_state_at_a_source_frame(frames, options, noise, se
 @CHECKED
 @given(
     clips(),
-    st.sampled_from([one for one in SWITCHES if one["stamp"] != "random"]),
+    st.sampled_from([one for one in SWITCHES if one["timestamp_rule"] != "random"]),
     st.integers(-(10**15), 10**15),
 )
 def test_shifting_a_clip_in_time_shifts_its_events(frames, options, shift_us):

@@ -5,7 +5,7 @@ import pytest
 
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.random.draws import frame_key
-from texvent.simulate.texvent.event_frame import EventFrame, list_activations
+from texvent.simulate.texvent.event_frame import EventFrame, list_threshold_crossings
 from texvent.simulate.texvent.sub_interval import SubInterval
 from texvent.simulate.texvent.timestamps import larger_change_earlier, reconstruct_timestamps
 
@@ -17,10 +17,10 @@ def interval(previous, brightness, reference, stop_us=10_000) -> SubInterval:
     return SubInterval(FrameInterval(0, stop_us, frame_key(0, 0)), *images)
 
 
-def activations(changes, numbers=None):
+def crossings(changes, numbers=None):
     changes = np.array(changes, np.float64)
     numbers = np.ones(changes.size, np.int64) if numbers is None else np.array(numbers)
-    return list_activations(EventFrame(np.arange(changes.size), changes, numbers))
+    return list_threshold_crossings(EventFrame(np.arange(changes.size), changes, numbers))
 
 
 def times(stamp, changes, *, numbers=None, previous=None, reference=None, scale=1.0):
@@ -28,7 +28,7 @@ def times(stamp, changes, *, numbers=None, previous=None, reference=None, scale=
     previous = reference if previous is None else previous
     where = interval(previous, reference + np.array(changes), reference)
     return reconstruct_timestamps(
-        activations(changes, numbers), where, stamp=stamp, threshold=THRESHOLD, scale=scale
+        crossings(changes, numbers), where, timestamp_rule=stamp, threshold=THRESHOLD, scale=scale
     ).tolist()
 
 
@@ -96,5 +96,7 @@ def test_random_times_are_uniform_and_differ_between_events_of_a_pixel():
 def test_times_never_reach_the_end_of_the_shortest_interval():
     shortest = interval([0.0], [0.3], [0.0], stop_us=1)
     for stamp in ("eq7", "random", "linear", "hyperbolic", "even", "end"):
-        t = reconstruct_timestamps(activations([0.3]), shortest, stamp=stamp, threshold=THRESHOLD)
+        t = reconstruct_timestamps(
+            crossings([0.3]), shortest, timestamp_rule=stamp, threshold=THRESHOLD
+        )
         assert t.tolist() == [0]

@@ -8,7 +8,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.interpolate.dis_flow import flow_cpu as dis_cpu
+from texvent.interpolate.dis_flow import flow_cpu
 from texvent.interpolate.dis_flow.definitions import (
     PATCH,
     count_levels,
@@ -41,7 +41,7 @@ class DisFlow:
     def __init__(self) -> None:
         keep_freed_memory()
         # Before what simulates, which has slower twins: nothing happens without flow.
-        is_ready(dis_cpu.__name__)
+        is_ready(flow_cpu.__name__)
         # One for each direction, where there is more than one core; it ends with this object.
         self._helper = (
             ThreadPoolExecutor(1, "texvent-flow") if numba.get_num_threads() > 1 else None
@@ -59,18 +59,18 @@ class DisFlow:
         Returns:
             Two flows, [H, W, 2] float32 as (x, y), px; finite.
         """
-        wait_until_ready(dis_cpu.__name__)
+        wait_until_ready(flow_cpu.__name__)
         shape = first.shape
         pictures = [_pad(picture) for picture in stretch(first, second)]
         finest = 0 if min(shape) < SMALL_SIDE_PX else 1
         levels = max(finest, count_levels(pictures[0].shape))
-        earlier, later = (make_pyramid(one, finest, levels, dis_cpu) for one in pictures)
+        earlier, later = (make_pyramid(one, finest, levels, flow_cpu) for one in pictures)
         full = pictures[0].shape
 
         def follow(start: list[FlowArray], stop: list[FlowArray]) -> FlowArray:
-            planes = follow_levels(start, stop, dis_cpu)
+            planes = follow_levels(start, stop, flow_cpu)
             if finest:
-                planes = dis_cpu.double(planes, full)
+                planes = flow_cpu.double(planes, full)
             return np.stack([plane[: shape[0], : shape[1]] for plane in planes], axis=-1)
 
         if self._helper is None:

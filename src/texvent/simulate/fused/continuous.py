@@ -65,7 +65,8 @@ def check_continuous(
     if misfit_of is None:
         raise ConfigError(
             f"engine 'continuous' cannot run simulator {name!r}; it runs esim, and texvent "
-            "with multi_event, reset 'step' and stamp 'linear': choose one, or engine 'frames'"
+            "with multi_event, reset 'step' and timestamp_rule 'linear': choose one, or engine "
+            "'frames'"
         )
     if interpolate not in INTERPOLATIONS:
         raise ConfigError(

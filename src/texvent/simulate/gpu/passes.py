@@ -70,7 +70,7 @@ def run_passes(
     records = pixels.records(signal)
     pixels.find_events(call, tally._replace(events=starts), records)
     if signal:
-        pixels.stamp(call, records, ends, words)
+        pixels.timestamp(call, records, ends, words)
     if drawn is not None and len(words) > signal:
         drawn.write(noise_starts + signal, words)
     return Words(words, ends + noise_ends, host_ends + host_noise_ends)

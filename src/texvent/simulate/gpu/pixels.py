@@ -67,5 +67,5 @@ class GpuPixels(abc.ABC, Generic[Config]):
         """Room for `count` events."""
 
     @abc.abstractmethod
-    def stamp(self, call: Call, records: Records, ends: Tensor, words: Tensor) -> None:
+    def timestamp(self, call: Call, records: Records, ends: Tensor, words: Tensor) -> None:
         """Give every record its time, and write it to `words`."""

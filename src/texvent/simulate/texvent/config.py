@@ -9,9 +9,10 @@ from typing import Literal
 from texvent._registry import suggest
 from texvent.config import check_range
 from texvent.errors import ConfigError
+from texvent.option_fields import renamed
 from texvent.simulate.texvent.brightness_cache import CachePolicy, ResetRule
 from texvent.simulate.texvent.noise import NoiseKind
-from texvent.simulate.texvent.timestamps import StampRule
+from texvent.simulate.texvent.timestamps import TimestampRule
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,7 +44,8 @@ class TexventConfig:
     """Where a pixel fires, its reference becomes the current brightness (current), or moves by one
     threshold per event, as in the circuit (step)."""
     multi_event: bool = False
-    """Fire one event per threshold crossed, not one per frame; needs a --stamp other than eq7."""
+    """Fire one event per threshold crossed, not one per frame; needs a --timestamp-rule other than
+    eq7."""
     noise: NoiseKind = "adaptive"
     """Background activity: adaptive, gaussian, random or none. Adaptive fires dark, resting pixels
     (Eq. 6); gaussian is noise on the brightness; random fires any pixel."""
@@ -55,12 +57,12 @@ class TexventConfig:
     """Pixels darker than this level of 0..255 are low-light (σ); with --noise adaptive."""
     noise_on_fraction: float = 0.5
     """Share of ON among noise events, 0..1; Gaussian noise decides polarity by itself."""
-    stamp: StampRule = "eq7"
+    timestamp_rule: TimestampRule = renamed("eq7", was="stamp")
     """Time of an event between two frames: larger change earlier (eq7), random, where a straight
     line crosses the threshold (linear), where a ramp from the reference does (hyperbolic), evenly
     spaced (even), or at the end (end)."""
-    stamp_scale: float = 1.0
-    """Scale γ of --stamp eq7, above 0 up to 1: the share of the interval that events
+    timestamp_scale: float = renamed(1.0, was="stamp_scale")
+    """Scale γ of --timestamp-rule eq7, above 0 up to 1: the share of the interval that events
     spread over."""
 
     def __post_init__(self) -> None:
@@ -72,17 +74,18 @@ class TexventConfig:
         check_range("noise_scale", self.noise_scale, 0.0, 1e3)
         check_range("noise_intensity", self.noise_intensity, 0.0, 1e6)
         check_range("noise_on_fraction", self.noise_on_fraction, 0.0, 1.0)
-        check_range("stamp_scale", self.stamp_scale, 1e-6, 1.0)
+        check_range("timestamp_scale", self.timestamp_scale, 1e-6, 1.0)
         self._check_choices()
         if self.cache_reset_pairs > 0 and self.cache in ("local", "none"):
             raise ConfigError(
                 f"cache_reset_pairs is {self.cache_reset_pairs}, but cache {self.cache!r} forgets "
                 "at every pair already; use cache 'global' or 'leaky', or leave it 0"
             )
-        if self.multi_event and self.stamp == "eq7":
+        if self.multi_event and self.timestamp_rule == "eq7":
             raise ConfigError(
-                "stamp 'eq7' gives a pixel one time per frame, but multi_event lets it fire "
-                "several times; use stamp 'linear', 'hyperbolic', 'even', 'random' or 'end'"
+                "timestamp_rule 'eq7' gives a pixel one time per frame, but multi_event lets it "
+                "fire several times; use timestamp_rule 'linear', 'hyperbolic', 'even', 'random' "
+                "or 'end'"
             )
 
     def _check_choices(self) -> None:

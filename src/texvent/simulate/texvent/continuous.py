@@ -25,9 +25,9 @@ from texvent.video import Frame
 
 def continuous_misfit(config: TexventConfig) -> str | None:
     """What the options must be in continuous time, if they are not."""
-    wanted = {"multi_event": True, "reset": "step", "stamp": "linear"}
+    wanted = {"multi_event": True, "reset": "step", "timestamp_rule": "linear"}
     if any(getattr(config, name) != value for name, value in wanted.items()):
-        return "with multi_event, reset 'step' and stamp 'linear' only (preset accurate)"
+        return "with multi_event, reset 'step' and timestamp_rule 'linear' only (preset accurate)"
     if config.cache == "none":
         return "with cache local, leaky or global: 'none' forgets at every frame"
     if config.noise == "gaussian":
@@ -38,7 +38,7 @@ def continuous_misfit(config: TexventConfig) -> str | None:
 class ContinuousPixels:
     """Texvent with one event per threshold crossed, at the time of the crossing.
 
-    Equation: (5) and (6), section 3.2.2, with reset "step", stamp "linear" and multi_event.
+    Equation: (5) and (6), section 3.2.2; multi_event, reset "step", timestamp_rule "linear".
     Deviation: noise is drawn per pair of source frames, in pixels that are dark in the later one
         and did not fire in between, which is how Eq. 6 is written.
     """

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 
 class EventFrame(NamedTuple):
-    """What fired in one sub-interval, a row per pixel, in row-major order."""
+    """The events of one sub-interval, a row per pixel, in row-major order."""
 
     pixel: NDArray[np.int64]
     """[n] flat index y · W + x."""
@@ -19,7 +19,7 @@ class EventFrame(NamedTuple):
     """[n] how many events it fires, at least 1."""
 
 
-class Activations(NamedTuple):
+class ThresholdCrossings(NamedTuple):
     """The same with a row per event; those of a pixel follow each other."""
 
     pixel: NDArray[np.int64]
@@ -34,7 +34,7 @@ class Activations(NamedTuple):
         return (self.change > 0).astype(np.uint8)
 
 
-class Crossings(NamedTuple):
+class TriggeredPixels(NamedTuple):
     """The pixels that fired in one sub-interval, in row-major order."""
 
     pixel: NDArray[np.int64]
@@ -43,9 +43,9 @@ class Crossings(NamedTuple):
     """[n] brightness minus reference brightness, log units; its sign is the polarity."""
 
 
-def find_crossings(
+def find_triggered_pixels(
     brightness: NDArray[np.float64], reference: NDArray[np.float64], threshold: float
-) -> Crossings:
+) -> TriggeredPixels:
     """Pixels whose brightness lies `threshold` or more from their reference.
 
     Args:
@@ -59,7 +59,7 @@ def find_crossings(
     """
     change = brightness - reference
     fired = np.abs(change) >= threshold
-    return Crossings(np.flatnonzero(fired), change[fired])
+    return TriggeredPixels(np.flatnonzero(fired), change[fired])
 
 
 def generate_event_frame(
@@ -78,10 +78,10 @@ def generate_event_frame(
         multi_event: floor(|change| / δ) events per pixel instead of one.
 
     Equation: (5), section 3.2.2; and (1) for a pixel.
-    Deviation: fires at δ itself (see `find_crossings`); the paper does not say how many events a
-        change of several δ makes: one, unless `multi_event` is set.
+    Deviation: fires at δ itself (see `find_triggered_pixels`); the paper does not say how many
+        events a change of several δ makes: one, unless `multi_event` is set.
     """
-    pixel, change = find_crossings(brightness, reference, threshold)
+    pixel, change = find_triggered_pixels(brightness, reference, threshold)
     return EventFrame(pixel, change, count_events(change, threshold, multi_event=multi_event))
 
 
@@ -94,20 +94,20 @@ def count_events(
     return np.ones(change.size, np.int64)
 
 
-def list_activations(frame: EventFrame) -> Activations:
+def list_threshold_crossings(frame: EventFrame) -> ThresholdCrossings:
     """An event frame with a row per event.
 
     Example:
         >>> frame = EventFrame(np.array([4, 9]), np.array([0.25, -0.7]), np.array([1, 3]))
-        >>> activations = list_activations(frame)
-        >>> activations.pixel.tolist(), activations.order.tolist(), activations.polarity.tolist()
+        >>> crossings = list_threshold_crossings(frame)
+        >>> crossings.pixel.tolist(), crossings.order.tolist(), crossings.polarity.tolist()
         ([4, 9, 9, 9], [1, 1, 2, 3], [1, 0, 0, 0])
     """
     pixel, change, number = frame
     if int(number.sum()) == pixel.size:
-        return Activations(pixel, change, number, number)
+        return ThresholdCrossings(pixel, change, number, number)
     first = np.cumsum(number) - number
     order = np.arange(int(number.sum())) - np.repeat(first, number) + 1
-    return Activations(
+    return ThresholdCrossings(
         np.repeat(pixel, number), np.repeat(change, number), np.repeat(number, number), order
     )

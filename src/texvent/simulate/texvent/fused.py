@@ -38,7 +38,7 @@ from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.kernels.scan import Fired, Memory
-from texvent.simulate.texvent.kernels.timestamping import STAMP_EVENTS
+from texvent.simulate.texvent.kernels.timestamping import TIMESTAMP_EVENTS
 from texvent.simulate.texvent.pixels import draw_noise_places, timing_of
 from texvent.video import Frame
 
@@ -59,7 +59,7 @@ class FusedPass:
             seed: of noise and random times.
         """
         self._config, self._seed = config, seed
-        self._keeps_start = config.stamp == "linear" or config.cache == "none"
+        self._keeps_start = config.timestamp_rule == "linear" or config.cache == "none"
         self._timing = timing_of(config)
         self._scratch: Float64Array = np.empty(0)
 
@@ -95,20 +95,20 @@ class FusedPass:
             levels=self._levels(pair, memory),
             bounds=bounds,
         )
-        return self._stamp(pair, list(zip(*bands, strict=True)), edges_us)
+        return self._timestamp(pair, list(zip(*bands, strict=True)), edges_us)
 
-    def _stamp(
+    def _timestamp(
         self, pair: FramePair, fired: list[tuple[Fired, ...]], edges_us: list[int]
     ) -> Iterator[tuple[Frame, EventStream]]:
         """Eqs. 6 and 7 for each sub-interval."""
         motion, size = pair.motion, pair.second.size
-        stamp_events = STAMP_EVENTS.load(AUTO)
+        timestamp_events = TIMESTAMP_EVENTS.load(AUTO)
         spans = itertools.pairwise(edges_us)
         for part, (frame, span_us) in enumerate(zip(pair.undrawn_frames, spans, strict=True)):
             span = FrameInterval(*span_us, frame_key(self._seed, span_us[1]))
             luma_of = functools.partial(warp_pixels, motion, part)
             noise = draw_noise_places(self._config, span, size.width * size.height, luma_of, AUTO)
-            x, y, t, p, label = stamp_events(fired[part], noise, self._timing, span, size.shape)
+            x, y, t, p, label = timestamp_events(fired[part], noise, self._timing, span, size.shape)
             yield frame, EventStream.unchecked(x, y, t, p, size=size, label=label)
 
     def _levels(self, pair: FramePair, memory: Memory | None) -> ReferenceLevels:

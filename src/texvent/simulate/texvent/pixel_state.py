@@ -15,8 +15,8 @@ from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.kernels.scan import (
     SCAN_FLOOR,
     Intensity,
-    Levels,
     Memory,
+    ScanLevels,
 )
 from texvent.video import UINT16_PER_LEVEL
 
@@ -39,7 +39,7 @@ def remember(first: Intensity, config: TexventConfig) -> Memory:
     memory = Memory(
         reference=first.copy(),
         renewed=np.empty(0 if has_levels or not may_renew(config) else first.size, first.dtype),
-        previous=np.empty(0, first.dtype) if config.stamp != "linear" else first.copy(),
+        previous=np.empty(0, first.dtype) if config.timestamp_rule != "linear" else first.copy(),
         level=np.empty(first.size if has_levels else 0),
         table=_NOTHING if has_levels else brightness_table(first.dtype.str, config.balance),
     )
@@ -124,7 +124,7 @@ def brightness_table(dtype: str, balance: float) -> Float64Array:
     return read_only(np.concatenate([dark, balanced_log(lit, balance)]))
 
 
-def scan_levels(config: TexventConfig, memory: Memory) -> Levels:
+def scan_levels(config: TexventConfig, memory: Memory) -> ScanLevels:
     """How the scan compares this memory with frames."""
     is_full_scale = memory.reference.dtype == np.uint16
     balance = config.balance * (UINT16_PER_LEVEL if is_full_scale else 1.0)
@@ -133,7 +133,7 @@ def scan_levels(config: TexventConfig, memory: Memory) -> Levels:
     up = factors.up * (1 - MARGIN)
     down = factors.down * (1 + MARGIN)
     room = balance * MARGIN + SCAN_FLOOR
-    return Levels(
+    return ScanLevels(
         up=np.float32(up),
         up_offset=np.float32(in_reference * up - balance - room),
         down=np.float32(down),

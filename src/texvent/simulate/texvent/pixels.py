@@ -27,7 +27,7 @@ from texvent.simulate.texvent.kernels.scan import (
     Intensity,
     Memory,
 )
-from texvent.simulate.texvent.kernels.timestamping import STAMP_EVENTS, Timing
+from texvent.simulate.texvent.kernels.timestamping import TIMESTAMP_EVENTS, Timing
 from texvent.simulate.texvent.noise import poisson_cumulative
 from texvent.simulate.texvent.pixel_state import (
     as_luma,
@@ -68,7 +68,7 @@ class SparsePixels:
             multi_event=config.multi_event,
             is_step=config.reset == "step",
             is_renewed=False,
-            has_line=config.stamp == "linear",
+            has_line=config.timestamp_rule == "linear",
         )
         self._rule_that_renews = self._rule._replace(is_renewed=True)
         self._timing = timing_of(config)
@@ -82,8 +82,8 @@ class SparsePixels:
             raise bad_intensity(frame.pixels, where)
         self._schedule.pass_frame(is_source=frame.is_source)
         noise = self._draw_noise(intensity, span)
-        stamp_events = STAMP_EVENTS.load(self._backend)
-        x, y, t, p, label = stamp_events([fired], noise, self._timing, span, frame.size.shape)
+        timestamp_events = TIMESTAMP_EVENTS.load(self._backend)
+        x, y, t, p, label = timestamp_events([fired], noise, self._timing, span, frame.size.shape)
         return EventStream.unchecked(x, y, t, p, size=frame.size, label=label)
 
     def hold_levels(self) -> Memory:
@@ -145,8 +145,8 @@ class SparsePixels:
 def timing_of(config: TexventConfig) -> Timing:
     """How a configuration gives times to events."""
     return Timing(
-        config.stamp,
-        config.stamp_scale,
+        config.timestamp_rule,
+        config.timestamp_scale,
         config.contrast_threshold,
         config.multi_event,
         config.noise == "adaptive",

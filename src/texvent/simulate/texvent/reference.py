@@ -14,7 +14,11 @@ from texvent.simulate.packets.sorting import make_packet
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.texvent.brightness_cache import BrightnessCache
 from texvent.simulate.texvent.config import TexventConfig
-from texvent.simulate.texvent.event_frame import EventFrame, generate_event_frame, list_activations
+from texvent.simulate.texvent.event_frame import (
+    EventFrame,
+    generate_event_frame,
+    list_threshold_crossings,
+)
 from texvent.simulate.texvent.noise import (
     draw_noise,
     draw_voltage_noise,
@@ -126,15 +130,15 @@ class DensePixels:
         self, events: EventFrame, signal: EventFrame, interval: SubInterval
     ) -> UnsortedEvents:
         """Eq. 7. Events that only voltage noise let fire are labelled as noise."""
-        activations = list_activations(events)
+        crossings = list_threshold_crossings(events)
         t = reconstruct_timestamps(
-            activations,
+            crossings,
             interval,
-            stamp=self._config.stamp,
+            timestamp_rule=self._config.timestamp_rule,
             threshold=self._config.contrast_threshold,
-            scale=self._config.stamp_scale,
+            scale=self._config.timestamp_scale,
         )
-        fired = UnsortedEvents.signal(activations.pixel, t, activations.polarity)
+        fired = UnsortedEvents.signal(crossings.pixel, t, crossings.polarity)
         if signal is not events:
-            fired.label[is_background(activations.pixel, signal.pixel)] = NOISE
+            fired.label[is_background(crossings.pixel, signal.pixel)] = NOISE
         return fired

@@ -48,7 +48,9 @@ class TexventSimulator(SteppingSimulator):
         # Measured against true and recorded events (docs/benchmark.md): a reference that outlives
         # the frame and moves by whole thresholds, and more than one event per frame. A global
         # cache is .005 STPP better on exact scenes, and .018 worse on a recording: it drifts.
-        "accurate": TexventConfig(cache="leaky", reset="step", multi_event=True, stamp="linear"),
+        "accurate": TexventConfig(
+            cache="leaky", reset="step", multi_event=True, timestamp_rule="linear"
+        ),
     }
 
     def __init__(

@@ -13,36 +13,36 @@ from numpy.typing import NDArray
 
 from texvent.simulate.packets.interval import place_in
 from texvent.simulate.random.draws import Purpose, draw_uniforms
-from texvent.simulate.texvent.event_frame import Activations
+from texvent.simulate.texvent.event_frame import ThresholdCrossings
 from texvent.simulate.texvent.sub_interval import FiredPixels
 
-StampRule = Literal["eq7", "random", "linear", "hyperbolic", "even", "end"]
+TimestampRule = Literal["eq7", "random", "linear", "hyperbolic", "even", "end"]
 Float64Array = NDArray[np.float64]
 
 
 def reconstruct_timestamps(
-    activations: Activations,
+    crossings: ThresholdCrossings,
     interval: FiredPixels,
     *,
-    stamp: StampRule,
+    timestamp_rule: TimestampRule,
     threshold: float,
     scale: float = 1.0,
 ) -> NDArray[np.int64]:
     """Times of the events of one sub-interval.
 
     Args:
-        activations: the events.
+        crossings: the events.
         interval: the sub-interval they belong to.
-        stamp: the rule.
+        timestamp_rule: how.
         threshold: δ, log units.
         scale: γ of Eq. 7, 0..1; other rules do not use it.
 
     Returns:
         [n] µs, in `[start_us, stop_us)`.
     """
-    if stamp == "eq7":
-        return place_in(interval.span, scale * larger_change_earlier(activations.change))
-    return place_in(interval.span, _RULES[stamp](activations, interval, threshold))
+    if timestamp_rule == "eq7":
+        return place_in(interval.span, scale * larger_change_earlier(crossings.change))
+    return place_in(interval.span, _RULES[timestamp_rule](crossings, interval, threshold))
 
 
 def larger_change_earlier(change: Float64Array) -> Float64Array:
@@ -71,14 +71,16 @@ def larger_change_earlier(change: Float64Array) -> Float64Array:
     return np.asarray(1.0 - (size - smallest) / (largest - smallest))
 
 
-def random_time(activations: Activations, interval: FiredPixels, threshold: float) -> Float64Array:
+def random_time(
+    crossings: ThresholdCrossings, interval: FiredPixels, threshold: float
+) -> Float64Array:
     """Uniform in the sub-interval: the paper's ablation E12."""
-    y, x = np.divmod(activations.pixel, interval.width)
-    return draw_uniforms(interval.span.key, y, x, Purpose.TIMESTAMP.draw(activations.order))
+    y, x = np.divmod(crossings.pixel, interval.width)
+    return draw_uniforms(interval.span.key, y, x, Purpose.TIMESTAMP.draw(crossings.order))
 
 
 def linear_crossing(
-    activations: Activations, interval: FiredPixels, threshold: float
+    crossings: ThresholdCrossings, interval: FiredPixels, threshold: float
 ) -> Float64Array:
     """When a straight line from the previous brightness to this one crosses the k-th threshold.
 
@@ -87,9 +89,9 @@ def linear_crossing(
 
     Source: ESIM (Rebecq, Gehrig and Scaramuzza, CoRL 2018).
     """
-    start, stop, reference = interval.at(activations.pixel)
-    sign = np.sign(activations.change)
-    level = reference + sign * (activations.order * threshold)
+    start, stop, reference = interval.at(crossings.pixel)
+    sign = np.sign(crossings.change)
+    level = reference + sign * (crossings.order * threshold)
     is_over = sign * (start - level) >= 0
     fraction = np.ones(level.shape)
     np.divide(level - start, stop - start, out=fraction, where=~is_over & (stop != start))
@@ -98,23 +100,27 @@ def linear_crossing(
 
 
 def hyperbolic_crossing(
-    activations: Activations, interval: FiredPixels, threshold: float
+    crossings: ThresholdCrossings, interval: FiredPixels, threshold: float
 ) -> Float64Array:
     """When a ramp that starts at the reference crosses the k-th threshold: kδ / Δ."""
-    return np.minimum(activations.order * threshold / np.abs(activations.change), 1.0)
+    return np.minimum(crossings.order * threshold / np.abs(crossings.change), 1.0)
 
 
-def even_spacing(activations: Activations, interval: FiredPixels, threshold: float) -> Float64Array:
+def even_spacing(
+    crossings: ThresholdCrossings, interval: FiredPixels, threshold: float
+) -> Float64Array:
     """The k-th of n events of a pixel at k / n."""
-    return np.asarray(activations.order / activations.number)
+    return np.asarray(crossings.order / crossings.number)
 
 
-def interval_end(activations: Activations, interval: FiredPixels, threshold: float) -> Float64Array:
+def interval_end(
+    crossings: ThresholdCrossings, interval: FiredPixels, threshold: float
+) -> Float64Array:
     """All events at the end, as an event frame has them."""
-    return np.ones(activations.pixel.shape)
+    return np.ones(crossings.pixel.shape)
 
 
-_RULES: Mapping[str, Callable[[Activations, FiredPixels, float], Float64Array]] = {
+_RULES: Mapping[str, Callable[[ThresholdCrossings, FiredPixels, float], Float64Array]] = {
     "random": random_time,
     "linear": linear_crossing,
     "hyperbolic": hyperbolic_crossing,

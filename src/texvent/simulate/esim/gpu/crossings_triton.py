@@ -9,7 +9,7 @@ from __future__ import annotations
 import triton
 import triton.language as tl
 
-from texvent.simulate.esim.gpu import rules as esim_rules
+from texvent.simulate.esim.gpu import rules
 from texvent.simulate.gpu import kernel_types
 from texvent.simulate.gpu.blocks_triton import (
     count_bad,
@@ -25,10 +25,10 @@ from texvent.simulate.gpu.blocks_triton import (
 )
 
 _FORGET = tl.constexpr(kernel_types.FORGET)
-_THRESHOLD_ON = tl.constexpr(esim_rules.THRESHOLD_ON)
-_THRESHOLD_OFF = tl.constexpr(esim_rules.THRESHOLD_OFF)
-_LOG_EPS = tl.constexpr(esim_rules.LOG_EPS)
-_WHITE = tl.constexpr(esim_rules.WHITE)
+_THRESHOLD_ON = tl.constexpr(rules.THRESHOLD_ON)
+_THRESHOLD_OFF = tl.constexpr(rules.THRESHOLD_OFF)
+_LOG_EPS = tl.constexpr(rules.LOG_EPS)
+_WHITE = tl.constexpr(rules.WHITE)
 
 
 @triton.jit
@@ -45,7 +45,7 @@ def scan_ramp(
     """Find every threshold that a straight line of log intensity crosses in every interval.
 
     Arguments as for `texvent_triton.scan_levels`, but `rules` are `EsimRules`, and `state`,
-    an `esim_rules.State`, is brought up to date in pass 2.
+    an `rules.State`, is brought up to date in pass 2.
 
     Source: as `kernels.ramp_reference.cross_ramp`, whose events these are.
     """
@@ -141,7 +141,7 @@ def stamp_crossings(
     Args:
         frames: `kernel_types.Frames`.
         intervals: `kernel_types.Intervals`.
-        rules: `esim_rules.EsimRules`.
+        rules: `rules.EsimRules`.
         records: `kernel_types.Records`.
         ends: [S + 1] int64, where the records of each segment begin, and their number.
         words: [n] int64, see `blocks_triton.pack_event`.

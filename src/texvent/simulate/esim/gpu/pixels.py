@@ -8,8 +8,7 @@ import numpy as np
 
 from texvent._require import require
 from texvent.errors import ConfigError
-from texvent.simulate.esim.gpu import crossings_triton as esim_triton
-from texvent.simulate.esim.gpu import rules as esim_rules
+from texvent.simulate.esim.gpu import crossings_triton, rules
 from texvent.simulate.esim.simulator import WHITE, EsimConfig, log_intensity
 from texvent.simulate.gpu.device import EXTRA, LAUNCH
 from texvent.simulate.gpu.intervals import Int64Array, Span
@@ -64,7 +63,7 @@ class EsimPixels(GpuPixels[EsimConfig]):
         torch = require("torch", extra=EXTRA)
         config, device, shape = self.config, frames.device, frames.shape
         rests = config.refractory_period_us > 0
-        self._state = esim_rules.State(
+        self._state = rules.State(
             # What it holds does not matter: the first interval begins at its own start.
             torch.zeros(shape, dtype=torch.float64, device=device),
             torch.full(shape, LONG_AGO_US, dtype=torch.int64, device=device) if rests else None,
@@ -77,11 +76,11 @@ class EsimPixels(GpuPixels[EsimConfig]):
             on, off = (to_device(np.stack(one), device) for one in zip(*pairs, strict=True))
             maps = on, off
         numbers = np.empty(3)
-        numbers[esim_rules.THRESHOLD_ON] = config.contrast_threshold_on
-        numbers[esim_rules.THRESHOLD_OFF] = config.contrast_threshold_off
-        numbers[esim_rules.LOG_EPS] = config.log_eps
+        numbers[rules.THRESHOLD_ON] = config.contrast_threshold_on
+        numbers[rules.THRESHOLD_OFF] = config.contrast_threshold_off
+        numbers[rules.LOG_EPS] = config.log_eps
         logs = log_intensity(np.arange(256, dtype=np.uint8), config.log_eps)
-        self._rules = esim_rules.EsimRules(
+        self._rules = rules.EsimRules(
             to_device(numbers, device),
             to_device(logs, device),
             *maps,
@@ -101,7 +100,7 @@ class EsimPixels(GpuPixels[EsimConfig]):
 
     def find_events(self, call: Call, tally: PassCounts, records: Records | None) -> None:
         """See `GpuPixels`."""
-        esim_triton.scan_ramp[pixel_grid(call, self.block)](
+        crossings_triton.scan_ramp[pixel_grid(call, self.block)](
             call.frames,
             call.intervals,
             self._rules,
@@ -118,9 +117,9 @@ class EsimPixels(GpuPixels[EsimConfig]):
         """See `GpuPixels`."""
         return make_records(count, self._state.level, has_order=True)
 
-    def stamp(self, call: Call, records: Records, ends: Tensor, words: Tensor) -> None:
-        """Give every record its time; see `esim_triton.stamp_crossings`."""
-        esim_triton.stamp_crossings[segment_grid(call, len(records.pixel), _BLOCK)](
+    def timestamp(self, call: Call, records: Records, ends: Tensor, words: Tensor) -> None:
+        """Give every record its time; see `crossings_triton.stamp_crossings`."""
+        crossings_triton.stamp_crossings[segment_grid(call, len(records.pixel), _BLOCK)](
             call.frames,
             call.intervals,
             self._rules,

@@ -29,8 +29,7 @@ from texvent.simulate.gpu.launch import (
 from texvent.simulate.gpu.pixels import GpuPixels
 from texvent.simulate.random.draws import frame_keys
 from texvent.simulate.texvent.config import TexventConfig
-from texvent.simulate.texvent.gpu import rules as texvent_rules
-from texvent.simulate.texvent.gpu import scan_triton as texvent_triton
+from texvent.simulate.texvent.gpu import rules, scan_triton
 
 _BLOCK = 512
 LEVELS_LAUNCH = LaunchSize(128, 1)
@@ -52,7 +51,7 @@ class TexventPixels(GpuPixels[TexventConfig]):
             ConfigError: an option that only the CPU has.
         """
         check_options(config)
-        self._tracks_intensity = texvent_rules.tracks_intensity(config)
+        self._tracks_intensity = rules.tracks_intensity(config)
         super().__init__(
             config, seeds, LEVELS_LAUNCH if self._tracks_intensity else BRIGHTNESS_LAUNCH
         )
@@ -74,10 +73,10 @@ class TexventPixels(GpuPixels[TexventConfig]):
         dtype = frames.dtype if self._tracks_intensity else torch.float64
         # What it holds does not matter: the first interval forgets.
         self._reference = torch.zeros(frames.shape, dtype=dtype, device=frames.device)
-        brightness = texvent_rules.byte_brightness(self.config.balance)
-        levels = texvent_rules.byte_trigger_levels(brightness, self.config.contrast_threshold)
-        self._rules = texvent_rules.TexventRules(
-            to_device(texvent_rules.list_numbers(self.config), frames.device),
+        brightness = rules.byte_brightness(self.config.balance)
+        levels = rules.byte_trigger_levels(brightness, self.config.contrast_threshold)
+        self._rules = rules.TexventRules(
+            to_device(rules.list_numbers(self.config), frames.device),
             to_device(levels, frames.device),
             to_device(brightness, frames.device),
             int(self.config.reset == "step"),
@@ -115,11 +114,11 @@ class TexventPixels(GpuPixels[TexventConfig]):
     def find_events(self, call: Call, tally: PassCounts, records: Records | None) -> None:
         """See `GpuPixels`."""
         if self._tracks_intensity:
-            kernel = texvent_triton.scan_levels
+            kernel = scan_triton.scan_levels
             # Exact: float32 holds every byte.
             self._reference = self._reference.to(call.frames.pixels.dtype)
         else:
-            kernel = texvent_triton.scan_brightness
+            kernel = scan_triton.scan_brightness
         kernel[pixel_grid(call, self.block)](
             call.frames,
             call.intervals,
@@ -137,25 +136,25 @@ class TexventPixels(GpuPixels[TexventConfig]):
         """See `GpuPixels`."""
         return make_records(count, self._reference, has_order=self.config.multi_event)
 
-    def stamp(self, call: Call, records: Records, ends: Tensor, words: Tensor) -> None:
-        """Give every record its time; see `texvent_triton.stamp_events`."""
+    def timestamp(self, call: Call, records: Records, ends: Tensor, words: Tensor) -> None:
+        """Give every record its time; see `scan_triton.timestamp_events`."""
         torch = require("torch", extra=EXTRA)
         grid = segment_grid(call, len(records.pixel), _BLOCK)
         extremes = None
-        if self.config.stamp == "eq7":
+        if self.config.timestamp_rule == "eq7":
             extremes = torch.empty(call.segments, 2, dtype=torch.float64, device=words.device)
             extremes[:, 0], extremes[:, 1] = torch.inf, -torch.inf
-            texvent_triton.find_extremes[grid](
+            scan_triton.find_extremes[grid](
                 call.frames, self._rules, records, ends, extremes, BLOCK=_BLOCK, **LAUNCH
             )
-        texvent_triton.stamp_events[grid](
+        scan_triton.timestamp_events[grid](
             call.frames,
             call.intervals,
             self._rules,
             records,
             (ends, extremes),
             words,
-            STAMP=texvent_rules.STAMPS[self.config.stamp],
+            TIMESTAMP_RULE=rules.TIMESTAMP_RULES[self.config.timestamp_rule],
             BLOCK=_BLOCK,
             **LAUNCH,
         )

@@ -15,7 +15,7 @@ from texvent.simulate.texvent.config import TexventConfig
 
 BALANCE, THRESHOLD, UP, DOWN, LEAK_SHARE, SCALE = range(6)
 """Where each number lies in `TexventRules.numbers`."""
-STAMPS = {"eq7": 0, "random": 1, "linear": 2, "hyperbolic": 3, "even": 4, "end": 5}
+TIMESTAMP_RULES = {"eq7": 0, "random": 1, "linear": 2, "hyperbolic": 3, "even": 4, "end": 5}
 """How the kernels are told the rule for times."""
 TIMESTAMP_DRAW = Purpose.TIMESTAMP.draw()
 LEVELS = 256
@@ -45,7 +45,7 @@ def list_numbers(config: TexventConfig) -> NDArray[np.float64]:
     factors = trigger_factors(config.contrast_threshold, config.contrast_threshold)
     numbers[UP], numbers[DOWN] = factors
     numbers[LEAK_SHARE] = config.cache_leak
-    numbers[SCALE] = config.stamp_scale
+    numbers[SCALE] = config.timestamp_scale
     return numbers
 
 

@@ -2,7 +2,7 @@
 
 A program owns a block of pixels of one clip and goes through all intervals of a call with their
 state in registers: once to count the events, once more to write them. What costs more per event
-than per pixel (the logarithm, the time) is left to `stamp_events`, which reads events only.
+than per pixel (the logarithm, the time) is left to `timestamp_events`, which reads events only.
 """
 
 from __future__ import annotations
@@ -26,22 +26,22 @@ from texvent.simulate.gpu.blocks_triton import (
     write_events,
 )
 from texvent.simulate.gpu.draws_triton import draw_word, to_uniform
-from texvent.simulate.texvent.gpu import rules as texvent_rules
+from texvent.simulate.texvent.gpu import rules
 
 _FORGET = tl.constexpr(kernel_types.FORGET)
 _LEAK = tl.constexpr(kernel_types.LEAK)
-_BALANCE = tl.constexpr(texvent_rules.BALANCE)
-_THRESHOLD = tl.constexpr(texvent_rules.THRESHOLD)
-_UP = tl.constexpr(texvent_rules.UP)
-_DOWN = tl.constexpr(texvent_rules.DOWN)
-_LEAK_SHARE = tl.constexpr(texvent_rules.LEAK_SHARE)
-_SCALE = tl.constexpr(texvent_rules.SCALE)
-_EQ7 = tl.constexpr(texvent_rules.STAMPS["eq7"])
-_RANDOM = tl.constexpr(texvent_rules.STAMPS["random"])
-_LINEAR = tl.constexpr(texvent_rules.STAMPS["linear"])
-_HYPERBOLIC = tl.constexpr(texvent_rules.STAMPS["hyperbolic"])
-_EVEN = tl.constexpr(texvent_rules.STAMPS["even"])
-_TIMESTAMP_DRAW = tl.constexpr(texvent_rules.TIMESTAMP_DRAW)
+_BALANCE = tl.constexpr(rules.BALANCE)
+_THRESHOLD = tl.constexpr(rules.THRESHOLD)
+_UP = tl.constexpr(rules.UP)
+_DOWN = tl.constexpr(rules.DOWN)
+_LEAK_SHARE = tl.constexpr(rules.LEAK_SHARE)
+_SCALE = tl.constexpr(rules.SCALE)
+_EQ7 = tl.constexpr(rules.TIMESTAMP_RULES["eq7"])
+_RANDOM = tl.constexpr(rules.TIMESTAMP_RULES["random"])
+_LINEAR = tl.constexpr(rules.TIMESTAMP_RULES["linear"])
+_HYPERBOLIC = tl.constexpr(rules.TIMESTAMP_RULES["hyperbolic"])
+_EVEN = tl.constexpr(rules.TIMESTAMP_RULES["even"])
+_TIMESTAMP_DRAW = tl.constexpr(rules.TIMESTAMP_DRAW)
 
 
 @triton.jit
@@ -63,7 +63,7 @@ def scan_levels(
     Args:
         frames: `kernel_types.Frames`.
         intervals: `kernel_types.Intervals`.
-        rules: `texvent_rules.TexventRules`.
+        rules: `rules.TexventRules`.
         reference: [B, area] intensity each pixel compares with; brought up to date in pass 2.
         tally: `kernel_types.PassCounts`.
         records: `kernel_types.Records`, or None for pass 1, which counts.
@@ -234,7 +234,7 @@ def find_extremes(
 
     Args:
         frames: `kernel_types.Frames`.
-        rules: `texvent_rules.TexventRules`.
+        rules: `rules.TexventRules`.
         records: `kernel_types.Records`.
         ends: [S + 1] int64, where the records of each segment begin, and their number.
         extremes: [S, 2] float64, set to +∞ and −∞ before.
@@ -270,14 +270,14 @@ def _reference_of(
 
 
 @triton.jit
-def stamp_events(
+def timestamp_events(
     frames: tl.tuple,
     intervals: tl.tuple,
     rules: tl.tuple,
     records: tl.tuple,
     ends: tl.tuple,
     words: tl.tensor,
-    STAMP: tl.constexpr,
+    TIMESTAMP_RULE: tl.constexpr,
     BLOCK: tl.constexpr,
 ) -> None:
     """Give every record a time, and write it down as one word.
@@ -285,11 +285,11 @@ def stamp_events(
     Args:
         frames: `kernel_types.Frames`.
         intervals: `kernel_types.Intervals`.
-        rules: `texvent_rules.TexventRules`.
+        rules: `rules.TexventRules`.
         records: `kernel_types.Records`.
         ends: [S + 1] where the records of each segment begin, and `find_extremes`'s result or None.
         words: [n] int64, see `blocks_triton.pack_event`.
-        STAMP: which rule, see `texvent_rules.STAMPS`.
+        TIMESTAMP_RULE: which rule, see `rules.TIMESTAMP_RULES`.
         BLOCK: records that a program takes at a time.
 
     Equation: (7), section 3.2.2; the other rules are in `texvent.simulate.texvent.timestamps`.
@@ -304,18 +304,18 @@ def stamp_events(
         order = read_order(records, at, inside)
         reference = _reference_of(records, at, inside, rules)
         now = brightness_of(read_now(frames, segment, pixel, inside), rules)
-        if STAMP == _EQ7:
+        if TIMESTAMP_RULE == _EQ7:
             fraction = _larger_change_earlier(now - reference, ends[1] + 2 * segment, rules)
-        elif STAMP == _RANDOM:
+        elif TIMESTAMP_RULE == _RANDOM:
             key = tl.load(intervals.key + segment).to(tl.uint64, bitcast=True)
             y = pixel // frames.width
             x = pixel % frames.width
             fraction = to_uniform(draw_word(key, y, x, order + _TIMESTAMP_DRAW))
-        elif STAMP == _LINEAR:
+        elif TIMESTAMP_RULE == _LINEAR:
             before = brightness_of(read_before(frames, segment, pixel, inside), rules)
             fraction = _linear_crossing(before, now, reference, order, rules)
         else:
-            fraction = _by_order(tl.abs(now - reference), order, rules, STAMP)
+            fraction = _by_order(tl.abs(now - reference), order, rules, TIMESTAMP_RULE)
         is_on = (now > reference).to(tl.int64)
         t = place_in(intervals, segment, fraction)
         tl.store(words + at, pack_event(t, pixel, is_on, 0, frames.area), mask=inside)
@@ -345,14 +345,16 @@ def _linear_crossing(
 
 
 @triton.jit
-def _by_order(size: tl.tensor, order: tl.tensor, rules: tl.tuple, STAMP: tl.constexpr) -> tl.tensor:
+def _by_order(
+    size: tl.tensor, order: tl.tensor, rules: tl.tuple, TIMESTAMP_RULE: tl.constexpr
+) -> tl.tensor:
     threshold = tl.load(rules.numbers + _THRESHOLD)
     # Lanes past the last record hold a size below the threshold, which nothing may be divided by.
     size = tl.maximum(size, threshold)
     rank = order.to(tl.float64)
-    if STAMP == _HYPERBOLIC:
+    if TIMESTAMP_RULE == _HYPERBOLIC:
         share = tl.minimum(rank * threshold / size, 1.0)
-    elif STAMP == _EVEN:
+    elif TIMESTAMP_RULE == _EVEN:
         share = rank / count_events(size, threshold, rules).to(tl.float64)
     else:
         share = tl.full(size.shape, 1.0, tl.float64)

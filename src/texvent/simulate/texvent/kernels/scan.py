@@ -68,7 +68,7 @@ SCAN_FLOOR = 1e-37
 precision."""
 
 
-class Levels(NamedTuple):
+class ScanLevels(NamedTuple):
     """How a scan finds candidates: `I ≥ R·up + up_offset` or `I ≤ R·down + down_offset`, float32.
 
     The trigger levels of above, `(α + R)·e^±δ − α`, moved towards each other by the margin.
@@ -121,7 +121,7 @@ class Fired(NamedTuple):
 
 
 def join_fired(bands: Sequence[Fired]) -> Fired:
-    """What fired in bands that follow each other."""
+    """The pixels that fired in bands that follow each other."""
     return Fired(
         np.concatenate([band.pixel for band in bands]),
         np.concatenate([band.change for band in bands]),
@@ -154,6 +154,6 @@ class Memory:
         return vars(self) | {"work": None}
 
 
-FindFired: TypeAlias = Callable[[Intensity, Memory, Levels, FireRule], "Fired | None"]
+FindFired: TypeAlias = Callable[[Intensity, Memory, ScanLevels, FireRule], "Fired | None"]
 """`find_fired(frame, memory, levels, rule)`, see `texvent_numpy.find_fired`."""
 FIND_FIRED = Kernel[FindFired](__name__, "find_fired")

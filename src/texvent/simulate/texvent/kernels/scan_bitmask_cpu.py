@@ -16,7 +16,7 @@ from texvent.simulate.crossing.bitmask_cpu import (
     list_marked_runs,
     make_flags,
 )
-from texvent.simulate.texvent.kernels.scan import Intensity, Levels
+from texvent.simulate.texvent.kernels.scan import Intensity, ScanLevels
 
 LARGEST_FLOAT = np.finfo(np.float32).max.view(np.uint32)
 """Bits of the largest float32."""
@@ -27,7 +27,7 @@ _0, _RUN = np.uint64(0), np.uint64(RUN)
 
 
 @jit
-def mark_bytes(frame: ByteArray, reference: ByteArray, levels: Levels) -> MarkedRuns:
+def mark_bytes(frame: ByteArray, reference: ByteArray, levels: ScanLevels) -> MarkedRuns:
     """Mark pixels whose bytes differ by `levels.least` or more.
 
     Where many of a run do, only those at or beyond their trigger levels.
@@ -53,7 +53,7 @@ def mark_bytes(frame: ByteArray, reference: ByteArray, levels: Levels) -> Marked
 
 
 @jit
-def mark_levels(frame: Intensity, reference: Intensity, levels: Levels) -> MarkedRuns:
+def mark_levels(frame: Intensity, reference: Intensity, levels: ScanLevels) -> MarkedRuns:
     """Mark pixels at or beyond their trigger levels."""
     is_marked = make_flags(frame.size)
     for number in range(frame.size // RUN):
@@ -80,7 +80,7 @@ def _differs(intensity: Any, reference: Any, least: np.uint8) -> Any:
 
 
 @jit(inline="always")
-def _is_beyond(intensity: Any, reference: Any, levels: Levels) -> Any:
+def _is_beyond(intensity: Any, reference: Any, levels: ScanLevels) -> Any:
     value, level = np.float32(intensity), np.float32(reference)
     is_on = value >= level * levels.up + levels.up_offset
     return np.uint8(is_on | (value <= level * levels.down + levels.down_offset))
@@ -101,14 +101,14 @@ def _mark_bytes(
 
 @jit
 def _mark_levels(
-    frame: Intensity, reference: Intensity, first: np.uint64, levels: Levels, mark: ByteArray
+    frame: Intensity, reference: Intensity, first: np.uint64, levels: ScanLevels, mark: ByteArray
 ) -> None:
     for i in range(_RUN):
         mark[i] = _is_beyond(frame[first + i], reference[first + i], levels)
 
 
 @jit
-def _bits_of_rest(frame: Intensity, reference: Intensity, levels: Levels) -> np.uint64:
+def _bits_of_rest(frame: Intensity, reference: Intensity, levels: ScanLevels) -> np.uint64:
     """Which pixels after the last whole run are at or beyond their trigger levels."""
     bits, first = _0, frame.size // RUN * RUN
     for i in range(first, frame.size):

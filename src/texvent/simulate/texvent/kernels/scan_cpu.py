@@ -17,14 +17,14 @@ from texvent.runtime.jit import jit
 from texvent.runtime.read_only import read_only
 from texvent.simulate.crossing.bitmask_cpu import RUN, MarkedRuns, number_of
 from texvent.simulate.random.draws_cpu import allow_wrap_around
-from texvent.simulate.texvent.kernels import scan_numpy as texvent_numpy
+from texvent.simulate.texvent.kernels import scan_numpy
 from texvent.simulate.texvent.kernels.scan import (
     Fired,
     FireRule,
     Float64Array,
     Intensity,
-    Levels,
     Memory,
+    ScanLevels,
 )
 from texvent.simulate.texvent.kernels.scan_bitmask_cpu import (
     LARGEST_FLOAT,
@@ -39,7 +39,7 @@ _CHUNK = 1 << 14
 """Pixels of float frames that are looked at together, twice: they stay in a near cache."""
 
 
-class Pictures(NamedTuple):
+class ScanArrays(NamedTuple):
     """All arrays as large as a frame."""
 
     frame: Intensity
@@ -69,45 +69,47 @@ class _Work(NamedTuple):
     logs: _Logs
 
 
-def find_fired(frame: Intensity, memory: Memory, levels: Levels, rule: FireRule) -> Fired | None:
-    """See `texvent_numpy.find_fired`."""
+def find_fired(
+    frame: Intensity, memory: Memory, levels: ScanLevels, rule: FireRule
+) -> Fired | None:
+    """See `scan_numpy.find_fired`."""
     work: _Work = memory.work or _make_room(memory)
     memory.work = work
     renewed = memory.renewed if rule.is_renewed else memory.renewed[:0]
-    pictures = Pictures(frame, memory.reference, renewed, memory.previous)
+    arrays = ScanArrays(frame, memory.reference, renewed, memory.previous)
     if not memory.table.size:
-        return _find_fired_floats(pictures, memory, levels, rule)
+        return _find_fired_floats(arrays, memory, levels, rule)
     fire = _fire_bytes if frame.dtype == np.uint8 else _fire_words
     table, fired = memory.table, work.fired
     if table.flags.writeable:
         # Of a copied simulator; Numba would compile for it again.
         table = memory.table = read_only(table)
     with allow_wrap_around():
-        found = fire(pictures, table, levels, rule.threshold, fired)
+        found = fire(arrays, table, levels, rule.threshold, fired)
     if rule.is_renewed:
         memory.reference, memory.renewed = memory.renewed, memory.reference
     return fired.first(found)
 
 
 def _find_fired_floats(
-    pictures: Pictures, memory: Memory, levels: Levels, rule: FireRule
+    arrays: ScanArrays, memory: Memory, levels: ScanLevels, rule: FireRule
 ) -> Fired | None:
     work: _Work = memory.work
     fired, candidates, logs = work
     with allow_wrap_around():
-        count = _find_candidates(pictures, levels, candidates)
+        count = _find_candidates(arrays, levels, candidates)
     if count < 0:
         # Rare enough to be looked at in NumPy: −0 is possible, negative numbers are not.
-        return texvent_numpy.find_fired(pictures.frame, memory, levels, rule)
+        return scan_numpy.find_fired(arrays.frame, memory, levels, rule)
     candidates = candidates[:count]
-    _take_logs(pictures.frame, candidates, rule, logs.balanced, logs.now)
+    _take_logs(arrays.frame, candidates, rule, logs.balanced, logs.now)
     if memory.level.size == 0:
         _take_logs(memory.reference, candidates, rule, logs.balanced, logs.then)
     if rule.has_line:
         _take_logs(memory.previous, candidates, rule, logs.balanced, logs.before)
-    found = _settle_floats(pictures, candidates, logs, memory.level, rule, fired)
+    found = _settle_floats(arrays, candidates, logs, memory.level, rule, fired)
     if rule.has_line:
-        memory.previous[:] = pictures.frame
+        memory.previous[:] = arrays.frame
     if rule.is_renewed:
         memory.reference, memory.renewed = memory.renewed, memory.reference
     return fired.first(found)
@@ -130,7 +132,7 @@ def warm_up(dtype: str) -> None:
     picture, number, byte = np.ones(1, dtype), np.float32(1.0), np.uint8(1)
     table = np.zeros(0 if picture.dtype.kind == "f" else np.iinfo(dtype).max + 1)
     memory = Memory(picture, picture.copy(), picture[:0].copy(), np.empty(0), table)
-    levels = Levels(number, number, number, number, byte)
+    levels = ScanLevels(number, number, number, number, byte)
     rule = FireRule(1.0, 1.0, False, False, True, False)
     find_fired(read_only(picture), memory, levels, rule)
 
@@ -155,7 +157,7 @@ def _add_balance(
 
 @jit
 def _settle_floats(
-    pictures: Pictures,
+    arrays: ScanArrays,
     candidates: Int64Array,
     logs: _Logs,
     level: Float64Array,
@@ -164,7 +166,7 @@ def _settle_floats(
 ) -> int:
     """List the candidates that fire, and move what those pixels remember; how many there are."""
     # Arrays are taken out of their tuples once: counting references to them in the loop is slow.
-    frame, reference, _, _ = pictures
+    frame, reference, _, _ = arrays
     _, nows, thens, befores = logs
     pixel, changes, start, stop, at_start = out
     found = 0
@@ -195,12 +197,12 @@ def _step(level: float, change: float, rule: FireRule) -> float:
 
 
 @jit
-def _find_candidates(pictures: Pictures, levels: Levels, pixel: Int64Array) -> int:
+def _find_candidates(arrays: ScanArrays, levels: ScanLevels, pixel: Int64Array) -> int:
     """List the pixels of float frames that may fire; −1 if an intensity has a sign or no end."""
     found = 0
-    for first in range(0, pictures.frame.size, _CHUNK):
+    for first in range(0, arrays.frame.size, _CHUNK):
         last = first + _CHUNK
-        frame, reference = pictures.frame[first:last], pictures.reference[first:last]
+        frame, reference = arrays.frame[first:last], arrays.reference[first:last]
         if largest_word(frame.view(np.uint32)) > LARGEST_FLOAT:
             return -1
         runs, words = mark_levels(frame, reference, levels)
@@ -211,16 +213,16 @@ def _find_candidates(pictures: Pictures, levels: Levels, pixel: Int64Array) -> i
                 bits ^= bit
                 pixel[found] = first + runs[k] * RUN + number_of(bit)
                 found += 1
-    _copy(pictures.frame, pictures.renewed)
+    _copy(arrays.frame, arrays.renewed)
     return found
 
 
 @jit
 def _fire_integers(
-    pictures: Pictures, marks: MarkedRuns, table: Float64Array, threshold: float, out: Fired
+    arrays: ScanArrays, marks: MarkedRuns, table: Float64Array, threshold: float, out: Fired
 ) -> int:
     """Let the marked pixels of uint8 or uint16 frames fire; how many did."""
-    frame, reference, renewed, previous = pictures
+    frame, reference, renewed, previous = arrays
     pixel, change, start, stop, at_start = out
     runs, words = marks
     is_renewed, has_line, found = renewed.size > 0, previous.size > 0, 0
@@ -246,20 +248,20 @@ def _fire_integers(
 
 @jit
 def _fire_bytes(
-    pictures: Pictures, table: Float64Array, levels: Levels, threshold: float, out: Fired
+    arrays: ScanArrays, table: Float64Array, levels: ScanLevels, threshold: float, out: Fired
 ) -> int:
     """Let the pixels of uint8 frames fire; how many did."""
-    marks = mark_bytes(pictures.frame, pictures.reference, levels)
-    return _fire_integers(pictures, marks, table, threshold, out)
+    marks = mark_bytes(arrays.frame, arrays.reference, levels)
+    return _fire_integers(arrays, marks, table, threshold, out)
 
 
 @jit
 def _fire_words(
-    pictures: Pictures, table: Float64Array, levels: Levels, threshold: float, out: Fired
+    arrays: ScanArrays, table: Float64Array, levels: ScanLevels, threshold: float, out: Fired
 ) -> int:
     """Let the pixels of uint16 frames fire; how many did."""
-    marks = mark_levels(pictures.frame, pictures.reference, levels)
-    return _fire_integers(pictures, marks, table, threshold, out)
+    marks = mark_levels(arrays.frame, arrays.reference, levels)
+    return _fire_integers(arrays, marks, table, threshold, out)
 
 
 @jit

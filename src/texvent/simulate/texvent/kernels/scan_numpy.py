@@ -11,8 +11,8 @@ from texvent.simulate.texvent.kernels.scan import (
     FireRule,
     Float64Array,
     Intensity,
-    Levels,
     Memory,
+    ScanLevels,
 )
 
 CHUNK = 1 << 17
@@ -20,7 +20,9 @@ CHUNK = 1 << 17
 _NOTHING = np.empty(0)
 
 
-def find_fired(frame: Intensity, memory: Memory, levels: Levels, rule: FireRule) -> Fired | None:
+def find_fired(
+    frame: Intensity, memory: Memory, levels: ScanLevels, rule: FireRule
+) -> Fired | None:
     """Which pixels fire in a sub-interval; changes what the pixels remember.
 
     Args:
@@ -102,7 +104,7 @@ def _renew(
         memory.reference[fired.pixel] = np.exp(level)
 
 
-def _may_fire(now: Intensity, reference: Intensity, levels: Levels) -> NDArray[np.bool_]:
+def _may_fire(now: Intensity, reference: Intensity, levels: ScanLevels) -> NDArray[np.bool_]:
     """Pixels at or beyond their trigger levels."""
     if now.dtype == np.uint8:
         return np.asarray(np.maximum(now, reference) - np.minimum(now, reference) >= levels.least)

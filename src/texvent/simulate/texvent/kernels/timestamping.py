@@ -10,13 +10,13 @@ from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.texvent.kernels.noise_blocks import NoisePlaces
 from texvent.simulate.texvent.kernels.scan import Fired
-from texvent.simulate.texvent.timestamps import StampRule
+from texvent.simulate.texvent.timestamps import TimestampRule
 
 
 class Timing(NamedTuple):
     """How events get their times (Eq. 7), and how many a pixel fires."""
 
-    stamp: StampRule
+    timestamp_rule: TimestampRule
     scale: float
     """γ of Eq. 7."""
     threshold: float
@@ -27,8 +27,8 @@ class Timing(NamedTuple):
     """Whether noise is dropped where the pixel fired (Eq. 6)."""
 
 
-StampEvents: TypeAlias = Callable[
+TimestampEvents: TypeAlias = Callable[
     [Sequence[Fired], NoisePlaces, Timing, FrameInterval, tuple[int, int]], SortedEvents
 ]
-"""`stamp_events(bands, noise, timing, span, (height, width))`, see `stamp_numpy.stamp_events`."""
-STAMP_EVENTS = Kernel[StampEvents](__name__, "stamp_events")
+"""`timestamp_events(bands, noise, timing, span, (height, width))`, see `timestamping_numpy`."""
+TIMESTAMP_EVENTS = Kernel[TimestampEvents](__name__, "timestamp_events")

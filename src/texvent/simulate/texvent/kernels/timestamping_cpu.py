@@ -22,7 +22,7 @@ from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.sorting_cpu import MOST_KEY_BITS, key_bits, sort_keys, unpack_keys
 from texvent.simulate.random.draws import Purpose
 from texvent.simulate.random.draws_cpu import allow_wrap_around, draw_uniform
-from texvent.simulate.texvent.kernels import timestamping_numpy as stamp_numpy
+from texvent.simulate.texvent.kernels import timestamping_numpy
 from texvent.simulate.texvent.kernels.noise_blocks import NoisePlaces
 from texvent.simulate.texvent.kernels.scan import Fired
 from texvent.simulate.texvent.kernels.timestamping import Timing
@@ -43,7 +43,7 @@ _INFINITY_BITS = int(np.array(np.inf).view(np.int64))
 class _Rule(NamedTuple):
     """`Timing` and the sensor, in numbers."""
 
-    stamp: int
+    timestamp_rule: int
     scale: float
     threshold: float
     multi_event: bool
@@ -57,22 +57,25 @@ class _Rule(NamedTuple):
     def of(cls, timing: Timing, shape: tuple[int, int]) -> _Rule:
         """The same numbers for every packet of a simulator."""
         return cls(
-            _STAMPS.index(timing.stamp), *timing[1:], shape[1], key_bits(shape[0] * shape[1])
+            _STAMPS.index(timing.timestamp_rule),
+            *timing[1:],
+            shape[1],
+            key_bits(shape[0] * shape[1]),
         )
 
 
-def stamp_events(
+def timestamp_events(
     bands: Sequence[Fired],
     noise: NoisePlaces,
     timing: Timing,
     span: FrameInterval,
     shape: tuple[int, int],
 ) -> SortedEvents:
-    """See `stamp_numpy.stamp_events`."""
+    """See `timestamping_numpy.timestamp_events`."""
     rule = _Rule.of(timing, shape)
     bits = rule.low + span.duration_us.bit_length()
     if bits > MOST_KEY_BITS:
-        return stamp_numpy.stamp_events(bands, noise, timing, span, shape)
+        return timestamping_numpy.timestamp_events(bands, noise, timing, span, shape)
     with allow_wrap_around():
         if len(bands) == 1:
             return SortedEvents(*_stamp_events(bands[0], noise, rule, span, bits))
@@ -99,7 +102,7 @@ def warm_up() -> None:
     noise = NoisePlaces(index, real, np.zeros(1, np.uint8))
     timing = Timing("eq7", 1.0, 1.0, multi_event=False, noise_at_rest=True)
     for bands in ([fired], [fired, fired]):
-        stamp_events(bands, noise, timing, FrameInterval(0, 1, np.uint64(0)), (2, 1))
+        timestamp_events(bands, noise, timing, FrameInterval(0, 1, np.uint64(0)), (2, 1))
 
 
 @jit
@@ -162,10 +165,10 @@ def _list_signal(
         place = np.uint64(pixel[i]) << _2 | np.uint64(change[i] > 0) << _1
         number = _number_of(change[i], rule)
         for order in range(1, number + 1):
-            if rule.stamp == _EQ7:
+            if rule.timestamp_rule == _EQ7:
                 size = abs(change[i])
                 fraction = rule.scale * _larger_change_earlier(size, smallest, largest)
-            elif rule.stamp == _LINEAR:
+            elif rule.timestamp_rule == _LINEAR:
                 level = reference[i] + sign * (order * rule.threshold)
                 fraction = _linear_crossing(start[i], stop[i], level, sign)
             else:
@@ -236,11 +239,11 @@ def _fraction(
     pixel: int, size: float, order: int, number: int, rule: _Rule, span: FrameInterval
 ) -> float:
     """Time of an event as a fraction of the sub-interval; see `timestamps`."""
-    if rule.stamp == _HYPERBOLIC:
+    if rule.timestamp_rule == _HYPERBOLIC:
         return min(order * rule.threshold / size, 1.0)
-    if rule.stamp == _EVEN:
+    if rule.timestamp_rule == _EVEN:
         return order / number
-    if rule.stamp == _RANDOM:
+    if rule.timestamp_rule == _RANDOM:
         y = pixel // rule.width
         return draw_uniform(span.key, y, pixel - y * rule.width, _DRAW + order)
     return 1.0

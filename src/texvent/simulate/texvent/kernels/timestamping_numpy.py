@@ -8,7 +8,7 @@ from texvent.simulate.packets.interval import FrameInterval, place_in
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.sorting_reference import sort_events
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
-from texvent.simulate.texvent.event_frame import EventFrame, count_events, list_activations
+from texvent.simulate.texvent.event_frame import EventFrame, count_events, list_threshold_crossings
 from texvent.simulate.texvent.kernels.noise_blocks import NoisePlaces
 from texvent.simulate.texvent.kernels.scan import Fired, join_fired
 from texvent.simulate.texvent.kernels.timestamping import Timing
@@ -17,7 +17,7 @@ from texvent.simulate.texvent.sub_interval import SparseInterval
 from texvent.simulate.texvent.timestamps import reconstruct_timestamps
 
 
-def stamp_events(
+def timestamp_events(
     bands: Sequence[Fired],
     noise: NoisePlaces,
     timing: Timing,
@@ -35,15 +35,15 @@ def stamp_events(
     """
     fired = join_fired(bands)
     number = count_events(fired.change, timing.threshold, multi_event=timing.multi_event)
-    activations = list_activations(EventFrame(fired.pixel, fired.change, number))
+    crossings = list_threshold_crossings(EventFrame(fired.pixel, fired.change, number))
     t = reconstruct_timestamps(
-        activations,
+        crossings,
         SparseInterval(span, shape[1], fired.pixel, (fired.start, fired.stop, fired.reference)),
-        stamp=timing.stamp,
+        timestamp_rule=timing.timestamp_rule,
         threshold=timing.threshold,
         scale=timing.scale,
     )
-    signal = UnsortedEvents.signal(activations.pixel, t, activations.polarity)
+    signal = UnsortedEvents.signal(crossings.pixel, t, crossings.polarity)
     added = UnsortedEvents.noise(noise.pixel, place_in(span, noise.fraction), noise.p)
     if timing.noise_at_rest:
         added = added.take(is_background(noise.pixel, fired.pixel))
