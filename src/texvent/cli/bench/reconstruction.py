@@ -76,7 +76,7 @@ class ReconstructionOptions:
     """Also add noise to the recorded events step by step: the paper's Table 7."""
     seed: int = 0
     """Of the simulators and of the noise."""
-    image: Path | None = renamed(None, was="picture")  # noqa: RUF009
+    image: Path | None = renamed(None, was="picture")
     """PNG file with the images of the first recording, a row per source of events."""
 
     def plan(self) -> ReconstructionPlan:
