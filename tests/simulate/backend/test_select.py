@@ -7,8 +7,9 @@ import pytest
 
 from texvent.errors import ConfigError, MissingDependencyError
 from texvent.simulate.backend import select
-from texvent.simulate.crossing import ramp_cpu, ramp_reference
-from texvent.simulate.crossing.ramp import CROSS_THRESHOLDS
+from texvent.simulate.esim import crossings_cpu
+from texvent.simulate.esim import reference as esim_reference
+from texvent.simulate.esim.crossings import CROSS_THRESHOLDS
 from texvent.simulate.packets import sorting_reference
 from texvent.simulate.packets.sorting import SORT_EVENTS
 from texvent.simulate.v2e import reference
@@ -23,7 +24,7 @@ def without_numba(monkeypatch):
     select._load.cache_clear()
 
 
-@pytest.mark.parametrize(("is_ready", "module"), [(True, ramp_cpu), (False, ramp_reference)])
+@pytest.mark.parametrize(("is_ready", "module"), [(True, crossings_cpu), (False, esim_reference)])
 def test_auto_is_the_compiled_kernel_once_it_is_ready(is_ready, module, monkeypatch):
     monkeypatch.setattr(select, "is_ready", lambda *_: is_ready)
     kernel = CROSS_THRESHOLDS.load("auto", np.dtype(np.uint8))
@@ -34,7 +35,7 @@ def test_a_kernel_is_compiled_for_the_type_of_the_frames(monkeypatch):
     asked = []
     monkeypatch.setattr(select, "is_ready", lambda *module: asked.append(module))
     CROSS_THRESHOLDS.load("auto", np.dtype(np.uint8))
-    assert asked == [("texvent.simulate.crossing.ramp_cpu", "uint8")]
+    assert asked == [("texvent.simulate.esim.crossings_cpu", "uint8")]
 
 
 def test_the_reference_serves_as_numpy_where_a_model_has_no_other():

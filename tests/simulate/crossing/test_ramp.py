@@ -7,14 +7,9 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from texvent.errors import ConfigError
-from texvent.simulate.crossing.ramp import (
-    CROSS_THRESHOLDS,
-    Ramp,
-    RampPixels,
-    References,
-    RefractoryPeriod,
-)
+from texvent.simulate.crossing.ramp import Ramp, RefractoryPeriod
 from texvent.simulate.crossing.ramp_reference import cross_ramp
+from texvent.simulate.esim.crossings import CROSS_THRESHOLDS, RampPixels, References
 from texvent.simulate.random.mismatch import Thresholds
 
 SHAPE = (12,)

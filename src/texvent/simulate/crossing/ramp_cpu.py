@@ -1,7 +1,6 @@
 """Threshold crossings on a straight line, compiled by Numba: the reference's bits.
 
-Crossings are counted first, then listed, each as one 64-bit key of `packets.sorting_cpu`. The keys
-are sorted into the packet without further columns.
+Crossings are counted first, then listed, each as one 64-bit key of `packets.sorting_cpu`.
 """
 
 from __future__ import annotations
@@ -14,19 +13,14 @@ from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
 from texvent.runtime.scratch import take_scratch
-from texvent.simulate.crossing import ramp_reference
 from texvent.simulate.crossing.ramp import (
     Float64Array,
-    RampPixels,
-    References,
     RefractoryPeriod,
 )
-from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.sorting_cpu import (
     KEY_USES,
     has_room_for_keys,
     key_bits,
-    sort_keyed_events,
 )
 from texvent.simulate.random.mismatch import Thresholds
 
@@ -57,41 +51,6 @@ class KeyLayout(NamedTuple):
     """Bits of a key below its time."""
 
 
-def cross_thresholds(
-    pixels: RampPixels,
-    references: References,
-    span_us: tuple[int, int],
-    refractory: RefractoryPeriod,
-    shape: tuple[int, int],
-) -> SortedEvents:
-    """See `ramp_reference.cross_thresholds`."""
-    layout = key_layout(span_us, shape)
-    if layout is None:
-        return ramp_reference.cross_thresholds(pixels, references, span_us, refractory, shape)
-    # Numba leaves out branches for arguments that are None, but not for their fields.
-    pixel, before, now, table, thresholds = pixels
-    start, stop, threshold = (
-        take_scratch(use, len(pixel), np.float64) for use in ("start", "stop", "threshold")
-    )
-    changes = RampChanges(start, stop, threshold, take_scratch("steps", len(pixel), np.int64))
-    _compare((pixel, before, now), table, references.reference, changes)
-    count_crossings(changes, thresholds)
-    keys = list_crossing_keys(pixel, changes, references.fired_us, layout, refractory)
-    _step(pixel, changes, references.reference)
-    return sort_keyed_events(keys, span_us, shape)
-
-
-def warm_up(dtype: str) -> None:
-    """Compile for one type of frames, or load what was compiled before."""
-    one, pixel = np.ones(1), np.zeros(1, np.int64)
-    end = np.zeros(1, dtype)
-    table = np.ones(256) if end.dtype == np.uint8 else None
-    pixels = RampPixels(pixel, end, end, table, Thresholds(one, one))
-    cross_thresholds(
-        pixels, References(one.copy(), pixel.copy()), (0, 1), RefractoryPeriod(0, False), (1, 1)
-    )
-
-
 def key_layout(span_us: tuple[int, int], shape: tuple[int, int]) -> KeyLayout | None:
     """None where time and pixel do not fit a key."""
     start_us, stop_us = span_us
@@ -111,24 +70,6 @@ def list_crossing_keys(
     keys = take_scratch(KEY_USES[0], _add_up(changes.steps) + FEW, np.uint64)
     with np.errstate(all="ignore"):
         return keys[: _list_crossings(pixel, changes, fired_us, layout, refractory, keys)]
-
-
-@jit
-def _compare(
-    pixels: tuple[NDArray[np.int64], NDArray[Any], NDArray[Any]],
-    table: Float64Array | None,
-    reference: Float64Array,
-    changes: RampChanges,
-) -> None:
-    """Fill in the changes against the references."""
-    pixel, before, now = pixels
-    start, stop, _, _ = changes
-    for n in range(pixel.size):
-        level = reference[pixel[n]]
-        if table is not None:
-            start[n], stop[n] = table[before[n]] - level, table[now[n]] - level
-        else:
-            start[n], stop[n] = before[n] - level, now[n] - level
 
 
 @jit(error_model="numpy")
@@ -232,11 +173,3 @@ def _drop_refractory(
             keys[found], last_us = key, int(offset_us)
             found += 1
     return found
-
-
-@jit
-def _step(pixel: NDArray[np.int64], changes: RampChanges, reference: Float64Array) -> None:
-    """Move the references by the thresholds crossed."""
-    _, _, threshold, steps = changes
-    for n in range(pixel.size):
-        reference[pixel[n]] += steps[n] * threshold[n]

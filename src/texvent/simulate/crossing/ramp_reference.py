@@ -5,17 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.events import SIGNAL
 from texvent.simulate.crossing.ramp import (
     Ramp,
     RampCrossings,
-    RampPixels,
-    References,
     RefractoryPeriod,
 )
-from texvent.simulate.packets.sorting import SortedEvents
-from texvent.simulate.packets.sorting_reference import sort_events
-from texvent.simulate.packets.unsorted_events import UnsortedEvents
 
 
 def cross_ramp(
@@ -72,36 +66,3 @@ def cross_ramp(
     t = np.concatenate([np.empty(0, np.int64), *times])
     p = np.concatenate([np.empty(0, np.uint8), *polarities])
     return RampCrossings(pixel[order], t[order], p[order], steps)
-
-
-def cross_thresholds(
-    pixels: RampPixels,
-    references: References,
-    span_us: tuple[int, int],
-    refractory: RefractoryPeriod,
-    shape: tuple[int, int],
-) -> SortedEvents:
-    """As `cross_ramp`, from the brightness at both ends; moves the references.
-
-    Args:
-        pixels: those that may fire, and their brightness at both ends.
-        references: what they compare with; changed in place.
-        span_us: as for `cross_ramp`.
-        refractory: as for `cross_ramp`.
-        shape: (height, width) of the sensor.
-
-    Returns:
-        The events in the order of a packet, all of them signal.
-    """
-    pixel, before, now, table, thresholds = pixels
-    if table is not None:
-        before, now = table[before], table[now]
-    reference = references.reference[pixel]
-    on, off = (np.broadcast_to(one, pixel.shape) for one in thresholds)
-    ramp = Ramp(pixel, before - reference, now - reference, on, off)
-    crossings = cross_ramp(ramp, references.fired_us, span_us, refractory)
-    steps = crossings.steps
-    references.reference[pixel] = reference + steps * np.where(steps > 0, on, off)
-    fired, t, p, _ = crossings
-    label = np.full(len(t), SIGNAL, np.uint8)
-    return sort_events(UnsortedEvents(fired, t, p, label), span_us, shape)

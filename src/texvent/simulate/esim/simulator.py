@@ -17,14 +17,10 @@ from numpy.typing import NDArray
 from texvent.events import EventStream
 from texvent.pairs.frame_pair import FramePair
 from texvent.simulate.backend.select import AUTO, GPU
-from texvent.simulate.crossing.ramp import (
-    CROSS_THRESHOLDS,
-    RampPixels,
-    References,
-    RefractoryPeriod,
-)
+from texvent.simulate.crossing.ramp import RefractoryPeriod
 from texvent.simulate.crossing.trigger_levels import LOOK_UP, BrightnessCurve, TriggerLevels
 from texvent.simulate.esim.config import EsimConfig
+from texvent.simulate.esim.crossings import CROSS_THRESHOLDS, RampPixels, References
 from texvent.simulate.fused.candidates import find_bounds, one_grid
 from texvent.simulate.fused.continuous import plan_segments
 from texvent.simulate.fused.definitions import Float64Array, LumaBounds

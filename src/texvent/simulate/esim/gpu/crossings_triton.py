@@ -47,7 +47,7 @@ def scan_ramp(
     Arguments as for `texvent_triton.scan_levels`, but `rules` are `EsimRules`, and `state`,
     an `rules.State`, is brought up to date in pass 2.
 
-    Source: as `kernels.ramp_reference.cross_ramp`, whose events these are.
+    Source: as `crossing.ramp_reference.cross_ramp`, whose events these are.
     """
     clip, at, inside, home, pixels = own_pixels(frames, ALIGN, BLOCK)
     threshold_on, threshold_off = _thresholds_of(rules, home, inside)
