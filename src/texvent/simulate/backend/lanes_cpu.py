@@ -31,7 +31,7 @@ def is_equal(one: NDArray[Any], other: NDArray[Any]) -> bool:
 def list_marked(
     words: Uint64Array, marks: NDArray[np.uint8], listed: NDArray[np.unsignedinteger[Any]]
 ) -> int:
-    """List the pixels of a block that are marked; return how many that are.
+    """List the marked pixels of a block; return how many there are.
 
     Args:
         words: the marks, `WORD` at a time.

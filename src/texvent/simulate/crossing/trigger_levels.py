@@ -43,7 +43,7 @@ _BYTE = np.dtype(np.uint8).str
 
 
 class TriggerFactors(NamedTuple):
-    """What a reference's A is multiplied by to get the trigger levels."""
+    """Factors of A that give the trigger levels."""
 
     up: float
     """e^θ_on."""

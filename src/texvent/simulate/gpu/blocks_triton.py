@@ -87,7 +87,7 @@ def mark_fired(
     fired: tl.tensor,
     BLOCK: tl.constexpr,
 ) -> None:
-    """Keep a bit for every pixel that fired, where anybody asks for it (`PassCounts.fired`)."""
+    """Keep a bit for every pixel that fired, if noise needs it (`PassCounts.fired`)."""
     if tally.fired is not None:
         size = (area + _PER_MARK - 1) // _PER_MARK
         bits = fired.to(tl.int32) << (tl.arange(0, BLOCK) % _PER_MARK)

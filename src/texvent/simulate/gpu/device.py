@@ -34,7 +34,7 @@ def check_device(device: Any) -> None:
 
 
 def default_device() -> str:
-    """Where frames that lie nowhere yet should go: the GPU, or the CPU under the interpreter.
+    """Device for frames from the host: the GPU, or the CPU under the interpreter.
 
     Raises:
         ConfigError: torch finds no GPU, and Triton's interpreter is off.

@@ -1,4 +1,4 @@
-"""What the host knows of the intervals of a call: times, keys, and when references are renewed."""
+"""The intervals of a call on the host: times, keys, and when references are renewed."""
 
 from __future__ import annotations
 
@@ -84,11 +84,11 @@ class Clock:
         return Span(known[:, :-1], known[:, 1:], sources[:, :-1], self._is_new)
 
     def advance(self) -> None:
-        """Take the frames read last for seen."""
+        """Make the frames read last the last ones seen."""
         self._last_us, self._last_is_source, self._is_new = self._pending
 
     def _spread(self, name: str, values: Any, frames: int) -> NDArray[Any]:
-        """[B, T] from [T] or [B, T], whatever holds them."""
+        """[B, T] from [T] or [B, T] of any array type."""
         array = np.asarray(values.cpu() if hasattr(values, "cpu") else values)
         if array.shape not in ((frames,), (self._clips, frames)):
             raise InputError(

@@ -33,7 +33,7 @@ class Frames(NamedTuple):
 
 
 class Intervals(NamedTuple):
-    """What the host knows of every interval; all [S] int64."""
+    """Every interval, as the host prepares it; all [S] int64."""
 
     start_us: Tensor
     """Time of the frame before."""
@@ -61,7 +61,7 @@ class NoiseRules(NamedTuple):
 
 
 class PassCounts(NamedTuple):
-    """What the first pass over the frames counts, and the second one knows."""
+    """What the first pass over the frames counts, and the second one reads."""
 
     events: Tensor
     """[S, blocks] int32, first pass: events of a block in an interval. Second pass: int64, where

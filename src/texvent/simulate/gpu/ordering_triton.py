@@ -15,7 +15,7 @@ def unpack_events(
     width: tl.int32,
     BLOCK: tl.constexpr,
 ) -> None:
-    """Take apart what `blocks_triton.pack_event` put together.
+    """Unpack the words of `blocks_triton.pack_event`.
 
     Args:
         words: [n] int64, ascending.

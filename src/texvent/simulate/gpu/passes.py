@@ -1,4 +1,4 @@
-"""The two passes over the frames of a call: count, then write down; and what lies between them."""
+"""The two passes over the frames of a call: count, then write; and the sums between them."""
 
 from __future__ import annotations
 

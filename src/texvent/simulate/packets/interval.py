@@ -30,7 +30,7 @@ class FrameInterval(NamedTuple):
 
 
 def place_in(interval: FrameInterval, fraction: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Times at fractions 0..1 of an interval, rounded down; never its end itself.
+    """Times at fractions 0..1 of an interval, rounded down; never its end.
 
     Args:
         interval: the interval.

@@ -1,4 +1,4 @@
-"""The definition of a packet's order, and what sorts where nothing is compiled."""
+"""The definition of a packet's order; sorts where nothing is compiled."""
 
 from __future__ import annotations
 
