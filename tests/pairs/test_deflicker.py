@@ -9,7 +9,7 @@ from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError
 from texvent.interpolate.densify import densify
-from texvent.pairs.deflicker import FOLLOW, global_gain, steady_frames
+from texvent.pairs.deflicker import PASSED_SHARE, global_gain, steady_frames
 from texvent.video import Frame, Video
 
 
@@ -32,7 +32,7 @@ def test_flicker_is_divided_out(moving_texture):
     steady = levels(list(steady_frames(iter(frames))))
     assert np.abs(np.diff(levels(frames))).max() == pytest.approx(0.1, abs=1e-3)
     # What is left is the followed share.
-    assert np.abs(np.diff(steady)).max() < 0.1 * FOLLOW * 1.1
+    assert np.abs(np.diff(steady)).max() < 0.1 * PASSED_SHARE * 1.1
 
 
 def test_flicker_is_found_under_motion(moving_texture):
@@ -45,7 +45,7 @@ def test_flicker_is_found_under_motion(moving_texture):
 def test_a_lasting_change_is_let_through_step_by_step(moving_texture):
     frames = clip(moving_texture, [1.0] * 3 + [1.2] * 20, speed=0.0)
     steady = levels(list(steady_frames(iter(frames))))
-    expected = np.log(1.2) * (1 - (1 - FOLLOW) ** np.arange(1, 21))
+    expected = np.log(1.2) * (1 - (1 - PASSED_SHARE) ** np.arange(1, 21))
     # float32 means, and corrections too small to be made.
     assert steady[3:] == pytest.approx(expected, abs=3e-3)
 
@@ -105,7 +105,9 @@ def test_every_pixel_type_and_colour_is_corrected_alike(moving_texture, dtype):
         assert corrected.pixels.dtype == np.float32
         assert corrected.pixels.shape == frames[1].pixels.shape
         assert corrected.is_source
-        assert corrected.luma.mean() == pytest.approx(frames[0].luma.mean() * 1.1**FOLLOW, rel=5e-3)
+        assert corrected.luma.mean() == pytest.approx(
+            frames[0].luma.mean() * 1.1**PASSED_SHARE, rel=5e-3
+        )
 
 
 def test_the_guard_acts_before_the_count(moving_texture):

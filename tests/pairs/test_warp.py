@@ -6,10 +6,9 @@ import numba
 import numpy as np
 import pytest
 
-from texvent.pairs import warp_cpu as cpu
-from texvent.pairs import warp_reference as reference
+from texvent.pairs import warp_cpu, warp_reference
 
-KERNELS = [reference.warp_between, cpu.warp_between]
+KERNELS = [warp_reference.warp_between, warp_cpu.warp_between]
 kernels = pytest.mark.parametrize("warp", KERNELS, ids=["reference", "cpu"])
 
 
@@ -63,7 +62,9 @@ def test_compiled_kernel_equals_the_definition(shape, position):
     forward = rng.normal(0, 4, (*shape, 2)).astype(np.float32)
     backward = (-forward + rng.normal(0, 1, (*shape, 2))).astype(np.float32)
     arguments = (first, second, forward, backward, position)
-    np.testing.assert_array_equal(cpu.warp_between(*arguments), reference.warp_between(*arguments))
+    np.testing.assert_array_equal(
+        warp_cpu.warp_between(*arguments), warp_reference.warp_between(*arguments)
+    )
 
 
 def test_compiled_kernel_is_the_same_with_one_and_two_threads():
@@ -75,7 +76,7 @@ def test_compiled_kernel_is_the_same_with_one_and_two_threads():
     try:
         for count in (1, min(2, numba.config.NUMBA_NUM_THREADS)):
             numba.set_num_threads(count)
-            results.append(cpu.warp_between(first, second, forward, backward, 0.3))
+            results.append(warp_cpu.warp_between(first, second, forward, backward, 0.3))
     finally:
         numba.set_num_threads(threads)
     np.testing.assert_array_equal(*results)
@@ -87,16 +88,16 @@ def test_float32_is_near_enough_to_float64():
     first, second = (128 + 100 * np.sin((x + shift) / 5 + y / 7) for shift in (0, 3))
     forward = np.stack([3 + 0.5 * np.sin(y / 9), 0.3 * np.cos(x / 11)], axis=-1)
     pair = first, second, forward, -forward
-    single = reference.warp_between(*(one.astype(np.float32) for one in pair), 0.3)
+    single = warp_reference.warp_between(*(one.astype(np.float32) for one in pair), 0.3)
     assert single.dtype == np.float32
-    assert np.abs(single - reference.warp_between(*pair, 0.3)).max() < 2e-3
+    assert np.abs(single - warp_reference.warp_between(*pair, 0.3)).max() < 2e-3
 
 
 def test_a_flow_that_is_no_number_does_no_harm():
     frame, flow = np.full((4, 5), 7, np.float32), constant_flow((4, 5), np.nan)
-    assert cpu.warp_between(frame, frame, flow, flow, 0.5).shape == (4, 5)
+    assert warp_cpu.warp_between(frame, frame, flow, flow, 0.5).shape == (4, 5)
     flow = constant_flow((4, 5), 1e30)
-    np.testing.assert_array_equal(cpu.warp_between(frame, frame, flow, flow, 0.5), frame)
+    np.testing.assert_array_equal(warp_cpu.warp_between(frame, frame, flow, flow, 0.5), frame)
 
 
 def test_places_are_looked_at_bilinearly_and_outside_at_the_edge():
@@ -104,21 +105,21 @@ def test_places_are_looked_at_bilinearly_and_outside_at_the_edge():
     flow = np.stack([picture, -picture], axis=-1)
     way = np.zeros((2, 2, 2))
     way[0, 0], way[0, 1], way[1, 0], way[1, 1] = (0.5, 0.4), (-0.75, 0.0), (-3.0, -0.5), (0.3, 9.0)
-    seen, vectors, is_inside = reference.look_along(picture, flow, way)
+    seen, vectors, is_inside = warp_reference.sample_along(picture, flow, way)
     np.testing.assert_allclose(seen, [[13.0, 2.5], [10.0, 30.0]])
     np.testing.assert_array_equal(vectors[..., 0], [[10.0, 0.0], [20.0, 30.0]])
     np.testing.assert_array_equal(is_inside, [[True, True], [False, False]])
-    assert reference.look_along(picture, flow, way + np.array([0.2, -8.5]))[2][1, 1]
+    assert warp_reference.sample_along(picture, flow, way + np.array([0.2, -8.5]))[2][1, 1]
 
 
 def test_some_points_of_a_picture_are_those_of_the_whole_picture():
     rng = np.random.default_rng(7)
     first, second = (rng.uniform(0, 255, (30, 21)).astype(np.float32) for _ in range(2))
     forward = rng.normal(0, 3, (30, 21, 2)).astype(np.float32)
-    pair = cpu.prepare_pair(first, second, forward, -forward)
+    pair = warp_cpu.prepare_pair(first, second, forward, -forward)
     pixel = np.sort(rng.choice(630, 100, replace=False))
-    room, shown = cpu.make_room(pixel.size), np.empty(pixel.size, np.float32)
-    cpu.take_points(pair, pixel, room.points)
-    cpu.warp_points(pair, room, pixel.size, 0.7, shown)
-    whole = cpu.warp_pair(pair, np.array([0.2, 0.7]))
+    room, shown = warp_cpu.make_room(pixel.size), np.empty(pixel.size, np.float32)
+    warp_cpu.take_points(pair, pixel, room.points)
+    warp_cpu.warp_points(pair, room, pixel.size, 0.7, shown)
+    whole = warp_cpu.warp_pair(pair, np.array([0.2, 0.7]))
     np.testing.assert_array_equal(shown, whole[1].reshape(-1)[pixel])

@@ -13,7 +13,7 @@ class BlendInterpolator:
     """Cross-fades: intensity changes linearly in time at every pixel."""
 
     def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
-        del config, stream  # every interpolator is built alike; this one needs neither
+        del config, stream  # the arguments of every interpolator; not used here
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> MotionInterpolation:
         """Frames `I_1 + τ (I_2 − I_1)`, τ = (t − t_1) / (t_2 − t_1).

@@ -13,10 +13,10 @@ from texvent.video import MICROSECONDS, Frame, PixelArray
 DEFAULT_CAP = 64
 """Most intermediate frames per pair, unless the caller says otherwise."""
 FLOAT32_ERROR = 1e-6
-"""By how much a difference of logarithms may be off when it is taken from a float32 ratio: four
-roundings of 6e-8 each."""
+"""Largest error of a difference of logarithms taken from a float32 ratio: four roundings of 6e-8
+each."""
 BAND_ROWS = 16
-"""Rows that are compared at a time: what they need stays in the processor's cache."""
+"""Rows that are compared at a time: their data stays in the cache."""
 STEPS_PER_BEAT = 12
 """Frames that show one period of flickering light. From one to the next, the embedded generator's
 beat then changes brightness by at most 0.18 (white; α = 30): below the paper preset's δ."""
@@ -111,7 +111,7 @@ def count_for_flicker(
 def _bound_largest_change(
     earlier: PixelArray, later: PixelArray, balance: float
 ) -> tuple[float, float]:
-    """What the largest |ΔL| lies between: float32 and two logarithms, not two per pixel."""
+    """Bounds of the largest |ΔL|: in float32, with two logarithms instead of two per pixel."""
     shift, lowest, highest = np.float32(balance), math.inf, 0.0
     for top in range(0, len(later), BAND_ROWS):
         ratio = np.add(later[top : top + BAND_ROWS], shift, dtype=np.float32)

@@ -1,16 +1,18 @@
-"""How many intermediate frames a pair gets: Eq. 4, and what the user put above or below it."""
+"""How many intermediate frames a pair gets: Eq. 4 within the limits that the user set."""
 
 from __future__ import annotations
 
 import math
 import sys
-from typing import Any
+from typing import TYPE_CHECKING
 
-from texvent._registry import load_object
 from texvent.config import InterpolateConfig
 from texvent.interpolate.count import count_for_flicker, count_intermediate
 from texvent.interpolate.protocol import Interpolator
 from texvent.video import MICROSECONDS, FlickeringStream, Frame, FrameStream
+
+if TYPE_CHECKING:
+    from texvent.interpolate.dis_flow.pair_flow import PairFlow
 
 
 class CountPolicy:
@@ -28,8 +30,8 @@ class CountPolicy:
         """A policy for one stream.
 
         Args:
-            config: what the user chose.
-            stream: the source frames; it may know of flickering light.
+            config: the options.
+            stream: the source frames; it may know the frequency of flickering light.
             interpolator: its optical flow is used, where it has one, for the motion floor.
             balance: the simulator's α.
             contrast_threshold: the simulator's δ.
@@ -50,7 +52,7 @@ class CountPolicy:
             InputError: the frames differ in size.
             ConfigError: α + I is 0 somewhere.
 
-        Equation: (4), section 3.2.1, where the user chose nothing else.
+        Equation: (4), section 3.2.1, unless the options set another count.
         """
         config = self._config
         if config.interpolate == "none":
@@ -69,11 +71,11 @@ class CountPolicy:
         count = max(count, count_for_flicker(first.t_us, second.t_us, self._flicker_hz, cap=cap))
         if self._pair_flow is None or count == cap:
             return count
-        motion: int = self._pair_flow.motion_px(first, second)
+        motion = self._pair_flow.motion_px(first, second)
         return min(max(count, motion), cap)
 
     def _budget(self, first: Frame, second: Frame) -> int:
-        """What the frame rate allows in a pair; its second source frame is one of them."""
+        """Most intermediate frames at the rate allowed; the second source frame counts too."""
         rate = self._config.max_frames_per_second
         if rate is None:
             return sys.maxsize
@@ -81,13 +83,14 @@ class CountPolicy:
 
 
 def _flicker_hz(stream: FrameStream, config: InterpolateConfig) -> float | None:
-    """The beat that intermediate frames must follow: only rendered ones can show it."""
+    """The beat that intermediate frames must show; only rendered frames can."""
     is_seen = config.interpolate == "exact" and config.count == "brightness"
     return stream.flicker_hz if is_seen and isinstance(stream, FlickeringStream) else None
 
 
-def _pair_flow(interpolator: Interpolator) -> Any:
-    """The flow that the interpolator computes anyway, or else one of its own."""
-    shared = getattr(interpolator, "pair_flow", None)
-    # By name, because OpenCV should load only when motion is counted.
-    return shared or load_object("texvent.interpolate.dis_flow.pair_flow:PairFlow")()
+def _pair_flow(interpolator: Interpolator) -> PairFlow:
+    """The flow that the interpolator computes anyway, or a new one."""
+    from texvent.interpolate.dis_flow.pair_flow import PairFlow  # only counting motion needs numba
+
+    shared: PairFlow | None = getattr(interpolator, "pair_flow", None)
+    return shared or PairFlow()

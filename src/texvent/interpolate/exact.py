@@ -1,4 +1,4 @@
-"""The scene itself, rendered at the instant: for generators that know it."""
+"""The scene itself, rendered at the instant: for generators that can."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from texvent.video import Frame, FrameStream, RenderableStream
 
 
 class ExactInterpolator:
-    """Asks the stream for each intermediate frame, so nothing is guessed.
+    """Renders each intermediate frame, so nothing is estimated.
 
     Raises:
         ConfigError: the stream cannot render an instant; only generated scenes can.
     """
 
     def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
-        del config  # every interpolator is built alike; this one has no options
+        del config  # an argument of every interpolator; not used here
         if not isinstance(stream, RenderableStream):
             raise ConfigError(
                 "interpolate is 'exact', but these frames cannot be rendered at any instant; "

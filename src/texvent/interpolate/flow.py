@@ -15,16 +15,16 @@ class FlowInterpolator:
     """Moves both frames along the optical flow to the instant, and mixes them.
 
     The flow is computed once per pair, in both directions. Where the two directions disagree, the
-    point is covered in one frame, and the other frame counts more; where they agree nowhere, the
-    frames are blended in place.
+    point is occluded in one frame, and the other frame counts more; where both fail, the frames are
+    blended in place.
 
     Deviation: the paper uses RIFE, which needs published weights.
     """
 
     def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
-        del config, stream  # every interpolator is built alike; this one needs neither
+        del config, stream  # the arguments of every interpolator; not used here
         self.pair_flow = PairFlow()
-        """The flow of the last pair, for whoever counts by motion."""
+        """The flow of the last pair; `CountPolicy` uses it for the motion floor."""
         prepare_warp()
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> MotionInterpolation:
@@ -43,6 +43,6 @@ class FlowInterpolator:
             InputError: the frames differ in size, or a time is not between theirs.
         """
         check_between(first, second, times_us)
-        # Now, not when the first frame is asked for: a thread may be running ahead here.
+        # Now, not at the first frame: this may run in the prefetch thread.
         flows = self.pair_flow.both_ways(first, second)
         return MotionInterpolation.between(first, second, times_us, flows)

@@ -9,10 +9,10 @@ from texvent.video import Frame, FrameStream
 
 
 class NoInterpolator:
-    """Adds nothing (ablation of Eq. 4). `densify` asks it for no frame, whatever the change."""
+    """Adds no frames (ablation of Eq. 4), whatever the change."""
 
     def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
-        del config, stream  # every interpolator is built alike; this one needs neither
+        del config, stream  # the arguments of every interpolator; not used here
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
         """Nothing, whatever the times."""

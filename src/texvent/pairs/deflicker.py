@@ -1,8 +1,8 @@
-"""Global gain jumps of generated video, taken out of its frames.
+"""Deflicker: divide fast changes of the global gain out of the frames of generated video.
 
-Text-to-video models change the brightness of a whole picture by a few percent from frame to frame.
-A pixel model answers with events everywhere, and Eq. 4 with more frames. A camera's own fades are
-slow; so the part of the gain that changes fast is divided out and the slow part stays.
+Text-to-video models change the brightness of a whole frame by a few percent from frame to frame. A
+pixel model then fires everywhere, and Eq. 4 counts more frames. Real fades are slow, so the fast
+part of the gain is divided out and the slow part stays.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ DARK, BRIGHT = 8.0, 247.0
 LEAST_USED = 0.05
 """Share of the cells that must be inside that range."""
 CELLS_MOVING_TOGETHER = 16
-"""Neighbouring cells change alike when something moves, so this many count as one witness."""
+"""Neighbouring cells change alike when something moves, so this many count as one sample."""
 SIGNIFICANT = 2.5
-"""A median is taken for a gain from this many standard errors on; motion alone stays below."""
+"""A median of at least this many standard errors is a gain; motion alone stays below."""
 MEDIAN_ERROR = 1.86
-"""Standard error of a median, in median absolute deviations, times the root of the witnesses:
+"""Standard error of a median, in median absolute deviations, times the root of the samples:
 1.2533 / 0.6745 for a normal distribution."""
-FOLLOW = 0.2
-"""Share of a lasting change that is let through per frame: a real fade lags by five frames."""
+PASSED_SHARE = 0.2
+"""Share of a lasting change that passes per frame: a real fade lags by five frames."""
 TOLERANCE = 0.002
 """Corrections below this (log units) are left out, so that steady frames pass untouched."""
 
@@ -38,13 +38,13 @@ TOLERANCE = 0.002
 def steady_frames(frames: Iterator[Frame]) -> Iterator[Frame]:
     """The frames with fast changes of their global gain divided out.
 
-    A cut or a flash starts anew.
+    The gain starts anew at a cut or a flash.
 
     Args:
         frames: source frames in time order.
 
     Yields:
-        One frame per frame, same time and kind: the frame itself where nothing is to be corrected,
+        One frame per frame, same time and kind: the frame itself where no correction is needed,
         else its pixels times one number, float32, 0..255 scale.
     """
     previous: Frame | None = None
@@ -55,20 +55,20 @@ def steady_frames(frames: Iterator[Frame]) -> Iterator[Frame]:
                 gain = followed = 0.0
             else:
                 gain += global_gain(previous, frame)
-            followed += FOLLOW * (gain - followed)
+            followed += PASSED_SHARE * (gain - followed)
         previous = frame
         yield _scaled(frame, followed - gain)
 
 
 def global_gain(first: Frame, second: Frame) -> float:
-    """By how much the whole picture got brighter from one frame to the next, log units.
+    """The gain of the whole frame from one frame to the next, log units.
 
     Args:
         first: the earlier frame.
         second: the later frame, same size.
 
     Returns:
-        The median of ln(I₂ / I₁) over cells, or 0 if motion explains it as well.
+        The median of ln(I₂ / I₁) over cells, or 0 if motion alone may explain it.
     """
     earlier, later = _cells(first), _cells(second)
     used = (earlier > DARK) & (earlier < BRIGHT) & (later > DARK) & (later < BRIGHT)
@@ -76,8 +76,8 @@ def global_gain(first: Frame, second: Frame) -> float:
         return 0.0
     ratio = np.log(later[used] / earlier[used])
     gain = float(np.median(ratio))
-    witnesses = max(1.0, ratio.size / CELLS_MOVING_TOGETHER)
-    error = MEDIAN_ERROR * float(np.median(np.abs(ratio - gain))) / math.sqrt(witnesses)
+    samples = max(1.0, ratio.size / CELLS_MOVING_TOGETHER)
+    error = MEDIAN_ERROR * float(np.median(np.abs(ratio - gain))) / math.sqrt(samples)
     return gain if abs(gain) >= SIGNIFICANT * error else 0.0
 
 

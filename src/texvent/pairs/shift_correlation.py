@@ -1,4 +1,4 @@
-"""Whether one picture is another one shifted: what tells a whip pan from a scene cut."""
+"""Whether one image is another one shifted: distinguishes a whip pan from a scene cut."""
 
 from __future__ import annotations
 
@@ -8,24 +8,24 @@ from numpy.typing import NDArray
 from texvent.brightness import Float64Array
 
 DETAIL_CELLS = 5
-"""Detail is what is left after the mean over this many cells is taken out: two skies that only
-share a gradient do not agree."""
+"""Detail is the image minus its mean over this many cells: two skies that only share a gradient do
+not agree."""
 LEAST_OVERLAP = 0.35
-"""Share of the picture that both must show for a shift to count."""
+"""Share of the image that must overlap for a shift to count."""
 LEAST_VARIANCE = 1e-4
 """Variance of log brightness below which agreement means nothing."""
 
 
 def shift_agreement(first: Float64Array, second: Float64Array) -> float:
-    """How well the detail of two pictures agrees at the best shift.
+    """How well the detail of two images agrees at the best shift.
 
     Args:
-        first: log brightness, [H, W]; a thumbnail, because every shift is tried.
+        first: log brightness, [H, W]; a thumbnail, because all shifts are tried.
         second: the same shape.
 
     Returns:
         Correlation over the overlap, at the shift where it is largest, −1..1. On thumbnails of
-        real clips, 300 pairs of unrelated pictures reached 0.33 at most, and pairs shifted by a
+        real clips, 300 pairs of unrelated images reached 0.33 at most, and pairs shifted by a
         tenth to half of the width 0.80 at least.
 
     Source: masked normalised correlation, Padfield 2012.
@@ -49,8 +49,8 @@ def shift_agreement(first: Float64Array, second: Float64Array) -> float:
     return float(agreement[count >= LEAST_OVERLAP * one.size].max())
 
 
-def _detail(picture: Float64Array) -> Float64Array:
+def _detail(image: Float64Array) -> Float64Array:
     margin = DETAIL_CELLS // 2
-    padded = np.pad(picture, margin, mode="edge")
+    padded = np.pad(image, margin, mode="edge")
     windows = np.lib.stride_tricks.sliding_window_view(padded, (DETAIL_CELLS, DETAIL_CELLS))
-    return np.asarray(picture - windows.mean(axis=(2, 3)))
+    return np.asarray(image - windows.mean(axis=(2, 3)))

@@ -1,8 +1,8 @@
-"""`reference.warp_between`, compiled by Numba: same steps in the same order, so equal results.
+"""`warp_reference.warp_between`, compiled by Numba: same steps, same order, equal results.
 
-Some rows at a time, in stages: where to look (vector instructions), what lies there (scattered
-loads, which vector instructions would not speed up), how to mix it (vector instructions). Every
-pixel is computed on its own, so the number of threads changes nothing.
+Some rows at a time, in three stages: find the places (vector instructions), gather what lies there
+(scattered loads), mix it (vector instructions). Every pixel is computed on its own, so the number
+of threads does not change the result.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ from texvent.runtime.read_only import read_only
 Floats = NDArray[np.float32]
 Numbers = NDArray[np.int32]
 Words = NDArray[np.uint64]
-"""Two float32 in each, which are fetched together."""
+"""Two float32 in each, loaded together."""
 
 POINTS = 3072
-"""Pixels that are warped at a time, about: what they need stays in the nearest caches."""
+"""About how many pixels are warped at a time: their data stays in the nearest caches."""
 BAND_ROWS = 32
 """Rows that a thread takes at a time."""
 LANES = 64
-"""Vector loops are fastest over a multiple of so many numbers."""
+"""Vector loops are fastest over a multiple of this length."""
 
 # As float32: Numba computes with float64 where a constant is one.
 _VISIBLE_RELATIVE, _VISIBLE_PX2 = np.float32(VISIBLE_RELATIVE), np.float32(VISIBLE_PX2)
@@ -45,15 +45,15 @@ _ONE = np.uint64(1)
 
 
 class WarpPair(NamedTuple):
-    """Two frames and their motion, as the kernels look things up."""
+    """Two frames and their motion, in the layout of the kernels."""
 
     first: Floats
     """[H, W] the earlier frame, intensity."""
     second: Floats
     """[H, W] the later frame."""
     first_pixels: Words
-    """[(H + 1) · W] each pixel of the earlier frame with its right neighbour; one more row, because
-    the last one has nothing below it."""
+    """[(H + 1) · W] each pixel of the earlier frame with its right neighbour; the last row is
+    repeated once."""
     second_pixels: Words
     forward: Words
     """[H · W] flow from first to second, (x, y), px."""
@@ -62,37 +62,37 @@ class WarpPair(NamedTuple):
 
 
 class Points(NamedTuple):
-    """Pixels, and what does not depend on the instant; [n], a multiple of `LANES`."""
+    """Pixels and their values that do not depend on the instant; [n], a multiple of `LANES`."""
 
     pixel: Numbers
     """Flat index y · W + x."""
     x: Floats
     y: Floats
-    ahead_x: Floats
+    forward_x: Floats
     """Forward flow, px."""
-    ahead_y: Floats
-    bend_x: Floats
+    forward_y: Floats
+    error_x: Floats
     """Forward plus backward flow, px: 0 where they agree."""
-    bend_y: Floats
+    error_y: Floats
     earlier: Floats
     """Intensity in the earlier frame."""
     later: Floats
     """Intensity in the later frame."""
 
 
-class Look(NamedTuple):
-    """What points see in one of the frames; [n]."""
+class Samples(NamedTuple):
+    """Samples of one of the frames at the places of points; [n]."""
 
     corner: Numbers
     """Flat index of the pixel up left of the place."""
     nearest: Numbers
-    """Flat index of the pixel nearest to it."""
+    """Flat index of the pixel nearest to the place."""
     u: Floats
-    """How far right of the corner it lies, 0..1."""
+    """Distance of the place to the right of the corner, 0..1."""
     v: Floats
-    """How far below."""
+    """Distance below the corner, 0..1."""
     outside: Floats
-    """How far outside the picture, px."""
+    """Distance outside the image, px."""
     upper: Words
     """Intensity of the corner and its right neighbour."""
     lower: Words
@@ -102,17 +102,17 @@ class Look(NamedTuple):
 
 
 class Room(NamedTuple):
-    """Memory for some points."""
+    """Scratch memory for some points."""
 
     points: Points
-    in_first: Look
-    in_second: Look
+    in_first: Samples
+    in_second: Samples
 
 
 def warp_between(
     first: Floats, second: Floats, forward: Floats, backward: Floats, position: float
 ) -> Floats:
-    """The picture at `position` between two frames whose motion is known.
+    """The frame at `position` between two frames whose motion is known.
 
     Args:
         first: the earlier frame, [H, W] float32, intensity.
@@ -122,17 +122,17 @@ def warp_between(
         position: τ, 0 = first, 1 = second.
 
     Returns:
-        [H, W] float32, intensity; defined by `reference.warp_between`.
+        [H, W] float32, intensity; defined by `warp_reference.warp_between`.
     """
     pair = prepare_pair(first, second, forward, backward)
-    picture: Floats = warp_pair(pair, np.array([position]))[0]
-    return picture
+    image: Floats = warp_pair(pair, np.array([position]))[0]
+    return image
 
 
 def prepare_pair(first: Floats, second: Floats, forward: Floats, backward: Floats) -> WarpPair:
-    """What all pictures of a pair share; see `warp_between`.
+    """What all intermediate frames of a pair share; see `warp_between`.
 
-    The arrays may have no pixels at all, where nobody wants a picture.
+    The arrays may be empty where no frame is drawn.
     """
     # Read-only throughout, because Numba compiles for each kind of array again.
     frames = [read_only(first), read_only(second)]
@@ -145,17 +145,17 @@ def prepare_pair(first: Floats, second: Floats, forward: Floats, backward: Float
 
 
 def warm_up() -> None:
-    """Compile what draws pictures, or load what was compiled before."""
-    picture, flow = np.zeros((2, 2), np.float32), np.zeros((2, 2, 2), np.float32)
-    warp_pair(prepare_pair(picture, picture, flow, flow), np.array([0.5]))
+    """Compile the kernels that draw frames, or load them from disk."""
+    image, flow = np.zeros((2, 2), np.float32), np.zeros((2, 2, 2), np.float32)
+    warp_pair(prepare_pair(image, image, flow, flow), np.array([0.5]))
 
 
 @jit
-def _with_neighbours(picture: Floats) -> Words:
-    height, width = picture.shape
+def _with_neighbours(image: Floats) -> Words:
+    height, width = image.shape
     levels = np.empty((height + 1, 2 * width), np.float32)
     for row in range(height + 1):
-        source, target = picture[min(row, height - 1)], levels[row]
+        source, target = image[min(row, height - 1)], levels[row]
         for x in range(width - 1):
             target[2 * x], target[2 * x + 1] = source[x], source[x + 1]
         target[2 * width - 2], target[2 * width - 1] = source[width - 1], source[width - 1]
@@ -166,7 +166,7 @@ def _with_neighbours(picture: Floats) -> Words:
 def warp_pair(pair: WarpPair, positions: NDArray[np.float64]) -> Floats:
     """`warp_between` of a pair that is prepared, at several positions: [n, H, W].
 
-    All pictures of some rows are made together, from what the nearest caches hold.
+    Some rows of all positions are computed together, while their data is in the nearest caches.
     """
     height, width = pair.first.shape
     result = np.empty((positions.size, height, width), np.float32)
@@ -193,7 +193,7 @@ def _warp_rows(
 
 @jit
 def make_room(number: int) -> Room:
-    """Memory for so many points; all are the first pixel, so that those left over do no harm."""
+    """Scratch memory for `number` points; all start as the first pixel, so padding is valid."""
     room = (number + LANES - 1) // LANES * LANES
     points = Points(
         np.zeros(room, np.int32),
@@ -206,12 +206,12 @@ def make_room(number: int) -> Room:
         np.zeros(room, np.float32),
         np.zeros(room, np.float32),
     )
-    return Room(points, _make_look(room), _make_look(room))
+    return Room(points, _make_samples(room), _make_samples(room))
 
 
 @jit(error_model="numpy", inner=True)
-def _make_look(room: int) -> Look:
-    return Look(
+def _make_samples(room: int) -> Samples:
+    return Samples(
         np.empty(room, np.int32),
         np.empty(room, np.int32),
         np.empty(room, np.float32),
@@ -225,16 +225,16 @@ def _make_look(room: int) -> Look:
 
 @jit
 def take_rows(pair: WarpPair, top: int, bottom: int, points: Points) -> None:
-    """Let the points be all pixels of some rows."""
-    pixel, x, y, ahead_x, ahead_y, bend_x, bend_y, earlier, later = points
+    """Set the points to all pixels of some rows."""
+    pixel, x, y, forward_x, forward_y, error_x, error_y, earlier, later = points
     first, second, _, _, forward, backward = pair
     width = first.shape[1]
     start, number = top * width, (bottom - top) * width
-    # Everything begins at the first of these pixels: Numba takes an index for possibly negative
-    # where something is added to the loop's own.
+    # All arrays start at the first of these pixels: Numba allows for negative indices where the
+    # loop's index has an offset.
     pixels_first, pixels_second = first[top:bottom].reshape(-1), second[top:bottom].reshape(-1)
-    ahead = forward[start : start + number].view(np.float32)
-    back = backward[start : start + number].view(np.float32)
+    forward_flow = forward[start : start + number].view(np.float32)
+    backward_flow = backward[start : start + number].view(np.float32)
     for row in range(bottom - top):
         columns, rows = x[row * width : (row + 1) * width], y[row * width : (row + 1) * width]
         for k in range(width):
@@ -243,17 +243,20 @@ def take_rows(pair: WarpPair, top: int, bottom: int, points: Points) -> None:
         pixel[k] = start + k
         earlier[k], later[k] = pixels_first[k], pixels_second[k]
     for k in range(number):
-        ahead_x[k], ahead_y[k] = ahead[2 * k], ahead[2 * k + 1]
+        forward_x[k], forward_y[k] = forward_flow[2 * k], forward_flow[2 * k + 1]
     for k in range(number):
-        bend_x[k], bend_y[k] = ahead[2 * k] + back[2 * k], ahead[2 * k + 1] + back[2 * k + 1]
+        error_x[k], error_y[k] = (
+            forward_flow[2 * k] + backward_flow[2 * k],
+            forward_flow[2 * k + 1] + backward_flow[2 * k + 1],
+        )
 
 
 @jit
 def take_points(pair: WarpPair, chosen: NDArray[np.int64], points: Points) -> None:
-    """Let the points be some pixels, given by flat index."""
-    pixel, x, y, ahead_x, ahead_y, bend_x, bend_y, earlier, later = points
+    """Set the points to some pixels, given by flat index."""
+    pixel, x, y, forward_x, forward_y, error_x, error_y, earlier, later = points
     first, second = pair.first.reshape(-1), pair.second.reshape(-1)
-    ahead, back = pair.forward.view(np.float32), pair.backward.view(np.float32)
+    forward_flow, backward_flow = pair.forward.view(np.float32), pair.backward.view(np.float32)
     width = np.uint64(pair.first.shape[1])
     for k in range(chosen.size):
         i = np.uint64(chosen[k])
@@ -261,44 +264,47 @@ def take_points(pair: WarpPair, chosen: NDArray[np.int64], points: Points) -> No
         pixel[k], x[k], y[k] = i, i - row * width, row
         earlier[k], later[k] = first[i], second[i]
         j = i + i
-        ahead_x[k], ahead_y[k] = ahead[j], ahead[j + _ONE]
-        bend_x[k], bend_y[k] = ahead[j] + back[j], ahead[j + _ONE] + back[j + _ONE]
+        forward_x[k], forward_y[k] = forward_flow[j], forward_flow[j + _ONE]
+        error_x[k], error_y[k] = (
+            forward_flow[j] + backward_flow[j],
+            forward_flow[j + _ONE] + backward_flow[j + _ONE],
+        )
 
 
 @jit
 def warp_points(pair: WarpPair, room: Room, number: int, position: float, out: Floats) -> None:
-    """What the first `number` of the points show at a position; fills in out[:number]."""
+    """Intensity of the first `number` points at a position; fills in out[:number]."""
     points, in_first, in_second = room
     place, shape = np.float32(position), pair.first.shape
     padded = (number + LANES - 1) // LANES * LANES
-    _aim(points, padded, shape, (place, -place), in_first)
-    _aim(points, padded, shape, (place, _1 - place), in_second)
-    _fetch(pair.first_pixels, pair.forward, number, shape[1], in_first)
-    _fetch(pair.second_pixels, pair.backward, number, shape[1], in_second)
+    _locate(points, padded, shape, (place, -place), in_first)
+    _locate(points, padded, shape, (place, _1 - place), in_second)
+    _gather(pair.first_pixels, pair.forward, number, shape[1], in_first)
+    _gather(pair.second_pixels, pair.backward, number, shape[1], in_second)
     _mix(points, in_first, in_second, number, place, out)
 
 
 @jit(error_model="numpy", inner=True)
-def _aim(
+def _locate(
     points: Points,
     number: int,
     shape: tuple[int, int],
     times: tuple[np.float32, np.float32],
-    look: Look,
+    samples: Samples,
 ) -> None:
-    """Find where points lie in a frame: the second of the times along their path."""
+    """Find the places of points in a frame: the second of the times along their path."""
     position, share = times
-    pixel, column, row, ahead_x, ahead_y, bend_x, bend_y, _, _ = points
-    corner, nearest, u, v, outside, _, _, _ = look
+    pixel, column, row, forward_x, forward_y, error_x, error_y, _, _ = points
+    corner, nearest, u, v, outside, _, _, _ = samples
     width = np.int32(shape[1])
     last_column, last_row = np.float32(shape[1] - 1), np.float32(shape[0] - 1)
     for k in range(number):
-        way_x = share * (ahead_x[k] - position * bend_x[k])
-        way_y = share * (ahead_y[k] - position * bend_y[k])
-        # In this order a flow that is no number leads to the edge, not out of memory.
-        x = min(max(-column[k], way_x), last_column - column[k])
-        y = min(max(-row[k], way_y), last_row - row[k])
-        outside[k] = max(abs(way_x - x), abs(way_y - y))
+        shift_x = share * (forward_x[k] - position * error_x[k])
+        shift_y = share * (forward_y[k] - position * error_y[k])
+        # In this order a NaN in the flow leads to the edge, not outside the array.
+        x = min(max(-column[k], shift_x), last_column - column[k])
+        y = min(max(-row[k], shift_y), last_row - row[k])
+        outside[k] = max(abs(shift_x - x), abs(shift_y - y))
         left, up = np.floor(x), np.floor(y)
         right, down = x - left, y - up
         u[k], v[k] = right, down
@@ -308,11 +314,11 @@ def _aim(
 
 
 @jit(error_model="numpy", inner=True)
-def _fetch(pixels: Words, flows: Words, number: int, width: int, look: Look) -> None:
-    """Fetch what lies where the points look."""
-    corner, nearest, _, _, _, upper, lower, flow = look
+def _gather(pixels: Words, flows: Words, number: int, width: int, samples: Samples) -> None:
+    """Gather intensity and flow at the places."""
+    corner, nearest, _, _, _, upper, lower, flow = samples
     for k in range(number):
-        # Unsigned, or Numba allows for indices that count from the end.
+        # Unsigned, or Numba allows for negative indices.
         upper[k] = pixels[np.uint64(corner[k])]
         lower[k] = pixels[np.uint64(corner[k] + width)]
     for k in range(number):
@@ -321,10 +327,15 @@ def _fetch(pixels: Words, flows: Words, number: int, width: int, look: Look) -> 
 
 @jit(error_model="numpy", inner=True)
 def _mix(
-    points: Points, in_first: Look, in_second: Look, number: int, position: np.float32, out: Floats
+    points: Points,
+    in_first: Samples,
+    in_second: Samples,
+    number: int,
+    position: np.float32,
+    out: Floats,
 ) -> None:
-    """Weigh what both frames show."""
-    _, _, _, ahead_x, ahead_y, bend_x, bend_y, earlier, later = points
+    """Mix the samples of both frames."""
+    _, _, _, forward_x, forward_y, error_x, error_y, earlier, later = points
     u1, v1, outside1 = in_first.u, in_first.v, in_first.outside
     u2, v2, outside2 = in_second.u, in_second.v, in_second.outside
     upper1, lower1 = in_first.upper.view(np.float32), in_first.lower.view(np.float32)
@@ -332,8 +343,8 @@ def _mix(
     flow1, flow2 = in_first.flow.view(np.float32), in_second.flow.view(np.float32)
     rest = _1 - position
     for k in range(number):
-        path_x = ahead_x[k] - position * bend_x[k]
-        path_y = ahead_y[k] - position * bend_y[k]
+        path_x = forward_x[k] - position * error_x[k]
+        path_y = forward_y[k] - position * error_y[k]
         length2 = min(path_x * path_x + path_y * path_y, _MOST)
         x, y = flow1[2 * k] - path_x, flow1[2 * k + 1] - path_y
         error1 = min(x * x + y * y, _MOST)

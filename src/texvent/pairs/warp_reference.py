@@ -17,7 +17,7 @@ from texvent.pairs.warp_tolerance import (
 )
 
 FloatArray = NDArray[Any]
-"""float32; float64 where the rounding of float32 is to be seen."""
+"""float32; float64 to measure the rounding of float32."""
 
 
 def warp_between(
@@ -27,7 +27,7 @@ def warp_between(
     backward: FloatArray,
     position: float,
 ) -> FloatArray:
-    """The picture at `position` between two frames whose motion is known.
+    """The frame at `position` between two frames whose motion is known.
 
     Everything is computed in the type of the frames; in float32, the order of the operations is
     part of the definition.
@@ -43,15 +43,15 @@ def warp_between(
         [H, W], intensity.
 
     Source: flows to the intermediate frame as in Jiang et al., Super SloMo (CVPR 2018), eq. 4,
-        which are −τ and 1 − τ times the path below; the weights are ours: see `tolerance.py`.
+        which are −τ and 1 − τ times the path below; the weights are ours: see `warp_tolerance.py`.
     """
     position = first.dtype.type(position)
     rest = first.dtype.type(1.0) - position
     path = forward - position * (forward + backward)
     length2 = np.minimum(_squared(path), MOST_PX2)
 
-    a, path_first, is_in_first = look_along(first, forward, -position * path)
-    b, path_second, is_in_second = look_along(second, backward, rest * path)
+    a, path_first, is_in_first = sample_along(first, forward, -position * path)
+    b, path_second, is_in_second = sample_along(second, backward, rest * path)
     error_first = np.minimum(_squared(path_first - path), MOST_PX2)
     error_second = np.minimum(_squared(path_second + path), MOST_PX2)
 
@@ -72,32 +72,32 @@ def warp_between(
     return np.asarray(blended + (warped - blended) * confidence)
 
 
-def look_along(
-    picture: FloatArray, flow: FloatArray, way: FloatArray
+def sample_along(
+    image: FloatArray, flow: FloatArray, shift: FloatArray
 ) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
-    """What lies some way off each pixel; outside the picture, what lies at its nearest edge.
+    """Samples of an image at displaced places; places outside take its nearest edge.
 
     Args:
-        picture: [H, W].
+        image: [H, W].
         flow: [H, W, 2].
-        way: [H, W, 2] as (x, y), px.
+        shift: of each pixel's place, [H, W, 2] as (x, y), px.
 
     Returns:
-        The picture there (bilinear), the flow of the nearest pixel, and whether the place is on the
-        picture, whose pixels reach half a pixel past their centres.
+        The image there (bilinear), the flow of the nearest pixel, and whether the place lies inside
+        the image, whose pixels reach half a pixel past their centres.
     """
-    height, width = picture.shape
+    height, width = image.shape
     row, column = np.mgrid[:height, :width]
-    kind = picture.dtype
-    x = np.clip(way[..., 0], (-column).astype(kind), (width - 1 - column).astype(kind))
-    y = np.clip(way[..., 1], (-row).astype(kind), (height - 1 - row).astype(kind))
-    outside = np.maximum(np.abs(way[..., 0] - x), np.abs(way[..., 1] - y))
+    kind = image.dtype
+    x = np.clip(shift[..., 0], (-column).astype(kind), (width - 1 - column).astype(kind))
+    y = np.clip(shift[..., 1], (-row).astype(kind), (height - 1 - row).astype(kind))
+    outside = np.maximum(np.abs(shift[..., 0] - x), np.abs(shift[..., 1] - y))
     left, top = np.floor(x), np.floor(y)
     u, v = x - left, y - top
     left, top = column + left.astype(np.intp), row + top.astype(np.intp)
     right, bottom = np.minimum(left + 1, width - 1), np.minimum(top + 1, height - 1)
-    upper = picture[top, left] + (picture[top, right] - picture[top, left]) * u
-    lower = picture[bottom, left] + (picture[bottom, right] - picture[bottom, left]) * u
+    upper = image[top, left] + (image[top, right] - image[top, left]) * u
+    lower = image[bottom, left] + (image[bottom, right] - image[bottom, left]) * u
     nearest = np.where(v >= 0.5, bottom, top), np.where(u >= 0.5, right, left)
     return upper + (lower - upper) * v, flow[nearest], outside <= 0.5
 

@@ -1,4 +1,4 @@
-"""How far two flows may disagree before they stop being believed.
+"""How far two flows may disagree before they are no longer trusted.
 
 The error of a flow is the distance between the path it claims (from the earlier to the later
 frame) and the path that the flow of the other direction claims for the same point. Squared, e, and

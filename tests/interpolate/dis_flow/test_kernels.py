@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 from texvent.interpolate.dis_flow import flow_cpu, flow_reference
 from texvent.interpolate.dis_flow.definitions import (
     MARGIN,
+    coarse_to_fine,
     count_levels,
-    follow_levels,
     make_pyramid,
-    match,
+    match_level,
     size_of,
 )
 
@@ -23,12 +23,12 @@ KERNELS = pytest.mark.parametrize("kernels", [flow_reference, flow_cpu], ids=["r
 def waves(shape, dx=0.0, dy=0.0, seed=0):
     rng = np.random.default_rng(seed)
     y, x = np.mgrid[: shape[0], : shape[1]].astype(np.float64)
-    picture = np.full(shape, 120.0)
+    image = np.full(shape, 120.0)
     for _ in range(10):
         length, angle, phase = rng.uniform(6, 25), rng.uniform(0, np.pi), rng.uniform(0, 6)
         along = (x - dx) * np.cos(angle) + (y - dy) * np.sin(angle)
-        picture += 20 * np.sin(2 * np.pi * along / length + phase)
-    return picture.astype(np.float32)
+        image += 20 * np.sin(2 * np.pi * along / length + phase)
+    return image.astype(np.float32)
 
 
 def test_pictures_are_halved_until_they_are_about_four_patches_long():
@@ -40,8 +40,8 @@ def test_pictures_are_halved_until_they_are_about_four_patches_long():
 
 @KERNELS
 def test_halving_takes_means_and_counts_an_odd_edge_twice(kernels):
-    picture = np.float32([[1, 3, 5], [5, 7, 9], [2, 4, 6]])
-    np.testing.assert_array_equal(kernels.halve(picture), [[4, 7], [3, 6]])
+    image = np.float32([[1, 3, 5], [5, 7, 9], [2, 4, 6]])
+    np.testing.assert_array_equal(kernels.halve(image), [[4, 7], [3, 6]])
 
 
 @KERNELS
@@ -68,7 +68,7 @@ def test_doubling_a_flow_doubles_its_vectors_and_joins_their_places(kernels):
 @KERNELS
 def test_a_shift_is_found_on_one_level(kernels):
     start, stop = (kernels.make_level(waves((40, 56), dx)) for dx in (0.0, 1.6))
-    flow = match(start, stop, np.zeros((2, 40, 56), np.float32), True, kernels=kernels)
+    flow = match_level(start, stop, np.zeros((2, 40, 56), np.float32), True, kernels=kernels)
     assert np.median(np.abs(flow[0, 8:-8, 8:-8] - 1.6)) < 0.05
     assert np.median(np.abs(flow[1, 8:-8, 8:-8])) < 0.05
 
@@ -84,7 +84,9 @@ def test_brighter_light_alone_does_not_move_patches(kernels):
 def test_a_flat_picture_keeps_the_flow_it_begins_with(kernels):
     level = kernels.make_level(np.full((24, 32), 90, np.float32))
     begin = np.stack([np.full((24, 32), number, np.float32) for number in (2.5, -1.0)])
-    np.testing.assert_allclose(match(level, level, begin, False, kernels=kernels), begin, rtol=1e-5)
+    np.testing.assert_allclose(
+        match_level(level, level, begin, False, kernels=kernels), begin, rtol=1e-5
+    )
 
 
 @KERNELS
@@ -121,15 +123,13 @@ def test_refining_leaves_a_perfect_flow_and_mends_most_of_a_vector_that_is_not(k
 )
 def test_compiled_parts_equal_their_definitions(shape, spread, is_coarsest, seed):
     rng = np.random.default_rng(seed)
-    pictures = waves(shape, seed=seed), waves(shape, 2.3, 1.1, seed=seed)
-    pictures = [one + rng.normal(0, 1 + spread, shape).astype(np.float32) for one in pictures]
+    images = waves(shape, seed=seed), waves(shape, 2.3, 1.1, seed=seed)
+    images = [one + rng.normal(0, 1 + spread, shape).astype(np.float32) for one in images]
     flow = rng.normal(0, 1 + spread, (2, *shape)).astype(np.float32)
-    wanted = [flow_reference.make_level(one) for one in pictures]
-    for got, level, picture in zip(
-        map(flow_cpu.make_level, pictures), wanted, pictures, strict=True
-    ):
+    wanted = [flow_reference.make_level(one) for one in images]
+    for got, level, image in zip(map(flow_cpu.make_level, images), wanted, images, strict=True):
         np.testing.assert_array_equal(got, level)
-        np.testing.assert_array_equal(flow_cpu.halve(picture), flow_reference.halve(picture))
+        np.testing.assert_array_equal(flow_cpu.halve(image), flow_reference.halve(image))
     twice = tuple(2 * side - seed % 2 for side in shape)
     np.testing.assert_array_equal(flow_cpu.double(flow, twice), flow_reference.double(flow, twice))
     patches = flow_reference.search(*wanted, flow, is_coarsest)
@@ -142,11 +142,11 @@ def test_compiled_parts_equal_their_definitions(shape, spread, is_coarsest, seed
 
 
 def test_the_whole_way_is_equal_too_and_finds_a_far_shift():
-    pictures = waves((64, 80), seed=3), waves((64, 80), 5.0, -2.0, seed=3)
+    images = waves((64, 80), seed=3), waves((64, 80), 5.0, -2.0, seed=3)
     flows = []
     for kernels in (flow_reference, flow_cpu):
-        start, stop = (make_pyramid(one, 0, 1, kernels) for one in pictures)
-        flows.append(follow_levels(start, stop, kernels))
+        start, stop = (make_pyramid(one, 0, 1, kernels) for one in images)
+        flows.append(coarse_to_fine(start, stop, kernels))
     np.testing.assert_array_equal(*flows)
     assert np.median(np.abs(flows[0][0, 12:-12, 12:-12] - 5.0)) < 0.05
 
@@ -154,5 +154,5 @@ def test_the_whole_way_is_equal_too_and_finds_a_far_shift():
 def test_frames_that_are_no_numbers_do_no_harm():
     level = flow_cpu.make_level(np.full((16, 24), np.nan, np.float32))
     start = np.full((2, 16, 24), np.nan, np.float32)
-    flow = match(level, level, start, True, kernels=flow_cpu)
+    flow = match_level(level, level, start, True, kernels=flow_cpu)
     assert flow.shape == (2, 16, 24)

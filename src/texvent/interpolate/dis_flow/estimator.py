@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from texvent.interpolate.dis_flow import flow_cpu
 from texvent.interpolate.dis_flow.definitions import (
     PATCH,
+    coarse_to_fine,
     count_levels,
-    follow_levels,
     make_pyramid,
 )
 from texvent.runtime.allocator import keep_freed_memory
@@ -21,17 +21,17 @@ from texvent.runtime.background_jit import is_ready, wait_until_ready
 FlowArray = NDArray[np.float32]
 
 SMALL_SIDE_PX = 100
-"""Frames with a shorter side than this are matched down to their full size, others to half of it:
-patches of 8×8 px on half-size pictures say little about a small frame."""
+"""Frames with a shorter side than this are matched up to full size, others up to half size: patches
+of 8×8 px on half-size images are coarse for a small frame."""
 LEAST_SIDE_PX = 2 * PATCH
-"""The edges of smaller frames are repeated this far."""
+"""Smaller frames are padded to this side by repeating their edges."""
 FULL_RANGE, LEAST_RANGE = 255.0, 16.0
-"""Both frames are stretched to the full range, for which the numbers of the search are made; from
-this many levels on, so that the noise of a flat frame does not look like texture."""
+"""Both frames are stretched to the full range, for which the constants of the search are made. A
+smaller range counts as `LEAST_RANGE`, so that the noise of a flat frame does not become texture."""
 
 
 class DisFlow:
-    """Dense inverse search (`kernels.dis`) on stretched copies of the frames.
+    """Dense inverse search on stretched copies of the frames.
 
     The result does not depend on the number of threads, nor on the pairs before.
 
@@ -40,9 +40,9 @@ class DisFlow:
 
     def __init__(self) -> None:
         keep_freed_memory()
-        # Before what simulates, which has slower twins: nothing happens without flow.
+        # Compiled before the simulation kernels: those have slower forms, the flow has none.
         is_ready(flow_cpu.__name__)
-        # One for each direction, where there is more than one core; it ends with this object.
+        # One thread per direction where there is more than one core; it ends with this object.
         self._helper = (
             ThreadPoolExecutor(1, "texvent-flow") if numba.get_num_threads() > 1 else None
         )
@@ -61,14 +61,14 @@ class DisFlow:
         """
         wait_until_ready(flow_cpu.__name__)
         shape = first.shape
-        pictures = [_pad(picture) for picture in stretch(first, second)]
+        images = [_pad_small(image) for image in stretch(first, second)]
         finest = 0 if min(shape) < SMALL_SIDE_PX else 1
-        levels = max(finest, count_levels(pictures[0].shape))
-        earlier, later = (make_pyramid(one, finest, levels, flow_cpu) for one in pictures)
-        full = pictures[0].shape
+        levels = max(finest, count_levels(images[0].shape))
+        earlier, later = (make_pyramid(one, finest, levels, flow_cpu) for one in images)
+        full = images[0].shape
 
         def follow(start: list[FlowArray], stop: list[FlowArray]) -> FlowArray:
-            planes = follow_levels(start, stop, flow_cpu)
+            planes = coarse_to_fine(start, stop, flow_cpu)
             if finest:
                 planes = flow_cpu.double(planes, full)
             return np.stack([plane[: shape[0], : shape[1]] for plane in planes], axis=-1)
@@ -89,9 +89,9 @@ def stretch(
     return (first - low) * gain, (second - low) * gain
 
 
-def _pad(picture: NDArray[np.float32]) -> NDArray[np.float32]:
-    height, width = picture.shape
+def _pad_small(image: NDArray[np.float32]) -> NDArray[np.float32]:
+    height, width = image.shape
     below, right = max(0, LEAST_SIDE_PX - height), max(0, LEAST_SIDE_PX - width)
     if below == 0 and right == 0:
-        return picture
-    return np.pad(picture, ((0, below), (0, right)), mode="edge")
+        return image
+    return np.pad(image, ((0, below), (0, right)), mode="edge")

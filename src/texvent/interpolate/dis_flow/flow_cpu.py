@@ -1,4 +1,4 @@
-"""The parts of dense inverse search compiled by Numba: `dis_reference`, bit for bit."""
+"""Dense inverse search compiled by Numba: `flow_reference`, bit for bit."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 
-from texvent.interpolate.dis_flow.definitions import MARGIN, Floats, follow_levels, make_pyramid
+from texvent.interpolate.dis_flow.definitions import MARGIN, Floats, coarse_to_fine, make_pyramid
 from texvent.interpolate.dis_flow.refine_cpu import refine
 from texvent.interpolate.dis_flow.search_cpu import join, search
 from texvent.runtime.jit import jit
@@ -22,18 +22,18 @@ _QUARTER = np.float32(0.25)
 
 def warm_up() -> None:
     """Compile, or load what was compiled before."""
-    picture, kernels = np.zeros((64, 64), np.float32), sys.modules[__name__]
-    pyramid = make_pyramid(picture, 1, 2, kernels)
-    double(follow_levels(pyramid, pyramid, kernels), picture.shape)
+    image, kernels = np.zeros((64, 64), np.float32), sys.modules[__name__]
+    pyramid = make_pyramid(image, 1, 2, kernels)
+    double(coarse_to_fine(pyramid, pyramid, kernels), image.shape)
 
 
 @jit
-def halve(picture: Floats) -> Floats:
+def halve(image: Floats) -> Floats:
     """Means of 2×2 pixels; an odd last row or column counts twice."""
-    height, width = picture.shape
+    height, width = image.shape
     half = np.empty(((height + 1) // 2, (width + 1) // 2), np.float32)
     for row in range(half.shape[0]):
-        upper, lower = picture[2 * row], picture[min(2 * row + 1, height - 1)]
+        upper, lower = image[2 * row], image[min(2 * row + 1, height - 1)]
         out = half[row]
         for x in range(width // 2):
             left, right = upper[2 * x] + lower[2 * x], upper[2 * x + 1] + lower[2 * x + 1]
@@ -45,13 +45,13 @@ def halve(picture: Floats) -> Floats:
 
 
 @jit
-def make_level(picture: Floats) -> Floats:
-    """The picture with its edges continued, and its slopes; see `dis`."""
-    height, width = picture.shape
+def make_level(image: Floats) -> Floats:
+    """The image with its edges repeated, and its slopes; see `definitions`."""
+    height, width = image.shape
     level = np.zeros((3, height + 2 * MARGIN, width + 2 * MARGIN), np.float32)
     padded = level[0]
     for row in range(padded.shape[0]):
-        source, target = picture[min(max(row - MARGIN, 0), height - 1)], padded[row]
+        source, target = image[min(max(row - MARGIN, 0), height - 1)], padded[row]
         for x in range(MARGIN):
             target[x], target[MARGIN + width + x] = source[0], source[width - 1]
         for x in range(width):
@@ -77,7 +77,7 @@ def _find_slopes(
 
 @jit
 def double(flow: Floats, shape: tuple[int, int]) -> Floats:
-    """The flow of a picture of twice the size: bilinear, between the centres of pixels."""
+    """The flow of an image of twice the size: bilinear, between the centres of pixels."""
     _, height, width = flow.shape
     result = np.empty((2, shape[0], shape[1]), np.float32)
     mixed, wide = np.empty(width + 2, np.float32), np.empty(2 * width, np.float32)

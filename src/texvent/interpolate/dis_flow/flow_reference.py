@@ -1,4 +1,4 @@
-"""The parts of dense inverse search as they are defined (NumPy, float32)."""
+"""Dense inverse search as it is defined (NumPy, float32)."""
 
 from __future__ import annotations
 
@@ -6,18 +6,18 @@ import numpy as np
 
 from texvent.interpolate.dis_flow.definitions import (
     DATA,
-    FARTHEST,
-    FLAT,
     LEAST2,
+    LEAST_DETERMINANT,
     LEAST_DIFFERENCE,
     LEAST_SLOPE2,
     MARGIN,
+    MOST_DRIFT,
     MOST_STEPS,
     PATCH,
-    REACH,
-    REACH_COST,
     RELAXATION,
-    SAME,
+    SAME_FLOW,
+    SEARCH_COST,
+    SEARCH_RADIUS,
     SMALL_STEP2,
     SMOOTHNESS,
     STEP,
@@ -29,18 +29,18 @@ from texvent.interpolate.dis_flow.definitions import (
 AREA = np.float32(PATCH * PATCH)
 
 
-def halve(picture: Floats) -> Floats:
+def halve(image: Floats) -> Floats:
     """Means of 2×2 pixels; an odd last row or column counts twice."""
-    height, width = picture.shape
-    even = np.pad(picture, ((0, height % 2), (0, width % 2)), mode="edge")
+    height, width = image.shape
+    even = np.pad(image, ((0, height % 2), (0, width % 2)), mode="edge")
     columns = even[::2] + even[1::2]
     return (columns[:, ::2] + columns[:, 1::2]) * np.float32(0.25)
 
 
-def make_level(picture: Floats) -> Floats:
-    """The picture with its edges continued, and its slopes; see `dis`."""
-    level = np.zeros((3, *(side + 2 * MARGIN for side in picture.shape)), np.float32)
-    level[0] = np.pad(picture, MARGIN, mode="edge")
+def make_level(image: Floats) -> Floats:
+    """The image with its edges repeated, and its slopes; see `definitions`."""
+    level = np.zeros((3, *(side + 2 * MARGIN for side in image.shape)), np.float32)
+    level[0] = np.pad(image, MARGIN, mode="edge")
     near = level[0, MARGIN - 1 : 1 - MARGIN, MARGIN - 1 : 1 - MARGIN]
     inner = slice(MARGIN, -MARGIN), slice(MARGIN, -MARGIN)
     for axis, turned in enumerate((near, near.T)):
@@ -52,7 +52,7 @@ def make_level(picture: Floats) -> Floats:
 
 
 def double(flow: Floats, shape: tuple[int, int]) -> Floats:
-    """The flow of a picture of twice the size: bilinear, between the centres of pixels."""
+    """The flow of an image of twice the size: bilinear, between the centres of pixels."""
     # Half of the factors is the mean, the other half the scale.
     high = _between(flow, 1, np.float32(1.5), np.float32(0.5))[:, : shape[0]]
     return _between(high, 2, np.float32(0.75), np.float32(0.25))[:, :, : shape[1]]
@@ -67,7 +67,7 @@ def _between(flow: Floats, axis: int, near: np.float32, far: np.float32) -> Floa
 
 
 def search(start: Floats, stop: Floats, flow: Floats, is_coarsest: bool) -> Floats:
-    """Flow of each patch, [rows, columns, 3]: x, y, and how well that fits."""
+    """Flow of each patch, [rows, columns, 3]: x, y, cost."""
     height, width = size_of(start)
     down, across = 1 + (height - PATCH) // STEP, 1 + (width - PATCH) // STEP
     found = np.empty((down, across, 3), np.float32)
@@ -75,40 +75,42 @@ def search(start: Floats, stop: Floats, flow: Floats, is_coarsest: bool) -> Floa
         here = i * STEP, j * STEP
         own = flow[:, here[0] + PATCH // 2, here[1] + PATCH // 2]
         if is_coarsest:
-            own = _try_around(start, stop, here)
+            own = _search_integer(start, stop, here)
         found[i, j] = *own, _cost(_compare(start, stop, here, own)[0])
-        _ask(start, stop, found, (i, j), -1)
-        _descend(start, stop, found, (i, j), own)
+        _propagate(start, stop, found, (i, j), -1)
+        _gauss_newton(start, stop, found, (i, j), own)
     for i, j in reversed(list(np.ndindex(down, across))):
         own = found[i, j, :2].copy()
-        if _ask(start, stop, found, (i, j), 1):
-            _descend(start, stop, found, (i, j), own)
+        if _propagate(start, stop, found, (i, j), 1):
+            _gauss_newton(start, stop, found, (i, j), own)
     return found
 
 
-def _try_around(start: Floats, stop: Floats, here: tuple[int, int]) -> Floats:
-    """The best of the whole pixels around."""
+def _search_integer(start: Floats, stop: Floats, here: tuple[int, int]) -> Floats:
+    """The best displacement by whole pixels."""
     around = [
         np.array([right, down], np.float32)
-        for down in range(-REACH, REACH + 1)
-        for right in range(-REACH, REACH + 1)
+        for down in range(-SEARCH_RADIUS, SEARCH_RADIUS + 1)
+        for right in range(-SEARCH_RADIUS, SEARCH_RADIUS + 1)
     ]
     costs = [
-        _cost(_compare(start, stop, here, one)[0]) + np.float32(REACH_COST) * (one * one).sum()
+        _cost(_compare(start, stop, here, one)[0]) + np.float32(SEARCH_COST) * (one * one).sum()
         for one in around
     ]
     return around[int(np.argmin(costs))]
 
 
-def _ask(start: Floats, stop: Floats, found: Floats, patch: tuple[int, int], way: int) -> bool:
-    """Let a patch take the flow of a neighbour, beside it or above or below, if it fits better."""
+def _propagate(
+    start: Floats, stop: Floats, found: Floats, patch: tuple[int, int], way: int
+) -> bool:
+    """Give a patch the flow of a neighbour, beside it or above or below, if it fits better."""
     i, j = patch
     is_better = False
     for row, column in ((i, j + way), (i + way, j)):
         if not (0 <= row < found.shape[0] and 0 <= column < found.shape[1]):
             continue
         other = found[row, column, :2]
-        if np.abs(other - found[i, j, :2]).sum() < np.float32(SAME):
+        if np.abs(other - found[i, j, :2]).sum() < np.float32(SAME_FLOW):
             continue
         cost = _cost(_compare(start, stop, (i * STEP, j * STEP), other)[0])
         if cost < found[i, j, 2]:
@@ -117,22 +119,22 @@ def _ask(start: Floats, stop: Floats, found: Floats, patch: tuple[int, int], way
     return is_better
 
 
-def _descend(
+def _gauss_newton(
     start: Floats, stop: Floats, found: Floats, patch: tuple[int, int], begin: Floats
 ) -> None:
     """Gauss-Newton steps, as long as they make a patch fit better.
 
-    A patch differs from another place by d, of which only what is not their means' difference
-    counts: the cost is Σd² − (Σd)²/64, and so with the slopes g: Σdg − Σd·Σg/64.
+    d is the difference of a patch and its place. The difference of their means does not count: the
+    cost is Σd² − (Σd)²/64, and with the slopes g: Σdg − Σd·Σg/64.
     """
     here, own = (patch[0] * STEP, patch[1] * STEP), found[patch]
     x, y = (_patch(level, here) for level in start[1:])
     sum_x, sum_y = _total(x), _total(y)
-    xx = _total(x * x) - sum_x * sum_x / AREA + np.float32(FLAT)
+    xx = _total(x * x) - sum_x * sum_x / AREA + np.float32(LEAST_DETERMINANT)
     xy = _total(x * y) - sum_x * sum_y / AREA
-    yy = _total(y * y) - sum_y * sum_y / AREA + np.float32(FLAT)
+    yy = _total(y * y) - sum_y * sum_y / AREA + np.float32(LEAST_DETERMINANT)
     determinant = xx * yy - xy * xy
-    if not determinant > np.float32(FLAT):
+    if not determinant > np.float32(LEAST_DETERMINANT):
         return
     (mean, _), difference = _compare(start, stop, here, own[:2])
     for _ in range(MOST_STEPS):
@@ -141,7 +143,7 @@ def _descend(
         du = (yy * side_x - xy * side_y) / determinant
         dv = (xx * side_y - xy * side_x) / determinant
         flow = own[:2] - np.array([du, dv])
-        if (np.abs(flow - begin) > FARTHEST).any():
+        if (np.abs(flow - begin) > MOST_DRIFT).any():
             return
         (mean, square), difference = _compare(start, stop, here, flow)
         cost = _cost((mean, square))
@@ -155,8 +157,8 @@ def _descend(
 def _compare(
     start: Floats, stop: Floats, here: tuple[int, int], flow: Floats
 ) -> tuple[tuple[np.float32, np.float32], Floats]:
-    """Sum and sum of squares of what a place has more than a patch, and that itself, [8, 8]."""
-    difference = _seen(stop, here, flow) - _patch(start[0], here)
+    """Sum, and sum of squares, of a place minus a patch; then that difference, [8, 8]."""
+    difference = _sample_patch(stop, here, flow) - _patch(start[0], here)
     return (_total(difference), _total(difference * difference)), difference
 
 
@@ -164,8 +166,8 @@ def _cost(sums: tuple[np.float32, np.float32]) -> np.float32:
     return np.float32(sums[1] - sums[0] * sums[0] / AREA)
 
 
-def _seen(stop: Floats, here: tuple[int, int], flow: Floats) -> Floats:
-    """What a level shows where a patch has moved, [8, 8]; no further out than a patch."""
+def _sample_patch(stop: Floats, here: tuple[int, int], flow: Floats) -> Floats:
+    """A level at the place of a moved patch, [8, 8], bilinear; at most a patch outside."""
     height, width = size_of(stop)
     x = np.clip(np.float32(here[1]) + flow[0], np.float32(-PATCH), np.float32(width))
     y = np.clip(np.float32(here[0]) + flow[1], np.float32(-PATCH), np.float32(height))
@@ -177,8 +179,8 @@ def _seen(stop: Floats, here: tuple[int, int], flow: Floats) -> Floats:
     return seen
 
 
-def _patch(picture: Floats, here: tuple[int, int]) -> Floats:
-    return picture[here[0] + MARGIN :, here[1] + MARGIN :][:PATCH, :PATCH]
+def _patch(image: Floats, here: tuple[int, int]) -> Floats:
+    return image[here[0] + MARGIN :, here[1] + MARGIN :][:PATCH, :PATCH]
 
 
 def _total(patch: Floats) -> np.float32:
@@ -192,16 +194,16 @@ def _total(patch: Floats) -> np.float32:
 
 
 def join(start: Floats, stop: Floats, patches: Floats) -> Floats:
-    """Flow of each pixel, [2, H, W], from those of the patches that hold it."""
+    """Flow of each pixel, [2, H, W], from those of the patches that contain it."""
     height, width = size_of(start)
     sums = np.zeros((3, height, width), np.float32)
     for i, j in np.ndindex(patches.shape[:2]):
         here, flow = (i * STEP, j * STEP), patches[i, j, :2]
-        difference = np.abs(_seen(stop, here, flow) - _patch(start[0], here))
+        difference = np.abs(_sample_patch(stop, here, flow) - _patch(start[0], here))
         weight = 1 / np.maximum(difference, np.float32(LEAST_DIFFERENCE))
         held = sums[:, here[0] : here[0] + PATCH, here[1] : here[1] + PATCH]
         held += np.stack([weight, weight * flow[0], weight * flow[1]])
-    # What no patch holds, at the right and below, is like its nearest pixel that one does.
+    # Pixels in no patch, at the right and below, take the flow of the nearest pixel in one.
     rows = np.minimum(np.arange(height), (patches.shape[0] - 1) * STEP + PATCH - 1)
     columns = np.minimum(np.arange(width), (patches.shape[1] - 1) * STEP + PATCH - 1)
     held = sums[:, rows][:, :, columns]
@@ -214,15 +216,15 @@ def refine(start: Floats, stop: Floats, flow: Floats) -> Floats:
 
     In each pixel flow w minimises Σ ψ_d (g·(w − w₀) + c)² + Σ ψ_s |w − w_n|² over its neighbours n,
     where w₀ is the flow before, g the slope of brightness and c its change along w₀. The weights ψ
-    fall with how badly w₀ does.
+    fall with the error of w₀.
     """
     _, height, width = flow.shape
     (xx, xy, yy), sides = _data_term(start, stop, flow)
-    right, below = _bonds(flow)
+    right, below = _smoothness_weights(flow)
     left, above = np.zeros_like(right), np.zeros_like(below)
     left[:, 1:], above[1:] = right[:, :-1], below[:-1]
-    bond = (left + right) + (above + below)
-    a, b, c = xx + bond, xy, yy + bond
+    coupling = (left + right) + (above + below)
+    a, b, c = xx + coupling, xy, yy + coupling
     determinant = a * c - b * b
     a, b, c = c / determinant, -b / determinant, a / determinant
     y, x = np.mgrid[:height, :width]
@@ -238,7 +240,7 @@ def refine(start: Floats, stop: Floats, flow: Floats) -> Floats:
 
 def _data_term(start: Floats, stop: Floats, flow: Floats) -> tuple[Floats, Floats]:
     """Matrix (xx, xy, yy) and right side (x, y) of each pixel, [3, H, W] and [2, H, W]."""
-    here, there = start[0, MARGIN:-MARGIN, MARGIN:-MARGIN], _look_along(stop, flow)
+    here, there = start[0, MARGIN:-MARGIN, MARGIN:-MARGIN], _sample_along(stop, flow)
     middle, change = np.float32(0.5) * (here + there), there - here
     padded = np.pad(middle, 1, mode="edge")
     slope_x = np.float32(0.5) * (padded[1:-1, 2:] - padded[1:-1, :-2])
@@ -251,8 +253,8 @@ def _data_term(start: Floats, stop: Floats, flow: Floats) -> tuple[Floats, Float
     return np.stack(matrix), np.stack([slope_x * wanted, slope_y * wanted])
 
 
-def _look_along(stop: Floats, flow: Floats) -> Floats:
-    """What a level shows where the pixels have moved, [H, W]."""
+def _sample_along(stop: Floats, flow: Floats) -> Floats:
+    """A level at the places of the moved pixels, [H, W], bilinear."""
     height, width = size_of(stop)
     row, column = np.mgrid[:height, :width].astype(np.float32)
     x = np.clip(column + flow[0], np.float32(-PATCH), np.float32(width))
@@ -266,12 +268,12 @@ def _look_along(stop: Floats, flow: Floats) -> Floats:
     return seen
 
 
-def _bonds(flow: Floats) -> tuple[Floats, Floats]:
-    """How much each pixel is drawn to its right neighbour and to that below, [H, W] each."""
+def _smoothness_weights(flow: Floats) -> tuple[Floats, Floats]:
+    """Smoothness weights of each pixel and its right and lower neighbours, [H, W] each."""
     beside = np.diff(flow, axis=2, append=flow[:, :, -1:])
     down = np.diff(flow, axis=1, append=flow[:, -1:])
     slope2 = beside[0] * beside[0] + down[0] * down[0] + beside[1] * beside[1] + down[1] * down[1]
-    bond = np.float32(SMOOTHNESS) / np.sqrt(slope2 + np.float32(LEAST2))
-    right, below = bond.copy(), bond.copy()
+    coupling = np.float32(SMOOTHNESS) / np.sqrt(slope2 + np.float32(LEAST2))
+    right, below = coupling.copy(), coupling.copy()
     right[:, -1] = below[-1] = 0.0
     return right, below

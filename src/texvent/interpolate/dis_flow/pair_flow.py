@@ -1,4 +1,4 @@
-"""The flow of the pair at hand, computed once for whoever asks: the frames or their number."""
+"""The flow of the current pair, computed once for the frames and for their count."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from texvent.pairs.instants import float_luma
 from texvent.video import Frame
 
 FAST_PERCENTILE = 99.9
-"""The motion of a pair is that of its fastest thousandth. The maximum would be a vector gone
-astray at a border that something covers."""
+"""The motion of a pair is that of its fastest thousandth. The maximum would often be an outlier at
+an occlusion."""
 
 
 class PairFlow:
-    """Optical flow between two frames, remembered until another pair comes.
+    """Optical flow between two frames, kept until the next pair.
 
     The frames themselves are not kept alive.
     """

@@ -1,13 +1,12 @@
-"""Patches of 8×8 float32 as vectors of a row each, for other compiled kernels.
+"""Patches of 8×8 float32 as one vector per row, for other compiled kernels.
 
-Numba turns long loops into vector instructions, but not these: a loop over eight numbers is
-unrolled before anybody looks. So they are written in the compiler's own language; it makes of them
-what the processor has. Sums are taken row by row, then over the eight columns by halves, so their
-bits are the same everywhere.
+LLVM vectorises long loops, but unrolls a loop over eight numbers before it tries. So these are
+written in LLVM's own language with vector types. Sums are taken row by row, then over the eight
+columns by halves, so their bits are the same on every processor.
 
-Patches are placed by four whole numbers, `layout`: how many numbers a picture has; flat index of
-the patch's first pixel; flat index of the pixel up left of where it is sought in the other picture;
-pixels per row, in both pictures.
+`layout` locates a patch by four whole numbers: pixels per image; flat index of the patch's first
+pixel; flat index of the pixel up left of its place in the other image; pixels per row, in both
+images.
 """
 
 from __future__ import annotations
@@ -26,17 +25,17 @@ _ANY_ROW = ir.Constant(_ROW, ir.Undefined)
 
 
 def _compare_patch(typing_context: Any, start: Any, stop: Any, layout: Any, weights: Any) -> Any:
-    """How a patch differs from its like in another picture.
+    """How a patch differs from its place in another image.
 
     Args:
         typing_context: Numba's.
-        start: picture of the patch, its slope_x and slope_y, one after the other, flat float32.
-        stop: the other picture, flat float32.
+        start: image of the patch, its slope_x and slope_y, one after the other, flat float32.
+        stop: the other image, flat float32.
         layout: see above.
         weights: bilinear weights of the pixel up left, its right neighbour and the two below.
 
     Returns:
-        Sums over the patch of d, d², d·slope_x and d·slope_y, where d is the other picture minus
+        Sums over the patch of d, d², d·slope_x and d·slope_y, where d is the other image minus
         the patch: four float32.
     """
     del typing_context
@@ -44,13 +43,13 @@ def _compare_patch(typing_context: Any, start: Any, stop: Any, layout: Any, weig
     signature = sums(start, stop, layout, weights)
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        (plane, _, _, step), patch, sought, factors = _unpack(
+        (plane, _, _, step), patch, target, factors = _unpack(
             context, builder, signature, arguments
         )
         slope_x = builder.gep(patch, [plane])
         slope_y = builder.gep(slope_x, [plane])
         totals: list[Any] = []
-        for difference in _differences(builder, patch, sought, step, factors):
+        for difference in _differences(builder, patch, target, step, factors):
             terms = [
                 difference,
                 builder.fmul(difference, difference),
@@ -69,36 +68,36 @@ def _compare_patch(typing_context: Any, start: Any, stop: Any, layout: Any, weig
 def _spread_patch(
     typing_context: Any, start: Any, stop: Any, layout: Any, weights: Any, sums: Any, flow: Any
 ) -> Any:
-    """Add the flow of a patch to its pixels, weighted by how well it fits each.
+    """Add the flow of a patch to its pixels, weighted by how well the patch fits each.
 
     Args:
         typing_context: Numba's.
-        start: picture of the patch, flat float32.
+        start: image of the patch, flat float32.
         stop: as for `compare_patch`.
         layout: see above.
         weights: as for `compare_patch`.
         sums: of weights w = 1 / max(least, |d|), of w·u and of w·v, one after the other like
-            pictures, flat float32.
+            images, flat float32.
         flow: u, v and the least difference.
     """
     del typing_context
     signature = types.void(start, stop, layout, weights, sums, flow)
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        layout, patch, sought, factors = _unpack(context, builder, signature, arguments)
+        layout, patch, target, factors = _unpack(context, builder, signature, arguments)
         plane, place, _, step = layout
-        target = builder.gep(_data(context, builder, signature.args[4], arguments[4]), [place])
+        here = builder.gep(_data(context, builder, signature.args[4], arguments[4]), [place])
         u, v, least = (_splat(builder, builder.extract_value(arguments[5], k)) for k in range(3))
         one = ir.Constant(_ROW, [1.0] * PATCH)
-        for difference in _differences(builder, patch, sought, step, factors):
+        for difference in _differences(builder, patch, target, step, factors):
             size = _absolute(builder, difference)
             size = builder.select(builder.fcmp_ordered(">", size, least), size, least)
             weight = builder.fdiv(one, size)
-            pointer = target
+            pointer = here
             for term in (weight, builder.fmul(weight, u), builder.fmul(weight, v)):
                 _store(builder, builder.fadd(_load(builder, pointer), term), pointer)
                 pointer = builder.gep(pointer, [plane])
-            target = builder.gep(target, [step])
+            here = builder.gep(here, [step])
         return context.get_dummy_value()
 
     return signature, generate
@@ -107,21 +106,21 @@ def _spread_patch(
 def _unpack(
     context: Any, builder: Any, signature: Any, arguments: Any
 ) -> tuple[list[Any], Any, Any, list[Any]]:
-    """The layout, pointers to the patch and to the place sought, and the weights."""
+    """The layout, pointers to the patch and to its place in the other image, and the weights."""
     layout = [builder.extract_value(arguments[2], k) for k in range(4)]
     begin, other = (_data(context, builder, signature.args[k], arguments[k]) for k in range(2))
-    patch, sought = builder.gep(begin, [layout[1]]), builder.gep(other, [layout[2]])
+    patch, target = builder.gep(begin, [layout[1]]), builder.gep(other, [layout[2]])
     factors = [_splat(builder, builder.extract_value(arguments[3], k)) for k in range(4)]
-    return layout, patch, sought, factors
+    return layout, patch, target, factors
 
 
-def _differences(builder: Any, patch: Any, sought: Any, stride: Any, factors: Any) -> Any:
-    """Row by row, the other picture (bilinear) minus the patch."""
+def _differences(builder: Any, patch: Any, target: Any, stride: Any, factors: Any) -> Any:
+    """Row by row, the other image (bilinear) minus the patch."""
     one = ir.Constant(stride.type, 1)
-    upper = [_load(builder, sought), _load(builder, builder.gep(sought, [one]))]
+    upper = [_load(builder, target), _load(builder, builder.gep(target, [one]))]
     for _ in range(PATCH):
-        sought = builder.gep(sought, [stride])
-        lower = [_load(builder, sought), _load(builder, builder.gep(sought, [one]))]
+        target = builder.gep(target, [stride])
+        lower = [_load(builder, target), _load(builder, builder.gep(target, [one]))]
         terms = [builder.fmul(*pair) for pair in zip(factors, upper + lower, strict=True)]
         mean = builder.fadd(builder.fadd(*terms[:2]), builder.fadd(*terms[2:]))
         yield builder.fsub(mean, _load(builder, patch))

@@ -36,16 +36,16 @@ def refine(start: Floats, stop: Floats, flow: Floats) -> Floats:
     """The flow after a few sweeps towards constant brightness and smoothness."""
     _, height, width = flow.shape
     terms = _linearize(start[0], stop[0], flow)
-    # A pixel of margin, so that every pixel has four neighbours; those outside weigh nothing.
-    bonds = np.zeros((2, height + 2, width + 2), np.float32)
-    _bind(flow, bonds)
-    _solve(terms, bonds)
+    # A margin of one pixel gives every pixel four neighbours; those outside have weight 0.
+    smoothness = np.zeros((2, height + 2, width + 2), np.float32)
+    _weigh_smoothness(flow, smoothness)
+    _invert(terms, smoothness)
     now = np.zeros((2, height + 2, width + 2), np.float32)
     then = np.zeros((2, height + 2, width + 2), np.float32)
     _copy(flow, now, 0, 1)
     for turn in range(2 * SWEEPS):
         for y in range(height):
-            _relax(now, then, bonds, terms, y, turn % 2)
+            _relax(now, then, smoothness, terms, y, turn % 2)
         now, then = then, now
     refined = np.empty(flow.shape, np.float32)
     _copy(now, refined, 1, 0)
@@ -54,7 +54,7 @@ def refine(start: Floats, stop: Floats, flow: Floats) -> Floats:
 
 @jit(error_model="numpy", inner=True)
 def _copy(source: Floats, target: Floats, margin: int, new_margin: int) -> None:
-    """Copy a flow that has some pixels of margin to where it has others."""
+    """Copy a flow into an array with another margin."""
     for axis in range(2):
         for y in range(source.shape[1] - 2 * margin):
             old, new = source[axis, y + margin], target[axis, y + new_margin]
@@ -73,7 +73,7 @@ def _linearize(start: Floats, stop: Floats, flow: Floats) -> Floats:
     corner, weights = np.empty(width, np.int32), np.empty((2, width), np.float32)
     corners = np.empty((4, width), np.float32)
     for y in range(height):
-        _aim(flow[0, y], flow[1, y], y, (height, width), corner, weights)
+        _locate(flow[0, y], flow[1, y], y, (height, width), corner, weights)
         for x in range(width):
             i = corner[x]
             corners[0, x], corners[1, x] = flat[np.uint64(i)], flat[np.uint64(i + 1)]
@@ -83,15 +83,15 @@ def _linearize(start: Floats, stop: Floats, flow: Floats) -> Floats:
         _mix(corners, weights, here, middle[y], change[y])
     for y in range(height):
         rows = middle[max(y - 1, 0)], middle[y], middle[min(y + 1, height - 1)]
-        _weigh(rows, change[y], (flow[0, y], flow[1, y]), terms, y)
+        _fill_data_term(rows, change[y], (flow[0, y], flow[1, y]), terms, y)
     return terms
 
 
 @jit(error_model="numpy", inner=True)
-def _aim(
+def _locate(
     u: Floats, v: Floats, y: int, shape: tuple[int, int], corner: Numbers, weights: Floats
 ) -> None:
-    """Find where the pixels of a row are in the other picture."""
+    """Find the places of a row's pixels in the other image."""
     right, below = weights[0], weights[1]
     height, width = np.float32(shape[0]), np.float32(shape[1])
     columns = np.int32(shape[1] + 2 * MARGIN)
@@ -105,7 +105,7 @@ def _aim(
 
 @jit(error_model="numpy", inner=True)
 def _mix(corners: Floats, weights: Floats, here: Floats, middle: Floats, change: Floats) -> None:
-    """Fill in the mean of both pictures, and by how much the other is brighter."""
+    """Fill in the mean of both images, and the change from one to the other."""
     a, b, c, d = corners[0], corners[1], corners[2], corners[3]
     right, below = weights[0], weights[1]
     for x in range(here.size):
@@ -117,7 +117,7 @@ def _mix(corners: Floats, weights: Floats, here: Floats, middle: Floats, change:
 
 
 @jit(error_model="numpy", inner=True)
-def _weigh(
+def _fill_data_term(
     rows: tuple[Floats, Floats, Floats],
     change: Floats,
     flow: tuple[Floats, Floats],
@@ -128,19 +128,19 @@ def _weigh(
     above, here, below = rows
     u, v = flow
     xx, xy, yy, side_x, side_y = terms[0, y], terms[1, y], terms[2, y], terms[3, y], terms[4, y]
-    slope_x, slope_y, weight = xx, yy, xy  # for the time being
+    slope_x, slope_y, weight = xx, yy, xy  # reused below
     last = here.size - 1
     slope_x[0] = _HALF * (here[min(1, last)] - here[0])
     for x in range(1, last):
         slope_x[x] = _HALF * (here[x + 1] - here[x - 1])
     slope_x[last] = _HALF * (here[last] - here[max(last - 1, 0)])
-    # Few arrays in a loop, or Numba does not find out that they do not overlap.
+    # Few arrays per loop: else LLVM cannot prove that they do not overlap.
     for x in range(here.size):
         slope_y[x] = _HALF * (below[x] - above[x])
         length2 = slope_x[x] * slope_x[x] + slope_y[x] * slope_y[x] + _LEAST_SLOPE2
         weight[x] = _DATA / (np.sqrt(change[x] * change[x] / length2 + _LEAST2) * length2)
     for x in range(here.size):
-        # What the linearisation says of the flow itself, not of its change.
+        # The right side for the flow itself, not for its change.
         wanted = weight[x] * (slope_x[x] * u[x] + slope_y[x] * v[x] - change[x])
         side_x[x], side_y[x] = slope_x[x] * wanted, slope_y[x] * wanted
     for x in range(here.size):
@@ -150,18 +150,18 @@ def _weigh(
 
 
 @jit(error_model="numpy", inner=True)
-def _bind(flow: Floats, bonds: Floats) -> None:
-    """Fill in how much each pixel is drawn to the next one to the right and below, inside only."""
+def _weigh_smoothness(flow: Floats, smoothness: Floats) -> None:
+    """Fill in the smoothness weights to the right and below, inside the image only."""
     _, height, width = flow.shape
     for y in range(height):
-        u, v, u_below, v_below = flow[0, y], flow[1, y], flow[0, min(y + 1, height - 1)], flow[1, y]
-        v_below = flow[1, min(y + 1, height - 1)]
-        aside, down = bonds[0, y + 1, 1:], bonds[1, y + 1, 1:]
+        under = min(y + 1, height - 1)
+        u, v, u_below, v_below = flow[0, y], flow[1, y], flow[0, under], flow[1, under]
+        aside, down = smoothness[0, y + 1, 1:], smoothness[1, y + 1, 1:]
         for x in range(width - 1):
             ux, uy = u[x + 1] - u[x], u_below[x] - u[x]
             vx, vy = v[x + 1] - v[x], v_below[x] - v[x]
-            bond = _SMOOTHNESS / np.sqrt(ux * ux + uy * uy + vx * vx + vy * vy + _LEAST2)
-            aside[x], down[x] = bond, bond
+            coupling = _SMOOTHNESS / np.sqrt(ux * ux + uy * uy + vx * vx + vy * vy + _LEAST2)
+            aside[x], down[x] = coupling, coupling
         uy, vy = u_below[width - 1] - u[width - 1], v_below[width - 1] - v[width - 1]
         down[width - 1] = _SMOOTHNESS / np.sqrt(uy * uy + vy * vy + _LEAST2)
         if y == height - 1:
@@ -170,24 +170,26 @@ def _bind(flow: Floats, bonds: Floats) -> None:
 
 
 @jit(error_model="numpy", inner=True)
-def _solve(terms: Floats, bonds: Floats) -> None:
-    """Turn each pixel's matrix, with its bonds, into its inverse."""
+def _invert(terms: Floats, smoothness: Floats) -> None:
+    """Add the smoothness weights to each pixel's matrix, and invert it."""
     for y in range(terms.shape[1]):
         xx, xy, yy = terms[0, y], terms[1, y], terms[2, y]
-        right, left = bonds[0, y + 1, 1:], bonds[0, y + 1]
-        below, above = bonds[1, y + 1, 1:], bonds[1, y, 1:]
+        right, left = smoothness[0, y + 1, 1:], smoothness[0, y + 1]
+        below, above = smoothness[1, y + 1, 1:], smoothness[1, y, 1:]
         for x in range(xx.size):
-            bond = (left[x] + right[x]) + (above[x] + below[x])
-            a, b, c = xx[x] + bond, xy[x], yy[x] + bond
+            coupling = (left[x] + right[x]) + (above[x] + below[x])
+            a, b, c = xx[x] + coupling, xy[x], yy[x] + coupling
             determinant = a * c - b * b
             xx[x], xy[x], yy[x] = c / determinant, -b / determinant, a / determinant
 
 
 @jit(error_model="numpy", inner=True)
-def _relax(now: Floats, then: Floats, bonds: Floats, terms: Floats, y: int, colour: int) -> None:
-    """Move the fields of one colour in a row towards what their neighbours and the data want."""
-    right, left = bonds[0, y + 1, 1:], bonds[0, y + 1]
-    below, above = bonds[1, y + 1, 1:], bonds[1, y, 1:]
+def _relax(
+    now: Floats, then: Floats, smoothness: Floats, terms: Floats, y: int, colour: int
+) -> None:
+    """Over-relax the pixels of one colour in a row."""
+    right, left = smoothness[0, y + 1, 1:], smoothness[0, y + 1]
+    below, above = smoothness[1, y + 1, 1:], smoothness[1, y, 1:]
     xx, xy, yy, side_x, side_y = terms[0, y], terms[1, y], terms[2, y], terms[3, y], terms[4, y]
     u, u_above, u_below = now[0, y + 1], now[0, y, 1:], now[0, y + 2, 1:]
     v, v_above, v_below = now[1, y + 1], now[1, y, 1:], now[1, y + 2, 1:]

@@ -1,19 +1,19 @@
-"""What patches of a level find in another, and the flow that makes, compiled."""
+"""Patch search and the flow of each pixel from its patches, compiled by Numba."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from texvent.interpolate.dis_flow.definitions import (
-    FARTHEST,
-    FLAT,
+    LEAST_DETERMINANT,
     LEAST_DIFFERENCE,
     MARGIN,
+    MOST_DRIFT,
     MOST_STEPS,
     PATCH,
-    REACH,
-    REACH_COST,
-    SAME,
+    SAME_FLOW,
+    SEARCH_COST,
+    SEARCH_RADIUS,
     SMALL_STEP2,
     STEP,
     Floats,
@@ -25,11 +25,11 @@ from texvent.runtime.jit import jit
 _0 = np.float32(0.0)
 _1 = np.float32(1.0)
 _AREA = np.float32(PATCH * PATCH)
-_FARTHEST = np.float32(FARTHEST)
-_FLAT = np.float32(FLAT)
-_SAME = np.float32(SAME)
+_MOST_DRIFT = np.float32(MOST_DRIFT)
+_LEAST_DETERMINANT = np.float32(LEAST_DETERMINANT)
+_SAME_FLOW = np.float32(SAME_FLOW)
 _SMALL_STEP2 = np.float32(SMALL_STEP2)
-_REACH_COST = np.float32(REACH_COST)
+_SEARCH_COST = np.float32(SEARCH_COST)
 _LEAST_DIFFERENCE = np.float32(LEAST_DIFFERENCE)
 _OUTSIDE = np.float32(-PATCH)
 
@@ -40,12 +40,12 @@ Vector = tuple[np.float32, np.float32]
 
 @jit(error_model="numpy")
 def search(start: Floats, stop: Floats, flow: Floats, is_coarsest: bool) -> Floats:
-    """Flow of each patch, [rows, columns, 3]: x, y, and how well that fits."""
+    """Flow of each patch, [rows, columns, 3]: x, y, cost."""
     _, height, width = flow.shape
     down, across = 1 + (height - PATCH) // STEP, 1 + (width - PATCH) // STEP
     found = np.empty((down, across, 3), np.float32)
     slopes = np.empty((down, across, 6), np.float32)
-    level, sought, shape = start.reshape(-1), stop.reshape(-1), start.shape[1:]
+    level, target, shape = start.reshape(-1), stop.reshape(-1), start.shape[1:]
     for row in range(down):
         for column in range(across):
             here = row * STEP, column * STEP
@@ -54,28 +54,28 @@ def search(start: Floats, stop: Floats, flow: Floats, is_coarsest: bool) -> Floa
                 flow[1, here[0] + PATCH // 2, here[1] + PATCH // 2],
             )
             if is_coarsest:
-                own = _try_around(level, sought, shape, here)
-            _sum_slopes(level, sought, shape, here, slopes[row, column])
+                own = _search_integer(level, target, shape, here)
+            _sum_slopes(level, target, shape, here, slopes[row, column])
             found[row, column, 0], found[row, column, 1] = own
-            _, found[row, column, 2], _, _ = _compare(level, sought, shape, here, own)
-            _ask(level, sought, shape, found, (row, column, -1))
-            _descend(level, sought, shape, own, slopes, found, (row, column))
+            _, found[row, column, 2], _, _ = _compare(level, target, shape, here, own)
+            _propagate(level, target, shape, found, (row, column, -1))
+            _gauss_newton(level, target, shape, own, slopes, found, (row, column))
     for row in range(down - 1, -1, -1):
         for column in range(across - 1, -1, -1):
             own = found[row, column, 0], found[row, column, 1]
-            if _ask(level, sought, shape, found, (row, column, 1)):
-                _descend(level, sought, shape, own, slopes, found, (row, column))
+            if _propagate(level, target, shape, found, (row, column, 1)):
+                _gauss_newton(level, target, shape, own, slopes, found, (row, column))
     return found
 
 
 @jit(error_model="numpy", inner=True)
 def _compare(
-    level: Floats, sought: Floats, shape: tuple[int, int], here: tuple[int, int], flow: Vector
+    level: Floats, target: Floats, shape: tuple[int, int], here: tuple[int, int], flow: Vector
 ) -> Sums:
-    """The sums of `compare_patch` for a patch and its place, the second without the means'."""
+    """The sums of `compare_patch` for a patch and its place; the second one mean-free."""
     corner, weights = _place(shape, np.float32(here[1]) + flow[0], np.float32(here[0]) + flow[1])
     plane, place = shape[0] * shape[1], (here[0] + MARGIN) * shape[1] + here[1] + MARGIN
-    sums = compare_patch(level, sought, (plane, place, corner, shape[1]), weights)
+    sums = compare_patch(level, target, (plane, place, corner, shape[1]), weights)
     return sums[0], sums[1] - sums[0] * sums[0] / _AREA, sums[2], sums[3]
 
 
@@ -83,7 +83,7 @@ def _compare(
 def _place(shape: tuple[int, int], x: np.float32, y: np.float32) -> tuple[int, Sums]:
     """Flat index of the pixel up left of a place, and bilinear weights of it and the others.
 
-    Nothing is sought further out than a patch.
+    Places lie at most a patch outside the image.
     """
     x = min(max(_OUTSIDE, x), np.float32(shape[1] - 2 * MARGIN))
     y = min(max(_OUTSIDE, y), np.float32(shape[0] - 2 * MARGIN))
@@ -95,59 +95,59 @@ def _place(shape: tuple[int, int], x: np.float32, y: np.float32) -> tuple[int, S
 
 @jit(error_model="numpy", inner=True)
 def _sum_slopes(
-    level: Floats, sought: Floats, shape: tuple[int, int], here: tuple[int, int], sums: Floats
+    level: Floats, target: Floats, shape: tuple[int, int], here: tuple[int, int], sums: Floats
 ) -> None:
-    """Fill in what steps of a patch need: slopes squared and summed (xx, xy, yy, x, y), det."""
+    """Fill in the sums over slopes that Gauss-Newton steps need: xx, xy, yy, x, y, determinant."""
     plane, place = shape[0] * shape[1], (here[0] + MARGIN) * shape[1] + here[1] + MARGIN
     nothing = _0, _0, _0, _0
-    # The difference of nothing and a slope is the slope turned around. slope_y is the patch here,
-    # and the array before it slope_x.
+    # Zero minus a slope is the negative slope. Here slope_y is the patch, and slope_x the array
+    # before it.
     y, yy, xy, _ = compare_patch(
-        level, sought, (-plane, place + 2 * plane, place, shape[1]), nothing
+        level, target, (-plane, place + 2 * plane, place, shape[1]), nothing
     )
-    x, xx, _, _ = compare_patch(level, sought, (0, place + plane, place, shape[1]), nothing)
+    x, xx, _, _ = compare_patch(level, target, (0, place + plane, place, shape[1]), nothing)
     x, y = -x, -y
-    xx = xx - x * x / _AREA + _FLAT
+    xx = xx - x * x / _AREA + _LEAST_DETERMINANT
     xy = -xy - x * y / _AREA
-    yy = yy - y * y / _AREA + _FLAT
+    yy = yy - y * y / _AREA + _LEAST_DETERMINANT
     sums[0], sums[1], sums[2], sums[3], sums[4], sums[5] = xx, xy, yy, x, y, xx * yy - xy * xy
 
 
 @jit(error_model="numpy", inner=True)
-def _try_around(
-    level: Floats, sought: Floats, shape: tuple[int, int], here: tuple[int, int]
+def _search_integer(
+    level: Floats, target: Floats, shape: tuple[int, int], here: tuple[int, int]
 ) -> Vector:
-    """The best of the whole pixels around."""
+    """The best displacement by whole pixels."""
     least, best = np.float32(np.inf), (_0, _0)
-    for down in range(-REACH, REACH + 1):
-        for right in range(-REACH, REACH + 1):
+    for down in range(-SEARCH_RADIUS, SEARCH_RADIUS + 1):
+        for right in range(-SEARCH_RADIUS, SEARCH_RADIUS + 1):
             flow = np.float32(right), np.float32(down)
-            _, cost, _, _ = _compare(level, sought, shape, here, flow)
-            cost += _REACH_COST * np.float32(right * right + down * down)
+            _, cost, _, _ = _compare(level, target, shape, here, flow)
+            cost += _SEARCH_COST * np.float32(right * right + down * down)
             if cost < least:
                 least, best = cost, flow
     return best
 
 
 @jit(error_model="numpy", inner=True)
-def _ask(
+def _propagate(
     level: Floats,
-    sought: Floats,
+    target: Floats,
     shape: tuple[int, int],
     found: Floats,
     patch: tuple[int, int, int],
 ) -> bool:
-    """Let a patch take the flow of a neighbour, to one side and above or below, if it fits better.
+    """Give a patch the flow of a neighbour, beside it or above or below, if it fits better.
 
     Args:
-        level: the patch's, flat.
-        sought: the other picture, flat.
+        level: level of the patch, flat.
+        target: the other image, flat.
         shape: of both, with margins.
         found: of all patches.
-        patch: row and column in `found`, and which way its neighbours are, −1 or 1.
+        patch: row and column in `found`, and the direction of its neighbours, −1 or 1.
 
     Returns:
-        Whether it has taken one.
+        Whether its flow has changed.
     """
     row, column, way = patch
     here, own = (row * STEP, column * STEP), found[row, column]
@@ -157,9 +157,9 @@ def _ask(
         if i < 0 or j < 0 or i >= found.shape[0] or j >= found.shape[1]:
             continue
         u, v = found[i, j, 0], found[i, j, 1]
-        if abs(u - own[0]) + abs(v - own[1]) < _SAME:
+        if abs(u - own[0]) + abs(v - own[1]) < _SAME_FLOW:
             continue
-        _, cost, _, _ = _compare(level, sought, shape, here, (u, v))
+        _, cost, _, _ = _compare(level, target, shape, here, (u, v))
         if cost < own[2]:
             own[0], own[1], own[2] = u, v, cost
             is_better = True
@@ -167,9 +167,9 @@ def _ask(
 
 
 @jit(error_model="numpy", inner=True)
-def _descend(
+def _gauss_newton(
     level: Floats,
-    sought: Floats,
+    target: Floats,
     shape: tuple[int, int],
     begin: Vector,
     slopes: Floats,
@@ -179,28 +179,28 @@ def _descend(
     """Gauss-Newton steps, as long as they make a patch fit better.
 
     Args:
-        level: the patch's, flat.
-        sought: the other picture, flat.
+        level: level of the patch, flat.
+        target: the other image, flat.
         shape: of both, with margins.
-        begin: flow from which it must not stray.
-        slopes: of `_sum_slopes`, of all patches.
+        begin: initial flow; the result stays within `MOST_DRIFT` of it.
+        slopes: from `_sum_slopes`, of all patches.
         found: of all patches.
         patch: row and column.
     """
     row, column = patch
     here, own, known = (row * STEP, column * STEP), found[row, column], slopes[row, column]
     xx, xy, yy, x, y, determinant = known[0], known[1], known[2], known[3], known[4], known[5]
-    if not determinant > _FLAT:
+    if not determinant > _LEAST_DETERMINANT:
         return
-    mean, _, sum_x, sum_y = _compare(level, sought, shape, here, (own[0], own[1]))
+    mean, _, sum_x, sum_y = _compare(level, target, shape, here, (own[0], own[1]))
     for _ in range(MOST_STEPS):
         sum_x, sum_y = sum_x - mean * x / _AREA, sum_y - mean * y / _AREA
         du = (yy * sum_x - xy * sum_y) / determinant
         dv = (xx * sum_y - xy * sum_x) / determinant
         u, v = own[0] - du, own[1] - dv
-        if abs(u - begin[0]) > _FARTHEST or abs(v - begin[1]) > _FARTHEST:
+        if abs(u - begin[0]) > _MOST_DRIFT or abs(v - begin[1]) > _MOST_DRIFT:
             return
-        mean, cost, sum_x, sum_y = _compare(level, sought, shape, here, (u, v))
+        mean, cost, sum_x, sum_y = _compare(level, target, shape, here, (u, v))
         if not cost < own[2]:
             return
         own[0], own[1], own[2] = u, v, cost
@@ -210,11 +210,11 @@ def _descend(
 
 @jit(error_model="numpy")
 def join(start: Floats, stop: Floats, patches: Floats) -> Floats:
-    """Flow of each pixel, [2, H, W], from those of the patches that hold it."""
+    """Flow of each pixel, [2, H, W], from those of the patches that contain it."""
     _, rows, columns = start.shape
     height, width = rows - 2 * MARGIN, columns - 2 * MARGIN
     sums = np.zeros((3, rows * columns), np.float32)
-    level, sought, target = start.reshape(-1), stop.reshape(-1), sums.reshape(-1)
+    level, target, flat_sums = start.reshape(-1), stop.reshape(-1), sums.reshape(-1)
     for i in range(patches.shape[0]):
         for j in range(patches.shape[1]):
             u, v = patches[i, j, 0], patches[i, j, 1]
@@ -223,8 +223,8 @@ def join(start: Floats, stop: Floats, patches: Floats) -> Floats:
             place = (i * STEP + MARGIN) * columns + j * STEP + MARGIN
             flow = u, v, _LEAST_DIFFERENCE
             layout = rows * columns, place, corner, columns
-            spread_patch(level, sought, layout, weights, target, flow)
-    # What no patch holds, at the right and below, is like its nearest pixel that one does.
+            spread_patch(level, target, layout, weights, flat_sums, flow)
+    # Pixels in no patch, at the right and below, take the flow of the nearest pixel in one.
     last_row = (patches.shape[0] - 1) * STEP + PATCH - 1
     last_column = (patches.shape[1] - 1) * STEP + PATCH - 1
     joined = np.empty((2, height, width), np.float32)
