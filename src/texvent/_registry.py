@@ -63,6 +63,10 @@ class Registry:
         more: tuple[str, ...] = load_object(self.table).names() if self.table else ()
         return (*self.entries(), *more)
 
+    def load_all(self) -> list[Any]:
+        """All parts of `entries`, in their order."""
+        return [load_object(target) for target in self.entries().values()]
+
     def load(self, name: str) -> Any:
         """Return the part called `name`.
 

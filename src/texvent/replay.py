@@ -42,6 +42,6 @@ def render_again(metadata: Mapping[str, Any]) -> FrameStream | None:
         generator = generator_class(settings.source, seed=settings.run.seed, size=settings.size)
         video = generator.generate(prompt)
     except InputError:
-        # Anybody can write metadata; what is no scene is no reason to refuse the events.
+        # Any program can write metadata: a prompt that is no scene does not make events invalid.
         return None
     return video if isinstance(video, RenderableStream) else None

@@ -1,4 +1,4 @@
-"""Sensor sizes and the presets of sensors people use."""
+"""Sensor sizes, and sensors by name."""
 
 from __future__ import annotations
 

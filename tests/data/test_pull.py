@@ -139,7 +139,7 @@ def test_a_second_pull_does_nothing_and_damage_is_repaired_without_a_download(tm
 def test_progress_reaches_the_size_of_the_archive(tmp_path, register):
     from rich.console import Console
 
-    from texvent.data.progress import DownloadBar
+    from texvent.data.download_bar import DownloadBar
 
     data_set, index = toy()
     register(data_set)

@@ -41,7 +41,7 @@ class LiveFrames(FrameSource):
     Times are the stream's own presentation times, or, where its format has none (MJPEG over a pipe
     or the network, raw H.264), the moments of arrival; both count from the first frame. Frames
     whose time does not increase are dropped and counted in `metadata`. Ctrl-C ends the stream
-    after the frame at hand, so that results are finished; a second Ctrl-C interrupts.
+    after the current frame, so that results are complete; a second Ctrl-C interrupts.
 
     Args:
         address: a device (`/dev/video0`), an address (`rtsp://...`), a named pipe, or `-`.

@@ -1,4 +1,4 @@
-"""Open any source of frames: the one door of this package."""
+"""Open any source of frames."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ from texvent.video import MICROSECONDS, Frame, frame_time_us
 SLACK_US = 100_000
 """A file may end this much before its header says, or three frames, before it counts as cut."""
 TEXT_ART = "tty"
-"""libav "plays" any .txt file as terminal art; nobody means that."""
+"""libav "plays" any .txt file as terminal art, which is never meant."""
 
 
 class VideoFile(FrameSource):

@@ -68,7 +68,7 @@ def pull(
     Args:
         name: one of `catalogue.DATA_SETS`.
         folder: where to keep it, instead of `data_folder()`.
-        progress: shows how far the download is; see `progress.show_progress`.
+        progress: shows how far the download is; see `download_bar.show_progress`.
         announce: told the licence caveat and the size before anything is fetched or unpacked.
         client: another connection to a package index.
 

@@ -77,7 +77,7 @@ def atomic_file(path: str | Path, *, overwrite: bool) -> Iterator[Path]:
         _create(part, path)
         yield part
         _flush_to_disk(part)
-        # Somebody may have made the file while this one was being written.
+        # Another program may have made the file meanwhile.
         check_output(path, overwrite=overwrite)
         os.replace(part, target)
     except BaseException as error:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from texvent._registry import CODECS, load_object
+from texvent._registry import CODECS
 from texvent.errors import ConfigError, InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
@@ -56,7 +56,7 @@ def codec_that_reads(path: str | Path, format: str | None = None) -> EventCodec:
 
 def find_folder_codec(path: Path) -> EventCodec | None:
     """The codec of formats made of several files that recognises those in a folder, or None."""
-    codecs: list[EventCodec] = [CODECS.load(name)() for name in CODECS.names()]
+    codecs: list[EventCodec] = [codec() for codec in CODECS.load_all()]
     for codec in codecs:
         if not codec.extensions and isinstance(codec, RecognisingCodec) and codec.recognises(path):
             return codec
@@ -73,8 +73,7 @@ def _codecs_for(path: str | Path, format: str | None) -> list[EventCodec]:
     if format is not None:
         return [CODECS.load(format)()]
     extension = Path(path).suffix.lower()
-    # Not by name one after the other: each look-up asks all installed packages for plug-ins.
-    codecs: list[EventCodec] = [load_object(target)() for target in CODECS.entries().values()]
+    codecs: list[EventCodec] = [codec() for codec in CODECS.load_all()]
     found = [codec for codec in codecs if extension in codec.extensions]
     if found:
         return found

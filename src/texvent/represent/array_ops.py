@@ -93,7 +93,7 @@ NUMPY_OPS = NumpyOps()
 
 
 @dataclass(frozen=True, eq=False)
-class Columns:
+class EventColumns:
     """Events as int64 columns, copied, so that no computation can reach the caller's arrays."""
 
     x: Array
@@ -130,7 +130,7 @@ class Columns:
 class ColumnSource(Protocol):
     """Events that give their columns themselves, as `EventTensors` do."""
 
-    def as_columns(self) -> Columns:
+    def as_columns(self) -> EventColumns:
         """The events as int64 columns."""
         ...
 
@@ -138,7 +138,7 @@ class ColumnSource(Protocol):
 Events: TypeAlias = EventStream | ColumnSource
 
 
-def columns_of(events: Events) -> Columns:
+def columns_of(events: Events) -> EventColumns:
     """The events as int64 columns, in the library that holds them.
 
     Raises:
@@ -152,7 +152,7 @@ def columns_of(events: Events) -> Columns:
             "EventStream.from_columns makes one from arrays x, y, t, p"
         )
     x, y, t, p = (column.astype(np.int64) for column in (events.x, events.y, events.t, events.p))
-    return Columns(x, y, t, p, events.size, NUMPY_OPS)
+    return EventColumns(x, y, t, p, events.size, NUMPY_OPS)
 
 
 def flat_index(*axes: Axis) -> Array:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from texvent.config import check_range
 from texvent.errors import InputError
-from texvent.represent.array_ops import Array, Axis, Columns, Events, columns_of
+from texvent.represent.array_ops import Array, Axis, EventColumns, Events, columns_of
 from texvent.represent.voxel_grid import MAX_BINS
 
 
@@ -82,7 +82,7 @@ def histogram_3d(
     return ops.cast(columns.count(*axes)[:, :bins], "float32")
 
 
-def _cell_axes(columns: Columns, shape: tuple[int, int] | None) -> tuple[Axis, Axis]:
+def _cell_axes(columns: EventColumns, shape: tuple[int, int] | None) -> tuple[Axis, Axis]:
     """Row and column of each event's cell."""
     height, width = columns.size.shape
     rows, cells = shape if shape is not None else (height, width)

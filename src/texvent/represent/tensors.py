@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from texvent._require import require
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.represent.array_ops import Columns, DType, Events
+from texvent.represent.array_ops import DType, EventColumns, Events
 from texvent.sensor import SensorSize
 
 Tensor: TypeAlias = Any
@@ -93,11 +93,11 @@ class EventTensors:
     def __len__(self) -> int:
         return len(self.t)
 
-    def as_columns(self) -> Columns:
+    def as_columns(self) -> EventColumns:
         """The events as int64 columns on the same device, copied."""
         ops = TorchOps(str(self.t.device))
         x, y, t, p = (ops.cast(column, "int64") for column in (self.x, self.y, self.t, self.p))
-        return Columns(x, y, t, p, self.size, ops)
+        return EventColumns(x, y, t, p, self.size, ops)
 
 
 @dataclass(frozen=True)
@@ -135,7 +135,7 @@ class TorchOps:
 
 
 def to_torch(events: EventStream, device: str = "cpu") -> dict[str, Tensor]:
-    """Columns as tensors; see `EventStream.to_torch`."""
+    """EventColumns as tensors; see `EventStream.to_torch`."""
     torch = require("torch", extra="torch")
     with _device_errors(device):
         return {

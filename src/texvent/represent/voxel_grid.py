@@ -26,7 +26,7 @@ from texvent.errors import InputError
 from texvent.represent.array_ops import (
     Array,
     Axis,
-    Columns,
+    EventColumns,
     Events,
     columns_of,
     flat_index,
@@ -171,7 +171,7 @@ class _Shares(NamedTuple):
     """µs from the first event to the last, at least 1."""
 
 
-def _share(columns: Columns, scale: int) -> _Shares:
+def _share(columns: EventColumns, scale: int) -> _Shares:
     """Divide each event between the bins around t* = scale · (t − t₁) / span."""
     since = columns.t - columns.t[0]
     span = max(int(since[-1]), 1)
@@ -185,7 +185,7 @@ def _share(columns: Columns, scale: int) -> _Shares:
     return _Shares(place // span, span - after, after, span)
 
 
-def _spread(columns: Columns, bins: int, scale: int, *, split_polarity: bool = False) -> Array:
+def _spread(columns: EventColumns, bins: int, scale: int, *, split_polarity: bool = False) -> Array:
     """[B, H, W] float32 with every event at its own pixel; [2 · B, H, W] if split."""
     check_range("bins", bins, 1, MAX_BINS)
     lanes = 2 if split_polarity else 1
@@ -205,7 +205,7 @@ def _spread(columns: Columns, bins: int, scale: int, *, split_polarity: bool = F
     return ops.cast(ops.cast(grid, "float64") / shares.span, "float32")
 
 
-def _spread_rectified(columns: Columns, bins: int, rectify_map: NDArray[np.float64]) -> Array:
+def _spread_rectified(columns: EventColumns, bins: int, rectify_map: NDArray[np.float64]) -> Array:
     """[B, H, W] float32 with every event spread over the four pixels around its mapped place."""
     check_range("bins", bins, 1, MAX_BINS)
     ops, xp, (width, height) = columns.ops, columns.ops.xp, columns.size
@@ -232,7 +232,7 @@ def _spread_rectified(columns: Columns, bins: int, rectify_map: NDArray[np.float
     return ops.cast(grid / shares.span, "float32")
 
 
-def _checked_map(rectify_map: NDArray[np.float32], columns: Columns) -> NDArray[np.float64]:
+def _checked_map(rectify_map: NDArray[np.float32], columns: EventColumns) -> NDArray[np.float64]:
     table = np.asarray(rectify_map, dtype=np.float64)
     expected = (*columns.size.shape, 2)
     if table.shape != expected:

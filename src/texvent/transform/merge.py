@@ -35,7 +35,7 @@ def merge(recordings: Sequence[EventPackets]) -> EventPackets:
 
 @dataclass
 class _Reader:
-    """What is read of one recording and not yet given on."""
+    """Events of one recording that were read and not yet yielded."""
 
     packets: Iterator[EventStream]
     held: EventStream

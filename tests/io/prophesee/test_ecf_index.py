@@ -55,7 +55,7 @@ def test_the_index_follows_its_definition_however_packets_are_cut(
 
 
 def test_long_silences_are_made_in_pieces(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(ecf_index, "PIECE", 7)
+    monkeypatch.setattr(ecf_index, "BATCH", 7)
     times = [0, 5, 100_000, 100_001, 140_000]
     pieces = list(TimeIndex().add(np.array(times)))
     assert max(len(piece) for piece in pieces) == 7

@@ -13,7 +13,7 @@ from rich.table import Table
 
 from texvent._registry import suggest
 from texvent.cli.options import parse_options, refuse_arguments
-from texvent.data.progress import show_progress
+from texvent.data.download_bar import show_progress
 from texvent.errors import ConfigError
 
 ACTIONS = ("list", "pull")

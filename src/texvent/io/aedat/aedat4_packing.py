@@ -76,15 +76,15 @@ def _unpack_zstd(data: bytes) -> bytes:
 def _unpack(decompressor: Any, data: bytes, failure: type[Exception], name: str) -> bytes:
     # In steps: with one large limit, LZ4 sets the whole of it aside for every packet.
     step = max(65_536, 4 * len(data))
-    pieces: list[bytes] = []
+    parts: list[bytes] = []
     total = 0
     try:
         while not decompressor.eof and total < MAX_PACKET_BYTES:
-            piece = decompressor.decompress(b"" if pieces else data, max_length=step)
-            if pieces and not piece:
+            part = decompressor.decompress(b"" if parts else data, max_length=step)
+            if parts and not part:
                 break
-            pieces.append(piece)
-            total += len(piece)
+            parts.append(part)
+            total += len(part)
     except (failure, EOFError, MemoryError) as error:
         raise FileFormatError(f"a packet is damaged ({name}: {error})") from error
     if not decompressor.eof:
@@ -92,7 +92,7 @@ def _unpack(decompressor: Any, data: bytes, failure: type[Exception], name: str)
         if total >= MAX_PACKET_BYTES:
             what = f"unpacks to more than {MAX_PACKET_BYTES // 2**20} MiB"
         raise FileFormatError(f"a packet {what} ({name})")
-    return pieces[0] if len(pieces) == 1 else b"".join(pieces)
+    return parts[0] if len(parts) == 1 else b"".join(parts)
 
 
 def _lz4() -> ModuleType:

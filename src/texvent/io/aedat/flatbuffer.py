@@ -1,4 +1,4 @@
-"""The few FlatBuffers pieces that AEDAT4 needs: reading tables with every offset checked.
+"""The part of FlatBuffers that AEDAT4 needs: reading tables with every offset checked.
 
 AEDAT4 uses three fixed tables, so writing them takes one NumPy record each (`aedat4_tables`),
 and reading them takes this file; hostile offsets end in `FileFormatError`, never elsewhere.

@@ -40,7 +40,7 @@ HEADER_BYTES = len(MAGIC) + len(VERSION) + 1 + 4
 STOP_US = 1 << 36
 EVENT_BYTES = 5
 MAX_SILENCE_US = 1 << 27
-"""Longer silence is written in pieces of a megabyte."""
+"""Longer silence is written a megabyte at a time."""
 OVERFLOW_US = 127
 
 
@@ -84,12 +84,12 @@ class EsSink:
         bounds = [0, *np.flatnonzero(silences).tolist(), len(t)]
         for start, stop in itertools.pairwise(bounds):
             if start < stop:
-                self._write_piece({name: columns[name][start:stop] for name in "xytp"})
+                self._write_part({name: columns[name][start:stop] for name in "xytp"})
 
     def finish(self) -> None:
         """Nothing follows the last event."""
 
-    def _write_piece(self, columns: Columns) -> None:
+    def _write_part(self, columns: Columns) -> None:
         """Write events with no long silence except before the first."""
         from texvent.io.atis.es_kernels import encode_events  # brings Numba
 

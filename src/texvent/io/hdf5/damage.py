@@ -32,7 +32,7 @@ def open_hdf5(path: Path) -> Iterator[Any]:
 
 
 def check_claims(dataset: Any, path: Path) -> None:
-    """Refuse a dataset that would take for ever to read, or more memory than there is.
+    """Refuse a dataset that would take too long to read, or more memory than there is.
 
     HDF5 gives zeros where nothing is stored, so a file of 4 kB can claim 10^18 events; and a chunk
     of zeros shrinks to a thousandth.

@@ -239,7 +239,7 @@ def stored_size(file: Any) -> tuple[int, int] | None:
 
 
 def write_metadata(file: Any, text: str, metadata: Mapping[str, Any]) -> None:
-    """All metadata as JSON, and its top-level scalars by name for people who look inside.
+    """All metadata as JSON, and its top-level scalars by name, for other programs.
 
     The JSON has a fixed length, so it lies in the checksummed header. HDF5 keeps text of variable
     length in a heap without checksums, where one flipped bit can hang it; texvent never reads

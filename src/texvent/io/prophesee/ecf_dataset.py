@@ -18,7 +18,7 @@ MAX_CHUNK_EVENTS = 1 << 22
 
 
 def check_storage(events: Any, path: Path) -> None:
-    """Refuse lengths that nothing stored stands behind: they would take for ever to read.
+    """Refuse a length beyond what is stored: it would take too long to read.
 
     Raises:
         FileFormatError: more events are claimed than stored, or chunks are too large.

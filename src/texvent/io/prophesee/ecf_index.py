@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 PERIOD_US = 2000
 ENTRY = np.dtype([("id", "<u8"), ("ts", "<i8")])
-PIECE = 1 << 18
+BATCH = 1 << 18
 """Entries made at once; a long silence has many."""
 
 
@@ -38,7 +38,7 @@ class TimeIndex:
             t: times of the events that follow, µs, [n], n ≥ 1.
 
         Yields:
-            Pieces of the index, of `ENTRY`.
+            Parts of the index, of `ENTRY`.
         """
         if self.start_us is None:
             self.start_us = int(t[0])
@@ -55,8 +55,8 @@ class TimeIndex:
         self._bin = int(bins[-1])
         self._entry = (int(entries[-1]["id"]), int(entries[-1]["ts"]))
         ends = np.cumsum(repeats)
-        for start in range(0, int(ends[-1]) if len(ends) else 0, PIECE):
-            numbers = np.arange(start, min(start + PIECE, int(ends[-1])))
+        for start in range(0, int(ends[-1]) if len(ends) else 0, BATCH):
+            numbers = np.arange(start, min(start + BATCH, int(ends[-1])))
             yield entries[np.searchsorted(ends, numbers, side="right")]
 
     def close(self) -> NDArray[Any]:

@@ -154,7 +154,7 @@ def decode_masked(body: Bytes, x: NDArray[np.uint16]) -> int:
         x[i] = word >> 5
         i += 1
         for j in range(MASK_BITS):
-            # The maker's encoder may set bits beyond the last event.
+            # Prophesee's encoder may set bits beyond the last event.
             if (word >> (MASK_BITS - 1 - j)) & 1 and i < x.size:
                 x[i] = (word >> 5) + j + 1
                 i += 1

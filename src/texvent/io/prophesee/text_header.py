@@ -94,7 +94,7 @@ def read_text_header(file: BinaryIO, path: Path) -> TextHeader:
 
 
 def make_text_header(fields: Mapping[str, str], metadata: Mapping[str, Any], *, end: bool) -> bytes:
-    """Header lines in order of their keys, the way the maker's software writes them.
+    """Header lines in order of their keys, as Prophesee's software writes them.
 
     Args:
         fields: key → value.

@@ -61,7 +61,7 @@ class RawMessage:
 
 
 def pack_event_array(columns: Columns, size: SensorSize, sequence: int) -> bytes:
-    """A serialised dvs_msgs/EventArray; its stamp is the first event's time."""
+    """A serialised dvs_msgs/EventArray; its time is the first event's."""
     t = columns["t"]
     records = np.empty(len(t), dtype=_RECORD)
     for name in "xyp":

@@ -30,21 +30,21 @@ def make_rows(columns: Columns) -> bytes:
 
 
 def read_text_blocks(file: BinaryIO) -> Iterator[bytes]:
-    """A text file in pieces that end with a line.
+    """A text file in blocks that end with a line.
 
     Raises:
         FileFormatError: a line is absurdly long.
     """
     rest = b""
-    while piece := file.read(BLOCK_BYTES):
-        cut = piece.rfind(b"\n") + 1
+    while block := file.read(BLOCK_BYTES):
+        cut = block.rfind(b"\n") + 1
         if cut == 0 and len(rest) > BLOCK_BYTES:
             raise FileFormatError("a line longer than 16 MiB: this is not a text event file")
         if cut:
-            yield rest + piece[:cut]
-            rest = piece[cut:]
+            yield rest + block[:cut]
+            rest = block[cut:]
         else:
-            rest += piece
+            rest += block
     if rest:
         yield rest
 
