@@ -84,10 +84,7 @@ def atomic_file(path: str | Path, *, overwrite: bool) -> Iterator[Path]:
         # BaseException: Ctrl-C and SystemExit must not leave a half-written file either.
         part.unlink(missing_ok=True)
         if is_disk_full(error):
-            raise OutputError(
-                f"cannot write {path}: the disk is full ({target.parent}); nothing was kept. "
-                "Free some space or choose another folder"
-            ) from error
+            raise _disk_full(path, target) from error
         raise
     _flush_folder(target.parent)
 
@@ -154,10 +151,7 @@ def atomic_folder(
         if old.is_dir() and not target.exists():
             os.replace(old, target)
         if is_disk_full(error):
-            raise OutputError(
-                f"cannot write {path}: the disk is full ({target.parent}); nothing was kept. "
-                "Free some space or choose another folder"
-            ) from error
+            raise _disk_full(path, target) from error
         raise
     shutil.rmtree(old, ignore_errors=True)
     _flush_folder(target.parent)
@@ -166,6 +160,13 @@ def atomic_folder(
 def is_disk_full(error: BaseException) -> bool:
     """True if `error` says that the disk, or the user's share of it, is full."""
     return isinstance(error, OSError) and error.errno in DISK_FULL
+
+
+def _disk_full(path: str | Path, target: Path) -> OutputError:
+    return OutputError(
+        f"cannot write {path}: the disk is full ({target.parent}); nothing was kept. "
+        "Free some space or choose another folder"
+    )
 
 
 def _create(part: Path, path: str | Path) -> None:
