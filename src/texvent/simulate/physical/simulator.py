@@ -11,7 +11,8 @@ Per frame interval, for every pixel:
 5. the readout delays events, limits their rate and rounds their times, if asked to.
 
 Rates are per second and the low-pass is integrated exactly, so neither the frame rate nor the
-number of intermediate frames changes what is simulated. docs/simulators.md gives the equations.
+number of intermediate frames changes what is simulated.
+docs/simulators/physical.md gives the equations.
 """
 
 from __future__ import annotations

@@ -2,8 +2,8 @@
 
 Source: J. L. Greene et al., "A PyTorch-enabled tool for synthetic event camera data generation and
 algorithm development", SPIE 2025, and the parameters its program (SENPI) documents.
-docs/simulators.md gives the equations and where this model departs from the program: noise above
-all.
+docs/simulators/senpi.md gives the equations and where this model departs from the program: above
+all in noise.
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@ sub-interval holds, and what they must have added to the second node, and so on.
 exactly the time that made the grid. Where a sub-interval holds several, the grid does not tell
 them apart: their times are drawn from a density that rises or falls as the neighbours' counts do.
 
-`ldati_reference` is the same rule pixel by pixel; docs/simulators.md names the deviations.
+`ldati_reference` is the same rule pixel by pixel; docs/simulators/v2ce.md names the deviations.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """V2CE: a 3-D U-Net turns pairs of frames into voxel grids, and LDATI those into events.
 
 Source: Z. Zhang et al., "V2CE: Video to Continuous Events Simulator", ICRA 2024.
-docs/simulators.md gives the steps, and where they depart from the program (V2CE-Toolbox).
+docs/simulators/v2ce.md gives the steps, and where they depart from the program (V2CE-Toolbox).
 """
 
 from __future__ import annotations

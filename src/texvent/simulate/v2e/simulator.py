@@ -1,8 +1,8 @@
 """v2e's pixel model: lin-log, photoreceptor bandwidth, mismatch, leak, shot noise, refractory.
 
 Source: Y. Hu, S.-C. Liu, T. Delbruck, "v2e: from video frames to realistic DVS events", CVPRW
-2021, and the options its program documents. docs/simulators.md gives the equations and where this
-model departs from the program: event times above all.
+2021, and the options its program documents. docs/simulators/v2e.md gives the equations and where
+this model departs from the program: event times above all.
 """
 
 from __future__ import annotations

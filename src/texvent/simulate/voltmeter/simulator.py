@@ -1,7 +1,8 @@
 """DVS-Voltmeter's pixel model: the voltage is a Brownian motion with drift.
 
 Source: S. Lin, Y. Ma, Z. Guo, B. Wen, "DVS-Voltmeter: stochastic process-based event simulator
-for dynamic vision sensors", ECCV 2022. docs/simulators.md gives the equations and the deviations.
+for dynamic vision sensors", ECCV 2022. docs/simulators/voltmeter.md gives the equations and
+the deviations.
 """
 
 from __future__ import annotations
