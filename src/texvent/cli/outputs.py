@@ -21,15 +21,15 @@ class OutputOptions:
     """Event file to write; its extension decides the format. Without it: a name made from the
     input, ending in .h5, in the current folder."""
     film: bool = True
-    """Write a film beside it (.mp4): source frames on the left, events on the right."""
+    """Write a preview video (.mp4): source frames on the left, events on the right."""
     still: bool = True
-    """Write a picture of the liveliest moment beside it (.png)."""
+    """Write an image of the busiest moment (.png)."""
     page: bool = True
-    """Write a page beside it (.html): turnable x-y-t cloud, rate curve, facts of the run."""
+    """Write a page (.html): x-y-t point cloud, event rate, facts of the run."""
     events_only: bool = False
-    """Write the event file alone: no film, picture or page."""
+    """Write the event file only: no video, image or page."""
     palette: str = "paper"
-    """Colours of events in film, picture and page."""
+    """Colours of events in video, image and page."""
     overwrite: bool = False
     """Replace files that exist already."""
     config: Path | None = None

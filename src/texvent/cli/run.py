@@ -26,7 +26,7 @@ from texvent.settings import Settings, unmeasured_sensor
 from texvent.video import MICROSECONDS, Frame
 
 FALLBACK_FPS = Fraction(30)
-"""Film rate where the source states none."""
+"""Frame rate of the preview video where the source states none."""
 
 
 def print_settings(settings: Settings) -> int:
@@ -155,7 +155,8 @@ def _open_outputs(
     sinks: list[Sink] = []
     # The exit stack closes in reverse: the event file is safe on disk before the previews end.
     if options.previews:
-        from texvent.view.preview import Preview  # brings PyAV and OpenCV, which help needs not
+        # Imported here: it brings PyAV and OpenCV, which help and the event file do not need.
+        from texvent.view.preview import Preview
 
         preview = Preview(
             path.with_suffix(""),

@@ -1,4 +1,4 @@
-"""`texvent generate PROMPT`: events, film, picture and page from a text prompt."""
+"""`texvent generate PROMPT`: events, video, image and page from a text prompt."""
 
 from __future__ import annotations
 
@@ -109,7 +109,7 @@ def _run_from_video(arguments: Sequence[str]) -> int:
 
 
 def _refuse_generation(arguments: Sequence[str]) -> None:
-    """Refuse flags that say how a video is made beside one that is ready.
+    """Refuse flags that say how a video is made when one is given.
 
     Raises:
         ConfigError: there is such a flag.

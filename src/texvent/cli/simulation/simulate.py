@@ -1,4 +1,4 @@
-"""`texvent simulate VIDEO`: events, film, picture and page from recorded frames."""
+"""`texvent simulate VIDEO`: events, video, image and page from recorded frames."""
 
 from __future__ import annotations
 
