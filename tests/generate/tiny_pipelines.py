@@ -367,7 +367,7 @@ def save_llava(folder: Path, *, chat_template: str | None = None) -> Path:
         "intermediate_size": 16,
         "num_hidden_layers": 2,
         "num_attention_heads": 2,
-        "initializer_range": 0.5,  # large enough for the picture to change the words
+        "initializer_range": 0.5,  # large enough for the image to change the words
     }
     config = transformers.LlavaConfig(
         text_config=transformers.LlamaConfig(

@@ -26,12 +26,12 @@ if TYPE_CHECKING:
     from texvent.scenes.scene import Scene
 
 DEFAULT_SIZE = SENSORS["davis346"].size
-"""Picture size when none is asked for."""
+"""Image size when none is given."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ProceduralConfig:
-    """How the embedded generator films a scene."""
+    """How the embedded generator renders a scene."""
 
     fps: Fraction = Fraction(24)
     """Frame rate of the video, as 24, 29.97 or 30000/1001. Frames in between are rendered as
@@ -63,18 +63,18 @@ class ProceduralConfig:
 
 @dataclass(frozen=True, eq=False)
 class ProceduralVideo:
-    """A scene being filmed: a stream of frames that can also be rendered at any instant."""
+    """A rendered scene: a stream of frames that can also be rendered at any instant."""
 
     scene: Scene
-    """What is filmed."""
+    """What is rendered."""
     size: SensorSize
     """Width and height of every frame, pixels."""
     config: ProceduralConfig = field(default_factory=ProceduralConfig)
-    """How it is filmed."""
+    """How it is rendered."""
     metadata: Mapping[str, Any] = field(default_factory=dict)
     """What the generator made of the prompt (JSON-serialisable)."""
     flicker_hz: float | None = None
-    """Periods per second with which all light beats, or None where it is steady."""
+    """Flicker frequency of all light, Hz, or None where it is steady."""
 
     @property
     def fps(self) -> Fraction:
@@ -92,7 +92,7 @@ class ProceduralVideo:
         return False
 
     def __iter__(self) -> Iterator[Frame]:
-        """Frames in time order, each rendered when it is asked for."""
+        """Frames in time order, each rendered on demand."""
         for index in range(self.frame_count):
             yield self._frame(frame_time_us(index, self.fps), is_source=True)
 

@@ -62,7 +62,7 @@ class DiffusersConfig(GeneratedVideoConfig):
     negative_prompt: str | None = None
     """What not to show."""
     image: Path | None = None
-    """Picture to start from, where the model can."""
+    """Image to start from, where the model can."""
     dtype: Literal["auto", "float32", "bfloat16", "float16"] = "auto"
     """Number format of the weights; auto: the model's own on a GPU, float32 on a CPU."""
     offload: Literal["auto", "none", "model", "sequential"] = "auto"

@@ -189,26 +189,26 @@ def test_the_decoder_of_wan_stays_in_float32_as_its_page_asks(models, tmp_path):
     assert (pipe.transformer.dtype, pipe.vae.dtype) == (torch.bfloat16, torch.float32)
 
 
-def test_a_picture_starts_the_video_where_the_pipeline_can(models, tmp_path):
+def test_an_image_starts_the_video_where_the_pipeline_can(models, tmp_path):
     from PIL import Image
 
     Image.new("RGB", (200, 100), "red").save(tmp_path / "start.png")
-    with_picture = build(models("cosmos25"), image=tmp_path / "start.png").generate(PROMPT)
+    with_image = build(models("cosmos25"), image=tmp_path / "start.png").generate(PROMPT)
     assert not np.array_equal(
-        pixels(with_picture), pixels(build(models("cosmos25")).generate(PROMPT))
+        pixels(with_image), pixels(build(models("cosmos25")).generate(PROMPT))
     )
     watcher = Watcher()
     with pytest.raises(ConfigError, match="starts from text alone"):
         build(models("wan"), image=tmp_path / "start.png").generate(PROMPT, progress=watcher)
     assert watcher.lines == [], "refused before anything was loaded"
-    with pytest.raises(InputError, match="there is no picture"):
+    with pytest.raises(InputError, match="there is no image"):
         build(models("cosmos25"), image=tmp_path / "none.png").generate(PROMPT)
-    (tmp_path / "bad.png").write_bytes(b"no picture")
-    with pytest.raises(InputError, match="cannot be read as a picture"):
+    (tmp_path / "bad.png").write_bytes(b"no image")
+    with pytest.raises(InputError, match="cannot be read as an image"):
         build(models("cosmos25"), image=tmp_path / "bad.png").generate(PROMPT)
 
 
-def test_a_picture_starts_wan_through_its_other_pipeline_with_the_same_weights(models, tmp_path):
+def test_an_image_starts_wan_through_its_other_pipeline_with_the_same_weights(models, tmp_path):
     from PIL import Image
 
     folder = tmp_path / "Wan2.2-TI2V-5B-Diffusers"

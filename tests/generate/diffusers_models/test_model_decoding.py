@@ -129,7 +129,7 @@ class Interrupter:
         raise KeyboardInterrupt
 
 
-def test_tapped_pipelines_exist_and_decode_once():
+def test_single_decode_pipelines_exist_and_decode_once():
     import inspect
 
     for name in SINGLE_DECODE_PIPELINES:

@@ -132,15 +132,15 @@ def test_a_class_that_diffusers_lacks_is_named(models, tmp_path):
 
 
 def test_options_are_compared_with_what_a_pipeline_takes():
-    class FromPictures:
+    class FromImages:
         def __call__(self, image, prompt=None, num_frames=8):
             return image, prompt, num_frames
 
-    assert "num_frames" in check_options(FromPictures, DiffusersConfig(image="a.png", frames=9))
-    with pytest.raises(ConfigError, match="FromPictures starts from a picture; give --image PATH"):
-        check_options(FromPictures, DiffusersConfig())
-    with pytest.raises(ConfigError, match="steps is set, but FromPictures does not take it"):
-        check_options(FromPictures, DiffusersConfig(image="a.png", steps=5))
+    assert "num_frames" in check_options(FromImages, DiffusersConfig(image="a.png", frames=9))
+    with pytest.raises(ConfigError, match="FromImages starts from an image; give --image PATH"):
+        check_options(FromImages, DiffusersConfig())
+    with pytest.raises(ConfigError, match="steps is set, but FromImages does not take it"):
+        check_options(FromImages, DiffusersConfig(image="a.png", steps=5))
 
 
 class FakePipeline:

@@ -56,8 +56,8 @@ TORCHRUN = """
         stream = container.add_stream("libx264", rate=int(words["fps_save"]))
         stream.width, stream.height, stream.pix_fmt = 96, 64, "yuv420p"
         for index in range(int(words["sampling_option.num_frames"])):
-            picture = ground[:64, index * 2 : index * 2 + 96].copy()
-            frame = av.VideoFrame.from_ndarray(picture, format="rgb24")
+            image = ground[:64, index * 2 : index * 2 + 96].copy()
+            frame = av.VideoFrame.from_ndarray(image, format="rgb24")
             container.mux(stream.encode(frame))
         container.mux(stream.encode())
 """

@@ -22,24 +22,24 @@ CLIP = Path(__file__).parents[2] / "clips" / "bigbuckbunny_excerpt.mp4"
 RNG = np.random.default_rng(0)
 
 
-def frames(pictures):
-    return [Frame(picture.astype(np.float32), i * 40_000) for i, picture in enumerate(pictures)]
+def frames(images):
+    return [Frame(image.astype(np.float32), i * 40_000) for i, image in enumerate(images)]
 
 
 @pytest.fixture(scope="module")
 def clip():
-    """24 frames of a pan over a textured picture: [N, H, W], 0..255."""
+    """24 frames of a pan over a textured image: [N, H, W], 0..255."""
     rng = np.random.default_rng(3)
     ground = cv2.GaussianBlur(rng.uniform(0, 255, (120, 260)).astype(np.float32), (0, 0), 3)
     ground = np.clip((ground - 128) * 5 + 128, 0, 255)
     return np.stack([ground[10:106, i : i + 128] for i in range(24)])
 
 
-def problems(pictures) -> set[str]:
-    return set(check_video(frames(pictures)).problems)
+def problems(images) -> set[str]:
+    return set(check_video(frames(images)).problems)
 
 
-def test_a_moving_picture_is_fine(clip):
+def test_a_moving_image_is_fine(clip):
     report = check_video(frames(clip))
     assert report.is_fine, report
     assert report.summary == "nothing found"
@@ -58,7 +58,7 @@ def test_embedded_scenes_are_fine(prompt):
     assert check_video(video).problems == ()
 
 
-def test_one_picture_all_the_time_is_frozen(clip):
+def test_one_image_all_the_time_is_frozen(clip):
     assert problems([clip[0]] * 24) == {"frozen", "no motion"}
 
 
@@ -66,14 +66,14 @@ def test_a_clip_that_stops_halfway_is_frozen(clip):
     assert problems([*clip[:8], *[clip[8]] * 16]) == {"frozen"}
 
 
-def test_sensor_noise_on_a_still_picture_is_no_motion(clip):
+def test_sensor_noise_on_a_still_image_is_no_motion(clip):
     noisy = [np.clip(clip[0] + RNG.normal(0, 1, clip[0].shape), 0, 255) for _ in range(24)]
     assert "no motion" in problems(noisy)
 
 
 @pytest.mark.parametrize("gain", [lambda i: 1 + 0.05 * (-1) ** i, lambda i: 1 + 0.06 * GAINS[i]])
 def test_brightness_that_jumps_up_and_down_is_flicker(clip, gain):
-    assert "flicker" in problems([0.8 * picture * gain(i) for i, picture in enumerate(clip)])
+    assert "flicker" in problems([0.8 * image * gain(i) for i, image in enumerate(clip)])
 
 
 GAINS = np.random.default_rng(1).normal(size=24)
@@ -103,8 +103,8 @@ def test_a_single_frame_has_no_motion(clip):
 
 
 def test_block_means_and_correlation_by_hand():
-    picture = np.arange(16, dtype=np.float32).reshape(4, 4)
-    assert np.array_equal(block_means(picture), picture), "small pictures keep their pixels"
+    image = np.arange(16, dtype=np.float32).reshape(4, 4)
+    assert np.array_equal(block_means(image), image), "small images keep their pixels"
     wide = np.repeat(np.arange(65, dtype=np.float32)[None], 2, axis=0)
     assert block_means(np.repeat(wide, 2, axis=1)).tolist() == [list(range(65))]
     checks = np.indices((8, 8)).sum(axis=0).astype(np.float32) % 2 * 100
@@ -135,9 +135,9 @@ def make(tmp_path, clip):
         asked.append(seed)
         is_bad = seed in (0, nth_seed(0, 1))
         luma = np.stack([clip[0]] * 8) if is_bad else clip[:8]
-        pictures = np.repeat(luma[..., None], 3, axis=3)
+        images = np.repeat(luma[..., None], 3, axis=3)
         return write_video(
-            pictures / np.float32(255),
+            images / np.float32(255),
             tmp_path / f"{seed}.avi",
             Fraction(8),
             {"seed": seed},

@@ -25,7 +25,7 @@ PART = "safety_checker"
 def needs_guardrail(index: Mapping[str, Any]) -> bool:
     """True for pipelines of the Cosmos family and all that have a part of theirs.
 
-    (Image models have a safety checker too: another one, for single pictures.)
+    (Image models have a safety checker too: another one, for single images.)
 
     Args:
         index: content of `model_index.json`.
@@ -54,7 +54,7 @@ def load_guardrail() -> Any:
 
 
 def check_wiring(pipe: Any) -> None:
-    """Refuse a pipeline that holds the guardrail but would not ask it.
+    """Refuse a pipeline that holds the guardrail but would not call it.
 
     diffusers decides when it is imported whether the package is there, and looks at frames only
     with a checker of the class it knows.

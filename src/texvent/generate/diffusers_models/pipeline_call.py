@@ -92,7 +92,7 @@ def check_options(pipeline_class: type, config: DiffusersConfig) -> Mapping[str,
         raise ConfigError(f"image is set, but {name} starts from text alone")
     image = accepted.get("image")
     if image is not None and image.default is inspect.Parameter.empty and config.image is None:
-        raise ConfigError(f"{name} starts from a picture; give --image PATH")
+        raise ConfigError(f"{name} starts from an image; give --image PATH")
     return accepted
 
 
@@ -135,7 +135,7 @@ def _options(config: DiffusersConfig, accepted: Mapping[str, inspect.Parameter])
 
 
 def _image(config: DiffusersConfig) -> dict[str, Any]:
-    """The picture to start from, cut and resized to the video's size."""
+    """The image to start from, cut and resized to the video's size."""
     if config.image is None:
         return {}
     images, operations = (require(f"PIL.{name}", extra=EXTRA) for name in ("Image", "ImageOps"))
@@ -145,12 +145,12 @@ def _image(config: DiffusersConfig) -> dict[str, Any]:
 def _fit_image(images: Any, operations: Any, path: Path, config: DiffusersConfig) -> Any:
     try:
         with images.open(path) as opened:
-            picture = opened.convert("RGB")
+            image = opened.convert("RGB")
     except OSError as error:
-        raise InputError(f"{path} cannot be read as a picture ({error})") from error
+        raise InputError(f"{path} cannot be read as an image ({error})") from error
     if config.width is None or config.height is None:
-        return picture
-    return operations.fit(picture, (config.width, config.height))
+        return image
+    return operations.fit(image, (config.width, config.height))
 
 
 def _step_callback(progress: Progress) -> Any:

@@ -106,7 +106,7 @@ def find_kept(request: LoadRequest) -> Pipeline | None:
 
 
 def forget_pipeline() -> None:
-    """Let go of the pipeline that `load_pipeline` keeps."""
+    """Release the pipeline that `load_pipeline` keeps."""
     _KEPT.clear()
 
 

@@ -1,4 +1,4 @@
-"""Prompt embeddings, kept on disk: a prompt asked again needs no text encoder.
+"""Prompt embeddings, kept on disk: a repeated prompt needs no text encoder.
 
 The text encoder of a video model is often its largest part (T5-XXL: 11 GB). With the embeddings
 at hand it is not even loaded.

@@ -9,7 +9,7 @@ windows    decodes overlapping stretches of time and blends where they meet:
            HunyuanVideo; LTX-Video where memory is short (`place_pipeline`)
 =========  =========================================================================
 
-With tiling, diffusers decodes one tile of the picture through all time and then the next; here
+With tiling, diffusers decodes one tile of the image through all time and then the next; here
 all tiles advance together, each with a memory of its own, so the results are the same numbers.
 Mochi is missing because its decoding in steps fails in diffusers 0.42 itself.
 """

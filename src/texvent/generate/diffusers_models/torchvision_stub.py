@@ -2,7 +2,7 @@
 
 torchvision from the package index does not match a CPU build of torch, and importing it then
 fails, so texvent does not depend on it. Nearest-neighbour resizing of the padding mask and
-turning a picture into a tensor are all that is needed; torch's own give the same values.
+turning an image into a tensor are all that is needed; torch's own give the same values.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ def install_torchvision_stub() -> None:
         predict.torchvision = SimpleNamespace(transforms=transforms)
 
 
-def _resize(picture: Any, size: list[int], interpolation: str) -> Any:
+def _resize(image: Any, size: list[int], interpolation: str) -> Any:
     """Resize a tensor [N, C, H, W] to `size` (height, width)."""
     functional = require("torch.nn.functional", extra=EXTRA)
-    return functional.interpolate(picture, size=size, mode=interpolation)
+    return functional.interpolate(image, size=size, mode=interpolation)
 
 
-def _to_tensor(picture: Any) -> Any:
-    """A PIL picture as a float tensor [3, H, W] in 0..1."""
+def _to_tensor(image: Any) -> Any:
+    """A PIL image as a float tensor [3, H, W] in 0..1."""
     torch = require("torch", extra=EXTRA)
-    levels = np.asarray(picture, dtype=np.float32).transpose(2, 0, 1) / 255.0
+    levels = np.asarray(image, dtype=np.float32).transpose(2, 0, 1) / 255.0
     return torch.from_numpy(np.ascontiguousarray(levels))

@@ -33,7 +33,7 @@ def find_files(model: VideoModel, announce: Callable[[str], None]) -> ModelFiles
 
     Args:
         model: the model.
-        announce: told size and licence before anything is fetched.
+        announce: receives size and licence before anything is fetched.
 
     Raises:
         InputError: the model is not here and cannot be fetched, or a file is missing.

@@ -1,10 +1,10 @@
 """Learned text-to-video models that `--generator` knows by name, as one table of facts.
 
-One adapter (`diffusers_generator.py`) runs all of them. A row says where the weights are, which
-diffusers pipeline runs them and what they were made for; every value is a default that an option
-overrides. Frame counts, sizes and step counts are the call defaults of diffusers 0.42. The weights
-cannot be redistributed here, so `is_verified` says how far a row was tried: True means that the
-pipeline class runs with tiny random weights of the same layout in the tests of texvent.
+One adapter (`diffusers_models/generator.py`) runs all of them. A row says where the weights are,
+which diffusers pipeline runs them and what they were made for; every value is a default that an
+option overrides. Frame counts, sizes and step counts are the call defaults of diffusers 0.42. The
+weights cannot be redistributed here, so `is_verified` says how far a row was tried: True means that
+the pipeline class runs with tiny random weights of the same layout in the tests of texvent.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class VideoModel:
     pipeline: str | None = None
     """diffusers class; None is what `model_index.json` names."""
     image_pipeline: str | None = None
-    """diffusers class that starts from a picture with the same weights, if there is one."""
+    """diffusers class that starts from an image with the same weights, if there is one."""
     fps: Fraction | None = None
     """Frame rate the model was trained for; it is nowhere in the weights."""
     frames: int | None = None

@@ -52,7 +52,7 @@ class OpenSoraConfig(GeneratedVideoConfig):
     """How Open-Sora is called."""
 
     fps: Fraction | None = Fraction(24)
-    """Frame rate that Open-Sora is told (a whole number), and the video's."""
+    """Frame rate that Open-Sora takes (a whole number), and the video's."""
     opensora_root: Path | None = None
     """Folder of your Open-Sora 2 checkout; without it: $OPENSORA_ROOT."""
     opensora_launcher: Path | None = None
@@ -61,7 +61,7 @@ class OpenSoraConfig(GeneratedVideoConfig):
     resolution: Literal["256px", "768px"] = "256px"
     """Size class: 256px takes about a minute and 52 GB on an H100, 768px half an hour and 60 GB."""
     aspect_ratio: Literal["16:9", "9:16", "1:1"] = "16:9"
-    """Shape of the picture."""
+    """Shape of the image."""
     frames: int = 129
     """Frames to generate, 4k+1, at most 129."""
     steps: int = 50

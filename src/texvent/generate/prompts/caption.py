@@ -1,7 +1,7 @@
-"""Pictures → prompts, by an image-and-text model of the user's (paper, data collection for 9.7).
+"""Images → prompts, by an image-and-text model that the user has (paper, data for 9.7).
 
-The paper captions pictures with LLaVA and the instruction "Caption the image in detail." Any model
-that transformers runs as "image-text-to-text" will do; decoding is greedy, so a picture has one
+The paper captions images with LLaVA and the instruction "Caption the image in detail." Any model
+that transformers runs as "image-text-to-text" will do; decoding is greedy, so an image has one
 caption.
 """
 
@@ -19,13 +19,13 @@ EXTRA = "generate"
 INSTRUCTION = "Caption the image in detail."
 """The paper's."""
 PLAIN_CHAT = "USER: <image>\n{} ASSISTANT:"
-"""LLaVA 1.5's way to ask, for models that bring no chat template."""
+"""Prompt of LLaVA 1.5, for models without a chat template."""
 HUB = "hub:"
 IMAGE_EXTENSIONS = (".png", ".jpg", ".jpeg", ".webp", ".bmp")
 
 
 class Captioner:
-    """A model that describes pictures, loaded once.
+    """A model that describes images, loaded once.
 
     Args:
         model: folder of a model saved by transformers, or `hub:org/name`.
@@ -43,24 +43,24 @@ class Captioner:
         self._processor, self._model = _load(folder, "bfloat16" if free else "float32")
         self._model.to(self._device)
 
-    def caption(self, picture: Path, *, instruction: str = INSTRUCTION, longest: int = 124) -> str:
-        """One line that describes a picture.
+    def caption(self, image: Path, *, instruction: str = INSTRUCTION, longest: int = 124) -> str:
+        """One line that describes an image.
 
         Args:
-            picture: its file.
+            image: its file.
             instruction: what to ask.
             longest: most tokens of the answer; the paper's captions have up to 124.
 
         Raises:
-            InputError: the picture cannot be read, or the model has nothing to say.
+            InputError: the image cannot be read, or the model has nothing to say.
         """
         torch = require("torch", extra=EXTRA)
-        images = require("PIL.Image", extra=EXTRA)
+        pil_image = require("PIL.Image", extra=EXTRA)
         try:
-            with images.open(picture) as opened:
+            with pil_image.open(image) as opened:
                 rgb = opened.convert("RGB")
         except OSError as error:
-            raise InputError(f"{picture} cannot be read as a picture ({error})") from error
+            raise InputError(f"{image} cannot be read as an image ({error})") from error
         inputs = self._processor(images=rgb, text=self._ask(instruction), return_tensors="pt").to(
             self._device
         )
@@ -70,7 +70,7 @@ class Captioner:
         answer = tokens[0, inputs["input_ids"].shape[1] :]
         text = " ".join(self._processor.decode(answer, skip_special_tokens=True).split())
         if not text:
-            raise InputError(f"the model says nothing about {picture}; try another instruction")
+            raise InputError(f"the model says nothing about {image}; try another instruction")
         return text
 
     def _ask(self, instruction: str) -> str:
@@ -84,7 +84,7 @@ class Captioner:
 
 
 def find_images(path: Path) -> list[Path]:
-    """The picture, or all pictures right in the folder, in order of name.
+    """The image, or all images right in the folder, in order of name.
 
     Raises:
         InputError: there is none.
@@ -95,7 +95,7 @@ def find_images(path: Path) -> list[Path]:
         one for one in path.glob("*") if one.suffix.lower() in IMAGE_EXTENSIONS and one.is_file()
     )
     if not found:
-        raise InputError(f"there is no picture at {path} ({', '.join(IMAGE_EXTENSIONS)})")
+        raise InputError(f"there is no image at {path} ({', '.join(IMAGE_EXTENSIONS)})")
     return found
 
 

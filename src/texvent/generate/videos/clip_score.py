@@ -1,6 +1,6 @@
 """Does a video show what the prompt says? A score from a CLIP model that the user has.
 
-CLIP maps pictures and sentences to vectors; their cosine is higher where they belong together. For
+CLIP maps images and sentences to vectors; their cosine is higher where they belong together. For
 OpenAI's ViT-B/32 a fitting pair is typically near 0.3, an unrelated one near 0.15. The score is the
 mean over frames, as in the CLIPScore of video generation papers (without its factor 2.5).
 """
@@ -24,7 +24,7 @@ FRAMES = 8
 """Frames looked at, spread over the clip."""
 MEAN = (0.48145466, 0.4578275, 0.40821073)
 STD = (0.26862954, 0.26130258, 0.27577711)
-"""Of CLIP's training pictures, RGB in 0..1 (Radford 2021)."""
+"""Of CLIP's training images, RGB in 0..1 (Radford 2021)."""
 
 
 def measure_clip_score(video: StoredVideo, prompt: str, folder: Path) -> float:
@@ -44,16 +44,14 @@ def measure_clip_score(video: StoredVideo, prompt: str, folder: Path) -> float:
     model, tokenizer = _load_clip(folder)
     chosen = set(np.linspace(0, video.frame_count - 1, FRAMES).round().astype(int).tolist())
     size = int(model.config.vision_config.image_size)
-    pictures = [
-        _prepare(frame.pixels, size) for index, frame in enumerate(video) if index in chosen
-    ]
+    images = [_prepare(frame.pixels, size) for index, frame in enumerate(video) if index in chosen]
     limit = int(model.config.text_config.max_position_embeddings)
     words = tokenizer([prompt], truncation=True, max_length=limit, return_tensors="pt")
     with torch.no_grad():
         outputs = model(
             input_ids=words["input_ids"],
             attention_mask=words["attention_mask"],
-            pixel_values=torch.cat(pictures),
+            pixel_values=torch.cat(images),
         )
     # Both are of unit length already.
     return float((outputs.image_embeds @ outputs.text_embeds.T).mean())
@@ -89,11 +87,11 @@ def _prepare(pixels: PixelArray, size: int) -> Any:
     torch = require("torch", extra=EXTRA)
     functional = require("torch.nn.functional", extra=EXTRA)
     levels = pixels.astype(np.float32) / float(np.iinfo(pixels.dtype).max)
-    picture = torch.from_numpy(np.ascontiguousarray(levels.transpose(2, 0, 1)))[None]
-    height, width = picture.shape[2:]
+    image = torch.from_numpy(np.ascontiguousarray(levels.transpose(2, 0, 1)))[None]
+    height, width = image.shape[2:]
     scale = size / min(height, width)
     shape = (max(size, round(height * scale)), max(size, round(width * scale)))
-    resized = functional.interpolate(picture, shape, mode="bicubic", antialias=True).clamp(0, 1)
+    resized = functional.interpolate(image, shape, mode="bicubic", antialias=True).clamp(0, 1)
     top, left = (shape[0] - size) // 2, (shape[1] - size) // 2
     centre = resized[:, :, top : top + size, left : left + size]
     mean, std = (torch.tensor(values).view(1, 3, 1, 1) for values in (MEAN, STD))

@@ -3,8 +3,8 @@
 The measures are taken on luma (0..255), averaged in blocks down to about 64 pixels across, in one
 pass with one frame in memory. Every limit was set between what real clips and embedded scenes
 measure and what deliberately broken ones do; docs/generators.md has the table. The checks see
-failed video, not a wrong one: whether a clip shows what was asked needs a model
-(`agreement.py`).
+failed video, not a wrong one: whether a video shows the prompt needs a model
+(`clip_score.py`).
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ DARK_LEVEL = 12.0
 BRIGHT_LEVEL = 243.0
 """5th percentile of all blocks above which the clip is saturated."""
 NOISE_CORRELATION = 0.4
-"""Correlation of neighbouring pixels below which a picture is noise; pictures have above 0.8."""
+"""Correlation of neighbouring pixels below which an image is noise; images have above 0.8."""
 
 
 @dataclass(frozen=True)
@@ -149,7 +149,7 @@ def block_means(luma: NDArray[np.float32]) -> NDArray[np.float32]:
 
 
 def neighbour_correlation(luma: NDArray[np.float32]) -> float:
-    """Correlation of pixels with their right and lower neighbours; 1 for a flat picture."""
+    """Correlation of pixels with their right and lower neighbours; 1 for a flat image."""
     centred = luma - luma.mean()
     variance = float((centred * centred).mean())
     if variance < STILL_LEVELS:

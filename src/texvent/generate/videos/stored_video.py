@@ -143,9 +143,9 @@ def write_video(
                 stream = container.add_stream("ffv1", rate=fps, options=_CODEC_OPTIONS)
                 stream.width, stream.height, stream.pix_fmt = size.width, size.height, "gbrp16le"
                 stream.time_base = 1 / fps
-            picture = av.VideoFrame.from_ndarray(deep, format="rgb48le")
-            picture.pts, picture.time_base = count, 1 / fps
-            container.mux(stream.encode(picture))
+            video_frame = av.VideoFrame.from_ndarray(deep, format="rgb48le")
+            video_frame.pts, video_frame.time_base = count, 1 / fps
+            container.mux(stream.encode(video_frame))
             if on_frame is not None:
                 on_frame(Frame(deep, frame_time_us(count, fps)))
             count += 1
@@ -187,10 +187,10 @@ def _decode(path: Path) -> Iterator[PixelArray]:
                 raise FileFormatError(f"{path} holds no video")
             stream = container.streams.video[0]
             stream.thread_type = "AUTO"
-            for picture in container.decode(stream):
-                deepest = max(component.bits for component in picture.format.components)
+            for video_frame in container.decode(stream):
+                deepest = max(component.bits for component in video_frame.format.components)
                 name = "rgb48le" if deepest > _EIGHT_BITS else "rgb24"
-                yield picture.to_ndarray(format=name)
+                yield video_frame.to_ndarray(format=name)
     except FFmpegError as error:
         raise FileFormatError(
             f"{path} cannot be decoded, it is damaged ({error.strerror}); delete it and "
