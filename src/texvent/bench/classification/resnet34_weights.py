@@ -10,9 +10,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeAlias
 
 from texvent.errors import FileFormatError, InputError
+from texvent.reconstruct.layers import EXTRA
+from texvent.reconstruct.layout import BATCH_COUNTER, Shape, batch_norm
 from texvent.runtime.network_files import (
     Tensor,
     check_finite,
@@ -22,14 +23,9 @@ from texvent.runtime.network_files import (
     shapes_of,
 )
 
-Shape: TypeAlias = tuple[int, ...]
-
-EXTRA = "torch"
-"""The texvent extra that brings torch."""
 INPUT_CHANNELS, FIRST_KERNEL = 2, 14
 STAGES = 4
 KERNEL = 3
-BATCH_COUNTER = "num_batches_tracked"
 WHERE_FROM = (
     "the published classifiers are linked from the project 82magnolia/n_imagenet on GitHub; this "
     "one is ResNet34 on binary event images (reshape_then_flat_pol)"
@@ -88,7 +84,7 @@ def tensor_shapes(width: int, blocks: tuple[int, ...], classes: int) -> dict[str
     """
     shapes: dict[str, Shape] = {
         "conv1.weight": (width, INPUT_CHANNELS, FIRST_KERNEL, FIRST_KERNEL),
-        **_norm("bn1", width),
+        **batch_norm("bn1", width),
     }
     before = width
     for stage, count in enumerate(blocks):
@@ -97,17 +93,14 @@ def tensor_shapes(width: int, blocks: tuple[int, ...], classes: int) -> dict[str
             at = f"layer{stage + 1}.{block}"
             shapes[f"{at}.conv1.weight"] = (channels, before, KERNEL, KERNEL)
             shapes[f"{at}.conv2.weight"] = (channels, channels, KERNEL, KERNEL)
-            shapes.update({**_norm(f"{at}.bn1", channels), **_norm(f"{at}.bn2", channels)})
+            shapes.update(
+                {**batch_norm(f"{at}.bn1", channels), **batch_norm(f"{at}.bn2", channels)}
+            )
             if before != channels:
                 shapes[f"{at}.downsample.0.weight"] = (channels, before, 1, 1)
-                shapes.update(_norm(f"{at}.downsample.1", channels))
+                shapes.update(batch_norm(f"{at}.downsample.1", channels))
             before = channels
     return {**shapes, "fc.weight": (classes, before), "fc.bias": (classes,)}
-
-
-def _norm(name: str, channels: int) -> dict[str, Shape]:
-    parts = ("weight", "bias", "running_mean", "running_var")
-    return {f"{name}.{part}": (channels,) for part in parts}
 
 
 def _count_blocks(shapes: Mapping[str, Shape], path: Path) -> tuple[int, ...]:
