@@ -102,19 +102,19 @@ def test_who_has_no_weights_is_told_what_to_get(events, tmp_path, capsys):
 def test_the_benchmark_prints_its_tables_and_keeps_every_value(
     recording, weights, tmp_path, capsys
 ):
-    out, picture = tmp_path / "result.json", tmp_path / "grid.png"
+    out, image = tmp_path / "result.json", tmp_path / "grid.png"
     words = ("--simulators", "esim", "--interpolations", "blend", "--skip-frames", "2", "--noise")
-    files = ("-o", out, "--image", picture, "-q")
+    files = ("-o", out, "--image", image, "-q")
     code, said = run(
         capsys, "bench", "reconstruction", recording, *words, *files, *network(weights)
     )
     assert code == 0
-    assert "### bar, firenet (12 pictures)" in said.out
+    assert "### bar, firenet (12 images)" in said.out
     assert "| esim, blend |" in said.out
     document = json.loads(out.read_text())
     assert [row["source"] for row in document["rows"]] == ["recorded", "esim, blend"]
     assert len(document["noise"]) == 10
-    assert cv2.imread(str(picture)) is not None
+    assert cv2.imread(str(image)) is not None
 
 
 def test_events_and_frames_of_a_recording_may_lie_apart(recording, weights, capsys):
@@ -123,7 +123,7 @@ def test_events_and_frames_of_a_recording_may_lie_apart(recording, weights, caps
         capsys, "bench", "reconstruction", recording / "events.txt", *words, *network(weights)
     )
     assert code == 0
-    assert "### events, firenet (4 pictures)" in said.out
+    assert "### events, firenet (4 images)" in said.out
 
 
 def test_a_recording_without_frames_is_refused(tmp_path, weights, capsys):
