@@ -70,7 +70,7 @@ class SimulatorOptions(TypedDict, total=False):
     noise_scale: float | None
     noise_intensity: float | None
     noise_on_fraction: float | None
-    stamp: Literal["eq7", "random", "linear", "hyperbolic", "even", "end"] | None
+    timestamp_rule: Literal["eq7", "random", "linear", "hyperbolic", "even", "end"] | None
     timestamp_scale: float | None
     gamma: float | None
     on_off_ratio: float | None
