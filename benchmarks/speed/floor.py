@@ -7,11 +7,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.speed.timing import seconds
+from texvent.runtime.jit import jit
 from texvent.sensor import SensorSize
 
 DRAM_BYTES = 1 << 28
@@ -23,7 +23,7 @@ BYTES_PER_EVENT = 13
 """x and y in two bytes each, t in eight, p in one."""
 
 
-@numba.njit(cache=True, nogil=True)
+@jit
 def _read(words: NDArray[np.uint64], passes: int) -> np.uint64:
     total = np.uint64(0)
     for turn in range(passes):

@@ -41,7 +41,7 @@ def field(levels, times_us, shape=(4, 4)):
 
 @pytest.fixture
 def flashing(moving_texture):
-    """A picture that flashes for one frame, at 20 ms, then is cut at 40 ms."""
+    """An image that flashes for one frame, at 20 ms, then is cut at 40 ms."""
     dim = moving_texture(0) * 0.5
     frames = [dim, dim * 2, dim, moving_texture(3000, 900)]
     return Video(np.stack(frames), [0, 20_000, 40_000, 60_000])
@@ -173,7 +173,7 @@ def test_a_flash_of_one_frame_and_a_cut_are_three_jumps(flashing):
         np.testing.assert_array_equal(held.pixels, source.pixels.astype(np.float32))
 
 
-def test_the_old_picture_is_held_for_half_of_a_short_interval(flashing):
+def test_the_old_image_is_held_for_half_of_a_short_interval(flashing):
     for interval_us, expected in ((1_500, 750), (3, 2), (2, 1)):
         video = Video(flashing.pixels[:2], [0, interval_us])
         assert [frame.t_us for frame in run(video)] == [0, expected, interval_us]

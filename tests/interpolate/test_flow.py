@@ -46,10 +46,10 @@ def test_a_covered_background_is_taken_from_the_frame_that_shows_it(
     moving_texture, psnr, flow, blend
 ):
     def scene(position):
-        picture = moving_texture(0)
-        y, x = np.mgrid[: picture.shape[0], : picture.shape[1]]
+        image = moving_texture(0)
+        y, x = np.mgrid[: image.shape[0], : image.shape[1]]
         disc = (x - 70 - position) ** 2 + (y - 60) ** 2 < 25**2
-        return np.where(disc, moving_texture(position + 50, 40), picture)
+        return np.where(disc, moving_texture(position + 50, 40), image)
 
     moved, mixed = (psnr(middle(part, scene(0), scene(8)), scene(4)) for part in (flow, blend))
     assert moved >= mixed + 6.0
@@ -69,7 +69,7 @@ def test_dark_frames_move_as_well_as_bright_ones(moving_texture, psnr, flow):
 
 
 @pytest.mark.parametrize("together", [1, 3, 5])
-def test_pictures_drawn_together_are_those_drawn_alone(moving_texture, flow, monkeypatch, together):
+def test_images_drawn_together_are_those_drawn_alone(moving_texture, flow, monkeypatch, together):
     first, second = Frame(moving_texture(0), 0), Frame(moving_texture(4), 600)
     monkeypatch.setattr(motion_interpolation, "DRAWN_BYTES", together * first.luma.nbytes)
     found = flow.between(first, second, [100, 200, 300, 400, 500])
@@ -80,9 +80,9 @@ def test_pictures_drawn_together_are_those_drawn_alone(moving_texture, flow, mon
 
 
 def test_equal_frames_give_the_frame(moving_texture, flow):
-    picture = moving_texture(0)
-    for frame in flow.between(Frame(picture, 0), Frame(picture, 1000), [1, 400, 999]):
-        np.testing.assert_array_equal(frame.pixels, picture)
+    image = moving_texture(0)
+    for frame in flow.between(Frame(image, 0), Frame(image, 1000), [1, 400, 999]):
+        np.testing.assert_array_equal(frame.pixels, image)
 
 
 def test_much_of_unrelated_frames_is_blended(moving_texture, psnr, flow, blend):

@@ -1,4 +1,4 @@
-"""Flicker of the whole picture goes, fades and motion stay."""
+"""Flicker of the whole image goes, fades and motion stay."""
 
 import numpy as np
 import pytest
@@ -14,8 +14,8 @@ from texvent.video import Frame, Video
 
 
 def clip(moving_texture, gains, *, speed=1.0, dtype=np.float32):
-    pictures = [0.6 * moving_texture(speed * i) * gain for i, gain in enumerate(gains)]
-    return [Frame(one.astype(dtype), 40_000 * i) for i, one in enumerate(pictures)]
+    images = [0.6 * moving_texture(speed * i) * gain for i, gain in enumerate(gains)]
+    return [Frame(one.astype(dtype), 40_000 * i) for i, one in enumerate(images)]
 
 
 def levels(frames):
@@ -66,13 +66,13 @@ def test_motion_alone_is_no_gain(moving_texture):
     background = 0.3 * moving_texture(0)
     pair = []
     for left in (10, 40):
-        picture = background.copy()
-        picture[30:90, left : left + 60] = 220
-        pair.append(Frame(picture, left))
+        image = background.copy()
+        image[30:90, left : left + 60] = 220
+        pair.append(Frame(image, left))
     assert global_gain(*pair) == 0.0
 
 
-def test_black_and_saturated_pictures_have_no_gain():
+def test_black_and_saturated_images_have_no_gain():
     for level in (0.0, 255.0):
         first, second = (Frame(np.full((20, 20), level), t) for t in (0, 1))
         assert global_gain(first, second) == 0.0
@@ -80,8 +80,8 @@ def test_black_and_saturated_pictures_have_no_gain():
 
 @given(st.floats(0.7, 1.4), st.integers(1, 70), st.integers(1, 70))
 def test_a_pure_gain_is_measured_at_any_size(gain, height, width):
-    picture = np.random.default_rng(height * 71 + width).uniform(40, 160, (height, width))
-    first, second = Frame(picture, 0), Frame(picture * gain, 1)
+    image = np.random.default_rng(height * 71 + width).uniform(40, 160, (height, width))
+    first, second = Frame(image, 0), Frame(image * gain, 1)
     assert global_gain(first, second) == pytest.approx(np.log(gain), abs=1e-5)
 
 
@@ -99,8 +99,8 @@ def test_every_pixel_type_and_colour_is_corrected_alike(moving_texture, dtype):
     scale = 257 if dtype == np.uint16 else 1
     grey = [frame.pixels * scale for frame in clip(moving_texture, [1.0, 1.1], speed=0.0)]
     colour = [np.repeat(one[..., None], 3, axis=2) for one in grey]
-    for pictures in (grey, colour):
-        frames = [Frame(one.astype(dtype), 1000 * i) for i, one in enumerate(pictures)]
+    for images in (grey, colour):
+        frames = [Frame(one.astype(dtype), 1000 * i) for i, one in enumerate(images)]
         corrected = list(steady_frames(iter(frames)))[1]
         assert corrected.pixels.dtype == np.float32
         assert corrected.pixels.shape == frames[1].pixels.shape

@@ -20,7 +20,7 @@ def change(first, second):
 
 @pytest.fixture(scope="module")
 def scene(moving_texture):
-    """`scene(x, y)`: part of one large picture of dark and bright things."""
+    """`scene(x, y)`: part of one large image of dark and bright things."""
 
     def render(x: float, y: float = 0.0) -> np.ndarray:
         coarse = moving_texture(-x / 3, -y / 3, width=WIDTH, height=HEIGHT)
@@ -30,7 +30,7 @@ def scene(moving_texture):
     return render
 
 
-def test_another_picture_is_a_cut(scene, moving_texture):
+def test_another_image_is_a_cut(scene, moving_texture):
     assert (
         change(scene(0), moving_texture(3000, 800, width=WIDTH, height=HEIGHT)) is SceneChange.CUT
     )
@@ -82,23 +82,23 @@ def test_a_dissolve_is_no_jump(scene):
     assert all(change(a, b) is SceneChange.NONE for a, b in itertools.pairwise(steps))
 
 
-def test_the_same_picture_twice_as_bright_is_a_flash(scene):
+def test_the_same_image_twice_as_bright_is_a_flash(scene):
     dim = scene(0) * 0.5
     assert change(dim, scene(0)) is SceneChange.FLASH
     assert change(scene(0), dim) is SceneChange.FLASH
 
 
-def test_a_flash_on_a_moving_picture_is_a_flash(moving_texture):
+def test_a_flash_on_a_moving_image_is_a_flash(moving_texture):
     first, second = (moving_texture(x, width=WIDTH, height=HEIGHT) for x in (0, 5))
     assert change(first * 0.5, second) is SceneChange.FLASH
 
 
-def test_white_and_black_pictures_are_flashes(scene):
+def test_white_and_black_images_are_flashes(scene):
     assert change(scene(0), np.full((HEIGHT, WIDTH), 255.0)) is SceneChange.FLASH
     assert change(np.zeros((HEIGHT, WIDTH)), np.full((HEIGHT, WIDTH), 200.0)) is SceneChange.FLASH
 
 
-def test_a_plain_picture_at_about_the_same_level_is_a_cut_if_much_changes(scene):
+def test_a_plain_image_at_about_the_same_level_is_a_cut_if_much_changes(scene):
     contrasty = np.where(scene(0) > np.median(scene(0)), 220.0, 20.0)
     assert change(contrasty, np.full((HEIGHT, WIDTH), 120.0)) is SceneChange.CUT
 
@@ -143,7 +143,7 @@ def test_two_skies_that_share_only_a_gradient_do_not_agree(scene):
     assert change(first, second) is SceneChange.CUT
 
 
-def test_agreement_is_one_for_a_shifted_picture_and_low_for_another():
+def test_agreement_is_one_for_a_shifted_image_and_low_for_another():
     rng = np.random.default_rng(5)
     large, other = rng.normal(size=(2, 48, 96))
     assert shift_agreement(large[:, :64], large[:, 20:84]) > 0.9

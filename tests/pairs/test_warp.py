@@ -44,7 +44,7 @@ def test_flows_that_contradict_each_other_give_a_blend_in_place(warp):
 
 
 @kernels
-def test_what_enters_the_picture_is_taken_from_the_frame_that_shows_it(warp):
+def test_what_enters_the_image_is_taken_from_the_frame_that_shows_it(warp):
     # Everything moves right by 8 px. At τ = 1/2, column 0 shows what is at column 4 of the later
     # frame and was outside the earlier one, which therefore counts 0.2 against 1.2.
     first, second = np.zeros((1, 20), np.float32), np.full((1, 20), 70.0, np.float32)
@@ -83,7 +83,7 @@ def test_compiled_kernel_is_the_same_with_one_and_two_threads():
 
 
 def test_float32_is_near_enough_to_float64():
-    # Smooth pictures and flows: where the nearest flow vector is another one, it hardly differs.
+    # Smooth images and flows: where the nearest flow vector is another one, it hardly differs.
     y, x = np.mgrid[:60, :80]
     first, second = (128 + 100 * np.sin((x + shift) / 5 + y / 7) for shift in (0, 3))
     forward = np.stack([3 + 0.5 * np.sin(y / 9), 0.3 * np.cos(x / 11)], axis=-1)
@@ -101,18 +101,18 @@ def test_a_flow_that_is_no_number_does_no_harm():
 
 
 def test_places_are_looked_at_bilinearly_and_outside_at_the_edge():
-    picture = np.array([[0.0, 10.0], [20.0, 30.0]])
-    flow = np.stack([picture, -picture], axis=-1)
+    image = np.array([[0.0, 10.0], [20.0, 30.0]])
+    flow = np.stack([image, -image], axis=-1)
     way = np.zeros((2, 2, 2))
     way[0, 0], way[0, 1], way[1, 0], way[1, 1] = (0.5, 0.4), (-0.75, 0.0), (-3.0, -0.5), (0.3, 9.0)
-    seen, vectors, is_inside = warp_reference.sample_along(picture, flow, way)
+    seen, vectors, is_inside = warp_reference.sample_along(image, flow, way)
     np.testing.assert_allclose(seen, [[13.0, 2.5], [10.0, 30.0]])
     np.testing.assert_array_equal(vectors[..., 0], [[10.0, 0.0], [20.0, 30.0]])
     np.testing.assert_array_equal(is_inside, [[True, True], [False, False]])
-    assert warp_reference.sample_along(picture, flow, way + np.array([0.2, -8.5]))[2][1, 1]
+    assert warp_reference.sample_along(image, flow, way + np.array([0.2, -8.5]))[2][1, 1]
 
 
-def test_some_points_of_a_picture_are_those_of_the_whole_picture():
+def test_some_points_of_an_image_are_those_of_the_whole_image():
     rng = np.random.default_rng(7)
     first, second = (rng.uniform(0, 255, (30, 21)).astype(np.float32) for _ in range(2))
     forward = rng.normal(0, 3, (30, 21, 2)).astype(np.float32)

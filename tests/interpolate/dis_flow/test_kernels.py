@@ -31,7 +31,7 @@ def waves(shape, dx=0.0, dy=0.0, seed=0):
     return image.astype(np.float32)
 
 
-def test_pictures_are_halved_until_they_are_about_four_patches_long():
+def test_images_are_halved_until_they_are_about_four_patches_long():
     assert count_levels((260, 346)) == 3
     assert count_levels((720, 1280)) == 5
     assert count_levels((16, 400)) == 1
@@ -81,7 +81,7 @@ def test_brighter_light_alone_does_not_move_patches(kernels):
 
 
 @KERNELS
-def test_a_flat_picture_keeps_the_flow_it_begins_with(kernels):
+def test_a_flat_image_keeps_the_flow_it_begins_with(kernels):
     level = kernels.make_level(np.full((24, 32), 90, np.float32))
     begin = np.stack([np.full((24, 32), number, np.float32) for number in (2.5, -1.0)])
     np.testing.assert_allclose(

@@ -1,4 +1,4 @@
-"""Tiles cover the picture, overlap, and join without seams."""
+"""Tiles cover the image, overlap, and join without seams."""
 
 from itertools import pairwise
 
@@ -13,23 +13,23 @@ from texvent.interpolate.networks.tiles import OVERLAP_PX, cut_tiles, tile_weigh
 SIZES = st.integers(1, 700)
 
 
-def joined(picture, side):
+def joined(image, side):
     """Every tile cut out and put back, weighted."""
-    height, width = picture.shape
+    height, width = image.shape
     total, weight_sum = np.zeros((2, height, width))
     for tile in cut_tiles(height, width, side):
         weights = tile_weights(tile, height, width)
         assert weights.shape == (tile.height, tile.width)
         assert weights.min() > 0
-        total[tile.rows, tile.columns] += weights * picture[tile.rows, tile.columns]
+        total[tile.rows, tile.columns] += weights * image[tile.rows, tile.columns]
         weight_sum[tile.rows, tile.columns] += weights
     return total / weight_sum
 
 
 @given(SIZES, SIZES, st.integers(2 * OVERLAP_PX + 1, 400))
-def test_a_picture_survives_being_cut_and_joined(height, width, side):
-    picture = np.random.default_rng(height).uniform(0, 255, (height, width))
-    assert np.abs(joined(picture, side) - picture).max() < 1e-9 * 255
+def test_an_image_survives_being_cut_and_joined(height, width, side):
+    image = np.random.default_rng(height).uniform(0, 255, (height, width))
+    assert np.abs(joined(image, side) - image).max() < 1e-9 * 255
 
 
 @given(SIZES, st.integers(2 * OVERLAP_PX + 1, 400))

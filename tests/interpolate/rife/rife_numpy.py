@@ -79,10 +79,10 @@ class NumpyRife:
             return leak(x)
         return np.where(x > 0, x, self.tensors[f"{name}.weight"][:, None, None] * x)
 
-    def encode(self, picture):
+    def encode(self, image):
         if not self.layout.encoded_channels:
-            return picture[:0]
-        x = leak(self.layer(picture, "encode.cnn0", 2))
+            return image[:0]
+        x = leak(self.layer(image, "encode.cnn0", 2))
         x = leak(self.layer(x, "encode.cnn1"))
         x = leak(self.layer(x, "encode.cnn2"))
         return self.layer_up(x, "encode.cnn3")
@@ -109,7 +109,7 @@ class NumpyRife:
         return scale * x[:4], x[4:5], x[5 : 5 + self.layout.features]
 
     def estimate(self, first, second, position):
-        """Flow [4, H, W] and mask logit [1, H, W]; pictures [3, H, W], 0..1."""
+        """Flow [4, H, W] and mask logit [1, H, W]; images [3, H, W], 0..1."""
         codes = self.encode(first), self.encode(second)
         instant = np.full((1, *first.shape[1:]), position)
         flow, mask, features = self.block(

@@ -75,21 +75,21 @@ def noise(height=40, width=50, seed=0, *, channels=None):
 @pytest.mark.parametrize("layout", [layout.name for layout in LAYOUTS])
 @pytest.mark.parametrize("size", [(1, 1), (33, 70), (64, 64)])
 def test_every_layout_takes_any_size(build, layout, size):
-    for picture in frames_of(build(layout), *noise(*size)):
-        assert picture.shape == size
-        assert picture.dtype == np.float32
-        # A mix of two moved pictures stays between their levels.
-        assert picture.min() >= 0
-        assert picture.max() <= 255
+    for image in frames_of(build(layout), *noise(*size)):
+        assert image.shape == size
+        assert image.dtype == np.float32
+        # A mix of two moved images stays between their levels.
+        assert image.min() >= 0
+        assert image.max() <= 255
 
 
-def test_an_even_picture_stays_even_and_is_not_rounded(build):
+def test_an_even_image_stays_even_and_is_not_rounded(build):
     first, second = np.full((32, 32), 100.25), np.full((32, 32), 100.25)
-    for picture in frames_of(build(), first, second):
-        assert np.abs(picture - 100.25).max() < 1e-4
+    for image in frames_of(build(), first, second):
+        assert np.abs(image - 100.25).max() < 1e-4
 
 
-def test_every_pixel_type_gives_the_same_picture(build):
+def test_every_pixel_type_gives_the_same_image(build):
     grey = noise()
     interpolator = build()
     expected = frames_of(interpolator, *grey)
@@ -104,10 +104,10 @@ def test_every_pixel_type_gives_the_same_picture(build):
 
 def test_colour_decides_the_motion_but_luma_is_moved(build):
     colour = noise(channels=3)
-    pictures = frames_of(build(), *colour)
+    images = frames_of(build(), *colour)
     from_luma = frames_of(build(), *(Frame(one, 0).luma for one in colour))
-    assert max(np.abs(a - b).max() for a, b in zip(pictures, from_luma, strict=True)) > 1.0
-    assert all(picture.ndim == 2 for picture in pictures)
+    assert max(np.abs(a - b).max() for a, b in zip(images, from_luma, strict=True)) > 1.0
+    assert all(image.ndim == 2 for image in images)
 
 
 def test_levels_above_white_are_scaled_for_the_network_only(build):

@@ -32,8 +32,8 @@ def test_the_network_gives_the_numbers_of_the_reference(layout, position):
         first, second, position
     )
     network = RifeNetwork(layout, {name: torch.from_numpy(one) for name, one in tensors.items()})
-    pictures = (torch.from_numpy(one.astype(np.float32))[None] for one in (first, second))
-    motion = network.estimate(network.encode(*pictures), torch.tensor(position))
+    images = (torch.from_numpy(one.astype(np.float32))[None] for one in (first, second))
+    motion = network.estimate(network.encode(*images), torch.tensor(position))
     # float32 through 50 layers and 4 warps of noise against float64.
     assert np.abs(motion.flow[0].numpy() - expected_flow).max() < 2e-4
     assert np.abs(motion.mask[0].numpy() - expected_mask).max() < 2e-4
@@ -51,33 +51,33 @@ def test_the_instant_changes_the_motion():
 
 
 def test_warp_looks_pixels_up_and_repeats_edges():
-    picture = torch.arange(12.0).reshape(1, 1, 3, 4)
+    image = torch.arange(12.0).reshape(1, 1, 3, 4)
     flow = torch.zeros(1, 2, 3, 4)
-    assert torch.equal(warp(picture, flow), picture)
+    assert torch.equal(warp(image, flow), image)
     flow[:, 0] = 1.5
-    assert warp(picture, flow)[0, 0, 0].tolist() == pytest.approx([1.5, 2.5, 3.0, 3.0], abs=1e-5)
+    assert warp(image, flow)[0, 0, 0].tolist() == pytest.approx([1.5, 2.5, 3.0, 3.0], abs=1e-5)
     flow[:, 0], flow[:, 1] = 0.0, -1.0
-    assert warp(picture, flow)[0, 0, :, 0].tolist() == pytest.approx([0.0, 0.0, 4.0], abs=1e-5)
+    assert warp(image, flow)[0, 0, :, 0].tolist() == pytest.approx([0.0, 0.0, 4.0], abs=1e-5)
 
 
 def test_warp_equals_the_reference_on_noise():
     random = np.random.default_rng(0)
-    picture, flow = random.random((3, 20, 30)), random.normal(0, 6, (2, 20, 30))
+    image, flow = random.random((3, 20, 30)), random.normal(0, 6, (2, 20, 30))
     found = warp(
-        torch.from_numpy(picture.astype(np.float32))[None],
+        torch.from_numpy(image.astype(np.float32))[None],
         torch.from_numpy(flow.astype(np.float32))[None],
     )
-    assert np.abs(found[0].numpy() - rife_numpy.warp(picture, flow)).max() < 1e-4
+    assert np.abs(found[0].numpy() - rife_numpy.warp(image, flow)).max() < 1e-4
 
 
-def test_a_half_precision_picture_is_warped_at_full_precision():
+def test_a_half_precision_image_is_warped_at_full_precision():
     """With half-precision coordinates, columns beyond 2048 could not be told apart."""
-    picture = (torch.arange(4001.0) % 7).half().reshape(1, 1, 1, -1)
+    image = (torch.arange(4001.0) % 7).half().reshape(1, 1, 1, -1)
     flow = torch.zeros(1, 2, 1, 4001, dtype=torch.float16)
     flow[:, 0] = 1.0
-    moved = warp(picture, flow)
+    moved = warp(image, flow)
     assert moved.dtype == torch.float16
-    assert float((moved[..., :-1] - picture[..., 1:]).abs().max()) < 0.01
+    assert float((moved[..., :-1] - image[..., 1:]).abs().max()) < 0.01
 
 
 @pytest.mark.parametrize("position", [0.1, 0.5, 0.8])

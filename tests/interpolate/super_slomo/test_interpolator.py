@@ -89,7 +89,7 @@ def unet(x, tensors):
 
 
 def expected_frame(first, second, t):
-    """The published steps in float64; pictures [3, H, W], 0..1; returns grey levels."""
+    """The published steps in float64; images [3, H, W], 0..1; returns grey levels."""
     a, b = first - MEAN, second - MEAN
     flows = unet(np.concatenate([a, b]), random_tensors(FLOW_NET, 0))
     f01, f10 = flows[:2], flows[2:]
@@ -143,9 +143,9 @@ class TestWithTorch:
         assert np.std(expected) > 0.05
 
     def test_frames_follow_the_published_steps(self, build):
-        pictures = np.random.default_rng(3).integers(0, 256, (2, 32, 64)).astype(np.uint8)
-        found = list(build().between(Frame(pictures[0], 0), Frame(pictures[1], 1000), TIMES_US))
-        levels = [np.repeat(one[None] / 255.0, 3, axis=0) for one in pictures]
+        images = np.random.default_rng(3).integers(0, 256, (2, 32, 64)).astype(np.uint8)
+        found = list(build().between(Frame(images[0], 0), Frame(images[1], 1000), TIMES_US))
+        levels = [np.repeat(one[None] / 255.0, 3, axis=0) for one in images]
         for frame, t_us in zip(found, TIMES_US, strict=True):
             expected, motion = expected_frame(*levels, t_us / 1000)
             assert motion > 0.01
@@ -157,9 +157,9 @@ class TestWithTorch:
     @pytest.mark.parametrize("size", [(1, 1), (33, 70)])
     @pytest.mark.parametrize("precision", ["float32", "bfloat16"])
     def test_any_size_and_precision(self, build, size, precision):
-        pictures = np.random.default_rng(0).uniform(0, 255, (2, *size))
+        images = np.random.default_rng(0).uniform(0, 255, (2, *size))
         interpolator = build(interpolator_precision=precision)
-        found = interpolator.between(Frame(pictures[0], 0), Frame(pictures[1], 1000), [500])
+        found = interpolator.between(Frame(images[0], 0), Frame(images[1], 1000), [500])
         for frame in found:
             assert frame.pixels.shape == size
             assert 0 <= frame.pixels.min() <= frame.pixels.max() <= 255
