@@ -35,7 +35,7 @@ def tokenize_prompt(prompt: str) -> list[Token]:
     Hyphens only join words, so they are left out.
 
     Example:
-        >>> [token.text for token in split_words("It's 3.5 km/h, Close-up!")]
+        >>> [token.text for token in tokenize_prompt("It's 3.5 km/h, Close-up!")]
         ['it', '3.5', 'km', '/', 'h', ',', 'close', 'up', '!']
     """
     normal = unicodedata.normalize("NFKC", prompt)
