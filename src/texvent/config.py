@@ -43,7 +43,7 @@ class RunConfig:
     Frames are fitted to its size, and a simulator that knows its measured constants uses
     them. Without it, a video keeps its own size and a generated scene is davis346."""
     engine: Literal["frames", "continuous"] = "frames"
-    """Simulate the pictures that stand at Eq. 4's instants (frames), or follow each pixel along
+    """Simulate the frames at Eq. 4's instants (frames), or follow each pixel along
     the flow and solve for its threshold crossings (continuous: esim, and texvent's preset
     accurate)."""
     seed: int = 0
@@ -131,7 +131,7 @@ class InterpolateConfig:
     """Upper limit of frames per second after interpolation: a budget, whatever else asks for
     more. Source frames always stay."""
     deflicker: bool = renamed(False, was="flicker_guard")
-    """Divide fast changes of the whole picture's brightness out of the frames, before they are
+    """Divide fast changes of the whole image's brightness out of the frames, before they are
     counted and simulated: generated video flickers. Fades stay, a little later."""
     detect_cuts: bool = True
     """Detect scene cuts and flashes and let them happen at one instant instead of smearing them

@@ -94,7 +94,7 @@ def test_one_event_can_be_shown_in_every_way(tmp_path: Path, panels: int) -> Non
 
 
 def test_slices_of_equal_count_give_an_image_each(tmp_path: Path) -> None:
-    config = RenderConfig(events_per_picture=100, render_fps=Fraction(20))
+    config = RenderConfig(events_per_image=100, render_fps=Fraction(20))
     path = render_events(moving_dot(), tmp_path / "out.mp4", config=config)
     assert video_times(path) == [index * 50_000 for index in range(10)]
 
@@ -156,7 +156,7 @@ def test_other_extensions_are_refused(tmp_path: Path) -> None:
         ({"render_fps": Fraction(0)}, "render_fps is 0"),
         ({"palette": "sepia"}, "unknown palette"),
         ({"decay": 0.0}, "decay is 0"),
-        ({"events_per_picture": 0}, "events_per_picture is 0"),
+        ({"events_per_image": 0}, "events_per_image is 0"),
         ({"decay": 30.0, "window": 10.0}, "window and decay are different ways"),
         ({"points": 0}, "points is 0"),
     ],

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import ClassVar
 
 from texvent.io.atomic import check_output
+from texvent.option_fields import renamed
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,7 +21,7 @@ class OutputOptions:
     out: Path | None = None
     """Event file to write; its extension decides the format. Without it: a name made from the
     input, ending in .h5, in the current folder."""
-    film: bool = True
+    video: bool = renamed(True, was="film")
     """Write a preview video (.mp4): source frames on the left, events on the right."""
     still: bool = True
     """Write an image of the busiest moment (.png)."""
@@ -46,7 +47,7 @@ class OutputOptions:
         """Kinds of preview to write, as file extensions without the dot."""
         if self.events_only:
             return ()
-        wanted = {"mp4": self.film, "png": self.still, "html": self.page}
+        wanted = {"mp4": self.video, "png": self.still, "html": self.page}
         return tuple(kind for kind, is_wanted in wanted.items() if is_wanted)
 
     def check(self, subject: str) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 from texvent._registry import suggest
 from texvent.api import Source
 from texvent.config import check_range
-from texvent.dataset.targets import Clip, Target, film, target_of
+from texvent.dataset.targets import Clip, Target, record_clip, target_of
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.pipeline import Simulation
@@ -115,7 +115,7 @@ class SimulatedSamples:
         """
         if number < 0:
             raise InputError(f"sample number is {number}; it must be 0 or more")
-        clip = film(self._simulation(number), self.slice_us)
+        clip = record_clip(self._simulation(number), self.slice_us)
         parts = [self._part(clip, window) for window in clip.windows]
         arrays = parts[0]
         if self.slice_us is not None:

@@ -37,7 +37,7 @@ class Clip:
         return tuple(zip((self.start_us, *ends), ends, strict=False))
 
 
-def film(simulation: Simulation, slice_us: int | None) -> Clip:
+def record_clip(simulation: Simulation, slice_us: int | None) -> Clip:
     """Run a simulation and cut it into whole windows.
 
     Args:
@@ -72,7 +72,7 @@ def film(simulation: Simulation, slice_us: int | None) -> Clip:
 
 
 def _drawn(frame: Frame) -> Frame:
-    """The frame, its picture made: until then an intermediate frame holds what it is made of."""
+    """The frame, drawn: an undrawn intermediate frame keeps its source frames alive."""
     frame.pixels  # noqa: B018
     return frame
 

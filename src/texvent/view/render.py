@@ -97,8 +97,8 @@ def _cut(
 ) -> Iterator[EventWindow]:
     """Windows as the config gathers events: by count, fading, or by time (the default)."""
     size = packets.size
-    if config.events_per_picture is not None:
-        return cut_counts(packets, size=size, count=config.events_per_picture)
+    if config.events_per_image is not None:
+        return cut_counts(packets, size=size, count=config.events_per_image)
     if config.tau_us is not None:
         return cut_fading(packets, size=size, step_us=step_us, tau_us=config.tau_us)
     return cut_windows(packets, size=size, step_us=step_us, window_us=window_us)
@@ -156,7 +156,7 @@ def _still(packets: EventPackets, config: RenderConfig, source: SourceOverlay) -
 
 
 def _activity(window: EventWindow, config: RenderConfig) -> tuple[int, int]:
-    if config.events_per_picture is None:
+    if config.events_per_image is None:
         return window.event_count, 0
     return window.event_count, window.start_us - window.stop_us
 
@@ -192,7 +192,7 @@ def _evenly_spaced(
         if given == config.panels:
             return
         due_us = first_us + round(given * step_us)
-        if config.events_per_picture is None or window.stop_us > due_us:
+        if config.events_per_image is None or window.stop_us > due_us:
             given += 1
             yield window
 

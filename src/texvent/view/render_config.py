@@ -7,6 +7,7 @@ from fractions import Fraction
 
 from texvent.config import check_range
 from texvent.errors import ConfigError
+from texvent.option_fields import renamed
 from texvent.video import MICROSECONDS
 from texvent.view.drawing.annotations import Overlay
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
@@ -22,7 +23,7 @@ class RenderConfig:
     window: float | None = None
     """Time that one image gathers, in ms of the recording. Without it, videos show every event
     once and images show at most 40 ms."""
-    events_per_picture: int | None = None
+    events_per_image: int | None = renamed(None, was="events_per_picture")
     """Fixed count instead of fixed time: every image gathers this many events, however long
     that takes; a video shows one such slice after the other."""
     decay: float | None = None
@@ -46,7 +47,7 @@ class RenderConfig:
         check_range("points", self.points, 1, 20_000_000)
         ways = {
             "window": self.window,
-            "events_per_picture": self.events_per_picture,
+            "events_per_image": self.events_per_image,
             "decay": self.decay,
         }
         given = {name: value for name, value in ways.items() if value is not None}
@@ -55,7 +56,7 @@ class RenderConfig:
                 f"{' and '.join(given)} are different ways to gather events; give one of them"
             )
         for name, value in given.items():
-            check_range(name, value, 1 if name == "events_per_picture" else 0.001, 1e12)
+            check_range(name, value, 1 if name == "events_per_image" else 0.001, 1e12)
         if not 0 < self.render_fps <= 1000:
             raise ConfigError(f"render_fps is {self.render_fps}; it must be above 0, at most 1000")
 

@@ -69,7 +69,7 @@ def test_events_become_a_folder_of_pictures_with_their_times(events, weights, tm
 
 def test_events_become_a_film_by_count_and_in_a_range(events, weights, tmp_path, capsys):
     out = tmp_path / "film.mp4"
-    words = ("--events-per-picture", "40", "--time", "0.1,0.4", "--quiet")
+    words = ("--events-per-image", "40", "--time", "0.1,0.4", "--quiet")
     code, said = run(capsys, "reconstruct", events, "-o", out, *words, *network(weights))
     assert (code, said.out, said.err) == (0, "", "")
     assert out.stat().st_size > 0
@@ -79,7 +79,7 @@ def test_events_become_a_film_by_count_and_in_a_range(events, weights, tmp_path,
     ("words", "message"),
     [
         (("--fps", "0"), "fps is 0"),
-        (("--events-per-picture", "0"), "events_per_picture is 0"),
+        (("--events-per-image", "0"), "events_per_image is 0"),
         (("--network", "firenets"), "did you mean 'firenet'"),
     ],
 )

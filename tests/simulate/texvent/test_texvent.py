@@ -51,7 +51,7 @@ def ramp_b() -> list[Frame]:
 
 
 @pytest.mark.parametrize(
-    ("reset", "timestamp_rule", "times"),
+    ("reset", "stamp", "times"),
     [
         ("current", "end", (0.333, 0.667, 1.0)),
         ("current", "eq7", (0.250, 0.583, 0.917)),

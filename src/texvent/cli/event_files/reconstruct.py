@@ -20,6 +20,7 @@ from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.option_fields import renamed
 from texvent.reconstruct.config import ReconstructConfig
 from texvent.reconstruct.reconstructor import Reconstructor, load_reconstructor
 from texvent.represent.packet_slices import slice_by_count, slice_regularly
@@ -44,7 +45,7 @@ class ReconstructOptions(EventRangeOptions):
     again."""
     fps: Fraction = Fraction(30)
     """Images per second of the recording; each is made from the events since the one before."""
-    events_per_picture: int | None = None
+    events_per_image: int | None = renamed(None, was="events_per_picture")
     """Events per image, instead of a fixed time."""
     overwrite: bool = False
     """Replace the file or folder if it exists already."""
@@ -54,15 +55,13 @@ class ReconstructOptions(EventRangeOptions):
     def __post_init__(self) -> None:
         if not 0 < self.fps <= MICROSECONDS:
             raise ConfigError(f"fps is {self.fps}; it must be above 0, at most {MICROSECONDS}")
-        if self.events_per_picture is not None and self.events_per_picture < 1:
-            raise ConfigError(
-                f"events_per_picture is {self.events_per_picture}; it must be at least 1"
-            )
+        if self.events_per_image is not None and self.events_per_image < 1:
+            raise ConfigError(f"events_per_image is {self.events_per_image}; it must be at least 1")
 
     def slices(self, events: EventPackets) -> Iterator[tuple[int, EventStream]]:
         """The events of each image, and its time."""
-        if self.events_per_picture is not None:
-            return slice_by_count(events, count=self.events_per_picture, size=events.size)
+        if self.events_per_image is not None:
+            return slice_by_count(events, count=self.events_per_image, size=events.size)
         return slice_regularly(events, step_us=MICROSECONDS / self.fps, size=events.size)
 
 
@@ -101,7 +100,7 @@ def _provenance(
         "network": reconstructor.name,
         "weights_sha256": reconstructor.sha256,
         "fps": str(options.fps),
-        "events_per_picture": options.events_per_picture,
+        "events_per_image": options.events_per_image,
         "time": options.time,
         "texvent_version": __version__,
     }

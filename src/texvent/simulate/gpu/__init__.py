@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from texvent._registry import load_object
 from texvent._require import require
-
-_HOMES = {
-    "EventBatch": "texvent.simulate.gpu.batch:EventBatch",
-    "GpuPairs": "texvent.simulate.gpu.frame_pairs:GpuPairs",
-    "GpuSimulator": "texvent.simulate.gpu.engine:GpuSimulator",
-}
 
 __all__ = ["EventBatch", "GpuPairs", "GpuSimulator"]
 
@@ -22,7 +15,12 @@ def __getattr__(name: str) -> Any:
     Raises:
         MissingDependencyError: Triton is not installed.
     """
-    if name not in _HOMES:
+    if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     require("triton", extra="gpu")
-    return load_object(_HOMES[name])
+    from texvent.simulate.gpu.batch import EventBatch
+    from texvent.simulate.gpu.engine import GpuSimulator
+    from texvent.simulate.gpu.frame_pairs import GpuPairs
+
+    public = {"EventBatch": EventBatch, "GpuPairs": GpuPairs, "GpuSimulator": GpuSimulator}
+    return public[name]

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from texvent._registry import load_object
 from texvent._require import require
 from texvent.events import EventStream
 from texvent.simulate.esim.simulator import EsimConfig
@@ -34,9 +33,9 @@ class FrameSteps:
             MissingDependencyError: torch or Triton is not installed.
         """
         self._device = default_device()
-        # Imported here, because only now it is known that Triton can be.
-        simulator = load_object("texvent.simulate.gpu.engine:GpuSimulator")
-        self._simulator = simulator(config, seed=seed)
+        from texvent.simulate.gpu.engine import GpuSimulator  # needs Triton, which is here by now
+
+        self._simulator = GpuSimulator(config, seed=seed)
 
     def step(self, frame: Frame) -> EventStream:
         """Events between the frame before and this one; none for the first frame.

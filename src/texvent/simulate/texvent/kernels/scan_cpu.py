@@ -129,12 +129,12 @@ def _take_logs(
 
 def warm_up(dtype: str) -> None:
     """Compile for one type of frames, or load what was compiled before."""
-    picture, number, byte = np.ones(1, dtype), np.float32(1.0), np.uint8(1)
-    table = np.zeros(0 if picture.dtype.kind == "f" else np.iinfo(dtype).max + 1)
-    memory = Memory(picture, picture.copy(), picture[:0].copy(), np.empty(0), table)
+    frame, number, byte = np.ones(1, dtype), np.float32(1.0), np.uint8(1)
+    table = np.zeros(0 if frame.dtype.kind == "f" else np.iinfo(dtype).max + 1)
+    memory = Memory(frame, frame.copy(), frame[:0].copy(), np.empty(0), table)
     levels = ScanLevels(number, number, number, number, byte)
     rule = FireRule(1.0, 1.0, False, False, True, False)
-    find_fired(read_only(picture), memory, levels, rule)
+    find_fired(read_only(frame), memory, levels, rule)
 
 
 def _make_room(memory: Memory) -> _Work:
@@ -266,6 +266,6 @@ def _fire_words(
 
 @jit
 def _copy(source: Intensity, target: Intensity) -> None:
-    """Copy a picture, if there is anything to copy it to."""
+    """Copy a frame, if there is anything to copy it to."""
     for i in range(target.size):
         target[i] = source[i]
