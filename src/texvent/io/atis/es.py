@@ -91,7 +91,7 @@ class EsSink:
 
     def _write_part(self, columns: Columns) -> None:
         """Write events with no long silence except before the first."""
-        from texvent.io.atis.es_kernels import encode_events  # brings Numba
+        from texvent.io.atis.es_coding import encode_events  # brings Numba
 
         t = columns["t"]
         while int(t[0]) - self._last_us > MAX_SILENCE_US:
@@ -129,7 +129,7 @@ def _read_size(path: Path) -> tuple[int, int]:
 
 
 def _read_blocks(path: Path, top: int) -> Iterator[Columns]:
-    from texvent.io.atis.es_kernels import decode_events  # brings Numba
+    from texvent.io.atis.es_coding import decode_events  # brings Numba
 
     rest = b""
     now = 0

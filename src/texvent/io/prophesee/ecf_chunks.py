@@ -34,7 +34,7 @@ MAX_EVENTS = 65_535
 MAX_SIDE = 2048
 """Coordinates have 11 bits."""
 MAX_START_US = 1 << 62
-"""Of the times of a chunk; see `texvent.io.prophesee.ecf_kernels`."""
+"""Of the times of a chunk; see `texvent.io.prophesee.ecf_coding`."""
 _HEAD = struct.Struct("<IQ")
 _STEP_BYTES = 20
 """Most that one event adds to the times: a step of 16 nibbles, its run, a long number."""
@@ -42,12 +42,12 @@ _STEP_BYTES = 20
 
 def encode_chunk(columns: Columns) -> bytes:
     """One chunk from columns x, y, t, p of 1 to `MAX_EVENTS` events with non-decreasing times."""
-    from texvent.io.prophesee import ecf_kernels  # brings Numba
+    from texvent.io.prophesee import ecf_coding  # brings Numba
 
     x, y, t, p = (columns[name] for name in "xytp")
     body = np.empty(_STEP_BYTES * len(t) + 3 * (len(t) + 3), dtype=np.uint8)
-    end = ecf_kernels.encode_times(t, body)
-    end += ecf_kernels.encode_packed((x, y, p), body[end:])
+    end = ecf_coding.encode_times(t, body)
+    end += ecf_coding.encode_packed((x, y, p), body[end:])
     return _HEAD.pack(len(t) << 2 | 0b10, int(t[0])) + body[:end].tobytes()
 
 
@@ -72,19 +72,19 @@ def decode_chunk(chunk: bytes) -> Columns:
 
 
 def _decode_body(body: NDArray[np.uint8], origin: int, flags: int, columns: Columns) -> None:
-    from texvent.io.prophesee import ecf_kernels  # brings Numba
+    from texvent.io.prophesee import ecf_coding  # brings Numba
 
     x, y, t, p = (columns[name] for name in "xytp")
-    rest = _skip(body, ecf_kernels.decode_times(body, origin, t))
+    rest = _skip(body, ecf_coding.decode_times(body, origin, t))
     if flags & 0b10:
-        _skip(rest, ecf_kernels.decode_packed(rest, (x, y, p)))
+        _skip(rest, ecf_coding.decode_packed(rest, (x, y, p)))
         return
-    rest = _skip(rest, ecf_kernels.decode_rows(rest, y))
+    rest = _skip(rest, ecf_coding.decode_rows(rest, y))
     if flags & 0b01:
-        _skip(rest, ecf_kernels.decode_pairs(rest, (x, p)))
+        _skip(rest, ecf_coding.decode_pairs(rest, (x, p)))
         return
-    rest = _skip(rest, ecf_kernels.decode_masked(rest, x))
-    _skip(rest, ecf_kernels.decode_polarities(rest, p))
+    rest = _skip(rest, ecf_coding.decode_masked(rest, x))
+    _skip(rest, ecf_coding.decode_polarities(rest, p))
 
 
 def _skip(body: NDArray[np.uint8], used: int) -> NDArray[np.uint8]:

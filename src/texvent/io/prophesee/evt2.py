@@ -31,6 +31,6 @@ class Evt2Codec(EvtCodec):
 
     def kernels(self) -> WordKernels:
         """The compiled loops of EVT2."""
-        from texvent.io.prophesee import evt2_kernels  # brings Numba
+        from texvent.io.prophesee import evt2_coding  # brings Numba
 
-        return evt2_kernels
+        return evt2_coding

@@ -45,9 +45,9 @@ class Evt21Codec(EvtCodec):
 
     def kernels(self) -> WordKernels:
         """The compiled loops of EVT2.1."""
-        from texvent.io.prophesee import evt21_kernels  # brings Numba
+        from texvent.io.prophesee import evt21_coding  # brings Numba
 
-        return evt21_kernels
+        return evt21_coding
 
     def make_decoder(self, header: TextHeader | None = None) -> WordDecoder:
         """A decoder for a file with this header: it may have to exchange the halves of words."""

@@ -41,6 +41,6 @@ class Evt3Codec(EvtCodec):
 
     def kernels(self) -> WordKernels:
         """The compiled loops of EVT3."""
-        from texvent.io.prophesee import evt3_kernels  # brings Numba
+        from texvent.io.prophesee import evt3_coding  # brings Numba
 
-        return evt3_kernels
+        return evt3_coding

@@ -11,7 +11,13 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from texvent.scenes.models import people, solids
-from texvent.scenes.models.animals import birds, quadrupeds, sea_life, small_animals, waders
+from texvent.scenes.models.animals import (
+    flying_birds,
+    quadrupeds,
+    sea_life,
+    small_animals,
+    walking_birds,
+)
 from texvent.scenes.models.objects import (
     buildings,
     furniture,
@@ -33,8 +39,8 @@ _FAMILIES: tuple[tuple[Noun, ...], ...] = (
     construction.NOUNS,
     people.NOUNS,
     quadrupeds.NOUNS,
-    waders.NOUNS,
-    birds.NOUNS,
+    walking_birds.NOUNS,
+    flying_birds.NOUNS,
     sea_life.NOUNS,
     small_animals.NOUNS,
     plants.NOUNS,

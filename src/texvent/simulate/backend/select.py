@@ -56,6 +56,7 @@ class Kernel(Generic[Function]):
             name: of the function.
         """
         self._home, self._name = home, name
+        self._ready: dict[Any, Function] = {}
 
     def load(self, backend: str = AUTO, dtype: np.dtype[Any] | None = None) -> Function:
         """The function of a backend; "auto" is "numpy" until the compiled one is ready.
@@ -68,11 +69,16 @@ class Kernel(Generic[Function]):
             ConfigError: no backend has that name.
             MissingDependencyError: what the backend needs is not installed.
         """
-        if check_backend(backend) == AUTO:
+        if backend != AUTO:
+            function: Function = _load(self._home, self._name, check_backend(backend))
+            return function
+        if dtype not in self._ready:
             variant = () if dtype is None else (dtype.name,)
-            backend = "cpu" if is_ready(f"{self._home}_cpu", *variant) else "numpy"
-        function: Function = _load(self._home, self._name, backend)
-        return function
+            if not is_ready(f"{self._home}_cpu", *variant):
+                return self.load("numpy")
+            # Asked for at every frame, so the answer is kept.
+            self._ready[dtype] = self.load("cpu")
+        return self._ready[dtype]
 
 
 @functools.cache

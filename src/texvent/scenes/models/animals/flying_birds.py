@@ -1,4 +1,4 @@
-"""Birds: fliers with flapping wings, floating ducks, and the walking ostrich."""
+"""Birds that fly with flapping wings, and ducks that float."""
 
 from __future__ import annotations
 
