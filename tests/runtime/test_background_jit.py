@@ -15,8 +15,10 @@ from texvent.simulate.packets.sorting import SORT_EVENTS
 @pytest.fixture(autouse=True)
 def _fresh():
     background_jit._prepare.cache_clear()
+    SORT_EVENTS._ready.clear()
     yield
     background_jit._prepare.cache_clear()
+    SORT_EVENTS._ready.clear()
 
 
 @pytest.fixture
