@@ -9,7 +9,8 @@ from hypothesis.extra.numpy import arrays
 from texvent.errors import ConfigError
 from texvent.simulate.crossing.ramp import Ramp, RefractoryPeriod
 from texvent.simulate.crossing.ramp_reference import cross_ramp
-from texvent.simulate.esim.crossings import CROSS_THRESHOLDS, RampPixels, References
+from texvent.simulate.esim.crossings import CROSS_THRESHOLDS, RampPixels
+from texvent.simulate.fused.segments import CrossingState
 from texvent.simulate.random.mismatch import Thresholds
 
 SHAPE = (12,)
@@ -24,7 +25,7 @@ def cross(backend, ramp, fired_us=None, *, span=(0, 1000), rest=None):
     """Events, and where the references are after them: they begin at 0."""
     fired = np.full(SENSOR[0] * SENSOR[1], NEVER) if fired_us is None else fired_us
     candidates = RampPixels(*ramp[:3], None, Thresholds(*ramp[3:]))
-    levels = References(np.zeros(fired.size), fired)
+    levels = CrossingState(np.zeros(fired.size), fired)
     cross_thresholds = CROSS_THRESHOLDS.load(backend, np.dtype(np.float64))
     events = cross_thresholds(candidates, levels, span, rest or RefractoryPeriod(0, True), SENSOR)
     return events, levels.reference
@@ -106,7 +107,7 @@ def test_backends_agree_on_many_crossings_of_many_pixels(rest):
         rng = np.random.default_rng(0)
         ramp = Ramp(np.arange(1500), *rng.normal(0, 0.7, (2, 1500)), *np.full((2, 1500), 0.02))
         cross_thresholds = CROSS_THRESHOLDS.load(backend, np.dtype(np.float64))
-        levels = References(np.zeros(1500), np.full(1500, NEVER))
+        levels = CrossingState(np.zeros(1500), np.full(1500, NEVER))
         candidates = RampPixels(*ramp[:3], None, Thresholds(*ramp[3:]))
         events = cross_thresholds(candidates, levels, (0, 5000), rest, (30, 50))
         found.append((*events, *levels))

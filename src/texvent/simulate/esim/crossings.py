@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from texvent.simulate.backend.select import Kernel
 from texvent.simulate.crossing.ramp import RefractoryPeriod
+from texvent.simulate.fused.segments import CrossingState
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.random.mismatch import Thresholds
 
@@ -31,18 +32,8 @@ class RampPixels(NamedTuple):
     """Of these pixels."""
 
 
-class References(NamedTuple):
-    """What pixels remember of their last event; a kernel changes both."""
-
-    reference: Float64Array
-    """[H · W] brightness at the last event, log units."""
-    fired_us: NDArray[np.int64]
-    """[H · W] time of the last event, µs; not looked at, so also [0], without a refractory
-    period."""
-
-
 CrossThresholds: TypeAlias = Callable[
-    [RampPixels, References, tuple[int, int], RefractoryPeriod, tuple[int, int]], SortedEvents
+    [RampPixels, CrossingState, tuple[int, int], RefractoryPeriod, tuple[int, int]], SortedEvents
 ]
 """`cross_thresholds(pixels, references, (start_us, stop_us), refractory, (height, width))`, see
 `reference.cross_thresholds`."""

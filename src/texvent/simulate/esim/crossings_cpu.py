@@ -20,7 +20,8 @@ from texvent.simulate.crossing.ramp_cpu import (
     list_crossing_keys,
 )
 from texvent.simulate.esim import reference
-from texvent.simulate.esim.crossings import Float64Array, RampPixels, References
+from texvent.simulate.esim.crossings import Float64Array, RampPixels
+from texvent.simulate.fused.segments import CrossingState
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.sorting_cpu import sort_keyed_events
 from texvent.simulate.random.mismatch import Thresholds
@@ -28,7 +29,7 @@ from texvent.simulate.random.mismatch import Thresholds
 
 def cross_thresholds(
     pixels: RampPixels,
-    references: References,
+    references: CrossingState,
     span_us: tuple[int, int],
     refractory: RefractoryPeriod,
     shape: tuple[int, int],
@@ -57,7 +58,7 @@ def warm_up(dtype: str) -> None:
     table = np.ones(256) if end.dtype == np.uint8 else None
     pixels = RampPixels(pixel, end, end, table, Thresholds(one, one))
     cross_thresholds(
-        pixels, References(one.copy(), pixel.copy()), (0, 1), RefractoryPeriod(0, False), (1, 1)
+        pixels, CrossingState(one.copy(), pixel.copy()), (0, 1), RefractoryPeriod(0, False), (1, 1)
     )
 
 

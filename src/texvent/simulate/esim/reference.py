@@ -7,7 +7,8 @@ import numpy as np
 from texvent.events import SIGNAL
 from texvent.simulate.crossing.ramp import Ramp, RefractoryPeriod
 from texvent.simulate.crossing.ramp_reference import cross_ramp
-from texvent.simulate.esim.crossings import RampPixels, References
+from texvent.simulate.esim.crossings import RampPixels
+from texvent.simulate.fused.segments import CrossingState
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.sorting_reference import sort_events
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
@@ -15,7 +16,7 @@ from texvent.simulate.packets.unsorted_events import UnsortedEvents
 
 def cross_thresholds(
     pixels: RampPixels,
-    references: References,
+    references: CrossingState,
     span_us: tuple[int, int],
     refractory: RefractoryPeriod,
     shape: tuple[int, int],

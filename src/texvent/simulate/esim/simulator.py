@@ -20,7 +20,7 @@ from texvent.simulate.backend.select import AUTO, GPU
 from texvent.simulate.crossing.ramp import RefractoryPeriod
 from texvent.simulate.crossing.trigger_levels import LOOK_UP, BrightnessCurve, TriggerLevels
 from texvent.simulate.esim.config import EsimConfig
-from texvent.simulate.esim.crossings import CROSS_THRESHOLDS, RampPixels, References
+from texvent.simulate.esim.crossings import CROSS_THRESHOLDS, RampPixels
 from texvent.simulate.fused.candidates import find_bounds, one_grid
 from texvent.simulate.fused.continuous import plan_segments
 from texvent.simulate.fused.definitions import Float64Array, LumaBounds
@@ -194,10 +194,10 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
                 of_luma, intensity.reshape(-1)
             )
         rested = reference.size if config.refractory_period_us else 0
-        self._references = References(reference, np.full(rested, LONG_AGO_US))
+        self._references = CrossingState(reference, np.full(rested, LONG_AGO_US))
         height, width = intensity.shape
         self._shape = height, width
-        self._segments.watch(CrossingState(*self._references), self._shape)
+        self._segments.watch(self._references, self._shape)
         self._is_redrawn = config.threshold_sigma > 0 and config.threshold_redraw == "frame"
         # Any threshold may be drawn anew, but none below the floor.
         self._fixed = FLOOR
@@ -231,7 +231,7 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         triggers.set(pixel, self._references.reference, thresholds_at(pixel, self._fixed))
         self._triggers = triggers
         # The references have moved.
-        self._segments.watch(CrossingState(*self._references), self._shape)
+        self._segments.watch(self._references, self._shape)
         return columns
 
     def _log_intensity(self, intensity: IntensityArray) -> Float64Array:
