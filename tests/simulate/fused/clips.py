@@ -12,7 +12,6 @@ from texvent.interpolate.pairing import pair_frames
 from texvent.runtime.background_jit import wait_until_ready
 from texvent.settings import resolve
 from texvent.simulate.build import build_simulator
-from texvent.simulate.fused.load import NAMES, find_compiled
 from texvent.video import Video
 
 FRAME_US = 40_000
@@ -64,8 +63,7 @@ def readable(video: Video, options: dict[str, Any]) -> list[Any]:
 
 def wait_for_kernels() -> None:
     """Return when the fused kernels are compiled."""
-    for name in NAMES:
-        find_compiled(name)
+    for name in ("candidates", "segments"):
         wait_until_ready(f"texvent.simulate.fused.{name}_cpu")
 
 

@@ -11,7 +11,7 @@ from texvent.errors import ConfigError
 from texvent.io.files import save
 from texvent.pipeline import text_to_events
 from texvent.settings import resolve
-from texvent.simulate.fused.load import find_compiled
+from texvent.simulate.fused.candidates import compiled_kernels
 
 from .clips import panning
 
@@ -52,7 +52,7 @@ def test_what_the_continuous_engine_cannot_do_is_refused_before_any_work(options
 )
 def test_a_pair_is_not_drawn_where_it_can_be_fused(options, is_tried, monkeypatch):
     estimated = []
-    kernels = find_compiled("candidates")
+    kernels = compiled_kernels()
     whole = kernels.estimate_active
     monkeypatch.setattr(
         kernels, "estimate_active", lambda *given: estimated.append(1) or whole(*given)

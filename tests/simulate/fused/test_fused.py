@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 from texvent.errors import InputError
 from texvent.pairs.motion_interpolation import MotionInterpolation, UndrawnFrame
 from texvent.simulate.esim import simulator as esim_simulator
-from texvent.simulate.fused import candidates
-from texvent.simulate.fused import load as fused_kernels
+from texvent.simulate.fused import candidates, segments_reference
 from texvent.simulate.fused.candidates import find_bounds
+from texvent.simulate.fused.segments import CROSS_SEGMENTS
 from texvent.simulate.texvent import fused as texvent_fused
 from texvent.video import Frame, Video
 
@@ -182,7 +182,8 @@ def test_any_frames_give_the_same_events(seed, simulator, spread):
 @pytest.mark.parametrize("interpolate", ["flow", "blend"])
 @pytest.mark.parametrize("simulator", ["texvent", "esim"])
 def test_until_kernels_are_compiled_the_events_are_the_same(simulator, interpolate, monkeypatch):
-    monkeypatch.setattr(fused_kernels, "is_ready", lambda module: False)
+    monkeypatch.setattr(candidates, "is_ready", lambda module: False)
+    monkeypatch.setattr(CROSS_SEGMENTS, "load", lambda: segments_reference.cross_segments)
     options = {"simulator": simulator, "interpolate": interpolate, "max_intermediate": 5}
     assert assert_equal(panning(3), **options) > 200
 

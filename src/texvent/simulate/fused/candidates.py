@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from types import ModuleType
 from typing import TypeVar
 
 import numpy as np
 
 from texvent.pairs.motion_interpolation import MotionInterpolation, load_warp
+from texvent.runtime.background_jit import is_ready
 from texvent.runtime.threads import count_threads, run_parts
 from texvent.simulate.fused.candidates_reference import find_candidates
 from texvent.simulate.fused.definitions import (
@@ -22,7 +24,6 @@ from texvent.simulate.fused.definitions import (
     ReferenceLevels,
     SampleGrids,
 )
-from texvent.simulate.fused.load import find_compiled
 
 BAND_PIXELS = 1 << 16
 """Most pixels that a thread takes at a time: candidates are held band by band."""
@@ -31,7 +32,18 @@ BUSY = 0.65
 at each instant either way, scanning whole frames is faster than evaluating pixels one by one, and
 no list of candidates has to be held (docs/design/speed.md has the measurements)."""
 
+KERNELS = "texvent.simulate.fused.candidates_cpu"
+
 Decided = TypeVar("Decided")
+
+
+def compiled_kernels() -> ModuleType | None:
+    """The compiled kernels; None until they are compiled, and always without Numba."""
+    if not is_ready(KERNELS):
+        return None
+    from texvent.simulate.fused import candidates_cpu  # needs Numba
+
+    return candidates_cpu
 
 
 def find_bounds(
@@ -48,7 +60,7 @@ def find_bounds(
         the pixels, estimated from a sample of rows, may fire; nothing moves, so that a frame costs
         next to nothing; or the kernels are not compiled yet.
     """
-    kernels = find_compiled("candidates")
+    kernels = compiled_kernels()
     if kernels is None or motion.flows is None:
         return None
     arrays = arrays_of(motion)
@@ -75,7 +87,7 @@ def map_candidates(
         levels: what they are compared with.
         bounds: of `find_bounds`, if it was called.
     """
-    arrays, kernels = arrays_of(motion), find_compiled("candidates")
+    arrays, kernels = arrays_of(motion), compiled_kernels()
     if kernels is None:
         return [decide(find_candidates(arrays, grids, levels, load_warp().warp_between))]
     prepared = PreparedPair(
@@ -104,7 +116,7 @@ def warp_pixels(motion: MotionInterpolation, index: int, pixel: Int64Array) -> F
     """
     if index == len(motion):
         return motion.later.reshape(-1)[pixel]
-    kernels = find_compiled("candidates")
+    kernels = compiled_kernels()
     if kernels is None:
         return motion.image(index).reshape(-1)[pixel]
     warped: Float32Array = kernels.warp_pixels(

@@ -20,11 +20,10 @@ from texvent.simulate.fused.definitions import (
     ReferenceLevels,
     SampleGrids,
 )
-from texvent.simulate.fused.load import load_kernels
 from texvent.simulate.fused.segments import (
+    CROSS_SEGMENTS,
     CrossingRules,
     CrossingState,
-    SegmentCrossings,
     Segments,
 )
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
@@ -115,8 +114,7 @@ class SegmentPixels:
             self._scale.brightness_of(before),
             self._scale.brightness_of(now),
         )
-        cross_segments = load_kernels("segments").cross_segments
-        crossings: SegmentCrossings = cross_segments(segments, self._rules, self._state)
+        crossings = CROSS_SEGMENTS.load()(segments, self._rules, self._state)
         # Candidates come by pixel: the last one of each says where it is now.
         moved = pixel[np.flatnonzero(np.diff(pixel, append=-1))]
         level.reshape(-1)[moved] = self._scale.unit * np.exp(self._state.reference[moved])

@@ -6,11 +6,13 @@ the time of the crossing, and its reference moves in steps.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.simulate.backend.select import Kernel
 from texvent.simulate.fused.definitions import Float64Array, Int64Array
 
 
@@ -58,3 +60,8 @@ class SegmentCrossings(NamedTuple):
     """[n] µs."""
     p: NDArray[np.uint8]
     """[n] 1 = ON, 0 = OFF."""
+
+
+CrossSegments: TypeAlias = Callable[[Segments, CrossingRules, CrossingState], SegmentCrossings]
+CROSS_SEGMENTS = Kernel[CrossSegments](__name__, "cross_segments")
+"""`cross_segments(segments, rules, state)`, see `segments_reference.cross_segments`."""
