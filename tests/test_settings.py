@@ -3,7 +3,7 @@
 import pytest
 
 from texvent.errors import ConfigError, InputError
-from texvent.option_fields import RenamedOptionWarning
+from texvent.options.fields import RenamedOptionWarning
 from texvent.sensor import SENSORS, SensorSize
 from texvent.settings import base_settings, read_config, resolve, unmeasured_sensor
 

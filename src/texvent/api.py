@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.generate.prompts.upsample_config import UpsampleConfig
-from texvent.option_fields import option_names
-from texvent.option_keywords import GenerateOptions, SimulateOptions
-from texvent.option_values import with_options
-from texvent.progress import ProgressOption, open_progress
+from texvent.options.fields import option_names
+from texvent.options.keywords import GenerateOptions, SimulateOptions
+from texvent.options.values import with_options
 from texvent.runs import make_video, prepare_prompt, prepare_source
+from texvent.runtime.progress import ProgressOption, open_progress
 from texvent.settings import Settings, resolve
 from texvent.video import FrameStream
 

@@ -3,8 +3,8 @@
 A field is one option. Its name is the flag (`max_intermediate` → `--max-intermediate`), the key
 in a TOML or YAML file and the keyword in Python; its default is written once, here or in the
 part's own file (every generator and simulator declares its `config_type` beside its code); the
-text under it is its help. Field names are therefore unique across stages. `option_fields.py` reads
-the fields, `option_values.py` converts their values.
+text under it is its help. Field names are therefore unique across stages. `options/fields.py` reads
+the fields, `options/values.py` converts their values.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Literal
 
 from texvent.errors import ConfigError
-from texvent.option_fields import renamed
+from texvent.options.fields import renamed
 
 
 def check_range(name: str, value: float, low: float, high: float = float("inf")) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
 from texvent.events import EventStream
-from texvent.progress import Progress, ProgressOption, open_progress
+from texvent.runtime.progress import Progress, ProgressOption, open_progress
 from texvent.sensor import SensorSize
 
 

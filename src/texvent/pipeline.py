@@ -22,8 +22,8 @@ from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.interpolate.pairing import plan_pairs
 from texvent.pairs.frame_pair import OnSceneChange, notify_scene_change
-from texvent.progress import Progress
 from texvent.provenance import describe_run
+from texvent.runtime.progress import Progress
 from texvent.settings import Settings
 from texvent.simulate.build import build_simulator, check_engine
 from texvent.simulate.packets.selection import select_events

@@ -16,8 +16,8 @@ from typing import Any, Literal
 from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS, suggest
 from texvent.config import CaptureConfig, InterpolateConfig, RunConfig
 from texvent.errors import ConfigError, InputError
-from texvent.option_fields import option_names, with_current_names
-from texvent.option_values import plain, with_options
+from texvent.options.fields import option_names, with_current_names
+from texvent.options.values import plain, with_options
 from texvent.sensor import SENSORS, Sensor, SensorSize, parse_sensor
 from texvent.simulate.thresholds import with_contrast_threshold
 

@@ -1,4 +1,4 @@
-"""Writes `src/texvent/option_keywords.py` from the option dataclasses.
+"""Writes `src/texvent/options/keywords.py` from the option dataclasses.
 
     python -m tests.contract.option_keywords
 
@@ -22,7 +22,7 @@ from texvent.config import CaptureConfig, InterpolateConfig, RunConfig
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.generate.video_config import DiffusersConfig
 
-FILE = Path(__file__).parents[2] / "src" / "texvent" / "option_keywords.py"
+FILE = Path(__file__).parents[2] / "src" / "texvent" / "options" / "keywords.py"
 HEAD = '''"""Options of the Python API, for editors and type checkers.
 
 Written by `python -m tests.contract.option_keywords` from the option dataclasses, which say what

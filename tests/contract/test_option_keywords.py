@@ -6,8 +6,8 @@ import typing
 from tests.contract import option_keywords
 
 from texvent.api import generate, simulate
-from texvent.option_fields import option_names
-from texvent.option_keywords import GenerateOptions, SimulateOptions
+from texvent.options.fields import option_names
+from texvent.options.keywords import GenerateOptions, SimulateOptions
 from texvent.settings import default_settings
 
 

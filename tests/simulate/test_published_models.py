@@ -10,7 +10,7 @@ import pytest
 from texvent._registry import SIMULATORS
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.option_fields import option_help, option_names
+from texvent.options.fields import option_help, option_names
 from texvent.simulate.esim.simulator import EsimSimulator
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.simulate.senpi.simulator import SenpiSimulator

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from texvent.errors import ConfigError
-from texvent.option_values import plain
+from texvent.options.values import plain
 from texvent.simulate.esim.simulator import EsimConfig
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.texvent.simulator import TexventConfig

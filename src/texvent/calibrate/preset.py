@@ -9,7 +9,7 @@ import tomli_w
 from texvent._version import __version__
 from texvent.calibrate.fit import Fit
 from texvent.io.atomic import atomic_file
-from texvent.option_values import plain
+from texvent.options.values import plain
 from texvent.sensor import SensorSize
 
 NOT_OF_THE_SENSOR = ("gamma", "sensor_seed")

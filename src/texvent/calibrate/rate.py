@@ -11,7 +11,7 @@ from texvent.calibrate.threshold_search import HIGHEST, LOWEST, MAX_STEPS, find_
 from texvent.config import check_range
 from texvent.errors import InputError
 from texvent.pipeline import Simulation
-from texvent.progress import Progress
+from texvent.runtime.progress import Progress
 from texvent.simulate.thresholds import contrast_threshold_of, with_contrast_threshold
 from texvent.video import MICROSECONDS
 

@@ -15,7 +15,7 @@ from texvent._registry import suggest
 from texvent._version import __version__
 from texvent.cli.shutdown import end_process
 from texvent.errors import ConfigError, OutputError, TexventError
-from texvent.option_fields import RenamedOptionWarning
+from texvent.options.fields import RenamedOptionWarning
 
 COMMANDS = {
     "generate": (

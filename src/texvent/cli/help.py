@@ -13,7 +13,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from texvent.cli.option_types import REQUIRED, metavar
-from texvent.option_fields import option_help
+from texvent.options.fields import option_help
 
 HELP_FLAGS = ("-h", "--help")
 MAIN, ALL = "main", "all"

@@ -8,7 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, Literal
 
-from texvent.option_values import parse_fraction
+from texvent.options.values import parse_fraction
 
 SCALARS: dict[Any, tuple[str, Any]] = {
     int: ("INT", int),

@@ -18,7 +18,7 @@ import tyro
 from texvent.cli.help import ALL, asked_help, render_help
 from texvent.cli.option_types import REQUIRED, SCALARS, without_none
 from texvent.errors import ConfigError
-from texvent.option_fields import RenamedOptionWarning, former_names, option_help, option_names
+from texvent.options.fields import RenamedOptionWarning, former_names, option_help, option_names
 
 
 def parse_options(

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import ClassVar
 
 from texvent.io.atomic import check_output
-from texvent.option_fields import renamed
+from texvent.options.fields import renamed
 
 
 @dataclass(frozen=True, kw_only=True)

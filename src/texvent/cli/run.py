@@ -15,13 +15,13 @@ import tomli_w
 
 from texvent.cli.estimate import describe_estimate, estimate_run
 from texvent.cli.outputs import OutputOptions
-from texvent.console_progress import ConsoleProgress
 from texvent.events import EventStream
 from texvent.io.files import open_writer
 from texvent.pairs.scene_change import SceneChange
 from texvent.pipeline import Simulation
 from texvent.runs import prepare_source
 from texvent.runtime.background_writer import BackgroundWriter
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent.settings import Settings, unmeasured_sensor
 from texvent.video import MICROSECONDS, Frame
 

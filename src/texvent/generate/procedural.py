@@ -16,12 +16,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from texvent._version import __version__
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError
-from texvent.option_values import plain
+from texvent.options.values import plain
 from texvent.sensor import SENSORS, SensorSize
 from texvent.video import MICROSECONDS, Frame, frame_time_us
 
 if TYPE_CHECKING:
-    from texvent.progress import Progress
+    from texvent.runtime.progress import Progress
     from texvent.scenes.raycast.ground_truth import GroundTruth
     from texvent.scenes.scene import Scene
 

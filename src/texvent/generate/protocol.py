@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, ClassVar, Protocol
 
-from texvent.progress import Progress
+from texvent.runtime.progress import Progress
 from texvent.video import FrameStream
 
 

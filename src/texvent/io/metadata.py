@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from texvent.errors import FileFormatError, InputError
-from texvent.option_values import plain
+from texvent.options.values import plain
 from texvent.sensor import SensorSize
 
 MAX_HEADER_BYTES = 8 * 2**20

@@ -1,1 +1,1 @@
-"""Threads, prefetching, compilation, memory and signals: what every stage runs on."""
+"""Threads, prefetching, compilation, memory, signals and progress: what every stage runs on."""

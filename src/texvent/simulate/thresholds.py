@@ -7,7 +7,7 @@ import math
 from typing import Any, TypeVar
 
 from texvent.errors import ConfigError
-from texvent.option_fields import option_names
+from texvent.options.fields import option_names
 
 Config = TypeVar("Config")
 

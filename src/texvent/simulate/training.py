@@ -9,7 +9,7 @@ from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError
-from texvent.option_fields import option_names
+from texvent.options.fields import option_names
 from texvent.simulate.random.draws import draw_normals, draw_uniforms, frame_key
 from texvent.simulate.thresholds import with_contrast_threshold
 

@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from texvent.config import check_range
 from texvent.errors import ConfigError
-from texvent.option_fields import renamed
+from texvent.options.fields import renamed
 from texvent.video import MICROSECONDS
 from texvent.view.drawing.annotations import Overlay
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette

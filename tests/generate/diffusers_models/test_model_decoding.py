@@ -18,7 +18,7 @@ from texvent.generate.diffusers_models.decoder_input import SINGLE_DECODE_PIPELI
 from texvent.generate.diffusers_models.device_placement import Placement  # noqa: E402
 from texvent.generate.diffusers_models.pipeline_call import call_pipeline  # noqa: E402
 from texvent.generate.video_config import DiffusersConfig  # noqa: E402
-from texvent.progress import NoProgress  # noqa: E402
+from texvent.runtime.progress import NoProgress  # noqa: E402
 
 from .. import tiny_pipelines  # noqa: E402
 from ..tiny_models import PROMPT, build, pixels  # noqa: E402

@@ -11,7 +11,7 @@ from texvent.errors import ConfigError
 from texvent.generate.models.known_models import MODELS
 from texvent.generate.models.lookup import MODEL_LOOKUP
 from texvent.generate.video_config import DiffusersConfig
-from texvent.option_fields import option_help, option_names
+from texvent.options.fields import option_help, option_names
 from texvent.settings import default_settings, resolve
 
 

@@ -15,8 +15,8 @@ import texvent
 from texvent.cli.app import main
 from texvent.errors import ConfigError, InputError, MissingDependencyError
 from texvent.events import SIGNAL, EventStream
-from texvent.option_fields import option_help, option_names
-from texvent.option_values import with_options
+from texvent.options.fields import option_help, option_names
+from texvent.options.values import with_options
 from texvent.pipeline import video_to_events
 from texvent.settings import default_settings, resolve
 from texvent.simulate.packets.interval import FrameInterval

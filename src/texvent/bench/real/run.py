@@ -25,7 +25,7 @@ from texvent.events import EventStream
 from texvent.metrics.compare import load_metric
 from texvent.metrics.motion.contrast_maximisation import estimate_patch_flow
 from texvent.metrics.protocol import Metric
-from texvent.option_fields import option_names
+from texvent.options.fields import option_names
 from texvent.settings import Settings, apply_options
 
 TARGET = "recorded"

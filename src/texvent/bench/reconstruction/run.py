@@ -28,7 +28,7 @@ from texvent.calibrate.rate import match_rate
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.events import EventStream
-from texvent.option_fields import option_names
+from texvent.options.fields import option_names
 from texvent.pipeline import Simulation, video_to_events
 from texvent.reconstruct.reconstructor import Intensity, Reconstructor
 from texvent.represent.packet_slices import slice_between

@@ -25,7 +25,7 @@ from texvent.cli.event_files.time_option import parse_time_range
 from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError
 from texvent.io.atomic import atomic_file
-from texvent.option_fields import renamed
+from texvent.options.fields import renamed
 from texvent.reconstruct.config import ReconstructConfig
 from texvent.reconstruct.reconstructor import load_reconstructor
 from texvent.sensor import parse_sensor

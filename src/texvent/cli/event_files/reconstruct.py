@@ -20,7 +20,7 @@ from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
-from texvent.option_fields import renamed
+from texvent.options.fields import renamed
 from texvent.reconstruct.config import ReconstructConfig
 from texvent.reconstruct.reconstructor import Reconstructor, load_reconstructor
 from texvent.represent.packet_slices import slice_by_count, slice_regularly

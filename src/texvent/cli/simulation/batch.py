@@ -15,7 +15,6 @@ from texvent.cli.option_types import REQUIRED
 from texvent.cli.outputs import OutputOptions
 from texvent.cli.run import execute, print_settings
 from texvent.cli.simulation.generate import PromptOptions
-from texvent.console_progress import ConsoleProgress
 from texvent.errors import (
     ConfigError,
     InputError,
@@ -26,6 +25,7 @@ from texvent.errors import (
 from texvent.generate.prompts.prompt_files import PromptLine, read_prompts
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.runs import prepare_prompt
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent.settings import Settings, apply_options
 
 DESCRIPTION = """Events for every prompt of a file: .txt (one per line), .csv or .jsonl (prompt, and

@@ -15,12 +15,12 @@ from texvent.cli.options import peek_options
 from texvent.cli.outputs import OutputOptions
 from texvent.cli.run import execute, print_settings, run_source
 from texvent.config import CaptureConfig
-from texvent.console_progress import ConsoleProgress
 from texvent.errors import ConfigError, InputError
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.io.atomic import check_output
-from texvent.option_fields import option_names
+from texvent.options.fields import option_names
 from texvent.runs import check_run, make_video, prepare_prompt
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent.settings import Settings, default_settings
 
 DESCRIPTION = """Turn a sentence into the events that an event camera would record. The embedded

@@ -26,8 +26,8 @@ from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.videos.retries import generate_checked
 from texvent.generate.videos.stored_video import StoredVideo
 from texvent.generate.videos.video_cache import VideoCache, content_key
-from texvent.option_values import plain
-from texvent.progress import NoProgress, Progress
+from texvent.options.values import plain
+from texvent.runtime.progress import NoProgress, Progress
 from texvent.video import PixelArray
 
 PIXEL_OPTIONS = (

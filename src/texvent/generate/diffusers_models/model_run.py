@@ -52,7 +52,7 @@ from texvent.generate.models.known_models import VideoModel
 from texvent.generate.models.weight_files import fingerprint, read_pipeline_index
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.videos.video_cache import content_key
-from texvent.progress import Progress
+from texvent.runtime.progress import Progress
 from texvent.video import PixelArray
 
 PACKAGES = ("diffusers", "transformers", "torch")

@@ -11,7 +11,7 @@ from typing import Any
 from texvent._require import require
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.generate.video_config import DiffusersConfig
-from texvent.progress import Progress
+from texvent.runtime.progress import Progress
 
 EXTRA = "generate"
 ARGUMENTS: Mapping[str, tuple[str, ...]] = {

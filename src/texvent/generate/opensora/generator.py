@@ -25,8 +25,8 @@ from texvent.generate.video_config import GeneratedVideoConfig
 from texvent.generate.videos.retries import generate_checked
 from texvent.generate.videos.stored_video import StoredVideo, open_stored
 from texvent.generate.videos.video_cache import VideoCache, content_key
-from texvent.option_values import plain
-from texvent.progress import Progress
+from texvent.options.values import plain
+from texvent.runtime.progress import Progress
 from texvent.sensor import SensorSize
 
 ROOT_VARIABLE = "OPENSORA_ROOT"

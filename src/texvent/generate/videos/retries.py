@@ -12,7 +12,7 @@ from texvent.generate.videos.clip_score import check_clip_folder, measure_clip_s
 from texvent.generate.videos.failure_filter import FailureReport, check_video, judge_measures
 from texvent.generate.videos.stored_video import StoredVideo
 from texvent.generate.videos.video_cache import MEASURES
-from texvent.progress import NoProgress, Progress
+from texvent.runtime.progress import NoProgress, Progress
 
 
 def generate_checked(

@@ -22,7 +22,7 @@ from texvent.errors import OutputError
 from texvent.generate.videos.failure_filter import VideoMeasurer, measure_video
 from texvent.generate.videos.stored_video import EXTENSION, StoredVideo, write_video
 from texvent.io.atomic import atomic_file
-from texvent.option_values import plain
+from texvent.options.values import plain
 from texvent.runtime.cache_folder import CACHE_VARIABLE, cache_folder
 from texvent.sensor import SensorSize
 from texvent.video import PixelArray

@@ -9,7 +9,7 @@ from typing import Literal
 from texvent._registry import suggest
 from texvent.config import check_range
 from texvent.errors import ConfigError
-from texvent.option_fields import renamed
+from texvent.options.fields import renamed
 from texvent.simulate.texvent.brightness_cache import CachePolicy, ResetRule
 from texvent.simulate.texvent.noise import NoiseKind
 from texvent.simulate.texvent.timestamps import TimestampRule

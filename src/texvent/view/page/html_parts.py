@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from texvent.events import EventStream
-from texvent.option_values import plain
+from texvent.options.values import plain
 from texvent.video import MICROSECONDS
 from texvent.view.drawing.palettes import Colour, Palette
 from texvent.view.page.frame_strip import FrameStrip

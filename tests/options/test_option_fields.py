@@ -6,7 +6,7 @@ import pytest
 
 from texvent.config import CaptureConfig, InterpolateConfig, RunConfig
 from texvent.errors import ConfigError
-from texvent.option_fields import (
+from texvent.options.fields import (
     RenamedOptionWarning,
     former_names,
     option_help,

@@ -8,7 +8,7 @@ from typing import Literal
 import pytest
 
 from texvent.errors import ConfigError
-from texvent.option_values import plain, with_options
+from texvent.options.values import plain, with_options
 
 
 @dataclass(frozen=True, kw_only=True)

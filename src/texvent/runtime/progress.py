@@ -59,7 +59,7 @@ def open_progress(option: ProgressOption) -> Iterator[Progress]:
     if callable(option):
         yield CallbackProgress(option)
     elif option or (option is None and _is_interactive()):
-        from texvent.console_progress import ConsoleProgress  # rich takes 50 ms to import
+        from texvent.runtime.console_progress import ConsoleProgress  # rich takes 50 ms to import
 
         with ConsoleProgress(is_forced=option is True) as progress:
             yield progress

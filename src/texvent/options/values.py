@@ -12,7 +12,7 @@ from typing import Any, Literal, TypeVar
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError
-from texvent.option_fields import option_names, with_current_names
+from texvent.options.fields import option_names, with_current_names
 
 Config = TypeVar("Config")
 

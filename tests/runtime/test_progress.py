@@ -5,8 +5,8 @@ import sys
 
 import pytest
 
-from texvent.console_progress import ConsoleProgress
-from texvent.progress import NoProgress, open_progress
+from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.progress import NoProgress, open_progress
 
 
 def test_a_function_is_called_at_every_step_and_line():
@@ -47,7 +47,7 @@ def test_a_bar_shows_in_a_terminal_unless_told_otherwise(monkeypatch, option, st
 def test_short_work_draws_no_bar_and_long_work_does(monkeypatch):
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
-    monkeypatch.setattr("texvent.console_progress.time.monotonic", lambda: clock[0])
+    monkeypatch.setattr("texvent.runtime.console_progress.time.monotonic", lambda: clock[0])
     monkeypatch.setenv("TERM", "xterm")
     clock = [0.0]
     with ConsoleProgress() as progress:
