@@ -133,51 +133,52 @@ class Lexicon:
                 self._add(word, Meaning(Role.VERB, verb, "participle"))
 
     def _add_tables(self) -> None:
-        tables: tuple[tuple[Role, Mapping[str, Any]], ...] = (
-            (Role.COUNT, vocabulary_objects.COUNTS),
-            (Role.COLOUR, vocabulary_objects.COLOURS),
-            (Role.SHADE, vocabulary_objects.SHADES),
-            (Role.SIZE, vocabulary_objects.SIZES),
-            (Role.DIRECTION, vocabulary_motion.DIRECTIONS),
-            (Role.SIDE, vocabulary_motion.SIDES),
-            (Role.PACE, vocabulary_motion.PACES),
-            (Role.SPEED_UNIT, vocabulary_motion.SPEED_UNITS),
-            (Role.RELATION, vocabulary_motion.RELATIONS),
-            (Role.CLOUDS, vocabulary_scene.CLOUDS),
-            (Role.HERTZ, vocabulary_scene.HERTZ),
-            (Role.CAMERA_MOVE, vocabulary_scene.CAMERA_MOVES),
-            (Role.VIEW, vocabulary_scene.VIEWS),
-            (Role.FRAMING, vocabulary_scene.FRAMINGS),
-        )
-        for role, table in tables:
-            for text, value in table.items():
-                self._add(text, Meaning(role, value))
-        lists: tuple[tuple[Role, Iterable[str]], ...] = (
-            (Role.NEGATION, vocabulary_objects.NEGATIONS),
-            (Role.DETERMINER, vocabulary_objects.DETERMINERS),
-            (Role.PRONOUN, vocabulary_objects.PRONOUNS),
-            (Role.AND, ("and", "or", "plus")),
-            (Role.STILL, vocabulary_motion.STILL_WORDS),
-            (Role.PART, vocabulary_scene.PART_WORDS),
-            (Role.SNOW, vocabulary_scene.SNOWY),
-            (Role.SKY, vocabulary_scene.SKY_WORDS),
-            (Role.STEEP, vocabulary_scene.STEEP),
-            (Role.DUST, vocabulary_scene.DUST),
-            (Role.FLICKER, vocabulary_scene.FLICKERS),
-            (Role.SHADOW, vocabulary_scene.SHADOW_WORDS),
-            (Role.GLOW, vocabulary_scene.GLOW_WORDS),
-            (Role.CAMERA, vocabulary_scene.CAMERA_WORDS),
-        )
-        for role, texts in lists:
-            for text in texts:
+        for role, table in _WORDS.items():
+            for text in table:
                 self._add(text, Meaning(role, text))
-        groups = (
-            (Role.PLACE, vocabulary_scene.PLACES),
-            (Role.LIGHT, vocabulary_scene.LIGHTS),
-            (Role.WEATHER, vocabulary_scene.WEATHERS),
-        )
-        for role, group in groups:
-            for name, texts in group.items():
+        for role, meanings in _MEANINGS.items():
+            for value, texts in meanings.items():
                 for text in texts:
-                    for form in (text, *list_plurals(text)):
-                        self._add(form, Meaning(role, name))
+                    forms = list_plurals(text) if role in _WITH_PLURALS else ()
+                    for form in (text, *forms):
+                        self._add(form, Meaning(role, value))
+
+
+_MEANINGS: dict[Role, Mapping[Any, Iterable[str]]] = {
+    Role.COUNT: vocabulary_objects.COUNTS,
+    Role.SIZE: vocabulary_objects.SIZES,
+    Role.DIRECTION: vocabulary_motion.DIRECTIONS,
+    Role.SIDE: vocabulary_motion.SIDES,
+    Role.PACE: vocabulary_motion.PACES,
+    Role.SPEED_UNIT: vocabulary_motion.SPEED_UNITS,
+    Role.RELATION: vocabulary_motion.RELATIONS,
+    Role.CLOUDS: vocabulary_scene.CLOUDS,
+    Role.HERTZ: vocabulary_scene.HERTZ,
+    Role.CAMERA_MOVE: vocabulary_scene.CAMERA_MOVES,
+    Role.VIEW: vocabulary_scene.VIEWS,
+    Role.FRAMING: vocabulary_scene.FRAMINGS,
+    Role.PLACE: vocabulary_scene.PLACES,
+    Role.LIGHT: vocabulary_scene.LIGHTS,
+    Role.WEATHER: vocabulary_scene.WEATHERS,
+}
+"""Role → meaning → phrases for it."""
+_WITH_PLURALS = (Role.PLACE, Role.LIGHT, Role.WEATHER)
+_WORDS: dict[Role, Iterable[str]] = {
+    Role.COLOUR: vocabulary_objects.COLOURS,
+    Role.SHADE: vocabulary_objects.SHADES,
+    Role.NEGATION: vocabulary_objects.NEGATIONS,
+    Role.DETERMINER: vocabulary_objects.DETERMINERS,
+    Role.PRONOUN: vocabulary_objects.PRONOUNS,
+    Role.AND: ("and", "or", "plus"),
+    Role.STILL: vocabulary_motion.STILL_WORDS,
+    Role.PART: vocabulary_scene.PART_WORDS,
+    Role.SNOW: vocabulary_scene.SNOWY,
+    Role.SKY: vocabulary_scene.SKY_WORDS,
+    Role.STEEP: vocabulary_scene.STEEP,
+    Role.DUST: vocabulary_scene.DUST,
+    Role.FLICKER: vocabulary_scene.FLICKERS,
+    Role.SHADOW: vocabulary_scene.SHADOW_WORDS,
+    Role.GLOW: vocabulary_scene.GLOW_WORDS,
+    Role.CAMERA: vocabulary_scene.CAMERA_WORDS,
+}
+"""Role → phrases that mean themselves."""

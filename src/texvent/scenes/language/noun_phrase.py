@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from texvent.scenes.description import NamedColour, ObjectMotion, SceneObject
 from texvent.scenes.language import vocabulary_objects
 from texvent.scenes.language.lexicon import Role
-from texvent.scenes.language.tagging import Phrase
+from texvent.scenes.language.tagging import Phrase, mark_used
 from texvent.scenes.models.protocol import Noun
 
 _GREY_LEVELS = {"light": "silver", "pale": "silver", "dark": "black"}
@@ -26,15 +26,22 @@ class PartialObject:
     pace: float = 1.0
     side: str | None = None
 
+    def move(self, motion: ObjectMotion, noun: Noun) -> None:
+        """Give it a motion, in its noun's own way; an unsaid direction stays what it was."""
+        if (kind := motion.kind) == "move":
+            kind = noun.motion if noun.motion != "stand" else "slide"
+        old, direction = self.motion, motion.direction
+        if direction is None and old is not None and old.is_moving:
+            direction = old.direction
+        self.motion = ObjectMotion(kind, direction, motion.pace)
+
     def build(self) -> SceneObject:
         """The object as understood."""
         motion = self.motion
         if motion is None and self.pace != 1.0:
             motion = ObjectMotion("move")
         if motion is not None and self.pace != 1.0:
-            motion = ObjectMotion(
-                motion.kind, motion.direction, motion.pace * self.pace, motion.speed_m_s
-            )
+            motion = replace(motion, pace=motion.pace * self.pace)
         return SceneObject(self.noun, self.count, self.colour, self.scale, motion, self.side)
 
 
@@ -68,14 +75,11 @@ class NounPhrase:
 
     def mark_roles(self, *roles: Role) -> None:
         """Its words of these roles had an effect."""
-        for phrase in self.phrases:
-            if phrase.role in roles:
-                phrase.is_used = True
+        mark_used(phrase for phrase in self.phrases if phrase.role in roles)
 
     def mark_used(self) -> None:
         """All its words had an effect."""
-        for phrase in self.phrases:
-            phrase.is_used = True
+        mark_used(self.phrases)
 
     def take_number(self) -> tuple[float, Phrase] | None:
         """Remove the number, which is no count, and return it with its phrase."""

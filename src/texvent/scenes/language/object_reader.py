@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from texvent.scenes.description import SPIN_RATE_HZ, NamedColour, ObjectMotion, Relation
 from texvent.scenes.language import vocabulary_objects, vocabulary_scene
 from texvent.scenes.language.lexicon import Role
 from texvent.scenes.language.noun_phrase import NounPhrase, PartialObject, list_capable
 from texvent.scenes.language.relation_builder import RelationBuilder
-from texvent.scenes.language.tagging import Phrase
+from texvent.scenes.language.tagging import Phrase, mark_used
 from texvent.scenes.language.vocabulary_motion import Verb
 from texvent.scenes.models.protocol import Noun
 
@@ -78,17 +79,10 @@ class ObjectReader:
         elif phrase.role is Role.COLOUR:
             rgb, name = vocabulary_objects.COLOURS[phrase.text], phrase.text
             if noun_phrase.shade is not None:
-                rgb, name = (
-                    vocabulary_objects.shade_colour(rgb, noun_phrase.shade),
-                    f"{noun_phrase.shade} {name}",
-                )
-                noun_phrase.shade = None
+                rgb = vocabulary_objects.shade_colour(rgb, noun_phrase.shade)
+                name, noun_phrase.shade = f"{noun_phrase.shade} {name}", None
             noun_phrase.colour = NamedColour(name, rgb)
         noun_phrase.phrases.append(phrase)
-
-    def take_number(self) -> tuple[float, Phrase] | None:
-        """The number just read, when a unit after it shows that it is no count."""
-        return self.noun_phrase.take_number()
 
     def take_colour(self) -> tuple[NamedColour | None, list[Phrase]]:
         """The colour waiting for a noun, when a place or the sky comes instead."""
@@ -108,9 +102,7 @@ class ObjectReader:
                 self.absent.append(name)
             return None
         index = self._recall(name, phrase)
-        if index is None:
-            index = self._add_object(name, phrase)
-        if index is None:
+        if index is None and (index := self._add_object(name, phrase)) is None:
             return None
         self.noun_phrase.mark_used()
         self.noun_phrase = NounPhrase()
@@ -123,8 +115,7 @@ class ObjectReader:
         noun_phrase = self.noun_phrase
         if not self.subjects or not noun_phrase.phrases:
             return
-        for index in self.subjects:
-            partial = self.partial_objects[index]
+        for partial in self._at(self.subjects):
             if noun_phrase.colour is not None and partial.colour is None:
                 partial.colour = noun_phrase.colour
                 noun_phrase.mark_roles(Role.COLOUR, Role.SHADE)
@@ -166,29 +157,25 @@ class ObjectReader:
             self._relation = ("on", None)
             self._object_motion = ObjectMotion("move", motion.direction, motion.pace)
             motion = ObjectMotion("sit")
-        for partial in list_capable(
-            [self.partial_objects[index] for index in self.subjects], motion, self._nouns
-        ):
-            self._set_motion(partial, motion)
+        for partial in list_capable(self._at(self.subjects), motion, self._nouns):
+            partial.move(motion, self._nouns[partial.noun])
 
     def _act_on_mentioned(self, motion: ObjectMotion) -> bool:
         """A participle after a related object is about that: "a boat with dolphins jumping"."""
         if not self._relation_builder.is_last_target(self.mentioned):
             return False
-        partial_objects = [self.partial_objects[index] for index in self.mentioned]
-        if any(
-            d.motion is not None or self._nouns[d.noun].habitat == "fixed" for d in partial_objects
-        ):
+        named = self._at(self.mentioned)
+        if any(d.motion is not None or self._nouns[d.noun].habitat == "fixed" for d in named):
             return False
-        for partial in partial_objects:
-            self._set_motion(partial, motion)
+        for partial in named:
+            partial.move(motion, self._nouns[partial.noun])
         return True
 
     def read_still(self, phrase: Phrase) -> None:
         """The words still, motionless: before a noun or about the subject."""
         if self.subjects:
-            for index in self.subjects:
-                self.partial_objects[index].motion = ObjectMotion("stand")
+            for partial in self._at(self.subjects):
+                partial.motion = ObjectMotion("stand")
             phrase.is_used = True
         else:
             self.noun_phrase.motion = ObjectMotion("stand")
@@ -200,23 +187,20 @@ class ObjectReader:
         "Across" is the weakest: it keeps a direction that is already said.
         """
         direction = phrase.meaning.value
-        for index in self._movers():
-            partial = self.partial_objects[index]
+        for partial in self._movers():
             motion = partial.motion or ObjectMotion("move")
             if motion.kind == "stand":
                 continue
-            if direction == "across" and motion.direction is not None:
-                phrase.is_used = True
-                continue
-            partial.motion = ObjectMotion(motion.kind, direction, motion.pace, motion.speed_m_s)
+            if direction != "across" or motion.direction is None:
+                partial.motion = replace(motion, direction=direction)
             phrase.is_used = True
 
     def read_pace(self, phrase: Phrase, noun_follows: bool) -> None:
         """How fast: an adverb about the verb before or after, or an adjective."""
-        has_motion = any(self.partial_objects[index].motion for index in self._movers())
-        if has_motion and not noun_follows:
-            for index in self._movers():
-                self.partial_objects[index].pace *= phrase.meaning.value
+        movers = self._movers()
+        if not noun_follows and any(partial.motion for partial in movers):
+            for partial in movers:
+                partial.pace *= phrase.meaning.value
             phrase.is_used = True
         else:
             self.noun_phrase.pace *= phrase.meaning.value
@@ -224,27 +208,23 @@ class ObjectReader:
 
     def read_speed(self, speed_m_s: float, phrases: list[Phrase]) -> None:
         """A speed in numbers, m/s."""
-        for index in self._movers():
-            partial = self.partial_objects[index]
+        for partial in self._movers():
             motion = partial.motion or ObjectMotion("move")
             if motion.kind != "stand":
-                partial.motion = ObjectMotion(motion.kind, motion.direction, 1.0, speed_m_s)
+                partial.motion = replace(motion, pace=1.0, speed_m_s=speed_m_s)
                 partial.pace = 1.0
-                for phrase in phrases:
-                    phrase.is_used = True
+                mark_used(phrases)
 
     def read_rate(self, rate_hz: float, phrases: list[Phrase]) -> bool:
         """Turns per second of what spins; False if nothing spins."""
         spinning = [
             partial
-            for partial in (self.partial_objects[index] for index in self.subjects)
+            for partial in self._at(self.subjects)
             if partial.motion is not None and partial.motion.kind == "spin"
         ]
         for partial in spinning:
             partial.motion = ObjectMotion("spin", pace=rate_hz / SPIN_RATE_HZ)
-        if spinning:
-            for phrase in phrases:
-                phrase.is_used = True
+        mark_used(phrases if spinning else ())
         return bool(spinning)
 
     def read_relation(self, phrase: Phrase) -> None:
@@ -269,8 +249,8 @@ class ObjectReader:
     def read_side(self, phrase: Phrase) -> None:
         """Where in the image the object before, or else the object after, is."""
         if self.mentioned:
-            for index in self.mentioned:
-                self.partial_objects[index].side = phrase.meaning.value
+            for partial in self._at(self.mentioned):
+                partial.side = phrase.meaning.value
             phrase.is_used = True
         else:
             self.noun_phrase.side = phrase.meaning.value
@@ -278,8 +258,8 @@ class ObjectReader:
 
     def read_part(self, phrase: Phrase) -> None:
         """A part that the model shows anyway, if the stated colour is its own."""
-        for index in self.mentioned:
-            noun = self._nouns[self.partial_objects[index].noun]
+        for partial in self._at(self.mentioned):
+            noun = self._nouns[partial.noun]
             natural = vocabulary_scene.PARTS.get((noun.name, phrase.text))
             is_shown = noun.motion == "drive" and phrase.text in vocabulary_scene.VEHICLE_PARTS
             if natural is None and not is_shown:
@@ -324,7 +304,10 @@ class ObjectReader:
             self._is_lost = True
         self.noun_phrase = NounPhrase()
 
-    def _movers(self) -> list[int]:
+    def _at(self, indices: list[int]) -> list[PartialObject]:
+        return [self.partial_objects[index] for index in indices]
+
+    def _movers(self) -> list[PartialObject]:
         """The subjects, or what they ride: "a man rides a horse to the left"."""
         ridden = {
             relation.subject: relation.targets[0]
@@ -332,7 +315,7 @@ class ObjectReader:
             if relation.kind == "on"
             and self.partial_objects[relation.targets[0]].motion is not None
         }
-        return [ridden.get(index, index) for index in self.subjects]
+        return self._at([ridden.get(index, index) for index in self.subjects])
 
     def _recall(self, name: str, phrase: Phrase) -> int | None:
         """The object that "the dog" refers to, if there is one already."""
@@ -350,7 +333,7 @@ class ObjectReader:
             self.notes.extend([note] if note not in self.notes else [])
             phrase.is_used = False
             return None
-        if noun_phrase.number is not None and noun_phrase.number > vocabulary_objects.MAX_COUNT:
+        if (noun_phrase.number or 0.0) > vocabulary_objects.MAX_COUNT:
             most = f"{vocabulary_objects.MAX_COUNT}, the most of one thing"
             self.notes.append(f"a count of {noun_phrase.number:g} is shown as {most}")
         count = noun_phrase.decide_count(
@@ -367,26 +350,14 @@ class ObjectReader:
             count,
             noun_phrase.decide_colour(),
             noun_phrase.scale or 1.0,
-            None,
-            noun_phrase.pace,
-            noun_phrase.side,
+            pace=noun_phrase.pace,
+            side=noun_phrase.side,
         )
-        motion = noun_phrase.motion
-        if self._object_motion is not None:
-            motion, self._object_motion = self._object_motion, None
+        motion, self._object_motion = self._object_motion or noun_phrase.motion, None
         if motion is not None:
-            self._set_motion(partial, motion)
+            partial.move(motion, self._nouns[partial.noun])
         self.partial_objects.append(partial)
         return len(self.partial_objects) - 1
-
-    def _set_motion(self, partial: PartialObject, motion: ObjectMotion) -> None:
-        noun = self._nouns[partial.noun]
-        if (kind := motion.kind) == "move":
-            kind = noun.motion if noun.motion != "stand" else "slide"
-        old, direction = partial.motion, motion.direction
-        if direction is None and old is not None and old.is_moving:
-            direction = old.direction
-        partial.motion = ObjectMotion(kind, direction, motion.pace)
 
     def _connect(self, index: int) -> None:
         """Make the object a subject, or the target of the relation that waits for it."""

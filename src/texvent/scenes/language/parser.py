@@ -18,7 +18,7 @@ from texvent.scenes.language.defaults import complete_description
 from texvent.scenes.language.lexicon import ADJECTIVES, Lexicon, Role
 from texvent.scenes.language.object_reader import ObjectReader
 from texvent.scenes.language.surroundings_reader import SurroundingsReader
-from texvent.scenes.language.tagging import Phrase, tag_phrases
+from texvent.scenes.language.tagging import Phrase, mark_used, tag_phrases
 from texvent.scenes.language.tokens import tokenize_prompt
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Noun
@@ -255,14 +255,13 @@ class _PromptParser:
             else:
                 self._scene.read_place("sky", None)
             phrase.is_used = True
-        for said in colour_phrases:
-            said.is_used = said.is_used or is_coloured
+        mark_used(colour_phrases if is_coloured else ())
         self._objects.drop_relation(is_used=phrase.is_used)
         self._objects.close_subjects()
 
     def _read_unit(self, phrase: Phrase) -> None:
         """A number with a unit: a speed or a frequency."""
-        taken = self._objects.take_number()
+        taken = self._objects.noun_phrase.take_number()
         if taken is None:
             return
         number, said = taken

@@ -5,9 +5,9 @@ from __future__ import annotations
 from texvent.scenes.description import Illumination, NamedColour, Surroundings
 from texvent.scenes.language import vocabulary_scene
 from texvent.scenes.language.lexicon import Role
-from texvent.scenes.language.tagging import Phrase
+from texvent.scenes.language.tagging import Phrase, mark_used
 
-_BACKDROPS = {"mountain": "mountain", "forest": "forest", "city": "city"}
+_BACKDROPS = ("mountain", "forest", "city")
 _OPEN_PLACES = ("road", "dirt road", "grass", "savanna", "sea", "sand", "snow", "mountain")
 
 
@@ -34,9 +34,9 @@ class SurroundingsReader:
         if self._place is None or self._place == "sky":
             self._place = place
         elif place in _BACKDROPS and self._place in _OPEN_PLACES:
-            self._add_backdrop(_BACKDROPS[place])
+            self._add_backdrop(place)
         elif self._place in _BACKDROPS and place in _OPEN_PLACES:
-            self._add_backdrop(_BACKDROPS[self._place])
+            self._add_backdrop(self._place)
             self._place = place
         elif place not in (self._place, "sky"):
             return False, False
@@ -68,7 +68,7 @@ class SurroundingsReader:
         elif role is Role.CLOUDS:
             self._clouds, phrase.is_used = (0.0 if is_negated else value), True
         elif role is Role.SNOW:
-            phrase.is_used = self._read_snow(is_negated)
+            self._has_snow, phrase.is_used = not is_negated, True
         elif role is Role.STEEP:
             self._add_backdrop("mountain")
             phrase.is_used = True
@@ -90,11 +90,9 @@ class SurroundingsReader:
         """The surroundings and the light as understood."""
         if self._hertz is not None and (self._flicker_hz is not None or self._is_lit()):
             self._flicker_hz, phrases = self._hertz
-            for phrase in phrases:
-                phrase.is_used = True
+            mark_used(phrases)
         if self._is_lit():
-            for phrase in self._glows:
-                phrase.is_used = True
+            mark_used(self._glows)
         surroundings = Surroundings(
             place=self._place,
             colour=self._colour,
@@ -116,10 +114,6 @@ class SurroundingsReader:
         if self._weather is None:
             self._weather = weather
         return self._weather == weather
-
-    def _read_snow(self, is_negated: bool) -> bool:
-        self._has_snow = not is_negated
-        return True
 
     def _add_backdrop(self, backdrop: str) -> None:
         if backdrop not in self._backdrops:

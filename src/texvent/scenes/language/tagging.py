@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence, Set
+from collections.abc import Callable, Iterable, Sequence, Set
 from dataclasses import dataclass
 
 from texvent.scenes.language.lexicon import ADJECTIVES, Lexicon, Meaning, Role
@@ -35,6 +35,12 @@ class Phrase:
     def text(self) -> str:
         """Its words, in lower case."""
         return " ".join(token.text for token in self.tokens)
+
+
+def mark_used(phrases: Iterable[Phrase]) -> None:
+    """These phrases had an effect."""
+    for phrase in phrases:
+        phrase.is_used = True
 
 
 def tag_phrases(tokens: Sequence[Token], known: Lexicon) -> list[Phrase]:

@@ -89,15 +89,12 @@ WEATHERS: dict[str, tuple[str, ...]] = {
              "snows", "snow falls", "snow falling"),
 }  # fmt: skip
 
-CLOUDS: dict[str, float] = {
-    "cloudy": 0.8,
-    "clouds": 0.5,
-    "cloudy sky": 0.8,
-    "partly cloudy": 0.4,
-    "cloudless": 0.0,
-    "clear sky": 0.0,
-    "clear skies": 0.0,
-}
+CLOUDS: dict[float, tuple[str, ...]] = {
+    0.8: ("cloudy", "cloudy sky"),
+    0.5: ("clouds",),
+    0.4: ("partly cloudy",),
+    0.0: ("cloudless", "clear sky", "clear skies"),
+}  # fmt: skip
 
 SNOWY = ("snow", "snowy", "snow covered", "winter", "wintry")
 """Words that mean snow on the ground."""
@@ -115,7 +112,7 @@ FLICKERS = (
 DEFAULT_FLICKER_HZ = 10.0
 """Flicker whose frequency is not said, Hz."""
 
-HERTZ: dict[str, float] = {"hz": 1.0, "hertz": 1.0, "khz": 1000.0}
+HERTZ: dict[float, tuple[str, ...]] = {1.0: ("hz", "hertz"), 1000.0: ("khz",)}
 
 SHADOW_WORDS = ("shadow", "shadows", "casting shadows", "long shadows", "casts a shadow")
 
@@ -125,117 +122,53 @@ GLOW_WORDS = ("light", "lights", "lit", "shine", "shines", "shining", "glow", "g
 
 CAMERA_WORDS = ("camera", "cameras", "viewpoint")
 
-CAMERA_MOVES: dict[str, tuple[str, str | None]] = {
-    "pan": ("pan", None),
-    "pans": ("pan", None),
-    "panning": ("pan", None),
-    "tilt": ("tilt", None),
-    "tilts": ("tilt", None),
-    "tilting": ("tilt", None),
-    "zoom": ("zoom", None),
-    "zooms": ("zoom", None),
-    "zooming": ("zoom", None),
-    "zoom in": ("zoom", "in"),
-    "zooms in": ("zoom", "in"),
-    "zooming in": ("zoom", "in"),
-    "zoom out": ("zoom", "out"),
-    "zooms out": ("zoom", "out"),
-    "zooming out": ("zoom", "out"),
-    "dolly": ("dolly", None),
-    "dollies": ("dolly", None),
-    "dollying": ("dolly", None),
-    "dolly in": ("dolly", "in"),
-    "dollies in": ("dolly", "in"),
-    "dolly out": ("dolly", "out"),
-    "dollies out": ("dolly", "out"),
-    "push in": ("dolly", "in"),
-    "pushes in": ("dolly", "in"),
-    "pull back": ("dolly", "out"),
-    "pulls back": ("dolly", "out"),
-    "pull out": ("dolly", "out"),
-    "pulls out": ("dolly", "out"),
-    "tracking shot": ("follow", None),
-    "tracking": ("follow", None),
-    "tracks": ("follow", None),
-    "follow shot": ("follow", None),
-    "handheld": ("handheld", None),
-    "hand held": ("handheld", None),
-    "shaky": ("handheld", None),
-    "camera shake": ("handheld", None),
-    "orbiting shot": ("orbit", None),
-    "static camera": ("static", None),
-    "fixed camera": ("static", None),
-    "still camera": ("static", None),
-    "stationary camera": ("static", None),
-    "static": ("static", None),
-    "static shot": ("static", None),
-}
+CAMERA_MOVES: dict[tuple[str, str | None], tuple[str, ...]] = {
+    ("pan", None): ("pan", "pans", "panning"),
+    ("tilt", None): ("tilt", "tilts", "tilting"),
+    ("zoom", None): ("zoom", "zooms", "zooming"),
+    ("zoom", "in"): ("zoom in", "zooms in", "zooming in"),
+    ("zoom", "out"): ("zoom out", "zooms out", "zooming out"),
+    ("dolly", None): ("dolly", "dollies", "dollying"),
+    ("dolly", "in"): ("dolly in", "dollies in", "push in", "pushes in"),
+    ("dolly", "out"): (
+        "dolly out", "dollies out", "pull back", "pulls back", "pull out", "pulls out",
+    ),
+    ("follow", None): ("tracking shot", "tracking", "tracks", "follow shot"),
+    ("handheld", None): ("handheld", "hand held", "shaky", "camera shake"),
+    ("orbit", None): ("orbiting shot",),
+    ("static", None): (
+        "static camera", "fixed camera", "still camera", "stationary camera", "static",
+        "static shot",
+    ),
+}  # fmt: skip
 
 CAMERA_VERBS: dict[str, str] = {
-    "move": "truck",
-    "drive": "truck",
-    "fly": "truck",
-    "walk": "truck",
-    "run": "truck",
-    "slide": "truck",
-    "sail": "truck",
-    "hover": "static",
-    "stand": "static",
-    "orbit": "orbit",
-    "spin": "orbit",
-    "rise": "pedestal",
-    "sink": "pedestal",
-    "fall": "pedestal",
+    **dict.fromkeys(("move", "drive", "fly", "walk", "run", "slide", "sail"), "truck"),
+    **dict.fromkeys(("hover", "stand"), "static"),
+    **dict.fromkeys(("orbit", "spin"), "orbit"),
+    **dict.fromkeys(("rise", "sink", "fall"), "pedestal"),
     "sway": "handheld",
     "swing": "pan",
 }
 """What a motion means when the camera does it."""
 
-VIEWS: dict[str, str] = {
-    "aerial view": "aerial",
-    "aerial shot": "aerial",
-    "aerial": "aerial",
-    "drone view": "aerial",
-    "drone shot": "aerial",
-    "drone footage": "aerial",
-    "bird eye view": "aerial",
-    "birds eye view": "aerial",
-    "bird eye": "aerial",
-    "from above": "aerial",
-    "seen from above": "aerial",
-    "high angle": "aerial",
-    "overhead": "top",
-    "overhead view": "top",
-    "top view": "top",
-    "top down": "top",
-    "top down view": "top",
-    "low angle": "low",
-    "from below": "low",
-    "from a drone": "aerial",
-    "by a drone": "aerial",
-    "side view": "side",
-    "from the side": "side",
-    "front view": "front",
-    "from the front": "front",
-    "rear view": "back",
-    "back view": "back",
-    "from behind": "back",
-}
+VIEWS: dict[str, tuple[str, ...]] = {
+    "aerial": (
+        "aerial view", "aerial shot", "aerial", "drone view", "drone shot", "drone footage",
+        "bird eye view", "birds eye view", "bird eye", "from above", "seen from above",
+        "high angle", "from a drone", "by a drone",
+    ),
+    "top": ("overhead", "overhead view", "top view", "top down", "top down view"),
+    "low": ("low angle", "from below"),
+    "side": ("side view", "from the side"),
+    "front": ("front view", "from the front"),
+    "back": ("rear view", "back view", "from behind"),
+}  # fmt: skip
 
-FRAMINGS: dict[str, str] = {
-    "close up": "close",
-    "close up of": "close",
-    "closeup": "close",
-    "close shot": "close",
-    "extreme close up": "close",
-    "macro": "close",
-    "wide shot": "wide",
-    "wide angle": "wide",
-    "wide view": "wide",
-    "long shot": "wide",
-    "panorama": "wide",
-    "establishing shot": "wide",
-}
+FRAMINGS: dict[str, tuple[str, ...]] = {
+    "close": ("close up", "close up of", "closeup", "close shot", "extreme close up", "macro"),
+    "wide": ("wide shot", "wide angle", "wide view", "long shot", "panorama", "establishing shot"),
+}  # fmt: skip
 
 GENERIC_NOUNS: dict[str, str] = {
     "vehicle": "car",
