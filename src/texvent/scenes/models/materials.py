@@ -59,7 +59,6 @@ ORANGE: Colour = (0.75, 0.18, 0.01)
 YELLOW: Colour = (0.75, 0.45, 0.02)
 GREEN: Colour = (0.05, 0.30, 0.05)
 BLUE: Colour = (0.03, 0.10, 0.45)
-BROWN: Colour = (0.14, 0.06, 0.025)
 
 RUBBER = Material((0.018, 0.018, 0.020))
 STEEL = Material((0.36, 0.37, 0.39))

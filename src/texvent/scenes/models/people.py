@@ -19,7 +19,7 @@ from texvent.scenes.models.materials import (
 )
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import Point, ball, limb, peak
-from texvent.scenes.models.variation import choose
+from texvent.scenes.models.variation import choose, paint
 from texvent.scenes.scene import Colour
 
 WALK = Gait(stride=1.25, duty=0.60, lift=0.12)
@@ -85,7 +85,7 @@ def build_person(
 def dress_person(kind: PersonKind, *, colour: Colour | None, seed: int) -> Outfit:
     """Choose skin, hair and clothes."""
     skin = Material(choose(seed, "skin", SKIN_TONES))
-    shirt = Material(colour if colour is not None else choose(seed, "shirt", kind.shirts))
+    shirt = Material(paint(colour, seed, "shirt", kind.shirts))
     trousers = Material(choose(seed, "trousers", ((0.03, 0.05, 0.12), (0.06, 0.055, 0.05))))
     legs = shirt if kind.dress == "skirt" else trousers
     return Outfit(
@@ -227,17 +227,13 @@ def _swung_arm(
 NOUNS = (
     Noun(
         "person", partial(build_person, ADULT), "ground", 1.4, "walk",
-        ("pedestrian", "human", "walker", "somebody", "tourist", "hiker"),
-        ("people", "persons"),
+        ("pedestrian", "human", "walker", "somebody", "tourist", "hiker"), ("people",),
     ),
     Noun(
         "man", partial(build_person, ADULT), "ground", 1.4, "walk",
-        ("guy", "gentleman", "businessman"), ("men", "gentlemen", "businessmen"),
+        ("guy", "gentleman", "businessman"),
     ),
-    Noun(
-        "woman", partial(build_person, WOMAN), "ground", 1.3, "walk",
-        ("lady", "businesswoman"), ("women", "ladies", "businesswomen"),
-    ),
+    Noun("woman", partial(build_person, WOMAN), "ground", 1.3, "walk", ("lady", "businesswoman")),
     Noun(
         "child", partial(build_person, CHILD), "ground", 1.1, "walk",
         ("kid", "boy", "girl", "toddler"), ("children",),
@@ -248,6 +244,6 @@ NOUNS = (
     ),
     Noun(
         "worker", partial(build_person, WORKER), "ground", 1.2, "walk",
-        ("construction worker", "builder", "workman"), ("workmen",),
+        ("construction worker", "builder", "workman"),
     ),
 )  # fmt: skip

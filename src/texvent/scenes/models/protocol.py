@@ -86,3 +86,10 @@ class Noun:
     """Other singular names, such as ("automobile", "sedan")."""
     plurals: tuple[str, ...] = ()
     """Irregular plurals, such as ("people",)."""
+
+
+def fixed_noun(
+    name: str, build: ModelBuilder, synonyms: tuple[str, ...] = (), plurals: tuple[str, ...] = ()
+) -> Noun:
+    """A noun that stays where it is."""
+    return Noun(name, build, "fixed", 0.0, "stand", synonyms, plurals)

@@ -112,6 +112,13 @@ def fin(
     return part(Shape.CONE, material, _spanned(base, tip, chord, thickness))
 
 
+def upright_fin(
+    material: Material, base: Point, tip: Point, chord: float, thick: float
+) -> ModelPart:
+    """A fin whose root runs along x, such as a tail plane: chord and thickness in m."""
+    return fin(material, base, tip, chord=(chord, 0.0, 0.0), thickness=(0.0, thick, 0.0))
+
+
 def plank(
     material: Material, start: Point, end: Point, *, chord: Point, thickness: Point
 ) -> ModelPart:
@@ -136,6 +143,13 @@ def gable(material: Material, base: Point, size: Point) -> ModelPart:
     return plank(material, start, end, chord=(half, 0.0, rise), thickness=(0.0, width, 0.0))
 
 
+def level_wing(
+    material: Material, start: Point, end: Point, chord: float, thick: float
+) -> ModelPart:
+    """A level plank whose chord runs along x; chord and thickness in m."""
+    return plank(material, start, end, chord=(chord, 0.0, 0.0), thickness=(0.0, 0.0, thick))
+
+
 def blade(
     material: Material, start: Point, end: Point, *, chord: Point, thickness: Point
 ) -> ModelPart:
@@ -146,11 +160,6 @@ def blade(
 def moved(parts: Iterable[ModelPart], motion: Affine) -> list[ModelPart]:
     """The same parts carried along by a motion."""
     return [replace(each, to_body=compose(motion, each.to_body)) for each in parts]
-
-
-def mirrored(points: Iterable[Point]) -> list[Point]:
-    """The same points on the other side of the body (y negated)."""
-    return [(x, -y, z) for x, y, z in points]
 
 
 def compose(outer: Affine, inner: Affine) -> Affine:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import (
     BLUE,
@@ -14,8 +17,9 @@ from texvent.scenes.models.materials import (
     mottled,
     shade,
 )
-from texvent.scenes.models.protocol import ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose, fixed_noun
 from texvent.scenes.models.shapes import (
+    Point,
     ball,
     box,
     compose,
@@ -25,7 +29,7 @@ from texvent.scenes.models.shapes import (
     shift,
     turn_y,
 )
-from texvent.scenes.models.variation import choose
+from texvent.scenes.models.variation import paint
 from texvent.scenes.models.vehicles.wheels import Wheel, car_wheels
 from texvent.scenes.scene import Colour
 
@@ -43,25 +47,17 @@ def build_sphere(*, colour: Colour | None, scale: float, seed: int) -> Articulat
     return ArticulatedModel([], scale=scale, articulate=articulate)
 
 
-def build_cube(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
-    """Make a checked cube, 0.8 m."""
-    return ArticulatedModel(
-        [box(_checks(colour, seed), (0.0, 0.0, 0.4), (0.8, 0.8, 0.8))], scale=scale
-    )
-
-
-def build_cylinder(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
-    """Make a checked cylinder, 1 m."""
-    return ArticulatedModel(
-        [post(_checks(colour, seed), (0.0, 0.0, 0.5), (0.7, 0.7, 1.0))], scale=scale
-    )
-
-
-def build_cone(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
-    """Make a checked cone, 1 m."""
-    return ArticulatedModel(
-        [peak(_checks(colour, seed), (0.0, 0.0, 0.5), (0.9, 0.9, 1.0))], scale=scale
-    )
+def build_upright(
+    draw: Callable[[Material, Point, Point], ModelPart],
+    size: Point,
+    *,
+    colour: Colour | None,
+    scale: float,
+    seed: int,
+) -> ArticulatedModel:
+    """Make a checked solid that stands on the ground: full extents `size`, m."""
+    middle = (0.0, 0.0, 0.5 * size[2])
+    return ArticulatedModel([draw(_checks(colour, seed), middle, size)], scale=scale)
 
 
 def build_pyramid(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
@@ -101,16 +97,18 @@ def build_wheel(*, colour: Colour | None, scale: float, seed: int) -> Articulate
 
 
 def _checks(colour: Colour | None, seed: int) -> Material:
-    hue = colour if colour is not None else choose(seed, "colour", _HUES)
+    hue = paint(colour, seed, "colour", _HUES)
     return checked(hue, shade(hue, 0.45), 2.0)
 
 
 NOUNS = (
     Noun("sphere", build_sphere, "ground", 1.5, "roll", ("globe", "orb", "marble")),
-    Noun("cube", build_cube, "fixed", 0.0, "stand", ("block", "dice"), ("dice",)),
-    Noun("cylinder", build_cylinder, "fixed", 0.0, "stand", ("barrel", "pillar", "column")),
-    Noun("cone", build_cone, "fixed", 0.0, "stand"),
-    Noun("pyramid", build_pyramid, "fixed", 0.0, "stand"),
-    Noun("box", build_crate, "fixed", 0.0, "stand", ("crate", "package", "parcel"), ("boxes",)),
+    fixed_noun("cube", partial(build_upright, box, (0.8, 0.8, 0.8)), ("block", "dice"), ("dice",)),
+    fixed_noun(
+        "cylinder", partial(build_upright, post, (0.7, 0.7, 1.0)), ("barrel", "pillar", "column")
+    ),
+    fixed_noun("cone", partial(build_upright, peak, (0.9, 0.9, 1.0))),
+    fixed_noun("pyramid", build_pyramid),
+    fixed_noun("box", build_crate, ("crate", "package", "parcel")),
     Noun("wheel", build_wheel, "ground", 2.5, "roll", ("tyre", "tire")),
 )

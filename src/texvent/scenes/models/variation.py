@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from typing import TypeVar
 from zlib import crc32
 
+from texvent.scenes.scene import Colour
+
 T = TypeVar("T")
 
 _MASK = (1 << 64) - 1
@@ -24,6 +26,11 @@ def fraction(seed: int, detail: str) -> float:
 def between(seed: int, detail: str, low: float, high: float) -> float:
     """A number in [low, high)."""
     return low + (high - low) * fraction(seed, detail)
+
+
+def paint(colour: Colour | None, seed: int, detail: str, usual: Sequence[Colour]) -> Colour:
+    """The colour asked for, or one of the usual ones."""
+    return colour if colour is not None else choose(seed, detail, usual)
 
 
 def choose(seed: int, detail: str, options: Sequence[T]) -> T:

@@ -19,7 +19,7 @@ from texvent.scenes.models.shapes import (
     turn_x,
     turn_z,
 )
-from texvent.scenes.models.variation import choose, fraction
+from texvent.scenes.models.variation import fraction, paint
 from texvent.scenes.scene import Colour
 
 
@@ -61,7 +61,7 @@ def build_flier(
 ) -> ArticulatedModel:
     """Make a bird in flight; `colour` is its body and wings."""
     size = plumage.length
-    body = Material(colour if colour is not None else choose(seed, "body", plumage.bodies))
+    body = Material(paint(colour, seed, "body", plumage.bodies))
     wing = mottled(shade(colour, 0.8) if colour is not None else plumage.wing, contrast=0.3)
     head, beak = Material(plumage.head), Material(plumage.beak)
     rigid = [
@@ -171,7 +171,7 @@ def build_duck(*, colour: Colour | None, scale: float, seed: int) -> Articulated
 NOUNS = (
     Noun(
         "bird", partial(build_flier, SMALL), "air", 5.0, "fly",
-        ("swallow", "sparrow", "pigeon", "songbird", "parrot", "robin", "dove"), ("swallows",),
+        ("swallow", "sparrow", "pigeon", "songbird", "parrot", "robin", "dove"),
     ),
     Noun(
         "eagle", partial(build_flier, EAGLE), "air", 9.0, "fly",

@@ -17,7 +17,7 @@ from texvent.scenes.models.materials import (
     striped,
 )
 from texvent.scenes.models.protocol import Noun
-from texvent.scenes.models.variation import choose
+from texvent.scenes.models.variation import paint
 from texvent.scenes.scene import Colour
 
 
@@ -43,7 +43,7 @@ def build_animal(
     animal: Animal, *, colour: Colour | None, scale: float, seed: int
 ) -> ArticulatedModel:
     """Make a four-legged animal; `colour` is its coat."""
-    hue = colour if colour is not None else choose(seed, "coat", animal.colours)
+    hue = paint(colour, seed, "coat", animal.colours)
     fur = mottled(hue, contrast=0.25, scale=3.0)
     trunk, limbs = fur, fur
     if animal.pattern == "stripes":
@@ -327,13 +327,13 @@ def _noun(
 
 
 NOUNS = (
-    _noun("dog", DOG, 1.6, ("puppy", "hound", "labrador", "retriever"), ("puppies",)),
-    _noun("cat", CAT, 1.0, ("kitten", "kitty"), ("kitties",)),
-    _noun("fox", FOX, 1.4, (), ("foxes",)),
-    _noun("wolf", WOLF, 1.8, ("husky", "coyote"), ("wolves", "huskies")),
-    _noun("horse", HORSE, 2.0, ("pony", "stallion", "mare", "foal"), ("ponies",)),
+    _noun("dog", DOG, 1.6, ("puppy", "hound", "labrador", "retriever")),
+    _noun("cat", CAT, 1.0, ("kitten", "kitty")),
+    _noun("fox", FOX, 1.4),
+    _noun("wolf", WOLF, 1.8, ("husky", "coyote")),
+    _noun("horse", HORSE, 2.0, ("pony", "stallion", "mare", "foal")),
     _noun("zebra", ZEBRA, 1.8),
-    _noun("cow", COW, 1.1, ("bull", "calf", "ox"), ("cattle", "calves", "oxen")),
+    _noun("cow", COW, 1.1, ("bull", "calf", "ox"), ("cattle", "oxen")),
     _noun("elephant", ELEPHANT, 1.8, ("mammoth",)),
     _noun("deer", DEER, 1.6, ("stag", "antelope", "gazelle", "reindeer"), ("deer", "reindeer")),
     _noun("lion", LION, 1.5),
@@ -343,7 +343,7 @@ NOUNS = (
     _noun("giraffe", GIRAFFE, 1.8),
     _noun("sheep", SHEEP, 0.9, ("lamb", "ewe"), ("sheep",)),
     _noun("pig", PIG, 0.9, ("boar", "piglet")),
-    _noun("bear", BEAR, 1.3, ("grizzly", "brown bear"), ("grizzlies",)),
+    _noun("bear", BEAR, 1.3, ("grizzly", "brown bear")),
     _noun("polar bear", POLAR_BEAR, 1.3),
-    _noun("rabbit", RABBIT, 1.2, ("bunny", "hare"), ("bunnies",)),
+    _noun("rabbit", RABBIT, 1.2, ("bunny", "hare")),
 )

@@ -23,8 +23,9 @@ from texvent.scenes.models.shapes import (
     turn_x,
     turn_y,
     turn_z,
+    upright_fin,
 )
-from texvent.scenes.models.variation import choose, fraction
+from texvent.scenes.models.variation import fraction, paint
 from texvent.scenes.scene import Colour
 
 
@@ -80,7 +81,7 @@ def build_swimmer(
     kind: Swimmer, *, colour: Colour | None, scale: float, seed: int
 ) -> ArticulatedModel:
     """Make a fish or whale; `colour` is its back."""
-    back = colour if colour is not None else choose(seed, "back", kind.backs)
+    back = paint(colour, seed, "back", kind.backs)
     belly = kind.belly if colour is None else shade(colour, 1.6)
     start = fraction(seed, "beat")
 
@@ -147,9 +148,8 @@ def _fins(kind: Swimmer, back: Material) -> list[ModelPart]:
     """Back fin and side fins."""
     x, tall, chord = kind.dorsal
     top = 0.42 * kind.depth
-    thin = (0.0, 0.024, 0.0)
     tip = (x - 0.55 * chord, 0.0, top + tall)
-    parts = [fin(back, (x, 0.0, top - 0.02), tip, chord=(chord, 0.0, 0.0), thickness=thin)]
+    parts = [upright_fin(back, (x, 0.0, top - 0.02), tip, chord, 0.024)]
     for side in (1.0, -1.0):
         root: Point = (0.17, side * 0.36 * kind.breadth, -0.20 * kind.depth)
         end: Point = (
@@ -249,11 +249,11 @@ NOUNS = (
     Noun(
         "fish", partial(build_swimmer, FISH), "water", 0.6, "swim",
         ("goldfish", "clownfish", "tuna", "salmon", "koi"),
-        ("fish", "fishes", "goldfish", "tuna", "salmon", "clownfish"),
+        ("fish", "goldfish", "tuna", "salmon", "clownfish"),
     ),
     Noun("shark", partial(build_swimmer, SHARK), "water", 1.6, "swim", ("hammerhead",)),
     Noun("dolphin", partial(build_swimmer, DOLPHIN), "water", 2.2, "swim", ("porpoise",)),
     Noun("whale", partial(build_swimmer, WHALE), "water", 2.5, "swim", ("orca", "humpback")),
     Noun("turtle", build_turtle, "water", 0.6, "swim", ("sea turtle",)),
-    Noun("jellyfish", build_jellyfish, "water", 0.15, "swim", (), ("jellyfish", "jellyfishes")),
+    Noun("jellyfish", build_jellyfish, "water", 0.15, "swim", (), ("jellyfish",)),
 )  # fmt: skip

@@ -25,7 +25,7 @@ from texvent.scenes.models.shapes import (
     moved,
     turn_x,
 )
-from texvent.scenes.models.variation import choose, fraction
+from texvent.scenes.models.variation import fraction, paint
 from texvent.scenes.scene import Colour
 
 
@@ -63,7 +63,7 @@ def build_insect(
     kind: Insect, *, colour: Colour | None, scale: float, seed: int
 ) -> ArticulatedModel:
     """Make a flying insect; `colour` is a butterfly's wings or another's body."""
-    hue = colour if colour is not None else choose(seed, "colour", kind.colours)
+    hue = paint(colour, seed, "colour", kind.colours)
     length, thick = kind.body
     body = Material(BLACK)
     if kind.striped_body:
@@ -115,11 +115,7 @@ def _wing(
 
 def build_snake(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a snake, 1.6 m, that slithers along its own track; `colour` is its skin."""
-    hue = (
-        colour
-        if colour is not None
-        else choose(seed, "skin", ((0.12, 0.26, 0.05), (0.30, 0.16, 0.06)))
-    )
+    hue = paint(colour, seed, "skin", ((0.12, 0.26, 0.05), (0.30, 0.16, 0.06)))
     skin = striped(hue, shade(hue, 0.4), 2.0)
     count, step, thick = 14, 0.12, 0.045
 
@@ -174,15 +170,9 @@ def build_snail(*, colour: Colour | None, scale: float, seed: int) -> Articulate
 
 
 NOUNS = (
-    Noun(
-        "butterfly", partial(build_insect, BUTTERFLY), "air", 0.8, "fly",
-        ("moth",), ("butterflies",),
-    ),
+    Noun("butterfly", partial(build_insect, BUTTERFLY), "air", 0.8, "fly", ("moth",)),
     Noun("bee", partial(build_insect, BEE), "air", 1.2, "fly", ("bumblebee", "wasp", "honeybee")),
-    Noun(
-        "dragonfly", partial(build_insect, DRAGONFLY), "air", 1.5, "fly",
-        ("damselfly",), ("dragonflies", "damselflies"),
-    ),
+    Noun("dragonfly", partial(build_insect, DRAGONFLY), "air", 1.5, "fly", ("damselfly",)),
     Noun("snake", build_snake, "ground", 0.5, "walk", ("python", "serpent")),
-    Noun("snail", build_snail, "ground", 0.02, "walk", ()),
-)  # fmt: skip
+    Noun("snail", build_snail, "ground", 0.02, "walk"),
+)

@@ -175,13 +175,8 @@ def build_penguin(*, colour: Colour | None, scale: float, seed: int) -> Articula
 
 
 NOUNS = (
-    Noun(
-        "ostrich", partial(build_strider, OSTRICH), "ground", 2.5, "walk", ("emu",), ("ostriches",)
-    ),
-    Noun(
-        "flamingo", partial(build_strider, FLAMINGO), "ground", 0.6, "walk",
-        (), ("flamingos", "flamingoes"),
-    ),
+    Noun("ostrich", partial(build_strider, OSTRICH), "ground", 2.5, "walk", ("emu",)),
+    Noun("flamingo", partial(build_strider, FLAMINGO), "ground", 0.6, "walk"),
     Noun("chicken", partial(build_strider, CHICKEN), "ground", 0.4, "walk", ("hen", "rooster")),
     Noun("penguin", build_penguin, "ground", 0.4, "walk"),
-)  # fmt: skip
+)

@@ -15,7 +15,7 @@ from texvent.scenes.models.materials import (
     mottled,
     shade,
 )
-from texvent.scenes.models.protocol import ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Pose, fixed_noun
 from texvent.scenes.models.shapes import (
     Point,
     ball,
@@ -33,7 +33,7 @@ from texvent.scenes.models.shapes import (
     turn_x,
     turn_z,
 )
-from texvent.scenes.models.variation import between, choose, fraction
+from texvent.scenes.models.variation import between, choose, fraction, paint
 from texvent.scenes.scene import Colour
 
 _WALLS: tuple[Colour, ...] = ((0.62, 0.55, 0.42), (0.66, 0.64, 0.60), (0.50, 0.28, 0.18))
@@ -42,7 +42,7 @@ _ROOFS: tuple[Colour, ...] = ((0.30, 0.07, 0.035), (0.10, 0.09, 0.095), (0.20, 0
 
 def build_house(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a house with a gabled roof, door, windows and chimney; it faces +x; 8 m wide."""
-    wall = Material(colour if colour is not None else choose(seed, "wall", _WALLS))
+    wall = Material(paint(colour, seed, "wall", _WALLS))
     roof = mottled(choose(seed, "roof", _ROOFS), contrast=0.25, scale=8.0)
     frame, door = Material(WHITE), Material((0.16, 0.06, 0.03))
     parts = [
@@ -89,8 +89,7 @@ def _gable_roof(
 
 def build_high_rise(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a block of 6 to 12 floors with rows of windows; `colour` is its walls."""
-    usual: tuple[Colour, ...] = ((0.40, 0.38, 0.35), (0.48, 0.36, 0.27), (0.30, 0.33, 0.38))
-    wall = colour if colour is not None else choose(seed, "wall", usual)
+    wall = paint(colour, seed, "wall", ((0.40, 0.38, 0.35), (0.48, 0.36, 0.27), (0.30, 0.33, 0.38)))
     floors = int(between(seed, "floors", 6.0, 13.0))
     tall, wide, deep = 3.2 * floors, 13.0, 11.0
     plain, dark = Material(wall), Material(shade(wall, 0.55))
@@ -116,25 +115,16 @@ def build_barn(*, colour: Colour | None, scale: float, seed: int) -> Articulated
     """Make a red barn with white edges and a large door on +x, its ridge along x; 9 m wide."""
     wall = Material(colour if colour is not None else (0.32, 0.035, 0.025))
     roof, white = mottled((0.14, 0.13, 0.13), contrast=0.2), Material(WHITE)
+    wide, thick = (0.2, 0.0, 0.0), (0.0, 0.26, 0.0)
     across = [
         box(wall, (0.0, 0.0, 2.0), (9.0, 11.0, 4.0)),
         gable(wall, (0.0, 0.0, 4.0), (9.0, 11.0, 3.0)),
         *_gable_roof(roof, (9.0, 11.0), 4.0, 3.1),
         box(white, (0.0, -5.5, 1.6), (3.4, 0.12, 3.2)),
         box(wall, (0.0, -5.5, 1.55), (3.0, 0.18, 2.9)),
-        plank(
-            white,
-            (-1.5, -5.5, 0.1),
-            (1.5, -5.5, 3.0),
-            chord=(0.2, 0.0, 0.0),
-            thickness=(0.0, 0.26, 0.0),
-        ),
-        plank(
-            white,
-            (1.5, -5.5, 0.1),
-            (-1.5, -5.5, 3.0),
-            chord=(0.2, 0.0, 0.0),
-            thickness=(0.0, 0.26, 0.0),
+        *(
+            plank(white, (-x, -5.5, 0.1), (x, -5.5, 3.0), chord=wide, thickness=thick)
+            for x in (1.5, -1.5)
         ),
         box(white, (0.0, -5.5, 5.0), (1.2, 0.14, 1.2)),
         box(DARK, (0.0, -5.5, 5.0), (0.9, 0.20, 0.9)),
@@ -145,11 +135,8 @@ def build_barn(*, colour: Colour | None, scale: float, seed: int) -> Articulated
 def build_windmill(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a Dutch windmill, 13 m, its four sails turning on +x; `colour` is its tower."""
     tower = mottled(colour if colour is not None else (0.52, 0.47, 0.38), contrast=0.15)
-    cap, sail, spar = (
-        Material((0.17, 0.08, 0.05)),
-        Material((0.74, 0.70, 0.60)),
-        Material((0.10, 0.06, 0.04)),
-    )
+    cap, sail = Material((0.17, 0.08, 0.05)), Material((0.74, 0.70, 0.60))
+    spar = Material((0.10, 0.06, 0.04))
     rigid = [
         peak(tower, (0.0, 0.0, 6.2), (6.0, 6.0, 12.4)),
         post(tower, (0.0, 0.0, 4.3), (3.3, 3.3, 8.6)),
@@ -218,16 +205,12 @@ def _mill(rigid: list[ModelPart], rotor: _Rotor, *, scale: float, seed: int) -> 
 
 
 NOUNS = (
-    Noun(
-        "house", build_house, "fixed", 0.0, "stand",
-        ("home", "cottage", "farmhouse", "cabin", "hut", "villa"),
-    ),
-    Noun(
-        "building", build_high_rise, "fixed", 0.0, "stand",
+    fixed_noun("house", build_house, ("home", "cottage", "farmhouse", "cabin", "hut", "villa")),
+    fixed_noun(
+        "building", build_high_rise,
         ("skyscraper", "high-rise", "tower", "tower block", "office", "apartment", "hotel"),
-        ("skyscrapers", "high-rises"),
     ),
-    Noun("barn", build_barn, "fixed", 0.0, "stand", ("shed",)),
-    Noun("windmill", build_windmill, "fixed", 0.0, "stand", ("mill",)),
-    Noun("wind turbine", build_wind_turbine, "fixed", 0.0, "stand", ("turbine",)),
+    fixed_noun("barn", build_barn, ("shed",)),
+    fixed_noun("windmill", build_windmill, ("mill",)),
+    fixed_noun("wind turbine", build_wind_turbine, ("turbine",)),
 )  # fmt: skip

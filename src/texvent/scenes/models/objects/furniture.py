@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import WHITE, WOOD, Material, mottled, shade
-from texvent.scenes.models.protocol import Noun
+from texvent.scenes.models.protocol import fixed_noun
 from texvent.scenes.models.shapes import ball, box, limb
-from texvent.scenes.models.variation import choose, fraction
+from texvent.scenes.models.variation import choose, fraction, paint
 from texvent.scenes.scene import Colour
 
 _FABRICS: tuple[Colour, ...] = ((0.05, 0.16, 0.32), (0.36, 0.07, 0.05), (0.24, 0.24, 0.22))
@@ -35,7 +35,7 @@ def build_chair(*, colour: Colour | None, scale: float, seed: int) -> Articulate
 
 def build_sofa(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a sofa for two, 2 m wide; `colour` is its fabric."""
-    hue = colour if colour is not None else choose(seed, "fabric", _FABRICS)
+    hue = paint(colour, seed, "fabric", _FABRICS)
     fabric, cushion = Material(hue), Material(shade(hue, 1.35))
     parts = [
         box(fabric, (0.0, 0.0, 0.24), (0.85, 1.90, 0.30)),
@@ -50,7 +50,7 @@ def build_sofa(*, colour: Colour | None, scale: float, seed: int) -> Articulated
 
 def build_bed(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a double bed, 2.1 m long, its headboard at -x; `colour` is its blanket."""
-    blanket = Material(colour if colour is not None else choose(seed, "blanket", _FABRICS))
+    blanket = Material(paint(colour, seed, "blanket", _FABRICS))
     white = Material(WHITE)
     parts = [
         box(WOOD, (0.0, 0.0, 0.20), (2.10, 1.60, 0.20)),
@@ -103,13 +103,10 @@ def build_bench(*, colour: Colour | None, scale: float, seed: int) -> Articulate
 
 
 NOUNS = (
-    Noun("table", build_table, "fixed", 0.0, "stand", ("desk", "dining table", "coffee table")),
-    Noun("chair", build_chair, "fixed", 0.0, "stand", ("wooden chair", "kitchen chair")),
-    Noun("sofa", build_sofa, "fixed", 0.0, "stand", ("couch", "settee"), ("couches",)),
-    Noun("bed", build_bed, "fixed", 0.0, "stand", ("double bed",)),
-    Noun(
-        "bookshelf", build_shelf, "fixed", 0.0, "stand",
-        ("bookcase", "shelf"), ("bookshelves", "shelves"),
-    ),
-    Noun("bench", build_bench, "fixed", 0.0, "stand", ("park bench",), ("benches",)),
-)  # fmt: skip
+    fixed_noun("table", build_table, ("desk", "dining table", "coffee table")),
+    fixed_noun("chair", build_chair, ("wooden chair", "kitchen chair")),
+    fixed_noun("sofa", build_sofa, ("couch", "settee")),
+    fixed_noun("bed", build_bed, ("double bed",)),
+    fixed_noun("bookshelf", build_shelf, ("bookcase", "shelf")),
+    fixed_noun("bench", build_bench, ("park bench",)),
+)

@@ -18,7 +18,7 @@ from texvent.scenes.models.materials import (
     glowing,
     shade,
 )
-from texvent.scenes.models.protocol import ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Pose, fixed_noun
 from texvent.scenes.models.shapes import (
     ball,
     blade,
@@ -32,7 +32,7 @@ from texvent.scenes.models.shapes import (
     shift,
     turn_x,
 )
-from texvent.scenes.models.variation import choose, fraction
+from texvent.scenes.models.variation import fraction, paint
 from texvent.scenes.scene import Colour
 
 _GLAZES: tuple[Colour, ...] = (RED, (0.05, 0.20, 0.45), WHITE, YELLOW)
@@ -40,7 +40,7 @@ _GLAZES: tuple[Colour, ...] = (RED, (0.05, 0.20, 0.45), WHITE, YELLOW)
 
 def build_cup(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a coffee cup on a saucer, 10 cm; `colour` is its glaze."""
-    glaze = Material(colour if colour is not None else choose(seed, "glaze", _GLAZES))
+    glaze = Material(paint(colour, seed, "glaze", _GLAZES))
     white = Material(WHITE)
     parts = [
         post(white, (0.0, 0.0, 0.005), (0.15, 0.15, 0.010)),
@@ -69,7 +69,7 @@ def build_bottle(*, colour: Colour | None, scale: float, seed: int) -> Articulat
 
 def build_clock(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a round clock on a foot, 0.5 m, facing +x; its hands run fast enough to watch."""
-    rim = Material(colour if colour is not None else choose(seed, "rim", (RED, (0.04, 0.15, 0.4))))
+    rim = Material(paint(colour, seed, "rim", (RED, (0.04, 0.15, 0.4))))
     face, dark = Material(WHITE), Material(BLACK)
     middle = (0.0, 0.0, 0.30)
     rigid = [
@@ -188,7 +188,7 @@ def build_pendulum(*, colour: Colour | None, scale: float, seed: int) -> Articul
 
 def build_umbrella(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a garden umbrella, 2.4 m; `colour` is its cloth."""
-    hue = colour if colour is not None else choose(seed, "cloth", (RED, YELLOW, (0.05, 0.2, 0.5)))
+    hue = paint(colour, seed, "cloth", (RED, YELLOW, (0.05, 0.2, 0.5)))
     parts = [
         post(DARK, (0.0, 0.0, 0.04), (0.50, 0.50, 0.08)),
         post(WOOD, (0.0, 0.0, 1.20), (0.06, 0.06, 2.40)),
@@ -200,12 +200,12 @@ def build_umbrella(*, colour: Colour | None, scale: float, seed: int) -> Articul
 
 
 NOUNS = (
-    Noun("cup", build_cup, "fixed", 0.0, "stand", ("mug", "coffee cup", "teacup")),
-    Noun("bottle", build_bottle, "fixed", 0.0, "stand", ("wine bottle", "flask")),
-    Noun("clock", build_clock, "fixed", 0.0, "stand", ("alarm clock", "wall clock")),
-    Noun("lamp", build_lamp, "fixed", 0.0, "stand", ("floor lamp", "desk lamp")),
-    Noun("candle", build_candle, "fixed", 0.0, "stand"),
-    Noun("fan", build_fan, "fixed", 0.0, "stand", ("propeller", "ventilator", "rotor")),
-    Noun("pendulum", build_pendulum, "fixed", 0.0, "stand", (), ("pendulums", "pendula")),
-    Noun("umbrella", build_umbrella, "fixed", 0.0, "stand", ("parasol",)),
+    fixed_noun("cup", build_cup, ("mug", "coffee cup", "teacup")),
+    fixed_noun("bottle", build_bottle, ("wine bottle", "flask")),
+    fixed_noun("clock", build_clock, ("alarm clock", "wall clock")),
+    fixed_noun("lamp", build_lamp, ("floor lamp", "desk lamp")),
+    fixed_noun("candle", build_candle),
+    fixed_noun("fan", build_fan, ("propeller", "ventilator", "rotor")),
+    fixed_noun("pendulum", build_pendulum, (), ("pendula",)),
+    fixed_noun("umbrella", build_umbrella, ("parasol",)),
 )

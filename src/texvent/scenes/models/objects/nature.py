@@ -6,7 +6,7 @@ import math
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import Material, mottled, shade
-from texvent.scenes.models.protocol import Noun
+from texvent.scenes.models.protocol import Noun, fixed_noun
 from texvent.scenes.models.shapes import ball, moved, peak, turn_z
 from texvent.scenes.models.variation import between, fraction
 from texvent.scenes.scene import Colour
@@ -60,7 +60,7 @@ def build_cloud(*, colour: Colour | None, scale: float, seed: int) -> Articulate
 
 
 NOUNS = (
-    Noun("rock", build_rock, "fixed", 0.0, "stand", ("stone", "boulder")),
-    Noun("mountain", build_mountain, "fixed", 0.0, "stand", ("mountain peak", "summit"),),
+    fixed_noun("rock", build_rock, ("stone", "boulder")),
+    fixed_noun("mountain", build_mountain, ("mountain peak", "summit")),
     Noun("cloud", build_cloud, "air", 1.5, "float"),
-)  # fmt: skip
+)

@@ -15,7 +15,7 @@ from texvent.scenes.models.materials import (
     shade,
     striped,
 )
-from texvent.scenes.models.protocol import ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Pose, fixed_noun
 from texvent.scenes.models.shapes import (
     ball,
     blade,
@@ -27,7 +27,7 @@ from texvent.scenes.models.shapes import (
     turn_x,
     turn_y,
 )
-from texvent.scenes.models.variation import between, choose, fraction
+from texvent.scenes.models.variation import between, fraction, paint
 from texvent.scenes.scene import Colour
 
 _LEAF: Colour = (0.075, 0.20, 0.035)
@@ -108,7 +108,7 @@ def build_bush(*, colour: Colour | None, scale: float, seed: int) -> Articulated
 
 def build_flower(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a flower, about 0.6 m, with a head large enough to see; `colour` is its petals."""
-    petal_colour = colour if colour is not None else choose(seed, "petal", (RED, YELLOW))
+    petal_colour = paint(colour, seed, "petal", (RED, YELLOW))
     petal, stem = Material(petal_colour), Material(GREEN)
     crown = []
     for step in range(7):
@@ -166,19 +166,13 @@ def _swaying(
 
 
 NOUNS = (
-    Noun(
-        "tree", build_tree, "fixed", 0.0, "stand",
-        ("oak", "maple", "apple tree", "oak tree", "birch", "willow"),
-    ),
-    Noun(
-        "pine", build_pine, "fixed", 0.0, "stand",
+    fixed_noun("tree", build_tree, ("oak", "maple", "apple tree", "oak tree", "birch", "willow")),
+    fixed_noun(
+        "pine", build_pine,
         ("pine tree", "fir", "fir tree", "spruce", "conifer", "christmas tree"),
     ),
-    Noun("palm", build_palm, "fixed", 0.0, "stand", ("palm tree", "coconut tree")),
-    Noun("bush", build_bush, "fixed", 0.0, "stand", ("shrub", "hedge"), ("bushes",)),
-    Noun(
-        "flower", build_flower, "fixed", 0.0, "stand",
-        ("sunflower", "daisy", "tulip", "rose"), ("daisies",),
-    ),
-    Noun("cactus", build_cactus, "fixed", 0.0, "stand", (), ("cacti", "cactuses")),
+    fixed_noun("palm", build_palm, ("palm tree", "coconut tree")),
+    fixed_noun("bush", build_bush, ("shrub", "hedge")),
+    fixed_noun("flower", build_flower, ("sunflower", "daisy", "tulip", "rose")),
+    fixed_noun("cactus", build_cactus, (), ("cacti",)),
 )  # fmt: skip

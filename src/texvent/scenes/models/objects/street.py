@@ -18,9 +18,9 @@ from texvent.scenes.models.materials import (
     shade,
     striped,
 )
-from texvent.scenes.models.protocol import ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Pose, fixed_noun
 from texvent.scenes.models.shapes import ball, box, peak, plank, post, rod, spike
-from texvent.scenes.models.variation import choose, fraction
+from texvent.scenes.models.variation import fraction, paint
 from texvent.scenes.scene import Colour
 
 _CYCLE_S = 4.0
@@ -89,19 +89,13 @@ def _lit(phase: float, start: float, stop: float) -> float:
 def build_barrier(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a striped road barrier, 2 m wide, with a blinking lamp; `colour` is its stripes."""
     stripes = striped(colour if colour is not None else RED, WHITE, 3.0)
+    tall, thick = (0.0, 0.0, 0.22), (0.05, 0.0, 0.0)
     rigid = [
-        plank(
-            stripes,
-            (0.0, -1.0, z),
-            (0.0, 1.0, z),
-            chord=(0.0, 0.0, 0.22),
-            thickness=(0.05, 0.0, 0.0),
-        )
+        plank(stripes, (0.0, -1.0, z), (0.0, 1.0, z), chord=tall, thickness=thick)
         for z in (0.9, 0.5)
     ]
     for y in (0.75, -0.75):
-        rigid.append(rod(DARK, (0.3, y, 0.03), (0.0, y, 1.05), 0.03))
-        rigid.append(rod(DARK, (-0.3, y, 0.03), (0.0, y, 1.05), 0.03))
+        rigid += [rod(DARK, (x, y, 0.03), (0.0, y, 1.05), 0.03) for x in (0.3, -0.3)]
     start = fraction(seed, "blink")
 
     def articulate(pose: Pose) -> list[ModelPart]:
@@ -137,7 +131,7 @@ def build_sign(*, colour: Colour | None, scale: float, seed: int) -> Articulated
 
 def build_flag(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a flag that waves along -x from a pole of 4 m; `colour` is its cloth."""
-    hue = colour if colour is not None else choose(seed, "cloth", (RED, (0.04, 0.14, 0.45)))
+    hue = paint(colour, seed, "cloth", (RED, (0.04, 0.14, 0.45)))
     cloth, band = Material(hue), Material(WHITE)
     rigid = [
         post(STEEL, (0.0, 0.0, 2.0), (0.07, 0.07, 4.0)),
@@ -178,21 +172,15 @@ def build_bridge(*, colour: Colour | None, scale: float, seed: int) -> Articulat
 
 
 NOUNS = (
-    Noun(
-        "traffic cone", build_traffic_cone, "fixed", 0.0, "stand",
-        ("road cone", "safety cone", "pylon"),
-    ),
-    Noun(
-        "street lamp", build_street_lamp, "fixed", 0.0, "stand",
+    fixed_noun("traffic cone", build_traffic_cone, ("road cone", "safety cone", "pylon")),
+    fixed_noun(
+        "street lamp", build_street_lamp,
         ("streetlight", "street light", "lamp post", "lamppost", "streetlamp"),
     ),
-    Noun("barrier", build_barrier, "fixed", 0.0, "stand", ("road block", "roadblock", "barricade")),
-    Noun("fence", build_fence, "fixed", 0.0, "stand", ("picket fence",)),
-    Noun(
-        "sign", build_sign, "fixed", 0.0, "stand",
-        ("stop sign", "traffic sign", "road sign", "street sign"),
-    ),
-    Noun("flag", build_flag, "fixed", 0.0, "stand", ("banner", "flagpole")),
-    Noun("bridge", build_bridge, "fixed", 0.0, "stand", ("overpass",), ("overpasses",)),
-    Noun("traffic light", build_traffic_light, "fixed", 0.0, "stand", ("stoplight", "stop light")),
+    fixed_noun("barrier", build_barrier, ("road block", "roadblock", "barricade")),
+    fixed_noun("fence", build_fence, ("picket fence",)),
+    fixed_noun("sign", build_sign, ("stop sign", "traffic sign", "road sign", "street sign")),
+    fixed_noun("flag", build_flag, ("banner", "flagpole")),
+    fixed_noun("bridge", build_bridge, ("overpass",)),
+    fixed_noun("traffic light", build_traffic_light, ("stoplight", "stop light")),
 )  # fmt: skip

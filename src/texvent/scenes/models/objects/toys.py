@@ -35,7 +35,7 @@ from texvent.scenes.models.shapes import (
     turn_y,
     turn_z,
 )
-from texvent.scenes.models.variation import choose, fraction
+from texvent.scenes.models.variation import fraction, paint
 from texvent.scenes.scene import Colour
 
 _BRIGHT: tuple[Colour, ...] = (RED, YELLOW, (0.05, 0.30, 0.60), (0.10, 0.42, 0.10))
@@ -63,7 +63,7 @@ def build_ball(
     look: BallLook, *, colour: Colour | None, scale: float, seed: int
 ) -> ArticulatedModel:
     """Make a ball that rolls on the ground below its middle without slipping."""
-    first = colour if colour is not None else choose(seed, "colour", look.colours)
+    first = paint(colour, seed, "colour", look.colours)
     second = look.second_colour if look.second_colour is not None else shade(first, 0.72)
     size = 2.0 * look.radius
     skin = Material(first) if look.seams else checked(first, second, 1.4)
@@ -86,7 +86,7 @@ def build_ball(
 
 def build_balloon(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a toy balloon on a string, about 1.3 m with the string."""
-    skin = Material(colour if colour is not None else choose(seed, "colour", _BRIGHT))
+    skin = Material(paint(colour, seed, "colour", _BRIGHT))
     shine = Material(shade(skin.colour, 1.9))
     string = Material(GREY)
     body = [
@@ -108,7 +108,7 @@ def build_balloon(*, colour: Colour | None, scale: float, seed: int) -> Articula
 
 def build_kite(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a diamond kite with a fluttering tail, about 1.2 m; its face looks along x."""
-    first = colour if colour is not None else choose(seed, "colour", _BRIGHT)
+    first = paint(colour, seed, "colour", _BRIGHT)
     second = YELLOW if first is not YELLOW else RED
     sail, other, spar = Material(first), Material(second), WOOD
     face = [
@@ -146,4 +146,4 @@ NOUNS = (
     Noun("tennis ball", partial(build_ball, TENNIS_BALL), "ground", 5.0, "roll"),
     Noun("balloon", build_balloon, "air", 0.4, "float"),
     Noun("kite", build_kite, "air", 1.5, "fly"),
-)  # fmt: skip
+)

@@ -24,18 +24,19 @@ from texvent.scenes.models.shapes import (
     box,
     compose,
     fin,
+    level_wing,
     limb,
     moved,
     peak,
-    plank,
     post,
     rod,
     shift,
     spike,
     turn_y,
     turn_z,
+    upright_fin,
 )
-from texvent.scenes.models.variation import choose, fraction
+from texvent.scenes.models.variation import choose, fraction, paint
 from texvent.scenes.scene import Colour
 
 
@@ -51,74 +52,37 @@ def build_airplane(*, colour: Colour | None, scale: float, seed: int) -> Articul
         box(GLASS, (12.6, 0.0, 0.75), (1.1, 2.0, 0.5)),
         box(GLASS, (1.5, 0.0, 0.45), (17.0, 3.62, 0.38)),
         box(accent, (1.5, 0.0, -0.35), (18.0, 3.60, 0.28)),
-        fin(
-            accent,
-            (-11.8, 0.0, 1.0),
-            (-15.8, 0.0, 6.6),
-            chord=(4.6, 0.0, 0.0),
-            thickness=(0.0, 0.5, 0.0),
-        ),
+        upright_fin(accent, (-11.8, 0.0, 1.0), (-15.8, 0.0, 6.6), 4.6, 0.5),
     ]
     for side in (1.0, -1.0):
-        root, tip = (1.2, side * 1.2, -0.8), (-6.2, side * 15.0, 0.4)
-        parts.append(
-            plank(
-                grey,
-                root,
-                (-2.5, side * 8.0, -0.2),
-                chord=(4.6, 0.0, 0.0),
-                thickness=(0.0, 0.0, 0.5),
-            )
-        )
-        parts.append(
-            plank(
-                grey,
-                (-2.5, side * 8.0, -0.2),
-                tip,
-                chord=(2.8, 0.0, 0.0),
-                thickness=(0.0, 0.0, 0.35),
-            )
-        )
-        tail_tip = (-16.2, side * 5.4, 1.4)
-        parts.append(
-            plank(
-                grey,
-                (-13.0, side * 0.4, 0.8),
-                tail_tip,
-                chord=(2.4, 0.0, 0.0),
-                thickness=(0.0, 0.0, 0.3),
-            )
-        )
-        parts.append(rod(accent, (-0.6, side * 5.2, -1.6), (2.8, side * 5.2, -1.6), 0.95))
-        parts.append(rod(DARK, (2.7, side * 5.2, -1.6), (2.9, side * 5.2, -1.6), 0.75))
+        bend, tail = (-2.5, side * 8.0, -0.2), (-16.2, side * 5.4, 1.4)
+        parts += [
+            level_wing(grey, (1.2, side * 1.2, -0.8), bend, 4.6, 0.5),
+            level_wing(grey, bend, (-6.2, side * 15.0, 0.4), 2.8, 0.35),
+            level_wing(grey, (-13.0, side * 0.4, 0.8), tail, 2.4, 0.3),
+            rod(accent, (-0.6, side * 5.2, -1.6), (2.8, side * 5.2, -1.6), 0.95),
+            rod(DARK, (2.7, side * 5.2, -1.6), (2.9, side * 5.2, -1.6), 0.75),
+        ]
     return ArticulatedModel(parts, scale=scale, is_centred=True)
 
 
 def build_helicopter(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a helicopter, 11 m, with turning main and tail rotors; `colour` is its body."""
-    usual: tuple[Colour, ...] = (RED, (0.04, 0.12, 0.40), (0.10, 0.20, 0.06))
-    body = Material(colour if colour is not None else choose(seed, "body", usual))
+    body = Material(paint(colour, seed, "body", (RED, (0.04, 0.12, 0.40), (0.10, 0.20, 0.06))))
     rigid = [
         ball(body, (0.6, 0.0, -0.1), (4.4, 2.0, 2.3)),
         ball(GLASS, (1.45, 0.0, 0.15), (2.6, 1.9, 1.7)),
         box(body, (0.6, 0.0, -0.75), (3.2, 1.7, 0.5)),
         rod(body, (-1.0, 0.0, 0.35), (-6.0, 0.0, 0.75), 0.26),
         limb(body, (-1.8, 0.0, 0.30), (0.4, 0.0, 0.55), 0.65),
-        fin(
-            body,
-            (-5.6, 0.0, 0.7),
-            (-6.4, 0.0, 2.2),
-            chord=(1.1, 0.0, 0.0),
-            thickness=(0.0, 0.2, 0.0),
-        ),
+        upright_fin(body, (-5.6, 0.0, 0.7), (-6.4, 0.0, 2.2), 1.1, 0.2),
         box(body, (-5.0, 0.0, 0.70), (0.6, 2.0, 0.08)),
         rod(STEEL, (0.3, 0.0, 1.0), (0.3, 0.0, 1.6), 0.12),
     ]
     for side in (1.0, -1.0):
         y = side * 1.05
         rigid.append(rod(DARK, (-1.0, y, -1.65), (2.4, y, -1.65), 0.09))
-        rigid.append(rod(DARK, (0.0, side * 0.6, -1.0), (0.0, y, -1.65), 0.07))
-        rigid.append(rod(DARK, (1.4, side * 0.6, -1.0), (1.4, y, -1.65), 0.07))
+        rigid += [rod(DARK, (x, side * 0.6, -1.0), (x, y, -1.65), 0.07) for x in (0.0, 1.4)]
     start = fraction(seed, "rotor")
     blades = [
         box(DARK, (0.0, 0.0, 0.0), (9.6, 0.34, 0.08)),
@@ -151,12 +115,12 @@ def build_drone(*, colour: Colour | None, scale: float, seed: int) -> Articulate
         ball(GLASS, (0.19, 0.0, -0.07), (0.10, 0.10, 0.10)),
         ball(glowing((0.1, 0.9, 0.2), 2.0), (-0.22, 0.0, 0.0), (0.04, 0.06, 0.04)),
         ball(TAILLIGHT, (0.22, 0.0, 0.03), (0.04, 0.06, 0.03)),
-        rod(DARK, (0.10, 0.10, -0.04), (0.12, 0.15, -0.20), 0.014),
-        rod(DARK, (0.10, -0.10, -0.04), (0.12, -0.15, -0.20), 0.014),
-        rod(DARK, (-0.10, 0.10, -0.04), (-0.12, 0.15, -0.20), 0.014),
-        rod(DARK, (-0.10, -0.10, -0.04), (-0.12, -0.15, -0.20), 0.014),
-        rod(DARK, (0.16, 0.15, -0.20), (-0.16, 0.15, -0.20), 0.014),
-        rod(DARK, (0.16, -0.15, -0.20), (-0.16, -0.15, -0.20), 0.014),
+        *(
+            rod(DARK, (0.10 * x, 0.10 * y, -0.04), (0.12 * x, 0.15 * y, -0.20), 0.014)
+            for x in (1.0, -1.0)
+            for y in (1.0, -1.0)
+        ),
+        *(rod(DARK, (0.16, y, -0.20), (-0.16, y, -0.20), 0.014) for y in (0.15, -0.15)),
     ]
     start = fraction(seed, "rotor")
     blade_pair = [box(propeller, (0.0, 0.0, 0.0), (0.38, 0.045, 0.012))]
@@ -204,7 +168,7 @@ def build_rocket(*, colour: Colour | None, scale: float, seed: int) -> Articulat
 
 def build_hot_air_balloon(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a hot-air balloon, 18 m, with a banded envelope and a basket."""
-    hue = colour if colour is not None else choose(seed, "cloth", (RED, (0.05, 0.2, 0.6)))
+    hue = paint(colour, seed, "cloth", (RED, (0.05, 0.2, 0.6)))
     cloth, second = striped(hue, YELLOW, 3.0), Material(hue)
     basket = striped((0.26, 0.14, 0.06), (0.16, 0.08, 0.03), 5.0)
     parts = [
@@ -212,10 +176,7 @@ def build_hot_air_balloon(*, colour: Colour | None, scale: float, seed: int) -> 
         spike(second, (0.0, 0.0, 0.6), (0.0, 0.0, -6.6), 5.45),
         box(basket, (0.0, 0.0, -7.8), (1.9, 1.9, 1.5)),
         ball(glowing((1.0, 0.5, 0.1), 2.0), (0.0, 0.0, -6.2), (0.5, 0.5, 0.9)),
-        rod(DARK, (0.9, 0.9, -7.2), (0.9, 0.9, -4.6), 0.06),
-        rod(DARK, (-0.9, 0.9, -7.2), (-0.9, 0.9, -4.6), 0.06),
-        rod(DARK, (0.9, -0.9, -7.2), (0.9, -0.9, -4.6), 0.06),
-        rod(DARK, (-0.9, -0.9, -7.2), (-0.9, -0.9, -4.6), 0.06),
+        *(rod(DARK, (x, y, -7.2), (x, y, -4.6), 0.06) for y in (0.9, -0.9) for x in (0.9, -0.9)),
     ]
     return ArticulatedModel(parts, scale=scale, is_centred=True)
 
@@ -249,9 +210,10 @@ NOUNS = (
     ),
     Noun("helicopter", build_helicopter, "air", 12.0, "fly", ("chopper",)),
     Noun("drone", build_drone, "air", 2.5, "fly", ("quadcopter", "quadrotor", "uav")),
-    Noun("rocket", build_rocket, "air", 8.0, "fly", ("spaceship", "missile", "spacecraft"),
-         ("spacecraft",)),
-    Noun("hot air balloon", build_hot_air_balloon, "air", 2.0, "float",
-         ("hot-air balloon",)),
+    Noun(
+        "rocket", build_rocket, "air", 8.0, "fly",
+        ("spaceship", "missile", "spacecraft"), ("spacecraft",),
+    ),
+    Noun("hot air balloon", build_hot_air_balloon, "air", 2.0, "float", ("hot-air balloon",)),
     Noun("ufo", build_ufo, "air", 6.0, "fly", ("flying saucer", "alien ship")),
 )  # fmt: skip

@@ -29,14 +29,13 @@ from texvent.scenes.models.shapes import (
     turn_x,
     turn_y,
 )
-from texvent.scenes.models.variation import choose, fraction
+from texvent.scenes.models.variation import choose, fraction, paint
 from texvent.scenes.scene import Colour
 
 
 def build_boat(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a motor boat, 6 m; `colour` is its hull."""
-    usual: tuple[Colour, ...] = (WHITE, RED, (0.04, 0.14, 0.40))
-    hue = colour if colour is not None else choose(seed, "hull", usual)
+    hue = paint(colour, seed, "hull", (WHITE, RED, (0.04, 0.14, 0.40)))
     hull, deck = Material(hue), WOOD
     parts = [
         *_hull(hull, 5.8, 2.1, 0.95),
@@ -52,8 +51,7 @@ def build_boat(*, colour: Colour | None, scale: float, seed: int) -> Articulated
 
 def build_sailboat(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a sailing boat, 7 m, with mainsail and jib; `colour` is its hull."""
-    usual: tuple[Colour, ...] = (WHITE, (0.04, 0.12, 0.35), (0.35, 0.05, 0.04))
-    hull = Material(colour if colour is not None else choose(seed, "hull", usual))
+    hull = Material(paint(colour, seed, "hull", (WHITE, (0.04, 0.12, 0.35), (0.35, 0.05, 0.04))))
     sail, second = Material((0.85, 0.84, 0.80)), Material((0.74, 0.73, 0.70))
     parts = [
         *_hull(hull, 6.6, 2.0, 0.85),
@@ -80,7 +78,7 @@ def _sail(material: Material, luff: tuple[float, float, float], clew: tuple[floa
 
 def build_ship(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a cargo ship, 60 m, with containers and a bridge; `colour` is its hull."""
-    hue = colour if colour is not None else choose(seed, "hull", ((0.05, 0.10, 0.25), BLACK))
+    hue = paint(colour, seed, "hull", ((0.05, 0.10, 0.25), BLACK))
     hull, white = Material(hue), Material(WHITE)
     parts = [
         *_hull(hull, 58.0, 9.5, 6.0),
@@ -136,8 +134,12 @@ def _rocking(parts: list[ModelPart], scale: float, seed: int, amount: float) -> 
 
 NOUNS = (
     Noun("boat", build_boat, "water", 4.0, "sail", ("motorboat", "speedboat", "fishing boat")),
-    Noun("sailboat", build_sailboat, "water", 2.5, "sail",
-         ("sailing boat", "yacht", "sailing ship")),
-    Noun("ship", build_ship, "water", 6.0, "sail",
-         ("cargo ship", "container ship", "freighter", "vessel")),
+    Noun(
+        "sailboat", build_sailboat, "water", 2.5, "sail",
+        ("sailing boat", "yacht", "sailing ship"),
+    ),
+    Noun(
+        "ship", build_ship, "water", 6.0, "sail",
+        ("cargo ship", "container ship", "freighter", "vessel"),
+    ),
 )  # fmt: skip

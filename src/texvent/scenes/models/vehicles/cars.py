@@ -23,7 +23,7 @@ from texvent.scenes.models.materials import (
 )
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import ball, box, rod
-from texvent.scenes.models.variation import choose
+from texvent.scenes.models.variation import paint
 from texvent.scenes.models.vehicles.wheels import Wheel, car_wheels
 from texvent.scenes.scene import Colour
 
@@ -73,7 +73,7 @@ def build_car(
     shape: CarShape, *, colour: Colour | None, scale: float, seed: int
 ) -> ArticulatedModel:
     """Make a car; `colour` is its paint."""
-    body = Material(colour if colour is not None else choose(seed, "paint", shape.colours))
+    body = Material(paint(colour, seed, "paint", shape.colours))
     rigid = [*_body(shape, body), *_cabin(shape, body), *_lights(shape), *_carried(shape, body)]
     side = 0.5 * shape.width - 0.10
     wheels = [

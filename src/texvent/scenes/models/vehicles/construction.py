@@ -15,7 +15,7 @@ from texvent.scenes.models.materials import (
     checked,
     shade,
 )
-from texvent.scenes.models.protocol import ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose, fixed_noun
 from texvent.scenes.models.shapes import (
     Point,
     ball,
@@ -143,10 +143,7 @@ def _tracks(distance: float) -> list[ModelPart]:
 
 
 NOUNS = (
-    Noun(
-        "crane", build_crane, "fixed", 0.0, "stand",
-        ("tower crane", "construction crane", "building crane"),
-    ),
+    fixed_noun("crane", build_crane, ("tower crane", "construction crane", "building crane")),
     Noun(
         "excavator", build_excavator, "ground", 1.0, "drive",
         ("digger", "backhoe", "construction vehicle"),

@@ -29,8 +29,8 @@ from texvent.scenes.models.people import (
 )
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import Point, ball, box, rod
-from texvent.scenes.models.variation import choose
-from texvent.scenes.models.vehicles.wheels import Wheel, car_wheels, spoked_wheels
+from texvent.scenes.models.variation import paint
+from texvent.scenes.models.vehicles.wheels import Wheel, spoked_wheels, wheeled_model
 from texvent.scenes.scene import Colour
 
 _FRAMES: tuple[Colour, ...] = (RED, (0.04, 0.14, 0.45), (0.05, 0.30, 0.12))
@@ -40,7 +40,7 @@ _GEAR = 0.45
 
 def build_bicycle(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a bicycle with a rider who pedals; `colour` is its frame."""
-    frame = Material(colour if colour is not None else choose(seed, "frame", _FRAMES))
+    frame = Material(paint(colour, seed, "frame", _FRAMES))
     outfit = dress_person(ADULT, colour=None, seed=seed)
     wheels = [Wheel((x, 0.0, 0.34), 0.34, 0.045) for x in (0.54, -0.54)]
     crank: Point = (-0.05, 0.0, 0.30)
@@ -74,7 +74,7 @@ def build_bicycle(*, colour: Colour | None, scale: float, seed: int) -> Articula
 
 def build_motorcycle(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a motorcycle with a rider in a helmet; `colour` is its tank."""
-    tank = Material(colour if colour is not None else choose(seed, "frame", _FRAMES))
+    tank = Material(paint(colour, seed, "frame", _FRAMES))
     leather = Material((0.035, 0.035, 0.04))
     outfit = Outfit(DARK, leather, leather, leather, leather, DARK)
     wheels = [Wheel((x, 0.0, 0.33), 0.33, 0.16) for x in (0.76, -0.72)]
@@ -88,8 +88,7 @@ def build_motorcycle(*, colour: Colour | None, scale: float, seed: int) -> Artic
         ball(tank, (-0.76, 0.0, 0.78), (0.50, 0.22, 0.18)),
         box(STEEL, (0.05, 0.0, 0.46), (0.52, 0.30, 0.36)),
         rod(CHROME, (0.10, -0.18, 0.32), (-0.85, -0.18, 0.36), 0.055),
-        rod(CHROME, (0.76, 0.12, 0.33), (0.44, 0.12, 1.00), 0.035),
-        rod(CHROME, (0.76, -0.12, 0.33), (0.44, -0.12, 1.00), 0.035),
+        *(rod(CHROME, (0.76, y, 0.33), (0.44, y, 1.00), 0.035) for y in (0.12, -0.12)),
         rod(STEEL, (-0.72, 0.0, 0.33), (-0.10, 0.0, 0.45), 0.05),
         rod(DARK, (grip[0], -0.36, grip[2]), (grip[0], 0.36, grip[2]), 0.025),
         ball(HEADLIGHT, (0.60, 0.0, 0.88), (0.16, 0.22, 0.22)),
@@ -102,10 +101,7 @@ def build_motorcycle(*, colour: Colour | None, scale: float, seed: int) -> Artic
         ankle = (-0.14, side * 0.20, 0.40)
         rigid += draw_leg(outfit, (hips[0], side * 0.12, hips[2]), ankle, pitch=0.1)
 
-    def articulate(pose: Pose) -> list[ModelPart]:
-        return car_wheels(wheels, pose.distance_m)
-
-    return ArticulatedModel(rigid, scale=scale, articulate=articulate)
+    return wheeled_model(rigid, wheels, scale)
 
 
 def _upper_body(

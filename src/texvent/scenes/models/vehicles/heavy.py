@@ -16,16 +16,16 @@ from texvent.scenes.models.materials import (
     Material,
     shade,
 )
-from texvent.scenes.models.protocol import ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun
 from texvent.scenes.models.shapes import ball, box, post, rod
-from texvent.scenes.models.variation import choose
-from texvent.scenes.models.vehicles.wheels import Wheel, car_wheels
+from texvent.scenes.models.variation import paint
+from texvent.scenes.models.vehicles.wheels import Wheel, wheeled_model
 from texvent.scenes.scene import Colour
 
 
 def build_truck(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a lorry, 8 m, with a separate cab and a box body; `colour` is the cab."""
-    cab = Material(colour if colour is not None else choose(seed, "cab", (RED, (0.04, 0.14, 0.42))))
+    cab = Material(paint(colour, seed, "cab", (RED, (0.04, 0.14, 0.42))))
     cargo = Material((0.66, 0.66, 0.63))
     rib = Material((0.50, 0.50, 0.48))
     rigid = [
@@ -41,7 +41,7 @@ def build_truck(*, colour: Colour | None, scale: float, seed: int) -> Articulate
         *_pair(HEADLIGHT, 3.72, 0.90, 1.05, 0.30),
         *_pair(TAILLIGHT, -4.00, 1.00, 0.90, 0.24),
     ]
-    return _rolling(rigid, _axles((2.55, -1.9, -3.1), 1.08, 0.50), scale)
+    return wheeled_model(rigid, _axles((2.55, -1.9, -3.1), 1.08, 0.50), scale)
 
 
 def build_fire_engine(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
@@ -64,13 +64,12 @@ def build_fire_engine(*, colour: Colour | None, scale: float, seed: int) -> Arti
         *_pair(TAILLIGHT, -3.92, 1.00, 0.95, 0.24),
         box(Material((0.02, 0.08, 0.9), emission=1.5), (2.9, 0.0, 2.76), (0.34, 1.8, 0.20)),
     ]
-    return _rolling(rigid, _axles((2.4, -2.2), 1.10, 0.50), scale)
+    return wheeled_model(rigid, _axles((2.4, -2.2), 1.10, 0.50), scale)
 
 
 def build_bus(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a city bus, 11 m, with a row of windows and two doors; `colour` is its body."""
-    usual: tuple[Colour, ...] = (RED, YELLOW, (0.05, 0.22, 0.45))
-    body = Material(colour if colour is not None else choose(seed, "body", usual))
+    body = Material(paint(colour, seed, "body", (RED, YELLOW, (0.05, 0.22, 0.45))))
     white = Material(WHITE)
     rigid = [
         box(body, (0.0, 0.0, 1.05), (11.0, 2.5, 1.40)),
@@ -86,13 +85,12 @@ def build_bus(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedM
         *_pair(HEADLIGHT, 5.48, 0.95, 0.75, 0.30),
         *_pair(TAILLIGHT, -5.48, 1.05, 0.95, 0.26),
     ]
-    return _rolling(rigid, _axles((3.1, -3.2), 1.16, 0.48), scale)
+    return wheeled_model(rigid, _axles((3.1, -3.2), 1.16, 0.48), scale)
 
 
 def build_train(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a train of an engine and two coaches, 27 m, on its own rails; `colour` is its body."""
-    usual: tuple[Colour, ...] = ((0.05, 0.20, 0.42), (0.45, 0.05, 0.04), (0.05, 0.26, 0.14))
-    hue = colour if colour is not None else choose(seed, "body", usual)
+    hue = paint(colour, seed, "body", ((0.05, 0.20, 0.42), (0.45, 0.05, 0.04), (0.05, 0.26, 0.14)))
     body, band, roof = Material(hue), Material((0.72, 0.70, 0.62)), Material(shade(hue, 0.4))
     rigid: list[ModelPart] = []
     for index, x in enumerate((9.0, 0.0, -9.0)):
@@ -115,13 +113,12 @@ def build_train(*, colour: Colour | None, scale: float, seed: int) -> Articulate
     ]
     axles = (11.4, 6.6, 2.4, -2.4, -6.6, -11.4)
     wheels = [Wheel((x, 0.0, 0.57), 0.45, 1.86) for x in axles]
-    return _rolling(rigid, wheels, scale)
+    return wheeled_model(rigid, wheels, scale)
 
 
 def build_tractor(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a farm tractor, 3.6 m, with large rear wheels; `colour` is its body."""
-    usual: tuple[Colour, ...] = ((0.05, 0.28, 0.05), RED)
-    body = Material(colour if colour is not None else choose(seed, "body", usual))
+    body = Material(paint(colour, seed, "body", ((0.05, 0.28, 0.05), RED)))
     rigid = [
         box(body, (0.85, 0.0, 1.20), (1.9, 0.85, 0.70)),
         box(DARK, (1.82, 0.0, 1.20), (0.06, 0.70, 0.60)),
@@ -138,7 +135,7 @@ def build_tractor(*, colour: Colour | None, scale: float, seed: int) -> Articula
         *(Wheel((-0.85, y, 0.82), 0.82, 0.46) for y in (0.82, -0.82)),
         *(Wheel((1.25, y, 0.46), 0.46, 0.30) for y in (0.70, -0.70)),
     ]
-    return _rolling(rigid, wheels, scale)
+    return wheeled_model(rigid, wheels, scale)
 
 
 def _pair(material: Material, x: float, y: float, z: float, size: float) -> list[ModelPart]:
@@ -150,23 +147,13 @@ def _axles(places: tuple[float, ...], side: float, radius: float) -> list[Wheel]
     return [Wheel((x, y, radius), radius, 0.34) for x in places for y in (side, -side)]
 
 
-def _rolling(rigid: list[ModelPart], wheels: list[Wheel], scale: float) -> ArticulatedModel:
-    def articulate(pose: Pose) -> list[ModelPart]:
-        return car_wheels(wheels, pose.distance_m)
-
-    return ArticulatedModel(rigid, scale=scale, articulate=articulate)
-
-
 NOUNS = (
     Noun(
         "truck", build_truck, "ground", 8.0, "drive",
-        ("lorry", "delivery truck", "semi", "cargo truck"), ("lorries",),
+        ("lorry", "delivery truck", "semi", "cargo truck"),
     ),
-    Noun("bus", build_bus, "ground", 8.0, "drive", ("coach", "school bus"), ("buses", "busses")),
+    Noun("bus", build_bus, "ground", 8.0, "drive", ("coach", "school bus")),
     Noun("train", build_train, "ground", 14.0, "drive", ("tram", "metro", "locomotive")),
     Noun("tractor", build_tractor, "ground", 4.0, "drive", ("farm tractor",)),
-    Noun(
-        "fire engine", build_fire_engine, "ground", 12.0, "drive",
-        ("fire truck", "firetruck"),
-    ),
+    Noun("fire engine", build_fire_engine, "ground", 12.0, "drive", ("fire truck", "firetruck")),
 )  # fmt: skip

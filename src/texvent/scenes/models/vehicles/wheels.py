@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import CHROME, DARK, RUBBER, Material
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import (
@@ -29,20 +30,21 @@ class Wheel:
 
 def car_wheels(wheels: Iterable[Wheel], distance: float) -> list[ModelPart]:
     """Tyres with a bright rim that a dark cross divides, turned by a distance travelled, m."""
-    turned: list[ModelPart] = []
-    for wheel in wheels:
-        turned += rolled(_disc_wheel(wheel.radius, wheel.width), wheel, distance)
-    return turned
+    return [part for wheel in wheels for part in rolled(_disc_wheel(wheel), wheel, distance)]
 
 
-def spoked_wheels(
-    wheels: Iterable[Wheel], distance: float, *, rim: Material = RUBBER
-) -> list[ModelPart]:
+def spoked_wheels(wheels: Iterable[Wheel], distance: float) -> list[ModelPart]:
     """Thin discs that look like rims with spokes, for cycles, turned by a distance, m."""
-    turned: list[ModelPart] = []
-    for wheel in wheels:
-        turned += rolled(_cycle_wheel(wheel.radius, wheel.width, rim), wheel, distance)
-    return turned
+    return [part for wheel in wheels for part in rolled(_cycle_wheel(wheel), wheel, distance)]
+
+
+def wheeled_model(
+    rigid: Sequence[ModelPart], wheels: Sequence[Wheel], scale: float
+) -> ArticulatedModel:
+    """A vehicle of which only the wheels turn."""
+    return ArticulatedModel(
+        rigid, scale=scale, articulate=lambda pose: car_wheels(wheels, pose.distance_m)
+    )
 
 
 def rolled(parts: Sequence[ModelPart], wheel: Wheel, distance: float) -> list[ModelPart]:
@@ -54,7 +56,8 @@ def rolled(parts: Sequence[ModelPart], wheel: Wheel, distance: float) -> list[Mo
     return moved(parts, motion)
 
 
-def _disc_wheel(radius: float, width: float) -> list[ModelPart]:
+def _disc_wheel(wheel: Wheel) -> list[ModelPart]:
+    radius, width = wheel.radius, wheel.width
     half = 0.5 * width
     gap = 0.16 * radius
     return [
@@ -65,13 +68,14 @@ def _disc_wheel(radius: float, width: float) -> list[ModelPart]:
     ]
 
 
-def _cycle_wheel(radius: float, width: float, rim: Material) -> list[ModelPart]:
-    """A rim of twelve straight pieces would cost too much: a tyre's outline of six bars."""
+def _cycle_wheel(wheel: Wheel) -> list[ModelPart]:
+    """A tyre, the air between its spokes, and a dark cross."""
+    radius, width = wheel.radius, wheel.width
     half = 0.5 * width
     spoke = 0.03 * radius + 0.006
     air = Material((0.30, 0.31, 0.32))
     return [
-        rod(rim, (0.0, -half, 0.0), (0.0, half, 0.0), radius),
+        rod(RUBBER, (0.0, -half, 0.0), (0.0, half, 0.0), radius),
         rod(air, (0.0, -half - 0.002, 0.0), (0.0, half + 0.002, 0.0), 0.86 * radius),
         box(DARK, (0.0, 0.0, 0.0), (1.72 * radius, width + 0.01, 2.0 * spoke)),
         box(DARK, (0.0, 0.0, 0.0), (2.0 * spoke, width + 0.01, 1.72 * radius)),
