@@ -12,7 +12,6 @@ from texvent.events import EventStream
 from texvent.metrics.compare import compare, describe_metrics
 from texvent.metrics.event_frames import EventFrameMse, EventFramePsnr, EventFrameSsim
 from texvent.metrics.marginals import ActiveIou, CountRatio, OnDifference
-from texvent.metrics.protocol import find_missing
 from texvent.metrics.spike_trains.intervals import IntervalDistance
 from texvent.metrics.spike_trains.nearest import NearestTime
 from texvent.metrics.spike_trains.van_rossum import VanRossum
@@ -233,7 +232,7 @@ def test_compare_runs_every_metric_that_lacks_nothing_by_default():
 
 
 def test_metrics_without_their_weights_say_what_they_need():
-    missing = {name: find_missing(metric) for name, metric in describe_metrics().items()}
+    missing = {name: metric.missing() for name, metric in describe_metrics().items()}
     assert {name for name, reason in missing.items() if reason} == set(WANTING)
     assert "texvent weights pull lpips" in missing["ef_lpips"]
     assert "--rvt-weights" in missing["eqs"]

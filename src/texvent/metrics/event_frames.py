@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import ClassVar, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.metrics.lpips.distance import lpips_distance
 from texvent.metrics.lpips.weights import find_lpips_weights, read_lpips_weights
-from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
+from texvent.metrics.protocol import UNDEFINED, Metric
 from texvent.metrics.structural_similarity import structural_similarity
 from texvent.metrics.windows import count_windows, occupied_windows
 from texvent.represent.event_frame import event_frame
@@ -24,135 +24,104 @@ from texvent.represent.event_frame import event_frame
 Float64Array = NDArray[np.float64]
 Similarity: TypeAlias = Callable[[Float64Array, Float64Array], float]
 
-INSIDE = "times inside a frame; how many events a pixel fired"
-
 
 @dataclass(frozen=True, kw_only=True)
-class EventFrameMse:
+class EventFrameMetric(Metric):
+    """A metric of event frames."""
+
+    blind_to = "times inside a frame; how many events a pixel fired"
+
+    fps: Fraction = Fraction(24)
+    """Event frames per second."""
+
+    def _mean(
+        self,
+        predicted: EventStream,
+        reference: EventStream,
+        similarity: Similarity,
+        *,
+        empty: float,
+    ) -> float:
+        """Mean of `similarity` over frames; a frame empty in both streams scores `empty`."""
+        frames = count_windows(predicted, reference, self.fps)
+        if not frames:
+            return UNDEFINED
+        values = [
+            similarity(*(event_frame(events, "polarity").astype(np.float64) for events in window))
+            for window in occupied_windows(predicted, reference, self.fps)
+        ]
+        return (sum(values) + empty * (frames - len(values))) / frames
+
+
+class EventFrameMse(EventFrameMetric):
     """Mean squared difference of the frames `(sign(Σ±1) + 1)/2`, which hold 0, 0.5 or 1.
 
     Frames begin at multiples of 1/fps and run from the first event of both streams to the last.
     NaN if both streams are empty.
     """
 
-    name: ClassVar[str] = "ef_mse"
-    unit: ClassVar[str] = ""
-    better: ClassVar[Better] = "lower"
-    needs: ClassVar[Needs] = "same scene"
-    range: ClassVar[tuple[float, float]] = (0.0, 1.0)
-    blind_to: ClassVar[str] = INSIDE
+    name = "ef_mse"
 
-    fps: Fraction = Fraction(24)
-    """Event frames per second."""
-
-    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
-        """Mean over frames; see `metrics.protocol.Metric`."""
-        return _mean_over_frames(predicted, reference, self.fps, _squared_difference, empty=0.0)
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
+        return self._mean(predicted, reference, _squared_difference, empty=0.0)
 
 
-@dataclass(frozen=True, kw_only=True)
-class EventFramePsnr:
+class EventFramePsnr(EventFrameMetric):
     """Peak signal-to-noise ratio `−10 log10(EF-MSE)`; infinite for equal frames."""
 
-    name: ClassVar[str] = "ef_psnr"
-    unit: ClassVar[str] = "dB"
-    better: ClassVar[Better] = "higher"
-    needs: ClassVar[Needs] = "same scene"
-    range: ClassVar[tuple[float, float]] = (0.0, float("inf"))
-    blind_to: ClassVar[str] = INSIDE
+    name = "ef_psnr"
+    unit = "dB"
+    better = "higher"
+    range = (0.0, float("inf"))
 
-    fps: Fraction = Fraction(24)
-    """Event frames per second."""
-
-    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
-        """Of the mean over frames, in dB; see `metrics.protocol.Metric`."""
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
         mse = EventFrameMse(fps=self.fps)(predicted, reference)
         return float("inf") if mse == 0 else -10.0 * math.log10(mse)
 
 
-@dataclass(frozen=True, kw_only=True)
-class EventFrameSsim:
+class EventFrameSsim(EventFrameMetric):
     """Structural similarity of the frames; NaN for sensors with a side below 11 px."""
 
-    name: ClassVar[str] = "ef_ssim"
-    unit: ClassVar[str] = ""
-    better: ClassVar[Better] = "higher"
-    needs: ClassVar[Needs] = "same scene"
-    range: ClassVar[tuple[float, float]] = (-1.0, 1.0)
-    blind_to: ClassVar[str] = INSIDE
+    name = "ef_ssim"
+    better = "higher"
+    range = (-1.0, 1.0)
 
-    fps: Fraction = Fraction(24)
-    """Event frames per second."""
-
-    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
-        """Mean over frames; see `metrics.protocol.Metric`."""
-        return _mean_over_frames(predicted, reference, self.fps, structural_similarity, empty=1.0)
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
+        return self._mean(predicted, reference, structural_similarity, empty=1.0)
 
 
 @dataclass(frozen=True, kw_only=True)
-class EventFrameLpips:
+class EventFrameLpips(EventFrameMetric):
     """LPIPS of the frames, as grey images; NaN for sensors with a side below 31 px.
 
     Deviation: the network was trained on photographs; frames of three values are none, so the
         number compares simulators with each other, not with figures for photographs.
     """
 
-    name: ClassVar[str] = "ef_lpips"
-    unit: ClassVar[str] = ""
-    better: ClassVar[Better] = "lower"
-    needs: ClassVar[Needs] = "same scene"
-    range: ClassVar[tuple[float, float]] = (0.0, float("inf"))
-    blind_to: ClassVar[str] = INSIDE
+    name = "ef_lpips"
+    range = (0.0, float("inf"))
 
-    fps: Fraction = Fraction(24)
-    """Event frames per second."""
     weights: Path | None = None
     """File of LPIPS's weights; default: those that `texvent weights pull lpips` fetched."""
 
     def missing(self) -> str | None:
-        """What this metric needs and has not got; None if nothing."""
+        """As `Metric.missing`."""
         try:
             self._weights_file()
         except InputError as error:
             return str(error)
         return None
 
-    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
-        """Mean over frames; see `metrics.protocol.Metric`.
-
-        Raises:
-            InputError: there are no weights.
-            FileFormatError: the file does not hold LPIPS's weights.
-        """
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
         weights = read_lpips_weights(self._weights_file())
 
         def distance(a: Float64Array, b: Float64Array) -> float:
             return lpips_distance(a, b, weights)
 
-        return _mean_over_frames(predicted, reference, self.fps, distance, empty=0.0)
+        return self._mean(predicted, reference, distance, empty=0.0)
 
     def _weights_file(self) -> Path:
         return self.weights or find_lpips_weights()
-
-
-def _mean_over_frames(
-    predicted: EventStream,
-    reference: EventStream,
-    fps: Fraction,
-    similarity: Similarity,
-    *,
-    empty: float,
-) -> float:
-    """Mean of `similarity` over frames; a frame empty in both streams scores `empty`."""
-    check_pair(predicted, reference)
-    frames = count_windows(predicted, reference, fps)
-    if not frames:
-        return UNDEFINED
-    values = [
-        similarity(*(event_frame(events, "polarity").astype(np.float64) for events in window))
-        for window in occupied_windows(predicted, reference, fps)
-    ]
-    return (sum(values) + empty * (frames - len(values))) / frames
 
 
 def _squared_difference(a: Float64Array, b: Float64Array) -> float:

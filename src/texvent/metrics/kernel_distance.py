@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
+from texvent.metrics.protocol import UNDEFINED, Metric
 from texvent.metrics.windows import Int64Array, bin_index, flat_index
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS
@@ -28,7 +27,7 @@ REACH = 5.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class KernelDistance:
+class KernelDistance(Metric):
     """`Σ(A − B)² / (ΣA² + ΣB²)` of counts in (2 ms, 1 px) bins, smoothed per polarity.
 
     Smoothing both with a Gaussian of sd s/√2 and summing products is the same as weighting pairs
@@ -39,12 +38,8 @@ class KernelDistance:
         (IEEE TPAMI 2021), with bins instead of continuous time.
     """
 
-    name: ClassVar[str] = "kernel"
-    unit: ClassVar[str] = ""
-    better: ClassVar[Better] = "lower"
-    needs: ClassVar[Needs] = "same scene"
-    range: ClassVar[tuple[float, float]] = (0.0, 1.0)
-    blind_to: ClassVar[str] = "times inside a 2 ms bin"
+    name = "kernel"
+    blind_to = "times inside a 2 ms bin"
 
     bin_us: int = 2_000
     """Length of a time bin, µs."""
@@ -58,9 +53,7 @@ class KernelDistance:
         check_range("sd_us", self.sd_us, self.bin_us / 4, 10**9)
         check_range("sd_px", self.sd_px, 1e-3, 1e3)
 
-    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
-        """Normalised squared distance; see `metrics.protocol.Metric`."""
-        check_pair(predicted, reference)
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
         across = self._weights(predicted.size.width, self.sd_px)
         down = self._weights(predicted.size.height, self.sd_px)
         halo = int(np.ceil(REACH * self.sd_us / self.bin_us))

@@ -1,8 +1,10 @@
-"""What every paired metric offers, and the check that all of them start with."""
+"""What every metric offers, and the check that all of them start with."""
 
 from __future__ import annotations
 
-from typing import ClassVar, Literal, Protocol, TypeAlias
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import ClassVar, Literal, TypeAlias
 
 from texvent.errors import InputError
 from texvent.events import EventStream
@@ -17,21 +19,20 @@ UNDEFINED = float("nan")
 """Value of a metric that the two streams do not define."""
 
 
-class Metric(Protocol):
+@dataclass(frozen=True, kw_only=True)
+class Metric(ABC):
     """Compares two event streams of one sensor; built without arguments it has its defaults.
 
-    Metrics are frozen dataclasses: their parameters are fields, their facts class attributes. One
-    that needs a file, such as network weights, also has a method `missing() -> str | None`; see
-    `find_missing`.
+    A metric's parameters are fields, its facts class attributes; it computes its value in `_score`.
     """
 
     name: ClassVar[str]
     """Short name, as in the registry."""
-    unit: ClassVar[str]
+    unit: ClassVar[str] = ""
     """Unit of the value; empty for a pure number."""
-    better: ClassVar[Better]
-    needs: ClassVar[Needs]
-    range: ClassVar[tuple[float, float]]
+    better: ClassVar[Better] = "lower"
+    needs: ClassVar[Needs] = "same scene"
+    range: ClassVar[tuple[float, float]] = (0.0, 1.0)
     """Smallest and largest value possible."""
     blind_to: ClassVar[str]
     """Differences that this metric does not see, for the reader of a table."""
@@ -47,19 +48,21 @@ class Metric(Protocol):
             The value, or NaN where the two streams do not define one.
 
         Raises:
-            InputError: the sensors differ in size.
+            InputError: the sensors differ in size, or weights that the metric needs are not here.
         """
-        ...
+        check_pair(predicted, reference)
+        return self._score(predicted, reference)
 
+    def missing(self) -> str | None:
+        """What this metric needs and has not got, such as network weights; None if nothing.
 
-def find_missing(metric: Metric) -> str | None:
-    """What a metric needs and has not got, such as network weights; None if nothing.
+        Such a metric is left out of `compare` unless it is named.
+        """
+        return None
 
-    Such a metric is left out of `compare` unless it is named.
-    """
-    missing = getattr(metric, "missing", None)
-    reason: str | None = missing() if missing is not None else None
-    return reason
+    @abstractmethod
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
+        """The value for two streams of the same size."""
 
 
 def check_pair(predicted: EventStream, reference: EventStream) -> None:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
-from texvent.metrics.protocol import Better, Needs, check_pair
+from texvent.metrics.protocol import Metric, check_pair
 from texvent.metrics.windows import flat_index, occupied_windows, rate_of_window
 
 TIME_CELLS = (1, 2, 4, 8, 16)
@@ -19,7 +18,7 @@ SPACE_CELLS = (1, 2, 4, 8, 16, 32)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Stpp:
+class Stpp(Metric):
     """Share of events that find a partner in the same cell, mean over 30 pyramid levels.
 
     Per window, counts over [2 polarities, τ, σ, σ] cells; a level's score is
@@ -28,18 +27,14 @@ class Stpp:
     Source: docs/metrics.md; the paper's section 12 wishes for a spatial-pyramid measure with time.
     """
 
-    name: ClassVar[str] = "stpp"
-    unit: ClassVar[str] = ""
-    better: ClassVar[Better] = "higher"
-    needs: ClassVar[Needs] = "same scene"
-    range: ClassVar[tuple[float, float]] = (0.0, 1.0)
-    blind_to: ClassVar[str] = "shifts inside the finest cell: 1/32 of the sensor's side, 3.1 ms"
+    name = "stpp"
+    better = "higher"
+    blind_to = "shifts inside the finest cell: 1/32 of the sensor's side, 3.1 ms"
 
     window_us: int = 50_000
     """Length of a window, µs; windows start at multiples of it."""
 
-    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
-        """Mean of the levels; 1 if both are empty. See `metrics.protocol.Metric`."""
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
         return float(self.levels(predicted, reference).mean())
 
     def levels(self, predicted: EventStream, reference: EventStream) -> NDArray[np.float64]:

@@ -3,31 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
+from texvent.metrics.protocol import UNDEFINED, Metric
 from texvent.metrics.spike_trains.trains import Trains
 
 
 @dataclass(frozen=True, kw_only=True)
-class TimeSurfaceDifference:
+class TimeSurfaceDifference(Metric):
     """Mean |a − b| of `exp(−age / τ)` over pixels, polarities and instants; 0 without an event.
 
     Instants are evenly spaced from the first event of both streams to the last, the last one
     included. NaN if both streams are empty.
     """
 
-    name: ClassVar[str] = "time_surface"
-    unit: ClassVar[str] = ""
-    better: ClassVar[Better] = "lower"
-    needs: ClassVar[Needs] = "same scene"
-    range: ClassVar[tuple[float, float]] = (0.0, 1.0)
-    blind_to: ClassVar[str] = "every event but the last of a pixel before each instant"
+    name = "time_surface"
+    blind_to = "every event but the last of a pixel before each instant"
 
     instants: int = 20
     """How many times the surfaces are compared."""
@@ -38,9 +33,7 @@ class TimeSurfaceDifference:
         check_range("instants", self.instants, 1, 10**6)
         check_range("tau_us", self.tau_us, 1, 10**9)
 
-    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
-        """Mean absolute difference; see `metrics.protocol.Metric`."""
-        check_pair(predicted, reference)
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
         ends = [one.t[[0, -1]] for one in (predicted, reference) if len(one)]
         if not ends:
             return UNDEFINED

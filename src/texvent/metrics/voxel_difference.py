@@ -4,38 +4,31 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
+from texvent.metrics.protocol import UNDEFINED, Metric
 from texvent.metrics.windows import bin_index, flat_index
 
 
 @dataclass(frozen=True, kw_only=True)
-class VoxelDifference:
+class VoxelDifference(Metric):
     """`Σ|a − b| / (Σ|a| + Σ|b|)` of signed counts in `bins` equal bins per frame and pixel.
 
     NaN if every voxel of both is 0.
     """
 
-    name: ClassVar[str] = "voxel"
-    unit: ClassVar[str] = ""
-    better: ClassVar[Better] = "lower"
-    needs: ClassVar[Needs] = "same scene"
-    range: ClassVar[tuple[float, float]] = (0.0, 1.0)
-    blind_to: ClassVar[str] = "ON and OFF that cancel in a bin; times inside a bin"
+    name = "voxel"
+    blind_to = "ON and OFF that cancel in a bin; times inside a bin"
 
     fps: Fraction = Fraction(24)
     """Frames per second; a frame begins at multiples of 1/fps."""
     bins: int = 5
     """Bins per frame."""
 
-    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
-        """Normalised L1 difference; see `metrics.protocol.Metric`."""
-        check_pair(predicted, reference)
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
         index = np.concatenate([self._voxel_index(predicted), self._voxel_index(reference)])
         # Only occupied voxels are kept: recordings are sparse and may be long.
         _, voxel = np.unique(index, return_inverse=True)

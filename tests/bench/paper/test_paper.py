@@ -22,6 +22,7 @@ from texvent.bench.real.scene import RecordingPart, open_scene
 from texvent.cli.app import main
 from texvent.errors import ConfigError, InputError
 from texvent.metrics.compare import compare
+from texvent.metrics.event_frames import EventFrameLpips
 
 from ..synthetic_report import synthetic_report
 
@@ -97,9 +98,7 @@ def test_thresholds_are_fitted_unless_the_user_wants_the_papers_way(capsys, tmp_
 
 def test_event_frames_are_compared_where_simulators_can_run(pan_folder, monkeypatch):
     keep_few(monkeypatch)
-    monkeypatch.setattr(
-        simulator_tables, "find_missing", lambda one: {"ef_lpips": "no weights"}.get(one.name)
-    )
+    monkeypatch.setattr(EventFrameLpips, "missing", lambda self: "no weights")
     scenes = [open_scene(str(pan_folder), RecordingPart(offset_us=5_000))]
     found = event_frame_figures(scenes, is_rate_matched=True, jobs=1, progress=silent)
     mse = found.figures["event frames: MSE ↓"]

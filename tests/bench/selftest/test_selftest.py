@@ -17,7 +17,6 @@ from texvent.bench.selftest.table import read_selftest, selftest_document, selft
 from texvent.errors import FileFormatError
 from texvent.events import EventStream
 from texvent.metrics.compare import load_metric
-from texvent.metrics.protocol import find_missing
 from texvent.sensor import SensorSize
 
 ROOT = Path(__file__).parents[3]
@@ -185,8 +184,8 @@ def test_the_image_tells_found_missed_and_rewarded_apart():
 def test_every_metric_keeps_its_row(name, recordings):
     """The perturbation whose verdict is closest to changing still has its published value."""
     metric, row = load_metric(name), PUBLISHED[name]
-    if find_missing(metric) is not None:
-        pytest.skip(f"{name} was not checked: {find_missing(metric)}")
+    if metric.missing() is not None:
+        pytest.skip(f"{name} was not checked: {metric.missing()}")
     closest = min(row.z, key=lambda perturbation: abs(row.z[perturbation] - DETECTED))
     value = metric(perturb(recordings[1], closest), recordings[0])
     tolerance = 0.5 * max(row.floor_sd, 1e-3 * abs(row.floor))

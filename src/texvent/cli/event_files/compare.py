@@ -20,7 +20,7 @@ from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.io.files import load
 from texvent.metrics.compare import compare, describe_metrics, load_metric
-from texvent.metrics.protocol import Metric, find_missing
+from texvent.metrics.protocol import Metric
 from texvent.metrics.rvt.eqs import EventQualityScore, load_eqs
 from texvent.metrics.stpp import SPACE_CELLS, TIME_CELLS, Stpp
 from texvent.sensor import SensorSize, parse_sensor
@@ -106,7 +106,7 @@ def _choose_metrics(options: CompareOptions) -> tuple[list[Metric], dict[str, st
     chosen, left_out = [], {}
     for name in names:
         metric = known[name] if name in known else load_metric(name)  # refuses what is not known
-        missing = find_missing(metric)
+        missing = metric.missing()
         if missing is None:
             chosen.append(metric)
         elif options.metrics:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
@@ -11,7 +10,7 @@ from texvent.config import check_range
 from texvent.events import EventStream
 from texvent.metrics.motion.contrast_maximisation import estimate_velocity
 from texvent.metrics.motion.splat import splat_events
-from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
+from texvent.metrics.protocol import UNDEFINED, Metric
 from texvent.metrics.windows import occupied_windows, rate_of_window
 from texvent.video import MICROSECONDS
 
@@ -65,19 +64,17 @@ def flow_warp_sharpness(
 
 
 @dataclass(frozen=True, kw_only=True)
-class FlowWarpRatio:
+class FlowWarpRatio(Metric):
     """Flow-warp sharpness of the predicted events over that of the reference's.
 
     Both are warped along the one velocity that makes the reference sharpest, window by window.
     Evenly chosen windows are used of those in which both have enough events; NaN if there is none.
     """
 
-    name: ClassVar[str] = "fwl"
-    unit: ClassVar[str] = ""
-    better: ClassVar[Better] = "one"
-    needs: ClassVar[Needs] = "same scene"
-    range: ClassVar[tuple[float, float]] = (0.0, float("inf"))
-    blind_to: ClassVar[str] = "polarity, a shift of all events; a scene of many motions"
+    name = "fwl"
+    better = "one"
+    range = (0.0, float("inf"))
+    blind_to = "polarity, a shift of all events; a scene of many motions"
 
     window_us: int = WINDOW_US
     """Length of a window, µs."""
@@ -88,9 +85,7 @@ class FlowWarpRatio:
         check_range("window_us", self.window_us, 1, 10**9)
         check_range("most_windows", self.most_windows, 1, 10**6)
 
-    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
-        """Predicted over reference; see `metrics.protocol.Metric`."""
-        check_pair(predicted, reference)
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
         usable = [
             window
             for window in occupied_windows(predicted, reference, rate_of_window(self.window_us))

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
+from texvent.metrics.protocol import UNDEFINED, Metric
 from texvent.represent.event_frame import event_frame
 
 PACKET_EVENTS = 30_000
@@ -51,7 +50,7 @@ def structural_ratio(
 
 
 @dataclass(frozen=True, kw_only=True)
-class StructuralRatioQuotient:
+class StructuralRatioQuotient(Metric):
     """Event structural ratio of the predicted stream over that of the reference.
 
     NaN if a stream has fewer than two events, or the reference never two on one pixel.
@@ -60,16 +59,12 @@ class StructuralRatioQuotient:
         and M shrinks with them; a quotient of two ratios does not depend on the length as they do.
     """
 
-    name: ClassVar[str] = "esr"
-    unit: ClassVar[str] = ""
-    better: ClassVar[Better] = "one"
-    needs: ClassVar[Needs] = "same scene"
-    range: ClassVar[tuple[float, float]] = (0.0, float("inf"))
-    blind_to: ClassVar[str] = "polarity, where the events are, times inside a packet"
+    name = "esr"
+    better = "one"
+    range = (0.0, float("inf"))
+    blind_to = "polarity, where the events are, times inside a packet"
 
-    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
-        """Predicted over reference; see `metrics.protocol.Metric`."""
-        check_pair(predicted, reference)
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
         length = min(PACKET_EVENTS, len(predicted), len(reference))
         if length < 2:
             return UNDEFINED

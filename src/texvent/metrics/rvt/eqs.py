@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar
 
 from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.metrics.protocol import Better, Needs
+from texvent.metrics.protocol import Metric
 from texvent.metrics.rvt.latent_similarity import LatentSimilarity
 from texvent.metrics.rvt.network import RvtBackbone
 from texvent.metrics.rvt.weights import WHERE_FROM, read_rvt_weights
 
 
 @dataclass(frozen=True, kw_only=True)
-class EventQualityScore:
+class EventQualityScore(Metric):
     """Mean cosine of 3×3 patches of RVT's features, over stages 1-3 and windows of 50 ms.
 
     Never read it without the scores of its controls (`bench.selftest.controls`): it barely sees
@@ -28,28 +27,21 @@ class EventQualityScore:
         and the padding's features are left out.
     """
 
-    name: ClassVar[str] = "eqs"
-    unit: ClassVar[str] = ""
-    better: ClassVar[Better] = "higher"
-    needs: ClassVar[Needs] = "same scene"
-    range: ClassVar[tuple[float, float]] = (-1.0, 1.0)
-    blind_to: ClassVar[str] = "small time errors; added noise can improve it: see its controls"
+    name = "eqs"
+    better = "higher"
+    range = (-1.0, 1.0)
+    blind_to = "small time errors; added noise can improve it: see its controls"
 
     backbone: RvtBackbone | None = None
     """RVT's backbone with published weights; see `load_eqs`."""
 
     def missing(self) -> str | None:
-        """What this metric needs and has not got; None if nothing."""
+        """As `Metric.missing`."""
         if self.backbone is not None:
             return None
         return f"it needs RVT's weights, pass --rvt-weights FILE; {WHERE_FROM}"
 
-    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
-        """Mean cosine; see `metrics.protocol.Metric`.
-
-        Raises:
-            ConfigError: there are no weights.
-        """
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
         if self.backbone is None:
             raise ConfigError(f"metric eqs cannot be computed: {self.missing()}")
         return LatentSimilarity(backbone=self.backbone)(predicted, reference)

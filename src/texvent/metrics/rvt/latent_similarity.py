@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import ClassVar, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
+from texvent.metrics.protocol import UNDEFINED, Metric
 from texvent.metrics.windows import occupied_windows, rate_of_window
 from texvent.represent.stacked_histogram import stacked_histogram
 
@@ -27,7 +27,7 @@ def keep_input(histogram: Features) -> Sequence[Features]:
 
 
 @dataclass(frozen=True, kw_only=True)
-class LatentSimilarity:
+class LatentSimilarity(Metric):
     """Mean cosine of the patch features of both streams, over patches, stages and 50 ms windows.
 
     A feature map is averaged over 3×3 patches (zero-padded to whole patches). A patch without
@@ -37,29 +37,25 @@ class LatentSimilarity:
     backbone; the default, the histogram itself, misses a little noise (docs/metrics.md).
     """
 
-    name: ClassVar[str] = "lfs"
-    unit: ClassVar[str] = ""
-    better: ClassVar[Better] = "higher"
-    needs: ClassVar[Needs] = "same scene"
-    range: ClassVar[tuple[float, float]] = (-1.0, 1.0)
-    blind_to: ClassVar[str] = "a little added noise; with a real backbone also small jitter"
+    name = "lfs"
+    better = "higher"
+    range = (-1.0, 1.0)
+    blind_to = "a little added noise; with a real backbone also small jitter"
 
     backbone: Backbone = keep_input
     """What turns a stacked histogram into feature maps."""
     window_us: int = 50_000
     """Length of a window, µs; windows start at multiples of it."""
 
-    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
-        """Mean cosine; see `metrics.protocol.Metric`."""
-        check_pair(predicted, reference)
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
         scores = [
-            self._score(window.predicted, window.reference)
+            self._score_window(window.predicted, window.reference)
             for window in occupied_windows(predicted, reference, rate_of_window(self.window_us))
         ]
         defined = [score for score in scores if not np.isnan(score)]
         return float(np.mean(defined)) if defined else UNDEFINED
 
-    def _score(self, predicted: EventStream, reference: EventStream) -> float:
+    def _score_window(self, predicted: EventStream, reference: EventStream) -> float:
         stages = zip(
             *(
                 self.backbone(stacked_histogram(events).astype(np.float32))

@@ -2,34 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import ClassVar
-
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
+from texvent.metrics.protocol import UNDEFINED, Metric
 from texvent.metrics.spike_trains.trains import Trains
 
 
-@dataclass(frozen=True, kw_only=True)
-class IntervalDistance:
+class IntervalDistance(Metric):
     """1-Wasserstein distance between the log10 intervals of same-pixel, same-polarity events.
 
     Intervals of all pixels are pooled; those below 1 µs count as 1 µs. NaN if a stream has none.
     """
 
-    name: ClassVar[str] = "isi"
-    unit: ClassVar[str] = "decades"
-    better: ClassVar[Better] = "lower"
-    needs: ClassVar[Needs] = "same scene"
-    range: ClassVar[tuple[float, float]] = (0.0, float("inf"))
-    blind_to: ClassVar[str] = "where and when: intervals of all pixels are pooled"
+    name = "isi"
+    unit = "decades"
+    range = (0.0, float("inf"))
+    blind_to = "where and when: intervals of all pixels are pooled"
 
-    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
-        """Distance in decades; see `metrics.protocol.Metric`."""
-        check_pair(predicted, reference)
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
         a, b = (
             np.log10(np.maximum(Trains.of(events).intervals_us, 1))
             for events in (predicted, reference)

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
+from texvent.metrics.protocol import UNDEFINED, Metric
 from texvent.metrics.spike_trains.trains import Trains
 
 MS_PER_US = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True)
-class NearestTime:
+class NearestTime(Metric):
     """Mean time to the nearest event of the other stream at the same pixel and polarity.
 
     Averaged over the events of each stream, then over the two directions. One empty stream gives
@@ -26,12 +25,10 @@ class NearestTime:
     Source: V2CE (Zhang et al., 2024), made symmetric: one direction alone rewards extra events.
     """
 
-    name: ClassVar[str] = "nearest"
-    unit: ClassVar[str] = "ms"
-    better: ClassVar[Better] = "lower"
-    needs: ClassVar[Needs] = "same scene"
-    range: ClassVar[tuple[float, float]] = (0.0, 10.0)
-    blind_to: ClassVar[str] = "how many events share a partner; errors beyond the cap"
+    name = "nearest"
+    unit = "ms"
+    range = (0.0, 10.0)
+    blind_to = "how many events share a partner; errors beyond the cap"
 
     cap_us: int = 10_000
     """Longest time that counts, µs; also the time of an event without a partner."""
@@ -39,9 +36,7 @@ class NearestTime:
     def __post_init__(self) -> None:
         check_range("cap_us", self.cap_us, 1, 10**9)
 
-    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
-        """Mean |Δt| in ms; see `metrics.protocol.Metric`."""
-        check_pair(predicted, reference)
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
         if not len(predicted) and not len(reference):
             return UNDEFINED
         if not len(predicted) or not len(reference):

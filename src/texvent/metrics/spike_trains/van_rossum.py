@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
+from texvent.metrics.protocol import UNDEFINED, Metric
 from texvent.metrics.spike_trains.trains import Trains
 
 Float64Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, kw_only=True)
-class VanRossum:
+class VanRossum(Metric):
     """`∫(s_a − s_b)² / (∫s_a² + ∫s_b²)` over all trains, s the sum of `exp(−(t − t_i)/τ)`, t ≥ t_i.
 
     The integrals are exact (no bins): each is τ/2 times a sum of `exp(−|t_i − t_j|/τ)` over pairs
@@ -26,12 +25,8 @@ class VanRossum:
     Source: M. van Rossum, "A novel spike distance", Neural Computation 13 (2001), normalised.
     """
 
-    name: ClassVar[str] = "van_rossum"
-    unit: ClassVar[str] = ""
-    better: ClassVar[Better] = "lower"
-    needs: ClassVar[Needs] = "same scene"
-    range: ClassVar[tuple[float, float]] = (0.0, 1.0)
-    blind_to: ClassVar[str] = "how far a misplaced event is, beyond about 3 τ or one pixel"
+    name = "van_rossum"
+    blind_to = "how far a misplaced event is, beyond about 3 τ or one pixel"
 
     tau_us: int = 5_000
     """Decay time τ, µs."""
@@ -39,9 +34,7 @@ class VanRossum:
     def __post_init__(self) -> None:
         check_range("tau_us", self.tau_us, 1, 10**9)
 
-    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
-        """Normalised squared distance; see `metrics.protocol.Metric`."""
-        check_pair(predicted, reference)
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
         a, b = Trains.of(predicted), Trains.of(reference)
         energy = self._energy(a, np.ones(len(a.t))) + self._energy(b, np.ones(len(b.t)))
         if not energy:

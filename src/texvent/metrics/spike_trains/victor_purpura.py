@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
+from texvent.metrics.protocol import UNDEFINED, Metric
 from texvent.metrics.spike_trains.trains import Trains
 from texvent.video import MICROSECONDS
 
 
 @dataclass(frozen=True, kw_only=True)
-class VictorPurpura:
+class VictorPurpura(Metric):
     """Edit distance per pixel and polarity: insert or delete 1, shift `q |Δt|`.
 
     Summed over sampled trains, divided by their events: 0 equal, 1 nothing worth shifting. The
@@ -27,12 +26,8 @@ class VictorPurpura:
         Journal of Neurophysiology 76 (1996).
     """
 
-    name: ClassVar[str] = "victor_purpura"
-    unit: ClassVar[str] = ""
-    better: ClassVar[Better] = "lower"
-    needs: ClassVar[Needs] = "same scene"
-    range: ClassVar[tuple[float, float]] = (0.0, 1.0)
-    blind_to: ClassVar[str] = "trains that were not sampled; errors of one pixel look like misses"
+    name = "victor_purpura"
+    blind_to = "trains that were not sampled; errors of one pixel look like misses"
 
     shift_cost_hz: float = 200.0
     """q: cost of a shift by one second; beyond 2/q (10 ms), deleting and inserting is cheaper."""
@@ -43,9 +38,7 @@ class VictorPurpura:
         check_range("shift_cost_hz", self.shift_cost_hz, 0.0, 1e6)
         check_range("trains", self.trains, 1, 10**9)
 
-    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
-        """Normalised edit cost; see `metrics.protocol.Metric`."""
-        check_pair(predicted, reference)
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
         a, b = Trains.of(predicted), Trains.of(reference)
         active = np.union1d(a.train, b.train)
         if not active.size:

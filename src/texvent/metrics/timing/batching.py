@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import ClassVar
-
 import numpy as np
 
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
+from texvent.metrics.protocol import UNDEFINED, Metric
 
 LEAST_GROUP = 20
 """A real sensor reads out a few pixels per µs; a larger group is an artefact of simulation."""
@@ -30,18 +27,12 @@ def same_timestamp_share(events: EventStream, least_group: int = LEAST_GROUP) ->
     return float(sizes[sizes >= least_group].sum() / len(events))
 
 
-@dataclass(frozen=True, kw_only=True)
-class BatchingDifference:
+class BatchingDifference(Metric):
     """Absolute difference of the same-timestamp shares; NaN if a stream is empty."""
 
-    name: ClassVar[str] = "batching"
-    unit: ClassVar[str] = ""
-    better: ClassVar[Better] = "lower"
-    needs: ClassVar[Needs] = "any scene"
-    range: ClassVar[tuple[float, float]] = (0.0, 1.0)
-    blind_to: ClassVar[str] = "everything but events that share a µs: a diagnostic"
+    name = "batching"
+    needs = "any scene"
+    blind_to = "everything but events that share a µs: a diagnostic"
 
-    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
-        """|share of predicted − of reference|; see `metrics.protocol.Metric`."""
-        check_pair(predicted, reference)
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
         return abs(same_timestamp_share(predicted) - same_timestamp_share(reference))

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import ClassVar
 
 import numpy as np
 
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
+from texvent.metrics.protocol import UNDEFINED, Metric
 from texvent.metrics.windows import bin_index
 from texvent.video import MICROSECONDS
 
@@ -55,22 +54,17 @@ def cadence_energy(
 
 
 @dataclass(frozen=True, kw_only=True)
-class CadenceDifference:
+class CadenceDifference(Metric):
     """Absolute difference of the cadence energies over the common span of both streams."""
 
-    name: ClassVar[str] = "cadence"
-    unit: ClassVar[str] = ""
-    better: ClassVar[Better] = "lower"
-    needs: ClassVar[Needs] = "any scene"
-    range: ClassVar[tuple[float, float]] = (0.0, 1.0)
-    blind_to: ClassVar[str] = "everything but the beat of the total event rate: a diagnostic"
+    name = "cadence"
+    needs = "any scene"
+    blind_to = "everything but the beat of the total event rate: a diagnostic"
 
     fps: Fraction = Fraction(24)
     """Frame rate of the video behind the predicted stream."""
 
-    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
-        """|energy of predicted − of reference|; see `metrics.protocol.Metric`."""
-        check_pair(predicted, reference)
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
         a, b = predicted.time_range, reference.time_range
         if a is None or b is None:
             return UNDEFINED

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import ClassVar
-
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
-from texvent.metrics.protocol import UNDEFINED, Better, Needs, check_pair
+from texvent.metrics.protocol import UNDEFINED, Metric
 from texvent.metrics.unpaired.patch_statistics import FEATURES, patch_statistics
 
 CLIP = 5.0
@@ -20,8 +17,7 @@ RIDGE = 1e-6
 Float64Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, kw_only=True)
-class FrechetStatistics:
+class FrechetStatistics(Metric):
     """Fréchet distance of the Gaussians fitted to 14 patch statistics of each stream.
 
     Features are standardised by the reference, so the order of the streams matters. NaN if a
@@ -29,16 +25,13 @@ class FrechetStatistics:
     with any real recording of the same sensor.
     """
 
-    name: ClassVar[str] = "frechet"
-    unit: ClassVar[str] = ""
-    better: ClassVar[Better] = "lower"
-    needs: ClassVar[Needs] = "any scene"
-    range: ClassVar[tuple[float, float]] = (0.0, float("inf"))
-    blind_to: ClassVar[str] = "what the scene shows, and anything wider than 12 px or 50 ms"
+    name = "frechet"
+    needs = "any scene"
+    range = (0.0, float("inf"))
+    blind_to = "what the scene shows, and anything wider than 12 px or 50 ms"
 
-    def __call__(self, predicted: EventStream, reference: EventStream) -> float:
-        """Squared distance, in standard deviations of the reference; see `protocol.Metric`."""
-        check_pair(predicted, reference)
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
+        """Squared distance, in standard deviations of the reference."""
         return compare_statistics(patch_statistics(predicted), patch_statistics(reference))
 
 
