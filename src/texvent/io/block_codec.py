@@ -1,23 +1,26 @@
 """A codec whose files are read and written block by block: what nearly every format is.
 
 A format states its limits and brings two parts. `inspect` reads the beginning of a file; what it
-returns gives the events block by block. `start` opens a sink that takes them.
+returns gives the events block by block. `start` opens a file and takes them.
 """
 
 from __future__ import annotations
 
+import itertools
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import ExitStack
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
 
+import numpy as np
+
 from texvent.errors import FileFormatError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
-from texvent.io.block_writer import BlockSink, BlockWriter, FileTarget
+from texvent.io.block_writer import BlockWriter, FileTarget, WriteBlock
 from texvent.io.input_checks import (
     existing_file,
     existing_folder,
@@ -101,8 +104,8 @@ class BlockCodec(ABC):
         """
 
     @abstractmethod
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> BlockSink:
-        """Open a sink that writes to `part`; `stack` closes it after `finish` or an error."""
+    def start(self, target: FileTarget, part: Path) -> AbstractContextManager[WriteBlock]:
+        """Open the file `part`; see `block_writer.StartFile`."""
 
     def find(self, path: Path) -> Path:
         """The path of a readable file.
@@ -186,24 +189,22 @@ class SeekableBlockPackets(BlockPackets):
         return self._packets(self.seek.blocks(start_us, stop_us))
 
 
-class RecordSink:
-    """A file that is a header followed by records, made by a function of the columns.
+def split_by_time(columns: Columns, length_us: int) -> Iterator[Columns]:
+    """Columns x, y, t, p in parts, none across a multiple of `length_us`."""
+    windows = columns["t"] // length_us
+    cuts = np.flatnonzero(windows[1:] != windows[:-1]) + 1
+    for start, stop in itertools.pairwise([0, *cuts.tolist(), len(windows)]):
+        yield {name: columns[name][start:stop] for name in "xytp"}
 
-    Args:
-        file: open for writing bytes.
-        encode: makes bytes of columns x, y, t, p.
-    """
 
-    def __init__(self, file: Any, encode: Callable[[Columns], bytes | memoryview]) -> None:
-        self._file = file
-        self._encode = encode
-
-    def write(self, columns: Columns) -> None:
-        """Add events."""
-        self._file.write(self._encode(columns))
-
-    def finish(self) -> None:
-        """Nothing follows the last record."""
+@contextmanager
+def write_records(
+    part: Path, header: bytes, encode: Callable[[Columns], bytes | memoryview]
+) -> Iterator[WriteBlock]:
+    """A file that is a header followed by records, which a function makes of the columns."""
+    with part.open("wb") as file:
+        file.write(header)
+        yield lambda columns: file.write(encode(columns))
 
 
 def read_records(path: Path, start: int, record_bytes: int) -> Iterator[bytes]:

@@ -1,6 +1,6 @@
 """Write an event file block by block: the checks that every writer makes, made once.
 
-A format brings a sink, which takes columns and knows how its file begins and ends.
+A format opens a file, adds columns to it, and knows how it begins and ends.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from contextlib import AbstractContextManager, ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Protocol, Self
+from typing import Any, Self, TypeAlias
 
 from texvent.errors import InputError, OutputError
 from texvent.events import EventStream
@@ -21,7 +21,7 @@ from texvent.io.protocol import Columns
 from texvent.sensor import SensorSize
 
 BLOCK_EVENTS = 2**18
-"""Events given to a sink at once, except the last."""
+"""Events given to a format at once, except the last."""
 
 
 @dataclass(frozen=True)
@@ -34,28 +34,20 @@ class FileTarget:
     overwrite: bool
 
 
-class BlockSink(Protocol):
-    """The open file of one format."""
-
-    def write(self, columns: Columns) -> None:
-        """Add events: columns x, y, t, p, and label if known; at least one event, in time order."""
-        ...
-
-    def finish(self) -> None:
-        """Write what follows the last event; not called after an error."""
-        ...
-
-
-StartSink = Callable[[Path, ExitStack], BlockSink]
-"""Opens the file at a path, on a stack that closes it after `finish` or an error."""
+WriteBlock: TypeAlias = Callable[[Columns], object]
+"""Adds events to an open file: columns x, y, t, p, and label if known; at least one event, in time
+order."""
+StartFile: TypeAlias = Callable[[Path], AbstractContextManager[WriteBlock]]
+"""Opens the file at a path; its `with` block ends with what follows the last event, and closes it.
+After an error it is only closed."""
 
 
 class BlockWriter:
-    """Checks packets, gathers them into blocks and hands these to a sink; memory stays flat.
+    """Checks packets, gathers them into blocks and hands these to the format; memory stays flat.
 
     Args:
         target: what to write.
-        start: opens the sink when the `with` block is entered.
+        start: opens the file when the `with` block is entered.
         limits: what the format holds.
         has_sidecar: whether size and metadata are written beside the file.
         is_own: for formats that are folders: tells from its path whether a file is of the format,
@@ -71,7 +63,7 @@ class BlockWriter:
     def __init__(
         self,
         target: FileTarget,
-        start: StartSink,
+        start: StartFile,
         *,
         limits: FormatLimits,
         has_sidecar: bool = False,
@@ -91,7 +83,7 @@ class BlockWriter:
         self._has_sidecar = has_sidecar
         self._is_own = is_own
         self._stack = ExitStack()
-        self._sink: BlockSink | None = None
+        self._write: WriteBlock | None = None
         self._pending: list[EventStream] = []
         self._pending_events = 0
         self._first_us = 0
@@ -107,15 +99,14 @@ class BlockWriter:
                 )
                 beside.write_text(sidecar_text(target.size, target.metadata), encoding="utf-8")
             part = stack.enter_context(self._place())
-            # On a stack of its own: the file is closed before it gets its name.
-            inner = stack.enter_context(ExitStack())
-            self._sink = self._start(part, inner)
+            # Entered last: the file is closed before it gets its name.
+            self._write = stack.enter_context(self._start(part))
             self._stack = stack.pop_all()
         return self
 
     def append(self, packet: EventStream) -> None:
         """Add the events of a packet, which starts no earlier than the one before it ended."""
-        if self._sink is None:
+        if self._write is None:
             raise OutputError(
                 f"{self._target.path} is not open; append inside the writer's with block"
             )
@@ -128,7 +119,7 @@ class BlockWriter:
         self._pending.append(packet)
         self._pending_events += len(packet)
         if self._pending_events >= BLOCK_EVENTS:
-            self._write_pending(self._sink, final=False)
+            self._write_pending(self._write, final=False)
 
     def __exit__(
         self,
@@ -136,12 +127,11 @@ class BlockWriter:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        if error is not None or self._sink is None:
+        if error is not None or self._write is None:
             self._stack.__exit__(kind, error, trace)
             return
         with self._stack:
-            self._write_pending(self._sink, final=True)
-            self._sink.finish()
+            self._write_pending(self._write, final=True)
 
     def _place(self) -> AbstractContextManager[Path]:
         path, overwrite = self._target.path, self._target.overwrite
@@ -164,7 +154,7 @@ class BlockWriter:
                 "some packets have a signal/noise label and some do not; give all or none one"
             )
 
-    def _write_pending(self, sink: BlockSink, *, final: bool) -> None:
+    def _write_pending(self, write: WriteBlock, *, final: bool) -> None:
         """Write whole blocks, so that how packets were cut does not show in the file."""
         if not self._pending:
             return
@@ -173,7 +163,7 @@ class BlockWriter:
         count = len(only) if final else len(only) // BLOCK_EVENTS * BLOCK_EVENTS
         for start in range(0, count, BLOCK_EVENTS):
             block = slice(start, min(start + BLOCK_EVENTS, count))
-            sink.write({name: column[block] for name, column in columns.items()})
+            write({name: column[block] for name, column in columns.items()})
         rest = only[count:]
         self._pending = [rest] if len(rest) else []
         self._pending_events = len(rest)

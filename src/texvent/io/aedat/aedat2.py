@@ -19,7 +19,7 @@ Source: iniVation, AEDAT 2.0 file format.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import ClassVar
@@ -43,7 +43,7 @@ from texvent.io.aedat.header import (
     read_aedat_header,
 )
 from texvent.io.block_codec import BlockCodec, FileContents, read_records
-from texvent.io.block_writer import FileTarget
+from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.input_checks import begins_with
 from texvent.io.limits import FormatLimits
 from texvent.io.protocol import Columns
@@ -81,12 +81,24 @@ class Aedat2Codec(BlockCodec):
         """Refuse a sensor without a layout."""
         self._layout_for(target)
 
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> Aedat2Sink:
+    @contextmanager
+    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
         """Write the header."""
         layout = self._layout_for(target)
         lines = (AEDAT2_MAGIC, *COMMENTS, f"# Layout: {layout.name}")
         header = make_aedat_header(lines, target.metadata, AEDAT2_END)
-        return Aedat2Sink(part, stack, header=header, layout=layout)
+        with part.open("wb") as file:
+            file.write(header)
+
+            def write(columns: Columns) -> None:
+                records = np.empty(len(columns["t"]), dtype=RECORD)
+                records["address"] = layout.encode(columns)
+                records["t"] = columns["t"]
+                if file.tell() == len(header) and records[0].tobytes().startswith(b"#"):
+                    file.write(np.array([(SPECIAL, records["t"][0])], dtype=RECORD).tobytes())
+                file.write(records.tobytes())
+
+            yield write
 
     def _layout_for(self, target: FileTarget) -> AddressLayout:
         layouts = (DAVIS346, DVS128) if self.layout is None else (self.layout,)
@@ -122,31 +134,6 @@ class Cifar10DvsCodec(Aedat2Codec):
     name: ClassVar[str] = "cifar10-dvs"
     extensions: ClassVar[tuple[str, ...]] = ()
     layout: ClassVar[AddressLayout | None] = CIFAR10_DVS
-
-
-class Aedat2Sink:
-    """Writes the header and records."""
-
-    def __init__(
-        self, part: Path, stack: ExitStack, *, header: bytes, layout: AddressLayout
-    ) -> None:
-        self._file = stack.enter_context(part.open("wb"))
-        self._file.write(header)
-        self._layout = layout
-        self._is_first = True
-
-    def write(self, columns: Columns) -> None:
-        """Add events."""
-        records = np.empty(len(columns["t"]), dtype=RECORD)
-        records["address"] = self._layout.encode(columns)
-        records["t"] = columns["t"]
-        if self._is_first and records[0].tobytes().startswith(b"#"):
-            self._file.write(np.array([(SPECIAL, records["t"][0])], dtype=RECORD).tobytes())
-        self._is_first = False
-        self._file.write(records.tobytes())
-
-    def finish(self) -> None:
-        """Nothing follows the last record."""
 
 
 def _named_layout(path: Path, header: AedatHeader) -> AddressLayout:

@@ -21,7 +21,7 @@ import os
 import re
 import struct
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import AbstractContextManager
 from functools import partial
 from pathlib import Path
 from typing import BinaryIO, ClassVar
@@ -36,8 +36,8 @@ from texvent.io.aedat.header import (
     make_aedat_header,
     read_aedat_header,
 )
-from texvent.io.block_codec import BlockCodec, FileContents
-from texvent.io.block_writer import FileTarget
+from texvent.io.block_codec import BlockCodec, FileContents, write_records
+from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.input_checks import begins_with
 from texvent.io.limits import FormatLimits
 from texvent.io.protocol import Columns
@@ -74,7 +74,7 @@ class Aedat3Codec(BlockCodec):
         size, metadata = _stored_size(path, header), header.metadata(path)
         return FileContents(size, metadata, partial(_read_blocks, path, header.length))
 
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> Aedat3Sink:
+    def start(self, target: FileTarget, part: Path) -> AbstractContextManager[WriteBlock]:
         """Write the header."""
         sizes = {SENSORS[sensor].size: camera for camera, sensor in CAMERAS.items()}
         lines = (
@@ -85,37 +85,29 @@ class Aedat3Codec(BlockCodec):
             f"#Size: {target.size}",
         )
         header = make_aedat_header(lines, target.metadata, AEDAT3_END)
-        return Aedat3Sink(part, stack, header=header)
+        return write_records(part, header, _encode)
 
 
-class Aedat3Sink:
-    """Writes packets of at most 8192 events, none across a turn of the time counter."""
-
-    def __init__(self, part: Path, stack: ExitStack, *, header: bytes) -> None:
-        self._file = stack.enter_context(part.open("wb"))
-        self._file.write(header)
-
-    def write(self, columns: Columns) -> None:
-        """Add events."""
-        events = np.empty(len(columns["t"]), dtype=EVENT)
-        x, y, p = (columns[name].astype(np.uint32) for name in "xyp")
-        events["place"] = x << 17 | y << 2 | p << 1 | 1
-        events["t"] = columns["t"] & TIME_MASK
-        turns = columns["t"] >> TIME_BITS
-        start = 0
-        while start < len(events):
-            turn = int(turns[start])
-            same = int(np.searchsorted(turns, turn, side="right"))
-            stop = min(start + PACKET_EVENTS, same)
-            count = stop - start
-            self._file.write(
-                _HEAD.pack(POLARITY_TYPE, 1, EVENT.itemsize, 4, turn, count, count, count)
-            )
-            self._file.write(events[start:stop].tobytes())
-            start = stop
-
-    def finish(self) -> None:
-        """Nothing follows the last packet."""
+def _encode(columns: Columns) -> bytes:
+    """Packets of at most 8192 events, none across a turn of the time counter."""
+    events = np.empty(len(columns["t"]), dtype=EVENT)
+    x, y, p = (columns[name].astype(np.uint32) for name in "xyp")
+    events["place"] = x << 17 | y << 2 | p << 1 | 1
+    events["t"] = columns["t"] & TIME_MASK
+    turns = columns["t"] >> TIME_BITS
+    packets = []
+    start = 0
+    while start < len(events):
+        turn = int(turns[start])
+        same = int(np.searchsorted(turns, turn, side="right"))
+        stop = min(start + PACKET_EVENTS, same)
+        count = stop - start
+        packets += [
+            _HEAD.pack(POLARITY_TYPE, 1, EVENT.itemsize, 4, turn, count, count, count),
+            events[start:stop].tobytes(),
+        ]
+        start = stop
+    return b"".join(packets)
 
 
 def _stored_size(path: Path, header: AedatHeader) -> tuple[int, int] | None:

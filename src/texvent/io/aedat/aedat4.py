@@ -11,9 +11,8 @@ Source: iniVation, AEDAT 4.0 file format; tables in `aedat4_tables`.
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
@@ -39,8 +38,8 @@ from texvent.io.aedat.aedat4_tables import (
     make_list,
     read_events,
 )
-from texvent.io.block_codec import BlockCodec, FileContents
-from texvent.io.block_writer import FileTarget
+from texvent.io.block_codec import BlockCodec, FileContents, split_by_time
+from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.input_checks import begins_with
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import metadata_from_json, metadata_to_json
@@ -78,10 +77,31 @@ class Aedat4Codec(BlockCodec):
         """Refuse a compression that is not installed."""
         packing_of(self.packing.code)
 
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> Aedat4Sink:
-        """Write the header."""
+    @contextmanager
+    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
+        """Write the header; at the end the list of packets, and where it lies into the header."""
         xml = make_info(target.size, self.packing.name, metadata_to_json(target.metadata))
-        return Aedat4Sink(part, stack, packing=self.packing, xml=xml)
+        packing, entries = self.packing, list[PacketEntry]()
+        with part.open("wb") as file:
+            file.write(MAGIC + make_header(packing.code, UNKNOWN, xml))
+
+            def write(columns: Columns) -> None:
+                for packet in split_by_time(columns, PACKET_US):
+                    times = packet["t"]
+                    data = packing.pack(make_events(packet))
+                    file.write(PACKET_HEAD.pack(0, len(data)))
+                    entries.append(
+                        PacketEntry(
+                            file.tell(), len(data), len(times), int(times[0]), int(times[-1])
+                        )
+                    )
+                    file.write(data)
+
+            yield write
+            position = file.tell()
+            file.write(packing.pack(make_list(entries, 0)))
+            file.seek(len(MAGIC))
+            file.write(make_header(packing.code, position, xml))
 
 
 class Aedat4NoneCodec(Aedat4Codec):
@@ -98,41 +118,6 @@ class Aedat4ZstdCodec(Aedat4Codec):
     name: ClassVar[str] = "aedat4-zstd"
     extensions: ClassVar[tuple[str, ...]] = ()
     packing: ClassVar[Packing] = ZSTD
-
-
-class Aedat4Sink:
-    """Writes packets of 10 ms, and their list at the end."""
-
-    def __init__(self, part: Path, stack: ExitStack, *, packing: Packing, xml: bytes) -> None:
-        self._file = stack.enter_context(part.open("wb"))
-        self._packing = packing
-        self._xml = xml
-        self._entries: list[PacketEntry] = []
-        self._file.write(MAGIC + make_header(packing.code, UNKNOWN, xml))
-
-    def write(self, columns: Columns) -> None:
-        """Add events."""
-        windows = columns["t"] // PACKET_US
-        cuts = np.flatnonzero(windows[1:] != windows[:-1]) + 1
-        bounds = [0, *cuts.tolist(), len(windows)]
-        for start, stop in itertools.pairwise(bounds):
-            self._write_packet({name: columns[name][start:stop] for name in "xytp"})
-
-    def finish(self) -> None:
-        """Write the list of packets, and where it lies into the header."""
-        position = self._file.tell()
-        self._file.write(self._packing.pack(make_list(self._entries, 0)))
-        self._file.seek(len(MAGIC))
-        self._file.write(make_header(self._packing.code, position, self._xml))
-
-    def _write_packet(self, columns: Columns) -> None:
-        data = self._packing.pack(make_events(columns))
-        self._file.write(PACKET_HEAD.pack(0, len(data)))
-        times = columns["t"]
-        self._entries.append(
-            PacketEntry(self._file.tell(), len(data), len(times), int(times[0]), int(times[-1]))
-        )
-        self._file.write(data)
 
 
 def _open_events(path: Path) -> tuple[Container, StreamInfo]:

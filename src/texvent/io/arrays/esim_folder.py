@@ -10,9 +10,10 @@ Source: Gehrig et al., Video to Events, CVPR 2020 (rpg_vid2e), and its files.
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
@@ -22,7 +23,7 @@ import numpy as np
 from texvent.errors import FileFormatError
 from texvent.io.arrays.npz import read_arrays
 from texvent.io.block_codec import FileContents, FolderCodec
-from texvent.io.block_writer import FileTarget
+from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import parse_sidecar, sidecar_text
 from texvent.io.protocol import Columns
@@ -53,38 +54,23 @@ class EsimFolderCodec(FolderCodec):
             raise FileFormatError(f"{path} holds no files 0000000000.npz, 0000000001.npz …")
         return FileContents(size, metadata, partial(_read_blocks, path))
 
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> EsimFolderSink:
+    @contextmanager
+    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
         """Write size and metadata."""
         text = sidecar_text(target.size, target.metadata)
         (part / FACTS).write_text(text, encoding="utf-8")
-        return EsimFolderSink(part)
+        numbers = itertools.count()
+
+        def write(columns: Columns) -> None:
+            with (part / f"{next(numbers):010d}.npz").open("wb") as file:
+                t, p = columns["t"] * NS, columns["p"].astype(np.int8) * 2 - 1
+                np.savez(file, x=columns["x"], y=columns["y"], t=t, p=p)
+
+        yield write
 
     def is_own(self, path: Path) -> bool:
         """True for numbered archives and texvent's own file."""
         return path.name == FACTS or re.fullmatch(r"\d{10}\.npz", path.name) is not None
-
-
-class EsimFolderSink:
-    """Writes one file per block."""
-
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
-        self._count = 0
-
-    def write(self, columns: Columns) -> None:
-        """Add events."""
-        with (self._folder / f"{self._count:010d}.npz").open("wb") as file:
-            np.savez(
-                file,
-                x=columns["x"],
-                y=columns["y"],
-                t=columns["t"] * NS,
-                p=columns["p"].astype(np.int8) * 2 - 1,
-            )
-        self._count += 1
-
-    def finish(self) -> None:
-        """Nothing follows the last file."""
 
 
 def _numbered(path: Path) -> list[Path]:

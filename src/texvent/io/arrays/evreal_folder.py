@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
@@ -24,9 +24,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
-from texvent.io.arrays.npy_file import NpyFile, map_array
+from texvent.io.arrays.npy_file import growing_array, map_array
 from texvent.io.block_codec import FileContents, FolderCodec
-from texvent.io.block_writer import FileTarget
+from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.protocol import Columns
@@ -55,38 +55,30 @@ class EvrealFolderCodec(FolderCodec):
         size, metadata = _read_facts(path)
         return FileContents(size, metadata, partial(_read_blocks, path))
 
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> EvrealFolderSink:
+    @contextmanager
+    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
         """Write size and metadata, and open the arrays."""
-        return EvrealFolderSink(part, stack, target=target)
-
-    def is_own(self, path: Path) -> bool:
-        """True for the three arrays and metadata.json."""
-        return path.name in OWN
-
-
-class EvrealFolderSink:
-    """Writes the three arrays side by side."""
-
-    def __init__(self, part: Path, stack: ExitStack, *, target: FileTarget) -> None:
         facts = {
             "sensor_resolution": [target.size.height, target.size.width],
             "texvent": json.loads(metadata_to_json(target.metadata)),
         }
         (part / FACTS).write_text(json.dumps(facts) + "\n", encoding="utf-8")
-        self._times = NpyFile(part / TIMES, stack, dtype="<f8")
-        self._places = NpyFile(part / PLACES, stack, dtype="<u2", columns=2)
-        self._polarities = NpyFile(part / POLARITIES, stack, dtype="?")
+        with (
+            growing_array(part / TIMES, dtype="<f8") as add_times,
+            growing_array(part / PLACES, dtype="<u2", columns=2) as add_places,
+            growing_array(part / POLARITIES, dtype="?") as add_polarities,
+        ):
 
-    def write(self, columns: Columns) -> None:
-        """Add events."""
-        self._times.append(columns["t"] / MICROSECONDS)
-        self._places.append(np.stack([columns["x"], columns["y"]], axis=1))
-        self._polarities.append(columns["p"].astype(bool))
+            def write(columns: Columns) -> None:
+                add_times(columns["t"] / MICROSECONDS)
+                add_places(np.stack([columns["x"], columns["y"]], axis=1))
+                add_polarities(columns["p"].astype(bool))
 
-    def finish(self) -> None:
-        """Write the lengths."""
-        for file in (self._times, self._places, self._polarities):
-            file.finish()
+            yield write
+
+    def is_own(self, path: Path) -> bool:
+        """True for the three arrays and metadata.json."""
+        return path.name in OWN
 
 
 def _read_facts(path: Path) -> tuple[tuple[int, int] | None, dict[str, Any]]:

@@ -10,17 +10,17 @@ Source: Kim et al., N-ImageNet: Towards Robust, Fine-Grained Object Recognition,
 from __future__ import annotations
 
 import zipfile
-from contextlib import ExitStack
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, BinaryIO, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
 from texvent.io.arrays.npz import read_arrays, stored_contents
 from texvent.io.block_codec import BlockCodec, FileContents
-from texvent.io.block_writer import FileTarget
+from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import metadata_to_json
 from texvent.io.protocol import Columns
@@ -56,32 +56,23 @@ class NImageNetCodec(BlockCodec):
             columns["p"] = columns["p"].astype(np.uint8)
         return stored_contents(path, arrays, columns)
 
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> NImageNetSink:
+    @contextmanager
+    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
         """Collect the events; the archive is written at the end."""
-        return NImageNetSink(stack.enter_context(part.open("wb")), target)
+        blocks = [np.empty(0, dtype=EVENT)]
 
+        def write(columns: Columns) -> None:
+            block = np.empty(len(columns["t"]), dtype=EVENT)
+            for name in "xytp":
+                block[name] = columns[name]
+            blocks.append(block)
 
-class NImageNetSink:
-    """Collects events and writes the archive at the end."""
-
-    def __init__(self, file: BinaryIO, target: FileTarget) -> None:
-        self._file = file
-        self._target = target
-        self._blocks: list[NDArray[Any]] = [np.empty(0, dtype=EVENT)]
-
-    def write(self, columns: Columns) -> None:
-        """Add events."""
-        block = np.empty(len(columns["t"]), dtype=EVENT)
-        for name in "xytp":
-            block[name] = columns[name]
-        self._blocks.append(block)
-
-    def finish(self) -> None:
-        """Write the archive."""
+        yield write
         arrays: dict[str, Any] = {
-            ARRAY: np.concatenate(self._blocks),
-            "width": np.int64(self._target.size.width),
-            "height": np.int64(self._target.size.height),
-            "texvent": np.array(metadata_to_json(self._target.metadata)),
+            ARRAY: np.concatenate(blocks),
+            "width": np.int64(target.size.width),
+            "height": np.int64(target.size.height),
+            "texvent": np.array(metadata_to_json(target.metadata)),
         }
-        np.savez(self._file, **arrays)
+        with part.open("wb") as file:
+            np.savez(file, **arrays)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from contextlib import ExitStack
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -18,41 +19,37 @@ NPY_DAMAGE = (OSError, ValueError, TypeError, EOFError, SyntaxError, OverflowErr
 _MAGIC = b"\x93NUMPY\x01\x00"
 
 
-class NpyFile:
-    """Appends rows to a .npy file.
+@contextmanager
+def growing_array(
+    path: Path, *, dtype: str, columns: int | None = None
+) -> Iterator[Callable[[NDArray[np.generic]], None]]:
+    """A .npy file to which the function given appends rows, [n] or [n, columns].
 
     Args:
         path: the file.
-        stack: closes it.
         dtype: type of the values.
         columns: values per row; None: the array has one dimension.
     """
+    kind = np.dtype(dtype)
+    row_count = 0
+    with path.open("wb") as file:
 
-    def __init__(
-        self, path: Path, stack: ExitStack, *, dtype: str, columns: int | None = None
-    ) -> None:
-        self._file = stack.enter_context(path.open("wb"))
-        self._dtype = np.dtype(dtype)
-        self._columns = columns
-        self._rows = 0
-        self._write_header()
+        def write_header() -> None:
+            shape = (row_count,) if columns is None else (row_count, columns)
+            facts = {"descr": kind.str, "fortran_order": False, "shape": shape}
+            length = HEADER_BYTES - len(_MAGIC) - 2
+            text = f"{facts}".ljust(length - 1) + "\n"
+            file.write(_MAGIC + length.to_bytes(2, "little") + text.encode("ascii"))
 
-    def append(self, rows: NDArray[np.generic]) -> None:
-        """Add rows, [n] or [n, columns]."""
-        self._file.write(np.ascontiguousarray(rows, dtype=self._dtype).data)
-        self._rows += len(rows)
+        def append(rows: NDArray[np.generic]) -> None:
+            nonlocal row_count
+            file.write(np.ascontiguousarray(rows, dtype=kind).data)
+            row_count += len(rows)
 
-    def finish(self) -> None:
-        """Write how many rows there are."""
-        self._file.seek(0)
-        self._write_header()
-
-    def _write_header(self) -> None:
-        shape = (self._rows,) if self._columns is None else (self._rows, self._columns)
-        facts = {"descr": self._dtype.str, "fortran_order": False, "shape": shape}
-        length = HEADER_BYTES - len(_MAGIC) - 2
-        text = f"{facts}".ljust(length - 1) + "\n"
-        self._file.write(_MAGIC + length.to_bytes(2, "little") + text.encode("ascii"))
+        write_header()
+        yield append
+        file.seek(0)
+        write_header()
 
 
 def map_array(path: Path) -> NDArray[np.generic]:

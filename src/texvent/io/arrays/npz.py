@@ -12,10 +12,10 @@ from __future__ import annotations
 import tokenize
 import zipfile
 from collections.abc import Iterator, Mapping
-from contextlib import ExitStack
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import Any, BinaryIO, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from texvent.errors import FileFormatError
 from texvent.events import COLUMN_TYPES
 from texvent.io.block_codec import BlockCodec, FileContents
-from texvent.io.block_writer import FileTarget
+from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.input_checks import ZIP_DAMAGE, begins_with, check_zip, reporting_damage
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import metadata_from_json, metadata_to_json
@@ -64,36 +64,22 @@ class NpzCodec(BlockCodec):
         columns = {name: arrays[name] for name in COLUMN_TYPES if name in arrays}
         return stored_contents(path, arrays, columns)
 
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> NpzSink:
+    @contextmanager
+    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
         """Collect the events; the archive is written at the end."""
-        return NpzSink(stack.enter_context(part.open("wb")), target)
-
-
-class NpzSink:
-    """Collects columns and writes the archive at the end."""
-
-    def __init__(self, file: BinaryIO, target: FileTarget) -> None:
-        self._file = file
-        self._target = target
-        self._blocks: list[Columns] = []
-
-    def write(self, columns: Columns) -> None:
-        """Add events."""
-        self._blocks.append(columns)
-
-    def finish(self) -> None:
-        """Write the archive."""
-        size = self._target.size
-        blocks = self._blocks or [{name: np.empty(0, COLUMN_TYPES[name]) for name in "xytp"}]
+        blocks: list[Columns] = []
+        yield blocks.append
+        parts = blocks or [{name: np.empty(0, COLUMN_TYPES[name]) for name in "xytp"}]
         arrays: dict[str, Any] = {
-            **{name: np.concatenate([block[name] for block in blocks]) for name in blocks[0]},
+            **{name: np.concatenate([one[name] for one in parts]) for name in parts[0]},
             # eventcv reads no other integers here.
-            "width": np.uint64(size.width),
-            "height": np.uint64(size.height),
+            "width": np.uint64(target.size.width),
+            "height": np.uint64(target.size.height),
             "timestamp_scale_ms": np.float64(TIMESTAMP_SCALE_MS),
-            "texvent": np.array(metadata_to_json(self._target.metadata)),
+            "texvent": np.array(metadata_to_json(target.metadata)),
         }
-        np.savez(self._file, **arrays)
+        with part.open("wb") as file:
+            np.savez(file, **arrays)
 
 
 def read_arrays(path: Path) -> dict[str, Any]:

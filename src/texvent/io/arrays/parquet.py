@@ -7,7 +7,7 @@ any order under the names that CSV files have. Needs pyarrow: the extra `parquet
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
@@ -17,7 +17,7 @@ import numpy as np
 from texvent._require import require
 from texvent.errors import FileFormatError
 from texvent.io.block_codec import BlockCodec, FileContents
-from texvent.io.block_writer import FileTarget
+from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.input_checks import reporting_damage
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import metadata_from_json, metadata_to_json
@@ -56,36 +56,26 @@ class ParquetCodec(BlockCodec):
         """Refuse to start without pyarrow."""
         require("pyarrow.parquet", extra=EXTRA)
 
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> ParquetSink:
+    @contextmanager
+    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
         """Open a table with size and metadata in its schema."""
-        return ParquetSink(part, stack, target=target)
-
-
-class ParquetSink:
-    """Writes one row group per block."""
-
-    def __init__(self, part: Path, stack: ExitStack, *, target: FileTarget) -> None:
-        self._arrow = require("pyarrow", extra=EXTRA)
+        arrow = require("pyarrow", extra=EXTRA)
         parquet = require("pyarrow.parquet", extra=EXTRA)
-        self._schema = self._arrow.schema(
-            [(name, getattr(self._arrow, kind)()) for name, kind in TYPES.items()],
+        schema = arrow.schema(
+            [(name, getattr(arrow, kind)()) for name, kind in TYPES.items()],
             metadata={
                 "width": str(target.size.width),
                 "height": str(target.size.height),
                 "texvent": metadata_to_json(target.metadata),
             },
         )
-        self._file = stack.enter_context(
-            parquet.ParquetWriter(part, self._schema, compression="zstd")
-        )
+        with parquet.ParquetWriter(part, schema, compression="zstd") as file:
 
-    def write(self, columns: Columns) -> None:
-        """Add events."""
-        arrays = [self._arrow.array(np.asarray(columns[name])) for name in TYPES]
-        self._file.write_table(self._arrow.Table.from_arrays(arrays, schema=self._schema))
+            def write(columns: Columns) -> None:
+                arrays = [arrow.array(np.asarray(columns[name])) for name in TYPES]
+                file.write_table(arrow.Table.from_arrays(arrays, schema=schema))
 
-    def finish(self) -> None:
-        """The list of row groups is written when the file is closed."""
+            yield write
 
 
 @contextmanager

@@ -16,21 +16,20 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import ClassVar
+from typing import BinaryIO, ClassVar
 
 import numpy as np
 
 from texvent.errors import FileFormatError
 from texvent.io.block_codec import BLOCK_BYTES, BlockCodec, FileContents
-from texvent.io.block_writer import FileTarget
+from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.input_checks import begins_with
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import read_sidecar
 from texvent.io.protocol import Columns
-from texvent.sensor import SensorSize
 
 MAGIC = b"Event Stream"
 VERSION = b"\x02\x00\x00"
@@ -62,32 +61,30 @@ class EsCodec(BlockCodec):
         _, metadata = read_sidecar(path)
         return FileContents((width, height), metadata, partial(_read_blocks, path, height - 1))
 
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> EsSink:
+    @contextmanager
+    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
         """Write the header."""
-        return EsSink(part, stack, size=target.size)
+        sides = b"".join(side.to_bytes(2, "little") for side in target.size)
+        with part.open("wb") as file:
+            file.write(MAGIC + VERSION + bytes([TYPE]) + sides)
+            yield _EventWriter(file, target.size.height - 1).write
 
 
-class EsSink:
-    """Writes the header and events."""
+class _EventWriter:
+    """Writes events, each with the time since the one before it."""
 
-    def __init__(self, part: Path, stack: ExitStack, *, size: SensorSize) -> None:
-        self._file = stack.enter_context(part.open("wb"))
-        sides = b"".join(side.to_bytes(2, "little") for side in size)
-        self._file.write(MAGIC + VERSION + bytes([TYPE]) + sides)
-        self._top = size.height - 1
+    def __init__(self, file: BinaryIO, top: int) -> None:
+        self._file = file
+        self._top = top
         self._last_us = 0
 
     def write(self, columns: Columns) -> None:
-        """Add events."""
         t = columns["t"]
         silences = np.diff(t, prepend=self._last_us) > MAX_SILENCE_US
         bounds = [0, *np.flatnonzero(silences).tolist(), len(t)]
         for start, stop in itertools.pairwise(bounds):
             if start < stop:
                 self._write_part({name: columns[name][start:stop] for name in "xytp"})
-
-    def finish(self) -> None:
-        """Nothing follows the last event."""
 
     def _write_part(self, columns: Columns) -> None:
         """Write events with no long silence except before the first."""

@@ -14,7 +14,7 @@ Source: Orchard et al., Converting Static Image Datasets to Spiking Neuromorphic
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import AbstractContextManager
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
@@ -22,8 +22,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from texvent.errors import InputError
-from texvent.io.block_codec import BlockCodec, FileContents, RecordSink, read_records
-from texvent.io.block_writer import FileTarget
+from texvent.io.block_codec import BlockCodec, FileContents, read_records, write_records
+from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.limits import UNLIMITED, FormatLimits
 from texvent.io.metadata import read_sidecar
 from texvent.io.protocol import Columns
@@ -57,9 +57,9 @@ class NMnistCodec(BlockCodec):
         size, metadata = read_sidecar(path)
         return FileContents(size, metadata, partial(_read_blocks, path))
 
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> RecordSink:
+    def start(self, target: FileTarget, part: Path) -> AbstractContextManager[WriteBlock]:
         """Records begin at once."""
-        return RecordSink(stack.enter_context(part.open("wb")), _encode)
+        return write_records(part, b"", _encode)
 
 
 def _encode(columns: Columns) -> bytes:

@@ -12,8 +12,7 @@ Source: Gehrig et al., DSEC: A Stereo Event Camera Dataset for Driving Scenarios
 
 from __future__ import annotations
 
-from contextlib import ExitStack
-from pathlib import Path
+from collections.abc import Mapping
 from typing import Any, ClassVar
 
 from numpy.typing import NDArray
@@ -21,6 +20,7 @@ from numpy.typing import NDArray
 from texvent._require import require
 from texvent.io.block_writer import FileTarget
 from texvent.io.hdf5.native import Hdf5Codec, NativeSink, OffsetLimits
+from texvent.io.hdf5.writer import Hdf5Sink
 
 
 class DsecSink(NativeSink):
@@ -32,12 +32,9 @@ class DsecSink(NativeSink):
 class DsecBloscSink(DsecSink):
     """Compresses with blosc (Zstandard, level 1)."""
 
-    def __init__(
-        self, target: FileTarget, part: Path, stack: ExitStack, *, limits: OffsetLimits
-    ) -> None:
+    def _filters(self) -> Mapping[str, Any]:
         plugin = require("hdf5plugin", extra="blosc")
-        self.filters = dict(plugin.Blosc(cname="zstd", clevel=1, shuffle=plugin.Blosc.SHUFFLE))
-        super().__init__(target, part, stack, limits=limits)
+        return dict(plugin.Blosc(cname="zstd", clevel=1, shuffle=plugin.Blosc.SHUFFLE))
 
     def _extend_column(self, name: str, values: NDArray[Any]) -> None:
         self._extend(f"events/{name}", values)
@@ -51,21 +48,15 @@ class DsecCodec(Hdf5Codec):
     limits: ClassVar[OffsetLimits] = OffsetLimits(
         "DSEC HDF5", 1 << 16, 1 << 63, 2**32 - 1, label="kept", max_absolute_us=0
     )
-
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> DsecSink:
-        """Create the empty data sets."""
-        return DsecSink(target, part, stack, limits=self.limits)
+    sink: ClassVar[type[Hdf5Sink]] = DsecSink
 
 
 class DsecBloscCodec(DsecCodec):
     """DSEC files, compressed with blosc as the data set's own."""
 
     name: ClassVar[str] = "dsec-blosc"
+    sink: ClassVar[type[Hdf5Sink]] = DsecBloscSink
 
     def check_target(self, target: FileTarget) -> None:
         """Refuse to start without hdf5plugin."""
         require("hdf5plugin", extra="blosc")
-
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> DsecSink:
-        """Create the empty data sets."""
-        return DsecBloscSink(target, part, stack, limits=self.limits)

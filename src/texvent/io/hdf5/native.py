@@ -21,11 +21,9 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping
-from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any, ClassVar
 
 import h5py
@@ -33,11 +31,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
-from texvent.io.block_codec import BlockCodec, FileContents, TimeSeek
-from texvent.io.block_writer import BlockWriter, FileTarget
+from texvent.io.block_codec import FileContents, TimeSeek
+from texvent.io.block_writer import FileTarget
 from texvent.io.hdf5.chunks import append_chunks
 from texvent.io.hdf5.damage import check_claims, check_filters, open_hdf5
-from texvent.io.hdf5.writer import Hdf5Sink, Hdf5Writer
+from texvent.io.hdf5.writer import Hdf5BlockCodec, Hdf5Sink
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.protocol import Columns
@@ -72,44 +70,15 @@ class OffsetLimits(FormatLimits):
         return first_us // 1000 * 1000 if first_us >= self.max_absolute_us else 0
 
 
-class Hdf5Codec(BlockCodec):
-    """Universal HDF5 and DSEC files."""
-
-    name: ClassVar[str] = "hdf5"
-    extensions: ClassVar[tuple[str, ...]] = (".h5", ".hdf5")
-    limits: ClassVar[OffsetLimits] = OffsetLimits(
-        "HDF5", 1 << 16, 1 << 63, MAX_SPAN_US, label="kept"
-    )
-    writer: ClassVar[type[BlockWriter]] = Hdf5Writer
-
-    def inspect(self, path: Path) -> FileContents:
-        """Size and metadata are attributes of the root."""
-        with open_hdf5(path) as file:
-            _checked_columns(file, path)
-            size, metadata = stored_size(file), read_metadata(file, path)
-        seek = TimeSeek(partial(_time_range, path), partial(_read_blocks, path))
-        return FileContents(size, metadata, partial(_read_blocks, path), seek)
-
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> NativeSink:
-        """Create the empty data sets."""
-        return NativeSink(target, part, stack, limits=self.limits)
-
-
 class NativeSink(Hdf5Sink):
     """Appends to the columns, and keeps the index by millisecond."""
 
     time_type: ClassVar[str] = COLUMN_FORMATS["t"]
-    filters: Mapping[str, Any] = MappingProxyType(
-        {"compression": "gzip", "compression_opts": 1, "shuffle": True}
-    )
+    _next_ms = 0
+    _offset_us = 0
 
-    def __init__(
-        self, target: FileTarget, part: Path, stack: ExitStack, *, limits: OffsetLimits
-    ) -> None:
-        self._limits = limits
-        self._next_ms = 0
-        self._offset_us = 0
-        super().__init__(target, part, stack)
+    def _filters(self) -> Mapping[str, Any]:
+        return {"compression": "gzip", "compression_opts": 1, "shuffle": True}
 
     def _create_layout(self, target: FileTarget) -> None:
         file = self._file
@@ -118,7 +87,8 @@ class NativeSink(Hdf5Sink):
         self._create_column("ms_to_idx", "<u8", INDEX_CHUNK)
         file.attrs["width"], file.attrs["height"] = target.size
         file.attrs["timestamp_scale_ms"] = TIMESTAMP_SCALE_MS
-        write_metadata(file, metadata_to_json(target.metadata), target.metadata)
+        write_metadata(file, target.metadata)
+        _write_scalars(file, target.metadata)
 
     def _create_column(self, name: str, dtype: str, chunk: int) -> None:
         self._file.create_dataset(
@@ -127,11 +97,12 @@ class NativeSink(Hdf5Sink):
             maxshape=(None,),
             dtype=dtype,
             chunks=(chunk,),
-            **self.filters,
+            **self._filters(),
         )
 
-    def _store(self, columns: Columns) -> None:
-        if self._written == 0:
+    def store(self, columns: Columns) -> None:
+        """As `Hdf5Sink.store`."""
+        if self.written == 0:
             self._offset_us = self._limits.origin_us(int(columns["t"][0]))
             if "label" in columns:
                 self._create_column("events/label", "|u1", CHUNK_EVENTS)
@@ -149,15 +120,34 @@ class NativeSink(Hdf5Sink):
         while self._next_ms <= last_ms:
             stop = min(last_ms + 1, self._next_ms + INDEX_BATCH)
             starts_us = np.arange(self._next_ms, stop, dtype=np.int64) * 1000
-            indexes = np.searchsorted(times, starts_us, side="left") + self._written
+            indexes = np.searchsorted(times, starts_us, side="left") + self.written
             self._extend("ms_to_idx", indexes)
             self._next_ms = stop
 
-    def _complete(self) -> None:
-        self._extend("ms_to_idx", np.array([self._written], dtype=np.uint64))
+    def complete(self) -> None:
+        """As `Hdf5Sink.complete`."""
+        self._extend("ms_to_idx", np.array([self.written], dtype=np.uint64))
         self._file["t_offset"] = np.int64(self._offset_us)
         # A single value has no checksum; attributes lie in the header, which has one.
         self._file.attrs["t_offset"] = np.int64(self._offset_us)
+
+
+class Hdf5Codec(Hdf5BlockCodec):
+    """Universal HDF5 and DSEC files."""
+
+    name: ClassVar[str] = "hdf5"
+    limits: ClassVar[OffsetLimits] = OffsetLimits(
+        "HDF5", 1 << 16, 1 << 63, MAX_SPAN_US, label="kept"
+    )
+    sink: ClassVar[type[Hdf5Sink]] = NativeSink
+
+    def inspect(self, path: Path) -> FileContents:
+        """Size and metadata are attributes of the root."""
+        with open_hdf5(path) as file:
+            _checked_columns(file, path)
+            size, metadata = stored_size(file), read_metadata(file, path) or {}
+        seek = TimeSeek(partial(_time_range, path), partial(_read_blocks, path))
+        return FileContents(size, metadata, partial(_read_blocks, path), seek)
 
 
 def _read_blocks(
@@ -231,25 +221,28 @@ def _time_offset(file: Any, path: Path) -> int:
     return offset_us
 
 
-def stored_size(file: Any) -> tuple[int, int] | None:
-    """Width and height, pixels, from the root's attributes."""
-    if "width" not in file.attrs or "height" not in file.attrs:
+def stored_size(node: Any) -> tuple[int, int] | None:
+    """Width and height, pixels, from the attributes of the root or a group."""
+    if "width" not in node.attrs or "height" not in node.attrs:
         return None
-    return int(file.attrs["width"]), int(file.attrs["height"])
+    return int(node.attrs["width"]), int(node.attrs["height"])
 
 
-def write_metadata(file: Any, text: str, metadata: Mapping[str, Any]) -> None:
-    """All metadata as JSON, and its top-level scalars by name, for other programs.
+def write_metadata(node: Any, metadata: Mapping[str, Any]) -> None:
+    """All metadata as JSON, in an attribute of the root or a group, or beside it if too long.
 
-    The JSON has a fixed length, so it lies in the checksummed header. HDF5 keeps text of variable
-    length in a heap without checksums, where one flipped bit can hang it; texvent never reads
-    the named scalars back.
+    It has a fixed length, so it lies in the checksummed header. HDF5 keeps text of variable length
+    in a heap without checksums, where one flipped bit can hang it.
     """
-    fixed = np.bytes_(text.encode("ascii"))
-    if len(text) <= MAX_ATTRIBUTE_BYTES:
-        file.attrs["texvent"] = fixed
+    fixed = np.bytes_(metadata_to_json(metadata).encode("ascii"))
+    if len(fixed) <= MAX_ATTRIBUTE_BYTES:
+        node.attrs["texvent"] = fixed
     else:
-        file.create_dataset("texvent", data=fixed)
+        node.create_dataset("texvent", data=fixed)
+
+
+def _write_scalars(file: Any, metadata: Mapping[str, Any]) -> None:
+    """Top-level scalars by name, for other programs; texvent never reads them back."""
     scalars = [
         (name, value)
         for name, value in metadata.items()
@@ -270,10 +263,10 @@ def _is_plain_attribute(value: Any) -> bool:
     return isinstance(value, float)
 
 
-def read_metadata(file: Any, path: Path) -> dict[str, Any]:
-    """What `write_metadata` wrote, or nothing."""
-    text = file.attrs.get("texvent")
-    if text is None and isinstance(file.get("texvent"), h5py.Dataset):
-        check_claims(file["texvent"], path)
-        text = file["texvent"][()]
-    return {} if text is None else metadata_from_json(path, text)
+def read_metadata(node: Any, path: Path) -> dict[str, Any] | None:
+    """What `write_metadata` wrote, or None."""
+    text = node.attrs.get("texvent")
+    if text is None and isinstance(node.get("texvent"), h5py.Dataset):
+        check_claims(node["texvent"], path)
+        text = node["texvent"][()]
+    return None if text is None else metadata_from_json(path, text)

@@ -12,7 +12,6 @@ Source: Hu, Liu and Delbruck, v2e: From Video Frames to Realistic DVS Events, 20
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
@@ -21,13 +20,12 @@ import h5py
 import numpy as np
 
 from texvent.errors import FileFormatError
-from texvent.io.block_codec import BlockCodec, FileContents
-from texvent.io.block_writer import BlockWriter, FileTarget
+from texvent.io.block_codec import FileContents
+from texvent.io.block_writer import FileTarget
 from texvent.io.hdf5.damage import check_claims, check_filters, open_hdf5
 from texvent.io.hdf5.native import read_metadata, stored_size, write_metadata
-from texvent.io.hdf5.writer import Hdf5Sink, Hdf5Writer
+from texvent.io.hdf5.writer import Hdf5BlockCodec, Hdf5Sink
 from texvent.io.limits import FormatLimits
-from texvent.io.metadata import metadata_to_json
 from texvent.io.protocol import Columns
 
 CHUNK_EVENTS = 65_536
@@ -36,13 +34,35 @@ STOP_US = 1 << 32
 ORDER = "txyp"
 
 
-class V2eHdf5Codec(BlockCodec):
+class V2eHdf5Sink(Hdf5Sink):
+    """Appends rows to the dataset."""
+
+    def _create_layout(self, target: FileTarget) -> None:
+        self._file.attrs["width"], self._file.attrs["height"] = target.size
+        write_metadata(self._file, target.metadata)
+        self._file.create_dataset(
+            "events",
+            shape=(0, 4),
+            maxshape=(None, 4),
+            dtype="<u4",
+            chunks=(CHUNK_EVENTS, 4),
+            compression="gzip",
+            compression_opts=1,
+            shuffle=True,
+        )
+
+    def store(self, columns: Columns) -> None:
+        """As `Hdf5Sink.store`."""
+        rows = np.stack([columns[name].astype(np.uint32) for name in ORDER], axis=1)
+        self._extend("events", rows)
+
+
+class V2eHdf5Codec(Hdf5BlockCodec):
     """HDF5 as v2e writes it."""
 
     name: ClassVar[str] = "v2e"
-    extensions: ClassVar[tuple[str, ...]] = (".h5", ".hdf5")
     limits: ClassVar[FormatLimits] = FormatLimits("v2e HDF5", 1 << 16, STOP_US)
-    writer: ClassVar[type[BlockWriter]] = Hdf5Writer
+    sink: ClassVar[type[Hdf5Sink]] = V2eHdf5Sink
 
     def recognises(self, path: Path) -> bool:
         """True if it is HDF5 with a dataset of four columns called events."""
@@ -56,34 +76,8 @@ class V2eHdf5Codec(BlockCodec):
         """Size and metadata are attributes that texvent adds."""
         with open_hdf5(path) as file:
             _checked_events(file, path)
-            size, metadata = stored_size(file), read_metadata(file, path)
+            size, metadata = stored_size(file), read_metadata(file, path) or {}
         return FileContents(size, metadata, partial(_read_blocks, path))
-
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> V2eHdf5Sink:
-        """Create the empty dataset."""
-        return V2eHdf5Sink(target, part, stack)
-
-
-class V2eHdf5Sink(Hdf5Sink):
-    """Appends rows to the dataset."""
-
-    def _create_layout(self, target: FileTarget) -> None:
-        self._file.attrs["width"], self._file.attrs["height"] = target.size
-        write_metadata(self._file, metadata_to_json(target.metadata), {})
-        self._file.create_dataset(
-            "events",
-            shape=(0, 4),
-            maxshape=(None, 4),
-            dtype="<u4",
-            chunks=(CHUNK_EVENTS, 4),
-            compression="gzip",
-            compression_opts=1,
-            shuffle=True,
-        )
-
-    def _store(self, columns: Columns) -> None:
-        rows = np.stack([columns[name].astype(np.uint32) for name in ORDER], axis=1)
-        self._extend("events", rows)
 
 
 def _checked_events(file: Any, path: Path) -> Any:

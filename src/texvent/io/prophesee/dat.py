@@ -12,7 +12,7 @@ Source: Prophesee, "DAT File Format".
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import AbstractContextManager
 from functools import partial
 from pathlib import Path
 from typing import ClassVar
@@ -21,8 +21,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
-from texvent.io.block_codec import BlockCodec, FileContents, RecordSink, read_records
-from texvent.io.block_writer import FileTarget
+from texvent.io.block_codec import BlockCodec, FileContents, read_records, write_records
+from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.limits import FormatLimits
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header
 from texvent.io.protocol import Columns
@@ -49,14 +49,12 @@ class DatCodec(BlockCodec):
         size, metadata = header.stored_size(path), header.metadata(path)
         return FileContents(size, metadata, partial(_read_blocks, path, header.length + 2))
 
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> RecordSink:
+    def start(self, target: FileTarget, part: Path) -> AbstractContextManager[WriteBlock]:
         """Write the header, and type and length of the records."""
         width, height = target.size
         fields = {"Height": str(height), "Version": VERSION, "Width": str(width)}
         header = make_text_header(fields, target.metadata, end=False)
-        file = stack.enter_context(part.open("wb"))
-        file.write(header + bytes((EVENT_TYPES[0], EVENT_BYTES)))
-        return RecordSink(file, _encode)
+        return write_records(part, header + bytes((EVENT_TYPES[0], EVENT_BYTES)), _encode)
 
 
 def _encode(columns: Columns) -> memoryview:

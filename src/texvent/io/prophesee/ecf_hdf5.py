@@ -23,7 +23,6 @@ Source: Prophesee, "HDF5 Event Files", and OpenEB.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
@@ -32,12 +31,12 @@ import h5py
 import numpy as np
 
 from texvent.errors import FileFormatError
-from texvent.io.block_codec import BlockCodec, FileContents
-from texvent.io.block_writer import BlockWriter, FileTarget
-from texvent.io.hdf5.damage import check_claims, open_hdf5
-from texvent.io.hdf5.writer import Hdf5Sink, Hdf5Writer
+from texvent.io.block_codec import FileContents
+from texvent.io.block_writer import FileTarget
+from texvent.io.hdf5.damage import open_hdf5
+from texvent.io.hdf5.native import read_metadata, stored_size, write_metadata
+from texvent.io.hdf5.writer import Hdf5BlockCodec, Hdf5Sink
 from texvent.io.limits import FormatLimits
-from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.prophesee import ecf_chunks
 from texvent.io.prophesee.ecf_dataset import ECF_FILTER, check_storage, read_columns, whole_chunks
 from texvent.io.prophesee.ecf_index import ENTRY, TimeIndex
@@ -46,8 +45,6 @@ from texvent.io.protocol import Columns
 CHUNK_EVENTS = 16_384
 PACKET_CHUNKS = 16
 MAX_SPAN_US = 1 << 35
-MAX_METADATA_BYTES = 32_768
-"""Longer metadata goes to a dataset: HDF5 allows 64 kB per attribute."""
 EVENT = np.dtype(
     {
         "names": ["x", "y", "p", "t"],
@@ -64,36 +61,6 @@ TRIGGER = np.dtype(
         "itemsize": 24,
     }
 )
-
-
-class EcfHdf5Codec(BlockCodec):
-    """HDF5 files of Metavision."""
-
-    name: ClassVar[str] = "prophesee-hdf5"
-    extensions: ClassVar[tuple[str, ...]] = (".hdf5", ".h5")
-    limits: ClassVar[FormatLimits] = FormatLimits(
-        "Prophesee HDF5", ecf_chunks.MAX_SIDE, ecf_chunks.MAX_START_US, MAX_SPAN_US
-    )
-    writer: ClassVar[type[BlockWriter]] = Hdf5Writer
-
-    def recognises(self, path: Path) -> bool:
-        """True if it is HDF5 with events where Metavision puts them."""
-        try:
-            with open_hdf5(path) as file:
-                return "CD/events" in file
-        except FileFormatError:
-            return False
-
-    def inspect(self, path: Path) -> FileContents:
-        """Size and metadata are attributes of the root and of /CD."""
-        with open_hdf5(path) as file:
-            _checked_events(file, path)
-            size, metadata = _stored_size(file), _read_metadata(file, path)
-        return FileContents(size, metadata, partial(_read_blocks, path))
-
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> EcfHdf5Sink:
-        """Create the empty data sets."""
-        return EcfHdf5Sink(target, part, stack)
 
 
 class EcfHdf5Sink(Hdf5Sink):
@@ -120,12 +87,7 @@ class EcfHdf5Sink(Hdf5Sink):
             _set_text(file, name, text)
         group = file["CD"]
         group.attrs["width"], group.attrs["height"] = target.size
-        # Of fixed length: HDF5 keeps other text in a heap without checksums.
-        fixed = np.bytes_(metadata_to_json(target.metadata).encode("ascii"))
-        if len(fixed) <= MAX_METADATA_BYTES:
-            group.attrs["texvent"] = fixed
-        else:
-            file.create_dataset("CD/texvent", data=fixed)
+        write_metadata(group, target.metadata)
 
     def _create(self, name: str, dtype: np.dtype[Any], properties: Any = None) -> None:
         self._file.create_dataset(
@@ -137,21 +99,49 @@ class EcfHdf5Sink(Hdf5Sink):
             dcpl=properties,
         )
 
-    def _store(self, columns: Columns) -> None:
+    def store(self, columns: Columns) -> None:
+        """As `Hdf5Sink.store`."""
         count = len(columns["t"])
         dataset = self._file["CD/events"]
-        dataset.resize((self._written + count,))
+        dataset.resize((self.written + count,))
         for start in range(0, count, CHUNK_EVENTS):
             part = slice(start, min(start + CHUNK_EVENTS, count))
             chunk = ecf_chunks.encode_chunk({name: columns[name][part] for name in "xytp"})
-            dataset.id.write_direct_chunk((self._written + start,), chunk)
+            dataset.id.write_direct_chunk((self.written + start,), chunk)
         for entries in self._index.add(columns["t"]):
             self._extend("CD/indexes", entries)
 
-    def _complete(self) -> None:
+    def complete(self) -> None:
+        """As `Hdf5Sink.complete`."""
         if self._index.start_us is not None:
             self._extend("CD/indexes", self._index.close())
             _set_text(self._file["CD/indexes"], "offset", str(-self._index.start_us))
+
+
+class EcfHdf5Codec(Hdf5BlockCodec):
+    """HDF5 files of Metavision."""
+
+    name: ClassVar[str] = "prophesee-hdf5"
+    extensions: ClassVar[tuple[str, ...]] = (".hdf5", ".h5")
+    limits: ClassVar[FormatLimits] = FormatLimits(
+        "Prophesee HDF5", ecf_chunks.MAX_SIDE, ecf_chunks.MAX_START_US, MAX_SPAN_US
+    )
+    sink: ClassVar[type[Hdf5Sink]] = EcfHdf5Sink
+
+    def recognises(self, path: Path) -> bool:
+        """True if it is HDF5 with events where Metavision puts them."""
+        try:
+            with open_hdf5(path) as file:
+                return "CD/events" in file
+        except FileFormatError:
+            return False
+
+    def inspect(self, path: Path) -> FileContents:
+        """Size and metadata are attributes of the root and of /CD."""
+        with open_hdf5(path) as file:
+            _checked_events(file, path)
+            size, metadata = _stored_size(file), _read_metadata(file, path)
+        return FileContents(size, metadata, partial(_read_blocks, path))
 
 
 def _read_blocks(path: Path) -> Iterator[Columns]:
@@ -181,23 +171,17 @@ def _checked_events(file: Any, path: Path) -> Any:
 
 
 def _stored_size(file: Any) -> tuple[int, int] | None:
-    attributes = file["CD"].attrs
-    if "width" in attributes and "height" in attributes:
-        return int(attributes["width"]), int(attributes["height"])
-    if "geometry" not in file.attrs:
-        return None
+    stored = stored_size(file["CD"])
+    if stored is not None or "geometry" not in file.attrs:
+        return stored
     width, _, height = _text(file.attrs["geometry"]).partition("x")
     return int(width), int(height)
 
 
 def _read_metadata(file: Any, path: Path) -> dict[str, Any]:
-    group = file["CD"]
-    text = group.attrs.get("texvent")
-    if text is None and isinstance(group.get("texvent"), h5py.Dataset):
-        check_claims(group["texvent"], path)
-        text = group["texvent"][()]
-    if text is not None:
-        return metadata_from_json(path, text)
+    metadata = read_metadata(file["CD"], path)
+    if metadata is not None:
+        return metadata
     # What Metavision wrote about the recording.
     return {"header": {name: _text(value) for name, value in file.attrs.items()}}
 

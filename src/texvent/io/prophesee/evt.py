@@ -16,14 +16,14 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Iterator, Mapping
-from contextlib import ExitStack
+from contextlib import AbstractContextManager
 from functools import partial
 from pathlib import Path
 from typing import ClassVar
 
 from texvent.errors import FileFormatError
-from texvent.io.block_codec import BlockCodec, FileContents, RecordSink, read_records
-from texvent.io.block_writer import FileTarget
+from texvent.io.block_codec import BlockCodec, FileContents, read_records, write_records
+from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header
 from texvent.io.prophesee.word_coding import WordDecoder, WordEncoder, WordKernels
 from texvent.io.protocol import Columns
@@ -80,7 +80,7 @@ class EvtCodec(BlockCodec):
         size, metadata = header.stored_size(path), header.metadata(path)
         return FileContents(size, metadata, partial(self._read_blocks, path, header))
 
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> RecordSink:
+    def start(self, target: FileTarget, part: Path) -> AbstractContextManager[WriteBlock]:
         """Write the header and the words before the first event."""
         size = target.size
         facts = {**self.options, "height": str(size.height), "width": str(size.width)}
@@ -94,9 +94,8 @@ class EvtCodec(BlockCodec):
             "plugin_integrator_name": INTEGRATOR,
         }
         encoder = self.make_encoder()
-        file = stack.enter_context(part.open("wb"))
-        file.write(make_text_header(fields, target.metadata, end=True) + encoder.start())
-        return RecordSink(file, encoder.encode)
+        header = make_text_header(fields, target.metadata, end=True)
+        return write_records(part, header + encoder.start(), encoder.encode)
 
     def _read_blocks(self, path: Path, header: TextHeader) -> Iterator[Columns]:
         decoder = self.make_decoder(header)

@@ -12,23 +12,20 @@ Needs rosbags: the extra `bags`. A bag whose recorder crashed has no index and i
 
 from __future__ import annotations
 
-import itertools
 import os
 import struct
 import tempfile
 from abc import abstractmethod
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
 
-import numpy as np
-
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError, MissingDependencyError
-from texvent.io.block_codec import BlockCodec, FileContents
-from texvent.io.block_writer import FileTarget
+from texvent.io.block_codec import BlockCodec, FileContents, split_by_time
+from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.input_checks import one_line
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import parse_sidecar, sidecar_text
@@ -130,18 +127,23 @@ class Rosbag1Codec(BagCodec):
         for message in _messages(self, path):
             yield unpack_event_array(message)
 
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> BagSink:
+    @contextmanager
+    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
         """Open a bag for writing."""
         part.unlink()
-        bag = stack.enter_context(require(ROSBAG1, extra=EXTRA).Writer(part))
         types = _types(1)
         text = sidecar_text(target.size, target.metadata).encode("utf-8")
-        facts = bag.add_connection(FACTS_TOPIC, STRING, typestore=types)
         message = struct.pack("<I", len(text)) + text
-        events = bag.add_connection(TOPIC, EVENT_ARRAY, typestore=types)
-        pack = partial(pack_event_array, size=target.size)
-        start = partial(bag.write, facts, data=message)
-        return BagSink(bag, events, lambda columns, number: pack(columns, sequence=number), start)
+
+        def pack(columns: Columns, number: int) -> bytes:
+            return pack_event_array(columns, size=target.size, sequence=number)
+
+        with require(ROSBAG1, extra=EXTRA).Writer(part) as bag:
+            facts = bag.add_connection(FACTS_TOPIC, STRING, typestore=types)
+            events = bag.add_connection(TOPIC, EVENT_ARRAY, typestore=types)
+            start = partial(bag.write, facts, data=message)
+            with _write_messages(bag, events, pack, start) as write:
+                yield write
 
 
 class McapCodec(BagCodec):
@@ -173,23 +175,13 @@ class McapCodec(BagCodec):
         for message in _messages(self, path):
             yield decoder.decode(message.payload)
 
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> BagSink:
+    @contextmanager
+    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
         """Open a bag for writing: rosbags writes a folder, of which the .mcap is kept."""
-        folder = stack.enter_context(
-            tempfile.TemporaryDirectory(prefix=".texvent-", suffix=".part", dir=part.parent)
-        )
         rosbag2 = require("rosbags.rosbag2", extra=EXTRA)
-        writer = rosbag2.Writer(
-            Path(folder) / "bag", version=9, storage_plugin=rosbag2.StoragePlugin.MCAP
-        )
-        # On a stack of its own: the sink closes the bag before it moves the file.
-        closing = stack.enter_context(ExitStack())
-        bag = closing.enter_context(writer)
         types = _types(2)
         text = sidecar_text(target.size, target.metadata).encode("utf-8")
-        facts = bag.add_connection(FACTS_TOPIC, STRING, typestore=types)
         message = b"\0\1\0\0" + struct.pack("<I", len(text) + 1) + text + b"\0"
-        events = bag.add_connection(TOPIC, EVENT_PACKET, typestore=types)
         encoder = Evt3Codec().make_encoder()
 
         def pack(columns: Columns, number: int) -> bytes:
@@ -197,13 +189,24 @@ class McapCodec(BagCodec):
             words = encoder.start() + words if number == 0 else words
             return pack_event_packet(words, target.size, number, int(columns["t"][0]))
 
-        closing_bag = partial(_close_and_move, closing, Path(folder) / "bag" / "bag.mcap", part)
-        start = partial(bag.write, facts, data=message)
-        return BagSink(bag, events, pack, start, closing_bag)
+        mcap = rosbag2.StoragePlugin.MCAP
+        with tempfile.TemporaryDirectory(
+            prefix=".texvent-", suffix=".part", dir=part.parent
+        ) as folder:
+            with rosbag2.Writer(Path(folder) / "bag", version=9, storage_plugin=mcap) as bag:
+                facts = bag.add_connection(FACTS_TOPIC, STRING, typestore=types)
+                events = bag.add_connection(TOPIC, EVENT_PACKET, typestore=types)
+                start = partial(bag.write, facts, data=message)
+                with _write_messages(bag, events, pack, start) as write:
+                    yield write
+            os.replace(Path(folder) / "bag" / "bag.mcap", part)
 
 
-class BagSink:
-    """Writes one message per 10 ms.
+@contextmanager
+def _write_messages(
+    bag: Any, connection: Any, pack: Callable[[Columns, int], bytes], start: Callable[[int], None]
+) -> Iterator[WriteBlock]:
+    """One message per 10 ms.
 
     Args:
         bag: rosbags' writer.
@@ -211,45 +214,20 @@ class BagSink:
         pack: makes a message of columns and its number.
         start: writes the message of size and metadata, at a time in ns: that of the first event,
             because players wait from one message to the next.
-        finish: what remains to be done after the last message.
     """
+    count = 0
 
-    def __init__(
-        self,
-        bag: Any,
-        connection: Any,
-        pack: Callable[[Columns, int], bytes],
-        start: Callable[[int], None],
-        finish: Callable[[], None] = lambda: None,
-    ) -> None:
-        self._bag = bag
-        self._connection = connection
-        self._pack = pack
-        self._start = start
-        self._finish = finish
-        self._count = 0
+    def write(columns: Columns) -> None:
+        nonlocal count
+        if count == 0:
+            start(int(columns["t"][0]) * NS)
+        for part in split_by_time(columns, PACKET_US):
+            bag.write(connection, int(part["t"][0]) * NS, pack(part, count))
+            count += 1
 
-    def write(self, columns: Columns) -> None:
-        """Add events."""
-        if self._count == 0:
-            self._start(int(columns["t"][0]) * NS)
-        windows = columns["t"] // PACKET_US
-        cuts = np.flatnonzero(windows[1:] != windows[:-1]) + 1
-        for start, stop in itertools.pairwise([0, *cuts.tolist(), len(windows)]):
-            part = {name: columns[name][start:stop] for name in "xytp"}
-            self._bag.write(self._connection, int(part["t"][0]) * NS, self._pack(part, self._count))
-            self._count += 1
-
-    def finish(self) -> None:
-        """Do what remains; the index is written when the bag is closed."""
-        if self._count == 0:
-            self._start(0)
-        self._finish()
-
-
-def _close_and_move(closing: ExitStack, source: Path, target: Path) -> None:
-    closing.close()
-    os.replace(source, target)
+    yield write
+    if count == 0:
+        start(0)
 
 
 def _types(version: int) -> Any:

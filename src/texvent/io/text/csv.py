@@ -8,7 +8,7 @@ size nor metadata: texvent writes both beside the file, in `NAME.csv.json`.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import AbstractContextManager
 from functools import partial
 from pathlib import Path
 from typing import ClassVar
@@ -16,14 +16,14 @@ from typing import ClassVar
 import numpy as np
 
 from texvent.errors import FileFormatError
-from texvent.io.block_codec import BlockCodec, FileContents, RecordSink
-from texvent.io.block_writer import FileTarget
+from texvent.io.block_codec import BlockCodec, FileContents, write_records
+from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import read_sidecar
 from texvent.io.protocol import Columns
 from texvent.io.text.rows import parse_table, read_text_blocks, whole_numbers
 
-HEADER = "t,x,y,p\n"
+HEADER = b"t,x,y,p\n"
 HEADLESS = ("x", "y", "p", "t")
 NAMES = {
     **{name: "t" for name in ("t", "ts", "timestamp", "time", "t_us", "timestamp_us")},
@@ -51,11 +51,9 @@ class CsvCodec(BlockCodec):
         order, start = _read_header(path)
         return FileContents(size, metadata, partial(_read_blocks, path, order, start))
 
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> RecordSink:
+    def start(self, target: FileTarget, part: Path) -> AbstractContextManager[WriteBlock]:
         """Write the line that names the columns."""
-        file = stack.enter_context(part.open("wb"))
-        file.write(HEADER.encode())
-        return RecordSink(file, _encode)
+        return write_records(part, HEADER, _encode)
 
 
 def _encode(columns: Columns) -> bytes:

@@ -11,14 +11,14 @@ from __future__ import annotations
 import re
 import zipfile
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import BinaryIO, ClassVar, cast
 
 from texvent.errors import FileFormatError
-from texvent.io.block_codec import BlockCodec, FileContents, RecordSink
-from texvent.io.block_writer import FileTarget
+from texvent.io.block_codec import BlockCodec, FileContents
+from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.input_checks import ZIP_DAMAGE, check_zip, reporting_damage
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import read_sidecar
@@ -46,17 +46,18 @@ class E2vidZipCodec(BlockCodec):
         _, metadata = read_sidecar(path)
         return FileContents(size, metadata, partial(_read_blocks, path))
 
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> RecordSink:
+    @contextmanager
+    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
         """Open the archive's one text file and write its first line."""
-        archive = stack.enter_context(
-            zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED, compresslevel=LEVEL)
-        )
         # Its date is 1980, so that the same events give the same archive.
         entry = zipfile.ZipInfo(ENTRY)
         entry.compress_type = zipfile.ZIP_DEFLATED
-        file = stack.enter_context(archive.open(entry, "w", force_zip64=True))
-        file.write(f"{target.size.width} {target.size.height}\n".encode())
-        return RecordSink(file, make_rows)
+        with (
+            zipfile.ZipFile(part, "w", zipfile.ZIP_DEFLATED, compresslevel=LEVEL) as archive,
+            archive.open(entry, "w", force_zip64=True) as file,
+        ):
+            file.write(f"{target.size.width} {target.size.height}\n".encode())
+            yield lambda columns: file.write(make_rows(columns))
 
 
 @contextmanager

@@ -14,13 +14,13 @@ Source: Mueggler et al., The Event-Camera Dataset and Simulator, IJRR 2017.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import AbstractContextManager
 from functools import partial
 from pathlib import Path
 from typing import ClassVar
 
-from texvent.io.block_codec import BlockCodec, FileContents, RecordSink
-from texvent.io.block_writer import FileTarget
+from texvent.io.block_codec import BlockCodec, FileContents, write_records
+from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import read_sidecar
 from texvent.io.protocol import Columns
@@ -40,9 +40,9 @@ class EcdCodec(BlockCodec):
         size, metadata = read_sidecar(path)
         return FileContents(size, metadata, partial(_read_blocks, path))
 
-    def start(self, target: FileTarget, part: Path, stack: ExitStack) -> RecordSink:
+    def start(self, target: FileTarget, part: Path) -> AbstractContextManager[WriteBlock]:
         """Rows begin at once."""
-        return RecordSink(stack.enter_context(part.open("wb")), make_rows)
+        return write_records(part, b"", make_rows)
 
 
 def _read_blocks(path: Path) -> Iterator[Columns]:
