@@ -10,9 +10,8 @@ from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent.errors import InputError
 from texvent.interpolate.densify import densify
 from texvent.pairs.scene_change import SceneChange
-from texvent.pipeline import video_to_events
+from texvent.pipeline import select_events, video_to_events
 from texvent.settings import resolve
-from texvent.simulate.packets.selection import select_events
 from texvent.video import Video, frame_time_us
 
 

@@ -17,16 +17,15 @@ from typing import Any
 
 from texvent._registry import GENERATORS
 from texvent.capture.prepare import PreparedFrames
-from texvent.config import CaptureConfig
+from texvent.config import CaptureConfig, RunConfig
 from texvent.event_packets import EventPackets
-from texvent.events import EventStream
+from texvent.events import NOISE, SIGNAL, EventStream
 from texvent.interpolate.pairing import plan_pairs
 from texvent.pairs.frame_pair import OnSceneChange, notify_scene_change
 from texvent.provenance import describe_run
 from texvent.runtime.progress import Progress
 from texvent.settings import Settings
 from texvent.simulate.build import build_simulator, check_engine
-from texvent.simulate.packets.selection import select_events
 from texvent.simulate.training import draw_training_config
 from texvent.video import Frame, FrameStream
 
@@ -136,3 +135,10 @@ class Simulation:
     def provenance(self) -> dict[str, Any]:
         """What made these events: stored in every output, enough to make them again."""
         return describe_run(self.settings, prompt=self.prompt, source=self.video.metadata)
+
+
+def select_events(packet: EventStream, run: RunConfig) -> EventStream:
+    """The events of a packet that a run keeps, with the label only if it is wanted."""
+    if packet.label is not None and run.events != "all":
+        packet = packet[packet.label == (SIGNAL if run.events == "signal" else NOISE)]
+    return packet if run.label_noise else packet.without_label()

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from texvent.pairs.instants import check_between, float_luma, position
 from texvent.runtime.background_jit import is_ready, wait_until_ready
+from texvent.runtime.read_only import read_only
 from texvent.sensor import SensorSize
 from texvent.video import Frame
 
@@ -21,6 +22,8 @@ FloatImage = NDArray[np.float32]
 Flows = tuple[NDArray[np.float32], NDArray[np.float32]]
 
 WARP = "texvent.pairs.warp_cpu"
+NO_FLOW = read_only(np.empty((0, 0, 2), np.float32))
+"""Stands for the flow of frames that are blended in place."""
 DRAWN_BYTES = 16 << 20
 """Moved frames are drawn a few at a time, which is faster; this much of them at most."""
 
@@ -48,10 +51,10 @@ class MotionInterpolation:
 
     def __post_init__(self) -> None:
         # Numba compiles for arrays that can be written and for those that cannot: one is enough.
-        object.__setattr__(self, "earlier", frozen(self.earlier))
-        object.__setattr__(self, "later", frozen(self.later))
+        object.__setattr__(self, "earlier", read_only(self.earlier))
+        object.__setattr__(self, "later", read_only(self.later))
         if self.flows is not None:
-            object.__setattr__(self, "flows", tuple(frozen(flow) for flow in self.flows))
+            object.__setattr__(self, "flows", tuple(read_only(flow) for flow in self.flows))
 
     @classmethod
     def between(
@@ -105,8 +108,7 @@ class MotionInterpolation:
     @cached_property
     def prepared(self) -> Any:
         """The pair as the compiled kernels read it, a `pairs.warp_cpu.WarpPair`."""
-        nothing = np.empty((0, 0, 2), np.float32)
-        flows = (nothing, nothing) if self.flows is None else self.flows
+        flows = self.flows or (NO_FLOW, NO_FLOW)
         return load_warp().prepare_pair(self.earlier, self.later, *flows)
 
 
@@ -129,13 +131,6 @@ class UndrawnFrame(Frame):
         """Width and height, pixels."""
         size: SensorSize = vars(self)["_size"]
         return size
-
-
-def frozen(image: FloatImage) -> FloatImage:
-    """A view that cannot be written."""
-    view = image.view()
-    view.flags.writeable = False
-    return view
 
 
 def load_warp() -> ModuleType:

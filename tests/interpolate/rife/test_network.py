@@ -7,8 +7,7 @@ import pytest
 
 from texvent.interpolate.networks.torch_warp import warp
 from texvent.interpolate.rife.layouts import LAYOUTS
-from texvent.interpolate.rife.network import Motion, RifeNetwork
-from texvent.interpolate.rife.shared import move_motion
+from texvent.interpolate.rife.network import Motion, RifeNetwork, move_motion
 
 from . import rife_numpy
 from .rife_files import random_tensors

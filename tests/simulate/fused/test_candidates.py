@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from texvent.pairs.warp_cpu import prepare_pair
+from texvent.runtime.read_only import read_only
 from texvent.simulate.fused import candidates_cpu, candidates_reference
-from texvent.simulate.fused.bounds_cpu import find_luma_bounds, list_active
+from texvent.simulate.fused.bounds_cpu import find_bounds, list_active
 from texvent.simulate.fused.candidates import one_grid
 from texvent.simulate.fused.continuous import dyadic_segments
 from texvent.simulate.fused.definitions import (
@@ -26,8 +27,12 @@ from texvent.simulate.packets.interval import FrameInterval
 
 KERNELS = [candidates_reference.find_candidates, candidates_cpu.find_candidates]
 kernels = pytest.mark.parametrize("find", KERNELS, ids=["reference", "cpu"])
-STILL = np.empty((0, 0, 2), np.float32)
+STILL = read_only(np.empty((0, 0, 2), np.float32))
 UP = math.exp(0.2)
+
+
+def pair_of(*arrays):
+    return PairArrays(*map(read_only, arrays))
 
 
 def own_levels(rule, balance=30.0, up=UP):
@@ -35,7 +40,7 @@ def own_levels(rule, balance=30.0, up=UP):
 
 
 def blended(first, second):
-    return PairArrays(np.float32([[first]]), np.float32([[second]]), STILL, STILL)
+    return pair_of(np.float32([[first]]), np.float32([[second]]), STILL, STILL)
 
 
 def moving(shape, speed, seed=0):
@@ -48,7 +53,7 @@ def moving(shape, speed, seed=0):
     )
     forward = rng.normal(0, speed / 2, (*shape, 2)).astype(np.float32)
     backward = (-forward + rng.normal(0, 0.3, (*shape, 2))).astype(np.float32)
-    return PairArrays(first, second, forward, backward)
+    return pair_of(first, second, forward, backward)
 
 
 @kernels
@@ -82,7 +87,7 @@ def test_a_reference_that_follows_every_picture_sees_single_steps_only(find):
 def test_where_it_is_open_whether_a_pixel_fires_all_its_later_pictures_are_listed(find):
     # The change is δ but for rounding, so the finishing pass must see everything from there on.
     levels = own_levels(TAKES, up=60 / 50)
-    arrays = PairArrays(np.float32([[20]]), np.float32([[30]]), STILL, STILL)
+    arrays = pair_of(np.float32([[20]]), np.float32([[30]]), STILL, STILL)
     assert find(arrays, one_grid([0.99999]), levels).segment.tolist() == [1]
     for rule in (TAKES, STEPS_ONCE, STEPS):
         late = find(blended(20, 30), one_grid([1.0, 0.5, 0.3]), own_levels(rule, up=60 / 50))
@@ -98,7 +103,7 @@ def test_a_pixel_takes_the_first_grid_that_is_fine_enough(find):
     first, second = np.float32([[0, 0, 0, 0]]), np.float32([[100, 100, 100, 0]])
     grids, _ = dyadic_segments(FrameInterval(0, 1000, np.uint64(0)))
     found = find(
-        PairArrays(first, second, flow, -flow),
+        pair_of(first, second, flow, -flow),
         grids,
         ReferenceLevels(np.full(shape, 1.0), 200.0, UP, 1 / UP, FOLLOWS),
     )
@@ -131,7 +136,7 @@ def test_compiled_kernel_lists_what_the_definition_lists(shape, speed):
 
 def test_rows_can_be_searched_in_bands():
     arrays, grid, levels = moving((30, 20), 2.0), one_grid([0.5]), own_levels(TAKES)
-    prepared = PreparedPair(prepare_pair(*arrays), candidates_cpu.find_bounds(arrays))
+    prepared = PreparedPair(prepare_pair(*arrays), find_bounds(arrays))
     bands = [
         candidates_cpu.find_in_rows(arrays, grid, levels, prepared, rows)
         for rows in ((0, 7), (7, 16), (16, 30))
@@ -149,13 +154,13 @@ def test_pixels_that_cannot_fire_are_not_followed():
     flat = np.full((32, 32), 100, np.float32)
     fast = np.full((32, 32, 2), 40.0, np.float32)
     active = np.empty(32, np.int64)
-    for arrays in (PairArrays(ramp, ramp + 1, slow, -slow), PairArrays(flat, flat, fast, -fast)):
-        bounds = find_luma_bounds(*arrays)
+    for arrays in (pair_of(ramp, ramp + 1, slow, -slow), pair_of(flat, flat, fast, -fast)):
+        bounds = find_bounds(arrays)
         assert [
             list_active(arrays, own_levels(TAKES), bounds, row, active) for row in range(32)
         ] == [0] * 32
-    arrays = PairArrays(ramp, ramp, fast, -fast)
-    bounds = find_luma_bounds(*arrays)
+    arrays = pair_of(ramp, ramp, fast, -fast)
+    bounds = find_bounds(arrays)
     assert list_active(arrays, own_levels(TAKES), bounds, 3, active) == 32
 
 

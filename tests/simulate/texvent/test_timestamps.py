@@ -6,15 +6,19 @@ import pytest
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.texvent.event_frame import EventFrame, list_threshold_crossings
-from texvent.simulate.texvent.sub_interval import SubInterval
-from texvent.simulate.texvent.timestamps import larger_change_earlier, reconstruct_timestamps
+from texvent.simulate.texvent.timestamps import (
+    SubInterval,
+    larger_change_earlier,
+    reconstruct_timestamps,
+)
 
 THRESHOLD = 0.2
 
 
 def interval(previous, brightness, reference, stop_us=10_000) -> SubInterval:
-    images = (np.array([one], np.float64) for one in (previous, brightness, reference))
-    return SubInterval(FrameInterval(0, stop_us, frame_key(0, 0)), *images)
+    columns = tuple(np.array(one, np.float64) for one in (previous, brightness, reference))
+    pixel = np.arange(columns[0].size)
+    return SubInterval(FrameInterval(0, stop_us, frame_key(0, 0)), pixel.size, pixel, columns)
 
 
 def crossings(changes, numbers=None):

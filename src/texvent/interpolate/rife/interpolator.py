@@ -12,8 +12,7 @@ from texvent.interpolate.networks.interpolator import NetworkInterpolator
 from texvent.interpolate.networks.torch_import import Tensor, import_torch
 from texvent.interpolate.networks.torch_warp import warp
 from texvent.interpolate.rife.estimator import PreparedPair, RifeEstimator
-from texvent.interpolate.rife.network import Motion
-from texvent.interpolate.rife.shared import MIDDLE, move_motion
+from texvent.interpolate.rife.network import MIDDLE, Motion, move_motion
 from texvent.interpolate.rife.weights import (
     describe_rife_weights,
     find_rife_weights,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import ModuleType
@@ -13,6 +14,8 @@ from texvent.interpolate.rife.layouts import BODY_LAYERS, FLOW_CHANNELS, RifeLay
 
 LEAK = 0.2
 """Slope of leaky ReLU below 0."""
+MIDDLE = 0.5
+"""The instant between two frames that shared motion is estimated at."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,3 +179,26 @@ class RifeNetwork:
         return self._torch.nn.functional.interpolate(
             x, scale_factor=float(factor), mode="bilinear", align_corners=False
         )
+
+
+def move_motion(middle: Motion, position: float) -> Motion:
+    """The motion at an instant, from that at the middle, if points move straight and evenly.
+
+    A point that is at x at the instant was at x − (τ − 1/2)·V at the middle, where its path
+    V = flow to the second − flow to the first; its flows there are scaled by the time left. The
+    path is looked up at x, which is the point's own unless a border passes between. The frames'
+    weights shift towards the nearer one.
+
+    Args:
+        middle: the motion at τ = 1/2.
+        position: τ, 0..1, both excluded.
+
+    Source: the linear motion model of Jiang et al., Super SloMo (CVPR 2018), section 3.2, with the
+        flow looked up where the point was instead of in place.
+    """
+    path = middle.flow[:, 2:] - middle.flow[:, :2]
+    back = path * (MIDDLE - position)
+    flow = warp(middle.flow, back)
+    flow[:, :2] *= position / MIDDLE
+    flow[:, 2:] *= (1.0 - position) / MIDDLE
+    return Motion(flow, warp(middle.mask, back) + math.log((1.0 - position) / position))

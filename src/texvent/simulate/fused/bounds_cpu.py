@@ -35,18 +35,14 @@ error of mixing float32."""
 
 
 @jit
-def find_luma_bounds(
-    earlier: NDArray[np.float32],
-    later: NDArray[np.float32],
-    forward: NDArray[np.float32],
-    backward: NDArray[np.float32],
-) -> NDArray[np.float32]:
+def find_bounds(arrays: PairArrays) -> NDArray[np.float32]:
     """Darkest and brightest luma that the pixels of each cell can reach.
 
     Returns:
         [2, rows, W] float32: the lowest and the highest of each cell, for each of its columns;
         empty without flow.
     """
+    earlier, later, forward, backward = arrays
     height, width = earlier.shape
     down, across = (height + CELL - 1) // CELL, (width + CELL - 1) // CELL
     reachable = np.empty((2, down if forward.size else 0, width), np.float32)
@@ -125,7 +121,7 @@ def list_active(
     Args:
         arrays: the pair.
         levels: what the pixels are compared with.
-        bounds: of `find_luma_bounds`.
+        bounds: of `find_bounds`.
         row: which row.
         active: [W], filled in with their columns.
 

@@ -9,7 +9,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from texvent.pairs.motion_interpolation import MotionInterpolation, load_warp
+from texvent.pairs.motion_interpolation import NO_FLOW, MotionInterpolation, load_warp
 from texvent.runtime.background_jit import is_ready
 from texvent.runtime.threads import count_threads, run_parts
 from texvent.simulate.fused.candidates_reference import find_candidates
@@ -127,9 +127,7 @@ def warp_pixels(motion: MotionInterpolation, index: int, pixel: Int64Array) -> F
 
 def arrays_of(motion: MotionInterpolation) -> PairArrays:
     """The arrays of a pair, as kernels take them."""
-    nothing = np.empty((0, 0, 2), np.float32)
-    flows = (nothing, nothing) if motion.flows is None else motion.flows
-    return PairArrays(motion.earlier, motion.later, *flows)
+    return PairArrays(motion.earlier, motion.later, *(motion.flows or (NO_FLOW, NO_FLOW)))
 
 
 def one_grid(positions: Sequence[float]) -> SampleGrids:

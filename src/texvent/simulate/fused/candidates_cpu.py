@@ -22,8 +22,9 @@ from texvent.pairs.warp_cpu import (
     warp_points,
 )
 from texvent.runtime.jit import jit
+from texvent.runtime.read_only import read_only
 from texvent.simulate.crossing.trigger_levels import MARGIN
-from texvent.simulate.fused.bounds_cpu import find_luma_bounds, list_active
+from texvent.simulate.fused.bounds_cpu import find_bounds, list_active
 from texvent.simulate.fused.definitions import (
     FOLLOWS,
     STEPS,
@@ -61,7 +62,7 @@ def find_candidates(
 
 def warm_up() -> None:
     """Compile everything, or load what was compiled before."""
-    image, flow = (np.zeros(shape, np.float32) for shape in ((1, 1), (1, 1, 2)))
+    image, flow = (read_only(np.zeros(one, np.float32)) for one in ((1, 1), (1, 1, 2)))
     endless = np.array([np.inf])
     grids = SampleGrids(np.ones((1, 1)), np.array([1]), endless, endless)
     arrays = PairArrays(image, image, flow, flow)
@@ -71,19 +72,9 @@ def warm_up() -> None:
     warp_pixels(arrays, prepare_pair(*arrays), 0.5, np.zeros(1, np.int64))
 
 
-def find_bounds(arrays: PairArrays) -> LumaBounds:
-    """Luma bounds of the pair, for `find_in_rows`."""
-    bounds: LumaBounds = find_luma_bounds(*arrays.frozen())
-    return bounds
-
-
+@jit
 def estimate_active(arrays: PairArrays, levels: ReferenceLevels, bounds: LumaBounds) -> float:
     """Share of the pixels that may fire, 0..1, by every `SAMPLE`-th row."""
-    return float(_estimate_active(arrays.frozen(), levels, bounds))
-
-
-@jit
-def _estimate_active(arrays: PairArrays, levels: ReferenceLevels, bounds: LumaBounds) -> float:
     height, width = arrays.earlier.shape
     active = np.empty(width, np.int64)
     number, rows = 0, 0
@@ -110,7 +101,7 @@ def find_in_rows(
         prepared: the pair prepared, and its `find_bounds`.
         rows: first row, and the one after the last.
     """
-    found, columns = _find(arrays.frozen(), grids, levels, prepared, rows)
+    found, columns = _find(arrays, grids, levels, prepared, rows)
     return CrossingCandidates(*columns).take(slice(found))
 
 
@@ -349,6 +340,7 @@ def _grown(columns: Columns, least: int) -> Columns:
     return larger
 
 
+@jit
 def warp_pixels(
     arrays: PairArrays, pair: WarpPair, position: float, pixel: NDArray[np.int64]
 ) -> NDArray[np.float32]:
@@ -363,14 +355,6 @@ def warp_pixels(
     Returns:
         [n] float32: the same bits as in the drawn frame.
     """
-    warped: NDArray[np.float32] = _warp_pixels(arrays.frozen(), pair, position, pixel)
-    return warped
-
-
-@jit
-def _warp_pixels(
-    arrays: PairArrays, pair: WarpPair, position: float, pixel: NDArray[np.int64]
-) -> NDArray[np.float32]:
     warped = np.empty(pixel.size, np.float32)
     room = make_room(pixel.size)
     take_points(pair, pixel, room.points)

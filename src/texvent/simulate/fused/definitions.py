@@ -20,8 +20,6 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.pairs.motion_interpolation import frozen
-
 Float32Array: TypeAlias = NDArray[np.float32]
 Float64Array: TypeAlias = NDArray[np.float64]
 Int64Array: TypeAlias = NDArray[np.int64]
@@ -34,7 +32,7 @@ the level there; it moves by one threshold; it moves by as many thresholds as we
 
 
 class PairArrays(NamedTuple):
-    """Two frames and the flow between them; see `MotionInterpolation`."""
+    """Two frames and the flow between them, read-only; see `MotionInterpolation`."""
 
     earlier: Float32Array
     """[H, W] luma."""
@@ -44,10 +42,6 @@ class PairArrays(NamedTuple):
     """[H, W, 2] flow, px; [0, 0, 2] where the frames are blended in place."""
     backward: Float32Array
     """[H, W, 2] flow, px; [0, 0, 2] where the frames are blended in place."""
-
-    def frozen(self) -> PairArrays:
-        """The same as views that cannot be written: kernels are compiled for these alone."""
-        return PairArrays(*(frozen(one) for one in self))
 
 
 class PreparedPair(NamedTuple):

@@ -22,46 +22,6 @@ SENSOR_FRAME = -1
 """Frame number in keys of draws that belong to the sensor; frames count from 0."""
 
 
-def draw_thresholds(
-    shape: Shape, key: np.uint64, purpose: Purpose, *, mean: float, sigma: float
-) -> Float64Array:
-    """Contrast thresholds with Gaussian mismatch between pixels.
-
-    Args:
-        shape: (height, width).
-        key: of `sensor_key`, or of a frame for thresholds that change in time.
-        purpose: `THRESHOLD_ON` or `THRESHOLD_OFF`.
-        mean: nominal threshold, log units.
-        sigma: standard deviation, log units; 0 gives every pixel the nominal one.
-
-    Returns:
-        [H, W] float64, at least `LOWEST_THRESHOLD`.
-    """
-    y, x = np.ogrid[: shape[0], : shape[1]]
-    drawn = _thresholds_at(y, x, key, purpose, _Normal(mean, sigma))
-    return np.broadcast_to(drawn, shape).copy()
-
-
-class _Normal(NamedTuple):
-    """A normal distribution."""
-
-    mean: float
-    sigma: float
-
-
-def _thresholds_at(
-    y: NDArray[np.int64],
-    x: NDArray[np.int64],
-    key: np.uint64,
-    purpose: Purpose,
-    nominal: _Normal,
-) -> Float64Array:
-    mean, sigma = nominal
-    if sigma == 0:
-        return np.full(np.broadcast_shapes(y.shape, x.shape), float(mean))
-    return np.maximum(mean + sigma * draw_normals(key, y, x, purpose.draw()), LOWEST_THRESHOLD)
-
-
 class Thresholds(NamedTuple):
     """By how much a pixel's brightness must change to fire, log units."""
 
@@ -125,34 +85,35 @@ def smaller_threshold(nominal: NominalThresholds) -> float:
 def draw_threshold_pair(
     shape: Shape, key: np.uint64, nominal: NominalThresholds
 ) -> tuple[Float64Array, Float64Array]:
-    """ON and OFF thresholds of every pixel, two of [H, W]; see `draw_thresholds`."""
-    on, off = nominal.contrast_threshold_on, nominal.contrast_threshold_off
-    sigma = nominal.threshold_sigma
-    return (
-        draw_thresholds(shape, key, Purpose.THRESHOLD_ON, mean=on, sigma=sigma),
-        draw_thresholds(shape, key, Purpose.THRESHOLD_OFF, mean=off, sigma=sigma),
-    )
+    """ON and OFF thresholds of every pixel, two of [H, W]; see `draw_threshold_pair_at`."""
+    y, x = np.ogrid[: shape[0], : shape[1]]
+    return draw_threshold_pair_at(y, x, key, nominal)
 
 
 def draw_threshold_pair_at(
     y: NDArray[np.int64], x: NDArray[np.int64], key: np.uint64, nominal: NominalThresholds
 ) -> tuple[Float64Array, Float64Array]:
-    """What `draw_threshold_pair` has at some pixels.
+    """Contrast thresholds of some pixels, with Gaussian mismatch between pixels.
 
     Args:
-        y: rows, [n].
-        x: columns, [n].
-        key: as there.
-        nominal: as there.
+        y: rows, of a shape that broadcasts with `x`.
+        x: columns.
+        key: of `sensor_key`, or of a frame for thresholds that change in time.
+        nominal: means and standard deviation; of 0, every pixel has the means.
 
     Returns:
-        ON and OFF thresholds, [n] each.
+        ON and OFF thresholds, float64, log units; drawn ones are at least `LOWEST_THRESHOLD`.
     """
-    on, off = nominal.contrast_threshold_on, nominal.contrast_threshold_off
     sigma = nominal.threshold_sigma
+
+    def draw(mean: float, purpose: Purpose) -> Float64Array:
+        if sigma == 0:
+            return np.full(np.broadcast_shapes(y.shape, x.shape), float(mean))
+        return np.maximum(mean + sigma * draw_normals(key, y, x, purpose.draw()), LOWEST_THRESHOLD)
+
     return (
-        _thresholds_at(y, x, key, Purpose.THRESHOLD_ON, _Normal(on, sigma)),
-        _thresholds_at(y, x, key, Purpose.THRESHOLD_OFF, _Normal(off, sigma)),
+        draw(nominal.contrast_threshold_on, Purpose.THRESHOLD_ON),
+        draw(nominal.contrast_threshold_off, Purpose.THRESHOLD_OFF),
     )
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import InputError
+from texvent.runtime.read_only import read_only
 from texvent.simulate.backend.select import AUTO
 from texvent.simulate.packets.interval import FrameInterval, place_in
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
@@ -101,12 +102,12 @@ def poisson_cumulative(mean: float) -> Float64Array:
         [0.3679, 0.7358, 0.9197]
     """
     if mean == 0:
-        return _frozen(np.ones(1))
+        return read_only(np.ones(1))
     last = math.ceil(mean + 12 * math.sqrt(mean) + 40)
     log_mean = math.log(mean)
     mass = [math.exp(k * log_mean - mean - math.lgamma(k + 1)) for k in range(last)]
     cumulative = np.cumsum(mass)
-    return _frozen(cumulative[: int(np.searchsorted(cumulative, _CERTAIN)) + 1])
+    return read_only(cumulative[: int(np.searchsorted(cumulative, _CERTAIN)) + 1])
 
 
 def draw_voltage_noise(
@@ -152,8 +153,3 @@ def voltage_noise_sd(threshold: float, mean: float) -> float:
         )
     # Φ⁻¹(1 − q) = −Φ⁻¹(q), which keeps its digits for small q.
     return threshold / -NormalDist().inv_cdf(mean / 2)
-
-
-def _frozen(array: Float64Array) -> Float64Array:
-    array.flags.writeable = False
-    return array

@@ -25,8 +25,7 @@ from texvent.simulate.texvent.noise import (
     is_background,
     low_light_background,
 )
-from texvent.simulate.texvent.sub_interval import SubInterval
-from texvent.simulate.texvent.timestamps import reconstruct_timestamps
+from texvent.simulate.texvent.timestamps import SubInterval, reconstruct_timestamps
 from texvent.video import Frame, check_intensity
 
 
@@ -68,32 +67,42 @@ class DensePixels:
         """
         check_intensity(frame.pixels, where)
         brightness = balanced_log(frame.luma, self._config.balance)
-        interval = self._compare_with_cache(brightness, span)  # κ ⋄ I^{j−1}
-        events = self._generate_event_frame(interval.brightness, interval)  # Eq. 5
+        shaken = self._add_voltage_noise(brightness, span)
+        # κ ⋄ I^{j−1}
+        reference = self._cache.calibrate(self._brightness, is_source=self._is_source)
+        events = self._generate_event_frame(shaken, reference)  # Eq. 5
         noise = self._add_noise(frame, events, span)  # Eq. 6
-        signal = self._without_voltage_noise(events, brightness, interval)
+        signal = events
+        if shaken is not brightness:
+            # What would have fired without voltage noise: only this renews the reference.
+            signal = self._generate_event_frame(brightness, reference)
+        previous, now, then = (
+            image.reshape(-1)[events.pixel] for image in (self._brightness, shaken, reference)
+        )
+        interval = SubInterval(span, frame.size.width, events.pixel, (previous, now, then))
         timed = self._reconstruct_timestamps(events, signal, interval)  # Eq. 7
         self._cache.update(signal, brightness, step=self._config.reset_step)
         self._brightness, self._is_source = brightness, frame.is_source
         return make_packet(UnsortedEvents.concat((timed, noise)), span, frame.size, self._backend)
 
-    def _compare_with_cache(self, brightness: Float64Array, span: FrameInterval) -> SubInterval:
-        """Set the calibrated frame `κ ⋄ I^{j−1}` against this one, with voltage noise if asked."""
-        if self._config.noise == "gaussian":
-            brightness = brightness + draw_voltage_noise(
-                brightness.shape,
-                span.key,
-                threshold=self._config.contrast_threshold,
-                mean=self._config.expected_noise(span.duration_s),
-            )
-        reference = self._cache.calibrate(self._brightness, is_source=self._is_source)
-        return SubInterval(span, self._brightness, brightness, reference)
+    def _add_voltage_noise(self, brightness: Float64Array, span: FrameInterval) -> Float64Array:
+        """The brightness itself, unless noise is "gaussian" (ablation E10)."""
+        if self._config.noise != "gaussian":
+            return brightness
+        return brightness + draw_voltage_noise(
+            brightness.shape,
+            span.key,
+            threshold=self._config.contrast_threshold,
+            mean=self._config.expected_noise(span.duration_s),
+        )
 
-    def _generate_event_frame(self, brightness: Float64Array, interval: SubInterval) -> EventFrame:
+    def _generate_event_frame(
+        self, brightness: Float64Array, reference: Float64Array
+    ) -> EventFrame:
         """Eq. 5."""
         return generate_event_frame(
             brightness,
-            interval.reference,
+            reference,
             threshold=self._config.contrast_threshold,
             multi_event=self._config.multi_event,
         )
@@ -117,14 +126,6 @@ class DensePixels:
                 frame.luma, noise.pixel, events.pixel, intensity=config.noise_intensity
             )
         )
-
-    def _without_voltage_noise(
-        self, events: EventFrame, brightness: Float64Array, interval: SubInterval
-    ) -> EventFrame:
-        """What would have fired without Gaussian noise: only this renews the reference."""
-        if self._config.noise != "gaussian":
-            return events
-        return self._generate_event_frame(brightness, interval)
 
     def _reconstruct_timestamps(
         self, events: EventFrame, signal: EventFrame, interval: SubInterval

@@ -6,23 +6,35 @@ Every rule gives a fraction 0..1 of the sub-interval per event; `place_in` makes
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.packets.interval import place_in
+from texvent.simulate.packets.interval import FrameInterval, place_in
 from texvent.simulate.random.draws import Purpose, draw_uniforms
 from texvent.simulate.texvent.event_frame import ThresholdCrossings
-from texvent.simulate.texvent.sub_interval import FiredPixels
 
 TimestampRule = Literal["eq7", "random", "linear", "hyperbolic", "even", "end"]
 Float64Array = NDArray[np.float64]
 
 
+class SubInterval(NamedTuple):
+    """Time between two neighbouring frames, and the brightness of the pixels that fired in it."""
+
+    span: FrameInterval
+    """Time of both frames, and the key of the random draws between them."""
+    width: int
+    """Of the frame, pixels."""
+    pixel: NDArray[np.int64]
+    """[n] flat index y · W + x of the pixels that fired, ascending."""
+    brightness: tuple[Float64Array, Float64Array, Float64Array]
+    """Previous brightness, brightness and reference of each, [n] log units."""
+
+
 def reconstruct_timestamps(
     crossings: ThresholdCrossings,
-    interval: FiredPixels,
+    interval: SubInterval,
     *,
     timestamp_rule: TimestampRule,
     threshold: float,
@@ -72,7 +84,7 @@ def larger_change_earlier(change: Float64Array) -> Float64Array:
 
 
 def random_time(
-    crossings: ThresholdCrossings, interval: FiredPixels, threshold: float
+    crossings: ThresholdCrossings, interval: SubInterval, threshold: float
 ) -> Float64Array:
     """Uniform in the sub-interval: the paper's ablation E12."""
     y, x = np.divmod(crossings.pixel, interval.width)
@@ -80,7 +92,7 @@ def random_time(
 
 
 def linear_crossing(
-    crossings: ThresholdCrossings, interval: FiredPixels, threshold: float
+    crossings: ThresholdCrossings, interval: SubInterval, threshold: float
 ) -> Float64Array:
     """When a straight line from the previous brightness to this one crosses the k-th threshold.
 
@@ -89,7 +101,8 @@ def linear_crossing(
 
     Source: ESIM (Rebecq, Gehrig and Scaramuzza, CoRL 2018).
     """
-    start, stop, reference = interval.at(crossings.pixel)
+    row = np.searchsorted(interval.pixel, crossings.pixel)
+    start, stop, reference = (column[row] for column in interval.brightness)
     sign = np.sign(crossings.change)
     level = reference + sign * (crossings.order * threshold)
     is_over = sign * (start - level) >= 0
@@ -100,27 +113,27 @@ def linear_crossing(
 
 
 def hyperbolic_crossing(
-    crossings: ThresholdCrossings, interval: FiredPixels, threshold: float
+    crossings: ThresholdCrossings, interval: SubInterval, threshold: float
 ) -> Float64Array:
     """When a ramp that starts at the reference crosses the k-th threshold: kδ / Δ."""
     return np.minimum(crossings.order * threshold / np.abs(crossings.change), 1.0)
 
 
 def even_spacing(
-    crossings: ThresholdCrossings, interval: FiredPixels, threshold: float
+    crossings: ThresholdCrossings, interval: SubInterval, threshold: float
 ) -> Float64Array:
     """The k-th of n events of a pixel at k / n."""
     return np.asarray(crossings.order / crossings.number)
 
 
 def interval_end(
-    crossings: ThresholdCrossings, interval: FiredPixels, threshold: float
+    crossings: ThresholdCrossings, interval: SubInterval, threshold: float
 ) -> Float64Array:
     """All events at the end, as an event frame has them."""
     return np.ones(crossings.pixel.shape)
 
 
-_RULES: Mapping[str, Callable[[ThresholdCrossings, FiredPixels, float], Float64Array]] = {
+_RULES: Mapping[str, Callable[[ThresholdCrossings, SubInterval, float], Float64Array]] = {
     "random": random_time,
     "linear": linear_crossing,
     "hyperbolic": hyperbolic_crossing,

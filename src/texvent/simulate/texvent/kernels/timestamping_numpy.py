@@ -13,8 +13,7 @@ from texvent.simulate.texvent.kernels.noise_blocks import NoisePlaces
 from texvent.simulate.texvent.kernels.scan import Fired, join_fired
 from texvent.simulate.texvent.kernels.timestamping import Timing
 from texvent.simulate.texvent.noise import is_background
-from texvent.simulate.texvent.sub_interval import SparseInterval
-from texvent.simulate.texvent.timestamps import reconstruct_timestamps
+from texvent.simulate.texvent.timestamps import SubInterval, reconstruct_timestamps
 
 
 def timestamp_events(
@@ -38,7 +37,7 @@ def timestamp_events(
     crossings = list_threshold_crossings(EventFrame(fired.pixel, fired.change, number))
     t = reconstruct_timestamps(
         crossings,
-        SparseInterval(span, shape[1], fired.pixel, (fired.start, fired.stop, fired.reference)),
+        SubInterval(span, shape[1], fired.pixel, (fired.start, fired.stop, fired.reference)),
         timestamp_rule=timing.timestamp_rule,
         threshold=timing.threshold,
         scale=timing.scale,
