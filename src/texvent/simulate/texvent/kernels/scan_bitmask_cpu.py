@@ -23,20 +23,24 @@ LARGEST_FLOAT = np.finfo(np.float32).max.view(np.uint32)
 FEW = 6
 """Up to so many candidates of a run are looked up one by one; of more, trigger levels first leave
 out those that cannot fire, as in moving texture most cannot."""
-_0, _RUN = np.uint64(0), np.uint64(RUN)
+_0, _RUN, _BYTE = np.uint64(0), np.uint64(RUN), np.dtype(np.uint8)
 
 
 @jit
-def mark_bytes(frame: ByteArray, reference: ByteArray, levels: ScanLevels) -> MarkedRuns:
-    """Mark pixels whose bytes differ by `levels.least` or more.
+def mark_pixels(frame: Intensity, reference: Intensity, levels: ScanLevels) -> MarkedRuns:
+    """Mark pixels at or beyond their trigger levels, and other bytes that differ enough.
 
-    Where many of a run do, only those at or beyond their trigger levels.
+    Bytes are marked that differ by `levels.least` or more, as long as they are few of a run.
     """
-    is_marked, least = make_flags(frame.size), levels.least
+    is_marked, is_bytes = make_flags(frame.size), frame.dtype == _BYTE
     for number in range(frame.size // RUN):
         first, is_any = number * RUN, np.uint8(0)
         for i in range(first, first + RUN):
-            is_any |= _differs(frame[i], reference[i], least)
+            # The type is known when this is compiled, so there is no branch.
+            if is_bytes:
+                is_any |= _differs(frame[i], reference[i], levels.least)
+            else:
+                is_any |= _is_beyond(frame[i], reference[i], levels)
         is_marked[number] = is_any
     run = list_marked_runs(is_marked)
     bits, word = np.empty(run.size, np.uint64), np.empty(RUN // 8, np.uint64)
@@ -46,29 +50,8 @@ def mark_bytes(frame: ByteArray, reference: ByteArray, levels: ScanLevels) -> Ma
             bits[k] = _bits_of_rest(frame, reference, levels)
             continue
         first_pixel = np.uint64(run[k]) * _RUN
-        if _mark_bytes(frame, reference, first_pixel, least, mark) > FEW:
+        if not is_bytes or _mark_bytes(frame, reference, first_pixel, levels.least, mark) > FEW:
             _mark_levels(frame, reference, first_pixel, levels, mark)
-        bits[k] = as_bits(word)
-    return MarkedRuns(run, bits)
-
-
-@jit
-def mark_levels(frame: Intensity, reference: Intensity, levels: ScanLevels) -> MarkedRuns:
-    """Mark pixels at or beyond their trigger levels."""
-    is_marked = make_flags(frame.size)
-    for number in range(frame.size // RUN):
-        first, is_any = number * RUN, np.uint8(0)
-        for i in range(first, first + RUN):
-            is_any |= _is_beyond(frame[i], reference[i], levels)
-        is_marked[number] = is_any
-    run = list_marked_runs(is_marked)
-    bits, word = np.empty(run.size, np.uint64), np.empty(RUN // 8, np.uint64)
-    mark = word.view(np.uint8)
-    for k in range(run.size):
-        if (run[k] + 1) * RUN > frame.size:
-            bits[k] = _bits_of_rest(frame, reference, levels)
-            continue
-        _mark_levels(frame, reference, np.uint64(run[k]) * _RUN, levels, mark)
         bits[k] = as_bits(word)
     return MarkedRuns(run, bits)
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
 from texvent.runtime.read_only import read_only
-from texvent.simulate.crossing.bitmask_cpu import RUN, MarkedRuns, number_of
+from texvent.simulate.crossing.bitmask_cpu import RUN, number_of
 from texvent.simulate.random.draws_cpu import allow_wrap_around
 from texvent.simulate.texvent.kernels import scan_numpy
 from texvent.simulate.texvent.kernels.scan import (
@@ -29,8 +29,7 @@ from texvent.simulate.texvent.kernels.scan import (
 from texvent.simulate.texvent.kernels.scan_bitmask_cpu import (
     LARGEST_FLOAT,
     largest_word,
-    mark_bytes,
-    mark_levels,
+    mark_pixels,
 )
 
 Int64Array = NDArray[np.int64]
@@ -79,13 +78,12 @@ def find_fired(
     arrays = ScanArrays(frame, memory.reference, renewed, memory.previous)
     if not memory.table.size:
         return _find_fired_floats(arrays, memory, levels, rule)
-    fire = _fire_bytes if frame.dtype == np.uint8 else _fire_words
     table, fired = memory.table, work.fired
     if table.flags.writeable:
         # Of a copied simulator; Numba would compile for it again.
         table = memory.table = read_only(table)
     with allow_wrap_around():
-        found = fire(arrays, table, levels, rule.threshold, fired)
+        found = _fire_integers(arrays, table, levels, rule.threshold, fired)
     if rule.is_renewed:
         memory.reference, memory.renewed = memory.renewed, memory.reference
     return fired.first(found)
@@ -205,7 +203,7 @@ def _find_candidates(arrays: ScanArrays, levels: ScanLevels, pixel: Int64Array) 
         frame, reference = arrays.frame[first:last], arrays.reference[first:last]
         if largest_word(frame.view(np.uint32)) > LARGEST_FLOAT:
             return -1
-        runs, words = mark_levels(frame, reference, levels)
+        runs, words = mark_pixels(frame, reference, levels)
         for k in range(runs.size):
             bits = words[k]
             while bits != _0:
@@ -219,12 +217,12 @@ def _find_candidates(arrays: ScanArrays, levels: ScanLevels, pixel: Int64Array) 
 
 @jit
 def _fire_integers(
-    arrays: ScanArrays, marks: MarkedRuns, table: Float64Array, threshold: float, out: Fired
+    arrays: ScanArrays, table: Float64Array, levels: ScanLevels, threshold: float, out: Fired
 ) -> int:
-    """Let the marked pixels of uint8 or uint16 frames fire; how many did."""
+    """Let the pixels of uint8 or uint16 frames fire; how many did."""
     frame, reference, renewed, previous = arrays
     pixel, change, start, stop, at_start = out
-    runs, words = marks
+    runs, words = mark_pixels(frame, reference, levels)
     is_renewed, has_line, found = renewed.size > 0, previous.size > 0, 0
     for k in range(runs.size):
         bits = words[k]
@@ -244,24 +242,6 @@ def _fire_integers(
     _copy(frame, renewed)
     _copy(frame, previous)
     return found
-
-
-@jit
-def _fire_bytes(
-    arrays: ScanArrays, table: Float64Array, levels: ScanLevels, threshold: float, out: Fired
-) -> int:
-    """Let the pixels of uint8 frames fire; how many did."""
-    marks = mark_bytes(arrays.frame, arrays.reference, levels)
-    return _fire_integers(arrays, marks, table, threshold, out)
-
-
-@jit
-def _fire_words(
-    arrays: ScanArrays, table: Float64Array, levels: ScanLevels, threshold: float, out: Fired
-) -> int:
-    """Let the pixels of uint16 frames fire; how many did."""
-    marks = mark_levels(arrays.frame, arrays.reference, levels)
-    return _fire_integers(arrays, marks, table, threshold, out)
 
 
 @jit
