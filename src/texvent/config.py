@@ -9,11 +9,13 @@ the fields, `options/values.py` converts their values.
 
 from __future__ import annotations
 
+import typing
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 from typing import Literal
 
+from texvent._registry import suggest
 from texvent.errors import ConfigError
 from texvent.options.fields import renamed
 
@@ -27,6 +29,18 @@ def check_range(name: str, value: float, low: float, high: float = float("inf"))
     if not low <= value <= high:
         allowed = f"at least {low:g}" if high == float("inf") else f"{low:g}..{high:g}"
         raise ConfigError(f"{name} is {value:g}; it must be {allowed}")
+
+
+def check_choices(config: object) -> None:
+    """Refuse an option of type `Literal` that has none of the values it lists.
+
+    Raises:
+        ConfigError: with the option's name, its value and what is allowed.
+    """
+    for name, hint in typing.get_type_hints(type(config)).items():
+        value, allowed = getattr(config, name), typing.get_args(hint)
+        if typing.get_origin(hint) is Literal and value not in allowed:
+            raise ConfigError(f"{name} is {value!r}; {suggest(str(value), allowed)}")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -85,13 +85,10 @@ class StreamingSimulator(SteppingSimulator, Generic[Config]):
         self._checker.check(frame)
         if self._first_us is None:
             self._first_us = self._last_us = frame.t_us
-        interval = self._interval(frame.t_us)
+        key = frame_key(self._seed, frame.t_us - self._first_us)
+        interval = FrameInterval(self._last_us, frame.t_us, key)
         self._last_us = frame.t_us
         return interval
-
-    def _interval(self, stop_us: int) -> FrameInterval:
-        key = frame_key(self._seed, stop_us - (self._first_us or 0))
-        return FrameInterval(self._last_us, stop_us, key)
 
     @abc.abstractmethod
     def _begin(self, intensity: IntensityArray) -> None:

@@ -49,6 +49,14 @@ def list_marked(
 
 
 @jit
+def grown(array: NDArray[Any], room: int) -> NDArray[Any]:
+    """The same elements, with room for more."""
+    larger = np.empty(room, array.dtype)
+    larger[: array.size] = array
+    return larger
+
+
+@jit
 def append_by_lane(
     events: Uint64Array, count: NDArray[np.int64], keys: Uint64Array, found: int
 ) -> tuple[Uint64Array, int]:
@@ -64,9 +72,7 @@ def append_by_lane(
         The list, a longer one if there was no room, and how many keys there are now.
     """
     if found + events.shape[1] > keys.size:
-        larger = np.empty(2 * (found + events.shape[1]), np.uint64)
-        larger[:found] = keys[:found]
-        keys = larger
+        keys = grown(keys, 2 * (found + events.shape[1]))
     for lane in range(count.size):
         own = count[lane]
         count[lane] = found

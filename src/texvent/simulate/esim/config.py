@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from texvent.config import check_range
-from texvent.errors import ConfigError
-from texvent.simulate.random.mismatch import check_nominal_thresholds
+from texvent.config import check_choices, check_range
+from texvent.simulate.random.mismatch import check_nominal_thresholds, smaller_threshold
+
+WHITE = 255.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,7 +37,14 @@ class EsimConfig:
         check_nominal_thresholds(self)
         check_range("log_eps", self.log_eps, 1e-9, 1.0)
         check_range("refractory_period_us", self.refractory_period_us, 0, 10**9)
-        if self.threshold_redraw not in ("frame", "never"):
-            raise ConfigError(
-                f"threshold_redraw is {self.threshold_redraw!r}; allowed: frame, never"
-            )
+        check_choices(self)
+
+    @property
+    def contrast_threshold(self) -> float:
+        """The smaller threshold, log units: δ that Eq. 4 should count with."""
+        return smaller_threshold(self)
+
+    @property
+    def balance(self) -> float:
+        """`255 · log_eps`, the α with which Eq. 4's logarithm is the model's own."""
+        return WHITE * self.log_eps

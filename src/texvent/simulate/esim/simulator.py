@@ -19,7 +19,7 @@ from texvent.pairs.frame_pair import FramePair
 from texvent.simulate.backend.select import AUTO, GPU
 from texvent.simulate.crossing.ramp import RefractoryPeriod
 from texvent.simulate.crossing.trigger_levels import LOOK_UP, BrightnessCurve, TriggerLevels
-from texvent.simulate.esim.config import EsimConfig
+from texvent.simulate.esim.config import WHITE, EsimConfig
 from texvent.simulate.esim.crossings import CROSS_THRESHOLDS, RampPixels
 from texvent.simulate.fused.candidates import find_bounds, one_grid
 from texvent.simulate.fused.continuous import plan_segments
@@ -35,7 +35,6 @@ from texvent.simulate.random.mismatch import (
     Thresholds,
     draw_threshold_pair_at,
     sensor_thresholds,
-    smaller_threshold,
     thresholds_at,
 )
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
@@ -43,7 +42,6 @@ from texvent.video import Frame
 
 __all__ = ["EsimConfig", "EsimSimulator"]
 
-WHITE = 255.0
 FLOOR = Thresholds(np.array([LOWEST_THRESHOLD]), np.array([LOWEST_THRESHOLD]))
 """The lowest that are ever drawn, for all pixels."""
 
@@ -105,12 +103,12 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
     @property
     def contrast_threshold(self) -> float:
         """The smaller threshold, log units."""
-        return smaller_threshold(self.config)
+        return self.config.contrast_threshold
 
     @property
     def balance(self) -> float:
         """`255 · log_eps`: with it, Eq. 4's logarithm is the model's own."""
-        return WHITE * self.config.log_eps
+        return self.config.balance
 
     def reset(self) -> None:
         """Forget all frames: the next one is the first."""
@@ -124,7 +122,7 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         rules = CrossingRules(
             config.contrast_threshold_on, config.contrast_threshold_off, config.refractory_period_us
         )
-        scale = LogScale(self._log_intensity, balance=WHITE * config.log_eps, unit=WHITE)
+        scale = LogScale(self._log_intensity, balance=config.balance, unit=WHITE)
         self._segments = SegmentPixels(rules, scale)
         self._triggers: TriggerLevels | None = None
 
@@ -209,7 +207,7 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         self, intensity: IntensityArray, of_luma: Float64Array | None = None
     ) -> TriggerLevels:
         """The trigger levels of all pixels; arguments as for `TriggerLevels.set_all`."""
-        curve = BrightnessCurve(WHITE, -WHITE * self.config.log_eps)
+        curve = BrightnessCurve(WHITE, -self.config.balance)
         triggers = TriggerLevels(intensity, curve, backend=self._backend)
         triggers.set_all(self._references.reference, self._fixed, of_luma=of_luma)
         return triggers

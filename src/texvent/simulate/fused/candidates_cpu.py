@@ -23,6 +23,7 @@ from texvent.pairs.warp_cpu import (
 )
 from texvent.runtime.jit import jit
 from texvent.runtime.read_only import read_only
+from texvent.simulate.backend.lanes_cpu import grown
 from texvent.simulate.crossing.trigger_levels import MARGIN
 from texvent.simulate.fused.bounds_cpu import find_bounds, list_active
 from texvent.simulate.fused.definitions import (
@@ -330,14 +331,15 @@ def _columns(size: int) -> Columns:
 @jit
 def _grown(columns: Columns, least: int) -> Columns:
     """The same columns with more room."""
-    size = columns[0].size
-    larger = _columns(2 * size + least)
-    larger[0][:size] = columns[0]
-    larger[1][:size] = columns[1]
-    larger[2][:size] = columns[2]
-    larger[3][:size] = columns[3]
-    larger[4][:size] = columns[4]
-    return larger
+    pixel, grid, segment, before, now = columns
+    room = 2 * pixel.size + least
+    return (
+        grown(pixel, room),
+        grown(grid, room),
+        grown(segment, room),
+        grown(before, room),
+        grown(now, room),
+    )
 
 
 @jit

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
+from texvent.simulate.backend.lanes_cpu import grown
 from texvent.simulate.fused.segments import CrossingRules, CrossingState, SegmentCrossings, Segments
 
 Events = tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.uint8]]
@@ -33,7 +34,12 @@ def _cross(segments: Segments, rules: CrossingRules, state: CrossingState) -> tu
     # Unpacked once: Numba counts references to every array that it takes out of a tuple.
     pixel, starts, stops, befores, nows = segments
     reference, fired_us = state
-    rows, times, polarities = _events(2 * pixel.size)
+    room = 2 * pixel.size
+    rows, times, polarities = (
+        np.empty(room, np.int64),
+        np.empty(room, np.int64),
+        np.empty(room, np.uint8),
+    )
     found = 0
     for k in range(pixel.size):
         i, start_us, stop_us = pixel[k], starts[k], stops[k]
@@ -45,7 +51,8 @@ def _cross(segments: Segments, rules: CrossingRules, state: CrossingState) -> tu
         while last >= (passed + 1) * threshold:
             passed += 1
         if found + passed > rows.size:
-            rows, times, polarities = _grown((rows, times, polarities), passed)
+            room = 2 * rows.size + passed
+            rows, times, polarities = grown(rows, room), grown(times, room), grown(polarities, room)
         for number in range(1, passed + 1):
             level = number * threshold
             fraction = (level - first) / (last - first) if first < level else 0.0
@@ -58,19 +65,3 @@ def _cross(segments: Segments, rules: CrossingRules, state: CrossingState) -> tu
             found += 1
         reference[i] += sign * passed * threshold
     return found, (rows, times, polarities)
-
-
-@jit
-def _events(size: int) -> Events:
-    return np.empty(size, np.int64), np.empty(size, np.int64), np.empty(size, np.uint8)
-
-
-@jit
-def _grown(events: Events, least: int) -> Events:
-    """The same events with more room."""
-    size = events[0].size
-    larger = _events(2 * size + least)
-    larger[0][:size] = events[0]
-    larger[1][:size] = events[1]
-    larger[2][:size] = events[2]
-    return larger

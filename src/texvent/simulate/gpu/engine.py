@@ -67,18 +67,18 @@ class GpuSimulator:
         """
         self.config = config if config is not None else TexventConfig()
         self._seed = seed
-        self._model = _make_pixels(self.config, _seeds_of(seed, None))
+        _make_pixels(self.config, _seeds_of(seed, None))  # refuses what it cannot run
         self.reset()
 
     @property
     def contrast_threshold(self) -> float:
         """δ that Eq. 4 should count with, log units; as `protocol.Simulator` has it."""
-        return self._model.contrast_threshold
+        return self.config.contrast_threshold
 
     @property
     def balance(self) -> float:
         """α that Eq. 4 should count with, on the 0..255 scale; as `protocol.Simulator` has it."""
-        return self._model.balance
+        return self.config.balance
 
     def reset(self) -> None:
         """Forget all frames: the next ones begin new clips."""

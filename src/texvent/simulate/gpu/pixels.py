@@ -29,16 +29,6 @@ class GpuPixels(abc.ABC, Generic[Config]):
         self._launch = choose_launch_size(launch)
 
     @property
-    @abc.abstractmethod
-    def contrast_threshold(self) -> float:
-        """The smallest contrast threshold, log units."""
-
-    @property
-    @abc.abstractmethod
-    def balance(self) -> float:
-        """α that Eq. 4 should count with, on the 0..255 scale."""
-
-    @property
     def block(self) -> int:
         """Pixels of a program of `find_events`."""
         return self._launch.block

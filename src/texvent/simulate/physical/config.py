@@ -7,8 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from texvent.config import check_range
-from texvent.errors import ConfigError
+from texvent.config import check_choices, check_range
 from texvent.simulate.physical.noise_curve import DAVIS346_NOISE, parse_noise_curve
 from texvent.simulate.physical.readout import ReadoutRules
 from texvent.simulate.random.mismatch import LOWEST_THRESHOLD
@@ -84,8 +83,7 @@ class PhysicalConfig:
     def __post_init__(self) -> None:
         for name, (low, high) in RANGES.items():
             check_range(name, getattr(self, name), low, high)
-        if self.initial_phase not in ("random", "zero"):
-            raise ConfigError(f"initial_phase is {self.initial_phase!r}; allowed: random, zero")
+        check_choices(self)
         if self.sensor_seed is not None:
             check_range("sensor_seed", self.sensor_seed, 0, 2**63 - 1)
         parse_noise_curve(self.noise_curve)

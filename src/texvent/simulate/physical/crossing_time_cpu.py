@@ -17,7 +17,6 @@ from texvent.simulate.physical.crossing_time_reference import (
     MOST_STEPS,
     NEGLIGIBLE,
     NEVER,
-    ChangeCurve,
     Float64Array,
 )
 
@@ -33,17 +32,6 @@ ROWS = 16
 TARGET, START, END, KEPT_FIRST, KEPT_LAST, FIRST, LAST, U, UNSOLVED = range(4, 13)
 """Rows of lanes that are solved for, besides the first four: the arc, see
 `crossing_time_reference._Arc`, and the state of the solution."""
-
-
-def time_to_threshold(
-    curve: ChangeCurve, on: Float64Array, off: Float64Array
-) -> tuple[Float64Array, NDArray[np.uint8]]:
-    """See `crossing_time_reference.time_to_threshold`."""
-    rows = np.empty((ROWS, len(on)))
-    rows[:8] = (*curve, on, off)
-    with np.errstate(all="ignore"):
-        find_crossings(rows, np.empty((ROWS, len(on))), np.empty(len(on), np.int64), len(on))
-    return rows[WAIT], rows[RISES].astype(np.uint8)
 
 
 @jit(error_model="numpy")

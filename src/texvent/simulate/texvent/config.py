@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import typing
 from dataclasses import dataclass
-from typing import Literal
 
-from texvent._registry import suggest
-from texvent.config import check_range
+from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError
 from texvent.options.fields import renamed
 from texvent.simulate.texvent.brightness_cache import CachePolicy, ResetRule
@@ -75,7 +72,7 @@ class TexventConfig:
         check_range("noise_intensity", self.noise_intensity, 0.0, 1e6)
         check_range("noise_on_fraction", self.noise_on_fraction, 0.0, 1.0)
         check_range("timestamp_scale", self.timestamp_scale, 1e-6, 1.0)
-        self._check_choices()
+        check_choices(self)
         if self.cache_reset_pairs > 0 and self.cache in ("local", "none"):
             raise ConfigError(
                 f"cache_reset_pairs is {self.cache_reset_pairs}, but cache {self.cache!r} forgets "
@@ -87,13 +84,6 @@ class TexventConfig:
                 "fire several times; use timestamp_rule 'linear', 'hyperbolic', 'even', 'random' "
                 "or 'end'"
             )
-
-    def _check_choices(self) -> None:
-        for name, hint in typing.get_type_hints(type(self)).items():
-            allowed = typing.get_args(hint)
-            if typing.get_origin(hint) is Literal and getattr(self, name) not in allowed:
-                value = getattr(self, name)
-                raise ConfigError(f"{name} is {value!r}; {suggest(str(value), allowed)}")
 
     @property
     def reset_step(self) -> float | None:

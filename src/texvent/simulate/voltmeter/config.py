@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from texvent.config import check_range
-from texvent.errors import ConfigError
+from texvent.config import check_choices, check_range
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,8 +42,7 @@ class VoltmeterConfig:
         check_range("k4", self.k4, -0.01, 0.01)
         check_range("k5", self.k5, -1e-4, 1e-4)
         check_range("k6", self.k6, 0.0, 0.1)
-        if self.start_voltage not in ("random", "zero"):
-            raise ConfigError(f"start_voltage is {self.start_voltage!r}; allowed: random, zero")
+        check_choices(self)
 
 
 PRESETS: Mapping[str, VoltmeterConfig] = {

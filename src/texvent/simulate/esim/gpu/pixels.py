@@ -9,7 +9,7 @@ import numpy as np
 from texvent._require import require
 from texvent.errors import ConfigError
 from texvent.simulate.esim.gpu import crossings_triton, rules
-from texvent.simulate.esim.simulator import WHITE, EsimConfig, log_intensity
+from texvent.simulate.esim.simulator import EsimConfig, log_intensity
 from texvent.simulate.gpu.device import EXTRA, LAUNCH
 from texvent.simulate.gpu.intervals import Int64Array, Span
 from texvent.simulate.gpu.kernel_types import FORGET, KEEP, Call, PassCounts, Records, Tensor
@@ -21,12 +21,7 @@ from texvent.simulate.gpu.launch import (
     to_device,
 )
 from texvent.simulate.gpu.pixels import GpuPixels
-from texvent.simulate.random.mismatch import (
-    LONG_AGO_US,
-    draw_threshold_pair,
-    sensor_key,
-    smaller_threshold,
-)
+from texvent.simulate.random.mismatch import LONG_AGO_US, draw_threshold_pair, sensor_key
 
 _BLOCK = 512
 RAMP_LAUNCH = LaunchSize(512, 4)
@@ -47,16 +42,6 @@ class EsimPixels(GpuPixels[EsimConfig]):
         """
         check_options(config)
         super().__init__(config, seeds, RAMP_LAUNCH)
-
-    @property
-    def contrast_threshold(self) -> float:
-        """The smallest contrast threshold, log units."""
-        return smaller_threshold(self.config)
-
-    @property
-    def balance(self) -> float:
-        """`255 · log_eps`: with it, Eq. 4's logarithm is the model's own."""
-        return WHITE * self.config.log_eps
 
     def begin(self, frames: Tensor) -> None:
         """See `GpuPixels`."""

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from texvent.simulate.esim import simulator as esim
+from texvent.simulate.esim import config
 from texvent.simulate.gpu.kernel_types import Tensor
 
 THRESHOLD_ON, THRESHOLD_OFF, LOG_EPS = range(3)
 """Where each number lies in `EsimRules.numbers`."""
-WHITE = esim.WHITE
+WHITE = config.WHITE
 
 
 class EsimRules(NamedTuple):

@@ -57,16 +57,6 @@ class TexventPixels(GpuPixels[TexventConfig]):
         )
         self._pairs_seen = np.zeros((len(seeds), 1), np.int64)
 
-    @property
-    def contrast_threshold(self) -> float:
-        """The smallest contrast threshold, log units."""
-        return self.config.contrast_threshold
-
-    @property
-    def balance(self) -> float:
-        """α, on the 0..255 scale."""
-        return self.config.balance
-
     def begin(self, frames: Tensor) -> None:
         """See `GpuPixels`."""
         torch = require("torch", extra=EXTRA)
