@@ -107,7 +107,7 @@ def without(tensors, name):
         (lambda t: {**t, "UNet.extra": np.zeros(2)}, r"unknown UNet\.extra"),
         (
             lambda t: {**t, "UNet.pred.conv3d.bias": np.zeros(10, np.float32)},
-            r"UNet\.pred\.conv3d\.bias has shape \[10\]; it must be \[20\]",
+            r"has UNet\.pred\.conv3d\.bias of shape \[10\] instead of \[20\]",
         ),
         (
             lambda t: {**t, "UNet.head.conv3d.bias": np.full(2, np.nan, np.float32)},

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import abc
 from collections.abc import Sequence
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
+from texvent.simulate.gpu.device import LAUNCH
 from texvent.simulate.gpu.intervals import Int64Array, Span
 from texvent.simulate.gpu.kernel_types import Call, PassCounts, Records, Tensor
-from texvent.simulate.gpu.launch import LaunchSize, choose_launch_size
+from texvent.simulate.gpu.launch import LaunchSize, choose_launch_size, pixel_grid
 
 Config = TypeVar("Config")
 
@@ -48,9 +49,25 @@ class GpuPixels(abc.ABC, Generic[Config]):
     def advance(self, span: Span) -> None:
         """Update what is kept on the host after a call; nothing by default."""
 
-    @abc.abstractmethod
     def find_events(self, call: Call, tally: PassCounts, records: Records | None) -> None:
         """Count the events of all intervals (`records` None), or write them and move on."""
+        kernel, rules, state = self._scan(call)
+        kernel[pixel_grid(call, self.block)](
+            call.frames,
+            call.intervals,
+            rules,
+            state,
+            tally,
+            records,
+            ALIGN=call.align,
+            BLOCK=self.block,
+            num_warps=self._launch.warps,
+            **LAUNCH,
+        )
+
+    @abc.abstractmethod
+    def _scan(self, call: Call) -> tuple[Any, Any, Any]:
+        """The kernel that finds events, the rules it reads and the state it moves along."""
 
     @abc.abstractmethod
     def records(self, count: int) -> Records:

@@ -8,7 +8,14 @@ from typing import Any
 
 from texvent._require import require
 from texvent.errors import ConfigError, FileFormatError, InputError
-from texvent.runtime.network_files import Tensor, check_finite, read_mapping
+from texvent.runtime.network_files import (
+    Tensor,
+    check_finite,
+    describe_mismatch,
+    named_tensors,
+    read_mapping,
+    shapes_of,
+)
 from texvent.simulate.v2ce.layout import (
     BATCH_COUNTER,
     HEAD,
@@ -61,18 +68,14 @@ def read_weights(path: Path, device: str) -> dict[str, Tensor]:
             another shape.
         MissingDependencyError: torch is not installed.
     """
-    tensors = _strip_prefix(_read_state(path), path)
-    width = getattr(tensors[FIRST_TENSOR], "shape", (0,))[0]
-    expected = tensor_shapes(width)
-    _check_names(tensors, expected, path)
-    for name, shape in expected.items():
-        if name in tensors and tuple(tensors[name].shape) != shape:
-            raise FileFormatError(
-                f"{path}: {name} has shape {list(tensors[name].shape)}; it must be {list(shape)}. "
-                "The file is of another network"
-            )
-    kept = [name for name in expected if not name.endswith(BATCH_COUNTER)]
-    used = {name: tensors[name].float().to(device) for name in kept}
+    tensors = _strip_prefix(named_tensors(_read_state(path), extra="v2ce"), path)
+    expected = tensor_shapes(tensors[FIRST_TENSOR].shape[0])
+    needed = [name for name in expected if not name.endswith(BATCH_COUNTER)]
+    wanted = {name: expected[name] for name in expected if name in needed or name in tensors}
+    problem = describe_mismatch(shapes_of(tensors), wanted)
+    if problem is not None:
+        raise FileFormatError(f"{path} {problem}; it is not the layout of {FILE_NAME}")
+    used = {name: tensors[name].to(device) for name in needed}
     check_finite(used, path)
     return apply_spectral_norm(used)
 
@@ -102,19 +105,6 @@ def _strip_prefix(state: Mapping[str, Any], path: Path) -> dict[str, Any]:
         for name, tensor in state.items()
         if name.startswith(prefix)
     }
-
-
-def _check_names(tensors: Mapping[str, Any], expected: Mapping[str, Any], path: Path) -> None:
-    needed = {name for name in expected if not name.endswith(BATCH_COUNTER)}
-    for problem, names in (
-        ("lacks", needed - tensors.keys()),
-        ("has the unknown", tensors.keys() - expected.keys()),
-    ):
-        if names:
-            more = f" and {len(names) - 1} more" if len(names) > 1 else ""
-            raise FileFormatError(
-                f"{path} {problem} {min(names)}{more}; it is not the layout of {FILE_NAME}"
-            )
 
 
 def apply_spectral_norm(tensors: Mapping[str, Tensor]) -> dict[str, Tensor]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -12,11 +13,10 @@ from texvent.simulate.esim.gpu import crossings_triton, rules
 from texvent.simulate.esim.simulator import EsimConfig, log_intensity
 from texvent.simulate.gpu.device import EXTRA, LAUNCH
 from texvent.simulate.gpu.intervals import Int64Array, Span
-from texvent.simulate.gpu.kernel_types import FORGET, KEEP, Call, PassCounts, Records, Tensor
+from texvent.simulate.gpu.kernel_types import FORGET, KEEP, Call, Records, Tensor
 from texvent.simulate.gpu.launch import (
     LaunchSize,
     make_records,
-    pixel_grid,
     segment_grid,
     to_device,
 )
@@ -83,20 +83,8 @@ class EsimPixels(GpuPixels[EsimConfig]):
             policy[:, 0] = FORGET
         return policy
 
-    def find_events(self, call: Call, tally: PassCounts, records: Records | None) -> None:
-        """See `GpuPixels`."""
-        crossings_triton.scan_ramp[pixel_grid(call, self.block)](
-            call.frames,
-            call.intervals,
-            self._rules,
-            self._state,
-            tally,
-            records,
-            ALIGN=call.align,
-            BLOCK=self.block,
-            num_warps=self._launch.warps,
-            **LAUNCH,
-        )
+    def _scan(self, call: Call) -> tuple[Any, Any, Any]:
+        return crossings_triton.scan_ramp, self._rules, self._state
 
     def records(self, count: int) -> Records:
         """See `GpuPixels`."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -15,14 +16,12 @@ from texvent.simulate.gpu.kernel_types import (
     KEEP,
     LEAK,
     Call,
-    PassCounts,
     Records,
     Tensor,
 )
 from texvent.simulate.gpu.launch import (
     LaunchSize,
     make_records,
-    pixel_grid,
     segment_grid,
     to_device,
 )
@@ -101,26 +100,12 @@ class TexventPixels(GpuPixels[TexventConfig]):
         """Count the pairs of source frames."""
         self._pairs_seen += span.from_source.sum(axis=1, keepdims=True)
 
-    def find_events(self, call: Call, tally: PassCounts, records: Records | None) -> None:
-        """See `GpuPixels`."""
-        if self._tracks_intensity:
-            kernel = scan_triton.scan_levels
-            # Exact: float32 holds every byte.
-            self._reference = self._reference.to(call.frames.pixels.dtype)
-        else:
-            kernel = scan_triton.scan_brightness
-        kernel[pixel_grid(call, self.block)](
-            call.frames,
-            call.intervals,
-            self._rules,
-            self._reference,
-            tally,
-            records,
-            ALIGN=call.align,
-            BLOCK=self.block,
-            num_warps=self._launch.warps,
-            **LAUNCH,
-        )
+    def _scan(self, call: Call) -> tuple[Any, Any, Any]:
+        if not self._tracks_intensity:
+            return scan_triton.scan_brightness, self._rules, self._reference
+        # Exact: float32 holds every byte.
+        self._reference = self._reference.to(call.frames.pixels.dtype)
+        return scan_triton.scan_levels, self._rules, self._reference
 
     def records(self, count: int) -> Records:
         """See `GpuPixels`."""
