@@ -18,7 +18,6 @@ from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import TILE
 from texvent.scenes.raycast.records import World
 from texvent.scenes.raycast.shading.lighting import shade_hit
-from texvent.scenes.raycast.shading.sky import Colour
 from texvent.scenes.raycast.trace import (
     ROOM,
     SKY,
@@ -30,7 +29,8 @@ from texvent.scenes.raycast.trace import (
     surface_normal,
 )
 from texvent.scenes.raycast.uncounted import uncounted_world
-from texvent.scenes.scene import Float64Array
+from texvent.scenes.raycast.vectors import along, scaled, triple
+from texvent.scenes.scene import Colour, Float64Array
 
 _THIN = -(1 << 40)
 """Probe value that agrees with nothing: something thin is near."""
@@ -50,12 +50,8 @@ def _is_lit(world: World, x: float, y: float, hit: tuple[float, int, int]) -> tu
     depth, number, face = hit
     if number in (SKY, ROOM):
         return False, False
-    direction, origin = ray_direction(world.instant[0], x, y), world.instant[0].origin
-    point = (
-        origin[0] + depth * direction[0],
-        origin[1] + depth * direction[1],
-        origin[2] + depth * direction[2],
-    )
+    instant = world.instant[0]
+    point = along(triple(instant.origin), ray_direction(instant, x, y), depth)
     return sun_reaches(world, point, surface_normal(world, number, face, point))
 
 
@@ -78,12 +74,8 @@ def _soft_clip(light: float) -> float:
 
 @jit(error_model="numpy")
 def _expose(world: World, light: Colour) -> Colour:
-    exposure = world.instant[0].exposure
-    return (
-        _soft_clip(light[0] * exposure),
-        _soft_clip(light[1] * exposure),
-        _soft_clip(light[2] * exposure),
-    )
+    red, green, blue = scaled(light, world.instant[0].exposure)
+    return _soft_clip(red), _soft_clip(green), _soft_clip(blue)
 
 
 @jit(error_model="numpy")
@@ -168,11 +160,7 @@ def _find_edge(
 ) -> tuple[float, int]:
     """Where a line leaves the surface `probes[0]`, and what comes next.
 
-    Args:
-        world: the scene.
-        ends: where the line starts and stops.
-        low: where on it (0..1) that surface is known to be.
-        probes: that surface, and the one at the line's end.
+    `low` is where on the line (0..1) that surface is known to be; `probes[1]` is at its end.
     """
     high = 1.0
     by_surface = probes[0] >> 1 != probes[1] >> 1
@@ -205,16 +193,7 @@ def _add_line(
 ) -> int:
     """Add the pieces of a line between two lattice points to the surfaces they show.
 
-    Args:
-        world: the scene.
-        shares: as in `_add_share`.
-        count: surfaces so far.
-        ends: where the line starts and stops.
-        probes: what is there.
-        share: what the whole line stands for.
-
-    Returns:
-        The new number of surfaces.
+    `share` is what the whole line stands for. Returns the new number of surfaces.
     """
     start, stop = ends
     low, probe = 0.0, probes[0]
@@ -236,16 +215,10 @@ def _split_pixel(
 ) -> Colour:
     """Mean light over a pixel with an edge in it.
 
-    Args:
-        world: the scene.
-        column: pixel column.
-        row: pixel row.
-        probes: [k, k] what is at the lattice points in and around the pixel.
-        shares: scratch space, [any, 4].
-
-    The pixel is cut into lines between lattice points, in the direction that crosses more edges;
-    on each line the edge is found by bisection. So coverage grows continuously as an edge moves,
-    where counted samples would jump.
+    `probes` [k, k] is what is at the lattice points in and around the pixel, `shares` [any, 4]
+    scratch space. The pixel is cut into lines between lattice points, in the direction that
+    crosses more edges; on each line the edge is found by bisection. So coverage grows
+    continuously as an edge moves, where counted samples would jump.
     """
     last = len(probes) - 1
     across, down = 0, 0

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 
 from texvent.runtime.jit import jit
+from texvent.scenes.raycast.vectors import Vector, dot, on_axis
 
 FACE_SIDE = 0
 FACE_TOP = 1
@@ -18,13 +19,9 @@ _FLAT = 1e-300
 
 
 @jit(error_model="numpy")
-def hit_ellipsoid(
-    o: tuple[float, float, float], d: tuple[float, float, float], near: float
-) -> tuple[float, int]:
+def hit_ellipsoid(o: Vector, d: Vector, near: float) -> tuple[float, int]:
     """Where a ray enters the unit sphere: (parameter, face), (inf, 0) if it does not."""
-    a = d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
-    b = o[0] * d[0] + o[1] * d[1] + o[2] * d[2]
-    c = o[0] * o[0] + o[1] * o[1] + o[2] * o[2] - 1.0
+    a, b, c = dot(d, d), dot(o, d), dot(o, o) - 1.0
     discriminant = b * b - a * c
     if discriminant <= 0.0:
         return MISS, FACE_SIDE
@@ -35,9 +32,7 @@ def hit_ellipsoid(
 
 
 @jit(error_model="numpy")
-def hit_box(
-    o: tuple[float, float, float], d: tuple[float, float, float], near: float
-) -> tuple[float, int]:
+def hit_box(o: Vector, d: Vector, near: float) -> tuple[float, int]:
     """Where a ray enters the cube |x|, |y|, |z| <= 1; faces are 0..5 = -x, +x, -y, +y, -z, +z."""
     enter, leave, face = -MISS, MISS, 0
     for axis in range(3):
@@ -57,7 +52,7 @@ def hit_box(
 
 
 @jit(error_model="numpy")
-def _hit_disc(o: tuple[float, float, float], d: tuple[float, float, float], height: float) -> float:
+def _hit_disc(o: Vector, d: Vector, height: float) -> float:
     """Where a ray crosses the unit disc at z = `height`; inf if it passes by."""
     if d[2] == 0.0:
         return MISS
@@ -67,9 +62,7 @@ def _hit_disc(o: tuple[float, float, float], d: tuple[float, float, float], heig
 
 
 @jit(error_model="numpy")
-def hit_cylinder(
-    o: tuple[float, float, float], d: tuple[float, float, float], near: float
-) -> tuple[float, int]:
+def hit_cylinder(o: Vector, d: Vector, near: float) -> tuple[float, int]:
     """Where a ray enters x² + y² <= 1, |z| <= 1: side 0, top 1, bottom 2."""
     a = d[0] * d[0] + d[1] * d[1]
     b = o[0] * d[0] + o[1] * d[1]
@@ -91,9 +84,7 @@ def hit_cylinder(
 
 
 @jit(error_model="numpy")
-def hit_cone(
-    o: tuple[float, float, float], d: tuple[float, float, float], near: float
-) -> tuple[float, int]:
+def hit_cone(o: Vector, d: Vector, near: float) -> tuple[float, int]:
     """Where a ray enters the cone x² + y² <= ((1 - z) / 2)², |z| <= 1: side 0, base 2."""
     w, dw = 0.5 * (1.0 - o[2]), -0.5 * d[2]
     a = d[0] * d[0] + d[1] * d[1] - dw * dw
@@ -115,9 +106,7 @@ def hit_cone(
 
 
 @jit(error_model="numpy")
-def hit_shape(
-    shape: int, o: tuple[float, float, float], d: tuple[float, float, float], near: float
-) -> tuple[float, int]:
+def hit_shape(shape: int, o: Vector, d: Vector, near: float) -> tuple[float, int]:
     """Where the ray `o + t · d`, in unit-shape coordinates, enters the shape from outside.
 
     Args:
@@ -139,18 +128,12 @@ def hit_shape(
 
 
 @jit(error_model="numpy")
-def local_normal(
-    shape: int, face: int, p: tuple[float, float, float]
-) -> tuple[float, float, float]:
+def local_normal(shape: int, face: int, p: Vector) -> Vector:
     """Outward normal at point `p` of a unit shape, not normalised."""
     if shape == 1:
         sign = 1.0 if face % 2 == 1 else -1.0
         axis = face // 2
-        return (
-            sign if axis == 0 else 0.0,
-            sign if axis == 1 else 0.0,
-            sign if axis == 2 else 0.0,
-        )
+        return on_axis(axis, sign)
     if shape == 0:
         return p
     if face == FACE_TOP:

@@ -8,6 +8,17 @@ from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import NEAR_M, SUN_CELLS, TILE
 from texvent.scenes.raycast.intersect import hit_shape, local_normal
 from texvent.scenes.raycast.records import Record, World
+from texvent.scenes.raycast.vectors import (
+    Vector,
+    along,
+    dot,
+    mapped,
+    on_axis,
+    scaled,
+    times,
+    triple,
+    turned,
+)
 
 GROUND = -1
 SKY = -2
@@ -17,8 +28,6 @@ _NO_GROUND = 10
 _FLOOR = 6
 _SHADOW_BIAS_M = 2e-3
 """A shadow ray starts this far off the surface, so that rounding does not shade it."""
-
-Vector = tuple[float, float, float]
 
 
 @jit(error_model="numpy")
@@ -34,14 +43,8 @@ def ray_direction(rays: Record, x: float, y: float) -> Vector:
 @jit(error_model="numpy")
 def _hit_one(shape: Record, direction: Vector) -> tuple[float, int, Vector]:
     """Where a camera ray meets one shape: depth, face, and the local direction."""
-    m = shape.inverse
-    d = (
-        m[0, 0] * direction[0] + m[0, 1] * direction[1] + m[0, 2] * direction[2],
-        m[1, 0] * direction[0] + m[1, 1] * direction[1] + m[1, 2] * direction[2],
-        m[2, 0] * direction[0] + m[2, 1] * direction[1] + m[2, 2] * direction[2],
-    )
-    eye = shape.eye
-    t, face = hit_shape(shape.kind, (eye[0], eye[1], eye[2]), d, NEAR_M)
+    d = turned(shape.inverse, direction)
+    t, face = hit_shape(shape.kind, triple(shape.eye), d, NEAR_M)
     return t, face, d
 
 
@@ -53,12 +56,10 @@ def hit_again(world: World, x: float, y: float, number: int) -> tuple[float, int
 
 
 @jit(error_model="numpy")
-def _widened_hit(shape: Record, d: Vector) -> float:
-    """Depth at which a ray meets a thin shape, widened; inf if even that misses."""
-    s, eye = shape.shrink, shape.eye
-    wide_eye = (eye[0] * s[0], eye[1] * s[1], eye[2] * s[2])
-    wide_d = (d[0] * s[0], d[1] * s[1], d[2] * s[2])
-    return hit_shape(shape.kind, wide_eye, wide_d, NEAR_M)[0]
+def _widened_hit(shape: Record, o: Vector, d: Vector, near: float) -> float:
+    """Where the ray from `o` meets a thin shape, widened; inf if even that misses."""
+    s = triple(shape.shrink)
+    return hit_shape(shape.kind, times(o, s), times(d, s), near)[0]
 
 
 @jit(error_model="numpy")
@@ -86,7 +87,7 @@ def first_hit(world: World, x: float, y: float) -> tuple[float, int, int, bool]:
         if t < best:
             best, found, best_face = t, int(lists[index]), face
         if shape.is_thin:
-            thin = min(thin, _widened_hit(shape, d))
+            thin = min(thin, _widened_hit(shape, triple(shape.eye), d, NEAR_M))
     return best, found, best_face, thin < math.inf and thin <= best
 
 
@@ -126,19 +127,11 @@ def _blocked_in_cell(world: World, cell: int, point: Vector, place: Vector) -> t
             continue
         if place[1] < window[2] or place[1] > window[3]:
             continue
-        m, d = shape.inverse, shape.sun
-        o = (
-            m[0, 0] * point[0] + m[0, 1] * point[1] + m[0, 2] * point[2] + m[0, 3],
-            m[1, 0] * point[0] + m[1, 1] * point[1] + m[1, 2] * point[2] + m[1, 3],
-            m[2, 0] * point[0] + m[2, 1] * point[1] + m[2, 2] * point[2] + m[2, 3],
-        )
-        if hit_shape(shape.kind, o, (d[0], d[1], d[2]), 0.0)[0] < math.inf:
+        o, d = mapped(shape.inverse, point), triple(shape.sun)
+        if hit_shape(shape.kind, o, d, 0.0)[0] < math.inf:
             return True, thin
         if shape.is_thin and not thin:
-            s = shape.shrink
-            wide_o = (o[0] * s[0], o[1] * s[1], o[2] * s[2])
-            wide_d = (d[0] * s[0], d[1] * s[1], d[2] * s[2])
-            thin = hit_shape(shape.kind, wide_o, wide_d, 0.0)[0] < math.inf
+            thin = _widened_hit(shape, o, d, 0.0) < math.inf
     return False, thin
 
 
@@ -147,11 +140,7 @@ def sun_blocked(world: World, point: Vector) -> tuple[bool, bool]:
     """Whether a shape stands between a point and the sun, and whether a thin one is close to."""
     instant = world.instant[0]
     plane, sun, grid = instant.sun_plane, instant.sun, instant.sun_grid
-    place = (
-        plane[0, 0] * point[0] + plane[0, 1] * point[1] + plane[0, 2] * point[2],
-        plane[1, 0] * point[0] + plane[1, 1] * point[1] + plane[1, 2] * point[2],
-        sun[0] * point[0] + sun[1] * point[1] + sun[2] * point[2],
-    )
+    place = (dot(plane[0], point), dot(plane[1], point), dot(sun, point))
     column = math.floor((place[0] - grid[0]) * grid[2])
     row = math.floor((place[1] - grid[1]) * grid[3])
     thin = False
@@ -171,45 +160,23 @@ def surface_normal(world: World, number: int, face: int, point: Vector) -> Vecto
     if number == GROUND:
         return (0.0, 0.0, 1.0)
     if number == ROOM:
-        inward = -1.0 if point[face] > 0.0 else 1.0
-        return (
-            inward if face == 0 else 0.0,
-            inward if face == 1 else 0.0,
-            -1.0 if face == 2 else 0.0,
-        )
+        return on_axis(face, -1.0 if face == 2 or point[face] > 0.0 else 1.0)
     m = world.shapes[number].inverse
-    x, y, z = local_normal(world.shapes[number].kind, face, local_point(world, number, point))
-    nx = m[0, 0] * x + m[1, 0] * y + m[2, 0] * z
-    ny = m[0, 1] * x + m[1, 1] * y + m[2, 1] * z
-    nz = m[0, 2] * x + m[1, 2] * y + m[2, 2] * z
-    scale = 1.0 / math.sqrt(nx * nx + ny * ny + nz * nz + 1e-300)
-    return (nx * scale, ny * scale, nz * scale)
-
-
-@jit(error_model="numpy")
-def local_point(world: World, number: int, point: Vector) -> Vector:
-    """A world point in the unit-shape coordinates of shape `number`."""
-    m = world.shapes[number].inverse
-    return (
-        m[0, 0] * point[0] + m[0, 1] * point[1] + m[0, 2] * point[2] + m[0, 3],
-        m[1, 0] * point[0] + m[1, 1] * point[1] + m[1, 2] * point[2] + m[1, 3],
-        m[2, 0] * point[0] + m[2, 1] * point[1] + m[2, 2] * point[2] + m[2, 3],
+    x, y, z = local_normal(world.shapes[number].kind, face, mapped(m, point))
+    normal = (
+        m[0, 0] * x + m[1, 0] * y + m[2, 0] * z,
+        m[0, 1] * x + m[1, 1] * y + m[2, 1] * z,
+        m[0, 2] * x + m[1, 2] * y + m[2, 2] * z,
     )
+    return scaled(normal, 1.0 / math.sqrt(dot(normal, normal) + 1e-300))
 
 
 @jit(error_model="numpy")
 def sun_reaches(world: World, point: Vector, normal: Vector) -> tuple[bool, bool]:
     """Whether direct light falls on a surface, and whether a thin shape's shadow is near."""
-    sun = world.instant[0].sun
-    facing = sun[0] * normal[0] + sun[1] * normal[1] + sun[2] * normal[2]
-    if facing <= 0.0:
+    if dot(world.instant[0].sun, normal) <= 0.0:
         return False, False
     if not world.instant[0].shadows:
         return True, False
-    start = (
-        point[0] + _SHADOW_BIAS_M * normal[0],
-        point[1] + _SHADOW_BIAS_M * normal[1],
-        point[2] + _SHADOW_BIAS_M * normal[2],
-    )
-    blocked, thin = sun_blocked(world, start)
+    blocked, thin = sun_blocked(world, along(point, normal, _SHADOW_BIAS_M))
     return not blocked, thin

@@ -6,7 +6,7 @@ import math
 
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.records import Record
-from texvent.scenes.raycast.shading.sky import Colour, mix, triple
+from texvent.scenes.raycast.shading.sky import mix
 from texvent.scenes.raycast.shading.value_noise import (
     box_coverage,
     detail_fade,
@@ -15,6 +15,8 @@ from texvent.scenes.raycast.shading.value_noise import (
     smooth,
     square_wave,
 )
+from texvent.scenes.raycast.vectors import scaled, triple
+from texvent.scenes.scene import Colour
 
 _WHITE_PAINT = (0.75, 0.75, 0.72)
 _PAVEMENT = (0.34, 0.33, 0.32)
@@ -23,17 +25,12 @@ _LINE_M = 0.14
 
 
 @jit(error_model="numpy")
-def _scaled(colour: Colour, factor: float) -> Colour:
-    return (colour[0] * factor, colour[1] * factor, colour[2] * factor)
-
-
-@jit(error_model="numpy")
 def _meadow(instant: Record, x: float, y: float, footprint: float) -> Colour:
     """Grass: patches, tufts and blades."""
     patches = fractal_2d(0.23 * x, 0.23 * y, 3, 0.23 * footprint)
     blades = fractal_2d(3.1 * x, 3.1 * y, 3, 3.1 * footprint)
     colour = mix(triple(instant.colour), triple(instant.second_colour), smooth(0.5 + 0.6 * patches))
-    return _scaled(colour, 1.0 + 0.45 * blades)
+    return scaled(colour, 1.0 + 0.45 * blades)
 
 
 @jit(error_model="numpy")
@@ -41,7 +38,7 @@ def _speckled(colour: Colour, x: float, y: float, footprint: float, contrast: fl
     """A rough plain surface: asphalt, soil, snow."""
     coarse = fractal_2d(0.6 * x, 0.6 * y, 3, 0.6 * footprint)
     fine = fractal_2d(7.0 * x, 7.0 * y, 2, 7.0 * footprint)
-    return _scaled(colour, 1.0 + contrast * (0.6 * coarse + 0.5 * fine))
+    return scaled(colour, 1.0 + contrast * (0.6 * coarse + 0.5 * fine))
 
 
 @jit(error_model="numpy")
@@ -71,7 +68,7 @@ def _road(instant: Record, x: float, y: float, footprint: Colour) -> Colour:
         wobble = 0.35 * noise_2d(0.35 * along, 0.0, 3) + 0.12 * noise_2d(1.3 * along, 9.0, 4)
         soil = _speckled(triple(instant.second_colour), along, across, footprint[2], 0.55)
         track = smooth(1.6 - abs(abs(across + 0.3 * wobble) - 0.85) / 0.35)
-        soil = _scaled(soil, 1.0 - 0.28 * track * detail_fade(footprint_across / 1.5))
+        soil = scaled(soil, 1.0 - 0.28 * track * detail_fade(footprint_across / 1.5))
         inside = smooth((half + wobble - abs(across)) / max(0.6, 1.5 * footprint_across) + 0.5)
         return mix(_meadow(instant, x, y, footprint[2]), soil, inside)
     inside = box_coverage(across, -half, half, footprint_across)
@@ -81,7 +78,7 @@ def _road(instant: Record, x: float, y: float, footprint: Colour) -> Colour:
         slabs = square_wave(along / 2.4, footprint_along / 2.4) - 0.5
         rows = square_wave(across / 2.4, footprint_across / 2.4) - 0.5
         beside = _speckled(_PAVEMENT, x, y, footprint[2], 0.12)
-        beside = _scaled(beside, 1.0 + 0.5 * slabs * rows)
+        beside = scaled(beside, 1.0 + 0.5 * slabs * rows)
         kerb = box_coverage(abs(across), half, half + 0.3, footprint_across)
         beside = mix(beside, (0.5, 0.5, 0.48), kerb)
     surface = _asphalt(instant, along, across, (footprint_along, footprint_across, footprint[2]))
@@ -99,7 +96,7 @@ def _floor(instant: Record, x: float, y: float, footprint: Colour) -> Colour:
     gap = box_coverage(y - 0.22 * row, 0.0, 0.012, footprint[1]) + box_coverage(
         y - 0.22 * row, 0.22, 0.232, footprint[1]
     )
-    return _scaled(colour, (1.0 + 0.15 * grain) * (1.0 - 0.55 * min(gap, 1.0)))
+    return scaled(colour, (1.0 + 0.15 * grain) * (1.0 - 0.55 * min(gap, 1.0)))
 
 
 @jit(error_model="numpy")
@@ -139,4 +136,4 @@ def wall_colour(instant: Record, point: Colour, face: int, footprint: float) -> 
         return (0.8, 0.8, 0.78)
     skirting = box_coverage(point[2], 0.0, 0.14, footprint)
     spread = fractal_2d(0.4 * (point[0] + point[1]), 0.4 * point[2], 2, 0.4 * footprint)
-    return mix(_scaled(plain, 1.0 + 0.06 * spread), (0.3, 0.24, 0.2), skirting)
+    return mix(scaled(plain, 1.0 + 0.06 * spread), (0.3, 0.24, 0.2), skirting)

@@ -11,7 +11,7 @@ import math
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.records import Record, World
 from texvent.scenes.raycast.shading.ground import ground_colour, wall_colour
-from texvent.scenes.raycast.shading.sky import Colour, mix, sky_colour, triple
+from texvent.scenes.raycast.shading.sky import mix, sky_colour
 from texvent.scenes.raycast.shading.texture import patch_extent, surface_colour, surface_patch
 from texvent.scenes.raycast.shading.value_noise import smooth
 from texvent.scenes.raycast.shading.water import caustics, sea_light
@@ -22,7 +22,8 @@ from texvent.scenes.raycast.trace import (
     ray_direction,
     surface_normal,
 )
-from texvent.scenes.scene import Float64Array
+from texvent.scenes.raycast.vectors import along, dot, scaled, times, triple, unit
+from texvent.scenes.scene import Colour, Float64Array
 
 _SEA = 4
 _UNDERWATER = 9
@@ -33,24 +34,22 @@ _FOG_HEIGHT_M = 40.0
 @jit(error_model="numpy")
 def _lamp_light(lamps: Float64Array, point: Colour, normal: Colour) -> Colour:
     """Light of all point lamps on a surface."""
-    red, green, blue = 0.0, 0.0, 0.0
+    light = (0.0, 0.0, 0.0)
     for index in range(len(lamps)):
         lamp = lamps[index]
-        dx, dy, dz = lamp[0] - point[0], lamp[1] - point[1], lamp[2] - point[2]
-        square = dx * dx + dy * dy + dz * dz
+        towards = (lamp[0] - point[0], lamp[1] - point[1], lamp[2] - point[2])
+        square = dot(towards, towards)
         reach = lamp[6]
         if square >= reach * reach:
             continue
         distance = math.sqrt(square) + 1e-9
-        facing = (dx * normal[0] + dy * normal[1] + dz * normal[2]) / distance
+        facing = dot(towards, normal) / distance
         if facing <= 0.0:
             continue
         window = 1.0 - square / (reach * reach)
         share = facing * window * window / max(square, 0.25)
-        red += share * lamp[3]
-        green += share * lamp[4]
-        blue += share * lamp[5]
-    return red, green, blue
+        light = along(light, (lamp[3], lamp[4], lamp[5]), share)
+    return light
 
 
 @jit(error_model="numpy")
@@ -77,15 +76,11 @@ def _reflected(
     above = 0.68 + 0.32 * normal[2]
     facing = 0.0
     if is_lit:
-        sun = instant.sun
-        facing = max(normal[0] * sun[0] + normal[1] * sun[1] + normal[2] * sun[2], 0.0)
+        facing = max(dot(normal, instant.sun), 0.0)
         if instant.ground == _UNDERWATER:
             facing *= caustics(instant, point, footprint)
-    return (
-        colour[0] * (instant.ambient[0] * above + instant.sun_colour[0] * facing + lamps[0]),
-        colour[1] * (instant.ambient[1] * above + instant.sun_colour[1] * facing + lamps[1]),
-        colour[2] * (instant.ambient[2] * above + instant.sun_colour[2] * facing + lamps[2]),
-    )
+    light = along(scaled(triple(instant.ambient), above), triple(instant.sun_colour), facing)
+    return times(colour, along(light, lamps, 1.0))
 
 
 @jit(error_model="numpy")
@@ -102,25 +97,13 @@ def _shape_light(
     normal = surface_normal(world, number, face, point)
     patch = surface_patch(instant, direction, depth, normal)
     colour = surface_colour(world, number, face, point, patch)
-    view = _unit(direction)
-    red, green, blue = _reflected(world, colour, point, normal, patch_extent(patch)[2], is_lit)
+    view = unit(direction)
+    light = _reflected(world, colour, point, normal, patch_extent(patch)[2], is_lit)
     if is_lit:
-        sun = instant.sun
-        hx, hy, hz = sun[0] - view[0], sun[1] - view[1], sun[2] - view[2]
-        half = hx * normal[0] + hy * normal[1] + hz * normal[2]
-        half = max(half, 0.0) / math.sqrt(hx * hx + hy * hy + hz * hz + 1e-12)
-        shine = 0.12 * half**24
-        red += shine * instant.sun_colour[0]
-        green += shine * instant.sun_colour[1]
-        blue += shine * instant.sun_colour[2]
-    glow = world.shapes[number].emission
-    return red + glow * colour[0], green + glow * colour[1], blue + glow * colour[2]
-
-
-@jit(error_model="numpy")
-def _unit(v: Colour) -> Colour:
-    scale = 1.0 / math.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
-    return v[0] * scale, v[1] * scale, v[2] * scale
+        half = along(triple(instant.sun), view, -1.0)
+        facing = max(dot(half, normal), 0.0) / math.sqrt(dot(half, half) + 1e-12)
+        light = along(light, triple(instant.sun_colour), 0.12 * facing**24)
+    return along(light, colour, world.shapes[number].emission)
 
 
 @jit(error_model="numpy")
@@ -132,7 +115,7 @@ def _ground_light(
     up = (0.0, 0.0, 1.0)
     footprint = patch_extent(surface_patch(instant, direction, depth, up))
     if instant.ground == _SEA:
-        light = sea_light(instant, point, _unit(direction), footprint)
+        light = sea_light(instant, point, unit(direction), footprint)
     else:
         colour = ground_colour(instant, point[0], point[1], footprint)
         light = _reflected(world, colour, point, up, footprint[2], is_lit)
@@ -158,12 +141,8 @@ def shade_hit(
     depth, number, face = hit
     direction = ray_direction(instant, x, y)
     if number == SKY:
-        return _sky_light(instant, _unit(direction), instant.step)
-    point = (
-        instant.origin[0] + depth * direction[0],
-        instant.origin[1] + depth * direction[1],
-        instant.origin[2] + depth * direction[2],
-    )
+        return _sky_light(instant, unit(direction), instant.step)
+    point = along(triple(instant.origin), direction, depth)
     distance = depth * math.sqrt(direction[0] ** 2 + direction[1] ** 2 + direction[2] ** 2)
     if number == GROUND:
         light = _ground_light(world, depth, point, direction, is_lit)

@@ -7,38 +7,18 @@ import math
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.records import Record
 from texvent.scenes.raycast.shading.value_noise import fractal_2d, lattice, smooth
-from texvent.scenes.scene import Float64Array
+from texvent.scenes.raycast.vectors import along, dot, scaled, triple
+from texvent.scenes.scene import Colour
 
-Colour = tuple[float, float, float]
 _STAR_CELLS = 26
 _CLOUD_SPEED = 0.012
 """Drift of the clouds, in cloud heights per second."""
 
 
 @jit(error_model="numpy")
-def triple(values: Float64Array) -> Colour:
-    """Three numbers of a record as a tuple."""
-    return values[0], values[1], values[2]
-
-
-@jit(error_model="numpy")
 def mix(first: Colour, second: Colour, share: float) -> Colour:
     """`first` at share 0, `second` at share 1."""
-    rest = 1.0 - share
-    return (
-        first[0] * rest + second[0] * share,
-        first[1] * rest + second[1] * share,
-        first[2] * rest + second[2] * share,
-    )
-
-
-@jit(error_model="numpy")
-def _add(first: Colour, second: Colour, share: float) -> Colour:
-    return (
-        first[0] + second[0] * share,
-        first[1] + second[1] * share,
-        first[2] + second[2] * share,
-    )
+    return along(scaled(first, 1.0 - share), second, share)
 
 
 @jit(error_model="numpy")
@@ -94,18 +74,17 @@ def sky_colour(instant: Record, direction: Colour, pixel: float) -> Colour:
     colour = sky_gradient(instant, z)
     if instant.stars > 0.0:
         light = instant.stars * _stars(x, y, z, pixel)
-        colour = _add(colour, (1.0, 1.0, 1.0), light)
-    sun = instant.sun
-    facing = min(x * sun[0] + y * sun[1] + z * sun[2], 1.0)
+        colour = along(colour, (1.0, 1.0, 1.0), light)
+    facing = min(dot(direction, instant.sun), 1.0)
     if facing > 0.6:
         angle = math.acos(facing)
         disc = smooth((instant.sun_radius - angle) / max(2.0 * pixel, 0.002) + 0.5)
         glow = 0.25 * math.exp(-angle / 0.09)
-        colour = _add(
+        colour = along(
             colour, triple(instant.sun_colour), 1.2 * disc + glow * (1.0 - instant.stars * 0.8)
         )
     if instant.clouds > 0.0 and z > 0.0:
         white = mix(triple(instant.sky_horizon), triple(instant.ambient), 0.5)
-        lit = _add(white, triple(instant.sun_colour), 0.28)
+        lit = along(white, triple(instant.sun_colour), 0.28)
         colour = mix(colour, lit, 0.92 * _cloud_cover(instant, x, y, z, pixel))
     return colour

@@ -6,10 +6,10 @@ import math
 
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.records import Record, World
-from texvent.scenes.raycast.shading.sky import Colour, mix, triple
+from texvent.scenes.raycast.shading.sky import mix
 from texvent.scenes.raycast.shading.value_noise import detail_fade, noise_3d, smooth, square_wave
-from texvent.scenes.raycast.trace import Vector, local_point
-from texvent.scenes.scene import Float64Array
+from texvent.scenes.raycast.vectors import Vector, along, dot, mapped, scaled, triple, turned
+from texvent.scenes.scene import Colour
 
 _STEEPEST = 0.04
 """A surface seen at less than this slope is taken to be at it, so that its patch stays finite."""
@@ -27,36 +27,20 @@ def surface_patch(
         depth: of the surface, metres.
         normal: unit normal of the surface.
     """
-    right, down = instant.right, instant.down
-    facing = direction[0] * normal[0] + direction[1] * normal[1] + direction[2] * normal[2]
-    facing = min(facing, -_STEEPEST)
-    along = (right[0] * normal[0] + right[1] * normal[1] + right[2] * normal[2]) / facing
-    below = (down[0] * normal[0] + down[1] * normal[1] + down[2] * normal[2]) / facing
+    right, down = triple(instant.right), triple(instant.down)
+    facing = min(dot(direction, normal), -_STEEPEST)
     return (
-        (
-            depth * (right[0] - along * direction[0]),
-            depth * (right[1] - along * direction[1]),
-            depth * (right[2] - along * direction[2]),
-        ),
-        (
-            depth * (down[0] - below * direction[0]),
-            depth * (down[1] - below * direction[1]),
-            depth * (down[2] - below * direction[2]),
-        ),
+        scaled(along(right, direction, -(dot(right, normal) / facing)), depth),
+        scaled(along(down, direction, -(dot(down, normal) / facing)), depth),
     )
 
 
 @jit(error_model="numpy")
 def patch_extent(patch: tuple[Vector, Vector]) -> Colour:
     """Metres that a patch spans in x and in y, and its longest side."""
-    (rx, ry, rz), (dx, dy, dz) = patch
-    longest = max(rx * rx + ry * ry + rz * rz, dx * dx + dy * dy + dz * dz)
-    return abs(rx) + abs(dx), abs(ry) + abs(dy), math.sqrt(longest)
-
-
-@jit(error_model="numpy")
-def _row(m: Float64Array, row: int, v: Vector) -> float:
-    return float(m[row, 0] * v[0] + m[row, 1] * v[1] + m[row, 2] * v[2])
+    right, down = patch
+    longest = max(dot(right, right), dot(down, down))
+    return abs(right[0]) + abs(down[0]), abs(right[1]) + abs(down[1]), math.sqrt(longest)
 
 
 @jit(error_model="numpy")
@@ -77,15 +61,13 @@ def surface_colour(
     if shape.texture == 0:
         return plain
     m, scale = shape.inverse, shape.texture_scale
-    p = local_point(world, number, point)
-    right, down = patch
+    right, down = turned(m, patch[0]), turned(m, patch[1])
     steps = (
-        scale * (abs(_row(m, 0, right)) + abs(_row(m, 0, down))),
-        scale * (abs(_row(m, 1, right)) + abs(_row(m, 1, down))),
-        scale * (abs(_row(m, 2, right)) + abs(_row(m, 2, down))),
+        scale * (abs(right[0]) + abs(down[0])),
+        scale * (abs(right[1]) + abs(down[1])),
+        scale * (abs(right[2]) + abs(down[2])),
     )
-    scaled = (p[0] * scale, p[1] * scale, p[2] * scale)
-    share = _pattern(shape.texture, face, scaled, steps)
+    share = _pattern(shape.texture, face, scaled(mapped(m, point), scale), steps)
     return mix(plain, triple(shape.second_colour), share)
 
 

@@ -6,8 +6,10 @@ import math
 
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.records import Record
-from texvent.scenes.raycast.shading.sky import Colour, mix, sky_gradient, triple
+from texvent.scenes.raycast.shading.sky import mix, sky_gradient
 from texvent.scenes.raycast.shading.value_noise import detail_fade, smooth
+from texvent.scenes.raycast.vectors import along, dot, times, triple
+from texvent.scenes.scene import Colour
 
 
 @jit(error_model="numpy")
@@ -26,31 +28,21 @@ def sea_light(instant: Record, point: Colour, view: Colour, footprint: Colour) -
         slope_y += size * sine * math.cos(phase)
         length, angle, strength = 0.62 * length, angle + 2.4, 1.05 * strength
     scale = 1.0 / math.sqrt(1.0 + slope_x * slope_x + slope_y * slope_y)
-    nx, ny, nz = -slope_x * scale, -slope_y * scale, scale
-    facing = max(-(view[0] * nx + view[1] * ny + view[2] * nz), 0.0)
+    normal = (-slope_x * scale, -slope_y * scale, scale)
+    facing = max(-dot(view, normal), 0.0)
     mirror = 0.03 + 0.75 * (1.0 - facing) ** 4
-    up = abs(view[2] + 2.0 * facing * nz)
+    up = abs(view[2] + 2.0 * facing * normal[2])
     deep = mix(
         triple(instant.colour),
         triple(instant.second_colour),
         smooth(0.5 + 2.2 * (slope_x + slope_y)),
     )
-    light = (
-        instant.ambient[0] + 0.5 * instant.sun_colour[0],
-        instant.ambient[1] + 0.5 * instant.sun_colour[1],
-        instant.ambient[2] + 0.5 * instant.sun_colour[2],
-    )
-    water = (deep[0] * light[0], deep[1] * light[1], deep[2] * light[2])
+    sun_colour = triple(instant.sun_colour)
+    water = times(deep, along(triple(instant.ambient), sun_colour, 0.5))
     colour = mix(water, sky_gradient(instant, up), mirror)
-    sun = instant.sun
-    hx, hy, hz = sun[0] - view[0], sun[1] - view[1], sun[2] - view[2]
-    half = (hx * nx + hy * ny + hz * nz) / math.sqrt(hx * hx + hy * hy + hz * hz + 1e-12)
-    glint = 0.5 * max(half, 0.0) ** 60
-    return (
-        colour[0] + glint * instant.sun_colour[0],
-        colour[1] + glint * instant.sun_colour[1],
-        colour[2] + glint * instant.sun_colour[2],
-    )
+    half = along(triple(instant.sun), view, -1.0)
+    shine = dot(half, normal) / math.sqrt(dot(half, half) + 1e-12)
+    return along(colour, sun_colour, 0.5 * max(shine, 0.0) ** 60)
 
 
 @jit(error_model="numpy")
