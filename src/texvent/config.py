@@ -20,13 +20,13 @@ from texvent.errors import ConfigError
 from texvent.options.fields import renamed
 
 
-def check_range(name: str, value: float, low: float, high: float = float("inf")) -> None:
-    """Refuse an option outside `low..high` (both allowed; NaN never is).
+def check_range(name: str, value: float | None, low: float, high: float = float("inf")) -> None:
+    """Refuse an option outside `low..high` (both allowed; NaN never is); None is not given.
 
     Raises:
         ConfigError: with the option's name, its value and the range.
     """
-    if not low <= value <= high:
+    if value is not None and not low <= value <= high:
         allowed = f"at least {low:g}" if high == float("inf") else f"{low:g}..{high:g}"
         raise ConfigError(f"{name} is {value:g}; it must be {allowed}")
 
@@ -79,8 +79,7 @@ class RunConfig:
 
     def __post_init__(self) -> None:
         check_range("seed", self.seed, 0, 2**63 - 1)
-        if self.target_rate is not None:
-            check_range("target_rate", self.target_rate, 1e-3, 1e12)
+        check_range("target_rate", self.target_rate, 1e-3, 1e12)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -167,8 +166,7 @@ class InterpolateConfig:
     at each of them, as the paper does: slower, and differences between the estimates flicker."""
 
     def __post_init__(self) -> None:
-        if self.max_frames_per_second is not None:
-            check_range("max_frames_per_second", self.max_frames_per_second, 1e-3, 1e6)
+        check_range("max_frames_per_second", self.max_frames_per_second, 1e-3, 1e6)
         if self.deflicker and self.interpolate == "exact":
             raise ConfigError(
                 "deflicker corrects the frames of a video, and exact frames are rendered; "
@@ -178,7 +176,5 @@ class InterpolateConfig:
         check_range("fixed_count", self.fixed_count, 0, 10_000)
         check_range("max_intermediate", self.max_intermediate, 0, 10_000)
         check_range("count_percentile", self.count_percentile, 0.0, 100.0)
-        if self.count_threshold is not None:
-            check_range("count_threshold", self.count_threshold, 1e-4, 10.0)
-        if self.count_balance is not None:
-            check_range("count_balance", self.count_balance, 0.0, 1e6)
+        check_range("count_threshold", self.count_threshold, 1e-4, 10.0)
+        check_range("count_balance", self.count_balance, 0.0, 1e6)

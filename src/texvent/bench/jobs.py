@@ -8,18 +8,6 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from typing import Any
 
-from texvent.errors import ConfigError
-
-
-def check_jobs(jobs: int) -> None:
-    """Refuse a number of processes below 1.
-
-    Raises:
-        ConfigError: it is below 1.
-    """
-    if jobs < 1:
-        raise ConfigError(f"jobs is {jobs}; it must be at least 1")
-
 
 def run_jobs(
     function: Callable[..., Any], arguments: Sequence[tuple[Any, ...]], jobs: int

@@ -1,32 +1,25 @@
-"""Carry out a simulation: write its events and previews, show progress, sum it up."""
+"""Carry out a simulation: check its outputs, show progress, sum it up."""
 
 from __future__ import annotations
 
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import ExitStack
 from dataclasses import dataclass, field
-from fractions import Fraction
 from pathlib import Path
-from typing import Any, Protocol
 
 import tomli_w
 
 from texvent.cli.estimate import describe_estimate, estimate_run
 from texvent.cli.outputs import OutputOptions
 from texvent.events import EventStream
-from texvent.io.files import open_writer
 from texvent.pairs.scene_change import SceneChange
 from texvent.pipeline import Simulation
+from texvent.run_files import write_run
 from texvent.runs import prepare_source
-from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.console_progress import ConsoleProgress
 from texvent.settings import Settings, unmeasured_sensor
 from texvent.video import MICROSECONDS, Frame
-
-FALLBACK_FPS = Fraction(30)
-"""Frame rate of the preview video where the source states none."""
 
 
 def print_settings(settings: Settings) -> int:
@@ -64,14 +57,6 @@ class Tally:
     def seconds(self) -> float:
         """Time covered, s."""
         return (self.last_us - (self.first_us or 0)) / MICROSECONDS
-
-
-class Sink(Protocol):
-    """Something that takes every dense frame and its packet."""
-
-    def append(self, frame: Frame, packet: EventStream) -> None:
-        """Take one step."""
-        ...
 
 
 def run_source(
@@ -118,60 +103,26 @@ def execute(simulation: Simulation, options: OutputOptions, subject: str) -> int
     for line in _notes(simulation):
         progress.announce(line)
     tally, started, total = Tally(), time.perf_counter(), simulation.video.frame_count
-    with ExitStack() as outputs:
-        sinks = _open_outputs(outputs, simulation, options, path)
-        outputs.enter_context(progress)
-        for frame, packet in simulation.steps(tally.add_scene_change):
-            for sink in sinks:
-                sink.append(frame, packet)
-            tally.add(frame, packet)
-            progress.advance("frames", tally.source_frames, total)
+
+    def count(frame: Frame, packet: EventStream) -> None:
+        tally.add(frame, packet)
+        progress.advance("frames", tally.source_frames, total)
+
+    with progress:
+        write_run(
+            simulation,
+            path,
+            previews=options.previews,
+            palette=options.palette,
+            overwrite=options.overwrite,
+            on_step=count,
+            on_scene_change=tally.add_scene_change,
+        )
     progress.announce(_summary(tally, time.perf_counter() - started))
     if not options.quiet:
         for written in (path, *(path.with_suffix(f".{kind}") for kind in options.previews)):
             sys.stdout.write(f"{written}\n")
     return 0
-
-
-class _PacketSink:
-    """The event file as a sink: it takes packets, not frames."""
-
-    def __init__(self, writer: Any) -> None:
-        self._writer = writer
-
-    def append(self, frame: Frame, packet: EventStream) -> None:
-        del frame
-        self._writer.append(packet)
-
-
-def _open_outputs(
-    outputs: ExitStack, simulation: Simulation, options: OutputOptions, path: Path
-) -> list[Sink]:
-    """Open every output; all are checked (existing file, folder, format) before any work.
-
-    Each is written by a thread of its own, while the next frames are simulated.
-    """
-    size, metadata = simulation.video.size, simulation.provenance
-    sinks: list[Sink] = []
-    # The exit stack closes in reverse: the event file is safe on disk before the previews end.
-    if options.previews:
-        # Imported here: it brings PyAV and OpenCV, which help and the event file do not need.
-        from texvent.view.preview import Preview
-
-        preview = Preview(
-            path.with_suffix(""),
-            size=size,
-            fps=simulation.video.fps or FALLBACK_FPS,
-            kinds=options.previews,
-            palette=options.palette,
-            overwrite=options.overwrite,
-            metadata=metadata,
-        )
-        sinks.append(outputs.enter_context(BackgroundWriter(outputs.enter_context(preview))))
-    writer = open_writer(path, size=size, metadata=metadata, overwrite=options.overwrite)
-    events = _PacketSink(outputs.enter_context(writer))
-    sinks.append(outputs.enter_context(BackgroundWriter(events)))
-    return sinks
 
 
 def _notes(simulation: Simulation) -> Iterator[str]:

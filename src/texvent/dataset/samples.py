@@ -76,8 +76,7 @@ class SimulatedSamples:
         for target in self.targets:
             if target not in get_args(Target):
                 raise ConfigError(f"unknown target {target!r}; {suggest(target, get_args(Target))}")
-        if self.slice_us is not None and self.slice_us < 1:
-            raise ConfigError(f"slice_us is {self.slice_us}; it must be at least 1")
+        check_range("slice_us", self.slice_us, 1)
         check_range("seed", self.seed, 0, MAX_SEED)
         if "seed" in self.simulation:
             raise ConfigError("every sample has a seed of its own; give seed beside simulation")

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from texvent._version import __version__
 from texvent.config import check_range
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError
 from texvent.options.values import plain
 from texvent.sensor import SENSORS, SensorSize
 from texvent.video import MICROSECONDS, Frame, frame_time_us
@@ -148,10 +148,6 @@ class ProceduralGenerator:
             InputError: the prompt is empty.
         """
         del progress
-        if not prompt.strip():
-            raise InputError(
-                "the prompt is empty; describe a scene, such as 'a red car drives left at dusk'"
-            )
         # Imported here: the vocabulary and all models are only needed to make a scene.
         from texvent.scenes.language.parser import parse_prompt
         from texvent.scenes.staging.compose import compose_scene

@@ -36,10 +36,9 @@ class GeneratedVideoConfig:
 
     def __post_init__(self) -> None:
         check_range("retries", self.retries, 0, 100)
-        if self.min_agreement is not None:
-            check_range("min_agreement", self.min_agreement, -1.0, 1.0)
-            if self.agreement_model is None:
-                raise ConfigError("min_agreement is set, but no agreement_model to measure it with")
+        check_range("min_agreement", self.min_agreement, -1.0, 1.0)
+        if self.min_agreement is not None and self.agreement_model is None:
+            raise ConfigError("min_agreement is set, but no agreement_model to measure it with")
         if self.fps is not None and not 0 < self.fps <= 1_000_000:
             raise ConfigError(f"fps is {self.fps}; it must be above 0 and at most 1000000")
 
@@ -82,8 +81,5 @@ class DiffusersConfig(GeneratedVideoConfig):
     def __post_init__(self) -> None:
         super().__post_init__()
         for name, low in (("frames", 2), ("width", 8), ("height", 8), ("steps", 1)):
-            value = getattr(self, name)
-            if value is not None:
-                check_range(name, value, low, 65_535)
-        if self.guidance is not None:
-            check_range("guidance", self.guidance, 0.0, 1000.0)
+            check_range(name, getattr(self, name), low, 65_535)
+        check_range("guidance", self.guidance, 0.0, 1000.0)

@@ -8,28 +8,22 @@ from __future__ import annotations
 import shutil
 import sys
 from collections.abc import Callable
-from contextlib import ExitStack
-from fractions import Fraction
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from texvent._registry import CODECS
 from texvent.capture.open import open_frames
 from texvent.errors import InputError, TexventError
-from texvent.io.files import open_events, open_writer, save
+from texvent.events import EventStream
+from texvent.io.files import open_events, save
 from texvent.pipeline import Simulation
+from texvent.run_files import write_run
 from texvent.runs import prepare_prompt, prepare_video
 from texvent.sensor import SensorSize
 from texvent.settings import resolve
-from texvent.video import MICROSECONDS
-from texvent.view.preview import Preview
-from texvent.web.job import (
-    Answer,
-    ConvertJob,
-    SimulateJob,
-    answer_line,
-    read_job,
-)
+from texvent.video import MICROSECONDS, Frame
+from texvent.web.job import Answer, ConvertJob, SimulateJob, answer_line, read_job
 from texvent.web.limits import Limits
 
 SendAnswer = Callable[[Answer], None]
@@ -63,35 +57,18 @@ def simulate(job: SimulateJob, send: SendAnswer) -> Answer:
     _check_size(simulation.video.size, job.limits)
     folder = Path(job.folder)
     events = folder / "events.h5"
-    metadata = _shown(simulation)
-    total, seen, count = simulation.video.frame_count, 0, 0
-    with ExitStack() as stack:
-        preview = Preview(
-            folder / "events",
-            size=simulation.video.size,
-            fps=simulation.video.fps or Fraction(30),
-            kinds=("mp4", "html"),
-            metadata=metadata,
-        )
-        stack.enter_context(preview)
-        writer = stack.enter_context(
-            open_writer(events, size=simulation.video.size, metadata=metadata)
-        )
-        first_us: int | None = None
-        for frame, packet in simulation.steps():
-            first_us = frame.t_us if first_us is None else first_us
-            count += len(packet)
-            _check_progress(frame.t_us - first_us, count, job.limits)
-            preview.append(frame, packet)
-            writer.append(packet)
-            if frame.is_source:
-                seen += 1
-                share = min(1.0, seen / total) if total else None
-                send(Answer(kind="progress", share=share, text=f"frame {seen}, {count:,} events"))
+    tally = _Tally(simulation.video.frame_count, job.limits, send)
+    write_run(
+        simulation,
+        events,
+        previews=("mp4", "html"),
+        metadata=_shown(simulation),
+        on_step=tally.add,
+    )
     files = {"events": events, "video": folder / "events.mp4", "page": folder / "events.html"}
     return Answer(
         kind="done",
-        text=_summary(simulation, count),
+        text=_summary(simulation, tally.events),
         files={name: str(path) for name, path in files.items()},
     )
 
@@ -174,16 +151,35 @@ def _check_size(size: SensorSize, limits: Limits) -> None:
         )
 
 
-def _check_progress(passed_us: int, count: int, limits: Limits) -> None:
-    if passed_us > limits.max_seconds * MICROSECONDS:
-        raise InputError(
-            f"the video is longer than {limits.max_seconds:g} s, which is the most taken here"
-        )
-    if count > limits.max_events:
-        raise InputError(
-            f"more than {limits.max_events:,} events; choose a higher contrast threshold or a "
-            "smaller sensor"
-        )
+@dataclass
+class _Tally:
+    """Counts what a run makes, tells the page, and ends a run that grows beyond its limits."""
+
+    total: int | None
+    limits: Limits
+    send: SendAnswer
+    events: int = 0
+    frames: int = 0
+    first_us: int | None = None
+
+    def add(self, frame: Frame, packet: EventStream) -> None:
+        self.first_us = frame.t_us if self.first_us is None else self.first_us
+        self.events += len(packet)
+        if frame.t_us - self.first_us > self.limits.max_seconds * MICROSECONDS:
+            raise InputError(
+                f"the video is longer than {self.limits.max_seconds:g} s, which is the most taken "
+                "here"
+            )
+        if self.events > self.limits.max_events:
+            raise InputError(
+                f"more than {self.limits.max_events:,} events; choose a higher contrast threshold "
+                "or a smaller sensor"
+            )
+        if frame.is_source:
+            self.frames += 1
+            share = min(1.0, self.frames / self.total) if self.total else None
+            text = f"frame {self.frames}, {self.events:,} events"
+            self.send(Answer(kind="progress", share=share, text=text))
 
 
 def _shown(simulation: Simulation) -> dict[str, Any]:

@@ -17,15 +17,21 @@ from texvent.video import Frame
 from texvent.view.drawing.caption import title_of
 from texvent.view.video.encoder import VideoEncoder
 from texvent.view.video.writer import VideoWriter
+from texvent.view.windows.event_window import EventWindow, WindowCollector
 
 SIZE = SensorSize(32, 24)
 Steps = list[tuple[Frame, EventStream]]
 
 
 def write_video(path: Path, steps: Steps, **options: object) -> Path:
+    collector = WindowCollector(SIZE)
     with VideoWriter(path, size=SIZE, fps=Fraction(30_000, 1001), **options) as video:
         for frame, packet in steps:
-            video.append(frame, packet)
+            window = collector.append(frame, packet)
+            if window is not None:
+                video.show(window)
+        if len(steps) == 1:
+            video.show(collector.single_frame())
     return path
 
 
@@ -121,7 +127,7 @@ def test_an_exception_midway_leaves_no_video(
 ) -> None:
     def interrupt() -> None:
         with VideoWriter(tmp_path / "out.mp4", size=SIZE, fps=None) as video:
-            video.append(*steps[0])
+            video.show(EventWindow(0, 1, np.zeros((2, *SIZE.shape), dtype=np.int32)))
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):

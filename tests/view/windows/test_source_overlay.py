@@ -1,11 +1,10 @@
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import pytest
 
 from texvent.errors import ConfigError, InputError
+from texvent.scenes.raycast.ground_truth import Box, GroundTruth
 from texvent.sensor import SensorSize
 from texvent.video import Video
 from texvent.view.drawing.annotations import (
@@ -21,29 +20,16 @@ from texvent.view.windows.source_overlay import SourceOverlay
 SIZE = SensorSize(48, 32)
 
 
-@dataclass(frozen=True)
-class Box:
-    class_name: str = "car"
-    x0: int = 10
-    y0: int = 12
-    x1: int = 30
-    y1: int = 24
-
-
-@dataclass(frozen=True)
-class BoxesAndFlow:
-    boxes: tuple[Box, ...]
-    flow: np.ndarray
-
-
 class KnownVideo(Video):
     """The left half moves 3 px right in the time asked for; the right half is unknown."""
 
-    def ground_truth(self, t0_us: int, t1_us: int) -> BoxesAndFlow:
+    def ground_truth(self, t0_us: int, t1_us: int) -> GroundTruth:
         assert t1_us - t0_us == ARROW_US
         flow = np.full((*SIZE.shape, 2), np.nan, dtype=np.float32)
         flow[:, :24] = (3, 0)
-        return BoxesAndFlow((Box(),), flow)
+        unseen = np.zeros(SIZE.shape, dtype=np.int32)
+        car = Box(1, "car", 10, 12, 30, 24, 1.0)
+        return GroundTruth(0.0, 0.0, unseen + np.float32(1), unseen, flow, unseen > 0, (car,))
 
 
 def video(kind: type[Video] = KnownVideo) -> Video:

@@ -12,7 +12,7 @@ from texvent.bench.oracle.recording import oracle_scene, record
 from texvent.events import EventStream
 from texvent.represent.event_frame import event_frame
 from texvent.video import MICROSECONDS
-from texvent.view.drawing.canvas import Image, blank, draw_text, enlarge, png_bytes
+from texvent.view.drawing.canvas import Image, blank, draw_text, enlarge, png_bytes, tile
 from texvent.view.drawing.event_image import count_ceiling, draw_events
 from texvent.view.drawing.palettes import get_palette
 
@@ -21,6 +21,7 @@ START_US, STOP_US = 250_000, 260_000
 ENLARGE = 3
 COLUMNS = 4
 TEXT_PX, MARGIN_PX = 10, 6
+PAPER = (236, 238, 242)
 
 
 def event_image_grid(report: FidelityReport, scene: str) -> bytes:
@@ -47,7 +48,7 @@ def event_image_grid(report: FidelityReport, scene: str) -> bytes:
     for title, events in streams.items():
         counts = event_frame(_cut(events), "count")
         panels.append(_panel(title, draw_events(counts, get_palette("paper"), ceiling=ceiling)))
-    return png_bytes(_arrange(panels), level=9)
+    return png_bytes(tile(panels, COLUMNS, PAPER), level=9)
 
 
 def _cut(events: EventStream) -> EventStream:
@@ -57,19 +58,9 @@ def _cut(events: EventStream) -> EventStream:
 def _panel(title: str, image: Image) -> Image:
     large = enlarge(image, ENLARGE, how="blocks")
     height, width = large.shape[:2]
-    panel = blank(width + 2 * MARGIN_PX, height + TEXT_PX + 3 * MARGIN_PX, (236, 238, 242))
+    panel = blank(width + 2 * MARGIN_PX, height + TEXT_PX + 3 * MARGIN_PX, PAPER)
     baseline = MARGIN_PX + TEXT_PX
     draw_text(panel, title, MARGIN_PX, baseline, height=TEXT_PX, colour=(38, 42, 50))
     top = TEXT_PX + 2 * MARGIN_PX
     panel[top : top + height, MARGIN_PX : MARGIN_PX + width] = large
     return panel
-
-
-def _arrange(panels: list[Image]) -> Image:
-    height, width = panels[0].shape[:2]
-    rows = -(-len(panels) // COLUMNS)
-    whole = blank(COLUMNS * width, rows * height, (236, 238, 242))
-    for number, panel in enumerate(panels):
-        row, column = divmod(number, COLUMNS)
-        whole[row * height : (row + 1) * height, column * width : (column + 1) * width] = panel
-    return whole

@@ -12,13 +12,14 @@ from texvent.bench.environment import describe_environment
 from texvent.bench.fidelity.details import describe
 from texvent.bench.fidelity.entries import Entry, default_entries
 from texvent.bench.fidelity.results import FidelityReport, Reference, Score
-from texvent.bench.jobs import check_jobs, run_jobs
+from texvent.bench.jobs import run_jobs
 from texvent.bench.oracle.pixel import FLOOR_SEED, REFERENCE_SEED, TARGETS
 from texvent.bench.oracle.recording import oracle_scene, record
 from texvent.bench.oracle.scenes import check_scene, known_flow, scene_names
 from texvent.bench.progress import Progress, no_progress
 from texvent.bench.selftest.perturbations import perturb
 from texvent.calibrate.threshold_search import ThresholdMatch, find_threshold
+from texvent.config import check_range
 from texvent.errors import ConfigError, TexventError
 from texvent.events import EventStream
 from texvent.metrics.compare import compare, load_metric
@@ -100,7 +101,7 @@ def run_fidelity(
     Raises:
         ConfigError: the plan names something that does not exist, or jobs is below 1.
     """
-    check_jobs(jobs)
+    check_range("jobs", jobs, 1)
     start = time.perf_counter()
     entries = list(plan.entries) or default_entries()
     for entry in entries:

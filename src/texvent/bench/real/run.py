@@ -16,10 +16,11 @@ from texvent.bench.fidelity.details import Details, describe
 from texvent.bench.fidelity.entries import Entry, simulate_video, simulators_to_compare
 from texvent.bench.fidelity.results import FidelityReport, Reference, Score
 from texvent.bench.fidelity.run import NULL, compare_all, fit_threshold
-from texvent.bench.jobs import check_jobs, run_jobs
+from texvent.bench.jobs import run_jobs
 from texvent.bench.progress import Progress, no_progress
 from texvent.bench.real.scene import RealScene
 from texvent.bench.selftest.perturbations import perturb
+from texvent.config import check_range
 from texvent.errors import ConfigError, TexventError
 from texvent.events import EventStream
 from texvent.metrics.compare import load_metric
@@ -97,7 +98,7 @@ def run_real(
     Raises:
         ConfigError: an entry does not exist or needs the true frames, or jobs is below 1.
     """
-    check_jobs(jobs)
+    check_range("jobs", jobs, 1)
     start = time.perf_counter()
     entries = list(plan.entries) or real_entries()
     for entry in entries:

@@ -78,8 +78,7 @@ class ReconstructionPlan:
 
     def __post_init__(self) -> None:
         check_range("frames_gamma", self.frames_gamma, 0.1, 10.0)
-        if self.skip is not None:
-            check_range("skip", self.skip, 0)
+        check_range("skip", self.skip, 0)
         for entry in self.entries:
             entry.settings(self.seed)
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import importlib
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError
@@ -18,7 +19,7 @@ BENCHMARKS: Mapping[str, str] = {
     "selftest": "20 perturbations of a recording: which does a metric see?",
     "unpaired": "do simulated streams have the statistics of recorded ones?",
 }
-"""Name → the question that it answers."""
+"""Name, which is its module beside this one → the question that it answers."""
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -29,42 +30,12 @@ def run(arguments: Sequence[str]) -> int:
     name, *rest = arguments
     if name not in BENCHMARKS:
         raise ConfigError(f"unknown benchmark {name!r}; {suggest(name, tuple(BENCHMARKS))}")
-    _command(name)(rest)
+    importlib.import_module(f"texvent.cli.bench.{name}").run(rest)
     return 0
-
-
-def _command(name: str) -> Callable[[Sequence[str]], None]:
-    """What runs a benchmark; only the chosen one is imported, and its libraries with it."""
-    match name:
-        case "classify":
-            from texvent.cli.bench.classify import run
-        case "fidelity":
-            from texvent.cli.bench.fidelity import run
-        case "page":
-            from texvent.cli.bench.page import run
-        case "paper":
-            from texvent.cli.bench.paper import run
-        case "real":
-            from texvent.cli.bench.real import run
-        case "reconstruction":
-            from texvent.cli.bench.reconstruction import run
-        case "selftest":
-            from texvent.cli.bench.selftest import run
-        case _:
-            from texvent.cli.bench.unpaired import run
-    return run
 
 
 def _usage() -> str:
     width = max(map(len, BENCHMARKS))
     lines = [f"  {name:<{width}}  {question}" for name, question in BENCHMARKS.items()]
-    return "\n".join(
-        [
-            "usage: texvent bench NAME [OPTIONS]",
-            "",
-            *lines,
-            "",
-            "Help: texvent bench NAME --help",
-            "",
-        ]
-    )
+    usage = ["usage: texvent bench NAME [OPTIONS]", "", *lines]
+    return "\n".join([*usage, "", "Help: texvent bench NAME --help", ""])

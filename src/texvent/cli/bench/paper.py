@@ -11,7 +11,6 @@ from typing import Any, ClassVar
 from texvent.bench.environment import describe_environment
 from texvent.bench.fidelity.run import FidelityPlan, run_fidelity
 from texvent.bench.fidelity.table import check_baseline, fidelity_tables
-from texvent.bench.jobs import check_jobs
 from texvent.bench.paper.ablation_tables import (
     BASELINE,
     TABLES_HERE,
@@ -26,6 +25,7 @@ from texvent.bench.real.run import RealPlan, run_real
 from texvent.bench.real.scene import open_scene
 from texvent.cli.bench.result_options import ResultOptions
 from texvent.cli.options import parse_configs
+from texvent.config import check_range
 from texvent.errors import ConfigError
 
 SCHEMA = "texvent-paper-1"
@@ -76,7 +76,7 @@ class PaperOptions:
             raise ConfigError(
                 f"table is {self.table}; the tables are {', '.join(map(str, TABLES))}"
             )
-        check_jobs(self.jobs)
+        check_range("jobs", self.jobs, 1)
         if not self.oracle and not self.recordings and self.table in (None, *TABLES_HERE):
             raise ConfigError("--no-oracle leaves nothing to run; name --recordings")
 

@@ -32,8 +32,7 @@ class UnpairedOptions:
     """Use at most this many files of each folder."""
 
     def __post_init__(self) -> None:
-        if self.limit is not None:
-            check_range("limit", self.limit, 1)
+        check_range("limit", self.limit, 1)
 
 
 def run(arguments: Sequence[str]) -> None:

@@ -17,6 +17,7 @@ from texvent._version import __version__
 from texvent.cli.event_files.event_file_options import EventRangeOptions
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
+from texvent.config import check_range
 from texvent.errors import ConfigError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
@@ -55,8 +56,7 @@ class ReconstructOptions(EventRangeOptions):
     def __post_init__(self) -> None:
         if not 0 < self.fps <= MICROSECONDS:
             raise ConfigError(f"fps is {self.fps}; it must be above 0, at most {MICROSECONDS}")
-        if self.events_per_image is not None and self.events_per_image < 1:
-            raise ConfigError(f"events_per_image is {self.events_per_image}; it must be at least 1")
+        check_range("events_per_image", self.events_per_image, 1)
 
     def slices(self, events: EventPackets) -> Iterator[tuple[int, EventStream]]:
         """The events of each image, and its time."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Literal, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,9 @@ from numpy.typing import NDArray
 from texvent.video import FrameStream
 from texvent.view.drawing.canvas import Image, draw_arrow, draw_frame, draw_label
 from texvent.view.drawing.palettes import Colour
+
+if TYPE_CHECKING:
+    from texvent.scenes.raycast.ground_truth import Box, GroundTruth
 
 Overlay = Literal["none", "boxes", "flow", "both"]
 ARROWS_ACROSS = 24
@@ -23,54 +26,11 @@ BOX_COLOUR: Colour = (255, 176, 0)
 FLOW_COLOUR: Colour = (0, 170, 90)
 
 
-class LabelledBox(Protocol):
-    """Bounding box of an object; ends are exclusive, pixels."""
-
-    @property
-    def class_name(self) -> str:
-        """Its class."""
-        ...
-
-    @property
-    def x0(self) -> int:
-        """First column."""
-        ...
-
-    @property
-    def y0(self) -> int:
-        """First row."""
-        ...
-
-    @property
-    def x1(self) -> int:
-        """One past the last column."""
-        ...
-
-    @property
-    def y1(self) -> int:
-        """One past the last row."""
-        ...
-
-
-class BoxesAndFlow(Protocol):
-    """Ground truth at an instant, and the motion after it."""
-
-    @property
-    def boxes(self) -> tuple[Any, ...]:
-        """A `LabelledBox` per object."""
-        ...
-
-    @property
-    def flow(self) -> NDArray[np.float32]:
-        """[H, W, 2] displacement in pixels until the second instant; NaN where unknown."""
-        ...
-
-
 @runtime_checkable
 class GroundTruthStream(FrameStream, Protocol):
     """Frames whose ground truth is known, such as the embedded generator's."""
 
-    def ground_truth(self, t0_us: int, t1_us: int) -> BoxesAndFlow:
+    def ground_truth(self, t0_us: int, t1_us: int) -> GroundTruth:
         """Ground truth at `t0_us`, and the motion from there to `t1_us`."""
         ...
 
@@ -79,7 +39,7 @@ class GroundTruthStream(FrameStream, Protocol):
 class Annotations:
     """What is drawn over an image, in pixels of the sensor."""
 
-    boxes: tuple[LabelledBox, ...] = ()
+    boxes: tuple[Box, ...] = ()
     arrows: NDArray[np.float32] | None = None
     """[n, 4]: x, y of the tail, and the motion in `ARROW_US`."""
 

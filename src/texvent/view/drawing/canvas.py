@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, Literal
 
 import cv2
@@ -33,6 +34,17 @@ def enlarge(image: Image, factor: int, *, how: Literal["smooth", "blocks"]) -> I
         cv2.resize(image, (width * factor, height * factor), interpolation=method),
         dtype=np.uint8,
     )
+
+
+def tile(panels: Sequence[Image], columns: int, colour: Colour, *, gap: int = 0) -> Image:
+    """Images of one size in reading order, `gap` pixels of `colour` between them."""
+    height, width = panels[0].shape[:2]
+    rows = -(-len(panels) // columns)
+    sheet = blank(columns * (width + gap) - gap, rows * (height + gap) - gap, colour)
+    for index, panel in enumerate(panels):
+        top, left = (index // columns) * (height + gap), (index % columns) * (width + gap)
+        sheet[top : top + height, left : left + width] = panel
+    return sheet
 
 
 def text_width(text: str, height: int) -> int:

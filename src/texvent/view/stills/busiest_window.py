@@ -6,20 +6,16 @@ from fractions import Fraction
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.video import Frame
 from texvent.view.drawing.canvas import png_bytes
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
 from texvent.view.drawing.panels import PanelLayout
 from texvent.view.windows.cut import cut_windows, still_window_us
 from texvent.view.windows.draw_window import compose_window
-from texvent.view.windows.event_window import EventWindow, WindowCollector
+from texvent.view.windows.event_window import EventWindow
 
 
 class BusiestWindow:
-    """Keeps the window with the most events and draws it.
-
-    Memory holds one window and the one being gathered.
-    """
+    """Keeps the window with the most events and draws it."""
 
     def __init__(
         self,
@@ -31,23 +27,12 @@ class BusiestWindow:
     ) -> None:
         self._layout = PanelLayout(size, get_palette(palette), side_by_side)
         self._title = title
-        self._collector = WindowCollector(size)
         self._best: EventWindow | None = None
-
-    def append(self, frame: Frame, packet: EventStream) -> None:
-        """Add a dense frame and the events before it."""
-        window = self._collector.append(frame, packet)
-        if window is not None:
-            self.consider(window)
 
     def consider(self, window: EventWindow) -> None:
         """Remember the window if it is the busiest so far; the earlier one wins a tie."""
         if self._best is None or window.event_count > self._best.event_count:
             self._best = window
-
-    def pick(self) -> EventWindow | None:
-        """The busiest window, else the only frame, else None."""
-        return self._best or self._collector.single_frame()
 
     def draw(self, window: EventWindow) -> bytes:
         """The image of a window as a PNG file in memory."""
@@ -56,24 +41,17 @@ class BusiestWindow:
         )
 
     def png(self) -> bytes | None:
-        """The image of the busiest window, or None if there was no frame at all."""
-        window = self.pick()
-        return None if window is None else self.draw(window)
+        """The image of the busiest window, or None without a window."""
+        return None if self._best is None else self.draw(self._best)
 
 
-def busiest_window_png(
-    events: EventStream,
-    *,
-    window_us: int | None = None,
-    palette: str | Palette = DEFAULT_PALETTE,
-    title: str = "",
-) -> bytes | None:
+def busiest_window_png(events: EventStream, *, title: str) -> bytes | None:
     """A PNG of the window with the most events, or None without events."""
     extent = events.time_range
     if extent is None:
         return None
-    length_us = window_us or still_window_us(extent)
-    busiest = BusiestWindow(size=events.size, palette=palette, side_by_side=False, title=title)
+    length_us = still_window_us(extent)
+    busiest = BusiestWindow(size=events.size, side_by_side=False, title=title)
     for window in cut_windows(
         (events,), size=events.size, step_us=Fraction(length_us), window_us=length_us
     ):

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 
 from texvent.sensor import SensorSize
-from texvent.view.drawing.canvas import Image, blank
+from texvent.view.drawing.canvas import Image, tile
 from texvent.view.drawing.palettes import get_palette
 from texvent.view.drawing.panels import SURROUND, TARGET_WIDTH, PanelLayout
 from texvent.view.windows.draw_window import compose_window
@@ -42,17 +42,5 @@ def draw_contact_sheet(
         side_by_side=side_by_side,
         target_width=max(NARROWEST_PANEL, TARGET_WIDTH / columns),
     )
-    return _grid(
-        [compose_window(window, layout, title=window.caption, facts="") for window in windows],
-        columns,
-    )
-
-
-def _grid(panels: list[Image], columns: int) -> Image:
-    height, width = panels[0].shape[:2]
-    rows = -(-len(panels) // columns)
-    sheet = blank(columns * (width + GAP) - GAP, rows * (height + GAP) - GAP, SURROUND)
-    for index, panel in enumerate(panels):
-        top, left = (index // columns) * (height + GAP), (index % columns) * (width + GAP)
-        sheet[top : top + height, left : left + width] = panel
-    return sheet
+    composed = [compose_window(one, layout, title=one.caption, facts="") for one in windows]
+    return tile(composed, columns, SURROUND, gap=GAP)

@@ -6,16 +6,14 @@ from contextlib import ExitStack
 from fractions import Fraction
 from pathlib import Path
 
-from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.video import Frame
 from texvent.view.atomic_output import AtomicOutput
 from texvent.view.drawing.event_image import count_ceiling
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
 from texvent.view.drawing.panels import TARGET_WIDTH, PanelLayout
 from texvent.view.video.encoder import VideoEncoder
 from texvent.view.windows.draw_window import compose_window
-from texvent.view.windows.event_window import EventWindow, WindowCollector
+from texvent.view.windows.event_window import EventWindow
 
 GIF_WIDTH = 640.0
 """A gif compresses badly, so it is kept small."""
@@ -24,10 +22,9 @@ CEILING_MEMORY = 0.9
 
 
 class VideoWriter(AtomicOutput):
-    """Writes an mp4 or gif while frames and packets come in; memory stays flat.
+    """Writes an mp4 or gif of windows while they come in; memory stays flat.
 
-    Each source frame is shown with all events until the next one, at the speed of the source.
-    Times are kept to the µs (gif: 1/100 s).
+    Each is shown until the next one. Times are kept to the µs (gif: 1/100 s).
 
     Raises:
         ConfigError: the extension is not .mp4 or .gif, or the palette is unknown.
@@ -67,19 +64,12 @@ class VideoWriter(AtomicOutput):
             overwrite=overwrite,
         )
         self._title = title
-        self._collector = WindowCollector(size)
         self._first_us: int | None = None
         self._stop_us: int | None = None
         self._ceiling = 1.0
 
     def _open(self, stack: ExitStack) -> None:
         stack.enter_context(self._encoder)
-
-    def append(self, frame: Frame, packet: EventStream) -> None:
-        """Add a dense frame and the events before it, `[time of the frame before, frame.t_us)`."""
-        window = self._collector.append(frame, packet)
-        if window is not None:
-            self.show(window)
 
     def show(self, window: EventWindow, *, video_start_us: int | None = None) -> None:
         """Add one video frame.
@@ -105,8 +95,5 @@ class VideoWriter(AtomicOutput):
         self._stop_us = window.stop_us - self._first_us if video_start_us is None else None
 
     def _complete(self) -> None:
-        only = self._collector.single_frame()
-        if self._first_us is None and only is not None:
-            self.show(only)
         if self._stop_us is not None:
             self._encoder.end(self._stop_us)
