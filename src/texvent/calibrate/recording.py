@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
-from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from texvent._registry import INTERPOLATORS
+from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.config import InterpolateConfig
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.interpolate.densify import densify
-from texvent.sensor import SensorSize
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import MICROSECONDS, Frame, FrameStream
@@ -113,40 +112,21 @@ class Recording:
         return list(dense)
 
 
-@dataclass(frozen=True, eq=False)
-class _Part:
+class _Part(FrameSource):
     """The frames around a span, as a stream."""
 
-    whole: FrameStream
-    span: TimeSpan
+    def __init__(self, whole: FrameStream, span: TimeSpan) -> None:
+        self._facts = SourceFacts(whole.size, whole.fps, None, whole.metadata)
+        self._whole = whole
+        self._span = span
 
     def __iter__(self) -> Iterator[Frame]:
         margin = 2 * WARM_UP_US
-        for frame in self.whole:
-            if frame.t_us >= self.span.stop_us + margin:
+        for frame in self._whole:
+            if frame.t_us >= self._span.stop_us + margin:
                 return
-            if frame.t_us >= self.span.start_us - margin:
+            if frame.t_us >= self._span.start_us - margin:
                 yield frame
-
-    @property
-    def size(self) -> SensorSize:
-        return self.whole.size
-
-    @property
-    def fps(self) -> Fraction | None:
-        return self.whole.fps
-
-    @property
-    def frame_count(self) -> None:
-        return None
-
-    @property
-    def is_live(self) -> bool:
-        return False
-
-    @property
-    def metadata(self) -> Mapping[str, Any]:
-        return self.whole.metadata
 
 
 def simulate_span(

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from fractions import Fraction
 from typing import Any
 
+from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.intensity_scale import refuse_unit_range, scale_to_levels
 from texvent.config import CaptureConfig
 from texvent.errors import InputError
@@ -16,7 +16,7 @@ FEWEST_FRAMES = 2
 """Events are changes between frames, so one frame has none."""
 
 
-class PreparedFrames:
+class PreparedFrames(FrameSource):
     """A source's frames between start and stop, at the wanted size, checked one by one.
 
     `start` and `stop` count from the first frame; the frames keep their times, so events share a
@@ -43,40 +43,17 @@ class PreparedFrames:
     ) -> None:
         self._source = source
         self._config = config
-        self._size = size or source.size
+        count = _count_frames(source, config)
+        self._facts = SourceFacts(
+            size or source.size, source.fps, count, source.metadata, source.is_live
+        )
         self._is_fitted = size is not None
         self._check_scale = check_scale and config.white_level is None
 
     @property
-    def size(self) -> SensorSize:
-        """Width and height of every frame, pixels."""
-        return self._size
-
-    @property
-    def fps(self) -> Fraction | None:
-        """Nominal rate of the source."""
-        return self._source.fps
-
-    @property
-    def frame_count(self) -> int | None:
-        """Number of frames between start and stop, estimated where the source only estimates."""
-        count, config = self._source.frame_count, self._config
-        if not config.start and config.stop is None:
-            return count
-        if count is None or self.fps is None:
-            return None
-        stop = count if config.stop is None else min(count, round(config.stop * self.fps))
-        return max(0, stop - round(config.start * self.fps))
-
-    @property
-    def is_live(self) -> bool:
-        """True if the source can be read only once."""
-        return self._source.is_live
-
-    @property
     def metadata(self) -> Mapping[str, Any]:
         """The source's, and the size it had if frames were fitted to another."""
-        if self._size == self._source.size:
+        if self.size == self._source.size:
             return self._source.metadata
         return {**self._source.metadata, "size_before_fit": str(self._source.size)}
 
@@ -109,7 +86,7 @@ class PreparedFrames:
         if self._is_fitted:
             from texvent.capture.fit import fit_pixels  # brings OpenCV
 
-            pixels = fit_pixels(pixels, self._size, self._config.fit)
+            pixels = fit_pixels(pixels, self.size, self._config.fit)
         return checker.check(Frame(pixels, frame.t_us, frame.is_source))
 
     def _decide_scale(self, pixels: PixelArray, t_us: int) -> None:
@@ -117,6 +94,17 @@ class PreparedFrames:
         highest = float(pixels.max())
         refuse_unit_range(highest, f"the frame at {t_us} µs")
         self._check_scale = highest == 0.0
+
+
+def _count_frames(source: FrameStream, config: CaptureConfig) -> int | None:
+    """Number of frames between start and stop, estimated where the source only estimates."""
+    count, fps = source.frame_count, source.fps
+    if not config.start and config.stop is None:
+        return count
+    if count is None or fps is None:
+        return None
+    stop = count if config.stop is None else min(count, round(config.stop * fps))
+    return max(0, stop - round(config.start * fps))
 
 
 def _too_few(count: int, config: CaptureConfig, last_us: int) -> str:

@@ -11,9 +11,9 @@ from typing import Any
 from texvent._registry import RECONSTRUCTORS
 from texvent.errors import FileFormatError, InputError
 from texvent.reconstruct.layers import EXTRA
-from texvent.reconstruct.layout import BATCH_COUNTER, Shape
 from texvent.reconstruct.protocol import PublishedNetwork
 from texvent.runtime.cache_folder import cache_folder
+from texvent.runtime.layer_shapes import BATCH_COUNTER, Shape
 from texvent.runtime.network_files import (
     StandIn,
     Tensor,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from texvent.reconstruct.layers import Layers
-from texvent.reconstruct.layout import Shapes, batch_norm, convolution
+from texvent.runtime.layer_shapes import Shapes, batch_norm, convolution
 from texvent.runtime.network_files import Tensor
 
 ATOMS = 6

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from texvent.reconstruct.layers import Layers
-from texvent.reconstruct.layout import (
+from texvent.runtime.layer_shapes import (
     Shape,
     Shapes,
     attention,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from texvent.reconstruct.layers import Layers
-from texvent.reconstruct.layout import (
+from texvent.runtime.layer_shapes import (
     Shape,
     Shapes,
     conv_gru,

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from texvent.reconstruct.layout import Shape, Shapes
+from texvent.runtime.layer_shapes import Shape, Shapes
 from texvent.runtime.network_files import Tensor
 
 

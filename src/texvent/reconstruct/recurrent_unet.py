@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 from texvent.reconstruct.dynamic_decoder import decode_dynamically, dynamic_decoder_shapes
 from texvent.reconstruct.layers import Layers
-from texvent.reconstruct.layout import (
+from texvent.runtime.layer_shapes import (
     Shape,
     Shapes,
     conv_gru,

@@ -27,69 +27,41 @@ Axis: TypeAlias = tuple[Array, int]
 """A coordinate per event, and how many values it can take."""
 
 
-class ArrayOps(Protocol):
-    """Where NumPy and torch differ."""
+class ArrayOps:
+    """Where NumPy and torch differ; this is NumPy, `represent.tensors.TorchOps` is torch."""
 
     @property
     def xp(self) -> Any:
         """The module: `where`, `exp`, `sign` and the like have the same names in both."""
-        ...
+        return np
 
     def cast(self, array: Array, dtype: DType) -> Array:
         """The array with another type, always a new one."""
-        ...
+        return array.astype(dtype)
 
     def from_numpy(self, array: NDArray[Any]) -> Array:
         """A copy of a NumPy array, on the device of the events."""
-        ...
+        return array.copy()
 
     def count_at(self, index: Array, cells: int) -> Array:
         """How often each of `0..cells − 1` occurs in `index`, [cells] int64."""
-        ...
+        return np.bincount(index, minlength=cells)
 
     def add_at(self, index: Array, values: Array, cells: int) -> Array:
         """Sum of the values at each index, [cells], of the type of `values`."""
-        ...
-
-    def latest_at(self, index: Array, t: Array, cells: int, never: int) -> Array:
-        """Largest `t` at each index, [cells] int64; `never` where there is none."""
-        ...
-
-
-class NumpyOps:
-    """The operations in NumPy."""
-
-    xp = np
-
-    def cast(self, array: NDArray[Any], dtype: DType) -> NDArray[Any]:
-        """As `ArrayOps.cast`."""
-        return array.astype(dtype)
-
-    def from_numpy(self, array: NDArray[Any]) -> NDArray[Any]:
-        """As `ArrayOps.from_numpy`."""
-        return array.copy()
-
-    def count_at(self, index: NDArray[Any], cells: int) -> NDArray[Any]:
-        """As `ArrayOps.count_at`."""
-        return np.bincount(index, minlength=cells)
-
-    def add_at(self, index: NDArray[Any], values: NDArray[Any], cells: int) -> NDArray[Any]:
-        """As `ArrayOps.add_at`."""
         sums = np.zeros(cells, values.dtype)
         # Not bincount: its weights are float64, which would round sums of large integers.
         np.add.at(sums, index, values)
         return sums
 
-    def latest_at(
-        self, index: NDArray[Any], t: NDArray[Any], cells: int, never: int
-    ) -> NDArray[Any]:
-        """As `ArrayOps.latest_at`."""
+    def latest_at(self, index: Array, t: Array, cells: int, never: int) -> Array:
+        """Largest `t` at each index, [cells] int64; `never` where there is none."""
         latest = np.full(cells, never, np.int64)
         np.maximum.at(latest, index, t)
         return latest
 
 
-NUMPY_OPS = NumpyOps()
+NUMPY_OPS = ArrayOps()
 
 
 @dataclass(frozen=True, eq=False)

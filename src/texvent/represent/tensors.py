@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from texvent._require import require
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.represent.array_ops import DType, EventColumns, Events
+from texvent.represent.array_ops import ArrayOps, DType, EventColumns, Events
 from texvent.sensor import SensorSize
 
 Tensor: TypeAlias = Any
@@ -101,7 +101,7 @@ class EventTensors:
 
 
 @dataclass(frozen=True)
-class TorchOps:
+class TorchOps(ArrayOps):
     """The operations of `ArrayOps` in torch."""
 
     device: str

@@ -25,6 +25,7 @@ from texvent.config import check_range
 from texvent.errors import InputError
 from texvent.represent.array_ops import (
     Array,
+    ArrayOps,
     Axis,
     EventColumns,
     Events,
@@ -32,7 +33,6 @@ from texvent.represent.array_ops import (
     flat_index,
     sides_of,
 )
-from texvent.represent.normalise import normalise_nonzero
 
 MAX_BINS = 4096
 MAX_INT64 = 2**63 - 1
@@ -243,3 +243,31 @@ def _checked_map(rectify_map: NDArray[np.float32], columns: EventColumns) -> NDA
     if not np.isfinite(table).all():
         raise InputError("rectify_map holds NaN or infinity; every pixel needs a finite place")
     return table
+
+
+def normalise_nonzero(grid: Array, ops: ArrayOps) -> Array:
+    """The grid with its non-zero values at mean 0 and standard deviation 1 (n − 1); zeros stay 0.
+
+    Values that are all equal become 0.
+
+    Args:
+        grid: any shape, float32.
+        ops: operations of the library that holds it.
+
+    Returns:
+        A new array, float32, standard deviations.
+
+    Source: `EventPreprocessor` of rpg_e2vid and `VoxelGrid` of DSEC.
+    """
+    is_filled = grid != 0
+    values = ops.cast(grid[is_filled], "float64")
+    if not len(values):
+        return ops.cast(grid, "float32")
+    mean = values.mean()
+    spread = values - mean
+    # Compared by value: rounding in the mean can leave equal values a tiny deviation.
+    is_constant = bool(values.min() == values.max())
+    deviation = 1.0 if is_constant else float((spread * spread).sum() / (len(values) - 1)) ** 0.5
+    wide = ops.cast(grid, "float64")
+    scaled = (wide - (values[0] if is_constant else mean)) / deviation
+    return ops.cast(ops.xp.where(is_filled, scaled, wide * 0.0), "float32")

@@ -14,10 +14,10 @@ from typing import Any, TypeAlias
 
 from texvent._require import require
 from texvent.errors import FileFormatError
+from texvent.runtime.layer_shapes import Shape
 
 Tensor: TypeAlias = Any
 """torch.Tensor; torch is imported only when weights are read."""
-Shape: TypeAlias = tuple[int, ...]
 
 SAFETENSORS = ".safetensors"
 DAMAGE = (
@@ -135,16 +135,6 @@ def describe_mismatch(found: Mapping[str, Shape], expected: Mapping[str, Shape])
 def shapes_of(tensors: Mapping[str, Tensor]) -> dict[str, Shape]:
     """Name → shape."""
     return {name: tuple(tensor.shape) for name, tensor in tensors.items()}
-
-
-def convolution_shapes(
-    name: str, channels_out: int, channels_in: int, side: int
-) -> dict[str, Shape]:
-    """Name → shape of the tensors of a convolution."""
-    return {
-        f"{name}.weight": (channels_out, channels_in, side, side),
-        f"{name}.bias": (channels_out,),
-    }
 
 
 def _make_stand_in(name: str) -> type[StandIn]:

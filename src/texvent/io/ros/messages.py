@@ -97,7 +97,7 @@ def open_event_array(data: bytes) -> RawMessage:
     payload = memoryview(data)[start + 12 :]
     if len(payload) != count * _RECORD.itemsize:
         raise FileFormatError(f"a message states {count} events in {len(payload)} bytes")
-    return RawMessage(_size(width, height), payload)
+    return RawMessage(SensorSize(width, height), payload)
 
 
 def unpack_event_array(message: RawMessage) -> dict[str, NDArray[Any]]:
@@ -146,11 +146,7 @@ def open_event_packet(data: bytes) -> RawMessage:
     payload = body[place + 4 : place + 4 + count]
     if len(payload) != count or count % 2:
         raise FileFormatError(f"a message states {count} bytes of events; it is damaged")
-    return RawMessage(_size(width, height), payload)
-
-
-def _size(width: int, height: int) -> SensorSize:
-    return SensorSize(width, height)
+    return RawMessage(SensorSize(width, height), payload)
 
 
 def _text(text: bytes) -> bytes:

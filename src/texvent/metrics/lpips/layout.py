@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+from texvent.runtime.layer_shapes import Shapes
+
 LpipsNet: TypeAlias = Literal["alex", "vgg"]
-Shape: TypeAlias = tuple[int, ...]
 
 COLOURS = 3
 
@@ -37,9 +38,9 @@ class LpipsLayout:
     """Key of the convolutions in the published file."""
     convolutions: tuple[Convolution, ...]
 
-    def array_shapes(self) -> dict[str, Shape]:
+    def array_shapes(self) -> Shapes:
         """Name → shape of every array: kernels are [rows, columns, channels in, channels out]."""
-        shapes: dict[str, Shape] = {}
+        shapes: Shapes = {}
         channels_in = COLOURS
         for number, layer in enumerate(self.convolutions):
             shapes[f"kernel{number}"] = (layer.kernel, layer.kernel, channels_in, layer.channels)

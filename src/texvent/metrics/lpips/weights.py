@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, InputError
 from texvent.io.atomic import atomic_file
-from texvent.metrics.lpips.layout import LAYOUTS, LpipsLayout, LpipsNet, Shape
+from texvent.metrics.lpips.layout import LAYOUTS, LpipsLayout, LpipsNet
 from texvent.runtime.cache_folder import cache_folder
+from texvent.runtime.layer_shapes import Shape
 from texvent.runtime.network_files import DAMAGE
 
 Float32Array = NDArray[np.float32]

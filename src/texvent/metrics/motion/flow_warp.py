@@ -8,8 +8,7 @@ import numpy as np
 
 from texvent.config import check_range
 from texvent.events import EventStream
-from texvent.metrics.motion.contrast_maximisation import estimate_velocity
-from texvent.metrics.motion.splat import splat_events
+from texvent.metrics.motion.contrast_maximisation import estimate_velocity, splat_events
 from texvent.metrics.protocol import UNDEFINED, Metric
 from texvent.metrics.windows import occupied_windows, rate_of_window
 from texvent.video import MICROSECONDS

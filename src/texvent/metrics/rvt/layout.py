@@ -7,9 +7,8 @@ cameras" (CVPR 2023), and the configurations released with it.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
 
-Shape: TypeAlias = tuple[int, ...]
+from texvent.runtime.layer_shapes import Shapes, layer_norm, linear
 
 INPUT_CHANNELS = 20
 """Of the stacked histogram: 2 polarities of 10 bins."""
@@ -36,17 +35,17 @@ class RvtLayout:
         """Channels of a stage, 0..3."""
         return int(self.embed_channels * 2**stage)
 
-    def tensor_shapes(self) -> dict[str, Shape]:
+    def tensor_shapes(self) -> Shapes:
         """Name → shape of every tensor of the four stages, without the checkpoint's prefix."""
-        shapes: dict[str, Shape] = {}
+        shapes: Shapes = {}
         channels_in = INPUT_CHANNELS
         for stage, stride in enumerate(STRIDES):
             width, at = self.channels(stage), f"stages.{stage}"
             side = kernel_side(stride)
             shapes[f"{at}.downsample_cf2cl.conv.weight"] = (width, channels_in, side, side)
-            shapes.update(_norm(f"{at}.downsample_cf2cl.norm", width))
+            shapes |= layer_norm(f"{at}.downsample_cf2cl.norm", width)
             for part in ATTENTIONS:
-                shapes.update(_attention_shapes(f"{at}.att_blocks.0.{part}", width))
+                shapes |= _attention_shapes(f"{at}.att_blocks.0.{part}", width)
             shapes[f"{at}.lstm.conv1x1.weight"] = (GATES * width, 2 * width, 1, 1)
             shapes[f"{at}.lstm.conv1x1.bias"] = (GATES * width,)
             channels_in = width
@@ -58,27 +57,19 @@ def kernel_side(stride: int) -> int:
     return 2 * (stride - 1) + 1
 
 
-def _attention_shapes(at: str, width: int) -> dict[str, Shape]:
-    shapes: dict[str, Shape] = {}
+def _attention_shapes(at: str, width: int) -> Shapes:
+    shapes: Shapes = {}
     if at.endswith("att_grid"):
         # The window's input is normalised already, by the layer before.
-        shapes.update(_norm(f"{at}.norm1", width))
-    shapes.update(_linear(f"{at}.self_attn.qkv", width, 3 * width))
-    shapes.update(_linear(f"{at}.self_attn.proj", width, width))
+        shapes |= layer_norm(f"{at}.norm1", width)
+    shapes |= linear(f"{at}.self_attn.qkv", 3 * width, width)
+    shapes |= linear(f"{at}.self_attn.proj", width, width)
     shapes[f"{at}.ls1.gamma"] = (width,)
-    shapes.update(_norm(f"{at}.norm2", width))
-    shapes.update(_linear(f"{at}.mlp.net.0.0", width, MLP_RATIO * width))
-    shapes.update(_linear(f"{at}.mlp.net.2", MLP_RATIO * width, width))
+    shapes |= layer_norm(f"{at}.norm2", width)
+    shapes |= linear(f"{at}.mlp.net.0.0", MLP_RATIO * width, width)
+    shapes |= linear(f"{at}.mlp.net.2", width, MLP_RATIO * width)
     shapes[f"{at}.ls2.gamma"] = (width,)
     return shapes
-
-
-def _norm(name: str, width: int) -> dict[str, Shape]:
-    return {f"{name}.weight": (width,), f"{name}.bias": (width,)}
-
-
-def _linear(name: str, channels_in: int, channels_out: int) -> dict[str, Shape]:
-    return {f"{name}.weight": (channels_out, channels_in), f"{name}.bias": (channels_out,)}
 
 
 LAYOUTS: tuple[RvtLayout, ...] = (

@@ -7,7 +7,8 @@ numbers are kept.
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -17,9 +18,33 @@ from texvent._require import require
 from texvent.data.pull import ARCHIVES, Progress, data_folder, describe, fetch_archive
 from texvent.data.unpack import unpack
 from texvent.errors import FileFormatError
+from texvent.interpolate.rife.weights import read_rife_weights, write_rife_weights
+from texvent.metrics.lpips.weights import read_lpips_weights, write_lpips_weights
 from texvent.runtime.cache_folder import cache_folder, make_folder
-from texvent.weights.catalogue import PublishedWeights, find_weights
-from texvent.weights.networks import NETWORKS
+from texvent.weights.published import NetworkKind, PublishedWeights, find_weights
+
+
+@dataclass(frozen=True)
+class NetworkFiles:
+    """One kind of network's way to read files."""
+
+    needs: tuple[str, ...]
+    """Modules that reading and writing need."""
+    extra: str | None
+    """The texvent extra that brings them."""
+    read: Callable[[Path], Any]
+    """File → checked weights, which say their `layout.name`."""
+    write: Callable[[Any, Path], None]
+    """Weights, path: store them as texvent keeps them."""
+
+
+NETWORKS: Mapping[NetworkKind, NetworkFiles] = {
+    "rife": NetworkFiles(
+        ("torch", "safetensors.torch"), "rife", read_rife_weights, write_rife_weights
+    ),
+    "lpips": NetworkFiles((), None, read_lpips_weights, write_lpips_weights),
+}
+"""Kind → how to read it."""
 
 
 def weights_folder() -> Path:
@@ -37,7 +62,7 @@ def pull_weights(
     """Fetch and convert weights, unless that is done already.
 
     Args:
-        name: one of `catalogue.WEIGHTS`.
+        name: one of `published.WEIGHTS`.
         progress: shows how far the download is; see `texvent.data.download_bar.show_progress`.
         announce: told the licence and the size before anything is fetched.
         client: another connection to a package index.

@@ -16,7 +16,7 @@ from texvent.metrics.lpips.layout import LpipsNet
 from texvent.metrics.lpips.weights import weights_file_name
 
 NetworkKind: TypeAlias = Literal["rife", "lpips"]
-"""Networks that are read alike; see `texvent.weights.networks`."""
+"""Networks that are read alike; see `texvent.weights.fetch`."""
 
 
 @dataclass(frozen=True)
