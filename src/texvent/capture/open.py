@@ -48,16 +48,21 @@ def open_frames(
         ConfigError: frame times are given in two ways at once.
     """
     given = _given_times(config, t_us)
+    stream: FrameStream
     if isinstance(source, (str, Path)):
-        return _open_address(str(source), config, size, given)
-    if isinstance(source, FrameStream):
+        stream = _open_address(str(source), config, given)
+    elif isinstance(source, FrameStream):
         return _adapt_stream(source, config, size, given)
-    if not (isinstance(source, Iterable) or hasattr(source, "__array__")):
+    elif isinstance(source, Iterable) or hasattr(source, "__array__"):
+        stream = _open_array(source, config, given)
+    else:
         raise InputError(
             f"cannot read frames from {type(source).__name__}; give a path, an address, an array "
             "[N, H, W] or [N, H, W, 3], or a FrameStream"
         )
-    return _open_array(source, config, size, given)
+    # An array that can be read twice was looked through as a whole already.
+    check_scale = stream.is_live or not isinstance(stream, ArrayFrames)
+    return PreparedFrames(stream, config, size=size, check_scale=check_scale)
 
 
 def _given_times(config: CaptureConfig, t_us: Any) -> FrameTimes | None:
@@ -77,28 +82,26 @@ def _file_times(config: CaptureConfig, given: FrameTimes | None) -> FrameTimes |
     return read_timestamps(config.timestamps, config.timestamps_unit).times
 
 
-def _open_address(
-    address: str, config: CaptureConfig, size: SensorSize | None, given: FrameTimes | None
-) -> FrameStream:
+def _open_address(address: str, config: CaptureConfig, given: FrameTimes | None) -> FrameStream:
     path = Path(address.removeprefix("file://")).expanduser()
     if _is_live(address, path):
         from texvent.capture.live import LiveFrames  # brings PyAV
 
-        return PreparedFrames(LiveFrames(address, _file_times(config, given)), config, size=size)
+        return LiveFrames(address, _file_times(config, given))
     if is_evreal(path):
-        return PreparedFrames(EvrealFrames(path, _file_times(config, given)), config, size=size)
+        return EvrealFrames(path, _file_times(config, given))
     if is_dsec(path) and given is None and config.timestamps is None:
-        return PreparedFrames(DsecFrames(path), config, size=size)
+        return DsecFrames(path)
     if path.is_dir():
-        folder = ImageFolder(path, given, timestamps=config.timestamps, unit=config.timestamps_unit)
-        return PreparedFrames(folder, config, size=size)
+        unit = config.timestamps_unit
+        return ImageFolder(path, given, timestamps=config.timestamps, unit=unit)
     if path.suffix.lower() == ".npy" and path.is_file():
-        return _open_array(_read_npy(path), config, size, given)
+        return _open_array(_read_npy(path), config, given)
     if is_aedat4(path):
-        return PreparedFrames(Aedat4Frames(path, _file_times(config, given)), config, size=size)
+        return Aedat4Frames(path, _file_times(config, given))
     from texvent.capture.video_file import VideoFile  # brings PyAV
 
-    return PreparedFrames(VideoFile(path, _file_times(config, given)), config, size=size)
+    return VideoFile(path, _file_times(config, given))
 
 
 def _is_live(address: str, path: Path) -> bool:
@@ -108,17 +111,13 @@ def _is_live(address: str, path: Path) -> bool:
     return stat.S_ISFIFO(mode) or stat.S_ISCHR(mode)
 
 
-def _open_array(
-    frames: Any, config: CaptureConfig, size: SensorSize | None, given: FrameTimes | None
-) -> FrameStream:
+def _open_array(frames: Any, config: CaptureConfig, given: FrameTimes | None) -> FrameStream:
     times = _file_times(config, given)
     if times is None:
         raise InputError(
             "frames in memory have no times; give fps=, or t_us= with one time per frame in µs"
         )
-    stream = ArrayFrames(frames, times, white_level=config.white_level)
-    # What can be read twice was looked through as a whole already.
-    return PreparedFrames(stream, config, size=size, check_scale=stream.is_live)
+    return ArrayFrames(frames, times, white_level=config.white_level)
 
 
 def _adapt_stream(

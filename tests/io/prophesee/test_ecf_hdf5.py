@@ -186,8 +186,8 @@ def damage(path: Path, change: str) -> None:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ("claims more", "claims 1125899906842624 events and stores at most 16384"),
-        ("a chunk is missing", "claims 16385 events and stores at most 16384"),
+        ("claims more", "claims 1125899906842624 values and stores at most 16384"),
+        ("a chunk is missing", "claims 16385 values and stores at most 16384"),
         ("a short chunk", "holds 2 events instead of 3"),
         ("a huge chunk", "has 1053576 bytes; at most 1052672"),
         ("no fields", "must be a list of x, y, p, t"),

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
+from texvent.io.hdf5.damage import check_claims
 from texvent.io.prophesee.ecf_chunks import MAX_EVENTS, decode_chunk
 from texvent.io.protocol import Columns
 
@@ -23,18 +24,12 @@ def check_storage(events: Any, path: Path) -> None:
     Raises:
         FileFormatError: more events are claimed than stored, or chunks are too large.
     """
-    count = events.shape[0]
-    if events.chunks is None:
-        stored = events.id.get_storage_size() // events.dtype.itemsize
-    else:
-        largest = MAX_EVENTS if is_ecf(events) else MAX_CHUNK_EVENTS
-        if events.chunks[0] > largest:
-            raise FileFormatError(
-                f"{path}: CD/events has chunks of {events.chunks[0]} events; at most {largest}"
-            )
-        stored = events.id.get_num_chunks() * events.chunks[0]
-    if stored < count:
-        raise FileFormatError(f"{path} claims {count} events and stores at most {stored}")
+    largest = MAX_EVENTS if is_ecf(events) else MAX_CHUNK_EVENTS
+    if events.chunks is not None and events.chunks[0] > largest:
+        raise FileFormatError(
+            f"{path}: CD/events has chunks of {events.chunks[0]} events; at most {largest}"
+        )
+    check_claims(events, path)
 
 
 def is_ecf(events: Any) -> bool:
