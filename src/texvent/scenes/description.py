@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from texvent.scenes.inflection import pluralise
+from texvent.scenes.inflection import list_finite_forms, pluralise
 from texvent.scenes.scene import Colour
 
 
@@ -213,7 +213,6 @@ _RELATIONS = {
     "front": "in front of",
     "surround": "surrounded by",
     "follow": "following",
-    "above": "above",
 }
 _BACKDROPS = {
     "mountain": "mountains around (the ground itself stays flat)",
@@ -234,7 +233,7 @@ def _describe_count(scene_object: SceneObject) -> str:
 
 def _describe_motion(motion: ObjectMotion, *, is_plural: bool) -> str:
     verb, *rest = _PHRASES.get(motion.kind, motion.kind).split()
-    words = [verb if is_plural else _third_person(verb), *rest]
+    words = [verb if is_plural else list_finite_forms(verb)[1], *rest]
     if motion.direction is not None:
         words.append(_DIRECTIONS.get(motion.direction, motion.direction))
     if motion.speed_m_s is not None:
@@ -245,12 +244,6 @@ def _describe_motion(motion: ObjectMotion, *, is_plural: bool) -> str:
 
 
 _PHRASES = {"throw": "fly through the air", "work": "move in place", "stand": "stand still"}
-
-
-def _third_person(verb: str) -> str:
-    if verb.endswith("y") and verb[-2:-1] not in "aeiou":
-        return f"{verb[:-1]}ies"
-    return f"{verb}s"
 
 
 def _describe_surroundings(surroundings: Surroundings) -> str:

@@ -274,9 +274,13 @@ class ObjectReader:
         """A place or light was read: the next noun starts a list of subjects of its own."""
         self._has_acted = True
 
-    def read_and(self) -> None:
+    def read_and(self, _: Phrase) -> None:
         """The word and: the next noun joins the last one."""
         self._is_joined = True
+
+    def read_negation(self, phrase: Phrase) -> None:
+        """A word such as no: the next noun is not shown."""
+        self.negation = phrase
 
     def end_clause(self, sign: str) -> None:
         """A comma or full stop."""

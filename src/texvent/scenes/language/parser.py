@@ -7,7 +7,7 @@ the surroundings. What no reader could use is reported word by word.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import lru_cache
 
 from texvent.errors import InputError
@@ -25,18 +25,10 @@ from texvent.scenes.models.protocol import Noun
 
 _SILENT = frozenset({Role.BREAK, Role.AND, Role.DETERMINER, Role.PRONOUN})
 """Roles that need no effect of their own."""
-_SCENE_ROLES = frozenset(
-    {
-        Role.WEATHER,
-        Role.CLOUDS,
-        Role.SNOW,
-        Role.STEEP,
-        Role.DUST,
-        Role.FLICKER,
-        Role.SHADOW,
-        Role.GLOW,
-    }
-)
+_SCENE_ROLES = (
+    Role.WEATHER, Role.CLOUDS, Role.SNOW, Role.STEEP, Role.DUST, Role.FLICKER, Role.SHADOW,
+    Role.GLOW,
+)  # fmt: skip
 _EFFECTS = frozenset({Role.WEATHER, Role.SNOW, Role.DUST, Role.CLOUDS})
 """Subjects whose verbs say nothing new: "rain falls", "dust flies up"."""
 _CLAUSE_SIGNS = frozenset(',.;:!?()[]"')
@@ -82,6 +74,22 @@ class _PromptParser:
         self._objects = ObjectReader(nouns)
         self._camera = CameraReader()
         self._scene = SurroundingsReader()
+        self._readers: dict[Role, Callable[[Phrase], None]] = {
+            **dict.fromkeys(_SCENE_ROLES, self._read_scene_word),
+            **dict.fromkeys((Role.PLACE, Role.LIGHT, Role.SKY), self._read_surroundings),
+            **dict.fromkeys((Role.SPEED_UNIT, Role.HERTZ), self._read_unit),
+            **dict.fromkeys(ADJECTIVES, self._objects.read_adjective),
+            Role.DETERMINER: self._objects.open_noun_phrase,
+            Role.NEGATION: self._objects.read_negation,
+            Role.RELATION: self._objects.read_relation,
+            Role.STILL: self._objects.read_still,
+            Role.SIDE: self._objects.read_side,
+            Role.PART: self._objects.read_part,
+            Role.AND: self._objects.read_and,
+            Role.PRONOUN: self._read_pronoun,
+            Role.BREAK: self._read_break,
+        }
+        """What reads a phrase by itself; the rest depends on its neighbours."""
 
     def read(self, prompt: str) -> SceneDescription:
         """The description, before defaults are filled in."""
@@ -117,49 +125,21 @@ class _PromptParser:
         role = phrase.role
         if role is Role.UNKNOWN:
             self._read_unknown(position)
-        elif role in _SCENE_ROLES:
-            self._read_scene_word(phrase)
-        elif role in (Role.PLACE, Role.LIGHT, Role.SKY):
-            self._read_surroundings(phrase)
-        elif role in (Role.SPEED_UNIT, Role.HERTZ):
-            self._read_unit(phrase)
         elif role is Role.NOUN:
             self._read_noun(position, phrase)
         elif role in (Role.VERB, Role.DIRECTION, Role.PACE, Role.SHADE):
             self._read_by_neighbours(position, phrase)
         else:
-            self._read_structure(phrase)
+            self._readers[role](phrase)
 
-    def _read_structure(self, phrase: Phrase) -> None:
-        """Words that steer the reading of objects."""
-        role = phrase.role
-        if role is Role.DETERMINER:
-            self._objects.open_noun_phrase(phrase)
-        elif role in ADJECTIVES:
-            self._objects.read_adjective(phrase)
-        elif role is Role.NEGATION:
-            self._objects.negation = phrase
-        elif role is Role.RELATION:
-            self._objects.read_relation(phrase)
-        elif role in (Role.STILL, Role.PART, Role.SIDE):
-            self._read_remark(phrase)
-        elif role is Role.AND:
-            self._objects.read_and()
-        elif role is Role.PRONOUN:
-            self._camera.has_focus = False
-            self._objects.read_pronoun(phrase)
-        elif role is Role.BREAK and phrase.text in _CLAUSE_SIGNS:
+    def _read_pronoun(self, phrase: Phrase) -> None:
+        self._camera.has_focus = False
+        self._objects.read_pronoun(phrase)
+
+    def _read_break(self, phrase: Phrase) -> None:
+        if phrase.text in _CLAUSE_SIGNS:
             self._camera.has_focus &= phrase.text == ","
             self._objects.end_clause(phrase.text)
-
-    def _read_remark(self, phrase: Phrase) -> None:
-        """Words about an object that is already named."""
-        if phrase.role is Role.STILL:
-            self._objects.read_still(phrase)
-        elif phrase.role is Role.SIDE:
-            self._objects.read_side(phrase)
-        else:
-            self._objects.read_part(phrase)
 
     def _read_noun(self, position: int, phrase: Phrase) -> None:
         follower = self._next_phrase(position, frozenset({Role.PACE}))

@@ -225,10 +225,7 @@ def _sun_plane(sun: Float64Array) -> Float64Array:
 def _sun_windows(primitives: Primitives, axes: Float64Array, margin: Float64Array) -> Float64Array:
     """[n, 5] bounds of the shapes along the sun plane's axes, and their top towards the sun.
 
-    Args:
-        primitives: the shapes.
-        axes: [3, 3] the sun plane's axes, and the direction towards the sun.
-        margin: [n] metres by which a thin shape may be widened.
+    `axes` [3, 3] ends with the direction towards the sun; thin shapes are `margin` [n] m wider.
     """
     to_world = np.asarray(primitives.to_world, dtype=np.float64)
     middle = to_world[:, :, 3] @ axes.T
@@ -242,13 +239,8 @@ def _sun_windows(primitives: Primitives, axes: Float64Array, margin: Float64Arra
 def _sun_lists(windows: Float64Array, numbers: IntArray) -> tuple[Bins, Float64Array]:
     """The shapes that cast shadows, listed by cells of the plane facing the sun.
 
-    Args:
-        windows: [n, 5] from `_sun_windows`.
-        numbers: the shapes that cast shadows.
-
-    Returns:
-        (lists, [4] corner of the grid in metres, then cells per metre). One more cell, the last,
-        lists the big shapes.
+    One more cell, the last, lists the big shapes. With the lists comes the grid: [4] its corner,
+    metres, then cells per metre.
     """
     if not len(numbers):
         empty = np.zeros(SUN_CELLS * SUN_CELLS + 2, dtype=np.int64)

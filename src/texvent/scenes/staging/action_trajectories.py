@@ -21,11 +21,10 @@ class Spin:
     home: Vector
     rate_rad_s: float
     yaw: float = 0.0
-    activity: str = "move"
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
-        return BodyState(self.home, self.yaw + self.rate_rad_s * time_s, activity=self.activity)
+        return BodyState(self.home, self.yaw + self.rate_rad_s * time_s)
 
 
 @dataclass(frozen=True)
@@ -47,7 +46,6 @@ class Bounce:
     start_s: float = 0.0
     tumble_rad_s: float = 0.0
     pivot_m: float = 0.0
-    activity: str = "move"
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
@@ -59,7 +57,6 @@ class Bounce:
             pitch=self.tumble_rad_s * elapsed,
             distance_m=abs(along),
             speed_m_s=abs(self.along_m_s),
-            activity=self.activity,
             pivot_m=self.pivot_m,
         )
 
@@ -92,7 +89,6 @@ class Climb:
     mid_s: float
     acceleration_m_s2: float = 0.0
     lowest_m: float = -math.inf
-    yaw: float = 0.0
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
@@ -101,7 +97,6 @@ class Climb:
         risen += 0.5 * self.acceleration_m_s2 * max(time_s, 0.0) ** 2
         return BodyState(
             (x, y, max(z + risen, self.lowest_m)),
-            self.yaw,
             distance_m=abs(self.speed_m_s) * time_s,
             speed_m_s=abs(self.speed_m_s),
         )
@@ -168,7 +163,6 @@ class Hover:
     amplitude_m: float
     yaw: float = 0.0
     phase: float = 0.0
-    turn_rad: float = 0.12
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
@@ -180,9 +174,8 @@ class Hover:
                 y,
                 z + self.amplitude_m * math.sin(0.4 * wave),
             ),
-            self.yaw + self.turn_rad * math.sin(0.31 * wave),
+            self.yaw + 0.12 * math.sin(0.31 * wave),
             roll=0.05 * math.sin(0.23 * wave),
-            activity="move",
         )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -53,15 +53,9 @@ def assemble(placed: Sequence[PlacedModel]) -> Primitives:
     )
 
 
-def join_primitives(first: Primitives, second: Primitives) -> Primitives:
-    """The shapes of both, in order."""
+def join_primitives(groups: Sequence[Primitives]) -> Primitives:
+    """The shapes of all groups, in order."""
+    names = [field.name for field in fields(Primitives)]
     return Primitives(
-        shape=np.concatenate([first.shape, second.shape]),
-        to_world=np.concatenate([first.to_world, second.to_world]),
-        colour=np.concatenate([first.colour, second.colour]),
-        second_colour=np.concatenate([first.second_colour, second.second_colour]),
-        texture=np.concatenate([first.texture, second.texture]),
-        texture_scale=np.concatenate([first.texture_scale, second.texture_scale]),
-        emission=np.concatenate([first.emission, second.emission]),
-        instance=np.concatenate([first.instance, second.instance]),
+        **{name: np.concatenate([getattr(group, name) for group in groups]) for name in names}
     )

@@ -69,14 +69,11 @@ class ComposedScene:
 
     def primitives(self, time_s: float) -> Primitives:
         """All shapes at that instant: actors, then scenery, then weather."""
-        shapes = assemble([actor.place(time_s) for actor in self.actors])
-        shapes = join_primitives(shapes, self.still)
-        for effect in self.effects:
-            shapes = join_primitives(shapes, effect.at(time_s))
-        if self.animated_environment.flicker_hz is not None:
-            factor = np.float32(self.animated_environment.flicker(time_s))
-            shapes = replace(shapes, emission=shapes.emission * factor)
-        return shapes
+        acting = assemble([actor.place(time_s) for actor in self.actors])
+        weather = [effect.at(time_s) for effect in self.effects]
+        shapes = join_primitives([acting, self.still, *weather])
+        factor = np.float32(self.animated_environment.flicker(time_s))
+        return replace(shapes, emission=shapes.emission * factor)
 
     def camera(self, time_s: float) -> Camera:
         """The camera at that instant."""

@@ -139,8 +139,6 @@ class AnimatedEnvironment:
 
     def at(self, time_s: float) -> Environment:
         """The surroundings at that instant."""
-        if self.flicker_hz is None:
-            return replace(self.base, time_s=time_s)
         factor = np.float32(self.flicker(time_s))
         lamps = self.base.lamps.copy()
         lamps[:, 3:6] *= factor

@@ -9,14 +9,13 @@ from dataclasses import replace
 import numpy as np
 
 from texvent.scenes.description import STANDING, Relation, SceneDescription
+from texvent.scenes.models.materials import Material
 from texvent.scenes.models.protocol import Model, ModelPart, Noun
-from texvent.scenes.scene import Float64Array, Shape
+from texvent.scenes.models.shapes import post
+from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.action_trajectories import Swing
 from texvent.scenes.staging.actors import Actor, seeded
-from texvent.scenes.staging.choose_trajectory import (
-    choose_trajectory,
-    plan_motion,
-)
+from texvent.scenes.staging.choose_trajectory import choose_trajectory, plan_motion
 from texvent.scenes.staging.object_groups import (
     ObjectGroup,
     half_extents_over_clip,
@@ -221,7 +220,7 @@ class ObjectPlacer:
                                           group.carrier.noun.name))  # fmt: skip
             offset = np.array(home) - group.carrier.centre
             turned = _unturn(offset, group.carrier.plan.yaw)
-            return Riding(carrier, turned, activity="sit")
+            return Riding(carrier, turned)
         return choose_trajectory(group.plan, model, home, rng, clear_m=group.clear_m)
 
 
@@ -230,14 +229,9 @@ def _rope(trajectory: Trajectory, model: Model) -> tuple[ModelPart, ...]:
     if not isinstance(trajectory, Swing):
         return ()
     low, high = 0.9 * model.height, trajectory.length_m
-    to_body = np.array(
-        [
-            [0.012 + 0.004 * model.height, 0.0, 0.0, 0.0],
-            [0.0, 0.012 + 0.004 * model.height, 0.0, 0.0],
-            [0.0, 0.0, 0.5 * (high - low), 0.5 * (high + low)],
-        ]
-    )
-    return (ModelPart(Shape.CYLINDER, to_body, (0.25, 0.2, 0.14)),)
+    thick = 2.0 * (0.012 + 0.004 * model.height)
+    size = (thick, thick, high - low)
+    return (post(Material((0.25, 0.2, 0.14)), (0.0, 0.0, 0.5 * (high + low)), size),)
 
 
 def _tuple(group: ObjectGroup) -> Vector:

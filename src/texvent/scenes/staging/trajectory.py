@@ -201,22 +201,15 @@ class Circle:
 
 @dataclass(frozen=True)
 class Riding:
-    """Goes where another body goes, at a fixed place on it, with a motion of its own on top."""
+    """Sits at a fixed place on another body and goes where that goes."""
 
     carrier: Trajectory
     seat: Vector
     """In the carrier's body coordinates, m."""
-    yaw: float = 0.0
-    activity: str = "sit"
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
         below = self.carrier.at(time_s)
         place = below.to_world() @ np.array([*self.seat, 1.0])
-        return BodyState(
-            (float(place[0]), float(place[1]), float(place[2])),
-            below.yaw + self.yaw,
-            below.pitch,
-            below.roll,
-            activity=self.activity,
-        )
+        seat = (float(place[0]), float(place[1]), float(place[2]))
+        return BodyState(seat, below.yaw, below.pitch, below.roll, activity="sit")
