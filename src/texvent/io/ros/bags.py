@@ -50,49 +50,42 @@ TOPIC, FACTS_TOPIC = "/dvs/events", "/texvent"
 STRING = "std_msgs/msg/String"
 PACKET_US = 10_000
 NS = 1000
-ROSBAG1 = "rosbags.rosbag1"
+ROSBAG1, ROSBAG2 = "rosbags.rosbag1", "rosbags.rosbag2"
 EXTRA = "bags"
+OPEN_MESSAGE = {EVENT_ARRAY: open_event_array, EVENT_PACKET: open_event_packet}
+"""Type of message → what finds its parts."""
 
 
 class BagCodec(BlockCodec):
     """What both kinds of bag share."""
 
+    module: ClassVar[str]
+    """Package that reads and writes the file."""
+    message_type: ClassVar[str]
+    """Type of the messages that hold events."""
+    text_start: ClassVar[int]
+    """Bytes before the text in a std_msgs/String."""
+
     def inspect(self, path: Path) -> FileContents:
         """Size and metadata from the message of texvent, else the size of the first events."""
         size: tuple[int, int]
         metadata: dict[str, Any] = {}
-        with self.open_bag(path) as bag:
+        with _open_bag(path, self.module) as bag:
             facts = _first_message(bag, STRING, FACTS_TOPIC)
             if facts is not None:
-                size, metadata = parse_sidecar(path, self.unpack_text(facts))
+                size, metadata = parse_sidecar(path, facts[self.text_start :].rstrip(b"\0"))
             else:
-                data = _first_message(bag, self.message_type())
+                data = _first_message(bag, self.message_type)
                 if data is None:
                     raise FileFormatError(
-                        f"{path} holds no {self.message_type()}; texvent reads bags with those"
+                        f"{path} holds no {self.message_type}; texvent reads bags with those"
                     )
-                size = self.open_message(data).size
+                size = OPEN_MESSAGE[self.message_type](data).size
         return FileContents(size, metadata, partial(self.read_blocks, path))
 
     def check_target(self, target: FileTarget) -> None:
         """Refuse to start without rosbags."""
         require("rosbags", extra=EXTRA)
-
-    @abstractmethod
-    def message_type(self) -> str:
-        """Type of the messages that hold events."""
-
-    @abstractmethod
-    def open_bag(self, path: Path) -> Any:
-        """A context manager that gives a reader and reports damage."""
-
-    @abstractmethod
-    def open_message(self, data: bytes) -> RawMessage:
-        """The parts of a message of events."""
-
-    @abstractmethod
-    def unpack_text(self, data: bytes) -> bytes:
-        """The text in a std_msgs/String."""
 
     @abstractmethod
     def read_blocks(self, path: Path) -> Iterator[Columns]:
@@ -105,22 +98,9 @@ class Rosbag1Codec(BagCodec):
     name: ClassVar[str] = "rosbag1"
     extensions: ClassVar[tuple[str, ...]] = (".bag",)
     limits: ClassVar[FormatLimits] = FormatLimits("rosbag1", 1 << 16, (1 << 32) * 1_000_000)
-
-    def message_type(self) -> str:
-        """Type of the messages that hold events."""
-        return EVENT_ARRAY
-
-    def open_bag(self, path: Path) -> Any:
-        """A context manager that gives a reader and reports damage."""
-        return _open_bag(path, ROSBAG1)
-
-    def open_message(self, data: bytes) -> RawMessage:
-        """The parts of a message of events."""
-        return open_event_array(data)
-
-    def unpack_text(self, data: bytes) -> bytes:
-        """The text in a std_msgs/String: its length and bytes."""
-        return data[4:]
+    module: ClassVar[str] = ROSBAG1
+    message_type: ClassVar[str] = EVENT_ARRAY
+    text_start: ClassVar[int] = 4
 
     def read_blocks(self, path: Path) -> Iterator[Columns]:
         """Columns of the bag's events."""
@@ -152,22 +132,9 @@ class McapCodec(BagCodec):
     name: ClassVar[str] = "mcap"
     extensions: ClassVar[tuple[str, ...]] = (".mcap",)
     limits: ClassVar[FormatLimits] = FormatLimits("MCAP with EVT3", 2048, 1 << 42)
-
-    def message_type(self) -> str:
-        """Type of the messages that hold events."""
-        return EVENT_PACKET
-
-    def open_bag(self, path: Path) -> Any:
-        """A context manager that gives a reader and reports damage."""
-        return _open_bag(path, "rosbags.rosbag2")
-
-    def open_message(self, data: bytes) -> RawMessage:
-        """The parts of a message of events."""
-        return open_event_packet(data)
-
-    def unpack_text(self, data: bytes) -> bytes:
-        """The text in a std_msgs/String: CDR head, length with the final zero, bytes."""
-        return data[8:].rstrip(b"\0")
+    module: ClassVar[str] = ROSBAG2
+    message_type: ClassVar[str] = EVENT_PACKET
+    text_start: ClassVar[int] = 8
 
     def read_blocks(self, path: Path) -> Iterator[Columns]:
         """Columns of the bag's events."""
@@ -178,7 +145,7 @@ class McapCodec(BagCodec):
     @contextmanager
     def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
         """Open a bag for writing: rosbags writes a folder, of which the .mcap is kept."""
-        rosbag2 = require("rosbags.rosbag2", extra=EXTRA)
+        rosbag2 = require(ROSBAG2, extra=EXTRA)
         types = _types(2)
         text = sidecar_text(target.size, target.metadata).encode("utf-8")
         message = b"\0\1\0\0" + struct.pack("<I", len(text) + 1) + text + b"\0"
@@ -292,11 +259,11 @@ def _first_message(bag: Any, kind: str, topic: str | None = None) -> bytes | Non
 
 
 def _messages(codec: BagCodec, path: Path) -> Iterator[RawMessage]:
-    with codec.open_bag(path) as bag:
-        chosen = _connections(bag, codec.message_type(), None)
+    with _open_bag(path, codec.module) as bag:
+        chosen = _connections(bag, codec.message_type, None)
         messages = bag.messages(chosen) if chosen else iter(())
         while True:
             entry = next(messages, None)
             if entry is None:
                 return
-            yield codec.open_message(entry[2])
+            yield OPEN_MESSAGE[codec.message_type](entry[2])

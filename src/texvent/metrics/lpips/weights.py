@@ -16,7 +16,6 @@ from texvent.errors import FileFormatError, InputError
 from texvent.io.atomic import atomic_file
 from texvent.metrics.lpips.layout import LAYOUTS, LpipsLayout, LpipsNet
 from texvent.runtime.cache_folder import cache_folder
-from texvent.runtime.layer_shapes import Shape
 from texvent.runtime.network_files import DAMAGE
 
 Float32Array = NDArray[np.float32]
@@ -74,7 +73,7 @@ def read_lpips_weights(path: Path) -> LpipsWeights:
             f"{path} cannot be read as LPIPS's weights, it is damaged or of another kind "
             f"({reason}); {where_from('alex')}"
         ) from error
-    layout = _recognise_layout(shapes)
+    layout = next((one for one in LAYOUTS if one.array_shapes() == shapes), None)
     if layout is None:
         raise FileFormatError(
             f"{path} does not hold the arrays of LPIPS's network "
@@ -137,7 +136,3 @@ class _ArrayUnpickler(pickle.Unpickler):
             if name in allowed:
                 return allowed[name]
         raise pickle.UnpicklingError(f"it names {module}.{name}, which weights do not need")
-
-
-def _recognise_layout(shapes: Mapping[str, Shape]) -> LpipsLayout | None:
-    return next((one for one in LAYOUTS if one.array_shapes() == shapes), None)
