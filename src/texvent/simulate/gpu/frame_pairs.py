@@ -7,8 +7,7 @@ frames go into the kernels from where the network left them.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from typing import Any, Protocol
+from typing import Any
 
 from texvent._require import require
 from texvent.config import InterpolateConfig, check_range
@@ -18,23 +17,13 @@ from texvent.pairs.tensors import Tensor, rgb_and_luma
 from texvent.simulate.gpu.device import EXTRA
 
 
-class TensorInterpolator(Protocol):
-    """An interpolator for images on a device, such as `rife.RifeInterpolator`."""
-
-    def between_tensors(
-        self, first: Tensor, second: Tensor, positions: Sequence[float]
-    ) -> Iterator[Tensor]:
-        """Luma images between two, [H, W] float32; see `RifeInterpolator.between_tensors`."""
-        ...
-
-
 class GpuPairs:
     """One clip, source frame by source frame, on the device from image to event."""
 
     def __init__(
         self,
         simulator: Any,
-        interpolator: TensorInterpolator,
+        interpolator: Any,
         *,
         count: int | None = None,
         max_intermediate: int = InterpolateConfig.max_intermediate,
@@ -43,7 +32,8 @@ class GpuPairs:
 
         Args:
             simulator: a `texvent.simulate.gpu.GpuSimulator` that has seen none either.
-            interpolator: makes the images between two source frames.
+            interpolator: makes the images between two source frames: has `between_tensors`, as
+                `rife.RifeInterpolator` has.
             count: intermediate frames per pair; None: as many as Eq. 4 asks for, for which the
                 host waits for the device once more.
             max_intermediate: upper limit of Eq. 4's count.

@@ -38,9 +38,13 @@ class EsimPixels(GpuPixels[EsimConfig]):
             seeds: one per clip.
 
         Raises:
-            ConfigError: an option that only the CPU has.
+            ConfigError: thresholds that are drawn anew for every frame.
         """
-        check_options(config)
+        if config.threshold_sigma > 0 and config.threshold_redraw == "frame":
+            raise ConfigError(
+                "threshold_redraw 'frame' draws two normal numbers for every pixel and frame, "
+                "which backend gpu does not do; use threshold_redraw 'never', or backend cpu"
+            )
         super().__init__(config, seeds, RAMP_LAUNCH)
 
     def begin(self, frames: Tensor) -> None:
@@ -101,17 +105,4 @@ class EsimPixels(GpuPixels[EsimConfig]):
             words,
             BLOCK=_BLOCK,
             **LAUNCH,
-        )
-
-
-def check_options(config: EsimConfig) -> None:
-    """Refuse what the GPU kernels do not do.
-
-    Raises:
-        ConfigError: thresholds that are drawn anew for every frame.
-    """
-    if config.threshold_sigma > 0 and config.threshold_redraw == "frame":
-        raise ConfigError(
-            "threshold_redraw 'frame' draws two normal numbers for every pixel and frame, which "
-            "backend gpu does not do; use threshold_redraw 'never', or backend cpu"
         )

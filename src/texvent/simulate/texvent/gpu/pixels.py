@@ -47,9 +47,18 @@ class TexventPixels(GpuPixels[TexventConfig]):
             seeds: one per clip.
 
         Raises:
-            ConfigError: an option that only the CPU has.
+            ConfigError: Gaussian noise, or a balance of 0.
         """
-        check_options(config)
+        if config.noise == "gaussian":
+            raise ConfigError(
+                "noise 'gaussian' draws a normal number for every pixel and frame, which backend "
+                "gpu does not do; use noise 'adaptive', 'random' or 'none', or backend cpu"
+            )
+        if config.balance <= 0:
+            raise ConfigError(
+                "balance is 0, and backend gpu does not look for black pixels, which then have no "
+                "logarithm; use a balance above 0, or backend cpu"
+            )
         self._tracks_intensity = rules.tracks_intensity(config)
         super().__init__(
             config, seeds, LEVELS_LAUNCH if self._tracks_intensity else BRIGHTNESS_LAUNCH
@@ -132,22 +141,4 @@ class TexventPixels(GpuPixels[TexventConfig]):
             TIMESTAMP_RULE=rules.TIMESTAMP_RULES[self.config.timestamp_rule],
             BLOCK=_BLOCK,
             **LAUNCH,
-        )
-
-
-def check_options(config: TexventConfig) -> None:
-    """Refuse what the GPU kernels do not do.
-
-    Raises:
-        ConfigError: Gaussian noise, or a balance of 0.
-    """
-    if config.noise == "gaussian":
-        raise ConfigError(
-            "noise 'gaussian' draws a normal number for every pixel and frame, which backend gpu "
-            "does not do; use noise 'adaptive', 'random' or 'none', or backend cpu"
-        )
-    if config.balance <= 0:
-        raise ConfigError(
-            "balance is 0, and backend gpu does not look for black pixels, which then have no "
-            "logarithm; use a balance above 0, or backend cpu"
         )
