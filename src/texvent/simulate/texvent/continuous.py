@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from texvent.brightness import Float64Array, balanced_log
 from texvent.events import EventStream
 from texvent.pairs.frame_pair import FramePair
-from texvent.simulate.fused.continuous import SegmentPlan, plan_segments
+from texvent.simulate.fused.continuous import plan_segments
 from texvent.simulate.fused.segment_pixels import LogScale, SegmentPixels
 from texvent.simulate.fused.segments import CrossingRules, CrossingState
 from texvent.simulate.packets.interval import FrameInterval
@@ -19,7 +19,7 @@ from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.texvent.brightness_cache import BrightnessCache
 from texvent.simulate.texvent.config import TexventConfig
-from texvent.simulate.texvent.noise import draw_noise, low_light_background
+from texvent.simulate.texvent.reference import add_noise
 from texvent.video import Frame
 
 
@@ -74,31 +74,15 @@ class ContinuousPixels:
             self._watch(self._cache.calibrate(brightness, is_source=True))
         bands = self._segments.cross(pair.motion, plan.grids, plan.edges_us)
         fired = UnsortedEvents.concat(band.fired for band in bands)
-        noise = self._draw_noise(pair, plan, fired)
-        span = FrameInterval(pair.earlier.t_us, pair.second.t_us, np.uint64(0))
+        key = frame_key(self._seed, pair.second.t_us)
+        span = FrameInterval(pair.earlier.t_us, pair.second.t_us, key)
+        noise = add_noise(self._config, pair.motion.later, fired.pixel, span)  # Eq. 6
         return make_packet(UnsortedEvents.concat((fired, noise)), span, pair.second.size)
 
     def _watch(self, reference: Float64Array) -> None:
         """Let events move the references [H, W]: the array of the cache itself."""
         state = CrossingState(reference.reshape(-1), np.empty(0, np.int64))
         self._segments.watch(state, reference.shape)
-
-    def _draw_noise(
-        self, pair: FramePair, plan: SegmentPlan, fired: UnsortedEvents
-    ) -> UnsortedEvents:
-        """Eq. 6."""
-        config, luma, stop_us = self._config, pair.motion.later, int(plan.edges_us[0, -1])
-        span = FrameInterval(int(plan.edges_us[0, 0]), stop_us, frame_key(self._seed, stop_us))
-        mean = config.noise_rate_hz * (config.noise_scale * span.duration_s)
-        if config.noise == "none" or mean == 0:
-            return UnsortedEvents.none()
-        noise = draw_noise(luma.size, span, mean=mean, on_fraction=config.noise_on_fraction)
-        if config.noise == "random":
-            return noise
-        kept = low_light_background(
-            luma, noise.pixel, fired.pixel, intensity=config.noise_intensity
-        )
-        return noise.take(kept)
 
     def _brightness_of(self, luma: NDArray[Any]) -> Float64Array:
         return balanced_log(luma, self._config.balance)

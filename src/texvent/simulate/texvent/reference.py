@@ -7,8 +7,14 @@ every pixel, runs here on every backend.
 
 from __future__ import annotations
 
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
 from texvent.brightness import Float64Array, balanced_log
 from texvent.events import NOISE, EventStream
+from texvent.simulate.backend.select import AUTO
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.sorting import make_packet
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
@@ -71,7 +77,7 @@ class DensePixels:
         # κ ⋄ I^{j−1}
         reference = self._cache.calibrate(self._brightness, is_source=self._is_source)
         events = self._generate_event_frame(shaken, reference)  # Eq. 5
-        noise = self._add_noise(frame, events, span)  # Eq. 6
+        noise = add_noise(self._config, frame.luma, events.pixel, span, self._backend)  # Eq. 6
         signal = events
         if shaken is not brightness:
             # What would have fired without voltage noise: only this renews the reference.
@@ -107,26 +113,6 @@ class DensePixels:
             multi_event=self._config.multi_event,
         )
 
-    def _add_noise(self, frame: Frame, events: EventFrame, span: FrameInterval) -> UnsortedEvents:
-        """Eq. 6, or its ablation E11 ("random"). E10 ("gaussian") has shaken the brightness."""
-        config = self._config
-        if not config.has_added_noise:
-            return UnsortedEvents.none()
-        noise = draw_noise(
-            frame.luma.size,
-            span,
-            mean=config.expected_noise(span.duration_s),
-            on_fraction=config.noise_on_fraction,
-            backend=self._backend,
-        )
-        if config.noise == "random":
-            return noise
-        return noise.take(
-            low_light_background(
-                frame.luma, noise.pixel, events.pixel, intensity=config.noise_intensity
-            )
-        )
-
     def _reconstruct_timestamps(
         self, events: EventFrame, signal: EventFrame, interval: SubInterval
     ) -> UnsortedEvents:
@@ -143,3 +129,31 @@ class DensePixels:
         if signal is not events:
             fired.label[is_background(crossings.pixel, signal.pixel)] = NOISE
         return fired
+
+
+def add_noise(
+    config: TexventConfig,
+    luma: NDArray[Any],
+    fired: NDArray[np.int64],
+    span: FrameInterval,
+    backend: str = AUTO,
+) -> UnsortedEvents:
+    """Eq. 6, or its ablation E11 ("random"); nothing for E10 ("gaussian"), which shakes brightness.
+
+    Args:
+        config: options.
+        luma: of the frame that ends the interval, [H, W], 0..255 scale.
+        fired: flat index of the pixels that fired in it, ascending.
+        span: the interval, and the key of the draws.
+        backend: which kernels draw; all draw the same.
+    """
+    if not config.has_added_noise:
+        return UnsortedEvents.none()
+    mean = config.expected_noise(span.duration_s)
+    noise = draw_noise(
+        luma.size, span, mean=mean, on_fraction=config.noise_on_fraction, backend=backend
+    )
+    if config.noise == "random":
+        return noise
+    kept = low_light_background(luma, noise.pixel, fired, intensity=config.noise_intensity)
+    return noise.take(kept)
