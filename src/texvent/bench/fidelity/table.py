@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from texvent._registry import suggest
 from texvent.bench.fidelity.results import FidelityReport, Reference, Score
+from texvent.bench.markdown import markdown_table
 from texvent.bench.oracle.pixel import TARGETS
 from texvent.errors import ConfigError
 from texvent.metrics.summary import normalise, summarise
@@ -75,16 +76,19 @@ def motion_table(report: FidelityReport) -> str:
     rows = {f"floor: {report.floor_name}": {_place(one): one.details for one in report.references}}
     for score in report.scores:
         rows.setdefault(score.entry, {})[_place(score)] = score.details
-    lines = [_row(["entry", *titles]), _row(["---"] * (len(titles) + 1))]
-    for entry, details in rows.items():
-        cells = [
-            _mean_and_error(getattr(details[_place(one)], name), digits)
-            if _place(one) in details
-            else "–"
-            for one, name, _, digits in columns
+    cells = [
+        [
+            entry,
+            *(
+                _mean_and_error(getattr(details[_place(one)], name), digits)
+                if _place(one) in details
+                else "–"
+                for one, name, _, digits in columns
+            ),
         ]
-        lines.append(_row([entry, *cells]))
-    return "\n".join(lines) + "\n"
+        for entry, details in rows.items()
+    ]
+    return markdown_table(["entry", *titles], cells)
 
 
 def _place(part: Reference | Score) -> tuple[str, str]:
@@ -93,10 +97,7 @@ def _place(part: Reference | Score) -> tuple[str, str]:
 
 def _overview(report: FidelityReport) -> str:
     """S* of STPP per scene, and its mean: 0 is the null, 1 a second recording."""
-    lines = [
-        _row(["entry", *(f"{one.scene}, {one.target}" for one in report.references), "mean S*"]),
-        _row(["---"] * (len(report.references) + 2)),
-    ]
+    titles = ["entry", *(f"{one.scene}, {one.target}" for one in report.references), "mean S*"]
     ranked: list[tuple[float, str, list[float]]] = []
     for entry in dict.fromkeys(score.entry for score in report.scores):
         normalised = [
@@ -107,9 +108,13 @@ def _overview(report: FidelityReport) -> str:
         ]
         ranked.append((summarise(normalised).mean, entry, normalised))
     ranked.sort(key=lambda one: math.inf if math.isnan(one[0]) else -one[0])
-    for mean, entry, normalised in ranked:
-        lines.append(_row([entry, *(_number(one, 2) for one in normalised), _number(mean, 2)]))
-    return "\n".join(lines) + "\n"
+    return markdown_table(
+        titles,
+        [
+            [entry, *(_number(one, 2) for one in (*normalised, mean))]
+            for mean, entry, normalised in ranked
+        ],
+    )
 
 
 def _scene_heading(reference: Reference) -> str:
@@ -132,7 +137,7 @@ def _scene_table(report: FidelityReport, reference: Reference, baseline: str) ->
         titles.append(f"STPP − {baseline}")
         differences = ["", *(_paired(score, compared) for score in scores), ""]
         rows = [[*cells, last] for cells, last in zip(rows, differences, strict=True)]
-    return "\n".join(map(_row, [titles, ["---"] * len(titles), *rows])) + "\n"
+    return markdown_table(titles, rows)
 
 
 def _score_cells(score: Score, reference: Reference, metrics: Sequence[str]) -> list[str]:
@@ -177,7 +182,3 @@ def _number(value: float | None, digits: int) -> str:
     if value is None:
         return "–"
     return "undefined" if math.isnan(value) else f"{value:.{digits}f}"
-
-
-def _row(cells: Sequence[str]) -> str:
-    return "| " + " | ".join(cells) + " |"

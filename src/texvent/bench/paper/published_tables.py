@@ -10,6 +10,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
+from texvent.bench.markdown import markdown_table
+
 SIMULATORS = ("VID2E", "V2E", "V2CE", "DVS-Voltmeter", "SENPI", "Texvent")
 
 IMAGE_ROWS: Mapping[str, str] = {"MSE ↓": "mse", "SSIM ↑": "ssim", "LPIPS ↓": "lpips"}
@@ -125,27 +127,20 @@ def join_figures(parts: Sequence[OurFigures]) -> OurFigures:
 
 def compare_with_paper(table: PaperTable, ours: OurFigures) -> str:
     """A Markdown table with the paper's figures and ours, row by row."""
-    lines = [
-        f"### Table {table.number}: {table.title}\n",
-        _row(["", "", *table.columns]),
-        _row(["---"] * (len(table.columns) + 2)),
-    ]
-    for name, figures in table.rows.items():
-        lines.append(_row([name, "paper", *(f"{one:.{table.digits}f}" for one in figures)]))
+    rows: list[list[str]] = []
+    for name in dict.fromkeys((*table.rows, *ours.figures)):
+        is_published = name in table.rows
+        if is_published:
+            rows.append([name, "paper", *(f"{one:.{table.digits}f}" for one in table.rows[name])])
         found = ours.figures.get(name, {})
-        if found:
-            lines.append(_row(["", "here", *(found.get(one, "–") for one in table.columns)]))
-    for name in ours.figures:
-        if name not in table.rows:
-            found = ours.figures[name]
-            lines.append(_row([name, "here", *(found.get(one, "–") for one in table.columns)]))
-    return "\n".join([*lines, "", *_remarks(ours)]) + "\n"
+        if found or not is_published:
+            label = "" if is_published else name
+            rows.append([label, "here", *(found.get(one, "–") for one in table.columns)])
+    shown = markdown_table(["", "", *table.columns], rows)
+    remarks = "\n".join(["", *_remarks(ours)])
+    return f"### Table {table.number}: {table.title}\n\n{shown}{remarks}\n"
 
 
 def _remarks(ours: OurFigures) -> Iterator[str]:
     yield from (f"- {note}" for note in ours.notes)
     yield from (f"- Not measured: {need}" for need in ours.needs)
-
-
-def _row(cells: Sequence[str]) -> str:
-    return "| " + " | ".join(cells) + " |"

@@ -8,6 +8,7 @@ from typing import Any
 
 from texvent.bench.document import plain_values
 from texvent.bench.environment import describe_environment
+from texvent.bench.markdown import markdown_table
 from texvent.bench.reconstruction.image_scores import ImageScores, pool_scores
 from texvent.bench.reconstruction.noise_curve import NoiseScore
 from texvent.bench.reconstruction.run import RECORDED, ReconstructionReport, ReconstructionRow
@@ -100,34 +101,26 @@ def _score_values(scores: ImageScores) -> dict[str, Any]:
 def _table(rows: Sequence[ReconstructionRow]) -> str:
     measures = list(rows[0].scores.values)
     recorded = next(row.events for row in rows if row.source == RECORDED)
-    lines = [
-        _line(["events", "number", "δ", *(COLUMNS[name] for name in measures)]),
-        _line(["---"] * (3 + len(measures))),
-    ]
+    lines = []
     for row in rows:
         ratio = f"×{row.events / recorded:.2f}" if recorded else "–"
         number = f"{row.events:,}" if row.source == RECORDED else ratio
         threshold = "–" if row.threshold is None else f"{row.threshold:.3g}"
-        lines.append(_line([row.source, number, threshold, *_means(row.scores)]))
-    return "\n".join(lines) + "\n"
+        lines.append([row.source, number, threshold, *_means(row.scores)])
+    return markdown_table(["events", "number", "δ", *(COLUMNS[one] for one in measures)], lines)
 
 
 def _noise_table(points: Sequence[NoiseScore]) -> str:
     measures = list(points[0].against_clean.values)
     titles = [COLUMNS[name] for name in measures]
-    lines = [
-        _line(
-            ["noise", *(f"{one}, to clean" for one in titles), *(f"{one}, true" for one in titles)]
-        ),
-        _line(["---"] * (1 + 2 * len(measures))),
-    ]
+    lines = []
     for point in points:
         amount = point.level.amount
         is_share = point.level.kind == "scattered"
         name = f"{amount:.0%} of the events scattered" if is_share else f"{amount:g} Hz per pixel"
-        cells = [*_means(point.against_clean), *_means(point.against_frames)]
-        lines.append(_line([name, *cells]))
-    return "\n".join(lines) + "\n"
+        lines.append([name, *_means(point.against_clean), *_means(point.against_frames)])
+    against = [f"{title}, {what}" for what in ("to clean", "true") for title in titles]
+    return markdown_table(["noise", *against], lines)
 
 
 def _means(scores: ImageScores) -> list[str]:
@@ -147,7 +140,3 @@ def _pooled(rows: Sequence[ReconstructionRow]) -> ReconstructionRow:
 
 def _number(value: float, digits: int) -> str:
     return f"{value:.{digits}f}" if math.isfinite(value) else "undefined"
-
-
-def _line(cells: Sequence[str]) -> str:
-    return f"| {' | '.join(cells)} |"
