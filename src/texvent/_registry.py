@@ -13,7 +13,7 @@ import importlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import metadata
-from typing import Any, Protocol
+from typing import Any
 
 from texvent.errors import ConfigError
 
@@ -31,18 +31,6 @@ def suggest(name: str, allowed: tuple[str, ...]) -> str:
     return f"allowed: {', '.join(allowed)}{hint}"
 
 
-class PartTable(Protocol):
-    """Parts that share one class and differ in data, such as models of one adapter."""
-
-    def names(self) -> tuple[str, ...]:
-        """Names to list and to suggest."""
-        ...
-
-    def find(self, name: str) -> Any | None:
-        """The part of that name, or None; also for names that are not listed (paths)."""
-        ...
-
-
 @dataclass(frozen=True)
 class Registry:
     """A table of interchangeable parts of one kind."""
@@ -52,7 +40,8 @@ class Registry:
     builtin: Mapping[str, str]
     """Name → `"module:attribute"` of the parts that ship with texvent."""
     table: str | None = None
-    """`"module:attribute"` of a `PartTable`: parts that are rows of data, not classes."""
+    """Module of parts that are rows of data, not classes: `names()` to list and to suggest, and
+    `find(name)`, which gives a part or None, also for names that are not listed (paths)."""
 
     def entries(self) -> dict[str, str]:
         """Name → target of built-in and plugged-in parts; built-in names cannot be replaced."""
@@ -60,7 +49,7 @@ class Registry:
 
     def names(self) -> tuple[str, ...]:
         """All names, in table order."""
-        more: tuple[str, ...] = load_object(self.table).names() if self.table else ()
+        more: tuple[str, ...] = importlib.import_module(self.table).names() if self.table else ()
         return (*self.entries(), *more)
 
     def load_all(self) -> list[Any]:
@@ -76,7 +65,7 @@ class Registry:
         entries = self.entries()
         if name in entries:
             return load_object(entries[name])
-        part = load_object(self.table).find(name) if self.table else None
+        part = importlib.import_module(self.table).find(name) if self.table else None
         if part is None:
             raise ConfigError(f"unknown {self.kind} {name!r}; {suggest(name, self.names())}")
         return part
@@ -94,7 +83,7 @@ GENERATORS = Registry(
         "procedural": "texvent.generate.procedural:ProceduralGenerator",
         "opensora": "texvent.generate.opensora.generator:OpenSoraGenerator",
     },
-    table="texvent.generate.models.lookup:MODEL_LOOKUP",
+    table="texvent.generate.models.lookup",
 )
 INTERPOLATORS = Registry(
     "interpolator",

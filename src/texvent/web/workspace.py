@@ -7,7 +7,6 @@ import tempfile
 import threading
 from collections import deque
 from pathlib import Path
-from types import TracebackType
 from typing import Self
 
 KEPT_JOBS = 20
@@ -51,10 +50,5 @@ class Workspace:
                 shutil.rmtree(self._folders.popleft(), ignore_errors=True)
         return folder
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         shutil.rmtree(self.root, ignore_errors=True)

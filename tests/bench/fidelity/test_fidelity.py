@@ -8,7 +8,7 @@ import pytest
 
 from texvent._registry import SIMULATORS
 from texvent.bench.fidelity.details import BINS, describe
-from texvent.bench.fidelity.entries import INTERPOLATIONS, Entry, choose_entries, default_entries
+from texvent.bench.fidelity.entries import INTERPOLATIONS, Entry, choose_entries
 from texvent.bench.fidelity.results import read_report
 from texvent.bench.fidelity.run import (
     FULL,
@@ -165,7 +165,7 @@ def test_a_scene_without_true_events_has_undefined_ratios_not_numbers():
 
 
 def test_default_entries_are_every_simulator_by_every_interpolation():
-    entries = default_entries()
+    entries = choose_entries()
     assert len(entries) == (len(SIMULATORS.names()) + 1) * len(INTERPOLATIONS)
     assert "texvent accurate, flow" in {entry.name for entry in entries}
     assert {entry.track for entry in entries} == {"frames", "true frames"}

@@ -172,13 +172,12 @@ def test_parts_are_placed_as_the_placement_says(offload, called):
 
 def test_quantised_weights_without_their_package_name_the_extra(models, monkeypatch):
     monkeypatch.setitem(sys.modules, "bitsandbytes", None)
-    placement = Placement("cuda:0", "bfloat16", "none", tiles_decoder=False)
+    placement = Placement("cuda:0", "bfloat16", "none", tiles_decoder=False, quantize="8bit")
     request = LoadRequest(
         folder=models("wan"),
         content="",
         class_name=None,
         placement=placement,
-        quantize="8bit",
         decoder=None,
         decoder_in_float32=False,
     )

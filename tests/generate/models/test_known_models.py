@@ -8,8 +8,8 @@ import pytest
 from texvent._registry import GENERATORS
 from texvent.cli.app import main
 from texvent.errors import ConfigError
+from texvent.generate.models import lookup
 from texvent.generate.models.known_models import MODELS
-from texvent.generate.models.lookup import MODEL_LOOKUP
 from texvent.generate.video_config import DiffusersConfig
 from texvent.options.fields import option_help, option_names
 from texvent.settings import default_settings, resolve
@@ -99,7 +99,7 @@ def test_a_copy_of_a_known_model_keeps_its_facts():
 def test_the_registry_lists_table_rows_after_its_own_names():
     names = GENERATORS.names()
     assert names[0] == "procedural"
-    assert set(MODEL_LOOKUP.names()) <= set(names)
+    assert set(lookup.names()) <= set(names)
 
 
 @pytest.mark.parametrize(

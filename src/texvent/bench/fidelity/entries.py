@@ -117,7 +117,7 @@ def simulators_to_compare() -> list[tuple[str, str | None]]:
     ]
 
 
-def choose_entries(simulators: str | None, interpolations: str | None) -> list[Entry]:
+def choose_entries(simulators: str | None = None, interpolations: str | None = None) -> list[Entry]:
     """Entries from the words of a command line.
 
     Args:
@@ -134,8 +134,3 @@ def choose_entries(simulators: str | None, interpolations: str | None) -> list[E
         for simulator, preset in chosen
         for interpolate in names
     ]
-
-
-def default_entries() -> list[Entry]:
-    """Every simulator to compare by every interpolator."""
-    return choose_entries(None, None)

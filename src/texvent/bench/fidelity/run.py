@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from texvent.bench.environment import describe_environment
 from texvent.bench.fidelity.details import describe
-from texvent.bench.fidelity.entries import Entry, default_entries
+from texvent.bench.fidelity.entries import Entry, choose_entries
 from texvent.bench.fidelity.results import FidelityReport, Reference, Score
 from texvent.bench.jobs import run_jobs
 from texvent.bench.oracle.pixel import FLOOR_SEED, REFERENCE_SEED, TARGETS
@@ -103,7 +103,7 @@ def run_fidelity(
     """
     check_range("jobs", jobs, 1)
     start = time.perf_counter()
-    entries = list(plan.entries) or default_entries()
+    entries = list(plan.entries) or choose_entries()
     for entry in entries:
         entry.settings(0)
     environment = describe_environment()

@@ -19,7 +19,7 @@ from texvent.bench.fidelity.run import NULL, compare_all, fit_threshold
 from texvent.bench.jobs import run_jobs
 from texvent.bench.progress import Progress, no_progress
 from texvent.bench.real.scene import RealScene
-from texvent.bench.selftest.perturbations import perturb
+from texvent.bench.selftest.perturbations import perturb, split_halves
 from texvent.config import check_range
 from texvent.errors import ConfigError, TexventError
 from texvent.events import EventStream
@@ -140,7 +140,7 @@ def measure_bounds(plan: RealPlan, scene: RealScene) -> tuple[Reference, Score]:
         null=compare_all(nulls, recorded, plan.metrics),
         details=_describe(recorded, recorded),
     )
-    first, second = zip(*(split_halves(events) for events in recorded), strict=True)
+    first, second = zip(*(split_halves(events, SEED) for events in recorded), strict=True)
     halves = Score(
         scene=scene.name,
         target=TARGET,
@@ -154,12 +154,6 @@ def measure_bounds(plan: RealPlan, scene: RealScene) -> tuple[Reference, Score]:
         details=_describe(first, second),
     )
     return reference, halves
-
-
-def split_halves(events: EventStream) -> tuple[EventStream, EventStream]:
-    """A random half of the events, and the other half."""
-    is_first = np.random.default_rng(SEED).random(len(events)) < 0.5
-    return events[is_first], events[~is_first]
 
 
 def score_on_recording(plan: RealPlan, scene: RealScene, entry: Entry) -> Score | tuple[str, str]:

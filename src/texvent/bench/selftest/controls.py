@@ -6,9 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TypeAlias
 
-import numpy as np
-
-from texvent.bench.selftest.perturbations import perturb
+from texvent.bench.selftest.perturbations import perturb, split_halves
 from texvent.events import EventStream
 from texvent.metrics.protocol import Metric
 
@@ -19,19 +17,13 @@ Pair: TypeAlias = tuple[EventStream, EventStream]
 """What is judged, and by which reference."""
 
 
-def _split_half(events: EventStream) -> Pair:
-    """A random half of the events, and the other half: alike, without an event in common."""
-    is_first = np.random.default_rng(2026).random(len(events)) < 0.5
-    return events[is_first], events[~is_first]
-
-
 def _perturb_copy(events: EventStream, *, perturbation: str) -> Pair:
     return perturb(events, perturbation), events
 
 
 CONTROLS: Mapping[str, Callable[[EventStream], Pair]] = {
     "identity": lambda events: (events, events),
-    "split half": _split_half,
+    "split half": partial(split_halves, seed=2026),
     "shuffle all times": partial(_perturb_copy, perturbation="shuffle all times"),
     "shuffle all pixels": partial(_perturb_copy, perturbation="shuffle all pixels"),
     "flip 100 %": partial(_perturb_copy, perturbation="flip 100 %"),

@@ -195,3 +195,9 @@ def perturb(events: EventStream, name: str) -> EventStream:
     """The stream after the perturbation `name`; the same each time."""
     index = list(PERTURBATIONS).index(name)
     return PERTURBATIONS[name](events, np.random.default_rng([2026, index]))
+
+
+def split_halves(events: EventStream, seed: int) -> tuple[EventStream, EventStream]:
+    """A random half of the events, and the other half: alike, without an event in common."""
+    is_first = np.random.default_rng(seed).random(len(events)) < 0.5
+    return events[is_first], events[~is_first]

@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, ClassVar
-
-from rich.console import Console
-from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
 from texvent._version import __version__
 from texvent.cli.event_files.event_file_options import EventRangeOptions
@@ -25,6 +21,7 @@ from texvent.options.fields import renamed
 from texvent.reconstruct.config import ReconstructConfig
 from texvent.reconstruct.reconstructor import Reconstructor, load_reconstructor
 from texvent.represent.packet_slices import slice_by_count, slice_regularly
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent.video import MICROSECONDS
 from texvent.view.video.image_sink import check_image_output, open_image_sink
 
@@ -76,16 +73,16 @@ def run(arguments: Sequence[str]) -> int:
     check_image_output(options.out, overwrite=options.overwrite)
     events = options.open()
     reconstructor = load_reconstructor(network.network, network.weights, device=network.device)
-    console = Console(stderr=True, quiet=options.quiet, highlight=False)
     images = reconstructor.reconstruct_all(options.slices(events))
     facts = _provenance(reconstructor, options, events)
-    with _progress(console) as counted:
+    with ConsoleProgress(is_quiet=options.quiet) as progress:
         opened = open_image_sink(
             options.out, size=events.size, fps=options.fps, facts=facts, overwrite=options.overwrite
         )
         with opened as sink:
-            for t_us, image in counted(images):
+            for number, (t_us, image) in enumerate(images, start=1):
                 sink.add(t_us, image)
+                progress.advance("reconstructing", number, None)
     if not options.quiet:
         sys.stdout.write(f"{options.out}\n")
     return 0
@@ -104,26 +101,3 @@ def _provenance(
         "time": options.time,
         "texvent_version": __version__,
     }
-
-
-@contextmanager
-def _progress(console: Console) -> Iterator[Any]:
-    """A counter on stderr of the images that pass; silent where it is not a terminal."""
-    bar = Progress(
-        SpinnerColumn(),
-        TextColumn("{task.description}"),
-        TextColumn("{task.completed} images"),
-        TimeElapsedColumn(),
-        console=console,
-        disable=console.quiet or not console.is_terminal,
-        transient=True,
-    )
-    with bar:
-        task = bar.add_task("reconstructing", total=None)
-
-        def counted(images: Iterable[Any]) -> Iterator[Any]:
-            for image in images:
-                bar.advance(task)
-                yield image
-
-        yield counted

@@ -5,8 +5,7 @@ from __future__ import annotations
 from texvent.errors import ConfigError
 from texvent.event_packets import EventPackets
 from texvent.transform.window import keep_time
-
-MICROSECONDS = 1_000_000
+from texvent.video import MICROSECONDS
 
 
 def keep_time_range(events: EventPackets, text: str | None) -> EventPackets:

@@ -9,8 +9,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from rich.console import Console
-
 from texvent._registry import suggest
 from texvent.calibrate.fit import fit_sensor
 from texvent.calibrate.preset import describe_fit, write_preset
@@ -22,6 +20,7 @@ from texvent.config import CaptureConfig, InterpolateConfig, check_range
 from texvent.errors import ConfigError, InputError
 from texvent.io.atomic import check_output
 from texvent.io.files import load
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent.sensor import parse_sensor
 from texvent.simulate.physical.config import PRESETS, PhysicalConfig
 
@@ -95,16 +94,16 @@ def run(arguments: Sequence[str]) -> int:
     size = parse_sensor(options.sensor) if options.sensor else None
     events = load(options.events, format=options.format, size=size)
     recording = Recording(open_frames(options.frames, capture), events, interpolate)
-    console = Console(stderr=True, quiet=options.quiet, highlight=False)
+    progress = ConsoleProgress(is_quiet=options.quiet)
     fit = fit_sensor(
         recording,
         start=options.start_config,
         seconds=options.seconds,
-        report=lambda line: console.print(line, markup=False, soft_wrap=True),
+        report=progress.announce,
     )
     source = " and ".join(dict.fromkeys((options.frames, str(options.events))))
     for line in describe_fit(fit, source):
-        console.print(line, markup=False, soft_wrap=True)
+        progress.announce(line)
     written = write_preset(
         fit, options.out, size=events.size, source=source, overwrite=options.overwrite
     )

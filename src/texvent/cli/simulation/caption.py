@@ -9,14 +9,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from rich.console import Console
-
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.generate.prompts.caption import INSTRUCTION, Captioner, find_images
 from texvent.io.atomic import atomic_file, check_output
+from texvent.runtime.console_progress import ConsoleProgress
 
 DESCRIPTION = """Describe images with a vision-language model of yours (such as LLaVA, run by
 transformers), one line each. The result of -o is a file for texvent batch:
@@ -67,11 +66,11 @@ def run(arguments: Sequence[str]) -> int:
     if options.out is not None:
         check_output(options.out, overwrite=options.overwrite)
     images = find_images(options.images)
-    console = Console(stderr=True, quiet=options.quiet, highlight=False)
+    progress = ConsoleProgress(is_quiet=options.quiet)
     captioner = Captioner(options.model, device=options.generator_device)
     rows: list[tuple[str, str]] = []
     for number, image in enumerate(images, start=1):
-        console.print(f"{number}/{len(images)} {image}", markup=False)
+        progress.announce(f"{number}/{len(images)} {image}")
         try:
             text = captioner.caption(
                 image, instruction=options.instruction, longest=options.longest

@@ -165,7 +165,6 @@ class ModelRun:
             content=self._content,
             class_name=self._class_name,
             placement=self._placement,
-            quantize=self._placement.quantize,
             decoder=self._config.decoder,
             decoder_in_float32=self._model.needs_float32_vae,
             motion_adapter=self._motion_adapter,

@@ -45,7 +45,6 @@ class LoadRequest:
     class_name: str | None
     """diffusers class, or None for the one the folder names."""
     placement: Placement
-    quantize: str
     decoder: Path | None
     """Folder of another decoder than the model's."""
     decoder_in_float32: bool
@@ -142,7 +141,7 @@ def _load(request: LoadRequest) -> Pipeline:
         parts[DECODER] = _load_network(request.decoder, dtype, "a decoder")
     if request.motion_adapter is not None:
         parts.update(_load_motion(request, request.motion_adapter))
-    if request.quantize != "none":
+    if request.placement.quantize != "none":
         parts["quantization_config"] = _quantization(request)
     pipe = _from_pretrained(pipeline_class, request, parts)
     if PART in parts:
@@ -189,7 +188,7 @@ def _quantization(request: LoadRequest) -> Any:
     diffusers = require("diffusers", extra=EXTRA)
     require("bitsandbytes", extra="quantize")
     torch = require("torch", extra=EXTRA)
-    if request.quantize == "8bit":
+    if request.placement.quantize == "8bit":
         backend = "bitsandbytes_8bit"
         options: dict[str, Any] = {"load_in_8bit": True}
     else:

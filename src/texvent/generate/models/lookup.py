@@ -54,46 +54,44 @@ class ModelGenerator:
         return DiffusersGenerator(config, model=self.model, seed=seed)
 
 
-class ModelLookup:
-    """Generators outside the registry's own table: rows, local folders, repositories."""
+def names() -> tuple[str, ...]:
+    """Names of the rows."""
+    return tuple(MODELS)
 
-    def names(self) -> tuple[str, ...]:
-        """Names of the rows."""
-        return tuple(MODELS)
 
-    def find(self, name: str) -> ModelGenerator | None:
-        """The generator of that name, or None.
+def find(name: str) -> ModelGenerator | None:
+    """The generator of that name, or None.
 
-        A row's name, `hub:org/name`, or the path of a folder that holds a saved pipeline. A
-        folder or repository that is named like one of a row takes the row's defaults.
+    A row's name, `hub:org/name`, or the path of a folder that holds a saved pipeline. A
+    folder or repository that is named like one of a row takes the row's defaults.
 
-        Raises:
-            ConfigError: what follows `hub:` is no repository.
-        """
-        if name in MODELS:
-            return ModelGenerator(MODELS[name])
-        if name.startswith(HUB):
-            repo, _, revision = name.removeprefix(HUB).partition("@")
-            if not re.fullmatch(REPOSITORY, repo):
-                raise ConfigError(
-                    f"generator {name!r} names no repository; write hub:organisation/name"
-                )
-            known = _row_like(repo.rpartition("/")[2])
-            revision_or_row = revision or known.revision
-            return ModelGenerator(
-                dataclasses.replace(known, name=name, repo=repo, revision=revision_or_row)
+    Raises:
+        ConfigError: what follows `hub:` is no repository.
+    """
+    if name in MODELS:
+        return ModelGenerator(MODELS[name])
+    if name.startswith(HUB):
+        repo, _, revision = name.removeprefix(HUB).partition("@")
+        if not re.fullmatch(REPOSITORY, repo):
+            raise ConfigError(
+                f"generator {name!r} names no repository; write hub:organisation/name"
             )
-        path = Path(name).expanduser()
-        if (
-            name.startswith(("./", "../", "~"))
-            or path.is_absolute()
-            or (os.sep in name and path.is_dir())
-        ):
-            known = _row_like(path.name)
-            return ModelGenerator(
-                dataclasses.replace(known, name=name, repo="", revision=None, folder=path)
-            )
-        return None
+        known = _row_like(repo.rpartition("/")[2])
+        revision_or_row = revision or known.revision
+        return ModelGenerator(
+            dataclasses.replace(known, name=name, repo=repo, revision=revision_or_row)
+        )
+    path = Path(name).expanduser()
+    if (
+        name.startswith(("./", "../", "~"))
+        or path.is_absolute()
+        or (os.sep in name and path.is_dir())
+    ):
+        known = _row_like(path.name)
+        return ModelGenerator(
+            dataclasses.replace(known, name=name, repo="", revision=None, folder=path)
+        )
+    return None
 
 
 def _row_like(last_name: str) -> VideoModel:
@@ -102,7 +100,3 @@ def _row_like(last_name: str) -> VideoModel:
         if row.repo.rpartition("/")[2] == last_name:
             return row
     return VideoModel(name=last_name)
-
-
-MODEL_LOOKUP = ModelLookup()
-"""What the registry asks for names it does not know itself."""
