@@ -157,6 +157,12 @@ def blade(
     return part(Shape.ELLIPSOID, material, _spanned(start, end, chord, thickness))
 
 
+def part_way(start: Point, end: Point, share: float) -> Point:
+    """`start` at share 0, `end` at share 1."""
+    x, y, z = (a + share * (b - a) for a, b in zip(start, end, strict=True))
+    return (x, y, z)
+
+
 def moved(parts: Iterable[ModelPart], motion: Affine) -> list[ModelPart]:
     """The same parts carried along by a motion."""
     return [replace(each, to_body=compose(motion, each.to_body)) for each in parts]

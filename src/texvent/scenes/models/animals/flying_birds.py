@@ -15,6 +15,7 @@ from texvent.scenes.models.shapes import (
     blade,
     limb,
     moved,
+    part_way,
     spike,
     turn_x,
     turn_z,
@@ -126,24 +127,19 @@ def _spread(
     chord, thin = plumage.chord * size, 0.035 * size
     arm = blade(
         material,
-        _towards(shoulder, wrist, -0.1),
-        _towards(shoulder, wrist, 1.15),
+        part_way(shoulder, wrist, -0.1),
+        part_way(shoulder, wrist, 1.15),
         chord=(chord, 0.0, 0.0),
         thickness=(0.0, 0.0, 1.3 * thin),
     )
     hand = blade(
         material,
-        _towards(wrist, tip, -0.2),
+        part_way(wrist, tip, -0.2),
         tip,
         chord=(0.8 * chord, 0.0, 0.0),
         thickness=(0.0, 0.0, thin),
     )
     return shoulder, wrist, arm, hand
-
-
-def _towards(start: Point, end: Point, share: float) -> Point:
-    x, y, z = (a + share * (b - a) for a, b in zip(start, end, strict=True))
-    return (x, y, z)
 
 
 def build_duck(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:

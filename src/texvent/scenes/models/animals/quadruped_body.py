@@ -15,6 +15,7 @@ from texvent.scenes.models.shapes import (
     blade,
     limb,
     moved,
+    part_way,
     rod,
     shift,
     spike,
@@ -148,11 +149,6 @@ def _rounded(material: Material, middle: Point, size: Point) -> ModelPart:
     return blade(material, start, end, chord=across, thickness=upright)
 
 
-def _mid(a: Point, b: Point, share: float) -> Point:
-    x, y, z = (p + share * (q - p) for p, q in zip(a, b, strict=True))
-    return (x, y, z)
-
-
 def _neck_and_head(build: Build, coat: Coat, beat: float, wag: float) -> list[ModelPart]:
     length, width, height = build.body
     skull, muzzle = build.head
@@ -176,15 +172,13 @@ def _neck_and_head(build: Build, coat: Coat, beat: float, wag: float) -> list[Mo
             1.25 * thick if build.neck < 1.2 else thick,
             side_radius=0.34 * width,
         ),
-        limb(coat.limbs, _mid(base, top, 0.5), top, 0.9 * thick, side_radius=0.26 * width),
+        limb(coat.limbs, part_way(base, top, 0.5), top, 0.9 * thick, side_radius=0.26 * width),
         ball(face, (top[0] + 0.12 * skull, 0.0, top[2]), (skull, 0.74 * skull, 0.84 * skull)),
         limb(face, brow, nose, 0.24 * skull, side_radius=0.23 * skull),
         ball(coat.dark, nose, (0.34 * skull, 0.42 * skull, 0.34 * skull)),
-        ball(
-            Material(BLACK), (top[0] + 0.36 * skull, eye_y, top[2] + 0.16 * skull), (eye, eye, eye)
-        ),
-        ball(
-            Material(BLACK), (top[0] + 0.36 * skull, -eye_y, top[2] + 0.16 * skull), (eye, eye, eye)
+        *(
+            ball(Material(BLACK), (top[0] + 0.36 * skull, y, top[2] + 0.16 * skull), (eye,) * 3)
+            for y in (eye_y, -eye_y)
         ),
     ]
     for side in (1.0, -1.0):
@@ -239,7 +233,7 @@ def _horn(build: Build, coat: Coat, top: Point, side: float) -> list[ModelPart]:
             limb(bone, (x, y, z), fork, 0.020),
             limb(bone, fork, tip, 0.016),
             limb(bone, fork, tine, 0.014),
-            limb(bone, _mid((x, y, z), fork, 0.4), low, 0.013),
+            limb(bone, part_way((x, y, z), fork, 0.4), low, 0.013),
         ]
     return []
 
