@@ -13,7 +13,7 @@ from texvent.bench.fidelity.page import page_files
 from texvent.bench.fidelity.results import read_report
 from texvent.bench.fidelity.table import BASELINE, check_baseline
 from texvent.cli.option_types import REQUIRED
-from texvent.cli.options import parse_options
+from texvent.cli.options import parse_configs
 from texvent.io.atomic import atomic_file, check_output
 
 
@@ -39,14 +39,13 @@ class PageOptions:
 
 def run(arguments: Sequence[str]) -> None:
     """Run the command."""
-    values = parse_options(
+    (options,) = parse_configs(
         arguments,
         {"options": PageOptions()},
         prog="texvent bench page",
         description="A result of bench fidelity or bench real as a Markdown page with bars, level "
         "matrices, time-error histograms and event images, named after the result.",
     )
-    options = PageOptions(**values)
     folder = options.out or options.result.parent
     name = result_name(options.result.name)
     check_output(folder / f"{name}.md", overwrite=options.overwrite)
