@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from texvent._registry import METRICS
 from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.metrics.protocol import Metric, check_pair
+from texvent.metrics.protocol import Metric, check_pair, find_missing
 
 
 def compare(
@@ -66,4 +66,4 @@ def describe_metrics() -> Mapping[str, Metric]:
 
 def default_metrics() -> list[Metric]:
     """Every registered metric with its defaults, without those whose weights are missing."""
-    return [metric for metric in describe_metrics().values() if metric.missing() is None]
+    return [metric for metric in describe_metrics().values() if find_missing(metric) is None]

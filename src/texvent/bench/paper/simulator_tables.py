@@ -24,7 +24,7 @@ from texvent.bench.reconstruction.run import (
 from texvent.errors import TexventError
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.metrics.compare import load_metric
-from texvent.metrics.protocol import Metric
+from texvent.metrics.protocol import Metric, find_missing
 from texvent.reconstruct.reconstructor import Reconstructor
 from texvent.sensor import SENSORS
 from texvent.video import Video
@@ -56,7 +56,7 @@ def event_frame_figures(
         jobs: processes to use.
         progress: told of every step.
     """
-    missing = {name: load_metric(name).missing() for name in EVENT_FRAMES.values()}
+    missing = {name: find_missing(load_metric(name)) for name in EVENT_FRAMES.values()}
     metrics = ["stpp", *(name for name, reason in missing.items() if reason is None)]
     report = _run(scenes, metrics, is_rate_matched=is_rate_matched, jobs=jobs, progress=progress)
     figures = {

@@ -16,7 +16,7 @@ from texvent.bench.selftest.perturbations import PERTURBATIONS, SERIES, perturb
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.metrics.compare import default_metrics, load_metric
-from texvent.metrics.protocol import Metric
+from texvent.metrics.protocol import Metric, find_missing
 from texvent.metrics.summary import badness
 
 SCENE, TEXTURE_SEED = "mixed", 7
@@ -70,7 +70,7 @@ def run_selftest(
     """
     chosen = default_metrics() if metrics is None else [load_metric(name) for name in metrics]
     for metric in chosen:
-        missing = metric.missing()
+        missing = find_missing(metric)
         if missing is not None:
             raise ConfigError(f"metric {metric.name} cannot be computed: {missing}")
     progress(f"recording {SCENE} with {len(RECORDING_SEEDS)} seeds")
