@@ -16,7 +16,7 @@ import numpy as np
 from texvent.io.files import save
 from texvent.pipeline import video_to_events
 from texvent.sensor import SensorSize
-from texvent.settings import resolve
+from texvent.run.settings import resolve
 from texvent.video import Frame, frame_time_us
 
 class Long:

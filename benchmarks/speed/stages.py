@@ -20,9 +20,9 @@ from texvent.interpolate.pairing import pair_frames
 from texvent.io.files import open_writer
 from texvent.pairs.frame_pair import FramePair
 from texvent.pipeline import video_to_events
+from texvent.run.settings import Settings, resolve
 from texvent.runtime.background_jit import wait_until_idle
 from texvent.runtime.background_writer import BackgroundWriter
-from texvent.settings import Settings, resolve
 from texvent.simulate.build import build_simulator
 from texvent.video import Frame, FrameStream
 

@@ -18,9 +18,9 @@ from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.options.fields import option_names
 from texvent.options.keywords import GenerateOptions, SimulateOptions
 from texvent.options.values import with_options
-from texvent.runs import make_video, prepare_prompt, prepare_source
+from texvent.run.prepare import make_video, prepare_prompt, prepare_source
+from texvent.run.settings import Settings, resolve
 from texvent.runtime.progress import ProgressOption, open_progress
-from texvent.settings import Settings, resolve
 from texvent.video import FrameStream
 
 if TYPE_CHECKING:

@@ -22,9 +22,9 @@ from texvent.event_packets import EventPackets
 from texvent.events import NOISE, SIGNAL, EventStream
 from texvent.interpolate.pairing import plan_pairs
 from texvent.pairs.frame_pair import OnSceneChange, notify_scene_change
-from texvent.provenance import describe_run
+from texvent.run.provenance import describe_run
+from texvent.run.settings import Settings
 from texvent.runtime.progress import Progress
-from texvent.settings import Settings
 from texvent.simulate.build import build_simulator, check_engine
 from texvent.simulate.training import draw_training_config
 from texvent.video import Frame, FrameStream

@@ -6,8 +6,8 @@ import pytest
 
 from texvent.bench.oracle.value_noise import ValueNoise
 from texvent.pipeline import video_to_events
+from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
-from texvent.settings import resolve
 from texvent.video import Video
 
 SIZE = SensorSize(64, 48)

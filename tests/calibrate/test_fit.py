@@ -5,8 +5,8 @@ import pytest
 from texvent.calibrate.fit import fit_sensor
 from texvent.calibrate.preset import describe_fit, write_preset
 from texvent.errors import OutputError
+from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
-from texvent.settings import resolve
 from texvent.simulate.physical.config import PRESETS
 
 from .conftest import TRUTH

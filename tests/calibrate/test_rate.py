@@ -6,7 +6,7 @@ import pytest
 from texvent.calibrate.rate import match_rate, measure_rate, threshold_for_rate
 from texvent.errors import ConfigError, InputError
 from texvent.pipeline import video_to_events
-from texvent.settings import resolve
+from texvent.run.settings import resolve
 from texvent.video import Video
 
 

@@ -8,7 +8,7 @@ from tests.contract import option_keywords
 from texvent.api import generate, simulate
 from texvent.options.fields import option_names
 from texvent.options.keywords import GenerateOptions, SimulateOptions
-from texvent.settings import default_settings
+from texvent.run.settings import default_settings
 
 
 def test_the_typed_keywords_are_up_to_date():

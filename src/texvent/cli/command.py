@@ -10,7 +10,7 @@ from typing import Any
 from texvent.cli.options import parse_options, peek_options
 from texvent.cli.outputs import OutputOptions
 from texvent.options.fields import option_names
-from texvent.settings import DECIDING, Command, Settings, apply_options, base_settings
+from texvent.run.settings import DECIDING, Command, Settings, apply_options, base_settings
 
 
 @dataclass(frozen=True, kw_only=True)

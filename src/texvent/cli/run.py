@@ -15,10 +15,10 @@ from texvent.cli.outputs import OutputOptions
 from texvent.events import EventStream
 from texvent.pairs.scene_change import SceneChange
 from texvent.pipeline import Simulation
-from texvent.run_files import write_run
-from texvent.runs import prepare_source
+from texvent.run.files import write_run
+from texvent.run.prepare import prepare_source
+from texvent.run.settings import Settings, unmeasured_sensor
 from texvent.runtime.console_progress import ConsoleProgress
-from texvent.settings import Settings, unmeasured_sensor
 from texvent.video import MICROSECONDS, Frame
 
 
@@ -77,7 +77,7 @@ def run_source(
         subject: what the event file is named after, unless it has a name.
 
     Raises:
-        TexventError: as `execute`, and as `texvent.runs.prepare_source`.
+        TexventError: as `execute`, and as `texvent.run.prepare.prepare_source`.
     """
     options.check(subject)
     with ConsoleProgress(is_quiet=options.quiet) as progress:

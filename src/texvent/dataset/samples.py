@@ -16,8 +16,8 @@ from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.pipeline import Simulation
 from texvent.represent.named import load_representation, represent_window
-from texvent.runs import prepare_prompt, prepare_source
-from texvent.settings import Settings, resolve
+from texvent.run.prepare import prepare_prompt, prepare_source
+from texvent.run.settings import Settings, resolve
 from texvent.simulate.random.draws import frame_key
 
 Sample: TypeAlias = dict[str, Any]

@@ -9,8 +9,8 @@ from typing import Any
 from texvent._registry import CODECS, SIMULATORS
 from texvent._require import require
 from texvent.errors import ConfigError, TexventError
+from texvent.run.settings import DEFAULT_SENSOR
 from texvent.sensor import SENSORS
-from texvent.settings import DEFAULT_SENSOR
 from texvent.web.answer_html import failure_html, progress_html, summary_html, viewer_html
 from texvent.web.examples import examples
 from texvent.web.job import Answer, ConvertJob, Job, SimulateJob

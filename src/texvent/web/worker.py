@@ -18,10 +18,10 @@ from texvent.errors import InputError, TexventError
 from texvent.events import EventStream
 from texvent.io.files import open_events, save
 from texvent.pipeline import Simulation
-from texvent.run_files import write_run
-from texvent.runs import prepare_prompt, prepare_video
+from texvent.run.files import write_run
+from texvent.run.prepare import prepare_prompt, prepare_video
+from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
-from texvent.settings import resolve
 from texvent.video import MICROSECONDS, Frame
 from texvent.web.job import Answer, ConvertJob, SimulateJob, answer_line, read_job
 from texvent.web.limits import Limits

@@ -26,7 +26,7 @@ from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.metrics.compare import compare
 from texvent.pipeline import video_to_events
-from texvent.settings import resolve
+from texvent.run.settings import resolve
 
 from ..synthetic_report import synthetic_report
 

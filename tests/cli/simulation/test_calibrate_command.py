@@ -3,7 +3,7 @@ import pytest
 
 from texvent.cli.app import main
 from texvent.events import EventStream
-from texvent.settings import resolve
+from texvent.run.settings import resolve
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import Video

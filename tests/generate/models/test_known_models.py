@@ -12,7 +12,7 @@ from texvent.generate.models import lookup
 from texvent.generate.models.known_models import MODELS
 from texvent.generate.video_config import DiffusersConfig
 from texvent.options.fields import option_help, option_names
-from texvent.settings import default_settings, resolve
+from texvent.run.settings import default_settings, resolve
 
 
 def test_every_row_says_where_what_how_fast_and_under_which_licence():

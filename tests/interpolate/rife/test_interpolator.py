@@ -19,7 +19,7 @@ from texvent.interpolate.rife.layouts import LAYOUTS, RIFE_4_0
 from texvent.interpolate.rife.network import Motion
 from texvent.interpolate.rife.weights import read_rife_weights, write_rife_weights
 from texvent.pipeline import video_to_events
-from texvent.settings import resolve
+from texvent.run.settings import resolve
 from texvent.video import Frame, Video
 
 from .rife_files import random_tensors, save_published

@@ -9,8 +9,8 @@ import numpy as np
 from texvent._registry import INTERPOLATORS
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.pairing import pair_frames
+from texvent.run.settings import resolve
 from texvent.runtime.background_jit import wait_until_ready
-from texvent.settings import resolve
 from texvent.simulate.build import build_simulator
 from texvent.video import Video
 

@@ -10,7 +10,7 @@ from texvent.cli.app import main
 from texvent.errors import ConfigError
 from texvent.io.files import save
 from texvent.pipeline import text_to_events
-from texvent.settings import resolve
+from texvent.run.settings import resolve
 from texvent.simulate.fused.candidates import compiled_kernels
 
 from .clips import panning

@@ -12,8 +12,8 @@ from texvent.bench.oracle.recording import TrueFrames, render_video
 from texvent.bench.oracle.scenes import Scene
 from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.runs import prepare_video
-from texvent.settings import Settings, resolve
+from texvent.run.prepare import prepare_video
+from texvent.run.settings import Settings, resolve
 from texvent.simulate.thresholds import contrast_threshold_of, with_contrast_threshold
 from texvent.video import FrameStream
 

@@ -24,9 +24,9 @@ from texvent.errors import (
 )
 from texvent.generate.prompts.prompt_files import PromptLine, read_prompts
 from texvent.generate.prompts.upsample_config import UpsampleConfig
-from texvent.runs import prepare_prompt
+from texvent.run.prepare import prepare_prompt
+from texvent.run.settings import Settings, apply_options
 from texvent.runtime.console_progress import ConsoleProgress
-from texvent.settings import Settings, apply_options
 
 DESCRIPTION = """Events for every prompt of a file: .txt (one per line), .csv or .jsonl (prompt, and
 perhaps name and seed). Prompts whose event file exists already are skipped, so a batch that was

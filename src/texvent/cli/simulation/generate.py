@@ -19,9 +19,9 @@ from texvent.errors import ConfigError, InputError
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.io.atomic import check_output
 from texvent.options.fields import option_names
-from texvent.runs import check_run, make_video, prepare_prompt
+from texvent.run.prepare import check_run, make_video, prepare_prompt
+from texvent.run.settings import Settings, default_settings
 from texvent.runtime.console_progress import ConsoleProgress
-from texvent.settings import Settings, default_settings
 
 DESCRIPTION = """Turn a sentence into the events that an event camera would record. The embedded
 generator renders simple 3-D shapes, without weights or download; `texvent generators` lists learned

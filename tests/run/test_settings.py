@@ -4,8 +4,8 @@ import pytest
 
 from texvent.errors import ConfigError, InputError
 from texvent.options.fields import RenamedOptionWarning
+from texvent.run.settings import base_settings, read_config, resolve, unmeasured_sensor
 from texvent.sensor import SENSORS, SensorSize
-from texvent.settings import base_settings, read_config, resolve, unmeasured_sensor
 
 SENSOR_FILE = """
 [run]

@@ -9,9 +9,9 @@ from texvent.cli.app import main
 from texvent.dataset.samples import SimulatedSamples
 from texvent.errors import ConfigError, InputError, MissingDependencyError
 from texvent.generate.procedural import ProceduralGenerator
-from texvent.runs import make_video, prepare_prompt, prepare_source, prepare_video
+from texvent.run.prepare import make_video, prepare_prompt, prepare_source, prepare_video
+from texvent.run.settings import resolve
 from texvent.runtime.progress import CallbackProgress
-from texvent.settings import resolve
 from texvent.simulate.thresholds import contrast_threshold_of
 from texvent.web.job import SimulateJob
 from texvent.web.worker import simulate

@@ -12,9 +12,9 @@ from typing import Any
 from texvent.calibrate.rate import reach_target_rate
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.pipeline import Simulation, text_to_events, text_to_video, video_to_events
-from texvent.provenance import describe_weights
+from texvent.run.provenance import describe_weights
+from texvent.run.settings import Settings
 from texvent.runtime.progress import Progress
-from texvent.settings import Settings
 from texvent.simulate.build import build_simulator, check_engine
 from texvent.video import FrameStream
 

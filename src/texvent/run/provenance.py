@@ -7,7 +7,7 @@ from typing import Any
 
 from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent._version import __version__
-from texvent.settings import Settings
+from texvent.run.settings import Settings
 
 
 def describe_run(

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from texvent.pipeline import text_to_events
-from texvent.replay import render_again
-from texvent.settings import resolve
+from texvent.run.replay import render_again
+from texvent.run.settings import resolve
 
 OPTIONS = {"duration": 0.2, "fps": 10, "sensor": "48x36", "seed": 4, "samples": 1}
 

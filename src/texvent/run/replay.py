@@ -8,7 +8,7 @@ from typing import Any
 from texvent._registry import GENERATORS
 from texvent._version import __version__
 from texvent.errors import InputError
-from texvent.settings import resolve
+from texvent.run.settings import resolve
 from texvent.video import FrameStream, RenderableStream
 
 
