@@ -21,7 +21,7 @@ import numpy as np
 
 from texvent._require import require
 from texvent.bench.document import write_document
-from texvent.bench.environment import describe_environment
+from texvent.bench.machine import describe_environment
 from texvent.errors import MissingDependencyError
 from texvent.events import EventStream
 from texvent.metrics.compare import default_metrics

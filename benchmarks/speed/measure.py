@@ -18,7 +18,7 @@ from benchmarks.speed.scenes import EXCERPT, embedded_heavy_clip, write_video
 from benchmarks.speed.stages import Engine, measure_pipeline
 from benchmarks.speed.startup import measure_startup
 from benchmarks.speed.targets import check_targets
-from texvent.bench.environment import describe_environment
+from texvent.bench.machine import describe_environment
 from texvent.sensor import SensorSize
 
 SCHEMA_VERSION = 1

@@ -83,7 +83,7 @@ GENERATORS = Registry(
         "procedural": "texvent.generate.procedural:ProceduralGenerator",
         "opensora": "texvent.generate.opensora.generator:OpenSoraGenerator",
     },
-    table="texvent.generate.models.lookup",
+    table="texvent.generate.video_models.lookup",
 )
 INTERPOLATORS = Registry(
     "interpolator",

@@ -26,7 +26,7 @@ from texvent.run.provenance import describe_run
 from texvent.run.settings import Settings
 from texvent.runtime.progress import Progress
 from texvent.simulate.build import build_simulator, check_engine
-from texvent.simulate.training import draw_training_config
+from texvent.simulate.randomized_options import draw_training_config
 from texvent.video import Frame, FrameStream
 
 

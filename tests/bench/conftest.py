@@ -4,7 +4,7 @@ import cv2
 import numpy as np
 import pytest
 
-from texvent.bench.oracle.value_noise import ValueNoise
+from texvent.bench.oracle.smooth_texture import ValueNoise
 from texvent.pipeline import video_to_events
 from texvent.run.settings import resolve
 from texvent.sensor import SensorSize

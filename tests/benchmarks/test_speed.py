@@ -18,7 +18,7 @@ from benchmarks.speed.tables import BEGIN, END, as_markdown, put_into_page
 from benchmarks.speed.targets import TARGETS, check_targets
 from benchmarks.speed.timing import Quartiles, cpu_in_turns, rounded
 
-from texvent.bench.environment import describe_environment
+from texvent.bench.machine import describe_environment
 from texvent.sensor import SensorSize
 
 ROOT = Path(__file__).parents[2]

@@ -84,7 +84,7 @@ class PreparedFrames(FrameSource):
         if self._config.white_level is not None:
             pixels = scale_to_levels(pixels, self._config.white_level)
         if self._is_fitted:
-            from texvent.capture.fit import fit_pixels  # brings OpenCV
+            from texvent.capture.fit_to_sensor import fit_pixels  # brings OpenCV
 
             pixels = fit_pixels(pixels, self.size, self._config.fit)
         return checker.check(Frame(pixels, frame.t_us, frame.is_source))

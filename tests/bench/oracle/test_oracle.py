@@ -8,7 +8,7 @@ from texvent.bench.oracle.pixel import IDEAL, NOISY, PixelArray, PixelModel
 from texvent.bench.oracle.prompt_scenes import PROMPTS
 from texvent.bench.oracle.recording import SIZE, TrueFrames, oracle_scene, record, render_video
 from texvent.bench.oracle.scenes import SCENES, build_scene, known_flow
-from texvent.bench.oracle.value_noise import ValueNoise
+from texvent.bench.oracle.smooth_texture import ValueNoise
 from texvent.errors import ConfigError
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.sensor import SensorSize

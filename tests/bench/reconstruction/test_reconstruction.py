@@ -10,7 +10,7 @@ import pytest
 from texvent.bench.fidelity.entries import Entry
 from texvent.bench.reconstruction.image_grid import ReconstructionGrid
 from texvent.bench.reconstruction.image_scores import load_measures
-from texvent.bench.reconstruction.noise_curve import NoiseLevel, noise_curve
+from texvent.bench.reconstruction.noise_robustness import NoiseLevel, noise_curve
 from texvent.bench.reconstruction.run import (
     DEFAULT_SKIP,
     RECORDED,

@@ -11,7 +11,7 @@ import pytest
 import texvent
 from texvent.cli.app import main
 from texvent.errors import FileFormatError
-from texvent.generate.models.known_models import MODELS
+from texvent.generate.video_models.known_models import MODELS
 from texvent.generate.videos.stored_video import reopen
 from texvent.pipeline import text_to_video
 from texvent.run.settings import resolve

@@ -5,8 +5,8 @@ import pytest
 from texvent.errors import ConfigError
 from texvent.generate.diffusers_models import device_placement
 from texvent.generate.diffusers_models.device_placement import GB, place
-from texvent.generate.models.known_models import MODELS
 from texvent.generate.video_config import DiffusersConfig
+from texvent.generate.video_models.known_models import MODELS
 
 COSMOS = MODELS["cosmos-7b"]  # 74 GB on the device, 24.4 GB with offload
 

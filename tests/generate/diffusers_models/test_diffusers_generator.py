@@ -36,7 +36,7 @@ from texvent.generate.diffusers_models import guardrail, model_run, pipeline_loa
 from texvent.generate.diffusers_models.pipeline_loading import (  # noqa: E402
     forget_pipeline,
 )
-from texvent.generate.models.known_models import MODELS  # noqa: E402
+from texvent.generate.video_models.known_models import MODELS  # noqa: E402
 from texvent.generate.videos.clip_score import measure_clip_score  # noqa: E402
 from texvent.generate.videos.stored_video import write_video  # noqa: E402
 from texvent.generate.videos.video_cache import made_folder  # noqa: E402

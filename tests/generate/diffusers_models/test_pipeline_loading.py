@@ -28,8 +28,8 @@ from texvent.generate.diffusers_models.pipeline_loading import (  # noqa: E402
     load_pipeline,
     place_pipeline,
 )
-from texvent.generate.models.loading import quiet_libraries  # noqa: E402
 from texvent.generate.video_config import DiffusersConfig  # noqa: E402
+from texvent.generate.video_models.loading import quiet_libraries  # noqa: E402
 from texvent.generate.videos.clip_score import measure_clip_score  # noqa: E402
 
 from .. import tiny_pipelines  # noqa: E402

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from texvent.simulate.texvent.brightness_cache import BrightnessCache
-from texvent.simulate.texvent.event_frame import EventFrame
+from texvent.simulate.texvent.fired_pixels import EventFrame
 
 
 def levels(*values) -> np.ndarray:

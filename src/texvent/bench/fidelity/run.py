@@ -8,11 +8,11 @@ import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from texvent.bench.environment import describe_environment
 from texvent.bench.fidelity.details import describe
 from texvent.bench.fidelity.entries import Entry, choose_entries
 from texvent.bench.fidelity.results import FidelityReport, Reference, Score
 from texvent.bench.jobs import run_jobs
+from texvent.bench.machine import describe_environment
 from texvent.bench.oracle.pixel import FLOOR_SEED, REFERENCE_SEED, TARGETS
 from texvent.bench.oracle.recording import oracle_scene, record
 from texvent.bench.oracle.scenes import check_scene, known_flow, scene_names

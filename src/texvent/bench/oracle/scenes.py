@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from texvent._registry import suggest
 from texvent.bench.oracle.prompt_scenes import PROMPTS, build_prompt_scene
-from texvent.bench.oracle.value_noise import ValueNoise
+from texvent.bench.oracle.smooth_texture import ValueNoise
 from texvent.errors import ConfigError
 from texvent.sensor import SensorSize
 

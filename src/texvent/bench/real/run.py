@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from texvent.bench.environment import describe_environment
 from texvent.bench.fidelity.details import Details, describe
 from texvent.bench.fidelity.entries import Entry, simulate_video, simulators_to_compare
 from texvent.bench.fidelity.results import FidelityReport, Reference, Score
 from texvent.bench.fidelity.run import NULL, compare_all, fit_threshold
 from texvent.bench.jobs import run_jobs
+from texvent.bench.machine import describe_environment
 from texvent.bench.progress import Progress, no_progress
 from texvent.bench.real.scene import RealScene
 from texvent.bench.selftest.perturbations import perturb, split_halves

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from typing import Any
 
 from texvent.bench.document import plain_values
-from texvent.bench.environment import describe_environment
+from texvent.bench.machine import describe_environment
 from texvent.bench.markdown import markdown_table
 from texvent.bench.reconstruction.image_scores import ImageScores, pool_scores
-from texvent.bench.reconstruction.noise_curve import NoiseScore
+from texvent.bench.reconstruction.noise_robustness import NoiseScore
 from texvent.bench.reconstruction.run import RECORDED, ReconstructionReport, ReconstructionRow
 
 SCHEMA = "texvent-reconstruction-1"

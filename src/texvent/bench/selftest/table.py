@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent.bench.document import plain_values, read_document, restore_nan
-from texvent.bench.environment import describe_environment
+from texvent.bench.machine import describe_environment
 from texvent.bench.selftest.perturbations import PERTURBATIONS, SERIES
 from texvent.bench.selftest.run import (
     RECORDING_SEEDS,

@@ -11,7 +11,7 @@ from typing import ClassVar
 from texvent.bench.classification.classify import classify, list_samples
 from texvent.bench.classification.resnet34 import ResNetClassifier
 from texvent.bench.classification.resnet34_weights import read_resnet_weights
-from texvent.bench.environment import describe_environment
+from texvent.bench.machine import describe_environment
 from texvent.cli.bench.result_options import ResultOptions
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs

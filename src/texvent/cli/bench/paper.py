@@ -8,9 +8,9 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, ClassVar
 
-from texvent.bench.environment import describe_environment
 from texvent.bench.fidelity.run import FidelityPlan, run_fidelity
 from texvent.bench.fidelity.table import check_baseline, fidelity_tables
+from texvent.bench.machine import describe_environment
 from texvent.bench.paper.ablation_tables import (
     BASELINE,
     TABLES_HERE,

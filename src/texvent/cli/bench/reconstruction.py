@@ -13,7 +13,7 @@ from texvent.bench.real.frame_recording import FrameRecording, open_recording
 from texvent.bench.real.scene import locate_source
 from texvent.bench.reconstruction.image_grid import ReconstructionGrid
 from texvent.bench.reconstruction.image_scores import load_measures
-from texvent.bench.reconstruction.noise_curve import NoiseScore, noise_curve
+from texvent.bench.reconstruction.noise_robustness import NoiseScore, noise_curve
 from texvent.bench.reconstruction.run import (
     ReconstructionPlan,
     ReconstructionScorer,

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from texvent.bench.environment import describe_environment
+from texvent.bench.machine import describe_environment
 from texvent.bench.unpaired import compare_folders
 from texvent.cli.bench.result_options import ResultOptions
 from texvent.cli.option_types import REQUIRED

@@ -11,8 +11,8 @@ from rich.table import Table
 from texvent._registry import GENERATORS
 from texvent.cli.options import refuse_arguments
 from texvent.errors import FileFormatError
-from texvent.generate.models.download import find_downloaded
-from texvent.generate.models.known_models import MODELS, VideoModel
+from texvent.generate.video_models.download import find_downloaded
+from texvent.generate.video_models.known_models import MODELS, VideoModel
 
 HUB_PACKAGE = "huggingface_hub"
 PIPELINE_PACKAGE = "diffusers"

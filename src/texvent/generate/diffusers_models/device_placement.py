@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 
 from texvent.errors import ConfigError
-from texvent.generate.models.known_models import VideoModel
 from texvent.generate.video_config import DiffusersConfig
+from texvent.generate.video_models.known_models import VideoModel
 
 GB = 1e9
 SEQUENTIAL_BELOW_GB = 9.0

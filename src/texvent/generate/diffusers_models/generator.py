@@ -19,10 +19,10 @@ from texvent._version import __version__
 from texvent.errors import ConfigError, InputError
 from texvent.generate.diffusers_models.latents import Latents
 from texvent.generate.diffusers_models.model_run import ModelRun
-from texvent.generate.models.download import find_downloaded
-from texvent.generate.models.known_models import VideoModel
-from texvent.generate.models.weight_files import CONFIG, check_part, fingerprint
 from texvent.generate.video_config import DiffusersConfig
+from texvent.generate.video_models.download import find_downloaded
+from texvent.generate.video_models.known_models import VideoModel
+from texvent.generate.video_models.weight_files import CONFIG, check_part, fingerprint
 from texvent.generate.videos.retries import generate_checked
 from texvent.generate.videos.stored_video import StoredVideo
 from texvent.generate.videos.video_cache import VideoCache, content_key

@@ -47,10 +47,10 @@ from texvent.generate.diffusers_models.prompt_embeddings import (
     find_embeddings,
 )
 from texvent.generate.diffusers_models.streamed_decoding import can_stream
-from texvent.generate.models.download import ModelFiles, find_files
-from texvent.generate.models.known_models import VideoModel
-from texvent.generate.models.weight_files import fingerprint, read_pipeline_index
 from texvent.generate.video_config import DiffusersConfig
+from texvent.generate.video_models.download import ModelFiles, find_files
+from texvent.generate.video_models.known_models import VideoModel
+from texvent.generate.video_models.weight_files import fingerprint, read_pipeline_index
 from texvent.generate.videos.video_cache import content_key
 from texvent.runtime.progress import Progress
 from texvent.video import PixelArray

@@ -18,8 +18,8 @@ from texvent.generate.diffusers_models.guardrail import (
 )
 from texvent.generate.diffusers_models.streamed_decoding import LTX
 from texvent.generate.diffusers_models.torchvision_stub import install_torchvision_stub
-from texvent.generate.models.loading import loading, quiet_libraries
-from texvent.generate.models.weight_files import read_pipeline_index
+from texvent.generate.video_models.loading import loading, quiet_libraries
+from texvent.generate.video_models.weight_files import read_pipeline_index
 
 EXTRA = "generate"
 Pipeline: TypeAlias = Any

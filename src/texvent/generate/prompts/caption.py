@@ -13,7 +13,7 @@ from typing import Any
 from texvent._require import require
 from texvent.errors import InputError, TexventError
 from texvent.generate.diffusers_models.pipeline_loading import resolve_device
-from texvent.generate.models.loading import loading
+from texvent.generate.video_models.loading import loading
 
 EXTRA = "generate"
 INSTRUCTION = "Caption the image in detail."

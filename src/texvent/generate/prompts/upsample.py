@@ -17,8 +17,8 @@ import requests
 
 from texvent._require import require
 from texvent.errors import InputError, TexventError
-from texvent.generate.models.loading import loading
 from texvent.generate.prompts.upsample_config import UpsampleConfig
+from texvent.generate.video_models.loading import loading
 from texvent.generate.videos.video_cache import content_key, made_folder
 from texvent.io.atomic import atomic_file
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from texvent._require import require
 from texvent.errors import InputError
-from texvent.generate.models.loading import loading
+from texvent.generate.video_models.loading import loading
 from texvent.generate.videos.stored_video import StoredVideo
 from texvent.video import PixelArray
 

@@ -1,4 +1,8 @@
-"""Threshold crossings of ESIM's pixels in one interval: input, state, and kernel by backend."""
+"""Threshold crossings of ESIM's pixels in one interval: input, state, and kernel by backend.
+
+`reference.py` (`cross_thresholds`) defines when a pixel crosses; `crossings_cpu.py` is its compiled
+form. Both solve the linear ramp of `simulate/crossing/ramp_reference.py`.
+"""
 
 from __future__ import annotations
 

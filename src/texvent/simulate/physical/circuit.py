@@ -16,6 +16,7 @@ from texvent.simulate.backend.elementary import exponential, natural_log
 from texvent.simulate.backend.select import Kernel
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
+from texvent.simulate.physical.refractory import ResetRules
 from texvent.simulate.random.mismatch import PixelMismatch
 
 Float64Array: TypeAlias = NDArray[np.float64]
@@ -83,15 +84,6 @@ class NoiseEvents(NamedTuple):
     """[m] µs, in the interval."""
     p: NDArray[np.uint8]
     """[m] 1 = ON, 0 = OFF."""
-
-
-class ResetRules(NamedTuple):
-    """What an event does to its pixel besides resetting it."""
-
-    refractory_us: int
-    """The refractory period: how long the pixel is held in reset, and change is lost; 0 is none."""
-    by_noise: bool
-    """Whether noise events reset their pixels too."""
 
 
 AdvancePixels: TypeAlias = Callable[

@@ -30,7 +30,6 @@ from texvent.simulate.physical.circuit import (
     NoiseEvents,
     Optics,
     PhotoreceptorInput,
-    ResetRules,
     new_state,
 )
 from texvent.simulate.physical.circuit_lanes_cpu import (
@@ -42,6 +41,7 @@ from texvent.simulate.physical.circuit_lanes_cpu import (
 )
 from texvent.simulate.physical.circuit_segments_cpu import EventRules, advance_lanes
 from texvent.simulate.physical.reference import SETTLED
+from texvent.simulate.physical.refractory import ResetRules
 from texvent.simulate.random.mismatch import PixelMismatch
 
 PIXELS_PER_THREAD = 64 * BLOCK

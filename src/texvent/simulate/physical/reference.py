@@ -18,7 +18,6 @@ from texvent.simulate.physical.circuit import (
     Luma,
     NoiseEvents,
     PhotoreceptorInput,
-    ResetRules,
     brightness_and_cutoff,
 )
 from texvent.simulate.physical.crossing_time_reference import (
@@ -28,6 +27,7 @@ from texvent.simulate.physical.crossing_time_reference import (
     ChangeCurve,
     time_to_threshold,
 )
+from texvent.simulate.physical.refractory import ResetRules
 from texvent.simulate.random.mismatch import PixelMismatch
 
 LEAK_SHARE = 0.5

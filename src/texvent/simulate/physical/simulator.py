@@ -32,13 +32,13 @@ from texvent.simulate.physical.circuit import (
     WHITE,
     NoiseEvents,
     PhotoreceptorInput,
-    ResetRules,
     new_state,
 )
 from texvent.simulate.physical.config import PRESETS, PhysicalConfig
 from texvent.simulate.physical.noise_curve import parse_noise_curve
 from texvent.simulate.physical.photoreceptor import InputFrames
 from texvent.simulate.physical.readout import Readout
+from texvent.simulate.physical.refractory import ResetRules
 from texvent.simulate.random.draws import Purpose, draw_uniforms
 from texvent.simulate.random.mismatch import (
     PixelMismatch,

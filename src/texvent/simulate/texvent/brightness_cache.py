@@ -18,7 +18,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.texvent.event_frame import EventFrame
+from texvent.simulate.texvent.fired_pixels import EventFrame
 
 CachePolicy = Literal["local", "global", "none", "leaky"]
 ResetRule = Literal["current", "step"]

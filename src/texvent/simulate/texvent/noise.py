@@ -47,7 +47,7 @@ def draw_noise(
     Returns:
         The noise events, ordered by pixel and polarity.
 
-    Equation: (6), section 3.2.2: Poisson(λ1 λ2); drawn per block of pixels, see `kernels.texvent`.
+    Equation: (6), section 3.2.2: Poisson(λ1 λ2); drawn per block of pixels, see `kernels/scan.py`.
     Deviation: the paper gives noise no polarity and no time. Eq. 7 would put all of it at the end,
         because its change is below δ; real background activity is uniform in time.
     """

@@ -20,7 +20,7 @@ from texvent.simulate.packets.sorting import make_packet
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.texvent.brightness_cache import BrightnessCache
 from texvent.simulate.texvent.config import TexventConfig
-from texvent.simulate.texvent.event_frame import (
+from texvent.simulate.texvent.fired_pixels import (
     EventFrame,
     generate_event_frame,
     list_threshold_crossings,

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from texvent.simulate.packets.interval import FrameInterval, place_in
 from texvent.simulate.random.draws import Purpose, draw_uniforms
-from texvent.simulate.texvent.event_frame import ThresholdCrossings
+from texvent.simulate.texvent.fired_pixels import ThresholdCrossings
 
 TimestampRule = Literal["eq7", "random", "linear", "hyperbolic", "even", "end"]
 Float64Array = NDArray[np.float64]

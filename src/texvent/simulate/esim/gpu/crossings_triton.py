@@ -44,8 +44,8 @@ def scan_ramp(
 ) -> None:
     """Find every threshold that a straight line of log intensity crosses in every interval.
 
-    Arguments as for `texvent_triton.scan_levels`, but `rules` are `EsimRules`, and `state`,
-    an `rules.State`, is brought up to date in pass 2.
+    Arguments as for `texvent.gpu.scan_triton.scan_levels`, but `rules` are `EsimRules`, and
+    `state`, an `rules.State`, is brought up to date in pass 2.
 
     Source: as `crossing.ramp_reference.cross_ramp`, whose events these are.
     """

@@ -90,7 +90,7 @@ class TexventPixels(GpuPixels[TexventConfig]):
         return np.stack(keys).view(np.int64)
 
     def policy(self, span: Span) -> Int64Array:
-        """What references do before every interval, [B, T]; see `cache.BrightnessCache`."""
+        """What references do before every interval, [B, T]; see `BrightnessCache`."""
         config, pair_starts = self.config, span.from_source
         policy = np.where(pair_starts & (config.cache == "leaky"), LEAK, KEEP)
         if config.cache == "none":

@@ -1,4 +1,4 @@
-"""What drawing noise by blocks of pixels takes and gives; `kernels.texvent` tells the scheme."""
+"""What drawing noise by blocks of pixels takes and gives; `scan.py` tells the scheme."""
 
 from __future__ import annotations
 
@@ -35,5 +35,5 @@ class NoiseBlock(NamedTuple):
 
 
 PlaceNoise: TypeAlias = Callable[[NoiseBlock, int], NoisePlaces]
-"""`place_noise(block, pixels)`, see `noise_reference.place_noise`."""
+"""`place_noise(block, pixels)`, see `noise_blocks_reference.place_noise`."""
 PLACE_NOISE = Kernel[PlaceNoise](__name__, "place_noise")

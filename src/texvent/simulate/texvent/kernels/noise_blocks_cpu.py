@@ -28,7 +28,7 @@ FEW_PIXELS = NOISE_BLOCK // 32
 
 
 def place_noise(noise: NoiseBlock, pixels: int) -> NoisePlaces:
-    """See `noise_reference.place_noise`."""
+    """See `noise_blocks_reference.place_noise`."""
     with allow_wrap_around():
         places = _place_noise(noise.key, noise.cumulative, noise.on_fraction, pixels)
     return NoisePlaces(*places)

@@ -34,7 +34,7 @@ def find_fired(
     Returns:
         None where an intensity is NaN, infinite or negative; then nothing was changed.
 
-    Equation: (5), section 3.2.2, as `kernels.texvent` tells it.
+    Equation: (5), section 3.2.2, as `texvent.kernels.scan` tells it.
     """
     candidates = []
     for first in range(0, frame.size, CHUNK):

@@ -8,7 +8,7 @@ from texvent.simulate.packets.interval import FrameInterval, place_in
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.sorting_reference import sort_events
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
-from texvent.simulate.texvent.event_frame import EventFrame, count_events, list_threshold_crossings
+from texvent.simulate.texvent.fired_pixels import EventFrame, count_events, list_threshold_crossings
 from texvent.simulate.texvent.kernels.noise_blocks import NoisePlaces
 from texvent.simulate.texvent.kernels.scan import Fired, join_fired
 from texvent.simulate.texvent.kernels.timestamping import Timing

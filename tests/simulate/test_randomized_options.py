@@ -7,9 +7,9 @@ from texvent.errors import ConfigError
 from texvent.options.values import plain
 from texvent.simulate.esim.simulator import EsimConfig
 from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulate.randomized_options import NOISE, draw_training_config
 from texvent.simulate.texvent.simulator import TexventConfig
 from texvent.simulate.thresholds import contrast_threshold_of
-from texvent.simulate.training import NOISE, draw_training_config
 
 SEEDS = range(400)
 

@@ -8,9 +8,9 @@ import pytest
 from texvent._registry import GENERATORS
 from texvent.cli.app import main
 from texvent.errors import ConfigError
-from texvent.generate.models import lookup
-from texvent.generate.models.known_models import MODELS
 from texvent.generate.video_config import DiffusersConfig
+from texvent.generate.video_models import lookup
+from texvent.generate.video_models.known_models import MODELS
 from texvent.options.fields import option_help, option_names
 from texvent.run.settings import default_settings, resolve
 

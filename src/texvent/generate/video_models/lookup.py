@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from texvent.errors import ConfigError
-from texvent.generate.models.known_models import MODELS, VideoModel
 from texvent.generate.video_config import DiffusersConfig
+from texvent.generate.video_models.known_models import MODELS, VideoModel
 
 if TYPE_CHECKING:
     from texvent.generate.diffusers_models.generator import DiffusersGenerator

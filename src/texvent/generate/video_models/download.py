@@ -11,8 +11,8 @@ from pathlib import Path
 
 from texvent._require import require
 from texvent.errors import InputError, TexventError
-from texvent.generate.models.known_models import VideoModel
-from texvent.generate.models.weight_files import CONFIG, INDEX, check_part, check_weight_files
+from texvent.generate.video_models.known_models import VideoModel
+from texvent.generate.video_models.weight_files import CONFIG, INDEX, check_part, check_weight_files
 
 EXTRA = "generate"
 

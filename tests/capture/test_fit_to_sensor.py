@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.capture.fit import fit_pixels
+from texvent.capture.fit_to_sensor import fit_pixels
 from texvent.sensor import SensorSize
 
 sides = st.integers(1, 40)
