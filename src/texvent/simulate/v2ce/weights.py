@@ -68,7 +68,7 @@ def read_weights(path: Path, device: str) -> dict[str, Tensor]:
             another shape.
         MissingDependencyError: torch is not installed.
     """
-    tensors = _strip_prefix(named_tensors(_read_state(path), extra="v2ce"), path)
+    tensors = named_tensors(_strip_prefix(_read_state(path), path), extra="v2ce")
     expected = tensor_shapes(tensors[FIRST_TENSOR].shape[0])
     needed = [name for name in expected if not name.endswith(BATCH_COUNTER)]
     wanted = {name: expected[name] for name in expected if name in needed or name in tensors}
