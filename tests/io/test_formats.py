@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import itertools
+import subprocess
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -36,6 +38,11 @@ def case(request: pytest.FixtureRequest) -> FormatCase:
     return chosen
 
 
+def sweep_in_another_process(folder: Path) -> None:
+    code = "import sys, pathlib, texvent.io.hidden_parts as h; h.sweep(pathlib.Path(sys.argv[1]))"
+    subprocess.run([sys.executable, "-c", code, str(folder)], check=True)
+
+
 @pytest.fixture
 def folder_is_clean(tmp_path: Path) -> Callable[[], bool]:
     return lambda: not list(tmp_path.iterdir())
@@ -49,6 +56,32 @@ def test_every_stream_comes_back_unchanged(tmp_path: Path, case: FormatCase, nam
     assert back.equals(stream)
     assert dict(back.metadata) == dict(stream.metadata)
     assert back.t.dtype == np.int64
+
+
+def test_metadata_known_only_at_the_end_is_stored(tmp_path: Path, case: FormatCase) -> None:
+    stream = random_events(3000, case.sensor)
+    path = tmp_path / case.file
+    with open_writer(path, size=stream.size, metadata=METADATA, format=case.name) as writer:
+        writer.append(stream[:2000])
+        writer.add_metadata({"complete": False, "stopped_us": 5})
+        writer.append(stream[2000:])
+    back = load(path, format=case.name)
+    assert back.equals(stream)
+    assert dict(back.metadata) == {**METADATA, "complete": False, "stopped_us": 5}
+    beside = {path.name, f"{path.name}.json"}
+    assert {one.name for one in tmp_path.iterdir()} <= beside
+
+
+def test_a_file_being_written_is_not_taken_for_one_of_a_dead_process(
+    tmp_path: Path, case: FormatCase
+) -> None:
+    stream = random_events(3000, case.sensor)
+    path = tmp_path / case.file
+    with open_writer(path, size=stream.size, metadata=METADATA, format=case.name) as writer:
+        sweep_in_another_process(tmp_path)
+        writer.append(stream)
+        sweep_in_another_process(tmp_path)
+    assert load(path, format=case.name).equals(stream)
 
 
 def test_late_times_come_back_or_are_refused_before_anything_is_kept(

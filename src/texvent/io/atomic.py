@@ -2,21 +2,22 @@
 
 Every file texvent writes goes through `atomic_file`: it is written beside its target under a
 hidden name, flushed to disk, and renamed. A crash, Ctrl-C or a full disk leaves the old file (or
-none). Only a process that is killed outright can leave the hidden file `.texvent-….part…` behind;
-it may be deleted.
+none). Only a process that is killed outright leaves the hidden file `.texvent-….part…` behind; the
+next run that writes into the folder removes it.
 """
 
 from __future__ import annotations
 
 import errno
 import os
-import secrets
-import shutil
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from texvent.errors import OutputError
+from texvent.io.hidden_parts import hidden_file, hidden_folder, is_hidden_part
+from texvent.io.protected_inputs import refuse_inputs
 
 DISK_FULL = (errno.ENOSPC, errno.EDQUOT)
 
@@ -32,10 +33,11 @@ def check_output(path: str | Path, *, overwrite: bool) -> Path:
         The path, symbolic links resolved, so that replacing it replaces what it points to.
 
     Raises:
-        OutputError: it exists already, it is not a regular file, or its folder is missing or
-            not writable.
+        OutputError: it exists already, is an input of this command or not a regular file, or its
+            folder is missing or not writable.
     """
-    target = Path(os.path.realpath(path))
+    target = _resolved(path)
+    refuse_inputs(path, target)
     folder = target.parent
     if target.exists() and not target.is_file():
         what = "a folder" if target.is_dir() else "not a regular file"
@@ -72,21 +74,14 @@ def atomic_file(path: str | Path, *, overwrite: bool) -> Iterator[Path]:
         OutputError: see `check_output`; or the disk became full inside the block.
     """
     target = check_output(path, overwrite=overwrite)
-    part = target.parent / f".texvent-{secrets.token_hex(6)}.part{target.suffix}"
-    try:
-        _create(part, path)
+    # Ctrl-C and SystemExit leave no half-written file either: the hidden one goes with its block.
+    with _refusals(path, target), hidden_file(target.parent, target.suffix) as part:
         yield part
         _flush_to_disk(part)
         # Another program may have made the file meanwhile.
         check_output(path, overwrite=overwrite)
         os.replace(part, target)
-    except BaseException as error:
-        # BaseException: Ctrl-C and SystemExit must not leave a half-written file either.
-        part.unlink(missing_ok=True)
-        if is_disk_full(error):
-            raise _disk_full(path, target) from error
-        raise
-    _flush_folder(target.parent)
+    _flush_to_disk(target.parent)
 
 
 def check_output_folder(
@@ -104,7 +99,8 @@ def check_output_folder(
         OutputError: it exists already, holds other files, or its parent folder is missing or not
             writable.
     """
-    target = Path(os.path.realpath(path))
+    target = _resolved(path)
+    refuse_inputs(path, target)
     if target.is_dir():
         foreign = [one.name for one in target.iterdir() if not (one.is_file() and is_own(one))]
         if foreign:
@@ -127,34 +123,48 @@ def atomic_folder(
 ) -> Iterator[Path]:
     """A folder to write into, which becomes `path` if the `with` block ends without an exception.
 
-    Between the old folder's going and the new one's coming lies an instant without either; a
-    process killed then leaves the old one as the hidden folder `.texvent-….old`.
+    Between the old folder's going and the new one's coming lies an instant without either; if the
+    process is killed then, the next run beside it puts the old one back.
 
     Raises:
         OutputError: see `check_output_folder`; or the disk became full inside the block.
     """
     target = check_output_folder(path, overwrite=overwrite, is_own=is_own)
-    part = target.parent / f".texvent-{secrets.token_hex(6)}.part"
-    old = part.with_suffix(".old")
-    try:
-        part.mkdir()
+    with _refusals(path, target), hidden_folder(target.parent) as part:
         yield part
         for file in part.iterdir():
             _flush_to_disk(file)
-        _flush_folder(part)
+        _flush_to_disk(part)
         check_output_folder(path, overwrite=overwrite, is_own=is_own)
         if target.is_dir():
-            os.replace(target, old)
-        os.replace(part, target)
-    except BaseException as error:
-        shutil.rmtree(part, ignore_errors=True)
-        if old.is_dir() and not target.exists():
-            os.replace(old, target)
-        if is_disk_full(error):
-            raise _disk_full(path, target) from error
-        raise
-    shutil.rmtree(old, ignore_errors=True)
-    _flush_folder(target.parent)
+            _replace_folder(target, part)
+        else:
+            os.replace(part, target)
+    _flush_to_disk(target.parent)
+
+
+def _replace_folder(target: Path, part: Path) -> None:
+    with hidden_folder(target.parent, ".old") as old:
+        replaced = old / target.name
+        os.replace(target, replaced)
+        try:
+            os.replace(part, target)
+        except BaseException:
+            os.replace(replaced, target)
+            raise
+
+
+def _resolved(path: str | Path) -> Path:
+    """The path without symbolic links, if the system takes such a name."""
+    try:
+        target = Path(os.path.realpath(path))
+        target.exists()
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise OutputError(
+            f"cannot write {str(path)[:80]!r}: {reason}; choose another name"
+        ) from error
+    return target
 
 
 def is_disk_full(error: BaseException) -> bool:
@@ -162,36 +172,40 @@ def is_disk_full(error: BaseException) -> bool:
     return isinstance(error, OSError) and error.errno in DISK_FULL
 
 
-def _disk_full(path: str | Path, target: Path) -> OutputError:
-    return OutputError(
-        f"cannot write {path}: the disk is full ({target.parent}); nothing was kept. "
-        "Free some space or choose another folder"
+@contextmanager
+def _refusals(path: str | Path, target: Path) -> Iterator[None]:
+    """Say in one line why the system refused to write."""
+    try:
+        yield
+    except OSError as error:
+        if is_disk_full(error):
+            raise OutputError(
+                f"cannot write {path}: the disk is full ({target.parent}); free some space or "
+                "choose another folder"
+            ) from error
+        if error.errno == errno.EFBIG:
+            raise OutputError(
+                f"cannot write {path}: it grew over the largest file allowed here (ulimit -f); "
+                "raise the limit or write less"
+            ) from error
+        if _is_part(error.filename, target.parent):
+            raise OutputError(
+                f"cannot write {path}: {error.strerror} ({error.filename}); choose another folder "
+                "or name"
+            ) from error
+        raise
+
+
+def _is_part(name: Any, folder: Path) -> bool:
+    """True if a system error is about a hidden file of an output."""
+    return (
+        isinstance(name, str | Path) and is_hidden_part(Path(name)) and folder in Path(name).parents
     )
 
 
-def _create(part: Path, path: str | Path) -> None:
-    """Make the hidden file now, so that a refusal comes before any work is done."""
-    try:
-        os.close(os.open(part, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
-    except OSError as error:
-        if is_disk_full(error):
-            raise
-        raise OutputError(
-            f"cannot write {path}: {error.strerror}; choose another folder or name"
-        ) from error
-
-
-def _flush_to_disk(part: Path) -> None:
-    descriptor = os.open(part, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)
-
-
-def _flush_folder(folder: Path) -> None:
-    """Make the rename itself durable."""
-    descriptor = os.open(folder, os.O_RDONLY)
+def _flush_to_disk(path: Path) -> None:
+    """Make a file durable, or the names in a folder."""
+    descriptor = os.open(path, os.O_RDONLY)
     try:
         os.fsync(descriptor)
     finally:

@@ -91,8 +91,21 @@ class BlockCodec(ABC):
         target = FileTarget(path, size, metadata, overwrite)
         self.check_target(target)
         return self.writer(
-            target, partial(self.start, target), limits=self.limits, has_sidecar=self.has_sidecar
+            target,
+            partial(self.start, target),
+            limits=self.limits,
+            copy=self.copy,
+            has_sidecar=self.has_sidecar,
         )
+
+    def copy(self, source: Path, target: FileTarget) -> None:
+        """Copy the events of a complete file to a target, which has metadata of its own."""
+        writer = self.open_writer(
+            target.path, size=target.size, metadata=target.metadata, overwrite=target.overwrite
+        )
+        with writer:
+            for packet in self.read(source, size=target.size):
+                writer.append(packet)
 
     @abstractmethod
     def inspect(self, path: Path) -> FileContents:
@@ -141,7 +154,11 @@ class FolderCodec(BlockCodec):
         """Start a folder; see `EventCodec.open_writer`."""
         target = FileTarget(path, size, metadata, overwrite)
         return self.writer(
-            target, partial(self.start, target), limits=self.limits, is_own=self.is_own
+            target,
+            partial(self.start, target),
+            limits=self.limits,
+            copy=self.copy,
+            is_own=self.is_own,
         )
 
     @abstractmethod

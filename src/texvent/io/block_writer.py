@@ -5,6 +5,8 @@ A format opens a file, adds columns to it, and knows how it begins and ends.
 
 from __future__ import annotations
 
+import os
+import shutil
 from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, ExitStack
 from dataclasses import dataclass
@@ -42,6 +44,10 @@ StartFile: TypeAlias = Callable[[Path], AbstractContextManager[WriteBlock]]
 After an error it is only closed."""
 
 
+CopyFile: TypeAlias = Callable[[Path, FileTarget], None]
+"""Copies the events of a complete file to a target, which has metadata of its own."""
+
+
 class BlockWriter:
     """Checks packets, gathers them into blocks and hands these to the format; memory stays flat.
 
@@ -49,6 +55,7 @@ class BlockWriter:
         target: what to write.
         start: opens the file when the `with` block is entered.
         limits: what the format holds.
+        copy: copies a complete file of the format, with other metadata; see `add_metadata`.
         has_sidecar: whether size and metadata are written beside the file.
         is_own: for formats that are folders: tells from its path whether a file is of the format,
             so that the folder may be replaced. None: the format is one file.
@@ -66,6 +73,7 @@ class BlockWriter:
         start: StartFile,
         *,
         limits: FormatLimits,
+        copy: CopyFile,
         has_sidecar: bool = False,
         is_own: Callable[[Path], bool] | None = None,
     ) -> None:
@@ -80,9 +88,12 @@ class BlockWriter:
         self._target = target
         self._start = start
         self._limits = limits
+        self._copy = copy
+        self._added: dict[str, Any] = {}
         self._has_sidecar = has_sidecar
         self._is_own = is_own
         self._stack = ExitStack()
+        self._part = self._beside = target.path
         self._write: WriteBlock | None = None
         self._pending: list[EventStream] = []
         self._pending_events = 0
@@ -94,13 +105,14 @@ class BlockWriter:
         target = self._target
         with ExitStack() as stack:
             if self._has_sidecar:
-                beside = stack.enter_context(
+                self._beside = stack.enter_context(
                     atomic_file(sidecar_path(target.path), overwrite=target.overwrite)
                 )
-                beside.write_text(sidecar_text(target.size, target.metadata), encoding="utf-8")
-            part = stack.enter_context(self._place())
+                self._write_sidecar(target.metadata)
+            self._part = stack.enter_context(self._place())
+            stack.push(self._store_added)
             # Entered last: the file is closed before it gets its name.
-            self._write = stack.enter_context(self._start(part))
+            self._write = stack.enter_context(self._start(self._part))
             self._stack = stack.pop_all()
         return self
 
@@ -132,6 +144,31 @@ class BlockWriter:
             return
         with self._stack:
             self._write_pending(self._write, final=True)
+
+    def add_metadata(self, facts: Mapping[str, Any]) -> None:
+        """Store more metadata, known only now: at its end the file is written once more with it."""
+        metadata_to_json(facts)
+        self._added.update(facts)
+
+    def _store_added(
+        self, kind: object, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Give the closed file, which has no name yet, the metadata that came late."""
+        if error is not None or not self._added:
+            return
+        metadata = {**self._target.metadata, **self._added}
+        if self._has_sidecar:
+            self._write_sidecar(metadata)
+            return
+        part = self._part
+        copy = part.with_stem(f"{part.stem}-copy")
+        self._copy(part, FileTarget(copy, self._target.size, metadata, overwrite=True))
+        if part.is_dir():
+            shutil.rmtree(part)
+        os.replace(copy, part)
+
+    def _write_sidecar(self, metadata: Mapping[str, Any]) -> None:
+        self._beside.write_text(sidecar_text(self._target.size, metadata), encoding="utf-8")
 
     def _place(self) -> AbstractContextManager[Path]:
         path, overwrite = self._target.path, self._target.overwrite

@@ -24,6 +24,10 @@ class EventWriter(Protocol):
         """Add the events of a packet, which starts no earlier than the one before it ended."""
         ...
 
+    def add_metadata(self, facts: Mapping[str, Any]) -> None:
+        """Store more metadata, known only after the file was begun, such as that it is cut off."""
+        ...
+
     def __enter__(self) -> Self: ...
 
     def __exit__(

@@ -6,7 +6,6 @@ numbers are kept.
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +18,7 @@ from texvent.data.pull import ARCHIVES, Progress, data_folder, describe, fetch_a
 from texvent.data.unpack import unpack
 from texvent.errors import FileFormatError
 from texvent.interpolate.rife.weights import read_rife_weights, write_rife_weights
+from texvent.io.hidden_parts import hidden_folder
 from texvent.metrics.lpips.weights import read_lpips_weights, write_lpips_weights
 from texvent.runtime.cache_folder import cache_folder, make_folder
 from texvent.weights.published import NetworkKind, PublishedWeights, find_weights
@@ -89,9 +89,9 @@ def pull_weights(
             entry.source.archive, data_folder() / ARCHIVES, progress=progress, client=client
         )
         make_folder(target.parent)
-        with tempfile.TemporaryDirectory(prefix=".texvent-", dir=target.parent) as scratch:
-            unpack(archive, entry.source, Path(scratch))
-            _convert(Path(scratch) / entry.source.path, entry, target)
+        with hidden_folder(target.parent) as scratch:
+            unpack(archive, entry.source, scratch)
+            _convert(scratch / entry.source.path, entry, target)
     return target
 
 

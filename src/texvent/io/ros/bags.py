@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import os
 import struct
-import tempfile
 from abc import abstractmethod
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -26,6 +25,7 @@ from texvent._require import require
 from texvent.errors import FileFormatError, InputError, MissingDependencyError
 from texvent.io.block_codec import BlockCodec, FileContents, split_by_time
 from texvent.io.block_writer import FileTarget, WriteBlock
+from texvent.io.hidden_parts import hidden_folder
 from texvent.io.input_checks import one_line
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import parse_sidecar, sidecar_text
@@ -109,8 +109,7 @@ class Rosbag1Codec(BagCodec):
 
     @contextmanager
     def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
-        """Open a bag for writing."""
-        part.unlink()
+        """Open a bag for writing: rosbags makes the file, so it begins in a folder of its own."""
         types = _types(1)
         text = sidecar_text(target.size, target.metadata).encode("utf-8")
         message = struct.pack("<I", len(text)) + text
@@ -118,12 +117,14 @@ class Rosbag1Codec(BagCodec):
         def pack(columns: Columns, number: int) -> bytes:
             return pack_event_array(columns, size=target.size, sequence=number)
 
-        with require(ROSBAG1, extra=EXTRA).Writer(part) as bag:
-            facts = bag.add_connection(FACTS_TOPIC, STRING, typestore=types)
-            events = bag.add_connection(TOPIC, EVENT_ARRAY, typestore=types)
-            start = partial(bag.write, facts, data=message)
-            with _write_messages(bag, events, pack, start) as write:
-                yield write
+        with hidden_folder(part.parent) as folder:
+            with require(ROSBAG1, extra=EXTRA).Writer(folder / part.name) as bag:
+                facts = bag.add_connection(FACTS_TOPIC, STRING, typestore=types)
+                events = bag.add_connection(TOPIC, EVENT_ARRAY, typestore=types)
+                start = partial(bag.write, facts, data=message)
+                with _write_messages(bag, events, pack, start) as write:
+                    yield write
+            os.replace(folder / part.name, part)
 
 
 class McapCodec(BagCodec):
@@ -157,16 +158,14 @@ class McapCodec(BagCodec):
             return pack_event_packet(words, target.size, number, int(columns["t"][0]))
 
         mcap = rosbag2.StoragePlugin.MCAP
-        with tempfile.TemporaryDirectory(
-            prefix=".texvent-", suffix=".part", dir=part.parent
-        ) as folder:
-            with rosbag2.Writer(Path(folder) / "bag", version=9, storage_plugin=mcap) as bag:
+        with hidden_folder(part.parent) as folder:
+            with rosbag2.Writer(folder / "bag", version=9, storage_plugin=mcap) as bag:
                 facts = bag.add_connection(FACTS_TOPIC, STRING, typestore=types)
                 events = bag.add_connection(TOPIC, EVENT_PACKET, typestore=types)
                 start = partial(bag.write, facts, data=message)
                 with _write_messages(bag, events, pack, start) as write:
                     yield write
-            os.replace(Path(folder) / "bag" / "bag.mcap", part)
+            os.replace(folder / "bag" / "bag.mcap", part)
 
 
 @contextmanager

@@ -1,0 +1,123 @@
+"""Hidden files that hold an output until it is complete, and the sweep of those left behind.
+
+A process holds a lock on each of its parts for as long as it lives, however it ends. A part that
+nobody locks belongs to a process that was killed: the next run in that folder removes it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import os
+import secrets
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+PREFIX = ".texvent-"
+_swept: set[str] = set()
+"""Folders that this process has swept."""
+
+
+@contextmanager
+def hidden_file(folder: Path, suffix: str) -> Iterator[Path]:
+    """An empty file in `folder`, locked; what is left of it when the block ends is removed.
+
+    Args:
+        folder: where it lies.
+        suffix: how its name ends, with the dot.
+
+    Raises:
+        OSError: the folder refuses it.
+    """
+    sweep(folder)
+    while True:
+        part = folder / f"{PREFIX}{secrets.token_hex(6)}.part{suffix}"
+        descriptor = os.open(part, os.O_CREAT | os.O_EXCL | os.O_RDWR, 0o666)
+        if _claim(descriptor, part):
+            break
+        os.close(descriptor)
+    try:
+        yield part
+    finally:
+        part.unlink(missing_ok=True)
+        os.close(descriptor)
+
+
+@contextmanager
+def hidden_folder(folder: Path, suffix: str = ".part") -> Iterator[Path]:
+    """An empty folder in `folder`, locked; what is left of it when the block ends is removed.
+
+    Raises:
+        OSError: the folder refuses it.
+    """
+    sweep(folder)
+    while True:
+        part = folder / f"{PREFIX}{secrets.token_hex(6)}{suffix}"
+        part.mkdir()
+        descriptor = os.open(part, os.O_RDONLY | os.O_DIRECTORY)
+        if _claim(descriptor, part):
+            break
+        os.close(descriptor)
+    try:
+        yield part
+    finally:
+        shutil.rmtree(part, ignore_errors=True)
+        os.close(descriptor)
+
+
+def sweep(folder: Path) -> None:
+    """Remove parts of dead processes from a folder, once per process and folder.
+
+    An output folder that was being replaced when its process died gets its name back.
+    """
+    if str(folder) in _swept:
+        return
+    _swept.add(str(folder))
+    with contextlib.suppress(OSError), os.scandir(folder) as entries:
+        for entry in entries:
+            if is_hidden_part(Path(entry.path)):
+                with contextlib.suppress(OSError):
+                    _remove_if_dead(Path(entry.path))
+
+
+def is_hidden_part(path: Path) -> bool:
+    """True if a path has the name of a part: `.texvent-….part.h5`, `.texvent-….old`."""
+    return path.name.startswith(PREFIX) and (".part" in path.name or path.suffix == ".old")
+
+
+def _remove_if_dead(part: Path) -> None:
+    """Remove a part whose lock can be had; OSError if it cannot, or if there are no locks here."""
+    descriptor = os.open(part, os.O_RDONLY | os.O_NOFOLLOW)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        if not part.is_dir():
+            part.unlink()
+            return
+        if part.suffix == ".old":
+            _put_back(part)
+        shutil.rmtree(part)
+    finally:
+        os.close(descriptor)
+
+
+def _put_back(old: Path) -> None:
+    """Give a replaced folder its name back where nothing has taken it."""
+    for replaced in old.iterdir():
+        if not (old.parent / replaced.name).exists():
+            replaced.rename(old.parent / replaced.name)
+
+
+def _claim(descriptor: int, part: Path) -> bool:
+    """Lock a new part; False if another process swept it in between."""
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:
+        return True  # a file system without locks, where nothing is swept either
+    try:
+        return os.path.samestat(os.fstat(descriptor), part.stat())
+    except FileNotFoundError:
+        return False

@@ -1,0 +1,129 @@
+"""What a killed process leaves behind is removed by the next one, and nothing else is."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from texvent.io import hidden_parts
+from texvent.io.atomic import atomic_file, atomic_folder
+
+HOLD = """
+import sys
+from pathlib import Path
+from texvent.io.atomic import atomic_file, atomic_folder
+
+target = Path(sys.argv[1])
+if target.suffix:
+    context = atomic_file(target, overwrite=True)
+else:
+    context = atomic_folder(target, overwrite=True, is_own=lambda path: True)
+with context as part:
+    if part.is_dir():
+        (part / "half").write_text("half")
+    sys.stdout.write("writing\\n")
+    sys.stdout.flush()
+    sys.stdin.read()
+"""
+DIE_BETWEEN_RENAMES = """
+import os, sys
+from pathlib import Path
+from texvent.io import atomic
+
+rename = os.replace
+
+def die(source, target):
+    if str(target) == sys.argv[1]:
+        os._exit(9)
+    rename(source, target)
+
+os.replace = die
+with atomic.atomic_folder(Path(sys.argv[1]), overwrite=True, is_own=lambda path: True) as part:
+    (part / "events").write_text("new")
+"""
+
+
+@pytest.fixture(autouse=True)
+def _forget_swept_folders(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(hidden_parts, "_swept", set())
+
+
+def start_holder(target: Path) -> subprocess.Popen[str]:
+    process = subprocess.Popen(
+        [sys.executable, "-c", HOLD, str(target)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stdout is not None
+    assert process.stdout.readline() == "writing\n"
+    return process
+
+
+@pytest.mark.parametrize("name", ["out.h5", "folder"])
+def test_parts_of_a_killed_process_go_at_the_next_run(tmp_path: Path, name: str) -> None:
+    process = start_holder(tmp_path / name)
+    process.send_signal(signal.SIGKILL)
+    process.communicate()
+    assert len(list(tmp_path.glob(".texvent-*"))) == 1
+    with atomic_file(tmp_path / "next.bin", overwrite=False) as part:
+        part.write_bytes(b"next")
+    assert [path.name for path in tmp_path.iterdir()] == ["next.bin"]
+
+
+@pytest.mark.parametrize("name", ["out.h5", "folder"])
+def test_parts_of_a_living_process_stay(tmp_path: Path, name: str) -> None:
+    process = start_holder(tmp_path / name)
+    (living,) = tmp_path.glob(".texvent-*")
+    with atomic_file(tmp_path / "next.bin", overwrite=False) as part:
+        part.write_bytes(b"next")
+    assert living.exists()
+    process.communicate("")
+    assert {path.name for path in tmp_path.iterdir()} == {"next.bin", name}
+
+
+def test_the_own_open_parts_and_files_of_others_stay(tmp_path: Path) -> None:
+    others = [tmp_path / name for name in (".texvent-notes", "texvent-1.part.h5", ".hidden.part")]
+    for other in others:
+        other.write_text("mine")
+    with atomic_file(tmp_path / "a.bin", overwrite=False) as part:
+        hidden_parts._swept.clear()
+        hidden_parts.sweep(tmp_path)
+        assert part.exists()
+        part.write_bytes(b"a")
+    assert all(other.read_text() == "mine" for other in others)
+
+
+def test_a_link_with_the_name_of_a_part_is_not_followed(tmp_path: Path) -> None:
+    precious = tmp_path / "precious"
+    precious.mkdir()
+    (precious / "file").write_text("kept")
+    (tmp_path / ".texvent-0.part").symlink_to(precious)
+    hidden_parts.sweep(tmp_path)
+    assert (precious / "file").read_text() == "kept"
+
+
+def test_a_folder_caught_between_two_renames_gets_its_name_back(tmp_path: Path) -> None:
+    target = tmp_path / "recording"
+    target.mkdir()
+    (target / "events").write_text("old")
+    command = [sys.executable, "-c", DIE_BETWEEN_RENAMES, str(target)]
+    assert subprocess.run(command, check=False).returncode == 9
+    assert not target.exists()
+    hidden_parts.sweep(tmp_path)
+    assert (target / "events").read_text() == "old"
+    assert [path.name for path in tmp_path.iterdir()] == ["recording"]
+
+
+def test_a_folder_is_replaced_whole(tmp_path: Path) -> None:
+    target = tmp_path / "recording"
+    target.mkdir()
+    (target / "events").write_text("old")
+    with atomic_folder(target, overwrite=True, is_own=lambda path: True) as part:
+        (part / "times").write_text("new")
+    assert [path.name for path in target.iterdir()] == ["times"]
+    assert [path.name for path in tmp_path.iterdir()] == ["recording"]
