@@ -5,7 +5,14 @@ import threading
 
 import pytest
 
-from texvent.runtime.interrupts import delay_interrupts
+from texvent.runtime.interrupts import (
+    ENDING,
+    REPEAT_S,
+    Interrupted,
+    delay_interrupts,
+    raise_interrupted,
+    stop_on_interrupt,
+)
 
 
 def test_ctrl_c_takes_effect_after_the_block() -> None:
@@ -40,3 +47,77 @@ def test_other_threads_are_left_alone() -> None:
     thread.start()
     thread.join()
     assert seen == [signal.default_int_handler]
+
+
+@pytest.mark.parametrize("number", ENDING)
+def test_every_ending_signal_is_raised_with_its_number(number: signal.Signals) -> None:
+    before = signal.getsignal(number)
+    with pytest.raises(Interrupted) as caught, raise_interrupted():
+        signal.raise_signal(number)
+    assert caught.value.number == number
+    assert signal.getsignal(number) is before
+
+
+def test_signals_that_follow_at_once_do_not_disturb_the_clean_up() -> None:
+    cleaned: list[str] = []
+
+    def work() -> None:
+        with raise_interrupted():
+            try:
+                signal.raise_signal(signal.SIGINT)
+            finally:
+                signal.raise_signal(signal.SIGINT)
+                signal.raise_signal(signal.SIGTERM)
+                cleaned.append("all")
+
+    with pytest.raises(Interrupted):
+        work()
+    assert cleaned == ["all"]
+
+
+def test_a_signal_long_after_the_first_ends_a_clean_up_that_hangs(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    now = [100.0]
+    monkeypatch.setattr("texvent.runtime.interrupts.time.monotonic", lambda: now[0])
+    raised: list[int] = []
+    with raise_interrupted():
+        for _ in range(3):
+            try:
+                signal.raise_signal(signal.SIGINT)
+            except Interrupted as error:
+                raised.append(error.number)
+            now[0] += REPEAT_S * 0.6
+    assert raised == [signal.SIGINT, signal.SIGINT]
+
+
+def test_an_ignored_signal_stays_ignored() -> None:
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with raise_interrupted(), stop_on_interrupt() as request:
+            signal.raise_signal(signal.SIGHUP)
+            assert request.number is None
+    finally:
+        signal.signal(signal.SIGHUP, before)
+
+
+def test_a_run_is_asked_to_stop_once_and_interrupted_the_second_time() -> None:
+    seen: list[int | None] = []
+
+    def work() -> None:
+        with raise_interrupted(), stop_on_interrupt() as request:
+            signal.raise_signal(signal.SIGTERM)
+            seen.append(request.number)
+            signal.raise_signal(signal.SIGINT)
+
+    with pytest.raises(Interrupted):
+        work()
+    assert seen == [signal.SIGTERM]
+
+
+def test_a_delayed_signal_can_ask_a_run_to_stop() -> None:
+    with raise_interrupted(), stop_on_interrupt() as request:
+        with delay_interrupts():
+            signal.raise_signal(signal.SIGINT)
+            assert request.number is None
+        assert request.number == signal.SIGINT

@@ -1,36 +1,109 @@
-"""Delay Ctrl-C while a library runs that would lose the exception."""
+"""Signals that end a process: Ctrl-C, SIGTERM and SIGHUP clean up alike, or stop a run early."""
 
 from __future__ import annotations
 
 import signal
 import threading
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-DELAYED = (signal.SIGINT, signal.SIGTERM)
+ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+REPEAT_S = 2.0
+"""Further signals within this time are ignored: they belong to the first, which is cleaning up."""
+
+Handler = Callable[[int, FrameType | None], object]
+
+
+class Interrupted(KeyboardInterrupt):
+    """A signal asked the process to end."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(signal.Signals(number).name)
+        self.number = number
+
+
+class StopRequest:
+    """Whether a run was asked to stop."""
+
+    number: int | None = None
+    """The signal that asked, if any."""
+
+
+@contextmanager
+def raise_interrupted() -> Iterator[None]:
+    """Raise `Interrupted` when a signal of `ENDING` arrives inside the block.
+
+    A signal that the process was started to ignore, as `nohup` does with SIGHUP, stays ignored.
+    Outside the main thread, which alone receives signals, this does nothing.
+    """
+    last_s = -REPEAT_S
+
+    def interrupt(number: int, frame: FrameType | None) -> None:
+        del frame
+        nonlocal last_s
+        if time.monotonic() - last_s >= REPEAT_S:
+            last_s = time.monotonic()
+            raise Interrupted(number)
+
+    with _handling(interrupt, only_callable=False):
+        yield
+
+
+@contextmanager
+def stop_on_interrupt() -> Iterator[StopRequest]:
+    """Note the first signal of `ENDING` instead of raising it; a second one takes effect."""
+    request = StopRequest()
+    before = {number: signal.getsignal(number) for number in ENDING}
+
+    def note(number: int, frame: FrameType | None) -> None:
+        handler = before[signal.Signals(number)]
+        if request.number is None:
+            request.number = number
+        elif callable(handler):
+            handler(number, frame)
+
+    with _handling(note, only_callable=True):
+        yield request
 
 
 @contextmanager
 def delay_interrupts() -> Iterator[None]:
-    """Let the block finish before Ctrl-C (or a handled SIGTERM) takes effect.
+    """Let the block finish before Ctrl-C (or another handled signal) takes effect.
 
     HDF5 calls back into Python while it cleans up, where an exception is printed and dropped: a
     KeyboardInterrupt raised there would be lost, and the run would go on. Outside the main
     thread, where Python never raises it, this does nothing.
     """
+    received: list[tuple[int, FrameType | None]] = []
+    before = {number: signal.getsignal(number) for number in ENDING}
+    try:
+        with _handling(lambda *signalled: received.append(signalled), only_callable=True):
+            yield
+    finally:
+        for number, frame in received[:1]:
+            handler = before[signal.Signals(number)]
+            if callable(handler):
+                handler(number, frame)
+
+
+@contextmanager
+def _handling(handler: Handler, *, only_callable: bool) -> Iterator[None]:
+    """Handle signals in the block, except those ignored; `only_callable`: and those by default."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    received: list[tuple[int, FrameType | None]] = []
-    before = {number: signal.getsignal(number) for number in DELAYED}
-    handled = {number: handler for number, handler in before.items() if callable(handler)}
+    before = {number: signal.getsignal(number) for number in ENDING}
+    handled = [
+        number
+        for number, old in before.items()
+        if callable(old) or (old is signal.SIG_DFL and not only_callable)
+    ]
     for number in handled:
-        signal.signal(number, lambda code, frame: received.append((code, frame)))
+        signal.signal(number, handler)
     try:
         yield
     finally:
-        for number, handler in handled.items():
-            signal.signal(number, handler)
-        for code, frame in received[:1]:
-            handled[signal.Signals(code)](code, frame)
+        for number in handled:
+            signal.signal(number, before[number])
