@@ -31,7 +31,7 @@ help:
 demo: $(VENV)/.base
 	@mkdir -p $(dir $(DEMO_OUT))
 	$(VENV)/bin/texvent generate "$(PROMPT)" -o $(DEMO_OUT) --overwrite
-	@echo "Open $(basename $(DEMO_OUT)).html in a browser, or watch $(basename $(DEMO_OUT)).mp4"
+	@echo "Open $(basename $(DEMO_OUT)).events.html in a browser, or watch $(basename $(DEMO_OUT)).events.mp4"
 
 test: $(VENV)/.dev
 	$(VENV)/bin/python -m pytest -q -n 2 --durations=5

@@ -48,7 +48,12 @@ def fails(capsys, *words: object, code: int = 2) -> str:
 
 def test_the_whole_path_on_a_real_video(folder, capsys):
     assert run("simulate", CLIP, "-o", "out.h5", "--seed", 3) == 0
-    assert capsys.readouterr().out.split() == ["out.h5", "out.mp4", "out.png", "out.html"]
+    assert capsys.readouterr().out.split() == [
+        "out.h5",
+        "out.events.mp4",
+        "out.events.png",
+        "out.events.html",
+    ]
     with h5py.File("out.h5") as file:
         assert (file.attrs["width"], file.attrs["height"]) == (320, 180)
         stored = json.loads(file.attrs["texvent"])
@@ -60,10 +65,10 @@ def test_the_whole_path_on_a_real_video(folder, capsys):
     assert np.all(np.diff(events.t) >= 0)
     # Events at many times inside the frame interval, not clumped at frame times.
     assert len(np.unique(events.t % 40_000)) > 5_000
-    with av.open("out.mp4") as video:
+    with av.open("out.events.mp4") as video:
         assert video.streams.video[0].codec_context.width >= 2 * 320
-    assert cv2.imread("out.png") is not None
-    page = Path("out.html").read_text(encoding="utf-8")
+    assert cv2.imread("out.events.png") is not None
+    page = Path("out.events.html").read_text(encoding="utf-8")
     assert "http://" not in page
     assert "https://" not in page
 
@@ -227,13 +232,13 @@ def test_a_truncated_video_is_one_line_and_leaves_nothing(folder, capsys):
 
 
 def test_existing_outputs_are_kept_unless_told_otherwise(folder, capsys):
-    Path("out.png").write_text("mine", encoding="utf-8")
+    Path("out.events.png").write_text("mine", encoding="utf-8")
     said = fails(capsys, "simulate", CLIP, "-o", "out.h5", *QUICK, code=3)
-    assert "out.png exists already" in said
-    assert Path("out.png").read_text(encoding="utf-8") == "mine"
-    assert [path.name for path in folder.iterdir()] == ["out.png"]
+    assert "out.events.png exists already" in said
+    assert Path("out.events.png").read_text(encoding="utf-8") == "mine"
+    assert [path.name for path in folder.iterdir()] == ["out.events.png"]
     assert run("simulate", CLIP, "-o", "out.h5", "-q", "--overwrite", *QUICK) == 0
-    assert Path("out.png").read_bytes().startswith(b"\x89PNG")
+    assert Path("out.events.png").read_bytes().startswith(b"\x89PNG")
 
 
 def test_an_output_folder_that_does_not_exist_is_named_before_any_work(folder, capsys):

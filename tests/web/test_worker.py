@@ -8,9 +8,10 @@ import pytest
 import texvent
 from texvent._registry import CODECS
 from texvent.errors import InputError, TexventError
+from texvent.io.files import extension_of
 from texvent.web.job import Answer, ConvertJob, SimulateJob
 from texvent.web.limits import Limits
-from texvent.web.worker import convert, extension_of, simulate
+from texvent.web.worker import convert, simulate
 
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
 SCENE = {"generator": "procedural", "duration": 0.1, "sensor": "48x36", "seed": 3}

@@ -6,6 +6,7 @@ import contextlib
 import importlib
 import io
 import os
+import signal
 import sys
 import warnings
 from collections.abc import Iterator, Sequence
@@ -15,7 +16,9 @@ from texvent._registry import suggest
 from texvent._version import __version__
 from texvent.cli.shutdown import end_process
 from texvent.errors import ConfigError, OutputError, TexventError
+from texvent.io.protected_inputs import protected_inputs
 from texvent.options.fields import RenamedOptionWarning
+from texvent.runtime.interrupts import raise_interrupted
 
 COMMANDS = {
     "generate": (
@@ -81,9 +84,6 @@ COMMANDS = {
 }
 """Command → its module, which has a function `run(arguments)`, and what it does."""
 
-INTERRUPTED = 130
-"""Exit code after Ctrl-C: 128 + SIGINT, as shells expect."""
-
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line.
@@ -92,18 +92,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: words after `texvent`; default: those of the process, which then ends.
 
     Returns:
-        Exit code: 0, or the `exit_code` of the error (2 for bad input), or 130 after Ctrl-C.
+        Exit code: 0, or the `exit_code` of the error (2 for bad input), or 128 + n after signal n.
     """
     _allow_any_text()
     if arguments is None:
-        return end_process(_run(sys.argv[1:]))
+        return end_process(_run(sys.argv[1:], is_process=True))
     return _run(list(arguments))
 
 
-def _run(words: list[str]) -> int:
+def _run(words: list[str], *, is_process: bool = False) -> int:
     """Exit code of a command; every error becomes one line."""
     try:
-        with _notices():
+        with raise_interrupted(until_exit=is_process), protected_inputs(), _notices():
             return _dispatch(words)
     except TexventError as error:
         _say(f"error: {error}")
@@ -111,9 +111,10 @@ def _run(words: list[str]) -> int:
     except SystemExit as stop:
         # Help was shown.
         return int(stop.code or 0)
-    except KeyboardInterrupt:
-        _say("interrupted; nothing half-written was left behind")
-        return INTERRUPTED
+    except KeyboardInterrupt as interrupt:
+        number = getattr(interrupt, "number", signal.SIGINT)
+        _say(f"interrupted ({signal.Signals(number).name}); nothing half-written was left behind")
+        return 128 + number
     except BrokenPipeError:
         # The reader of the output (head, less) has ended: end without a message, as is usual.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

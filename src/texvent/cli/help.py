@@ -127,7 +127,10 @@ def _options(config: Any) -> list[_Option]:
         spellings = [short_flags[name], flag] if name in short_flags else [flag]
         if default is True:
             spellings.append(f"--no-{flag[2:]}")
-        flags = f"{', '.join(spellings)} {metavar(hints[name])}".rstrip()
+        value = metavar(hints[name])
+        if name in getattr(config, "repeated", ()):
+            value = value.removeprefix("[").removesuffix(" ...]")
+        flags = f"{', '.join(spellings)} {value}".rstrip()
         flags = name.upper() if is_positional else flags
         options.append(_Option(name, flags, texts.get(name, ""), default, is_positional))
     return options

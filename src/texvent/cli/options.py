@@ -10,7 +10,8 @@ import re
 import sys
 import typing
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Annotated, Any
 
 import tyro
@@ -18,6 +19,7 @@ import tyro
 from texvent.cli.help import ALL, asked_help, render_help
 from texvent.cli.option_types import REQUIRED, SCALARS, without_none
 from texvent.errors import ConfigError
+from texvent.io.protected_inputs import protect_inputs
 from texvent.options.fields import RenamedOptionWarning, former_names, option_help, option_names
 
 
@@ -28,10 +30,12 @@ def parse_options(
 
     Args:
         arguments: command-line words after the command's name.
-        groups: title → config instance whose values are the defaults that `--help` shows; a field
-            named in the class attribute `positional` is given without a flag, and one in
-            `short_flags` also has a short one. `main_options` of the first group names the
-            options that `--help` alone shows, if there are too many for one screen.
+        groups: title → config instance whose values are the defaults that `--help` shows. Class
+            attributes name its fields: those in `positional` are given without a flag, those in
+            `repeated` several times, those in `short_flags` also have a short one, those in
+            `outputs` say what is written ("out" if there is no such attribute). `main_options` of
+            the first group names the options that `--help` alone shows, if there are too many for
+            one screen.
         prog: how the command is called.
         description: first lines of its help; indented ones are kept as they are.
 
@@ -68,7 +72,18 @@ def parse_options(
     for part in dataclasses.fields(parsed):
         group = getattr(parsed, part.name)
         values.update({one.name: getattr(group, one.name) for one in dataclasses.fields(group)})
+    protect_inputs(_inputs(values, groups.values()))
     return values
+
+
+def _inputs(values: Mapping[str, Any], groups: Iterable[Any]) -> Iterator[str | Path]:
+    """Every value that may name a file which is read; texts that name none do no harm."""
+    outputs = {name for group in groups for name in getattr(group, "outputs", ("out",))}
+    for name, value in values.items():
+        if name not in outputs:
+            for one in value if isinstance(value, tuple) else (value,):
+                if isinstance(one, str | Path):
+                    yield one
 
 
 def parse_configs(
@@ -157,6 +172,8 @@ def _group(config: Any) -> Any:
         ]
         if is_positional:
             notes.append(tyro.conf.Positional)
+        if field.name in getattr(config, "repeated", ()):
+            notes.append(tyro.conf.UseAppendAction)
         default = dataclasses.field(default=getattr(config, field.name))
         hint = annotate[(hints[field.name], *notes)]
         if default.default is REQUIRED:

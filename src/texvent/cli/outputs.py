@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import itertools
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from texvent.io.atomic import check_output
+from texvent.errors import ConfigError
+from texvent.io.atomic import check_outputs
+from texvent.io.files import codec_for, extension_of
 from texvent.options.fields import renamed
+from texvent.run.files import RunFiles
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -17,16 +21,20 @@ class OutputOptions:
     """What is written, and where."""
 
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+    repeated: ClassVar[tuple[str, ...]] = ("out", "format")
 
-    out: Path | None = None
+    out: tuple[Path, ...] = ()
     """Event file to write; its extension decides the format. Without it: a name made from the
-    input, ending in .h5, in the current folder."""
+    input, in the current folder. Given again, it writes the events to one more file."""
+    format: tuple[str, ...] = ()
+    """Format to write, where the extension does not say which (docs/files.md lists them); for
+    several files, one for each."""
     video: bool = renamed(True, was="film")
-    """Write a preview video (.mp4): source frames on the left, events on the right."""
+    """Write a preview video (.events.mp4): source frames on the left, events on the right."""
     still: bool = True
-    """Write an image of the busiest moment (.png)."""
+    """Write an image of the busiest moment (.events.png)."""
     page: bool = True
-    """Write a page (.html): x-y-t point cloud, event rate, facts of the run."""
+    """Write a page (.events.html): x-y-t point cloud, event rate, facts of the run."""
     events_only: bool = False
     """Write the event file only: no video, image or page."""
     palette: str = "paper"
@@ -39,6 +47,9 @@ class OutputOptions:
     """Print all resolved options as TOML, ready for --config, and stop."""
     dry_run: bool = False
     """Try a few frames, estimate events, time and memory of the whole run, and stop."""
+    keep_partial: bool = False
+    """If the run is stopped (Ctrl-C, SIGTERM) or the video ends in damage, keep what is done: the
+    files end there and say so (complete = false). A second Ctrl-C discards them."""
     quiet: bool = False
     """No progress and no summary; only errors."""
 
@@ -50,20 +61,36 @@ class OutputOptions:
         wanted = {"mp4": self.video, "png": self.still, "html": self.page}
         return tuple(kind for kind, is_wanted in wanted.items() if is_wanted)
 
-    def check(self, subject: str) -> None:
-        """Refuse outputs that cannot be written, before minutes of work.
+    def files(self, subject: str) -> RunFiles:
+        """The files to write, checked; without a name, one is made from a prompt or a file's name.
 
         Raises:
-            OutputError: a file exists already, or its folder is missing or not writable.
+            ConfigError: there are more formats than files, or fewer.
+            OutputError: a file is named twice, exists already, is an input, or its folder is
+                missing or not writable.
         """
-        path = self.event_file(subject)
-        if not self.dry_run:
-            for one in (path, *(path.with_suffix(f".{kind}") for kind in self.previews)):
-                check_output(one, overwrite=self.overwrite)
+        events = self.out or (default_event_file(subject, self.format),)
+        if self.format and len(self.format) != len(events):
+            raise ConfigError(
+                f"there are {len(self.format)} --format for {len(events)} event files; give one "
+                "for each -o, or none"
+            )
+        files = RunFiles(
+            events=events,
+            formats=self.format,
+            previews=self.previews,
+            palette=self.palette,
+            overwrite=self.overwrite,
+            keep_partial=self.keep_partial,
+        )
+        for path, format in itertools.zip_longest(events, self.format):
+            codec_for(path, format)
+        check_outputs(files.paths, overwrite=self.overwrite)
+        return files
 
-    def event_file(self, subject: str) -> Path:
-        """The event file: the one asked for, or a name made from a prompt or a file's name."""
-        if self.out is not None:
-            return self.out
-        words = re.findall(r"[a-z0-9]+", subject.lower())[:8]
-        return Path(f"{'-'.join(words) or 'events'}.h5")
+
+def default_event_file(subject: str, format: Sequence[str] = ()) -> Path:
+    """A name made of the first words of a prompt or of a file's name, in the current folder."""
+    words = re.findall(r"[a-z0-9]+", subject.lower())[:8]
+    extension = extension_of(format[0]) if format else ".h5"
+    return Path(f"{'-'.join(words) or 'events'}{extension}")

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -15,11 +16,14 @@ from texvent.cli.outputs import OutputOptions
 from texvent.events import EventStream
 from texvent.pairs.scene_change import SceneChange
 from texvent.pipeline import Simulation
-from texvent.run.files import write_run
+from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_source
 from texvent.run.settings import Settings, unmeasured_sensor
 from texvent.runtime.console_progress import ConsoleProgress
 from texvent.video import MICROSECONDS, Frame
+
+SIGNALLED = 128
+"""Exit code of a process ended by signal n is this + n, as shells expect."""
 
 
 def print_settings(settings: Settings) -> int:
@@ -79,23 +83,22 @@ def run_source(
     Raises:
         TexventError: as `execute`, and as `texvent.run.prepare.prepare_source`.
     """
-    options.check(subject)
+    files = options.files(subject)
     with ConsoleProgress(is_quiet=options.quiet) as progress:
         simulation = prepare_source(source, settings, prompt=prompt, progress=progress)
-    return execute(simulation, options, subject=subject)
+    return execute(simulation, options, files)
 
 
-def execute(simulation: Simulation, options: OutputOptions, subject: str) -> int:
+def execute(simulation: Simulation, options: OutputOptions, files: RunFiles) -> int:
     """Run a simulation into its files; nothing appears under its name before it is complete.
 
     Returns:
-        Exit code 0.
+        Exit code: 0; or, if the run was stopped by a signal and kept what it had, 128 + its number.
 
     Raises:
         OutputError: a file exists already, or cannot be written.
         InputError: the frames cannot be used.
     """
-    path = options.event_file(subject)
     if options.dry_run:
         sys.stdout.write(describe_estimate(estimate_run(simulation)) + "\n")
         return 0
@@ -108,21 +111,42 @@ def execute(simulation: Simulation, options: OutputOptions, subject: str) -> int
         tally.add(frame, packet)
         progress.advance("frames", tally.source_frames, total)
 
-    with progress:
-        write_run(
-            simulation,
-            path,
-            previews=options.previews,
-            palette=options.palette,
-            overwrite=options.overwrite,
-            on_step=count,
-            on_scene_change=tally.add_scene_change,
-        )
+    with progress, _saying_what_is_complete(files.paths):
+        early = write_run(simulation, files, on_step=count, on_scene_change=tally.add_scene_change)
     progress.announce(_summary(tally, time.perf_counter() - started))
+    if early is not None:
+        progress.announce(
+            f"stopped  at {early.t_us / MICROSECONDS:.3f} s; the files end there (complete = false)"
+        )
     if not options.quiet:
-        for written in (path, *(path.with_suffix(f".{kind}") for kind in options.previews)):
+        for written in files.paths:
             sys.stdout.write(f"{written}\n")
-    return 0
+    if early is None:
+        return 0
+    if early.error is not None:
+        raise early.error
+    return SIGNALLED + (early.signal or 0)
+
+
+@contextmanager
+def _saying_what_is_complete(paths: Sequence[Path]) -> Iterator[None]:
+    """If the block fails, name the files that were completed before."""
+    before = {path: _identity(path) for path in paths}
+    try:
+        yield
+    except BaseException:
+        complete = [str(path) for path in paths if _identity(path) not in (None, before[path])]
+        if complete:
+            sys.stderr.write(f"complete {', '.join(complete)}\n")
+        raise
+
+
+def _identity(path: Path) -> tuple[int, int] | None:
+    try:
+        status = path.stat()
+    except OSError:
+        return None
+    return status.st_ino, status.st_mtime_ns
 
 
 def _notes(simulation: Simulation) -> Iterator[str]:
@@ -149,4 +173,9 @@ def _summary(tally: Tally, seconds: float) -> str:
         lines.append(f"note     not smeared over the interval: {shown}")
     if tally.source_frames == 1:
         lines.append("note     one frame only, so nothing could change")
+    elif tally.events == 0:
+        lines.append(
+            "warning  no events: nothing changed by more than the contrast threshold; lower "
+            "--contrast-threshold, or check the video"
+        )
     return "\n".join(lines)

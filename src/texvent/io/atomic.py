@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -58,6 +58,22 @@ def check_output(path: str | Path, *, overwrite: bool) -> Path:
             "choose another folder or change its permissions"
         )
     return target
+
+
+def check_outputs(paths: Sequence[str | Path], *, overwrite: bool) -> None:
+    """Refuse outputs of which one cannot be written, or that would replace each other.
+
+    Raises:
+        OutputError: see `check_output`; or two are the same file.
+    """
+    targets: dict[Path, str | Path] = {}
+    for path in paths:
+        target = check_output(path, overwrite=overwrite)
+        if target in targets:
+            raise OutputError(
+                f"{path} and {targets[target]} are the same file; give each output its own name"
+            )
+        targets[target] = path
 
 
 @contextmanager

@@ -63,6 +63,20 @@ def find_folder_codec(path: Path) -> EventCodec | None:
     return None
 
 
+def extension_of(format: str) -> str:
+    """The usual extension of a format: its own, else that of the format it is a variant of.
+
+    Example:
+        >>> extension_of("evt3"), extension_of("dsec")
+        ('.raw', '.h5')
+    """
+    for kind in type(CODECS.load(format)()).__mro__:
+        extensions = getattr(kind, "extensions", ())
+        if extensions:
+            return str(extensions[0])
+    return ""
+
+
 def event_extensions() -> set[str]:
     """Extensions of all event formats, in lower case with the dot."""
     return {extension for name in CODECS.names() for extension in CODECS.load(name).extensions}

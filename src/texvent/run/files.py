@@ -2,31 +2,88 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import itertools
+import signal
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.files import open_writer
 from texvent.pairs.frame_pair import OnSceneChange
 from texvent.pipeline import Simulation
 from texvent.runtime.background_writer import BackgroundWriter
+from texvent.runtime.interrupts import StopRequest, stop_on_interrupt
 from texvent.video import Frame
 from texvent.view.drawing.palettes import DEFAULT_PALETTE
+
+PREVIEW_SUFFIX = ".events"
+"""Stands before the extension of previews, so that none takes the name of a source video."""
+
+OnStep = Callable[[Frame, EventStream], None]
+
+
+@dataclass(frozen=True)
+class RunFiles:
+    """Which files a run writes."""
+
+    events: Sequence[Path]
+    """Event files, at least one; previews are named after the first."""
+    formats: Sequence[str | None] = ()
+    """Format of each, None where its extension decides; empty: for all."""
+    previews: tuple[str, ...] = ()
+    """Kinds of preview, as file extensions without the dot."""
+    palette: str = DEFAULT_PALETTE
+    """Colours of the previews."""
+    overwrite: bool = False
+    """Whether existing files may be replaced."""
+    keep_partial: bool = False
+    """Whether a run that is stopped, or whose input ends in damage, keeps what it has made."""
+
+    @property
+    def preview_stem(self) -> Path:
+        """Previews without their extension: `clip.events` for `clip.h5`."""
+        path = self.events[0]
+        name = path.with_suffix("").name.removesuffix(PREVIEW_SUFFIX)
+        return path.with_name(f"{name}{PREVIEW_SUFFIX}")
+
+    @property
+    def paths(self) -> tuple[Path, ...]:
+        """All files."""
+        stem = self.preview_stem
+        previews = (stem.with_name(f"{stem.name}.{kind}") for kind in self.previews)
+        return (*self.events, *previews)
+
+
+@dataclass(frozen=True)
+class EarlyStop:
+    """Why a run ended before its video, though its files are complete."""
+
+    t_us: int
+    """Time of the last frame, µs."""
+    signal: int | None = None
+    """The signal that asked for it; or ..."""
+    error: InputError | None = None
+    """... what is wrong with the input from there on."""
+
+    @property
+    def facts(self) -> Mapping[str, Any]:
+        """What the files say of it."""
+        reason = str(self.error) if self.signal is None else signal.Signals(self.signal).name
+        return {"complete": False, "stopped_us": self.t_us, "stopped_by": reason}
 
 
 def write_run(
     simulation: Simulation,
-    path: Path,
+    files: RunFiles,
     *,
-    previews: tuple[str, ...] = (),
-    palette: str = DEFAULT_PALETTE,
-    overwrite: bool = False,
     metadata: Mapping[str, Any] | None = None,
-    on_step: Callable[[Frame, EventStream], None],
+    on_step: OnStep,
     on_scene_change: OnSceneChange | None = None,
-) -> None:
+) -> EarlyStop | None:
     """Run a simulation into its files; none appears under its name before all are complete.
 
     Everything is opened, and so checked, before any work. Each output is written by a thread of
@@ -34,13 +91,13 @@ def write_run(
 
     Args:
         simulation: the run.
-        path: event file; previews are named after it.
-        previews: kinds of preview, as file extensions without the dot.
-        palette: colours of the previews.
-        overwrite: whether existing files may be replaced.
+        files: what is written.
         metadata: stored with the events; default: the provenance of the run.
         on_step: given every dense frame and its packet; an exception from it ends the run.
         on_scene_change: called at every cut and flash.
+
+    Returns:
+        Why the run ended early, where partial results are kept; else None.
 
     Raises:
         OutputError: a file exists already, or cannot be written.
@@ -48,26 +105,78 @@ def write_run(
     """
     size, facts = simulation.video.size, metadata or simulation.provenance
     with ExitStack() as outputs:
-        # The exit stack closes in reverse: the event file is safe on disk before the previews end.
-        shown: BackgroundWriter | None = None
-        if previews:
-            # Imported here: it brings PyAV and OpenCV, which help and the event file do not need.
-            from texvent.view.preview import Preview
-
-            preview = Preview(
-                path.with_suffix(""),
-                size=size,
-                fps=simulation.video.fps,
-                kinds=previews,
-                palette=palette,
-                overwrite=overwrite,
-                metadata=facts,
+        # The exit stack closes in reverse: the event files are safe on disk before the previews
+        # end.
+        preview = _open_previews(outputs, simulation, files, facts)
+        sinks: list[Callable[[Frame, EventStream], None]] = []
+        if preview is not None:
+            sinks.append(outputs.enter_context(BackgroundWriter(preview)).append)
+        writers = [
+            outputs.enter_context(
+                open_writer(
+                    path, size=size, metadata=facts, format=format, overwrite=files.overwrite
+                )
             )
-            shown = outputs.enter_context(BackgroundWriter(outputs.enter_context(preview)))
-        writer = open_writer(path, size=size, metadata=facts, overwrite=overwrite)
-        events = outputs.enter_context(BackgroundWriter(outputs.enter_context(writer)))
-        for frame, packet in simulation.steps(on_scene_change):
-            if shown is not None:
-                shown.append(frame, packet)
-            events.append(packet)
-            on_step(frame, packet)
+            for path, format in itertools.zip_longest(files.events, files.formats)
+        ]
+        for writer in writers:
+            sinks.append(_takes_packets(outputs.enter_context(BackgroundWriter(writer))))
+        stop = outputs.enter_context(stop_on_interrupt()) if files.keep_partial else StopRequest()
+        early = _run_steps(
+            simulation.steps(on_scene_change), [*sinks, on_step], stop, files.keep_partial
+        )
+        if early is not None:
+            for output in (*writers, *([preview] if preview is not None else [])):
+                output.add_metadata(early.facts)
+    return early
+
+
+def _run_steps(
+    steps: Iterator[tuple[Frame, EventStream]],
+    sinks: Sequence[OnStep],
+    stop: StopRequest,
+    keep_partial: bool,
+) -> EarlyStop | None:
+    """Give every step to all sinks, until the end or a reason to stop."""
+    t_us: int | None = None
+    try:
+        for frame, packet in steps:
+            for sink in sinks:
+                sink(frame, packet)
+            t_us = frame.t_us
+            if stop.number is not None:
+                return EarlyStop(t_us, signal=stop.number)
+    except InputError as error:
+        if not keep_partial or t_us is None:
+            raise
+        return EarlyStop(t_us, error=error)
+    return None
+
+
+def _takes_packets(writer: BackgroundWriter) -> OnStep:
+    def append(frame: Frame, packet: EventStream) -> None:
+        del frame
+        writer.append(packet)
+
+    return append
+
+
+def _open_previews(
+    outputs: ExitStack, simulation: Simulation, files: RunFiles, facts: Mapping[str, Any]
+) -> Any:
+    """The previews, open; None where none is wanted."""
+    if not files.previews:
+        return None
+    # Imported here: it brings PyAV and OpenCV, which help and the event file do not need.
+    from texvent.view.preview import Preview
+
+    preview = Preview(
+        files.preview_stem,
+        size=simulation.video.size,
+        fps=simulation.video.fps,
+        kinds=files.previews,
+        palette=files.palette,
+        overwrite=files.overwrite,
+        metadata=facts,
+    )
+    return outputs.enter_context(preview)

@@ -32,11 +32,14 @@ class StopRequest:
 
 
 @contextmanager
-def raise_interrupted() -> Iterator[None]:
+def raise_interrupted(*, until_exit: bool = False) -> Iterator[None]:
     """Raise `Interrupted` when a signal of `ENDING` arrives inside the block.
 
     A signal that the process was started to ignore, as `nohup` does with SIGHUP, stays ignored.
     Outside the main thread, which alone receives signals, this does nothing.
+
+    Args:
+        until_exit: after an interrupt, ignore further signals: the process is about to end.
     """
     last_s = -REPEAT_S
 
@@ -48,7 +51,13 @@ def raise_interrupted() -> Iterator[None]:
             raise Interrupted(number)
 
     with _handling(interrupt, only_callable=False):
-        yield
+        try:
+            yield
+        except Interrupted:
+            if until_exit:
+                for number in ENDING:
+                    signal.signal(number, signal.SIG_IGN)
+            raise
 
 
 @contextmanager
@@ -106,4 +115,5 @@ def _handling(handler: Handler, *, only_callable: bool) -> Iterator[None]:
         yield
     finally:
         for number in handled:
-            signal.signal(number, before[number])
+            if signal.getsignal(number) is handler:
+                signal.signal(number, before[number])

@@ -20,7 +20,8 @@ from texvent.errors import ConfigError
 Part = TypeVar("Part")
 Result = TypeVar("Result")
 
-_VARIABLES = ("TEXVENT_NUM_THREADS", "NUMBA_NUM_THREADS")
+THREADS_VARIABLE = "TEXVENT_NUM_THREADS"
+_VARIABLES = (THREADS_VARIABLE, "NUMBA_NUM_THREADS")
 
 
 def count_threads() -> int:

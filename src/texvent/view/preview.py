@@ -115,6 +115,11 @@ class Preview(AtomicOutput):
         if window is not None:
             self._show(window)
 
+    def add_metadata(self, facts: Mapping[str, Any]) -> None:
+        """Show more facts of the run on the page, known only now."""
+        if self._page is not None:
+            self._page.add_metadata(facts)
+
     def _complete(self) -> None:
         only = self._collector.single_frame()
         if self._shown == 0 and only is not None:

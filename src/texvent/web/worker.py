@@ -12,13 +12,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from texvent._registry import CODECS
 from texvent.capture.open import open_frames
 from texvent.errors import InputError, TexventError
 from texvent.events import EventStream
-from texvent.io.files import open_events, save
+from texvent.io.files import extension_of, open_events, save
 from texvent.pipeline import Simulation
-from texvent.run.files import write_run
+from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_prompt, prepare_video
 from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
@@ -56,16 +55,10 @@ def simulate(job: SimulateJob, send: SendAnswer) -> Answer:
     simulation = _prepare(job, _JobProgress(send))
     _check_size(simulation.video.size, job.limits)
     folder = Path(job.folder)
-    events = folder / "events.h5"
     tally = _Tally(simulation.video.frame_count, job.limits, send)
-    write_run(
-        simulation,
-        events,
-        previews=("mp4", "html"),
-        metadata=_shown(simulation),
-        on_step=tally.add,
-    )
-    files = {"events": events, "video": folder / "events.mp4", "page": folder / "events.html"}
+    output = RunFiles(events=(folder / "events.h5",), previews=("mp4", "html"))
+    write_run(simulation, output, metadata=_shown(simulation), on_step=tally.add)
+    files = dict(zip(("events", "video", "page"), output.paths, strict=True))
     return Answer(
         kind="done",
         text=_summary(simulation, tally.events),
@@ -85,20 +78,6 @@ def convert(job: ConvertJob) -> Answer:
     if target.is_dir():
         target = Path(shutil.make_archive(str(target), "zip", root_dir=target))
     return Answer(kind="done", text=f"events as {job.format}", files={"download": str(target)})
-
-
-def extension_of(format: str) -> str:
-    """The usual extension of a format: its own, else that of the format it is a variant of.
-
-    Example:
-        >>> extension_of("evt3"), extension_of("dsec")
-        ('.raw', '.h5')
-    """
-    for kind in type(CODECS.load(format)()).__mro__:
-        extensions = getattr(kind, "extensions", ())
-        if extensions:
-            return str(extensions[0])
-    return ""
 
 
 class _JobProgress:

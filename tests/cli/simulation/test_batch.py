@@ -1,4 +1,14 @@
-"""`texvent batch`: many prompts, one run; stopped and taken up again."""
+"""`texvent batch`: many samples, one run; stopped and taken up again."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
 
 import pytest
 
@@ -21,27 +31,67 @@ def run(*words: object) -> int:
     return main([str(word) for word in words])
 
 
+def recordings(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in sorted(folder.glob("*.h5"))}
+
+
 def test_every_prompt_gets_its_own_file_with_its_own_seed(folder, capsys):
     (folder / "p.csv").write_text("prompt,name,seed\na red car drives left,,5\na dog runs,dog,\n")
     assert run("batch", "p.csv", "-o", "out", "--seed", 3, *QUICK) == 0
-    names = sorted(path.name for path in (folder / "out").iterdir())
-    assert names == ["0001-a-red-car-drives-left.h5", "dog.h5"]
-    car, dog = (texvent.load(folder / "out" / name) for name in names)
+    car, dog = (texvent.load(path) for path in sorted((folder / "out").glob("*.h5")))
     assert (car.metadata["prompt"], car.metadata["seed"]) == ("a red car drives left", 5)
-    assert (dog.metadata["prompt"], dog.metadata["seed"]) == ("a dog runs", 3)
+    assert dog.metadata["prompt"] == "a dog runs"
+    assert (folder / "out" / "dog.h5").exists()
+
+
+def test_a_sample_can_be_made_alone_with_its_seed(folder, capsys):
+    (folder / "p.csv").write_text("prompt,name\na dog runs,dog\n")
+    assert run("batch", "p.csv", *QUICK) == 0
+    seed = texvent.load("p/dog.h5").metadata["seed"]
+    assert run("generate", "a dog runs", "-o", "alone.h5", "--seed", seed, *QUICK) == 0
+    assert texvent.load("alone.h5").equals(texvent.load("p/dog.h5"))
 
 
 def test_a_batch_goes_on_where_it_was(folder, capsys):
     (folder / "p.txt").write_text("a red car drives left\n")
     assert run("batch", "p.txt", *QUICK) == 0
-    done = folder / "p" / "0001-a-red-car-drives-left.h5"
-    before = done.stat().st_mtime_ns
-    (folder / "p.txt").write_text("a red car drives left\na dog runs\n")
+    before = recordings(folder / "p")
+    (folder / "p.txt").write_text("# two\na dog runs\na red car drives left\n")
     capsys.readouterr()
     assert run("batch", "p.txt", *QUICK) == 0
-    assert "kept" in capsys.readouterr().err
-    assert done.stat().st_mtime_ns == before
-    assert len(list((folder / "p").iterdir())) == 2
+    assert "kept     1 of 2 samples" in capsys.readouterr().err
+    after = recordings(folder / "p")
+    assert len(after) == 2
+    assert before.items() < after.items()
+
+
+def test_a_preview_that_is_missing_is_made_again(folder, capsys):
+    (folder / "p.txt").write_text("a dog runs\n")
+    words = ["batch", "p.txt", *(word for word in QUICK if word != "--events-only")]
+    assert run(*words, "--no-video", "--no-page") == 0
+    (image,) = (folder / "p").glob("*.png")
+    image.unlink()
+    before = recordings(folder / "p")
+    assert run(*words, "--no-video", "--no-page") == 0
+    assert image.exists()
+    assert recordings(folder / "p") == before
+
+
+def test_other_options_are_refused_with_the_difference(folder, capsys):
+    (folder / "p.txt").write_text("a dog runs\n")
+    assert run("batch", "p.txt", *QUICK) == 0
+    assert run("batch", "p.txt", *QUICK, "--contrast-threshold", 0.4) == 2
+    assert "contrast_threshold was 0.2, is 0.4; name another folder" in capsys.readouterr().err
+    assert run("batch", "p.txt", *QUICK, "--contrast-threshold", 0.4, "--overwrite") == 0
+
+
+def test_files_of_others_in_the_folder_are_not_replaced(folder, capsys):
+    (folder / "p.csv").write_text("prompt,name\na dog runs,dog\n")
+    (folder / "p").mkdir()
+    (folder / "p" / "dog.h5").write_bytes(b"mine")
+    assert run("batch", "p.csv", *QUICK) == 3
+    assert "exists already" in capsys.readouterr().err
+    assert (folder / "p" / "dog.h5").read_bytes() == b"mine"
 
 
 def test_a_prompt_that_fails_does_not_end_the_others(folder, capsys, monkeypatch):
@@ -59,16 +109,70 @@ def test_a_prompt_that_fails_does_not_end_the_others(folder, capsys, monkeypatch
     (folder / "p.txt").write_text("a bad thing\na dog runs\n")
     assert run("batch", "p.txt", *QUICK) == 1
     said = capsys.readouterr().err
-    assert "failed   line 1: the guardrail blocks this prompt" in said
-    assert "error: 1 of 2 prompts failed" in said
-    assert [path.name for path in (folder / "p").iterdir()] == ["0002-a-dog-runs.h5"]
+    assert "failed   p.txt line 1: the guardrail blocks this prompt" in said
+    assert "error: 1 of 2 samples failed" in said
+    assert len(recordings(folder / "p")) == 1
+
+
+def test_videos_of_a_folder_are_samples(folder, capsys):
+    for name in ("left", "right"):
+        prompt = f"a red car drives {name}"
+        clip = ["--video-only", "-o", f"clips/{name}.avi"]
+        Path("clips").mkdir(exist_ok=True)
+        assert run("generate", prompt, "--duration", "0.1", "--sensor", "48x36", *clip) == 0
+    quick = ("--sensor", "48x36", "--events-only", "--interpolate", "none")
+    assert run("batch", "clips", "-o", "events", *quick) == 0
+    assert len(recordings(folder / "events")) == 2
+    assert sorted(path.name for path in Path("clips").iterdir()) == ["left.avi", "right.avi"]
+    assert run("batch", "clips", "-o", "clips", *quick) == 3
+    assert "among the files of the input" in capsys.readouterr().err
+
+
+def test_several_processes_make_the_same_files(folder, capsys):
+    (folder / "p.txt").write_text("a red car drives left\na dog runs\na ball bounces\n")
+    assert run("batch", "p.txt", "-o", "one", *QUICK) == 0
+    assert run("batch", "p.txt", "-o", "two", "--jobs", 2, *QUICK) == 0
+    assert recordings(folder / "one") == recordings(folder / "two")
+    lines = {
+        name: set(Path(name, "samples.jsonl").read_text().splitlines()) for name in ("one", "two")
+    }
+    assert lines["one"] == lines["two"]
 
 
 def test_mistakes_are_one_line(folder, capsys):
-    (folder / "p.csv").write_text("prompt,name\na car,x\na dog,x\n")
-    assert run("batch", "p.csv", *QUICK) == 2
-    assert "line 3: the name 'x' is there twice" in capsys.readouterr().err
     (folder / "taken").write_text("")
     (folder / "p.txt").write_text("a car\n")
     assert run("batch", "p.txt", "-o", "taken") == 3
     assert run("batch", "none.txt") == 2
+    assert run("batch", "p.txt", "--jobs", "0") == 2
+    assert run("batch", "p.txt", "--keep-partial") == 2
+    assert run("batch", "p.txt", "-o", "a", "-o", "b") == 2
+    assert all(len(line) < 300 for line in capsys.readouterr().err.splitlines())
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_a_killed_batch_goes_on_without_loss(folder, number, jobs):
+    prompts = [f"a red car drives left past {count} trees" for count in range(2, 8)]
+    (folder / "p.txt").write_text("\n".join(prompts))
+    words = [sys.executable, "-m", "texvent.cli.app", "batch", "p.txt", "--jobs", str(jobs)]
+    quick = ["--sensor", "64x48", "--duration", "0.2", "--no-video", "--no-page"]
+    process = subprocess.Popen(
+        [*words, *quick, "-o", "killed"], stderr=subprocess.PIPE, start_new_session=True
+    )
+    deadline = time.monotonic() + 120
+    manifest = Path("killed", "samples.jsonl")
+    while time.monotonic() < deadline and not (manifest.exists() and manifest.read_text()):
+        time.sleep(0.02)
+    if number == signal.SIGKILL:
+        os.killpg(process.pid, number)
+    else:
+        process.send_signal(number)
+    process.communicate(timeout=60)
+    done = [json.loads(line)["name"] for line in manifest.read_text().splitlines()]
+    assert len(done) >= 1
+    subprocess.run([*words, *quick, "-o", "killed"], check=True, capture_output=True)
+    subprocess.run([*words, *quick, "-o", "whole"], check=True, capture_output=True)
+    assert recordings(folder / "killed") == recordings(folder / "whole")
+    names = {path.name for path in Path("whole").iterdir()}
+    assert {path.name for path in Path("killed").iterdir()} == names

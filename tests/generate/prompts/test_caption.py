@@ -13,10 +13,10 @@ torch.set_num_threads(1)
 
 from PIL import Image  # noqa: E402
 
+from texvent.batch.list_files import read_list  # noqa: E402
 from texvent.cli.app import main  # noqa: E402
 from texvent.errors import FileFormatError, InputError, TexventError  # noqa: E402
 from texvent.generate.prompts.caption import Captioner, find_images  # noqa: E402
-from texvent.generate.prompts.prompt_files import read_prompts  # noqa: E402
 from texvent.generate.prompts.upsample import upsample_prompt  # noqa: E402
 from texvent.generate.prompts.upsample_config import UpsampleConfig  # noqa: E402
 
@@ -65,7 +65,7 @@ def test_captions_become_a_file_of_prompts(model, images, tmp_path, capsys):
     out = tmp_path / "prompts.csv"
     words = ["caption", str(images), "--model", str(model), "--longest", "8", "-o", str(out)]
     assert main(words) == 0
-    lines = read_prompts(out)
+    lines = read_list(out)
     assert [line.name for line in lines] == ["p1", "p2"]
     assert main(words) == 3
     assert "exists already" in capsys.readouterr().err
@@ -79,7 +79,7 @@ def test_images_of_one_name_and_two_kinds_stay_apart(model, images, tmp_path):
     assert (
         main(["caption", str(images), "--model", str(model), "--longest", "8", "-o", str(out)]) == 0
     )
-    assert [line.name for line in read_prompts(out)] == ["p1.jpg", "p1.png", "p2"]
+    assert [line.name for line in read_list(out)] == ["p1.jpg", "p1.png", "p2"]
 
 
 def test_a_damaged_image_does_not_cost_the_captions_of_the_others(model, images, capsys):
@@ -87,7 +87,7 @@ def test_a_damaged_image_does_not_cost_the_captions_of_the_others(model, images,
     out = images / "prompts.csv"
     words = ["--model", str(model), "--longest", "8", "-o", str(out), "-q"]
     assert main(["caption", str(images), *words]) == 1
-    assert [line.name for line in read_prompts(out)] == ["p1", "p2"]
+    assert [line.name for line in read_list(out)] == ["p1", "p2"]
     said = capsys.readouterr().err
     assert "p0.png cannot be read as an image" in said
     assert said.endswith("error: 1 of 3 images have no caption\n")

@@ -1,114 +1,192 @@
-"""`texvent batch PROMPTS`: events for every prompt of a file, each in files of its own."""
+"""`texvent batch SOURCES`: events for many prompts or videos, each in files of its own."""
 
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from texvent._registry import GENERATORS
+from texvent._version import __version__
+from texvent.batch.manifest import Manifest
+from texvent.batch.runner import BatchPlan, run_batch
+from texvent.batch.samples import Sample, are_videos, read_samples
 from texvent.cli.command import resolve_command
+from texvent.cli.estimate import describe_estimate, estimate_run
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.outputs import OutputOptions
-from texvent.cli.run import execute, print_settings
-from texvent.cli.simulation.generate import PromptOptions
-from texvent.errors import (
-    ConfigError,
-    InputError,
-    MissingDependencyError,
-    OutputError,
-    TexventError,
-)
-from texvent.generate.prompts.prompt_files import PromptLine, read_prompts
+from texvent.cli.run import print_settings
+from texvent.config import check_range
+from texvent.errors import ConfigError, OutputError, TexventError
 from texvent.generate.prompts.upsample_config import UpsampleConfig
-from texvent.run.prepare import prepare_prompt
-from texvent.run.settings import Settings, apply_options
+from texvent.io.files import codec_for, extension_of
+from texvent.options.values import plain
+from texvent.run.files import RunFiles
+from texvent.run.prepare import check_run, prepare_prompt, prepare_source
+from texvent.run.settings import Settings
 from texvent.runtime.console_progress import ConsoleProgress
 
-DESCRIPTION = """Events for every prompt of a file: .txt (one per line), .csv or .jsonl (prompt, and
-perhaps name and seed). Prompts whose event file exists already are skipped, so a batch that was
-stopped goes on where it was. A model is loaded once.
+DESCRIPTION = """Events for many prompts or videos. A list is a .txt (one prompt per line, # begins
+a comment), .csv or .jsonl (prompt or video, and perhaps name and seed). Each sample has a seed of
+its own, derived from --seed and its text. What is done is noted in the folder: the same command
+goes on where it was stopped.
 
-  texvent batch prompts.csv --generator wan-1.3b -o events"""
+  texvent batch prompts.csv --generator wan-1.3b -o events
+  texvent batch clips/ --simulator v2e --jobs 4 -o events"""
 
 
 @dataclass(frozen=True, kw_only=True)
 class BatchOptions(UpsampleConfig):
-    """Which prompts."""
+    """What to make, and how many at once."""
 
-    positional: ClassVar[tuple[str, ...]] = ("prompts",)
-    main_options: ClassVar[tuple[str, ...]] = PromptOptions.main_options
+    positional: ClassVar[tuple[str, ...]] = ("sources",)
+    main_options: ClassVar[tuple[str, ...]] = (
+        "jobs", "out", "generator", "duration", "fps", "sensor", "simulator", "preset", "seed",
+        "events_only", "config", "overwrite",
+    )  # fmt: skip
 
-    prompts: Path = REQUIRED
-    """File of prompts: .txt, .csv or .jsonl."""
+    sources: tuple[str, ...] = REQUIRED
+    """Lists (.txt, .csv, .jsonl), videos, folders of videos, patterns such as 'clips/*.mp4'."""
+    jobs: int = 1
+    """Samples made at once, each in a process of its own; they share the cores. A learned model is
+    loaded once per process."""
+
+    def __post_init__(self) -> None:
+        check_range("jobs", self.jobs, 1, 256)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PromptBatchOptions(BatchOptions):
+    """What to make, and how many at once."""
+
     generator: str = next(iter(GENERATORS.builtin))
     """Text-to-video generator, as in texvent generate."""
 
 
 def run(arguments: Sequence[str]) -> int:
-    """Run the command; returns 0, or 1 if a prompt failed."""
+    """Run the command; returns 0, or raises if a sample failed."""
+    leading = list(itertools.takewhile(lambda word: not word.startswith("-"), arguments))
+    is_of_videos = are_videos(leading)
     settings, own, output = resolve_command(
-        "generate", arguments, BatchOptions(), description=DESCRIPTION, prog="texvent batch"
+        "simulate" if is_of_videos else "generate",
+        arguments,
+        BatchOptions() if is_of_videos else PromptBatchOptions(),
+        description=DESCRIPTION,
+        prog="texvent batch",
     )
     if output.print_config:
         return print_settings(settings)
-    folder = output.out or Path(own.prompts.stem)
+    check_run(settings)
+    samples = read_samples(own.sources, seed=settings.run.seed)
+    if (samples[0].video is not None) != is_of_videos:
+        raise ConfigError("name the videos first: texvent batch VIDEOS ... [OPTIONS]")
+    plan = _plan(settings, own, output)
+    manifest = Manifest(plan.folder)
+    if output.dry_run:
+        return _describe(plan, samples, manifest)
+    plan.folder.mkdir(parents=True, exist_ok=True)
+    manifest.begin(_options(plan, is_of_videos), overwrite=output.overwrite)
+    return _make_all(plan, samples, manifest, jobs=own.jobs, is_quiet=output.quiet)
+
+
+def _plan(settings: Settings, own: BatchOptions, output: OutputOptions) -> BatchPlan:
+    """Where and how samples are written.
+
+    Raises:
+        ConfigError: an option that batches do not have, or an unknown format.
+        OutputError: the folder is a file.
+    """
+    if output.keep_partial:
+        raise ConfigError(
+            "a batch has no --keep-partial: complete samples are kept, and the next run goes on"
+        )
+    if len(output.out) > 1 or len(output.format) > 1:
+        raise ConfigError("a batch writes one folder in one format; give -o and --format once")
+    folder = output.out[0] if output.out else Path(Path(own.sources[0]).stem or "events")
     if folder.exists() and not folder.is_dir():
         raise OutputError(f"{folder} is a file; -o names the folder for the results of a batch")
-    lines = read_prompts(own.prompts)
-    targets = _name_results(lines, folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    failed = 0
-    with ConsoleProgress(is_quiet=output.quiet) as progress:
-        for line, target in zip(lines, targets, strict=True):
-            progress.announce(f"[{line.line}] {line.prompt}")
-            if target.exists() and not output.overwrite:
-                progress.announce(f"kept     {target}")
-                continue
-            try:
-                one = dataclasses.replace(output, out=target)
-                _run_one(line, settings, own, output=one, progress=progress)
-            except (ConfigError, OutputError, MissingDependencyError):
-                raise
-            except TexventError as error:
-                # One prompt that a guardrail or filter refuses must not end the others.
-                failed += 1
-                sys.stderr.write(f"failed   line {line.line}: {' '.join(str(error).split())}\n")
-    if failed:
-        raise TexventError(f"{failed} of {len(lines)} prompts failed; the others are in {folder}")
+    format = output.format[0] if output.format else None
+    extension = extension_of(format) if format else ".h5"
+    codec_for(f"events{extension}", format)
+    files = RunFiles(
+        events=(),
+        formats=output.format,
+        previews=output.previews,
+        palette=output.palette,
+        overwrite=output.overwrite,
+    )
+    upsample = own if own.upsample is not None else None
+    return BatchPlan(settings, upsample, folder, extension, files)
+
+
+def _options(plan: BatchPlan, is_of_videos: bool) -> Mapping[str, Any]:
+    """What must be the same when the batch goes on."""
+    return {
+        "texvent_version": __version__,
+        "samples": "videos" if is_of_videos else "prompts",
+        "settings": plan.settings.as_tables(),
+        "upsample": plain(dataclasses.asdict(plan.upsample)) if plan.upsample else None,
+        "format": plan.files.formats[0] if plan.files.formats else plan.extension,
+        "previews": list(plan.files.previews),
+        "palette": plan.files.palette,
+    }
+
+
+def _describe(plan: BatchPlan, samples: Sequence[Sample], manifest: Manifest) -> int:
+    """How much is to do, and what the first sample of it takes."""
+    todo = [sample for sample in samples if not manifest.is_done(sample)]
+    sys.stdout.write(f"{len(samples)} samples, {len(samples) - len(todo)} done already\n")
+    if todo:
+        first = todo[0]
+        settings = plan.settings_of(first)
+        if first.video is not None:
+            simulation = prepare_source(first.video, settings, prompt=first.prompt)
+        else:
+            simulation = prepare_prompt(first.prompt or "", settings, upsample=plan.upsample)
+        sys.stdout.write(f"the first, {first.name}:\n")
+        sys.stdout.write(describe_estimate(estimate_run(simulation)) + "\n")
     return 0
 
 
-def _run_one(
-    line: PromptLine,
-    settings: Settings,
-    upsample: UpsampleConfig,
+def _make_all(
+    plan: BatchPlan,
+    samples: Sequence[Sample],
+    manifest: Manifest,
     *,
-    output: OutputOptions,
-    progress: ConsoleProgress,
-) -> None:
-    """Events of a line."""
-    if line.seed is not None:
-        settings = apply_options(settings, {"seed": line.seed}, where=f"line {line.line}")
-    output.check(line.prompt)
-    simulation = prepare_prompt(line.prompt, settings, upsample=upsample, progress=progress)
-    execute(simulation, output, subject=line.prompt)
-
-
-def _name_results(lines: Sequence[PromptLine], folder: Path) -> list[Path]:
-    """An event file per prompt: its own name, or its number and first words.
-
-    Raises:
-        InputError: two prompts have one name.
-    """
-    names: list[Path] = []
-    for number, line in enumerate(lines, start=1):
-        words = OutputOptions().event_file(line.prompt)
-        name = f"{line.name}.h5" if line.name else f"{number:04d}-{words.name}"
-        if folder / name in names:
-            raise InputError(f"line {line.line}: the name {line.name!r} is there twice")
-        names.append(folder / name)
-    return names
+    jobs: int,
+    is_quiet: bool,
+) -> int:
+    todo = [sample for sample in samples if not manifest.is_done(sample)]
+    replaceable = {sample.key for sample in todo if manifest.is_known(sample)}
+    done, failed = len(samples) - len(todo), 0
+    with ConsoleProgress(is_quiet=is_quiet) as progress:
+        if done:
+            progress.announce(f"kept     {done} of {len(samples)} samples, done before")
+        others = manifest.others(samples)
+        if others:
+            progress.announce(
+                f"note     {len(others)} complete samples are no longer in the list, such as "
+                f"{others[0]}; they stay"
+            )
+        progress.advance("samples", done, len(samples))
+        for outcome in run_batch(plan, todo, replaceable=replaceable, jobs=jobs):
+            sample = outcome.sample
+            if outcome.failure is not None:
+                failed += 1
+                sys.stderr.write(f"failed   {sample.where}: {outcome.failure}\n")
+                continue
+            done += 1
+            paths = plan.files_of(sample).paths
+            manifest.add(sample, paths, events=outcome.events)
+            warning = "" if outcome.events else ": nothing changed enough to fire"
+            progress.announce(f"made     {paths[0]}, {outcome.events:,} events{warning}")
+            progress.advance("samples", done, len(samples))
+    if failed:
+        raise TexventError(
+            f"{failed} of {len(samples)} samples failed; the others are in {plan.folder}"
+        )
+    return 0

@@ -12,7 +12,7 @@ from texvent._registry import GENERATORS
 from texvent.cli.command import resolve_command
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import peek_options
-from texvent.cli.outputs import OutputOptions
+from texvent.cli.outputs import OutputOptions, default_event_file
 from texvent.cli.run import execute, print_settings, run_source
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError
@@ -79,13 +79,13 @@ def run(arguments: Sequence[str]) -> int:
     if own.video_only:
         return _write_video(own, settings, output)
     check_run(settings)
+    files = output.files(own.prompt)
     if output.dry_run and (plan := _plan(own.prompt, settings)) is not None:
         sys.stdout.write(f"{plan}\n")
         return 0
-    output.check(own.prompt)
     with ConsoleProgress(is_quiet=output.quiet) as progress:
         simulation = prepare_prompt(own.prompt, settings, upsample=own, progress=progress)
-    return execute(simulation, output, subject=own.prompt)
+    return execute(simulation, output, files)
 
 
 def _plan(prompt: str, settings: Settings) -> str | None:
@@ -132,8 +132,10 @@ def _write_video(own: PromptOptions, settings: Settings, output: OutputOptions) 
     """Write the video of a prompt and print its path."""
     from texvent.generate.videos.stored_video import write_stream  # brings PyAV
 
-    named = output.event_file(own.prompt)
-    path = named if output.out is not None else named.with_suffix(VIDEO_EXTENSION)
+    named = default_event_file(own.prompt).with_suffix(VIDEO_EXTENSION)
+    path, *more = output.out or (named,)
+    if more or output.format:
+        raise ConfigError("--video-only writes one video; give one -o, and no --format")
     if path.suffix.lower() != VIDEO_EXTENSION:
         raise ConfigError(
             f"{path} is to hold a lossless video; its name must end in {VIDEO_EXTENSION}"

@@ -88,6 +88,10 @@ class PageWriter(AtomicOutput):
         self._on_events += int(packet.p.sum())
         self._stop_us = int(packet.t[-1]) + 1
 
+    def add_metadata(self, facts: Mapping[str, Any]) -> None:
+        """Show more facts of the run, known only now."""
+        self._metadata.update(facts)
+
     def append_frame(self, frame: Frame) -> None:
         """Offer a frame of the source video; the page keeps a few."""
         self._strip.append(frame)

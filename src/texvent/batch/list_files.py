@@ -1,0 +1,151 @@
+"""Lists of prompts or videos: one per line, CSV, or JSON lines."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from texvent.errors import FileFormatError, InputError
+
+PROMPT_COLUMNS = ("prompt", "text", "caption")
+"""Names under which a column or key holds the prompt; the first that is there counts."""
+VIDEO_COLUMN = "video"
+LIST_EXTENSIONS = (".txt", ".csv", ".jsonl")
+COMMENT = "#"
+MAX_NAME_BYTES = 200
+
+
+@dataclass(frozen=True)
+class ListEntry:
+    """One prompt or video of a list."""
+
+    where: str
+    """File and line, for messages."""
+    prompt: str | None = None
+    """What to show, or what the video shows."""
+    video: Path | None = None
+    """The video; None: one is generated."""
+    name: str | None = None
+    """Name for its results, without extension; None lets the caller make one."""
+    seed: int | None = None
+    """Seed of its own; None: one is derived."""
+
+
+def read_list(path: Path) -> tuple[ListEntry, ...]:
+    """All entries of a list.
+
+    Args:
+        path: `.txt`, one prompt per line, empty lines and those that begin with # skipped; `.csv`
+            with a column `prompt` (or `text`, `caption`) or `video`, and perhaps `name` and
+            `seed`; `.jsonl`, on each line a prompt or an object with those keys. Paths of videos
+            count from the folder of the list.
+
+    Raises:
+        InputError: there is no such file, or it holds no entry.
+        FileFormatError: a line cannot be read; the message names it.
+    """
+    readers = {".txt": _read_text, ".csv": _read_csv, ".jsonl": _read_jsonl}
+    reader = readers.get(path.suffix.lower())
+    if reader is None:
+        raise InputError(f"{path} is no list; its name must end in {', '.join(LIST_EXTENSIONS)}")
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise InputError(f"cannot read the list {path}: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise FileFormatError(f"{path} is not UTF-8 text: {error.reason}") from error
+    entries = tuple(reader(path, text))
+    if not entries:
+        raise InputError(f"{path} holds no prompt")
+    return entries
+
+
+def _read_text(path: Path, text: str) -> Iterator[ListEntry]:
+    for number, line in enumerate(text.splitlines(), start=1):
+        if line.strip() and not line.lstrip().startswith(COMMENT):
+            yield ListEntry(_where(path, number), line.strip())
+
+
+def _read_csv(path: Path, text: str) -> Iterator[ListEntry]:
+    reader = csv.DictReader(io.StringIO(text), strict=True)
+    try:
+        columns = tuple(reader.fieldnames or ())
+        if not set(columns) & {*PROMPT_COLUMNS, VIDEO_COLUMN}:
+            raise FileFormatError(
+                f"{path} has no column {', '.join(PROMPT_COLUMNS)} or {VIDEO_COLUMN}; it has: "
+                f"{', '.join(columns)[:100]}"
+            )
+        for row in reader:
+            yield _from_mapping(path, reader.line_num, row)
+    except csv.Error as error:
+        raise FileFormatError(f"{path} after line {reader.line_num}: {error}") from error
+
+
+def _read_jsonl(path: Path, text: str) -> Iterator[ListEntry]:
+    for number, line in enumerate(text.splitlines(), start=1):
+        if not line.strip():
+            continue
+        try:
+            entry = json.loads(line)
+        except (ValueError, RecursionError) as error:
+            raise FileFormatError(f"{_where(path, number)} is not JSON: {error}") from error
+        if isinstance(entry, str):
+            entry = {"prompt": entry}
+        if not isinstance(entry, Mapping):
+            raise FileFormatError(f"{_where(path, number)} is neither a text nor an object")
+        yield _from_mapping(path, number, entry)
+
+
+def _from_mapping(path: Path, number: int, entry: Mapping[Any, Any]) -> ListEntry:
+    where = _where(path, number)
+    prompt = next((entry[name] for name in PROMPT_COLUMNS if entry.get(name)), None)
+    video = entry.get(VIDEO_COLUMN) or None
+    if video is not None and not isinstance(video, str):
+        raise FileFormatError(f"{where}: video is {str(video)[:80]!r}; it must be a path")
+    if prompt is not None and not (isinstance(prompt, str) and prompt.strip()):
+        raise FileFormatError(f"{where}: prompt is {str(prompt)[:80]!r}; it must be a text")
+    if prompt is None and video is None:
+        raise FileFormatError(f"{where} has no {', '.join(PROMPT_COLUMNS)} or {VIDEO_COLUMN}")
+    return ListEntry(
+        where,
+        prompt.strip() if prompt else None,
+        path.parent / video if video else None,
+        _name(where, entry.get("name")),
+        _seed(where, entry.get("seed")),
+    )
+
+
+def _name(where: str, value: Any) -> str | None:
+    """A name for files, without folders."""
+    if value is None or value == "":
+        return None
+    name = str(value)
+    if "/" in name or "\0" in name or name.startswith(".") or len(name.encode()) > MAX_NAME_BYTES:
+        raise FileFormatError(
+            f"{where}: {name[:80]!r} is no name for a file; use at most {MAX_NAME_BYTES} bytes, "
+            "without / and no dot in front"
+        )
+    return name
+
+
+def _seed(where: str, value: Any) -> int | None:
+    if value is None or value == "":
+        return None
+    try:
+        seed = int(value)
+    except (TypeError, ValueError, OverflowError):
+        seed = -1
+    if isinstance(value, (bool, float)) or not 0 <= seed < 2**63:
+        raise FileFormatError(
+            f"{where}: seed is {repr(value)[:80]}; it must be a whole number from 0 to 2^63 - 1"
+        )
+    return seed
+
+
+def _where(path: Path, number: int) -> str:
+    return f"{path} line {number}"

@@ -1,0 +1,160 @@
+"""What a batch was asked for and what is done, in its folder: `batch.json` and `samples.jsonl`.
+
+`batch.json` holds the resolved options; a later run with others is refused. `samples.jsonl` gets a
+line when all files of a sample are complete, with their sizes and sha256.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from texvent.batch.samples import Sample
+from texvent.errors import ConfigError, FileFormatError
+from texvent.io.atomic import atomic_file
+
+OPTIONS_FILE, SAMPLES_FILE = "batch.json", "samples.jsonl"
+SHOWN_DIFFERENCES = 3
+
+
+@dataclass(frozen=True)
+class Done:
+    """A complete sample."""
+
+    key: str
+    name: str
+    seed: int
+    prompt: str | None
+    video: str | None
+    events: int
+    files: Mapping[str, tuple[int, str]]
+    """File name → bytes and sha256."""
+
+
+class Manifest:
+    """The state of a batch folder.
+
+    Raises:
+        FileFormatError: its files are damaged.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._options = _read_options(folder / OPTIONS_FILE)
+        self._done = {done.key: done for done in _read_done(folder / SAMPLES_FILE)}
+
+    def begin(self, options: Mapping[str, Any], *, overwrite: bool) -> None:
+        """Note what is asked for; with `overwrite` nothing counts as done.
+
+        Raises:
+            ConfigError: the folder was made with other options.
+        """
+        wanted = json.loads(json.dumps(options))
+        if self._options is not None and not overwrite:
+            differences = list(_differences(self._options, wanted))
+            if differences:
+                more = f" and {len(differences) - SHOWN_DIFFERENCES} more"
+                raise ConfigError(
+                    f"{self._folder} was made with other options: "
+                    + "; ".join(differences[:SHOWN_DIFFERENCES])
+                    + (more if len(differences) > SHOWN_DIFFERENCES else "")
+                    + "; name another folder with -o, or replace all with --overwrite"
+                )
+        if self._options != wanted:
+            with atomic_file(self._folder / OPTIONS_FILE, overwrite=True) as part:
+                part.write_text(json.dumps(wanted, indent=1) + "\n", encoding="utf-8")
+        if overwrite:
+            self._done = {}
+        # Written anew: a line that was cut off by a power failure goes.
+        with atomic_file(self._folder / SAMPLES_FILE, overwrite=True) as part:
+            part.write_text("".join(map(_line, self._done.values())), encoding="utf-8")
+
+    def is_done(self, sample: Sample) -> bool:
+        """True if all files of the sample are there, as large as when they were complete."""
+        done = self._done.get(sample.key)
+        if done is None or done.name != sample.name or done.seed != sample.seed:
+            return False
+        return all(_size(self._folder / name) == size for name, (size, _) in done.files.items())
+
+    def is_known(self, sample: Sample) -> bool:
+        """True if the sample was complete once, so that what is left of it may be replaced."""
+        done = self._done.get(sample.key)
+        return done is not None and done.name == sample.name
+
+    def others(self, samples: Sequence[Sample]) -> list[str]:
+        """Names of complete samples that the list no longer has."""
+        keys = {sample.key for sample in samples}
+        return [done.name for key, done in self._done.items() if key not in keys]
+
+    def add(self, sample: Sample, paths: Sequence[Path], *, events: int) -> None:
+        """Note that a sample is complete; durable before it returns."""
+        files = {path.name: (_size(path) or 0, _sha256(path)) for path in paths}
+        video = None if sample.video is None else str(sample.video)
+        done = Done(sample.key, sample.name, sample.seed, sample.prompt, video, events, files)
+        self._done[sample.key] = done
+        with (self._folder / SAMPLES_FILE).open("a", encoding="utf-8") as file:
+            file.write(_line(done))
+            file.flush()
+            os.fsync(file.fileno())
+
+
+def _line(done: Done) -> str:
+    return json.dumps(asdict(done)) + "\n"
+
+
+def _read_options(path: Path) -> Any:
+    if not path.is_file():
+        return None
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (ValueError, RecursionError) as error:
+        raise FileFormatError(
+            f"{path} is damaged ({error}); name another folder with -o"
+        ) from error
+
+
+def _read_done(path: Path) -> Iterator[Done]:
+    """Complete lines; a last one that was cut off by a power failure is not complete."""
+    if not path.is_file():
+        return
+    lines = path.read_bytes().split(b"\n")
+    for number, line in enumerate(lines[:-1], start=1):
+        try:
+            entry = json.loads(line)
+            files = {str(name): (int(one[0]), str(one[1])) for name, one in entry["files"].items()}
+            yield Done(**{**entry, "files": files})
+        except (ValueError, TypeError, KeyError, AttributeError, IndexError, RecursionError):
+            if number < len(lines) - 1:
+                raise FileFormatError(
+                    f"{path} line {number} is damaged; name another folder with -o"
+                ) from None
+
+
+def _differences(old: Any, new: Any, name: str = "") -> Iterator[str]:
+    """What differs between two trees of options, as `name: old then, new now`."""
+    if isinstance(old, Mapping) and isinstance(new, Mapping):
+        for key in dict.fromkeys((*old, *new)):
+            yield from _differences(old.get(key), new.get(key), f"{name}.{key}" if name else key)
+    elif old != new:
+        yield f"{name.rpartition('.')[2]} was {old}, is {new}"
+
+
+def _size(path: Path) -> int | None:
+    """Bytes of a file, or of all files of a folder format; None if there is none."""
+    if path.is_dir():
+        return sum(one.stat().st_size for one in path.iterdir())
+    return path.stat().st_size if path.is_file() else None
+
+
+def _sha256(path: Path) -> str:
+    """Digest of a file; of a folder format, that of its files' digests by name."""
+    if path.is_dir():
+        listing = "".join(f"{_sha256(one)}  {one.name}\n" for one in sorted(path.iterdir()))
+        return hashlib.sha256(listing.encode()).hexdigest()
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()

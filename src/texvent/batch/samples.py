@@ -1,0 +1,161 @@
+"""The samples of a batch: prompts or videos, each with a name and a seed of its own."""
+
+from __future__ import annotations
+
+import glob
+import hashlib
+import json
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from texvent.batch.list_files import LIST_EXTENSIONS, ListEntry, read_list
+from texvent.errors import ConfigError, InputError
+
+VIDEO_EXTENSIONS = frozenset(
+    (".avi", ".m4v", ".mkv", ".mov", ".mp4", ".mpeg", ".mpg", ".npy", ".ts", ".webm", ".wmv")
+)
+"""Files of these names are the videos of a folder."""
+IMAGE_EXTENSIONS = frozenset((".bmp", ".jpeg", ".jpg", ".png", ".tif", ".tiff"))
+ID_DIGITS = 8
+
+
+@dataclass(frozen=True)
+class Sample:
+    """One run of a batch."""
+
+    key: str
+    """What makes it this sample, whatever stands beside it in the list: a digest of its prompt or
+    video, its name and seed, and how many equal ones come before it."""
+    name: str
+    """Name of its files, without extension."""
+    seed: int
+    """Seed of its run."""
+    where: str
+    """Where it comes from, for messages."""
+    prompt: str | None = None
+    video: Path | None = None
+
+
+def read_samples(sources: Sequence[str | Path], *, seed: int) -> tuple[Sample, ...]:
+    """The samples of lists, videos, folders and patterns.
+
+    Every sample gets a seed derived from the batch's and its own key, so that equal prompts differ,
+    and a line that is inserted changes no other sample.
+
+    Args:
+        sources: lists of prompts or videos (`.txt`, `.csv`, `.jsonl`), video files, folders of
+            videos or of image folders, an image folder, patterns such as `clips/*.mp4`.
+        seed: of the batch.
+
+    Raises:
+        InputError: a source does not exist or holds nothing; two samples have one name.
+        FileFormatError: a line of a list cannot be read.
+        ConfigError: prompts and videos are mixed.
+    """
+    entries = [entry for source in sources for entry in _entries(str(source))]
+    if not entries:
+        raise InputError("there is nothing to do; name a list of prompts, videos or a folder")
+    if len({entry.video is None for entry in entries}) > 1:
+        raise ConfigError("a batch is made of prompts or of videos; run one batch for each")
+    samples = tuple(_with_keys(entries, seed))
+    _refuse_equal_names(samples)
+    return samples
+
+
+def are_videos(sources: Sequence[str | Path]) -> bool:
+    """True if the first source that can be read holds videos; errors come from `read_samples`."""
+    for source in sources:
+        try:
+            for entry in _entries(str(source)):
+                return entry.video is not None
+        except (ConfigError, InputError):
+            continue
+    return False
+
+
+def _entries(source: str) -> Iterator[ListEntry]:
+    path = Path(source)
+    if path.is_dir():
+        yield from _folder_entries(path)
+    elif path.suffix.lower() in LIST_EXTENSIONS:
+        yield from read_list(path)
+    elif path.exists():
+        yield ListEntry(where=source, video=path)
+    elif glob.has_magic(source):
+        found = sorted(glob.glob(source, recursive=True))
+        if not found:
+            raise InputError(f"nothing matches {source!r}")
+        for one in found:
+            yield from _entries(one)
+    else:
+        raise InputError(
+            f"no such file or folder: {source}; give a list ({', '.join(LIST_EXTENSIONS)}), "
+            "videos, a folder of videos or a pattern in quotes"
+        )
+
+
+def _folder_entries(folder: Path) -> Iterator[ListEntry]:
+    """The videos in a folder, or its image folders, or itself if it holds images."""
+    inside = sorted(path for path in folder.iterdir() if not path.name.startswith("."))
+    videos = [path for path in inside if path.suffix.lower() in VIDEO_EXTENSIONS]
+    if not videos and _holds_images(inside):
+        videos = [folder]
+    if not videos:
+        videos = [path for path in inside if path.is_dir() and _holds_images(path.iterdir())]
+    if not videos:
+        raise InputError(
+            f"{folder} holds no video, no images and no folders of images; videos end in "
+            f"{', '.join(sorted(VIDEO_EXTENSIONS))}"
+        )
+    for path in videos:
+        yield ListEntry(where=str(path), video=path)
+
+
+def _holds_images(paths: Iterable[Path]) -> bool:
+    return any(path.suffix.lower() in IMAGE_EXTENSIONS for path in paths)
+
+
+def _with_keys(entries: Iterable[ListEntry], seed: int) -> Iterator[Sample]:
+    seen: Counter[str] = Counter()
+    for entry in entries:
+        # The last two parts of a path: a list and its videos may move together.
+        video = "/".join(entry.video.absolute().parts[-2:]) if entry.video else None
+        what = [entry.prompt, video, entry.name, entry.seed]
+        seen[json.dumps(what)] += 1
+        key = _digest([*what, seen[json.dumps(what)]])
+        derived = int(_digest([seed, key]), 16) & (2**63 - 1)
+        yield Sample(
+            key=key,
+            name=entry.name or _made_name(entry, key),
+            seed=derived if entry.seed is None else entry.seed,
+            where=entry.where,
+            prompt=entry.prompt,
+            video=entry.video,
+        )
+
+
+def _digest(values: Sequence[object]) -> str:
+    text = json.dumps(values).encode()
+    return hashlib.blake2b(text, digest_size=16).hexdigest()
+
+
+def _made_name(entry: ListEntry, key: str) -> str:
+    """First words of a prompt or name of a video, and the beginning of the key."""
+    subject = entry.video.stem if entry.video else (entry.prompt or "")
+    words = re.findall(r"[a-z0-9]+", subject.lower())[:8]
+    return "-".join([*words, key[:ID_DIGITS]])[-120:]
+
+
+def _refuse_equal_names(samples: Sequence[Sample]) -> None:
+    places: dict[str, str] = {}
+    for sample in samples:
+        name = sample.name.lower()  # some file systems do not tell A from a
+        if name in places:
+            raise InputError(
+                f"{sample.where} and {places[name]} have one name, {sample.name!r}; give each "
+                "its own"
+            )
+        places[name] = sample.where

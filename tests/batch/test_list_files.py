@@ -1,0 +1,92 @@
+"""Lists of prompts and videos: every format, and every mistake by its line."""
+
+import pytest
+
+from texvent.batch.list_files import ListEntry, read_list
+from texvent.errors import FileFormatError, InputError
+
+
+def written(tmp_path, name, text):
+    path = tmp_path / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_a_text_file_has_one_prompt_per_line_and_comments(tmp_path):
+    path = written(tmp_path, "p.txt", "# cars\na red car\n\n  # bears\n  ein Bär läuft \n")
+    assert read_list(path) == (
+        ListEntry(f"{path} line 2", "a red car"),
+        ListEntry(f"{path} line 5", "ein Bär läuft"),
+    )
+
+
+def test_a_csv_has_columns_for_prompt_name_and_seed(tmp_path):
+    text = 'name,prompt,seed\ncar,"a red car, fast",7\n,"a\nball",\n'
+    path = written(tmp_path, "p.csv", text)
+    entries = read_list(path)
+    assert entries[0] == ListEntry(f"{path} line 2", "a red car, fast", name="car", seed=7)
+    assert (entries[1].prompt, entries[1].name, entries[1].seed) == ("a\nball", None, None)
+
+
+def test_videos_count_from_the_folder_of_the_list(tmp_path):
+    path = written(tmp_path, "v.csv", "video,prompt\nclips/a.mp4,a dog runs\n/tmp/b.mp4,\n")
+    first, second = read_list(path)
+    assert (first.video, first.prompt) == (tmp_path / "clips" / "a.mp4", "a dog runs")
+    assert (str(second.video), second.prompt) == ("/tmp/b.mp4", None)
+
+
+@pytest.mark.parametrize("column", ["text", "caption"])
+def test_other_names_of_the_prompt_are_understood(tmp_path, column):
+    assert read_list(written(tmp_path, "p.csv", f"{column}\na dog\n"))[0].prompt == "a dog"
+
+
+def test_json_lines_hold_texts_or_objects(tmp_path):
+    text = '"a red car"\n{"text": "a ball", "seed": 0, "name": "ball"}\n'
+    path = written(tmp_path, "p.jsonl", text)
+    assert read_list(path) == (
+        ListEntry(f"{path} line 1", "a red car"),
+        ListEntry(f"{path} line 2", "a ball", name="ball", seed=0),
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "why"),
+    [
+        (
+            "p.csv",
+            "words,seed\na car,1\n",
+            "no column prompt, .* or video; it has: words",
+        ),
+        ("p.csv", "prompt,seed\na car,x\n", "line 2: seed is 'x'"),
+        ("p.csv", "prompt,seed\n,3\n", "line 2 has no prompt"),
+        ("p.csv", 'prompt\n"a car\n', "after line 1"),
+        ("p.jsonl", '"a car"\n{"prompt": \n', "line 2 is not JSON"),
+        ("p.jsonl", "[1]\n", "line 1 is neither a text nor an object"),
+        ("p.jsonl", '{"prompt": "a", "seed": -1}\n', "line 1: seed is -1"),
+        ("p.jsonl", '{"prompt": "a", "seed": 1.5}\n', "seed is 1.5"),
+        ("p.jsonl", '{"prompt": "a", "name": "../x"}\n', "no name for a file"),
+        ("p.jsonl", '{"prompt": "a", "name": "a\\u0000b"}\n', "no name for a file"),
+        ("p.jsonl", '{"prompt": "a", "seed": Infinity}\n', "seed is inf"),
+        ("p.jsonl", '{"prompt": "a", "seed": 9223372036854775808}\n', "from 0 to 2"),
+        ("p.jsonl", '{"prompt": ["a"]}\n', "it must be a text"),
+        ("p.jsonl", '{"video": 3}\n', "it must be a path"),
+        ("p.jsonl", "[" * 100_000 + "\n", "line 1 is not JSON"),
+        ("p.csv", "prompt\n" + "x" * 200_000 + "\n", "field larger than field limit"),
+    ],
+)
+def test_a_wrong_line_is_named(tmp_path, name, text, why):
+    with pytest.raises(FileFormatError, match=why) as caught:
+        read_list(written(tmp_path, name, text))
+    assert len(str(caught.value).replace(str(tmp_path), "")) < 300
+
+
+def test_files_that_hold_nothing_are_refused(tmp_path):
+    with pytest.raises(InputError, match="holds no prompt"):
+        read_list(written(tmp_path, "p.txt", "\n\n"))
+    with pytest.raises(InputError, match="cannot read"):
+        read_list(tmp_path / "none.txt")
+    with pytest.raises(InputError, match=r"must end in \.txt, \.csv, \.jsonl"):
+        read_list(written(tmp_path, "p.yaml", "a"))
+    (tmp_path / "p.txt").write_bytes(b"\xff\xfe\xff")
+    with pytest.raises(FileFormatError, match="not UTF-8"):
+        read_list(tmp_path / "p.txt")

@@ -1,0 +1,113 @@
+"""Samples keep their names and seeds, whatever stands beside them in the list."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.batch.samples import are_videos, read_samples
+from texvent.errors import ConfigError, InputError
+
+
+def listed(folder: Path, *prompts: str) -> Path:
+    path = folder / "prompts.txt"
+    path.write_text("".join(f"{prompt}\n" for prompt in prompts))
+    return path
+
+
+def identities(folder: Path, *prompts: str, seed: int = 0) -> list[tuple[str, str, int]]:
+    samples = read_samples([listed(folder, *prompts)], seed=seed)
+    return [(sample.key, sample.name, sample.seed) for sample in samples]
+
+
+def test_an_inserted_line_changes_no_other_sample(tmp_path: Path) -> None:
+    before = identities(tmp_path, "a red car", "a dog")
+    after = identities(tmp_path, "a cat", "a red car", "# note", "a dog")
+    assert set(before) < set(after)
+
+
+def test_equal_prompts_have_names_and_seeds_of_their_own(tmp_path: Path) -> None:
+    keys, names, seeds = zip(*identities(tmp_path, *["a red car"] * 20), strict=True)
+    assert len(set(keys)) == len(set(names)) == len(set(seeds)) == 20
+    assert all(name.startswith("a-red-car-") for name in names)
+
+
+def test_another_seed_of_the_batch_gives_other_seeds_and_the_same_names(tmp_path: Path) -> None:
+    first, second = identities(tmp_path, "a dog"), identities(tmp_path, "a dog", seed=1)
+    assert first[0][:2] == second[0][:2]
+    assert first[0][2] != second[0][2]
+
+
+@given(st.integers(0, 2**63 - 1), st.text(st.characters(codec="utf-8"), min_size=1, max_size=300))
+def test_seeds_and_names_are_always_allowed(
+    tmp_path_factory: pytest.TempPathFactory, seed: int, prompt: str
+) -> None:
+    folder = tmp_path_factory.mktemp("list")
+    (folder / "p.jsonl").write_text(f"{json.dumps(prompt)}\n")
+    if not prompt.strip():
+        return
+    (sample,) = read_samples([folder / "p.jsonl"], seed=seed)
+    assert 0 <= sample.seed < 2**63
+    (folder / f"{sample.name}.h5").touch()
+
+
+def test_a_seed_and_a_name_in_the_list_count(tmp_path: Path) -> None:
+    (tmp_path / "p.csv").write_text("prompt,name,seed\na dog,rex,7\n")
+    (sample,) = read_samples([tmp_path / "p.csv"], seed=3)
+    assert (sample.name, sample.seed) == ("rex", 7)
+
+
+def test_folders_and_patterns_give_their_videos(tmp_path: Path) -> None:
+    clips = tmp_path / "clips"
+    clips.mkdir()
+    for name in ("b.mp4", "a.AVI", "notes.md", ".hidden.mp4"):
+        (clips / name).touch()
+    found = read_samples([clips], seed=0)
+    assert [sample.video for sample in found] == [clips / "a.AVI", clips / "b.mp4"]
+    (pattern,) = read_samples([f"{clips}/*.mp4"], seed=0)
+    assert pattern.video == clips / "b.mp4"
+    assert pattern.key == found[1].key
+    assert are_videos([clips])
+    assert not are_videos([listed(tmp_path, "a dog")])
+
+
+def test_image_folders_are_videos(tmp_path: Path) -> None:
+    for name in ("one", "two"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "0001.png").touch()
+    names = [sample.video for sample in read_samples([tmp_path], seed=0)]
+    assert names == [tmp_path / "one", tmp_path / "two"]
+    (single,) = read_samples([tmp_path / "one"], seed=0)
+    assert single.video == tmp_path / "one"
+
+
+@pytest.mark.parametrize(
+    ("sources", "error", "why"),
+    [
+        ((), InputError, "there is nothing to do"),
+        (("none.txt",), InputError, "cannot read the list"),
+        (("none.mp4",), InputError, "no such file or folder: none.mp4"),
+        (("empty",), InputError, "empty holds no video"),
+        (("*.mov",), InputError, "nothing matches"),
+        (("p.txt", "clip.mp4"), ConfigError, "made of prompts or of videos"),
+        (("twice.csv",), InputError, r"twice\.csv line 3 and twice\.csv line 2 have one name, 'X'"),
+    ],
+)
+def test_mistakes_are_named(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    sources: tuple[str, ...],
+    error: type[Exception],
+    why: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("empty").mkdir()
+    Path("clip.mp4").touch()
+    Path("p.txt").write_text("a dog\n")
+    Path("twice.csv").write_text("prompt,name\na car,x\na dog,X\n")
+    with pytest.raises(error, match=why):
+        read_samples(sources, seed=0)

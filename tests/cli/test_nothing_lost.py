@@ -1,0 +1,197 @@
+"""No input is overwritten, and a run that is stopped cleans up or keeps what it has."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import texvent
+from texvent.cli.app import main
+
+COMMAND = [sys.executable, "-m", "texvent.cli.app"]
+SMALL = ("--sensor", "64x48", "--interpolate", "none", "--noise", "none")
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def clip(folder):
+    """A video, as users have it beside their work."""
+    prompt = ("a red car drives left", "--duration", "0.3", "--sensor", "64x48", "--samples", "1")
+    assert run("generate", *prompt, "--video-only", "-o", "clip.avi") == 0
+    return Path("clip.avi")
+
+
+def run(*words: object) -> int:
+    return main([str(word) for word in words])
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
+
+
+def test_previews_never_take_the_name_of_the_video(folder, clip, capsys):
+    Path("clip.mp4").write_bytes(clip.read_bytes())
+    before = Path("clip.mp4").read_bytes()
+    assert run("simulate", "clip.mp4", "-o", "clip.h5", *SMALL) == 0
+    assert run("simulate", "clip.mp4", "-o", "clip.h5", "--overwrite", *SMALL) == 0
+    assert Path("clip.mp4").read_bytes() == before
+    names = {"clip.avi", "clip.mp4", "clip.h5"}
+    made = {f"clip.events.{kind}" for kind in ("mp4", "png", "html")}
+    assert set(contents(folder)) == names | made
+
+
+@pytest.mark.parametrize("spelling", ["events.h5", "./events.h5", "hard.h5", "soft.h5"])
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("convert", "events.h5", "OUT", "--overwrite"),
+        ("convert", "other.h5", "OUT", "--merge", "events.h5", "--overwrite"),
+        ("simulate", "frames", "-o", "OUT", "--timestamps", "events.h5", "--overwrite"),
+        ("generate", "a dog runs", "-o", "OUT", "--config", "events.h5", "--overwrite"),
+    ],
+    ids=["convert", "merge", "timestamps", "config"],
+)
+def test_no_command_writes_over_an_input(folder, capsys, words, spelling):
+    stream = texvent.EventStream.from_columns([1], [1], [5], [1], size=(64, 48))
+    stream.save("events.h5")
+    stream.save("other.h5")
+    os.link("events.h5", "hard.h5")
+    os.symlink("events.h5", "soft.h5")
+    Path("frames").mkdir()
+    before = Path("events.h5").read_bytes()
+    assert run(*(spelling if word == "OUT" else word for word in words)) != 0
+    assert Path("events.h5").read_bytes() == before
+    assert len(capsys.readouterr().err.strip().splitlines()) == 1
+
+
+def test_an_output_that_is_an_input_is_named_even_in_a_dry_run(folder, clip, capsys):
+    Path("clip.events.mp4").write_bytes(clip.read_bytes())
+    for more in ((), ("--dry-run",)):
+        words = ("simulate", "clip.events.mp4", "-o", "clip.h5", "--overwrite", *more)
+        assert run(*words, *SMALL) == 3
+        assert "it is the input clip.events.mp4, which is never replaced" in capsys.readouterr().err
+
+
+def test_outputs_do_not_lie_among_input_images(folder, clip, capsys):
+    Path("frames").mkdir()
+    assert run("simulate", "frames", "-o", "frames/out.h5", "--fps", 30) == 3
+    assert "would lie among the files of the input frames" in capsys.readouterr().err
+
+
+def test_one_run_writes_several_formats(folder, clip, capsys):
+    words = ("-o", "a.h5", "-o", "b.aedat4", "-o", "c.h5", "--events-only", *SMALL)
+    formats = ("--format", "hdf5", "--format", "aedat4", "--format", "dsec")
+    assert run("simulate", clip, *words, *formats) == 0
+    streams = [texvent.load(name) for name in ("a.h5", "b.aedat4", "c.h5")]
+    assert len(streams[0])
+    assert all(stream.equals(streams[0]) for stream in streams)
+    assert streams[2].metadata["settings"] == streams[0].metadata["settings"]
+
+
+def test_mistakes_in_outputs_are_found_before_any_work(folder, clip, capsys):
+    for words in (
+        ("-o", "a.h5", "-o", "./a.h5"),
+        ("-o", "a.h5", "--format", "hdf5", "--format", "dsec"),
+        ("-o", "a.h5", "--format", "hdf6"),
+        (
+            "-o",
+            "a.xyz",
+        ),
+    ):
+        assert run("simulate", clip, *words, "--dry-run") in (2, 3)
+        assert len(capsys.readouterr().err.splitlines()) == 1
+    assert set(contents(folder)) == {"clip.avi"}
+
+
+def long_frames(path: Path, count: int = 20_000) -> None:
+    """A video that takes minutes: memory-mapped noise."""
+    frames = np.lib.format.open_memmap(path, mode="w+", dtype=np.uint8, shape=(count, 48, 64))
+    frames[:64] = np.random.default_rng(0).integers(60, 200, (64, 48, 64), np.uint8)
+    for start in range(64, count, 64):
+        frames[start : start + 64] = frames[: min(64, count - start)]
+    frames.flush()
+
+
+def start(*words: str) -> subprocess.Popen[str]:
+    return subprocess.Popen(
+        [*COMMAND, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+
+
+def wait_for_parts(folder: Path, kilobytes: int = 200) -> None:
+    deadline = time.monotonic() + 90
+    while time.monotonic() < deadline:
+        parts = list(folder.glob(".texvent-*.h5"))
+        if parts and parts[0].stat().st_size > kilobytes * 1000:
+            return
+        time.sleep(0.02)
+    pytest.fail("the run wrote no events")
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_leaves_nothing(folder, number):
+    long_frames(folder / "long.npy")
+    process = start("simulate", "long.npy", "--fps", "500", "-o", "out.h5", *SMALL)
+    wait_for_parts(folder)
+    for _ in range(5):
+        process.send_signal(number)
+        time.sleep(0.01)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == 128 + number
+    name = signal.Signals(number).name
+    assert f"interrupted ({name}); nothing half-written was left behind" in said
+    assert "Traceback" not in said
+    assert [path.name for path in folder.iterdir()] == ["long.npy"]
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_keeps_what_is_done_if_that_was_asked_for(folder, number):
+    long_frames(folder / "long.npy")
+    words = ("simulate", "long.npy", "--fps", "500", "-o", "out.h5", "--keep-partial", *SMALL)
+    process = start(*words)
+    wait_for_parts(folder)
+    process.send_signal(number)
+    _, said = process.communicate(timeout=120)
+    assert process.returncode == 128 + number
+    assert "the files end there (complete = false)" in said
+    events = texvent.load("out.h5")
+    facts = events.metadata
+    assert (facts["complete"], facts["stopped_by"]) == (False, signal.Signals(number).name)
+    assert 0 < facts["stopped_us"] < 40_000_000
+    assert events.t[-1] < facts["stopped_us"]
+    names = {"long.npy", "out.h5", *(f"out.events.{kind}" for kind in ("mp4", "png", "html"))}
+    assert {path.name for path in folder.iterdir()} == names
+    assert run("validate", "out.h5") == 0
+
+
+def test_a_video_that_ends_in_damage_keeps_what_came_before_if_that_was_asked_for(
+    folder, clip, capsys
+):
+    whole = clip.read_bytes()
+    Path("cut.avi").write_bytes(whole[: len(whole) * 2 // 3])
+    words = ("simulate", "cut.avi", "-o", "out.h5", "--events-only", *SMALL)
+    assert run(*words) == 2
+    assert not Path("out.h5").exists()
+    assert run(*words, "--keep-partial") == 2
+    events = texvent.load("out.h5")
+    assert len(events)
+    assert events.metadata["complete"] is False
+    assert "cut.avi" in events.metadata["stopped_by"]
+
+
+def test_no_events_are_a_warning(folder, capsys):
+    np.save("grey.npy", np.full((5, 48, 64), 90, np.uint8))
+    assert run("simulate", "grey.npy", "--fps", 30, "-o", "grey.h5", *SMALL) == 0
+    assert "warning  no events: nothing changed" in capsys.readouterr().err
