@@ -32,3 +32,13 @@ def test_polarities_background_and_ink_can_be_told_apart(name: str) -> None:
 def test_an_unknown_palette_lists_the_known_ones() -> None:
     with pytest.raises(ConfigError, match=r"unknown palette 'papr'.*did you mean 'paper'"):
         get_palette("papr")
+
+
+@pytest.mark.parametrize("name", list(PALETTES))
+def test_in_dark_mode_no_background_is_light_and_events_stand_out(name: str) -> None:
+    palette = PALETTES[name].dark
+    background = sum(palette.background)
+    assert background <= 3 * 128
+    for colour in (palette.on, palette.off):
+        assert abs(sum(colour) - background) > 150
+    assert palette.on != palette.off

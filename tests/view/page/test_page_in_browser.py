@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -91,6 +92,27 @@ def window_on_the_curve(browser: Any) -> tuple[float, float]:
     return start, start + width
 
 
+def open_whole(browser: Any, page: Path) -> None:
+    """Open a page, stop it and show the whole recording."""
+    browser.get(page.as_uri())
+    slide(browser, "start", 0)
+    slide(browser, "length", 1000)
+
+
+@contextlib.contextmanager
+def emulated(browser: Any, *, size: tuple[int, int], **features: str) -> Iterator[None]:
+    """A screen of that size, CSS pixels, whose visitor prefers what `features` say."""
+    screen = {"width": size[0], "height": size[1], "deviceScaleFactor": 1, "mobile": False}
+    media = [{"name": name.replace("_", "-"), "value": value} for name, value in features.items()]
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", screen)
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": media})
+    try:
+        yield
+    finally:
+        browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+        browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+
+
 def image_of(browser: Any, name: str) -> np.ndarray:
     png = browser.find_element("id", name).screenshot_as_png
     image = cv2.imdecode(np.frombuffer(png, np.uint8), cv2.IMREAD_COLOR)
@@ -109,14 +131,60 @@ def test_the_cloud_is_drawn_in_both_colours_and_nothing_overflows(
     browser: Any, page: Path, width: int
 ) -> None:
     browser.set_window_size(width, 1100)
-    browser.get(page.as_uri())
-    run(browser, "")
+    open_whole(browser, page)
     blue, red = coloured_pixels(image_of(browser, "cloud-canvas"))
     assert min(blue, red) > 3_000
     assert 0.5 < blue / red < 2.0
     assert browser.execute_script(
         "return document.documentElement.scrollWidth <= window.innerWidth"
     )
+
+
+@pytest.mark.parametrize("size", [(1280, 800), (390, 844)])
+def test_it_opens_playing_with_every_control_on_the_first_screen(
+    browser: Any, page: Path, size: tuple[int, int]
+) -> None:
+    with emulated(browser, size=size):
+        browser.get(page.as_uri())
+        run(browser, "")
+        assert "Pause" in text(browser, "play")
+        assert text(browser, "length-text") == "40.00 ms"
+        bottoms = browser.execute_script(
+            "return [...document.querySelectorAll('#controls button, #controls input')]"
+            ".map((one) => one.getBoundingClientRect().bottom)"
+        )
+        assert len(bottoms) == 14
+        assert max(bottoms) < size[1]
+
+
+def test_it_opens_on_the_busiest_window_and_rests_where_motion_is_unwanted(
+    browser: Any, tmp_path: Path
+) -> None:
+    # 1 s with an event per ms, and 900 more between 0.6 and 0.63 s.
+    times = np.sort(np.r_[np.arange(0, 1_000_000, 1000), np.linspace(600_000, 629_999, 900)])
+    zeros = np.zeros(len(times), np.int64)
+    events = EventStream(zeros, zeros, times.astype(np.int64), zeros, SIZE)
+    page = show(events, tmp_path / "burst.html")
+    with emulated(browser, size=(1280, 800), prefers_reduced_motion="reduce"):
+        browser.get(page.as_uri())
+        run(browser, "")
+        assert "Play" in text(browser, "play")
+        assert 0.59 <= float(text(browser, "start-text").split()[0]) <= 0.6
+        shown = int(text(browser, "shown-text").split()[0])
+        assert 938 <= shown <= 941
+
+
+@pytest.mark.parametrize(("scheme", "is_dark"), [("dark", True), ("light", False)])
+def test_the_cloud_is_as_dark_as_the_visitor_wants(
+    browser: Any, page: Path, scheme: str, is_dark: bool
+) -> None:
+    with emulated(browser, size=(1280, 800), prefers_color_scheme=scheme):
+        open_whole(browser, page)
+        for name in ("cloud-canvas", "rate-curve"):
+            corner = image_of(browser, name)[2, 2]
+            assert bool(corner.max() < 60) == is_dark, name
+        blue, red = coloured_pixels(image_of(browser, "cloud-canvas"))
+        assert min(blue, red) > 3_000
 
 
 def test_the_page_asks_nothing_of_any_server_and_makes_no_complaint(
@@ -129,7 +197,7 @@ def test_the_page_asks_nothing_of_any_server_and_makes_no_complaint(
 
 
 def test_polarity_buttons_hide_one_colour(browser: Any, page: Path) -> None:
-    browser.get(page.as_uri())
+    open_whole(browser, page)
     click(browser, "toggle-off")
     blue, red = coloured_pixels(image_of(browser, "cloud-canvas"))
     assert blue > 3_000
@@ -153,7 +221,7 @@ def test_sliders_choose_the_time_and_the_video_follows(browser: Any, page: Path)
 def test_playing_moves_the_window_and_space_stops_it(browser: Any, page: Path) -> None:
     from selenium.webdriver.support.wait import WebDriverWait
 
-    browser.get(page.as_uri())
+    open_whole(browser, page)
     click(browser, "play")
     moved = "return Number(document.getElementById('start').value) > 5"
     WebDriverWait(browser, WAIT_S).until(lambda one: one.execute_script(moved))
@@ -166,7 +234,7 @@ def test_playing_moves_the_window_and_space_stops_it(browser: Any, page: Path) -
 
 
 def test_a_region_is_selected_by_dragging_and_by_typing(browser: Any, page: Path) -> None:
-    browser.get(page.as_uri())
+    open_whole(browser, page)
     before = sum(coloured_pixels(image_of(browser, "cloud-canvas")))
     drag(browser, "plane-canvas", (0.25, 0.25), (0.75, 0.75))
     values = [
@@ -202,14 +270,14 @@ def test_dragging_on_the_curve_chooses_the_time(browser: Any, page: Path) -> Non
 def test_keys_turn_the_cloud(browser: Any, page: Path) -> None:
     from selenium.webdriver.common.keys import Keys
 
-    browser.get(page.as_uri())
-    run(browser, "")
+    open_whole(browser, page)
     before = image_of(browser, "cloud-canvas")
     canvas = browser.find_element("id", "cloud-canvas")
     canvas.send_keys(Keys.ARROW_LEFT * 4, "+")
     run(browser, "")
     assert (image_of(browser, "cloud-canvas") != before).any(axis=2).mean() > 0.02
     canvas.send_keys("0")
+    slide(browser, "start", 0)
     slide(browser, "length", 250)
     canvas.send_keys("..")
     run(browser, "")
@@ -283,5 +351,5 @@ def test_a_thinned_cloud_says_so(browser: Any, tmp_path: Path) -> None:
     browser.get(target.as_uri())
     note = browser.find_element("class name", "note").text
     assert note.startswith("Shows 500 of 20,000 events, drawn uniformly at random")
-    run(browser, "")
+    open_whole(browser, target)
     assert text(browser, "shown-text").startswith("500 of the cloud's 500 events")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 from texvent._registry import suggest
@@ -10,6 +10,9 @@ from texvent.errors import ConfigError
 
 Colour = tuple[int, int, int]
 """Red, green, blue, 0..255."""
+DARK_BACKGROUND: Colour = (20, 22, 26)
+DARK_LUMA = 130.0
+"""Least luma of an event's colour on the dark background."""
 
 
 @dataclass(frozen=True)
@@ -26,13 +29,37 @@ class Palette:
     @property
     def is_dark(self) -> bool:
         """True if light text is needed on the background."""
-        red, green, blue = self.background
-        return 0.299 * red + 0.587 * green + 0.114 * blue < 110
+        return _luma(self.background) < 110
+
+    @property
+    def dark(self) -> Palette:
+        """The same hues on a dark background, for pages in dark mode.
+
+        A palette whose background is not light already stays as it is.
+        """
+        if _luma(self.background) < 200:
+            return self
+        return replace(
+            self, on=_lighten(self.on), off=_lighten(self.off), background=DARK_BACKGROUND
+        )
 
     @property
     def ink(self) -> Colour:
         """Text and lines on the background."""
         return (236, 238, 242) if self.is_dark else (38, 42, 50)
+
+
+def _luma(colour: Colour) -> float:
+    red, green, blue = colour
+    return 0.299 * red + 0.587 * green + 0.114 * blue
+
+
+def _lighten(colour: Colour) -> Colour:
+    """The colour mixed with white until it is light enough for the dark background."""
+    luma = _luma(colour)
+    share = max(0.0, (DARK_LUMA - luma) / (255 - luma))
+    red, green, blue = (round(value + share * (255 - value)) for value in colour)
+    return red, green, blue
 
 
 PALETTES = MappingProxyType(

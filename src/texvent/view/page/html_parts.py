@@ -22,6 +22,7 @@ LABELS = {
     "texvent_version": "texvent version",
 }
 """Labels of facts where the capitalised name is not enough."""
+PALETTE_PARTS = ("on", "off", "background", "ink")
 CURVE_WIDTH = 1000
 CURVE_HEIGHT = 200
 
@@ -171,16 +172,18 @@ def viewer_json(
             }
             for t_us, jpeg in strip.images
         ],
-        "on": palette.on,
-        "off": palette.off,
-        "background": palette.background,
-        "ink": palette.ink,
+        **_colours(palette),
+        "dark": _colours(palette.dark),
         "xy": _base64(pixels),
         "t": _base64(share),
         "p": _base64(sample.p),
     }
     # "</script>" inside JSON would end the element.
     return json.dumps(data).replace("<", "\\u003c")
+
+
+def _colours(palette: Palette) -> dict[str, Colour]:
+    return {name: getattr(palette, name) for name in PALETTE_PARTS}
 
 
 def _base64(values: Any) -> str:

@@ -132,7 +132,8 @@ class PageWriter(AtomicOutput):
                 seen=seen,
                 stop_us=max(self._curve.start_us + 1, self._stop_us - 1),
             ),
-            **{name: getattr(palette, name) for name in ("on", "off", "background", "ink")},
+            **{name: getattr(palette, name) for name in html_parts.PALETTE_PARTS},
+            **{f"dark_{name}": getattr(palette.dark, name) for name in html_parts.PALETTE_PARTS},
         }
         return _fill_template(
             {

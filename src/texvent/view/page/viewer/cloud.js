@@ -15,7 +15,8 @@ const makeCloud = (state, controls) => {
   };
   Object.assign(camera, views.space);
 
-  // The box around all events: x and y keep their proportions, time runs into the depth.
+  // The box around the events of the time window: x and y keep their proportions, time runs into
+  // the depth.
   const longest = Math.max(data.width, data.height);
   const half = [data.width / longest, data.height / longest, 1.35];
   const focal = 3.2;
@@ -70,11 +71,11 @@ const makeCloud = (state, controls) => {
   const points = link(`
     attribute vec2 xy; attribute float t; attribute float p;
     uniform vec2 size; uniform vec3 halfBox; uniform vec2 shown;
-    uniform vec4 region; uniform float pointSize; varying float polarity; varying float depth;
+    uniform vec4 region; uniform vec2 timeWindow; uniform float pointSize; varying float polarity; varying float depth;
     ${projection}
     void main() {
       vec2 unit = (xy + 0.5) / size * 2.0 - 1.0;
-      gl_Position = project(vec3(unit.x, -unit.y, t * 2.0 - 1.0) * halfBox);
+      gl_Position = project(vec3(unit.x, -unit.y, (t - timeWindow.x) / timeWindow.y * 2.0 - 1.0) * halfBox);
       gl_PointSize = max(1.0, pointSize / gl_Position.w);
       polarity = p; depth = gl_Position.w;
       bool outside = xy.x < region.x || xy.y < region.y || xy.x >= region.z || xy.y >= region.w;
@@ -116,7 +117,7 @@ const makeCloud = (state, controls) => {
     }
   }
   buffers.edges = upload(new Float32Array(edges));
-  // A rectangle that shows where the time window begins and ends.
+  // Outlines of the region at the begin and the end of the time window.
   buffers.frame = gl.createBuffer();
 
   // Names are looked up once: asking the driver again in every frame is slow.
@@ -136,14 +137,14 @@ const makeCloud = (state, controls) => {
   const uniform = (program, name, ...values) =>
     gl["uniform" + values.length + "f"](locationOf(program, name, "getUniformLocation"), ...values);
   const unit = (colour) => colour.map((value) => value / 255);
-  const faded = data.ink.map((value, i) => value + 0.62 * (data.background[i] - value));
+  const faded = () => state.palette.ink.map((value, i) => value + 0.62 * (state.palette.background[i] - value));
 
   const labels = [
     { axis: 0, at: [0, -half[1], -half[2]], text: "x 0…" + (data.width - 1), shift: [-0.5, 0.35] },
     { axis: 1, at: [-half[0], 0, -half[2]], text: "y 0…" + (data.height - 1), shift: [-1.12, -0.5] },
     { axis: 2, at: [half[0], -half[1], 0], text: "time →", shift: [0.1, 0.35] },
-    { axis: 2, at: [half[0], -half[1], -half[2]], text: state.seconds(0).toFixed(3) + " s", shift: [0.15, 0.1] },
-    { axis: 2, at: [half[0], -half[1], half[2]], text: state.seconds(1).toFixed(3) + " s", shift: [0.1, 0.1] },
+    { axis: 2, at: [half[0], -half[1], -half[2]], text: "000.000 s", shift: [0.15, 0.1] },
+    { axis: 2, at: [half[0], -half[1], half[2]], text: "000.000 s", shift: [0.1, 0.1] },
   ].map((label) => {
     const span = document.createElement("span");
     span.textContent = label.text;
@@ -160,8 +161,11 @@ const makeCloud = (state, controls) => {
     for (const label of labels) [label.w, label.h] = [label.span.offsetWidth, label.span.offsetHeight];
   };
 
+  const [firstTime, lastTime] = labels.slice(-2).map(({ span }) => span);
   const placeLabels = (width, height) => {
     measureLabels(width);
+    firstTime.textContent = state.seconds(state.start).toFixed(3) + " s";
+    lastTime.textContent = state.seconds(state.start + state.length).toFixed(3) + " s";
     labels.forEach(({ axis, at, span, shift, w, h }) => {
       const [x, y] = project(at);
       const left = (((x - fit.x) * fit.scale) / (width / height) + 1) / 2 * width;
@@ -198,24 +202,23 @@ const makeCloud = (state, controls) => {
     const aspect = width / height;
     fitBox(aspect);
     gl.viewport(0, 0, canvas.width, canvas.height);
-    gl.clearColor(...unit(data.background), 1);
+    gl.clearColor(...unit(state.palette.background), 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
 
     common(lines, aspect);
-    drawLines(buffers.edges, 0, 24, faded);
+    drawLines(buffers.edges, 0, 24, faded());
     const { x0, y0, x1, y1 } = state.region;
-    if (state.length < 1 || !state.regionIsWhole()) {
+    if (!state.regionIsWhole()) {
       const rectangle = [];
-      for (const share of [state.start, state.stop()]) {
-        const z = (share * 2 - 1) * half[2];
+      for (const z of [-half[2], half[2]]) {
         const loop = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]].map(([x, y]) => [
           ((2 * x) / data.width - 1) * half[0], (1 - (2 * y) / data.height) * half[1], z]);
         loop.forEach((corner, i) => rectangle.push(...corner, ...loop[(i + 1) % 4]));
       }
       gl.bindBuffer(gl.ARRAY_BUFFER, buffers.frame);
       gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(rectangle), gl.DYNAMIC_DRAW);
-      drawLines(buffers.frame, 0, 16, data.ink);
+      drawLines(buffers.frame, 0, 16, state.palette.ink);
     }
 
     common(points, aspect);
@@ -226,14 +229,15 @@ const makeCloud = (state, controls) => {
     uniform(points, "halfBox", ...half);
     uniform(points, "region", x0, y0, x1, y1);
     uniform(points, "shown", state.on ? 1 : 0, state.off ? 1 : 0);
-    // Few points may be larger; a point is never larger than a pixel of the sensor.
+    // Few points are larger: up to a pixel of the sensor, or what the eye still sees well.
     const pixel = (canvas.height * fit.scale) / longest;
     const [first, last] = state.range();
     const sparsity = Math.sqrt(60000 / Math.max(last - first, 0.05 * data.count, 1));
-    uniform(points, "pointSize", Math.min(pixel * 1.1, ratio * Math.min(3, 1.35 * Math.max(1, sparsity)) * camera.zoom));
-    uniform(points, "onColour", ...unit(data.on));
-    uniform(points, "offColour", ...unit(data.off));
-    uniform(points, "background", ...unit(data.background));
+    uniform(points, "pointSize", Math.min(Math.max(pixel * 1.1, 2.4 * ratio), ratio * Math.min(3, 1.35 * Math.max(1, sparsity)) * camera.zoom));
+    uniform(points, "onColour", ...unit(state.palette.on));
+    uniform(points, "offColour", ...unit(state.palette.off));
+    uniform(points, "background", ...unit(state.palette.background));
+    uniform(points, "timeWindow", state.start, state.length);
     if (last > first) gl.drawArrays(gl.POINTS, first, last - first);
     placeLabels(width, height);
   };
@@ -243,9 +247,8 @@ const makeCloud = (state, controls) => {
     button.addEventListener("click", () => {
       const view = button.dataset.view;
       Object.assign(camera, views[view], { zoom: 1 });
-      // The whole recording in one image smears: show 40 ms from its middle.
-      if (view === "front" && state.length === 1) state.set({ start: 0.5, length: Math.min(0.5, 40000 / data.duration_us) });
-      if (view === "space") state.set({ start: 0, length: 1 });
+      // The whole recording in one image smears.
+      if (view === "front" && state.length === 1) state.set(busiestWindow(state));
       state.changed();
     });
   }
@@ -292,7 +295,7 @@ const makeCloud = (state, controls) => {
       ArrowLeft: () => turn(-0.08, 0), ArrowRight: () => turn(0.08, 0),
       ArrowUp: () => turn(0, -0.08), ArrowDown: () => turn(0, 0.08),
       "+": () => zoom(1.15), "=": () => zoom(1.15), "-": () => zoom(1 / 1.15),
-      "0": () => { Object.assign(camera, views.space, { zoom: 1 }); state.set({ start: 0, length: 1 }); },
+      "0": () => { Object.assign(camera, views.space, { zoom: 1 }); state.set(busiestWindow(state)); },
       " ": controls.toggle, ",": () => controls.jump(-1), ".": () => controls.jump(1),
     };
     if (!actions[event.key]) return;

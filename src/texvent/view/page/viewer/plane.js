@@ -5,6 +5,7 @@ const makePlane = (state) => {
   const canvas = element("plane-canvas");
   canvas.width = data.width;
   canvas.height = data.height;
+  document.documentElement.style.setProperty("--ratio", data.width / data.height);
   const context = canvas.getContext("2d");
   const imageData = context.createImageData(data.width, data.height);
   const pixels = new Uint32Array(imageData.data.buffer);
@@ -36,6 +37,7 @@ const makePlane = (state) => {
       if (total) { sum += total; active++; }
     }
     const ceiling = Math.max(1, (2 * sum) / Math.max(active, 1));
+    const { on: onColour, off: offColour, background } = state.palette;
     const colour = [0, 0, 0];
     const bytes = imageData.data;
     for (let i = 0; i < pixels.length; i++) {
@@ -43,8 +45,8 @@ const makePlane = (state) => {
       const strength = total ? Math.min(1, Math.max(0.3, Math.sqrt(total / ceiling))) : 0;
       const share = total ? on[i] / total : 0;
       for (let c = 0; c < 3; c++) {
-        colour[c] = share * data.on[c] + (1 - share) * data.off[c];
-        bytes[4 * i + c] = data.background[c] + strength * (colour[c] - data.background[c]);
+        colour[c] = share * onColour[c] + (1 - share) * offColour[c];
+        bytes[4 * i + c] = background[c] + strength * (colour[c] - background[c]);
       }
       bytes[4 * i + 3] = 255;
     }
@@ -92,7 +94,7 @@ const makePlane = (state) => {
   let shown = "";
   state.onChange(() => {
     showFrame();
-    const wanted = JSON.stringify([state.start, state.length, state.on, state.off, state.region]);
+    const wanted = JSON.stringify([state.start, state.length, state.on, state.off, state.region, state.palette === data]);
     if (wanted === shown) return;
     shown = wanted;
     const inside = count();

@@ -21,6 +21,9 @@ const makeState = (data) => {
     // Columns x0 ≤ x < x1 and rows y0 ≤ y < y1.
     region: whole(),
   };
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  const choosePalette = () => { state.palette = dark.matches ? data.dark : data; };
+  choosePalette();
   const listeners = [];
   let isScheduled = false;
 
@@ -34,6 +37,10 @@ const makeState = (data) => {
       listeners.forEach((draw) => draw());
     });
   };
+  dark.addEventListener("change", () => {
+    choosePalette();
+    state.changed();
+  });
   state.set = (values) => {
     Object.assign(state, values);
     state.start = Math.min(Math.max(state.start, 0), 1);
