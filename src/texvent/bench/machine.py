@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import os
 import platform
-import subprocess
 from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from texvent._version import __version__
+from texvent._version import __version__, source_commit
 
 PACKAGES = ("numpy", "numba", "opencv-python-headless", "h5py", "torch")
 """Packages whose versions may change a figure."""
-PATIENCE_S = 10
 CPU_FACTS = Path("/proc/cpuinfo")
 
 
@@ -25,35 +23,13 @@ def describe_environment() -> dict[str, Any]:
         package, which has none, its version. Then versions and the device.
     """
     return {
-        "commit": _commit(),
+        "commit": source_commit() or f"installed {__version__}",
         "texvent_version": __version__,
         "python": platform.python_version(),
         "packages": {name: version for name in PACKAGES if (version := _version(name))},
         "device": f"{_processor()}, {os.cpu_count()} cores",
         "system": f"{platform.system()} {platform.machine()}",
     }
-
-
-def _commit() -> str:
-    package = Path(__file__).parents[1]
-    # Asked for a file of ours: a package installed inside another project's tree is not its commit.
-    if _git(package, "ls-files", "--error-unmatch", "_version.py") is None:
-        return f"installed {__version__}"
-    commit = _git(package, "rev-parse", "HEAD") or ""
-    changes = _git(package, "status", "--porcelain", "--untracked-files=no", ".")
-    return f"{commit}+changes" if changes else commit
-
-
-def _git(folder: Path, *words: str) -> str | None:
-    """Output of a git command, or None where git or the tree is missing."""
-    command = ["git", "-C", str(folder), *words]
-    try:
-        done = subprocess.run(
-            command, capture_output=True, text=True, timeout=PATIENCE_S, check=False
-        )
-    except (OSError, subprocess.TimeoutExpired):
-        return None
-    return None if done.returncode else done.stdout.strip()
 
 
 def _version(package: str) -> str | None:

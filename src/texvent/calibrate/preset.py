@@ -6,7 +6,7 @@ from pathlib import Path
 
 import tomli_w
 
-from texvent._version import __version__
+from texvent._version import full_version
 from texvent.calibrate.fit import Fit
 from texvent.io.atomic import atomic_file
 from texvent.options.values import plain
@@ -48,7 +48,7 @@ def write_preset(
 def describe_fit(fit: Fit, source: str) -> list[str]:
     """The fit in a few lines: what was fitted, how well, and how well elsewhere."""
     lines = [
-        f"Fitted to {' '.join(source.split())} by texvent {__version__}.",
+        f"Fitted to {' '.join(source.split())} by texvent {full_version()}.",
         f"Frame times were moved by {fit.offset_us} µs; noise was "
         + ("measured at still pixels." if fit.has_noise else "not measured: too few still pixels."),
         "Distance to the recording: 1-STPP + intervals (decades) + |ln| of both count ratios.",

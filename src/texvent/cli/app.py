@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from texvent._registry import suggest
-from texvent._version import __version__
+from texvent._version import full_version
 from texvent.cli.shutdown import end_process
 from texvent.errors import ConfigError, OutputError, TexventError
 from texvent.io.protected_inputs import protected_inputs
@@ -50,6 +50,10 @@ COMMANDS = {
     "convert": (
         "texvent.cli.event_files.convert",
         "Another event format, a region, a time range, files merged.",
+    ),
+    "replay": (
+        "texvent.cli.event_files.replay",
+        "Make an event file again from what is stored in it, and compare.",
     ),
     "validate": (
         "texvent.cli.event_files.validate",
@@ -159,7 +163,7 @@ def _dispatch(words: list[str]) -> int:
         _show_help()
         return 0 if words else 2
     if words[0] in ("-V", "--version"):
-        sys.stdout.write(f"texvent {__version__}\n")
+        sys.stdout.write(f"texvent {full_version()}\n")
         return 0
     if words[0] not in COMMANDS:
         raise ConfigError(f"unknown command {words[0]!r}; {suggest(words[0], tuple(COMMANDS))}")

@@ -13,6 +13,7 @@ from typing import Any
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.files import open_writer
+from texvent.io.protocol import EventWriter
 from texvent.pairs.frame_pair import OnSceneChange
 from texvent.pipeline import Simulation
 from texvent.runtime.background_writer import BackgroundWriter
@@ -103,7 +104,7 @@ def write_run(
         OutputError: a file exists already, or cannot be written.
         InputError: the frames cannot be used.
     """
-    size, facts = simulation.video.size, metadata or simulation.provenance
+    facts = metadata or simulation.provenance
     with ExitStack() as outputs:
         # The exit stack closes in reverse: the event files are safe on disk before the previews
         # end.
@@ -112,11 +113,7 @@ def write_run(
         if preview is not None:
             sinks.append(outputs.enter_context(BackgroundWriter(preview)).append)
         writers = [
-            outputs.enter_context(
-                open_writer(
-                    path, size=size, metadata=facts, format=format, overwrite=files.overwrite
-                )
-            )
+            outputs.enter_context(_open_events(path, format, simulation, files, facts))
             for path, format in itertools.zip_longest(files.events, files.formats)
         ]
         for writer in writers:
@@ -151,6 +148,23 @@ def _run_steps(
             raise
         return EarlyStop(t_us, error=error)
     return None
+
+
+def _open_events(
+    path: Path,
+    format: str | None,
+    simulation: Simulation,
+    files: RunFiles,
+    facts: Mapping[str, Any],
+) -> EventWriter:
+    """A writer of the events; a format that the name does not tell is stored."""
+    return open_writer(
+        path,
+        size=simulation.video.size,
+        metadata=facts if format is None else {**facts, "format": format},
+        format=format,
+        overwrite=files.overwrite,
+    )
 
 
 def _takes_packets(writer: BackgroundWriter) -> OnStep:

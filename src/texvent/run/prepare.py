@@ -119,7 +119,10 @@ def _stored_video(source: Any) -> FrameStream | None:
         return None
     from texvent.generate.videos.stored_video import reopen  # brings PyAV
 
-    return reopen(Path(source))
+    video = reopen(Path(source))
+    if video is None:
+        return None
+    return replace(video, metadata={**video.metadata, "source": str(source)})
 
 
 def _detailed(prompt: str, upsample: UpsampleConfig | None, progress: Progress | None) -> str:

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from typing import Any
 
 from texvent._registry import INTERPOLATORS, SIMULATORS
-from texvent._version import __version__
+from texvent._version import full_version
 from texvent.run.settings import Settings
+from texvent.run.source_file import describe_source
 
 
 def describe_run(
@@ -23,13 +24,13 @@ def describe_run(
     run = settings.run
     return {
         "prompt": prompt,
-        "source": dict(source),
+        "source": describe_source(source),
         "generator": settings.generator,
         "simulator": run.simulator,
         "preset": run.preset,
         "seed": run.seed,
         "settings": settings.as_tables(),
-        "texvent_version": __version__,
+        "texvent_version": full_version(),
         **describe_weights(settings),
     }
 

@@ -1,15 +1,21 @@
-"""The frames behind an event file, made again from the provenance stored in it."""
+"""A run, or its frames, made again from the provenance stored in an event file."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from texvent._registry import GENERATORS
-from texvent._version import __version__
+from texvent._version import full_version
 from texvent.errors import InputError
-from texvent.run.settings import resolve
+from texvent.pipeline import Simulation
+from texvent.run.prepare import prepare_prompt, prepare_source
+from texvent.run.settings import flatten_tables, resolve
 from texvent.video import FrameStream, RenderableStream
+
+SHOWN_CHARACTERS = 60
 
 
 def render_again(metadata: Mapping[str, Any]) -> FrameStream | None:
@@ -29,7 +35,7 @@ def render_again(metadata: Mapping[str, Any]) -> FrameStream | None:
     name, prompt, tables = (metadata.get(key) for key in ("generator", "prompt", "settings"))
     if not (isinstance(name, str) and isinstance(prompt, str) and isinstance(tables, Mapping)):
         return None
-    if metadata.get("texvent_version") != __version__ or metadata.get("edits"):
+    if metadata.get("texvent_version") != full_version() or metadata.get("edits"):
         return None
     if name not in GENERATORS.builtin:
         return None
@@ -45,3 +51,88 @@ def render_again(metadata: Mapping[str, Any]) -> FrameStream | None:
         # Any program can write metadata: a prompt that is no scene does not make events invalid.
         return None
     return video if isinstance(video, RenderableStream) else None
+
+
+def prepare_replay(
+    metadata: Mapping[str, Any], *, folder: Path, source: Path | None = None
+) -> Simulation:
+    """The run that made a recording, ready to be made again.
+
+    Args:
+        metadata: of an event file, as a run stores it.
+        folder: of the event file: a source that is not where it was is looked for there.
+        source: the frames, where they are elsewhere.
+
+    Raises:
+        InputError: no run is stored, the file was edited or is only a part, or its source is gone.
+        ConfigError: its options are not known here.
+    """
+    tables, facts = metadata.get("settings"), metadata.get("source")
+    if not (isinstance(tables, Mapping) and isinstance(facts, Mapping)):
+        raise InputError("the file does not say how it was made, so it cannot be made again")
+    if metadata.get("edits"):
+        raise InputError(
+            "the file was edited after its run (see texvent info), so its run makes another one; "
+            "use --config FILE for the options"
+        )
+    if metadata.get("complete") is False:
+        raise InputError(
+            "the file is a part: its run was stopped; use --config FILE to make it whole"
+        )
+    options, prompt = flatten_tables(tables, folder), metadata.get("prompt")
+    prompt = prompt if isinstance(prompt, str) else None
+    if "generate" in tables:
+        settings = resolve("generate", options)
+        simulation = prepare_prompt(str(facts.get("prompt", prompt)), settings)
+        return replace(simulation, prompt=prompt)
+    settings = resolve("simulate", options)
+    return prepare_source(source or _find_source(facts, folder), settings, prompt=prompt)
+
+
+def _find_source(facts: Mapping[str, Any], folder: Path) -> Path:
+    """The file or folder that frames came from, where it was or beside the event file."""
+    given = facts.get("source")
+    if not isinstance(given, str) or facts.get("kind") == "array":
+        raise InputError("its frames came from memory, so only the program that gave them can")
+    for path in (Path(given), folder / given, folder / Path(given).name):
+        if path.exists():
+            return path
+    raise InputError(f"its source {given} is not here; name it with --source")
+
+
+def describe_differences(stored: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:
+    """What is not as it was when a file was made, one line each: version, weights, source, options.
+
+    Args:
+        stored: metadata of the file.
+        now: provenance of the same run today.
+    """
+    lines = []
+    for name, what in COMPARED.items():
+        before, today = stored.get(name), now.get(name)
+        if before == today:
+            continue
+        if isinstance(before, Mapping) and isinstance(today, Mapping):
+            ignored = ("source", "size_before_fit") if name == "source" else ()
+            for key in dict.fromkeys((*before, *today)):
+                if key not in ignored and before.get(key) != today.get(key):
+                    was, is_now = (_short(one.get(key)) for one in (before, today))
+                    lines.append(f"{what}, {key}: was {was}, is {is_now}")
+        else:
+            lines.append(f"{what}: was {_short(before)}, is {_short(today)}")
+    return lines
+
+
+COMPARED = {
+    "texvent_version": "version",
+    "weights": "weights",
+    "source": "source",
+    "settings": "options",
+    "seed": "seed",
+}
+"""Parts of the provenance that decide a run's bytes → what messages call them."""
+
+
+def _short(value: Any) -> str:
+    text = str(value)
+    return text if len(text) <= SHOWN_CHARACTERS else f"{text[:SHOWN_CHARACTERS]}..."

@@ -16,6 +16,7 @@ from typing import Any, Literal
 from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS, suggest
 from texvent.config import CaptureConfig, InterpolateConfig, RunConfig
 from texvent.errors import ConfigError, InputError
+from texvent.io.files import event_extensions, open_events
 from texvent.options.fields import option_names, with_current_names
 from texvent.options.values import plain, with_options
 from texvent.sensor import SENSORS, Sensor, SensorSize, parse_sensor
@@ -124,7 +125,7 @@ def base_settings(
 
     Args:
         command: "generate" (from a prompt) or "simulate" (from frames).
-        config: a TOML or YAML file with options.
+        config: a TOML or YAML file with options, or an event file with those of its run.
         **deciding: those of `DECIDING` that were given. A sensor may be a preset file, such as
             `texvent calibrate` writes; a sensor whose constants the simulator knows chooses the
             preset of that name, unless a preset is given.
@@ -133,7 +134,7 @@ def base_settings(
         ConfigError: an unknown name, a wrong type, a value out of range.
         InputError: a file cannot be read.
     """
-    file_options = read_config(config) if config is not None else {}
+    file_options = read_config(config, command) if config is not None else {}
     given = {name: value for name, value in deciding.items() if value is not None}
     chosen = {**file_options, **given}
     if str(chosen.get("sensor", "")).lower().endswith((".toml", ".yaml", ".yml")):
@@ -184,7 +185,7 @@ def resolve(
         options: option name → value; None means "not given". Names as in `texvent --help`, with
             underscores.
         config: a TOML or YAML file with options, flat or in the tables `run`, `generate`,
-            `capture`, `interpolate`, `simulate`.
+            `capture`, `interpolate`, `simulate`; or an event file, whose run is repeated.
 
     Raises:
         ConfigError: an unknown name, a wrong type, a value out of range, an unreadable file.
@@ -246,14 +247,20 @@ def _as_number(value: Any, where: str) -> float:
     return float(value)
 
 
-def read_config(path: str | Path) -> dict[str, Any]:
-    """Options in a TOML or YAML file, tables flattened.
+def read_config(path: str | Path, command: Command | None = None) -> dict[str, Any]:
+    """Options in a TOML or YAML file, or of the run that made an event file, tables flattened.
+
+    Args:
+        path: the file.
+        command: of an event file, only options that this command has are taken; None: all.
 
     Raises:
         InputError: the file cannot be read.
-        ConfigError: it is not valid TOML or YAML, or two tables set the same option.
+        ConfigError: it is not valid TOML or YAML, holds no options, or two tables set the same one.
     """
     path = Path(path)
+    if path.suffix.lower() in event_extensions() - {".txt", ".csv"}:
+        return _options_of_run(path, command)
     try:
         text = path.read_text(encoding="utf-8")
     except OSError as error:
@@ -268,13 +275,30 @@ def read_config(path: str | Path) -> dict[str, Any]:
         raise ConfigError(f"config file {path} is not valid: {reason}") from error
     if not isinstance(document, Mapping):
         raise ConfigError(f"config file {path} must hold options by name, such as: seed = 3")
+    return flatten_tables(document, path)
+
+
+def flatten_tables(tables: Mapping[str, Any], path: Path) -> dict[str, Any]:
+    """Options of tables, or outside them, by name.
+
+    Raises:
+        ConfigError: two tables set the same option.
+    """
     flat: dict[str, Any] = {}
-    for name, value in document.items():
+    for name, value in tables.items():
         for option, item in (value if isinstance(value, Mapping) else {name: value}).items():
             if option in flat:
                 raise ConfigError(f"config file {path} sets {option!r} twice")
             flat[str(option).replace("-", "_")] = item
     return flat
+
+
+def _options_of_run(path: Path, command: Command | None) -> dict[str, Any]:
+    tables = open_events(path).metadata.get("settings")
+    if not isinstance(tables, Mapping):
+        raise ConfigError(f"{path} does not say with which options it was made; give a TOML file")
+    other = {"generate": "capture", "simulate": "generate", None: None}[command]
+    return flatten_tables({name: one for name, one in tables.items() if name != other}, path)
 
 
 def _parse(path: Path, text: str) -> Any:

@@ -9,7 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, ClassVar
 
-from texvent._version import __version__
+from texvent._version import full_version
 from texvent.cli.event_files.event_file_options import EventRangeOptions
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
@@ -99,5 +99,5 @@ def _provenance(
         "fps": str(options.fps),
         "events_per_image": options.events_per_image,
         "time": options.time,
-        "texvent_version": __version__,
+        "texvent_version": full_version(),
     }

@@ -17,7 +17,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from texvent._registry import REGISTRIES
-from texvent._version import __version__
+from texvent._version import full_version
 from texvent.cli.options import refuse_arguments
 
 DESCRIPTION = """Say what is installed, what is missing, and how to get it. Exit code 1 if something
@@ -90,7 +90,7 @@ def run(arguments: Sequence[str]) -> int:
 
 def examine() -> list[Finding]:
     """Everything worth knowing about this installation."""
-    findings = [_python(), Finding("texvent", True, __version__)]
+    findings = [_python(), Finding("texvent", True, full_version())]
     findings += [_package(name, purpose) for name, purpose in BASE.items()]
     findings += [_encoder(), _processors(), _folder("current folder", Path.cwd())]
     findings += [_extra(name, *entry) for name, entry in EXTRAS.items()]

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from texvent._registry import GENERATORS
-from texvent._version import __version__
+from texvent._version import full_version
 from texvent.batch.manifest import Manifest
 from texvent.batch.runner import BatchPlan, run_batch
 from texvent.batch.samples import Sample, are_videos, read_samples
@@ -126,7 +126,7 @@ def _plan(settings: Settings, own: BatchOptions, output: OutputOptions) -> Batch
 def _options(plan: BatchPlan, is_of_videos: bool) -> Mapping[str, Any]:
     """What must be the same when the batch goes on."""
     return {
-        "texvent_version": __version__,
+        "texvent_version": full_version(),
         "samples": "videos" if is_of_videos else "prompts",
         "settings": plan.settings.as_tables(),
         "upsample": plain(dataclasses.asdict(plan.upsample)) if plan.upsample else None,

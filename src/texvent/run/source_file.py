@@ -1,0 +1,55 @@
+"""Which file frames came from, so that a later run can tell whether it is still the same."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+END_BYTES = 8 * 2**20
+"""Of a larger file, this much of its beginning and of its end is read."""
+
+
+def describe_source(metadata: Mapping[str, Any]) -> dict[str, Any]:
+    """Metadata of a video with a fingerprint of its file or folder, under "fingerprint".
+
+    Args:
+        metadata: of a video; `source` names what it was read from.
+    """
+    found = fingerprint(metadata.get("source"))
+    return {**metadata, "fingerprint": found} if found is not None else dict(metadata)
+
+
+def fingerprint(source: Any) -> str | None:
+    """A digest of a file, or of the names and sizes in a folder; None for anything else.
+
+    Of a file, the size and the first and last `END_BYTES` count.
+    """
+    if not isinstance(source, str):
+        return None
+    try:
+        path = Path(source)
+        if path.is_dir():
+            listing = sorted((one.name, one.stat().st_size) for one in path.iterdir())
+            return hashlib.sha256(repr(listing).encode()).hexdigest()
+        if not path.is_file():
+            return None
+        status = path.stat()
+        return _file_fingerprint(str(path.absolute()), status.st_size, status.st_mtime_ns)
+    except (OSError, ValueError):
+        return None
+
+
+@functools.lru_cache(maxsize=64)
+def _file_fingerprint(path: str, size: int, changed_ns: int) -> str:
+    """As `fingerprint`; read once for each state of a file."""
+    del changed_ns
+    digest = hashlib.sha256(str(size).encode())
+    with open(path, "rb") as file:
+        digest.update(file.read(END_BYTES))
+        if size > END_BYTES:
+            file.seek(max(END_BYTES, size - END_BYTES))
+            digest.update(file.read(END_BYTES))
+    return digest.hexdigest()
