@@ -28,6 +28,7 @@ if TYPE_CHECKING:
         MissingDependencyError,
         OutputError,
         TexventError,
+        TexventWarning,
     )
     from texvent.event_packets import EventPackets
     from texvent.events import EventStream
@@ -52,6 +53,7 @@ _HOMES = {
         "MissingDependencyError",
         "OutputError",
         "TexventError",
+        "TexventWarning",
     ),
     "event_packets": ("EventPackets",),
     "events": ("EventStream",),
@@ -83,6 +85,7 @@ __all__ = [
     "Sensor",
     "SensorSize",
     "TexventError",
+    "TexventWarning",
     "Video",
     "__version__",
     "compare",

@@ -12,12 +12,14 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, Unpack, overload
 
 from numpy.typing import NDArray
 
+from texvent.errors import warn
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.options.fields import option_names
 from texvent.options.keywords import GenerateOptions, SimulateOptions
 from texvent.options.values import with_options
+from texvent.pipeline import NO_EVENTS, Simulation
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source
 from texvent.run.settings import Settings, resolve
 from texvent.runtime.progress import ProgressOption, open_progress
@@ -81,14 +83,17 @@ def generate(
     Returns:
         The events, with their provenance in `metadata`.
 
+    Warns:
+        TexventWarning: words of the prompt are not understood, or there is no event.
+
     Raises:
-        InputError: the prompt is empty.
+        InputError: the prompt is empty, or the embedded generator understands nothing in it.
         ConfigError: an unknown option, or a value out of range.
     """
     settings, upsample = _generation(options, config)
     with open_progress(progress) as shown:
         run = prepare_prompt(prompt, settings, upsample=upsample, progress=shown)
-    return run.packets if as_packets else run.packets.collect(progress=progress)
+    return run.packets if as_packets else _collected(run, progress)
 
 
 @overload
@@ -150,6 +155,9 @@ def simulate(
     Returns:
         The events, with their provenance in `metadata`.
 
+    Warns:
+        TexventWarning: there is no event.
+
     Raises:
         InputError: the source cannot be read, or holds NaN, negative or infinite intensities.
         ConfigError: an unknown option, or a value out of range.
@@ -157,7 +165,7 @@ def simulate(
     settings = resolve("simulate", dict(options), config=config)
     with open_progress(progress) as shown:
         run = prepare_source(source, settings, t_us=t_us, prompt=prompt, progress=shown)
-    return run.packets if as_packets else run.packets.collect(progress=progress)
+    return run.packets if as_packets else _collected(run, progress)
 
 
 def video(
@@ -248,6 +256,14 @@ def compare(
     from texvent.metrics.compare import compare as compare_streams
 
     return compare_streams(_stream(events), _stream(reference), metrics, span_us=span_us)
+
+
+def _collected(run: Simulation, progress: ProgressOption) -> EventStream:
+    """The events of a run, with a warning if there are none."""
+    events = run.packets.collect(progress=progress)
+    if not len(events):
+        warn(NO_EVENTS)
+    return events
 
 
 def _stream(events: Events) -> EventStream:

@@ -9,7 +9,16 @@
 
 A message says what was wrong, the value, what is allowed and what to do. The command line
 prints it as one line and exits with `exit_code`; it never shows a traceback for these.
+
+A `TexventWarning` says that a result is there but is hardly what was meant.
 """
+
+from __future__ import annotations
+
+import contextlib
+import sys
+import warnings
+from collections.abc import Callable, Iterator
 
 
 class TexventError(Exception):
@@ -42,3 +51,44 @@ class MissingDependencyError(TexventError, ImportError):
     """An optional package is needed and not installed."""
 
     exit_code = 4
+
+
+class TexventWarning(UserWarning):
+    """The result is probably not what was meant: words without effect, no event in a range.
+
+    The command line shows it as one line; `warnings.simplefilter("error", texvent.TexventWarning)`
+    makes it an error.
+    """
+
+
+_listeners: list[Callable[[str], None]] = []
+
+
+@contextlib.contextmanager
+def warnings_to(listener: Callable[[str], None]) -> Iterator[None]:
+    """Give the texts of texvent's warnings to a function inside the block.
+
+    Unlike `warnings.catch_warnings` this holds while other threads compile kernels.
+    """
+    _listeners.append(listener)
+    try:
+        yield
+    finally:
+        _listeners.remove(listener)
+
+
+def warn(message: str) -> None:
+    """Issue a `TexventWarning` that points at the first line outside texvent."""
+    if _listeners:
+        _listeners[-1](message)
+        return
+    level = 2
+    frame = sys._getframe(1)
+    while frame.f_back is not None and _is_own(frame.f_globals.get("__name__", "")):
+        frame = frame.f_back
+        level += 1
+    warnings.warn(message, TexventWarning, stacklevel=level)
+
+
+def _is_own(module: str) -> bool:
+    return module == "texvent" or module.startswith("texvent.")

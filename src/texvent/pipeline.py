@@ -29,6 +29,12 @@ from texvent.simulate.build import build_simulator, check_engine
 from texvent.simulate.randomized_options import draw_training_config
 from texvent.video import Frame, FrameStream
 
+NO_EVENTS = (
+    "no events: nothing changed by more than the contrast threshold; lower contrast_threshold, or "
+    "check the video"
+)
+"""What is said of a run that gives no event."""
+
 
 def text_to_events(
     prompt: str, settings: Settings, *, progress: Progress | None = None

@@ -266,7 +266,7 @@ def test_a_file_that_the_system_refuses_to_grow_is_one_line(folder):
 def test_words_not_understood_are_reported(folder, capsys):
     words = ["--duration", "0.1", "--sensor", "32x24", "--events-only", "--interpolate", "none"]
     assert run("generate", "a red ball zorbles", "-o", "a.h5", *words) == 0
-    assert "not understood: zorbles" in capsys.readouterr().err
+    assert "not understood in the prompt, without effect: zorbles" in capsys.readouterr().err
     assert "zorbles" in str(texvent.load("a.h5").metadata["source"]["not_understood"])
 
 

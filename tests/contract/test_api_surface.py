@@ -19,6 +19,7 @@ PUBLIC = {
     "Sensor",
     "SensorSize",
     "TexventError",
+    "TexventWarning",
     "Video",
     "__version__",
     "compare",

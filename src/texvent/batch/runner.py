@@ -21,6 +21,7 @@ from texvent.errors import (
     MissingDependencyError,
     OutputError,
     TexventError,
+    warnings_to,
 )
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.io.files import open_events
@@ -67,6 +68,8 @@ class Outcome:
     events: int = 0
     failure: str | None = None
     """Why there are no files; None: they are complete."""
+    warnings: tuple[str, ...] = ()
+    """What is hardly meant, such as words that are not understood."""
 
 
 def run_batch(
@@ -120,26 +123,29 @@ def make_sample(
     files = plan.files_of(sample)
     overwrite = plan.files.overwrite or is_replaceable or _is_own(files.events[0], sample)
     settings, events = plan.settings_of(sample), 0
+    found: list[str] = []
 
     def count(frame: Frame, packet: Any) -> None:
         nonlocal events
         events += len(packet)
 
     try:
-        if sample.video is not None:
-            simulation = prepare_source(sample.video, settings, prompt=sample.prompt)
-        else:
-            simulation = prepare_prompt(
-                sample.prompt or "", settings, upsample=plan.upsample, progress=progress
-            )
-        facts = {**simulation.provenance, BATCH_KEY: sample.key}
-        write_run(simulation, replace(files, overwrite=overwrite), metadata=facts, on_step=count)
+        with warnings_to(found.append):
+            if sample.video is not None:
+                simulation = prepare_source(sample.video, settings, prompt=sample.prompt)
+            else:
+                simulation = prepare_prompt(
+                    sample.prompt or "", settings, upsample=plan.upsample, progress=progress
+                )
+            facts = {**simulation.provenance, BATCH_KEY: sample.key}
+            files = replace(files, overwrite=overwrite)
+            write_run(simulation, files, metadata=facts, on_step=count)
     except ENDING_ALL:
         raise
     except TexventError as error:
         # One prompt that a guardrail refuses, or one damaged video, must not end the others.
         return Outcome(sample, failure=" ".join(str(error).split()))
-    return Outcome(sample, events)
+    return Outcome(sample, events, warnings=tuple(found))
 
 
 def _is_own(path: Path, sample: Sample) -> bool:

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import contextlib
 import importlib
 import io
 import os
 import signal
 import sys
-import warnings
-from collections.abc import Iterator, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 from texvent._registry import suggest
 from texvent._version import full_version
+from texvent.cli.notices import one_line_warnings, say
 from texvent.cli.shutdown import end_process
 from texvent.errors import ConfigError, OutputError, TexventError
 from texvent.io.protected_inputs import protected_inputs
-from texvent.options.fields import RenamedOptionWarning
 from texvent.runtime.interrupts import raise_interrupted
 
 COMMANDS = {
@@ -107,17 +104,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(words: list[str], *, is_process: bool = False) -> int:
     """Exit code of a command; every error becomes one line."""
     try:
-        with raise_interrupted(until_exit=is_process), protected_inputs(), _notices():
+        with raise_interrupted(until_exit=is_process), protected_inputs(), one_line_warnings():
             return _dispatch(words)
     except TexventError as error:
-        _say(f"error: {error}")
+        say(f"error: {error}")
         return error.exit_code
     except SystemExit as stop:
         # Help was shown.
         return int(stop.code or 0)
     except KeyboardInterrupt as interrupt:
         number = getattr(interrupt, "number", signal.SIGINT)
-        _say(f"interrupted ({signal.Signals(number).name}); nothing half-written was left behind")
+        say(f"interrupted ({signal.Signals(number).name}); nothing half-written was left behind")
         return 128 + number
     except BrokenPipeError:
         # The reader of the output (head, less) has ended: end without a message, as is usual.
@@ -125,25 +122,8 @@ def _run(words: list[str], *, is_process: bool = False) -> int:
         return 0
     except OSError as error:
         where = f" ({error.filename})" if error.filename else ""
-        _say(f"error: the system refused{where}: {error.strerror or error}")
+        say(f"error: the system refused{where}: {error.strerror or error}")
         return OutputError.exit_code
-
-
-@contextlib.contextmanager
-def _notices() -> Iterator[None]:
-    """Show former names of options as one line each on stderr."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("always", RenamedOptionWarning)
-        show = warnings.showwarning
-
-        def show_notice(message: Warning | str, category: type[Warning], *rest: Any) -> None:
-            if issubclass(category, RenamedOptionWarning):
-                _say(f"note: {message}")
-            else:
-                show(message, category, *rest)
-
-        warnings.showwarning = show_notice  # type: ignore[assignment]
-        yield
 
 
 def _allow_any_text() -> None:
@@ -186,10 +166,6 @@ def _show_help() -> None:
         "",
     ]
     sys.stdout.write("\n".join(lines))
-
-
-def _say(line: str) -> None:
-    sys.stderr.write(" ".join(line.split()) + "\n")
 
 
 if __name__ == "__main__":

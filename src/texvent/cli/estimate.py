@@ -67,8 +67,9 @@ def describe_estimate(estimate: Estimate) -> str:
     if estimate.pairs_total is None:
         return f"about {per_pair}; length unknown\n{memory}"
     events = estimate.events_per_pair * estimate.pairs_total
+    elapsed = estimate.seconds_per_pair * estimate.pairs_total
     return (
-        f"about {events:,.0f} events, {estimate.seconds_per_pair * estimate.pairs_total:,.0f} s of "
-        f"work, {events * BYTES_PER_EVENT / 2**20:,.1f} MB of events ({estimate.pairs_total} "
-        f"pairs)\n{per_pair}\n{memory}"
+        f"about {events:,.0f} events, computed in {elapsed:,.0f} s (elapsed), "
+        f"{events * BYTES_PER_EVENT / 2**20:,.1f} MB of events ({estimate.pairs_total} pairs)\n"
+        f"{per_pair}\n{memory}"
     )

@@ -51,7 +51,7 @@ class OutputOptions:
     """If the run is stopped (Ctrl-C, SIGTERM) or the video ends in damage, keep what is done: the
     files end there and say so (complete = false). A second Ctrl-C discards them."""
     quiet: bool = False
-    """No progress and no summary; only errors."""
+    """No progress and no summary; only warnings and errors."""
 
     @property
     def previews(self) -> tuple[str, ...]:

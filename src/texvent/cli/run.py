@@ -13,14 +13,15 @@ import tomli_w
 
 from texvent.cli.estimate import describe_estimate, estimate_run
 from texvent.cli.outputs import OutputOptions
+from texvent.errors import warn
 from texvent.events import EventStream
 from texvent.pairs.scene_change import SceneChange
-from texvent.pipeline import Simulation
+from texvent.pipeline import NO_EVENTS, Simulation
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_source
 from texvent.run.settings import Settings, unmeasured_sensor
 from texvent.runtime.console_progress import ConsoleProgress
-from texvent.video import MICROSECONDS, Frame
+from texvent.video import MICROSECONDS, Frame, FrameStream
 
 SIGNALLED = 128
 """Exit code of a process ended by signal n is this + n, as shells expect."""
@@ -114,6 +115,8 @@ def execute(simulation: Simulation, options: OutputOptions, files: RunFiles) -> 
     with progress, _saying_what_is_complete(files.paths):
         early = write_run(simulation, files, on_step=count, on_scene_change=tally.add_scene_change)
     progress.announce(_summary(tally, time.perf_counter() - started))
+    if tally.events == 0 and tally.source_frames > 1:
+        warn(NO_EVENTS.replace("contrast_threshold", "--contrast-threshold"))
     if early is not None:
         progress.announce(
             f"stopped  at {early.t_us / MICROSECONDS:.3f} s; the files end there (complete = false)"
@@ -150,12 +153,26 @@ def _identity(path: Path) -> tuple[int, int] | None:
 
 
 def _notes(simulation: Simulation) -> Iterator[str]:
-    """What the generator made of the prompt, the words it did not understand included."""
+    """What the generator made of the prompt; a warning has named the words without effect."""
     for line in simulation.video.metadata.get("understood", ()):
-        yield f"scene    {line}"
+        if not line.startswith("not understood: "):
+            yield f"scene    {line}"
     unmeasured = unmeasured_sensor(simulation.settings.run)
     if unmeasured is not None:
         yield f"note     {unmeasured}"
+    asked, made = getattr(simulation.settings.source, "duration", None), _duration(simulation.video)
+    if asked is not None and made is not None and abs(made - asked) > 0.01 * asked:
+        yield (
+            f"note     the video lasts {made:g} s, not {asked:g}: whole frame intervals at "
+            f"{simulation.video.fps} fps"
+        )
+
+
+def _duration(video: FrameStream) -> float | None:
+    """From the first frame to the last, s; None where it is not known."""
+    if video.fps is None or video.frame_count is None:
+        return None
+    return float((video.frame_count - 1) / video.fps)
 
 
 def _summary(tally: Tally, seconds: float) -> str:
@@ -165,7 +182,7 @@ def _summary(tally: Tally, seconds: float) -> str:
     lines = [
         f"events   {tally.events:,} in {tally.seconds:.3f} s ({rate:,.0f} per second{share})",
         f"frames   {tally.source_frames:,} source + {tally.intermediate_frames:,} intermediate, "
-        f"{seconds:.1f} s of work",
+        f"computed in {seconds:.1f} s (elapsed)",
     ]
     if tally.scene_changes:
         more = ", ..." if len(tally.scene_changes) > 8 else ""
@@ -173,9 +190,4 @@ def _summary(tally: Tally, seconds: float) -> str:
         lines.append(f"note     not smeared over the interval: {shown}")
     if tally.source_frames == 1:
         lines.append("note     one frame only, so nothing could change")
-    elif tally.events == 0:
-        lines.append(
-            "warning  no events: nothing changed by more than the contrast threshold; lower "
-            "--contrast-threshold, or check the video"
-        )
     return "\n".join(lines)

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from texvent._version import __version__
 from texvent.config import check_range
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, warn
 from texvent.options.values import plain
 from texvent.sensor import SENSORS, SensorSize
 from texvent.video import MICROSECONDS, Frame, frame_time_us
@@ -37,7 +37,8 @@ class ProceduralConfig:
     """Frame rate of the video, as 24, 29.97 or 30000/1001. Frames in between are rendered as
     exactly as these, so the rate decides little but where frames fall."""
     duration: float = 2.0
-    """Length of the video, in seconds."""
+    """Length of the video, in seconds, cut to whole frame intervals: 0.4 s at 24 fps are nine of
+    them, 0.375 s."""
     samples: int = 2
     """Fineness of edges: rays per pixel side that look for them; 1 = fast draft, 2 = smooth
     enough for events."""
@@ -142,10 +143,13 @@ class ProceduralGenerator:
 
         Returns:
             A stream of float RGB frames. Its metadata say what was understood and which words
-            had no effect; a prompt of which nothing was understood shows a default scene.
+            had no effect.
 
         Raises:
-            InputError: the prompt is empty.
+            InputError: the prompt is empty, or nothing in it is understood.
+
+        Warns:
+            TexventWarning: some of its words are not understood.
         """
         del progress
         # Imported here: the vocabulary and all models are only needed to make a scene.
@@ -153,6 +157,9 @@ class ProceduralGenerator:
         from texvent.scenes.staging.compose import compose_scene
 
         description = parse_prompt(prompt)
+        if description.not_understood:
+            words = ", ".join(description.not_understood)
+            warn(f"not understood in the prompt, without effect: {words}")
         scene = compose_scene(
             description, seed=self.seed, size=self.size, duration_s=self.config.duration
         )
@@ -164,7 +171,6 @@ class ProceduralGenerator:
             "options": plain(self.config),
             "understood": list(description.summary()),
             "not_understood": list(description.not_understood),
-            "understood_nothing": bool(description.understood_nothing),
         }
         return ProceduralVideo(
             scene, self.size, self.config, metadata, flicker_hz=description.light.flicker_hz

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent.calibrate.rate import reach_target_rate
+from texvent.errors import InputError
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.pipeline import Simulation, text_to_events, text_to_video, video_to_events
 from texvent.run.provenance import describe_weights
@@ -127,6 +128,10 @@ def _stored_video(source: Any) -> FrameStream | None:
 
 def _detailed(prompt: str, upsample: UpsampleConfig | None, progress: Progress | None) -> str:
     """The prompt that the generator gets."""
+    if not isinstance(prompt, str):
+        raise InputError(
+            f"the prompt is a {type(prompt).__name__}; give a text, such as 'a red car drives left'"
+        )
     if upsample is None or upsample.upsample is None:
         return prompt
     from texvent.generate.prompts.upsample import upsample_prompt  # brings requests

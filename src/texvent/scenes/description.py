@@ -158,8 +158,6 @@ class SceneDescription:
     """Nouns that the prompt excludes; no scenery shows them."""
     not_understood: tuple[str, ...] = ()
     """Words that had no effect on the scene, in order, each once."""
-    understood_nothing: bool = False
-    """Whether no word had an effect, so that a default scene replaces it."""
     notes: tuple[str, ...] = ()
     """What the parser decided or left out, as sentences."""
 

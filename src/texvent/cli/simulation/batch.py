@@ -17,6 +17,7 @@ from texvent.batch.runner import BatchPlan, run_batch
 from texvent.batch.samples import Sample, are_videos, read_samples
 from texvent.cli.command import resolve_command
 from texvent.cli.estimate import describe_estimate, estimate_run
+from texvent.cli.notices import say_warning
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.outputs import OutputOptions
 from texvent.cli.run import print_settings
@@ -175,6 +176,8 @@ def _make_all(
         progress.advance("samples", done, len(samples))
         for outcome in run_batch(plan, todo, replaceable=replaceable, jobs=jobs):
             sample = outcome.sample
+            for text in outcome.warnings:
+                say_warning(f"{sample.where}: {text}")
             if outcome.failure is not None:
                 failed += 1
                 sys.stderr.write(f"failed   {sample.where}: {outcome.failure}\n")

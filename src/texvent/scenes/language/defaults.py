@@ -8,7 +8,6 @@ from dataclasses import replace
 from texvent.scenes.description import (
     STANDING,
     CameraMove,
-    NamedColour,
     ObjectMotion,
     Relation,
     SceneDescription,
@@ -16,7 +15,7 @@ from texvent.scenes.description import (
 )
 from texvent.scenes.inflection import pluralise
 from texvent.scenes.language.default_place import choose_place
-from texvent.scenes.language.vocabulary_objects import COLOURS, MAX_BODIES
+from texvent.scenes.language.vocabulary_objects import MAX_BODIES
 from texvent.scenes.models.protocol import Noun
 
 SLOW_PAN = CameraMove("pan", "right", 0.8)
@@ -31,8 +30,6 @@ def complete_description(
     Objects that live in the air or water always move unless the prompt says that they rest. When
     nothing moves, objects that can move do what they usually do; when none can, the camera pans.
     """
-    if description.understood_nothing:
-        description = _show_default(description, nouns)
     description = _add_crew(description, nouns)
     description = _limit_bodies(_move_to_background(_drop_riders(description), nouns))
     objects = tuple(
@@ -230,13 +227,3 @@ def _rest_the_others(description: SceneDescription) -> SceneDescription:
         for scene_object in description.objects
     )
     return replace(description, objects=objects)
-
-
-def _show_default(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """A scene for a prompt of which nothing was understood."""
-    noun = "ball" if "ball" in nouns else next(iter(nouns))
-    ball = SceneObject(
-        noun, colour=NamedColour("red", COLOURS["red"]), motion=ObjectMotion("bounce")
-    )
-    note = f"nothing in the prompt was understood: a bouncing {noun} stands in"
-    return replace(description, objects=(ball,), notes=(*description.notes, note))

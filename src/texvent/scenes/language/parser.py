@@ -7,7 +7,7 @@ the surroundings. What no reader could use is reported word by word.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 
 from texvent.errors import InputError
@@ -31,6 +31,8 @@ _SCENE_ROLES = (
 )  # fmt: skip
 _EFFECTS = frozenset({Role.WEATHER, Role.SNOW, Role.DUST, Role.CLOUDS})
 """Subjects whose verbs say nothing new: "rain falls", "dust flies up"."""
+LONGEST_LIST = 120
+"""Characters of words that an error lists."""
 _CLAUSE_SIGNS = frozenset(',.;:!?()[]"')
 
 
@@ -45,7 +47,7 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
         The scene's description; the same prompt always gives the same one.
 
     Raises:
-        InputError: the prompt is empty or blank.
+        InputError: the prompt is empty or blank, or nothing in it is understood.
 
     Example:
         >>> parse_prompt("a red car drives left past two trees at dusk").summary()[0]
@@ -57,8 +59,20 @@ def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescrip
         )
     known = _known_words() if nouns is NOUNS else Lexicon(nouns)
     phrases = tag_phrases(tokenize_prompt(prompt), known)
-    reading = _PromptParser(phrases, nouns)
-    return complete_description(reading.read(prompt), nouns)
+    description = _PromptParser(phrases, nouns).read(prompt)
+    if not any(phrase.is_used for phrase in phrases):
+        raise InputError(
+            f"nothing in the prompt was understood: {_shortened(description.not_understood)}; "
+            "docs/prompts.md lists the words of the embedded generator, texvent generators lists "
+            "models that take any text"
+        )
+    return complete_description(description, nouns)
+
+
+def _shortened(words: Sequence[str]) -> str:
+    """The first of the words, as many as a line of an error holds."""
+    text = ", ".join(words) or "no word of it names a thing, a place or a movement"
+    return text if len(text) <= LONGEST_LIST else f"{text[:LONGEST_LIST]} ..."
 
 
 @lru_cache(maxsize=1)
@@ -112,7 +126,6 @@ class _PromptParser:
             surroundings=surroundings,
             absent=tuple(self._objects.absent),
             not_understood=_list_unused(self._phrases),
-            understood_nothing=not any(phrase.is_used for phrase in self._phrases),
             notes=tuple(self._objects.notes),
         )
 

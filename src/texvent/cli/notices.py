@@ -1,0 +1,45 @@
+"""What is hardly meant, and former names of options, as one line each on stderr."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import sys
+import warnings
+from collections.abc import Iterator
+from typing import Any
+
+from texvent.errors import warnings_to
+from texvent.options.fields import RenamedOptionWarning
+
+_BOLD_YELLOW, _PLAIN = "\x1b[1;33m", "\x1b[0m"
+
+
+@contextlib.contextmanager
+def one_line_warnings() -> Iterator[None]:
+    """Show a `TexventWarning` as `warning  ...`, former names of options as `note: ...`."""
+    with warnings.catch_warnings(), warnings_to(say_warning):
+        warnings.simplefilter("always", RenamedOptionWarning)
+        show = warnings.showwarning
+
+        def show_line(message: Warning | str, category: type[Warning], *rest: Any) -> None:
+            if issubclass(category, RenamedOptionWarning):
+                say(f"note: {message}")
+            else:
+                show(message, category, *rest)
+
+        warnings.showwarning = show_line  # type: ignore[assignment]
+        yield
+
+
+def say(line: str) -> None:
+    """Write a line to stderr."""
+    sys.stderr.write(" ".join(line.split()) + "\n")
+
+
+def say_warning(message: str) -> None:
+    """Write a line to stderr that stands out; coloured in a terminal."""
+    text = " ".join(message.split())
+    has_colours = sys.stderr.isatty() and not os.environ.get("NO_COLOR")
+    first, last = (_BOLD_YELLOW, _PLAIN) if has_colours else ("", "")
+    sys.stderr.write(f"{first}warning  {text}{last}\n")

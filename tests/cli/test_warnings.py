@@ -1,0 +1,83 @@
+"""What is hardly meant is said in a line that stands out, or refused; nothing of it is silent."""
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+import texvent
+from texvent.cli.app import main
+
+SMALL = ["--sensor", "48x36", "--events-only"]
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def run(*words):
+    return main([str(word) for word in words])
+
+
+def error_of(capsys, *words):
+    """The one line of a command that must be refused, without its "error: "."""
+    capsys.readouterr()
+    assert run(*words) == 2
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 1, lines
+    assert lines[0].startswith("error: ")
+    assert len(lines[0]) < 300
+    return lines[0].removeprefix("error: ")
+
+
+def warnings_of(capsys, *words):
+    """The warnings of a command that must succeed."""
+    capsys.readouterr()
+    assert run(*words) == 0
+    lines = capsys.readouterr().err.splitlines()
+    return [line.removeprefix("warning  ") for line in lines if line.startswith("warning  ")]
+
+
+def still_video(path):
+    writer = cv2.VideoWriter(str(path), cv2.VideoWriter_fourcc(*"MJPG"), 25, (48, 36))
+    for _ in range(5):
+        writer.write(np.full((36, 48, 3), 128, np.uint8))
+    writer.release()
+
+
+def test_a_prompt_of_which_nothing_is_understood_is_refused(capsys):
+    said = error_of(capsys, "generate", "qwerty zxcv", "-o", "a.h5", *SMALL)
+    assert "nothing in the prompt was understood: qwerty, zxcv" in said
+    assert not Path("a.h5").exists()
+
+
+def test_words_without_effect_are_a_line_of_their_own(capsys):
+    words = ["generate", "a wug and a red ball bounce", "--duration", 0.1, "-o", "a.h5", *SMALL]
+    assert run(*words) == 0
+    lines = capsys.readouterr().err.splitlines()
+    assert lines[0] == "warning  not understood in the prompt, without effect: wug"
+    assert sum("not understood" in line for line in lines) == 1
+    with pytest.warns(texvent.TexventWarning, match="without effect: wug") as caught:
+        texvent.generate("a wug and a red ball bounce", sensor="48x36", duration=0.1)
+    assert caught[0].filename == __file__
+
+
+def test_a_run_without_events_warns(capsys):
+    still_video("still.avi")
+    words = ["simulate", "still.avi", "-o", "a.h5", "--noise", "none", "--events-only", "-q"]
+    assert "--contrast-threshold" in warnings_of(capsys, *words)[0]
+    with pytest.warns(texvent.TexventWarning, match="no events: nothing changed"):
+        assert len(texvent.simulate("still.avi", noise="none")) == 0
+
+
+def test_the_real_duration_is_said_where_it_differs(capsys):
+    words = ["generate", "a red ball bounces", *SMALL, "--overwrite", "-o", "a.h5"]
+    assert run(*words, "--duration", 0.4) == 0
+    said = capsys.readouterr().err
+    assert "note     the video lasts 0.375 s, not 0.4: whole frame intervals at 24 fps" in said
+    assert " s (elapsed)" in said
+    assert run(*words, "--duration", 0.5) == 0
+    assert "the video lasts" not in capsys.readouterr().err
