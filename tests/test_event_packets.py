@@ -44,7 +44,7 @@ def test_a_window_of_packets_is_that_of_the_stream_and_stops_reading_early(whole
     start, stop = int(whole.t[120]), int(whole.t[250])
     assert packets.between(start, stop).collect().equals(whole.between(start, stop))
     assert packets.packets.reads == 3
-    assert packets.between(start, start).collect().equals(EventStream.empty(SIZE))
+    assert packets.cut(start, start).collect().equals(EventStream.empty(SIZE))
 
 
 def test_the_time_range_is_that_of_the_stream(whole, packets):
@@ -57,13 +57,10 @@ def test_windows_and_time_range_of_files_are_those_of_the_stream(tmp_path, whole
     opened = open_events(save(tmp_path / f"events{extension}", whole))
     assert opened.time_range == whole.time_range
     for start, stop in ((0, 99_999), (5_000, 20_000), (15_000, 15_000), (40_000, 50_000)):
-        got = opened.between(start, stop)
-        assert got.collect().equals(whole.between(start, stop))
-        assert (
-            got.between(6_000, 7_000)
-            .collect()
-            .equals(whole.between(start, stop).between(6_000, 7_000))
-        )
+        got = opened.cut(start, stop)
+        assert got.collect().equals(whole.cut(start, stop))
+        again = whole.cut(start, stop).cut(6_000, 7_000)
+        assert got.cut(6_000, 7_000).collect().equals(again)
 
 
 def test_a_window_of_an_hdf5_file_reads_neither_before_nor_after(tmp_path, whole, monkeypatch):

@@ -67,7 +67,7 @@ def test_between_is_half_open():
 def test_cutting_and_concatenating_changes_nothing(times, first, second):
     events = stream(sorted(times))
     low, high = sorted((first, second))
-    parts = [events.between(0, low), events.between(low, high), events.between(high, 2**41)]
+    parts = [events.cut(0, low), events.cut(low, high), events.cut(high, 2**41)]
     assert EventStream.concat(parts).equals(events)
 
 

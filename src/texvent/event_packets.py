@@ -11,6 +11,7 @@ from typing import Any, Protocol, runtime_checkable
 from texvent.events import EventStream
 from texvent.runtime.progress import Progress, ProgressOption, open_progress
 from texvent.sensor import SensorSize
+from texvent.time_range import SeenTimes, check_time_range, warn_of_doubtful_range
 
 
 @runtime_checkable
@@ -44,6 +45,10 @@ class LazyPackets:
 
     def __iter__(self) -> Iterator[EventStream]:
         return self.make()
+
+
+def _ignore(times: SeenTimes) -> None:
+    """Say nothing."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -96,12 +101,35 @@ class EventPackets:
         """The events with `start_us <= t < stop_us`; what comes later is not read.
 
         In an HDF5 file, what comes before is not read either.
+
+        Raises:
+            InputError: the stop lies before the start.
+
+        Warns:
+            TexventWarning: the range is empty, outside of the recording, or looks like seconds;
+                found while reading, where the format does not tell its times before.
+        """
+        check_time_range(start_us, stop_us)
+        return self.cut(start_us, stop_us, partial(warn_of_doubtful_range, start_us, stop_us))
+
+    def cut(
+        self, start_us: int, stop_us: int, on_times: Callable[[SeenTimes], None] = _ignore
+    ) -> EventPackets:
+        """As `between`, for programs that go through time: any range is taken without a word.
+
+        Args:
+            start_us: first time, µs.
+            stop_us: the time before which the events end, µs.
+            on_times: given the times of the recording as soon as they are known, if it has events.
         """
         packets = self.packets
-        if isinstance(packets, SeekablePackets):
-            make = partial(packets.between, start_us, stop_us)
-        else:
-            make = partial(_packets_between, packets, start_us, stop_us)
+        if not isinstance(packets, SeekablePackets):
+            make = partial(_packets_between, packets, start_us, stop_us, on_times)
+            return EventPackets(LazyPackets(make), self.size, self.metadata)
+        span = None if on_times is _ignore else packets.time_range
+        if span is not None:
+            on_times(SeenTimes(*span))
+        make = partial(packets.between, start_us, stop_us)
         return EventPackets(LazyPackets(make), self.size, self.metadata)
 
     # What lies above this module is imported when it is called: a convenience for users.
@@ -182,9 +210,19 @@ class EventPackets:
 
 
 def _packets_between(
-    packets: Iterable[EventStream], start_us: int, stop_us: int
+    packets: Iterable[EventStream],
+    start_us: int,
+    stop_us: int,
+    on_times: Callable[[SeenTimes], None],
 ) -> Iterator[EventStream]:
+    seen = None
     for packet in packets:
-        yield packet.between(start_us, stop_us)
-        if len(packet) and int(packet.t[-1]) >= stop_us:
-            return
+        yield packet.cut(start_us, stop_us)
+        if len(packet):
+            first_us = int(packet.t[0]) if seen is None else seen.first_us
+            seen = SeenTimes(first_us, int(packet.t[-1]) + 1)
+            if seen.end_us > stop_us:
+                on_times(seen._replace(is_whole=False))
+                return
+    if seen is not None:
+        on_times(seen)

@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from texvent.errors import InputError
 from texvent.sensor import MAX_SIDE, SensorSize, checked_size
+from texvent.time_range import SeenTimes, check_time_range, warn_of_doubtful_range
 
 SIGNAL, NOISE = 0, 1
 """Values of `EventStream.label`: fired by a brightness change, or by noise."""
@@ -172,7 +173,22 @@ class EventStream:
         return (int(self.t[0]), int(self.t[-1]) + 1) if len(self) else None
 
     def between(self, start_us: int, stop_us: int) -> EventStream:
-        """Events with `start_us <= t < stop_us`."""
+        """Events with `start_us <= t < stop_us`.
+
+        Raises:
+            InputError: the stop lies before the start.
+
+        Warns:
+            TexventWarning: the range is empty, outside of the recording, or looks like seconds.
+        """
+        check_time_range(start_us, stop_us)
+        if len(self):
+            seen = SeenTimes(int(self.t[0]), int(self.t[-1]) + 1)
+            warn_of_doubtful_range(start_us, stop_us, seen)
+        return self.cut(start_us, stop_us)
+
+    def cut(self, start_us: int, stop_us: int) -> EventStream:
+        """As `between`, for programs that go through time: any range is taken without a word."""
         first, last = np.searchsorted(self.t, (start_us, stop_us), side="left")
         return self[int(first) : int(last)]
 

@@ -81,3 +81,30 @@ def test_the_real_duration_is_said_where_it_differs(capsys):
     assert " s (elapsed)" in said
     assert run(*words, "--duration", 0.5) == 0
     assert "the video lasts" not in capsys.readouterr().err
+
+
+@pytest.fixture
+def recording(folder):
+    t = np.arange(0, 400_001, 100)
+    size = texvent.SensorSize(8, 6)
+    return texvent.EventStream(t % 8, t % 6, t, t % 2, size).save("a.h5")
+
+
+@pytest.mark.parametrize("source", ["a.h5", "a.csv"])
+@pytest.mark.parametrize(("command", "out"), [("convert", ("b.h5",)), ("render", ("-o", "b.png"))])
+def test_a_time_outside_of_the_recording_is_refused(capsys, recording, source, command, out):
+    if source == "a.csv":
+        texvent.load("a.h5").save(source)
+    sensor = ("--sensor", "8x6")
+    said = error_of(capsys, command, source, *out, *sensor, "--time", "5,6")
+    assert said == "no event from 5 to 6 s: the recording runs from 0 to 0.4 s"
+    said = error_of(capsys, command, source, *out, *sensor, "--time", "100000,300000")
+    assert said.endswith("times are s: did you mean 0.1 to 0.3?")
+    assert "is empty" in error_of(capsys, command, source, *out, *sensor, "--time", "0.3,0.1")
+    assert not Path(out[-1]).exists()
+
+
+def test_a_quiet_part_gives_an_empty_file_and_a_warning(capsys, recording):
+    (said,) = warnings_of(capsys, "convert", "a.h5", "b.h5", "--time", "0.00001,0.00002")
+    assert said.startswith("b.h5 holds no event")
+    assert len(texvent.load("b.h5")) == 0

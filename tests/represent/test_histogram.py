@@ -41,7 +41,7 @@ def test_histograms_equal_their_definition(events, bins, offset_us, duration_us,
     found = histogram_3d(events, bins=bins, start_us=start_us, stop_us=stop_us, shape=shape)
     expected = definitions.histogram(events, bins, start_us, stop_us, shape)
     np.testing.assert_array_equal(found, expected)
-    inside = events.between(start_us, stop_us)
+    inside = events.cut(start_us, stop_us)
     np.testing.assert_array_equal(histogram_2d(inside, shape=shape), expected.sum(axis=1))
 
 

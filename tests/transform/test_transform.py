@@ -87,9 +87,12 @@ def test_resize_loses_no_event_and_no_time(rows: Rows, width: int, height: int) 
 @given(rows=ROWS, start=st.integers(0, 20), length=st.integers(1, 20), cut=st.integers(0, 40))
 def test_a_time_range_is_half_open(rows: Rows, start: int, length: int, cut: int) -> None:
     events = stream(rows)
-    kept = rows_of(keep_time(packets(events, cut), start, start + length))
-    whole = rows_of(packets(events))
-    assert kept == [row for row in whole if start <= row[2] < start + length]
+    want = [row for row in rows_of(packets(events)) if start <= row[2] < start + length]
+    try:
+        assert rows_of(keep_time(packets(events, cut), start, start + length)) == want
+    except InputError:
+        times = [row[2] for row in rows]
+        assert start > max(times) or start + length <= min(times)
 
 
 def test_what_comes_after_the_time_range_is_not_read() -> None:

@@ -67,7 +67,7 @@ def measure_noise(recording: Recording, span: TimeSpan, *, gamma: float) -> Meas
         group = np.digitize(now[still], edges) - 1
         size = len(exposure)
         exposure += (stop_us - start_us) / MICROSECONDS * np.bincount(group, minlength=size)
-        events = count_events(recording.events.between(start_us, stop_us))
+        events = count_events(recording.events.cut(start_us, stop_us))
         for p in (0, 1):
             counts[p] += np.bincount(group, weights=events[p][still], minlength=size)
     known = exposure >= LEAST_EXPOSURE_S

@@ -87,7 +87,7 @@ class Recording:
         Raises:
             InputError: there are too few of a polarity.
         """
-        events = self.events.between(*span)
+        events = self.events.cut(*span)
         on = int(events.p.sum())
         if min(on, len(events) - on) < LEAST_EVENTS:
             raise InputError(
@@ -148,4 +148,4 @@ def simulate_span(
             packets.append(simulator.step(Frame(frame.pixels, t_us, frame.is_source)))
         if t_us >= span.stop_us:
             break
-    return EventStream.concat(packets).between(*span)
+    return EventStream.concat(packets).cut(*span)

@@ -126,7 +126,7 @@ class SimulatedSamples:
         return represent_window(self.representation, events, window, **self.representation_options)
 
     def _part(self, clip: Clip, window: tuple[int, int]) -> Sample:
-        events = clip.events.between(*window)
+        events = clip.events.cut(*window)
         part = {"representation": self._represent(events, window)}
         part |= {target: target_of(clip, target, window) for target in self.targets}
         return {**part, "stop_us": np.int64(window[1])}

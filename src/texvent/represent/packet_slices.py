@@ -58,8 +58,8 @@ def slice_between(
             if len(packet) and int(packet.t[-1]) >= before:
                 parts.append(packet)
         held = EventStream.concat(parts)
-        yield t_us, held.between(before, t_us)
-        held = held.between(t_us, END_OF_TIME_US)
+        yield t_us, held.cut(before, t_us)
+        held = held.cut(t_us, END_OF_TIME_US)
         before = t_us
 
 

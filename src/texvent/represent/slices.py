@@ -84,7 +84,7 @@ def _by_time(
     while start <= last:
         is_partial = start + length > last + 1
         if not is_partial or keep_partial:
-            yield events.between(start, start + length)
+            yield events.cut(start, start + length)
         if is_partial:
             return
         start += stride

@@ -2,23 +2,35 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from texvent.errors import InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.time_range import SeenTimes, describe_outside
 from texvent.transform.packets import map_packets
+from texvent.video import MICROSECONDS
 
 
 def keep_time(events: EventPackets, start_us: int, stop_us: int) -> EventPackets:
     """The events with `start_us <= t < stop_us`; what comes later is not even read.
 
     Raises:
-        InputError: the stop is not after the start.
+        InputError: the stop is not after the start, or the recording lies elsewhere (found while
+            reading, where the format does not tell its times before).
     """
     if not start_us < stop_us:
         raise InputError(
-            f"the time from {start_us} to {stop_us} µs is empty; the stop must be after the start"
+            f"the time from {start_us / MICROSECONDS:g} to {stop_us / MICROSECONDS:g} s is empty; "
+            "the stop must be after the start"
         )
-    return events.between(start_us, stop_us)
+    return events.cut(start_us, stop_us, partial(_refuse_outside, start_us, stop_us))
+
+
+def _refuse_outside(start_us: int, stop_us: int, seen: SeenTimes) -> None:
+    problem = describe_outside(start_us, stop_us, seen, "s")
+    if problem is not None:
+        raise InputError(problem)
 
 
 def start_at_zero(events: EventPackets) -> EventPackets:

@@ -52,7 +52,7 @@ def event_image_grid(report: FidelityReport, scene: str) -> bytes:
 
 
 def _cut(events: EventStream) -> EventStream:
-    return events.between(START_US, STOP_US)
+    return events.cut(START_US, STOP_US)
 
 
 def _panel(title: str, image: Image) -> Image:

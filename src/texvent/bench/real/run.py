@@ -131,7 +131,7 @@ def measure_bounds(plan: RealPlan, scene: RealScene) -> tuple[Reference, Score]:
     recorded = [scene.recorded(span) for span in scene.scored]
     # Shuffled as one: within a short span a shuffle changes little.
     shuffled = perturb(scene.recorded(scene.whole), NULL)
-    nulls = [shuffled.between(*span) for span in scene.scored]
+    nulls = [shuffled.cut(*span) for span in scene.scored]
     reference = Reference(
         scene=scene.name,
         target=TARGET,
@@ -166,7 +166,7 @@ def score_on_recording(plan: RealPlan, scene: RealScene, entry: Entry) -> Score 
     video = scene.frames_around(scene.fit)
 
     def count_events(threshold: float | None) -> int:
-        return len(simulate_video(video, settings, threshold).between(*scene.fit))
+        return len(simulate_video(video, settings, threshold).cut(*scene.fit))
 
     recorded = [scene.recorded(span) for span in scene.scored]
     try:
@@ -180,7 +180,7 @@ def score_on_recording(plan: RealPlan, scene: RealScene, entry: Entry) -> Score 
         seconds = time.perf_counter() - start
     except TexventError as error:
         return entry.name, str(error)
-    simulated = [events.between(*span) for span in scene.scored]
+    simulated = [events.cut(*span) for span in scene.scored]
     return Score(
         scene=scene.name,
         target=TARGET,
@@ -216,7 +216,7 @@ def _patch_flow_error(predicted: EventStream, recorded: EventStream) -> float:
     start_us = int(recorded.t[0])
     flows = [
         estimate_patch_flow(
-            events.between(start_us, start_us + PATCH_WINDOW_US), window_us=PATCH_WINDOW_US
+            events.cut(start_us, start_us + PATCH_WINDOW_US), window_us=PATCH_WINDOW_US
         )
         for events in (predicted, recorded)
     ]

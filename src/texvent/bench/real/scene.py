@@ -64,7 +64,7 @@ class RealScene:
 
     def recorded(self, span: TimeSpan) -> EventStream:
         """The recorded events of a span."""
-        return self.events.between(*span)
+        return self.events.cut(*span)
 
     def frames_around(self, span: TimeSpan) -> Video:
         """The frames from before a span, time to warm up included, to after its end."""
@@ -148,7 +148,7 @@ def _used_events(recording: FrameRecording, start_us: int, stop_us: int) -> Even
     for packet in recording.events:
         if len(packet) and int(packet.t[0]) >= stop_us:
             break
-        used.append(packet.between(start_us, stop_us))
+        used.append(packet.cut(start_us, stop_us))
     return EventStream.concat(used) if used else EventStream.empty(recording.frames.size)
 
 

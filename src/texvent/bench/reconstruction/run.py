@@ -271,7 +271,7 @@ def recorded_rate_hz(recording: FrameRecording) -> float:
     for packet in recording.events:
         if len(packet) and int(packet.t[0]) >= last_us:
             break
-        count += len(packet.between(start_us, last_us))
+        count += len(packet.cut(start_us, last_us))
     if not count:
         raise InputError(
             f"{recording.name}: no event was recorded from {start_us} to {last_us} µs, so no "

@@ -67,7 +67,7 @@ def run(arguments: Sequence[str]) -> int:
     predicted, reference = (_load(path, size) for path in (options.predicted, options.reference))
     whole = (predicted, reference)
     if span_us is not None:
-        predicted, reference = (one.between(*span_us) for one in whole)
+        predicted, reference = (one.cut(*span_us) for one in whole)
         _refuse_empty_span(options, (predicted, reference), whole)
     findings = Findings(
         compare(*whole, metrics, span_us=span_us),

@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 from texvent.cli.event_files.time_option import keep_time_range
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, warn
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.files import open_events, open_writer
@@ -86,6 +86,8 @@ def run(arguments: Sequence[str]) -> int:
         for packet in events:
             writer.append(packet)
             count += len(packet)
+    if not count:
+        warn(f"{options.out} holds no event: there is none in the input, or in the part asked for")
     if not options.quiet:
         sys.stdout.write(f"{options.out}: {count:,} events, {events.size}\n")
     return 0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from texvent.errors import ConfigError
 from texvent.event_packets import EventPackets
+from texvent.time_range import END_OF_TIME_US
 from texvent.transform.window import keep_time
 from texvent.video import MICROSECONDS
 
@@ -13,7 +14,7 @@ def keep_time_range(events: EventPackets, text: str | None) -> EventPackets:
 
     Raises:
         ConfigError: it is not two numbers.
-        InputError: the stop is not after the start.
+        InputError: the stop is not after the start, or the recording lies elsewhere.
     """
     return events if text is None else keep_time(events, *parse_time_range(text))
 
@@ -29,7 +30,7 @@ def parse_time_range(text: str) -> tuple[int, int]:
         if len(words) != 2:
             raise ValueError(text)
         start = round(float(words[0]) * MICROSECONDS) if words[0] else 0
-        stop = round(float(words[1]) * MICROSECONDS) if words[1] else 2**63 - 1
+        stop = round(float(words[1]) * MICROSECONDS) if words[1] else END_OF_TIME_US
     except (ValueError, OverflowError) as error:
         raise ConfigError(
             f"time is {text!r}; give START,STOP in seconds, such as 0.5,2 or 0.5, or ,2"

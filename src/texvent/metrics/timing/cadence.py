@@ -39,7 +39,7 @@ def cadence_energy(
     seconds = (stop - first) / MICROSECONDS
     if not 4 / fps <= seconds <= LONGEST_SECONDS:
         return UNDEFINED
-    inside = events.between(first, stop).t
+    inside = events.cut(first, stop).t
     rate = np.bincount(
         bin_index(inside - first, Fraction(RATE_HZ)), minlength=int(np.ceil(seconds * RATE_HZ))
     ).astype(np.float64)

@@ -112,14 +112,14 @@ def cut_streams(
         held = EventStream.concat([held, packet])
         # A window is complete once an event at or after its end is known.
         while (start_us := first_us + round(index * step_us)) + window_us <= int(held.t[-1]):
-            yield start_us, held.between(start_us, start_us + window_us)
+            yield start_us, held.cut(start_us, start_us + window_us)
             index += 1
         held = held[int(np.searchsorted(held.t, start_us)) :]
     while first_us is not None and len(held):
         start_us = first_us + round(index * step_us)
         held = held[int(np.searchsorted(held.t, start_us)) :]
         if len(held):
-            yield start_us, held.between(start_us, start_us + window_us)
+            yield start_us, held.cut(start_us, start_us + window_us)
         index += 1
 
 
