@@ -8,7 +8,7 @@ import pytest
 
 import texvent
 from texvent.api import compare
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError, InputError, TexventError
 from texvent.generate.prompts import upsample as upsampling
 
 PROMPT = "a red ball bounces"
@@ -112,3 +112,49 @@ def test_a_function_is_told_how_far_the_simulation_is(as_packets, tmp_path):
     else:
         texvent.simulate(frames, **options, progress=lambda *step: calls.append(step))
     assert calls == [(number, 4, "simulate") for number in (1, 2, 3, 4)]
+
+
+def test_the_size_of_a_file_may_be_a_name_and_a_metric_may_stand_alone(events, tmp_path):
+    path = tmp_path / "events.csv"
+    path.write_text("t,x,y,p\n5,3,2,1\n")
+    assert texvent.load(path, size="davis240c").size == (240, 180)
+    with pytest.raises(InputError, match="does not store the sensor size"):
+        texvent.load(path)
+    assert compare(events, events, "stpp") == {"stpp": 1.0}
+
+
+@pytest.mark.parametrize(
+    ("mistake", "said"),
+    [
+        (lambda events: texvent.generate(5), "the prompt is a int; give a text"),
+        (lambda events: texvent.video(None), "the prompt is a NoneType; give a text"),
+        (lambda events: events[0], "take a column, such as events.t[0]"),
+        (lambda events: events["x"], "take a column"),
+        (lambda events: compare(events, events, "stp"), "did you mean 'stpp'?"),
+        (lambda events: texvent.generate(PROMPT, contrast_treshold=1), "'contrast_threshold'?"),
+        (lambda events: texvent.generate(PROMPT, qwertyuiop=1), " in all)"),
+        (lambda events: events.save("a.h5", format="hdf"), "did you mean 'hdf5'?"),
+        (lambda events: texvent.load("a.csv", size="davis24"), "did you mean 'davis240c'"),
+    ],
+)
+def test_mistakes_are_one_short_line(events, mistake, said):
+    with pytest.raises(TexventError) as caught:
+        mistake(events)
+    message = str(caught.value)
+    assert said in message
+    assert len(message) < 300
+    assert "\n" not in message
+
+
+def test_values_say_what_they_are_in_one_line(events, tmp_path):
+    frames = texvent.video(PROMPT, **SMALL)
+    first = next(iter(frames))
+    assert repr(first) == "Frame(48x36 float32 RGB, t 0 µs)"
+    assert repr(texvent.Frame(np.zeros((3, 3), np.uint8), 7, False)) == (
+        "Frame(3x3 uint8 grey, t 7 µs, intermediate)"
+    )
+    assert repr(texvent.Video(np.zeros((5, 3, 4), np.uint8), range(5))) == "Video(5 frames, 4x3)"
+    assert repr(frames) == "ProceduralVideo(5 frames, 48x36, 24 fps)"
+    assert repr(texvent.open(events.save(tmp_path / "a.h5"))) == (
+        "EventPackets(48x36, read when iterated)"
+    )

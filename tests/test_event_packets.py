@@ -122,4 +122,4 @@ def test_lazy_packets_are_made_anew_for_each_pass(whole):
     packets = EventPackets(LazyPackets(lambda: iter([whole])), SIZE)
     assert packets.collect().equals(whole)
     assert packets.collect().equals(whole)
-    assert repr(packets) == "EventPackets(32x24)"
+    assert repr(packets) == "EventPackets(32x24, read when iterated)"

@@ -1,9 +1,12 @@
 """Sensor names and sizes."""
 
+import numpy as np
 import pytest
 
 from texvent.errors import ConfigError
-from texvent.sensor import SENSORS, parse_sensor
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
+from texvent.sensor import SENSORS, as_size, parse_sensor
 
 
 @pytest.mark.parametrize(
@@ -26,6 +29,23 @@ def test_sensors_are_known_by_name_or_by_size(name, size):
 def test_other_sensors_are_refused_with_what_is_allowed(name):
     with pytest.raises(ConfigError, match=r"allowed|must be 1..65535"):
         parse_sensor(name)
+
+
+@pytest.mark.parametrize(
+    "size",
+    ["davis240c", "240x180", (240, 180), [240, 180], np.array([240, 180]), SENSORS["davis240c"]],
+)
+def test_a_size_is_taken_as_python_programs_have_it(size):
+    assert as_size(size) == (240, 180)
+    assert EventStream.empty(size).size == (240, 180)
+    assert EventPackets([], size).size == (240, 180)
+
+
+@pytest.mark.parametrize("size", [5, None, (3,), (2.5, 3), ("a", 3), (0, 3), "davis"])
+def test_what_is_no_size_is_refused_in_a_line(size):
+    with pytest.raises(ConfigError, match=r"size|sensor") as caught:
+        as_size(size)
+    assert len(str(caught.value)) < 300
 
 
 def test_every_sensor_names_its_source():

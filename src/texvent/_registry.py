@@ -17,6 +17,9 @@ from typing import Any
 
 from texvent.errors import ConfigError
 
+LONGEST_LISTING, FIRST_NAMES = 160, 8
+"""Characters of a list that an error holds in full; names that it holds of a longer one."""
+
 
 def load_object(target: str) -> Any:
     """Import and return the object named by a `"module:attribute"` string."""
@@ -25,10 +28,16 @@ def load_object(target: str) -> Any:
 
 
 def suggest(name: str, allowed: tuple[str, ...]) -> str:
-    """Say what is allowed, and the closest match if there is one: ` did you mean 'blend'?`."""
+    """Say what is allowed, and the closest match if there is one: ` did you mean 'blend'?`.
+
+    Of a long list, only the closest match or the first names are said.
+    """
     close = difflib.get_close_matches(name, allowed, n=1)
-    hint = f"; did you mean {close[0]!r}?" if close else ""
-    return f"allowed: {', '.join(allowed)}{hint}"
+    listed, hint = ", ".join(allowed), f"did you mean {close[0]!r}?" if close else ""
+    if len(listed) > LONGEST_LISTING:
+        listed = f"{', '.join(allowed[:FIRST_NAMES])}, ... ({len(allowed)} in all)"
+        return hint or f"allowed: {listed}"
+    return f"allowed: {listed}{hint and f'; {hint}'}"
 
 
 @dataclass(frozen=True)

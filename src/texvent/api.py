@@ -23,6 +23,7 @@ from texvent.pipeline import NO_EVENTS, Simulation
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source
 from texvent.run.settings import Settings, resolve
 from texvent.runtime.progress import ProgressOption, open_progress
+from texvent.sensor import SizeLike
 from texvent.video import FrameStream
 
 if TYPE_CHECKING:
@@ -201,7 +202,7 @@ def video(
 
 
 def open(
-    path: str | Path, *, format: str | None = None, size: tuple[int, int] | None = None
+    path: str | Path, *, format: str | None = None, size: SizeLike | None = None
 ) -> EventPackets:
     """Events of a file, which is read when they are asked for, with flat memory.
 
@@ -212,7 +213,8 @@ def open(
     Args:
         path: the file or folder; see `formats()`.
         format: its format, where the extension does not say.
-        size: sensor size (width, height), for formats that do not store it.
+        size: sensor size, for formats that do not store it: (width, height), "346x260" or a name,
+            such as "davis346".
 
     Raises:
         InputError: no such file, or the size is not stored and not given.
@@ -224,7 +226,7 @@ def open(
 
 
 def load(
-    path: str | Path, *, format: str | None = None, size: tuple[int, int] | None = None
+    path: str | Path, *, format: str | None = None, size: SizeLike | None = None
 ) -> EventStream:
     """Events of a file, in memory; arguments and errors as `open`."""
     return open(path, format=format, size=size).collect()
@@ -233,7 +235,7 @@ def load(
 def compare(
     events: Events,
     reference: Events,
-    metrics: Iterable[str | Metric] | None = None,
+    metrics: str | Metric | Iterable[str | Metric] | None = None,
     *,
     span_us: tuple[int, int] | None = None,
 ) -> dict[str, float]:
@@ -242,7 +244,7 @@ def compare(
     Args:
         events: the stream to judge, or its file.
         reference: the true stream, or its file.
-        metrics: names, such as "stpp" or "count_ratio"; default: all but those whose weights are
+        metrics: a name, such as "stpp", or several; default: all but those whose weights are
             missing.
         span_us: compare only events with `start <= t < stop`, µs; default: all.
 

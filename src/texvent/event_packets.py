@@ -10,7 +10,7 @@ from typing import Any, Protocol, runtime_checkable
 
 from texvent.events import EventStream
 from texvent.runtime.progress import Progress, ProgressOption, open_progress
-from texvent.sensor import SensorSize
+from texvent.sensor import SensorSize, as_size
 from texvent.time_range import SeenTimes, check_time_range, warn_of_doubtful_range
 
 
@@ -72,11 +72,14 @@ class EventPackets:
     size: SensorSize
     metadata: Mapping[str, Any] = field(default_factory=dict)
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "size", as_size(self.size))
+
     def __iter__(self) -> Iterator[EventStream]:
         return iter(self.packets)
 
     def __repr__(self) -> str:
-        return f"EventPackets({self.size})"
+        return f"EventPackets({self.size}, read when iterated)"
 
     def collect(self, *, progress: ProgressOption = False) -> EventStream:
         """All packets in one stream, in memory; for `progress` see `save`."""

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from texvent.errors import InputError
-from texvent.sensor import MAX_SIDE, SensorSize, checked_size
+from texvent.sensor import MAX_SIDE, SensorSize, SizeLike, as_size
 from texvent.time_range import SeenTimes, check_time_range, warn_of_doubtful_range
 
 SIGNAL, NOISE = 0, 1
@@ -67,7 +67,7 @@ class EventStream:
     """Where each event comes from, [n] uint8: `SIGNAL` or `NOISE`; None where it is not known."""
 
     def __post_init__(self) -> None:
-        size = checked_size(*self.size)
+        size = as_size(self.size)
         columns = {name: np.asarray(getattr(self, name)) for name in "xytp"}
         _check_columns(columns, size)
         if self.label is not None:
@@ -80,7 +80,7 @@ class EventStream:
         object.__setattr__(self, "size", size)
 
     @classmethod
-    def empty(cls, size: SensorSize, metadata: Mapping[str, Any] | None = None) -> EventStream:
+    def empty(cls, size: SizeLike, metadata: Mapping[str, Any] | None = None) -> EventStream:
         """A stream with no event."""
         nothing: list[int] = []
         return cls.from_columns(nothing, nothing, nothing, nothing, size=size, metadata=metadata)
@@ -93,13 +93,14 @@ class EventStream:
         t: ArrayLike,
         p: ArrayLike,
         *,
-        size: SensorSize,
+        size: SizeLike,
         metadata: Mapping[str, Any] | None = None,
     ) -> EventStream:
         """A stream from anything array-like, such as lists; empty columns may have any dtype."""
         columns = [np.asarray(column) for column in (x, y, t, p)]
         columns = [column.astype(np.int64) if column.size == 0 else column for column in columns]
-        return cls(columns[0], columns[1], columns[2], columns[3], size, metadata or {})
+        x, y, t, p = columns
+        return cls(x, y, t, p, as_size(size), metadata or {})
 
     @classmethod
     def concat(cls, streams: Iterable[EventStream]) -> EventStream:
@@ -153,7 +154,16 @@ class EventStream:
         return f"EventStream({len(self):,} events, {self.size}{span})"
 
     def __getitem__(self, index: slice | NDArray[np.bool_]) -> EventStream:
-        """The events of a slice with a positive step, or where a mask is true."""
+        """The events of a slice with a positive step, or where a mask is true.
+
+        Raises:
+            InputError: it is neither, such as the number of an event.
+        """
+        if not isinstance(index, slice | np.ndarray | list):
+            raise InputError(
+                f"events[{index!r:.40}] is no part of a stream; give a slice such as [0:1] or "
+                "a mask, or take a column, such as events.t[0]"
+            )
         chosen = {name: column[index] for name, column in self.columns().items()}
         return EventStream(**chosen, size=self.size, metadata=self.metadata)
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import operator
 import re
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError
@@ -75,6 +76,34 @@ def parse_sensor(text: str) -> SensorSize:
             f"unknown sensor {text!r}; {suggest(text.lower(), tuple(SENSORS))}, or WIDTHxHEIGHT"
         )
     return sensor.size
+
+
+SizeLike: TypeAlias = str | Sensor | tuple[int, int]
+"""How Python takes a size: "davis346", "346x260", a `Sensor` or (width, height)."""
+
+
+def as_size(size: SizeLike) -> SensorSize:
+    """The size that a name, a `Sensor` or two numbers state.
+
+    Raises:
+        ConfigError: the name is unknown, it is none of these, or a side is not in 1..65535.
+
+    Example:
+        >>> as_size("davis346") == as_size("346x260") == as_size((346, 260))
+        True
+    """
+    if isinstance(size, str):
+        return parse_sensor(size)
+    if isinstance(size, Sensor):
+        return size.size
+    try:
+        width, height = (operator.index(side) for side in size)
+    except (TypeError, ValueError):
+        raise ConfigError(
+            f"size is {size!r:.60}; give (width, height), a text such as '346x260', or a sensor's "
+            "name, such as 'davis346'"
+        ) from None
+    return checked_size(width, height)
 
 
 def checked_size(width: int, height: int) -> SensorSize:

@@ -44,7 +44,7 @@ def frame_time_us(index: int, fps: Fraction, start_us: int = 0) -> int:
     return start_us + round(index * MICROSECONDS / fps)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Frame:
     """One image and its time.
 
@@ -68,6 +68,10 @@ class Frame:
             raise InputError(f"a frame must have at least one pixel; got shape {list(shape)}")
         if dtype not in (np.uint8, np.uint16, np.float32, np.float64):
             raise InputError(f"frame pixels must be uint8, uint16, float32 or float64; got {dtype}")
+
+    def __repr__(self) -> str:
+        kind = "" if self.is_source else ", intermediate"
+        return f"Frame({self.size} {_describe_pixels(self.pixels)}, t {self.t_us} µs{kind})"
 
     @property
     def size(self) -> SensorSize:
@@ -142,7 +146,20 @@ class FlickeringStream(RenderableStream, Protocol):
         ...
 
 
-@dataclass(frozen=True, eq=False)
+def describe_stream(stream: FrameStream) -> str:
+    """A stream of frames in one short line, for its `__repr__`."""
+    count = "live" if stream.is_live else "? frames"
+    if stream.frame_count is not None:
+        count = f"{stream.frame_count} frames"
+    rate = "" if stream.fps is None else f", {float(stream.fps):g} fps"
+    return f"{type(stream).__name__}({count}, {stream.size}{rate})"
+
+
+def _describe_pixels(pixels: PixelArray) -> str:
+    return f"{pixels.dtype} {'RGB' if pixels.ndim == 3 else 'grey'}"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Video:
     """Frames held in memory.
 
@@ -172,6 +189,9 @@ class Video:
         checker = StreamChecker()
         for index in range(len(self.pixels)):
             checker.check(self[index])
+
+    def __repr__(self) -> str:
+        return describe_stream(self)
 
     def __len__(self) -> int:
         return len(self.pixels)

@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import Any
 
 from texvent.sensor import SensorSize
-from texvent.video import Frame
+from texvent.video import Frame, describe_stream
 
 
 @dataclass(frozen=True)
@@ -57,6 +57,9 @@ class FrameSource(ABC):
     def metadata(self) -> Mapping[str, Any]:
         """Where the frames come from."""
         return self._facts.metadata
+
+    def __repr__(self) -> str:
+        return describe_stream(self)
 
     @abstractmethod
     def __iter__(self) -> Iterator[Frame]:

@@ -18,7 +18,7 @@ from texvent.config import check_range
 from texvent.errors import ConfigError, warn
 from texvent.options.values import plain
 from texvent.sensor import SENSORS, SensorSize
-from texvent.video import MICROSECONDS, Frame, frame_time_us
+from texvent.video import MICROSECONDS, Frame, describe_stream, frame_time_us
 
 if TYPE_CHECKING:
     from texvent.runtime.progress import Progress
@@ -62,7 +62,7 @@ class ProceduralConfig:
         return math.floor(Fraction(str(self.duration)) * self.fps)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ProceduralVideo:
     """A rendered scene: a stream of frames that can also be rendered at any instant."""
 
@@ -76,6 +76,9 @@ class ProceduralVideo:
     """What the generator made of the prompt (JSON-serialisable)."""
     flicker_hz: float | None = None
     """Flicker frequency of all light, Hz, or None where it is steady."""
+
+    def __repr__(self) -> str:
+        return describe_stream(self)
 
     @property
     def fps(self) -> Fraction:

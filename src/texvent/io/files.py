@@ -12,7 +12,7 @@ from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.protocol import EventCodec, EventWriter, RecognisingCodec
 from texvent.runtime.background_writer import BackgroundWriter
-from texvent.sensor import SensorSize, checked_size
+from texvent.sensor import SensorSize, SizeLike, as_size
 
 
 def codec_for(path: str | Path, format: str | None = None) -> EventCodec:
@@ -103,26 +103,26 @@ def _codecs_for(path: str | Path, format: str | None) -> list[EventCodec]:
 
 
 def open_events(
-    path: str | Path, *, format: str | None = None, size: tuple[int, int] | None = None
+    path: str | Path, *, format: str | None = None, size: SizeLike | None = None
 ) -> EventPackets:
     """Events of a file, packet by packet, with flat memory (npz excepted).
 
     Args:
         path: the file.
         format: name of a codec; default: from the extension.
-        size: (width, height), pixels, for files that do not store it.
+        size: for files that do not store it: (width, height), "346x260" or "davis346".
 
     Raises:
         InputError: no such file, or the size is neither stored nor given.
         FileFormatError: the file is damaged or of another format.
         ConfigError: unknown format or extension.
     """
-    given = None if size is None else checked_size(*size)
+    given = None if size is None else as_size(size)
     return codec_that_reads(path, format).read(Path(path), size=given)
 
 
 def load(
-    path: str | Path, *, format: str | None = None, size: tuple[int, int] | None = None
+    path: str | Path, *, format: str | None = None, size: SizeLike | None = None
 ) -> EventStream:
     """All events of a file, in memory; arguments and errors as in `open_events`."""
     return open_events(path, format=format, size=size).collect()

@@ -13,7 +13,7 @@ from texvent.metrics.protocol import Metric, check_pair, find_missing
 def compare(
     predicted: EventStream,
     reference: EventStream,
-    metrics: Iterable[str | Metric] | None = None,
+    metrics: str | Metric | Iterable[str | Metric] | None = None,
     *,
     span_us: tuple[int, int] | None = None,
 ) -> dict[str, float]:
@@ -22,8 +22,8 @@ def compare(
     Args:
         predicted: the stream to judge.
         reference: the true stream, or another recording of the same scene.
-        metrics: names from the registry, or metrics with parameters of their own; default: see
-            `default_metrics`.
+        metrics: a name from the registry, a metric with parameters of its own, or several of them;
+            default: see `default_metrics`.
         span_us: compare only events with `start <= t < stop`, µs; default: all.
 
     Returns:
@@ -44,7 +44,11 @@ def compare(
         if not span_us[0] < span_us[1]:
             raise ConfigError(f"span is {span_us} µs; its stop must come after its start")
         predicted, reference = predicted.between(*span_us), reference.between(*span_us)
-    chosen: Iterable[str | Metric] = default_metrics() if metrics is None else metrics
+    chosen: Iterable[str | Metric]
+    if isinstance(metrics, str) or (metrics is not None and not isinstance(metrics, Iterable)):
+        chosen = [metrics]
+    else:
+        chosen = default_metrics() if metrics is None else metrics
     built = [load_metric(metric) if isinstance(metric, str) else metric for metric in chosen]
     return {metric.name: metric(predicted, reference) for metric in built}
 

@@ -9,7 +9,7 @@ import numpy as np
 from texvent.errors import InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
-from texvent.sensor import SensorSize, checked_size
+from texvent.sensor import SensorSize, SizeLike, as_size
 from texvent.transform.packets import map_packets, move_events
 
 
@@ -50,7 +50,7 @@ def crop(events: EventPackets, region: Region) -> EventPackets:
     return map_packets(events, cut, size=smaller)
 
 
-def resize(events: EventPackets, size: SensorSize) -> EventPackets:
+def resize(events: EventPackets, size: SizeLike) -> EventPackets:
     """The events on a sensor of another size, each in the pixel that covers its old one.
 
     No event is added or taken away: a smaller sensor has pixels with the events of several, a
@@ -60,7 +60,7 @@ def resize(events: EventPackets, size: SensorSize) -> EventPackets:
     Raises:
         ConfigError: the size is impossible.
     """
-    new = checked_size(*size)
+    new = as_size(size)
     old = events.size
     columns = (np.arange(old.width, dtype=np.int64) * new.width // old.width).astype(np.uint16)
     rows = (np.arange(old.height, dtype=np.int64) * new.height // old.height).astype(np.uint16)

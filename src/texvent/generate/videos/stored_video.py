@@ -24,7 +24,14 @@ from av.video.stream import VideoStream
 from texvent.errors import FileFormatError, InputError
 from texvent.io.atomic import atomic_file
 from texvent.sensor import SensorSize
-from texvent.video import UINT16_PER_LEVEL, Frame, FrameStream, PixelArray, frame_time_us
+from texvent.video import (
+    UINT16_PER_LEVEL,
+    Frame,
+    FrameStream,
+    PixelArray,
+    describe_stream,
+    frame_time_us,
+)
 
 EXTENSION = ".avi"
 FULL_SCALE = 65_535.0
@@ -32,7 +39,7 @@ _CODEC_OPTIONS = {"level": "3", "slices": "4", "slicecrc": "1"}
 _EIGHT_BITS = 8
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class StoredVideo:
     """A video file as a stream of frames at a stated rate; decoded anew at every iteration.
 
@@ -45,6 +52,9 @@ class StoredVideo:
     frame_count: int
     metadata: Mapping[str, Any] = field(default_factory=dict)
     """What made it (JSON-serialisable)."""
+
+    def __repr__(self) -> str:
+        return describe_stream(self)
 
     @property
     def is_live(self) -> bool:
