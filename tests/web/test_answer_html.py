@@ -36,7 +36,7 @@ def test_the_viewer_runs_its_script_in_a_sandbox_and_nothing_else(tmp_path: Path
 
 def test_only_the_latest_jobs_are_kept_and_nothing_remains() -> None:
     with Workspace(kept=2) as workspace:
-        folders = [workspace.new_folder() for _ in range(4)]
+        folders = [workspace.new_folder("me") for _ in range(4)]
         assert [folder.exists() for folder in folders] == [False, False, True, True]
         root = workspace.root
         (folders[-1] / "events.h5").write_bytes(b"x")

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import os
-import signal
-import subprocess
-import sys
+import urllib.error
 import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.web.served import served
 
 import texvent
 
@@ -19,7 +17,6 @@ pytest.importorskip("gradio", reason="gradio is an extra; make test-app")
 
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
 WAIT_S = 120
-OPTIONS = ("--no-browser", "--max-seconds", "0.2", "--max-upload-mb", "1", "--port", "0")
 
 pytestmark = pytest.mark.app
 
@@ -31,26 +28,8 @@ def temporary(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def address(temporary: Path) -> Iterator[str]:
-    """A running page; afterwards it must leave, cleanly and without files."""
-    server = subprocess.Popen(
-        [sys.executable, "-m", "texvent.cli.app", "app", *OPTIONS],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        text=True,
-        env={**os.environ, "TMPDIR": str(temporary)},
-    )
-    try:
-        line = server.stdout.readline().strip()
-        assert line.startswith("http://127.0.0.1:")
-        assert list(temporary.glob("texvent-app-*"))
+    with served(temporary) as line:
         yield line
-        server.send_signal(signal.SIGTERM)
-        assert server.wait(timeout=30) == 0
-        assert not list(temporary.glob("texvent-app-*"))
-    finally:
-        server.kill()
-        server.wait()
-        server.stdout.close()
 
 
 @pytest.fixture
@@ -99,9 +78,9 @@ def upload(page: Any, path: Path) -> None:
     page.find_element("css selector", "#video input[type=file]").send_keys(str(path))
 
 
-def choose_format(page: Any, name: str) -> bool:
-    """Try to choose a format; True once it is chosen. A list that still moves loses a click."""
-    field = page.find_element("css selector", "#format input")
+def choose(page: Any, which: str, name: str) -> bool:
+    """Try to choose a name; True once it is chosen. A list that still moves loses a click."""
+    field = page.find_element("css selector", f"#{which} input")
     if name in field.get_attribute("value"):
         return True
     field.click()
@@ -117,33 +96,47 @@ def test_a_prompt_gives_a_video_a_viewer_and_a_download(
     assert "ball" in said
     count = int(said.split()[0].replace(",", ""))
 
-    video = until(page, lambda: page.find_elements("css selector", "#preview video"))[0]
+    video = until(page, lambda: page.find_elements("css selector", "video#preview"))[0]
     until(page, lambda: page.execute_script("return arguments[0].videoWidth", video) > 600)
     page.switch_to.frame(until(page, lambda: page.find_elements("id", "texvent-viewer"))[0])
-    until(page, lambda: page.find_element("id", "shown-text").text)
-    assert page.find_element("id", "shown-text").text.startswith(f"{count:,} of")
-    page.find_element("id", "toggle-off").click()
-    until(page, lambda: not page.find_element("id", "shown-text").text.startswith(f"{count:,} "))
+    until(page, lambda: f"of the cloud's {count:,}" in page.find_element("id", "shown-text").text)
     page.switch_to.default_content()
 
-    until(page, lambda: choose_format(page, "evt3"))
-    page.find_element("id", "prepare").click()
-    # Until the conversion is done, the link still leads to the file of the run itself.
-    prepared = "#download a[href$='.raw']"
-    address_of_raw = until(
-        page,
-        lambda: [
-            link.get_attribute("href") for link in page.find_elements("css selector", prepared)
-        ],
-    )[0]
+    until(page, lambda: choose(page, "format", "evt3"))
+    folder = {"behavior": "allow", "downloadPath": str(tmp_path)}
+    page.execute_cdp_cmd("Browser.setDownloadBehavior", folder)
+    page.find_element("id", "download").click()
     target = tmp_path / "events.raw"
-    with urllib.request.urlopen(address_of_raw) as response:
-        target.write_bytes(response.read())
+    until(page, target.exists)
     assert len(texvent.load(target, format="evt3")) == count
+    link = page.find_element("id", "download-link").get_attribute("href")
+    with pytest.raises(urllib.error.HTTPError, match="404"):
+        urllib.request.urlopen(link)  # nobody else's session has this result
 
     asked = requests_made()
     assert len(asked) > 10
     assert [url for url in asked if not url.startswith(address)] == []
+
+
+def test_the_main_options_are_on_the_first_screen_and_stop_rests(page: Any) -> None:
+    names = ("from-prompt", "simulator", "preset", "sensor", "seed", "format", "download", "stop")
+    bottoms = page.execute_script(
+        "return arguments[0].map((id) => document.getElementById(id))"
+        ".map((one) => one.getBoundingClientRect().bottom)",
+        names,
+    )
+    assert max(bottoms) < 700, dict(zip(names, bottoms, strict=True))
+    for name in ("stop", "download"):
+        assert not page.find_element("id", name).is_enabled()
+
+
+def test_stop_ends_a_job_and_rests_again(page: Any) -> None:
+    page.find_element("id", "from-prompt").click()
+    until(page, page.find_element("id", "stop").is_enabled)
+    until(page, lambda: "starting" in status(page) or "frame" in status(page))
+    page.find_element("id", "stop").click()
+    until(page, lambda: "Stopped" in status(page))
+    assert not page.find_element("id", "stop").is_enabled()
 
 
 def test_an_example_fills_in_its_prompt(page: Any) -> None:
@@ -180,6 +173,19 @@ def test_an_empty_prompt_is_one_clear_error(page: Any) -> None:
     assert "the prompt is empty" in make_events(page, "   ")
 
 
-def test_hostile_text_stays_text(page: Any) -> None:
-    make_events(page, "a ball <img src=x onerror=document.title='broken-into'>")
+def test_hostile_text_stays_text(page: Any, tmp_path: Path) -> None:
+    mischief = "<img src=x onerror=document.title='broken-into'>"
+    make_events(page, f'a ball {mischief} "></iframe><script>document.title=1</script> \u2028')
+    page.switch_to.frame(until(page, lambda: page.find_elements("id", "texvent-viewer"))[0])
+    until(page, lambda: "\u2028" in page.page_source)
+    assert page.execute_script("return document.title").startswith("a ball <img")
+    assert not page.find_elements("css selector", "img[onerror]")
+    page.switch_to.default_content()
+    clip = tmp_path / "<img src=x onerror=alert(1)>.mp4"
+    clip.write_bytes(b"no video")
+    upload(page, clip)
+    until(page, lambda: "onerror" in page.find_element("id", "video").text)
+    page.find_element("id", "from-video").click()
+    until(page, lambda: "did not work" in status(page))
     assert page.title == "texvent"
+    assert not page.find_elements("css selector", "img[onerror]")

@@ -1,5 +1,8 @@
 from __future__ import annotations
 
+import signal
+import subprocess
+import sys
 import zipfile
 from pathlib import Path
 
@@ -11,6 +14,7 @@ from texvent.errors import InputError, TexventError
 from texvent.io.files import extension_of
 from texvent.web.job import Answer, ConvertJob, SimulateJob
 from texvent.web.limits import Limits
+from texvent.web.supervisor import Supervisor
 from texvent.web.worker import convert, simulate
 
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
@@ -75,6 +79,38 @@ def test_too_much_is_refused_and_leaves_nothing(tmp_path: Path, values, message:
     with pytest.raises(TexventError, match=message):
         run(tmp_path, **values)
     assert not list(tmp_path.iterdir())
+
+
+def test_a_job_that_wants_more_memory_than_it_may_take_says_so(tmp_path: Path) -> None:
+    hungry = tmp_path / "hungry.npy"
+    header = b"{'descr': '|u1', 'fortran_order': False, 'shape': (4, 90000, 90000), }"
+    data = b"\x93NUMPY\x01\x00" + len(header).to_bytes(2, "little") + header
+    with hungry.open("wb") as file:
+        file.write(data)
+        file.truncate(len(data) + 4 * 90_000 * 90_000)  # sparse: takes no room on the disk
+    folder = tmp_path / "job"
+    folder.mkdir()
+    job = SimulateJob(folder=str(folder), video=str(hungry), options={"sensor": "48x36"})
+    with pytest.raises(InputError):
+        list(Supervisor(time_limit_s=120).run(job))
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux bounds memory and time")
+def test_the_first_look_at_an_upload_is_bounded_in_time_and_memory() -> None:
+    program = (
+        "from texvent.web import process_limits as limits\n"
+        "limits.PROBE_CPU_S = 1\n"
+        "try:\n"
+        "    with limits.bounded_probe(): bytearray(3_000_000_000)\n"
+        "except MemoryError: print('refused', flush=True)\n"
+        "kept = bytearray(3_000_000_000)\n"
+        "print('free again', flush=True)\n"
+        "with limits.bounded_probe():\n"
+        "    while True: pass\n"
+    )
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, timeout=60)
+    assert ended.stdout.split(b"\n")[:2] == [b"refused", b"free again"]
+    assert ended.returncode == -signal.SIGXCPU
 
 
 @pytest.fixture(scope="module")

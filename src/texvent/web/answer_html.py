@@ -37,6 +37,23 @@ def failure_html(message: str) -> str:
     )
 
 
+def download_html(answer: Answer, address: str) -> str:
+    """The link to a download."""
+    name = html.escape(address.rpartition("/")[2])
+    return (
+        f'<div class="texvent-status" role="status">{html.escape(answer.text)}: '
+        f'<a id="download-link" href="{html.escape(address)}" download>{name}</a></div>'
+    )
+
+
+def video_html(address: str) -> str:
+    """The preview video; its controls lie below the image, so nothing covers the legend."""
+    return (
+        f'<video id="preview" src="{html.escape(address)}" autoplay loop muted playsinline '
+        'controls aria-label="Video and events side by side"></video>'
+    )
+
+
 def viewer_html(page: str | Path) -> str:
     """The viewer's page in a frame of its own, which may run its script and nothing else."""
     text = html.escape(Path(page).read_text(encoding="utf-8"), quote=True)

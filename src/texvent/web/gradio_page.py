@@ -11,10 +11,20 @@ from texvent._require import require
 from texvent.errors import ConfigError, TexventError
 from texvent.run.settings import DEFAULT_SENSOR
 from texvent.sensor import SENSORS
-from texvent.web.answer_html import failure_html, progress_html, summary_html, viewer_html
+from texvent.web.answer_html import (
+    download_html,
+    failure_html,
+    progress_html,
+    summary_html,
+    video_html,
+    viewer_html,
+)
 from texvent.web.examples import examples
+from texvent.web.guard import SESSION, Guard
 from texvent.web.job import Answer, ConvertJob, Job, SimulateJob
 from texvent.web.limits import Limits
+from texvent.web.results import add_results, address_of
+from texvent.web.server import Server
 from texvent.web.supervisor import Supervisor
 from texvent.web.workspace import Workspace
 
@@ -30,10 +40,22 @@ CSS = """
   white-space: normal; font-size: .75rem; line-height: 1.25; text-align: left; }
 #examples .thumbnail-lg { height: auto; aspect-ratio: auto; }
 #examples .thumbnail-lg img { height: auto; aspect-ratio: 4 / 3; }
+#examples .grid-wrap { max-height: none; }
+#preview { display: block; width: 100%; max-height: 46vh; background: #fff; border-radius: 8px; }
 .texvent-error { border-left: 4px solid #c62828; }
 """
 WELCOME = '<div class="texvent-status">No events yet.</div>'
 MINUTES_KEPT = 60
+FETCH = """(address) => {
+  if (!address) return;
+  const link = document.createElement("a");
+  Object.assign(link, {href: address, download: ""}).click();
+}"""
+"""Downloads what the click asked for."""
+REST_IF_UNWANTED = """() => {
+  if (matchMedia("(prefers-reduced-motion: reduce)").matches)
+    document.getElementById("preview")?.pause();
+}"""
 
 
 def prepare_environment(workspace: Workspace) -> None:
@@ -57,6 +79,7 @@ class WebPage:
         *,
         limits: Limits,
         generators: tuple[str, ...] = ("procedural",),
+        allowed_hosts: tuple[str, ...] = (),
     ) -> None:
         """Import Gradio.
 
@@ -64,13 +87,15 @@ class WebPage:
             workspace: where jobs put their files.
             limits: how much a visitor may ask for.
             generators: those that visitors may choose.
+            allowed_hosts: host names that the page answers to, besides those of this machine.
         """
         prepare_environment(workspace)
         self._gradio: Any = require("gradio", extra="app")
         self._workspace = workspace
         self._limits = limits
         self._supervisor = Supervisor(time_limit_s=limits.time_limit)
-        self._server: Any = None
+        self._server: Server | None = None
+        self._allowed_hosts = allowed_hosts
         self._generators = generators
 
     def launch(self, *, host: str, port: int) -> str:
@@ -78,49 +103,61 @@ class WebPage:
 
         Args:
             host: address to listen on; 127.0.0.1 is reached from this machine only.
-            port: TCP port; 0 lets Gradio choose a free one from 7860 on.
+            port: TCP port; 0 takes the first free one from 7860 on.
 
         Returns:
             The page's address.
 
         Raises:
-            OSError: the port is taken.
+            InputError: the port is taken.
         """
-        blocks = self.build()
-        blocks.queue(max_size=self._limits.max_waiting, default_concurrency_limit=1)
-        _, address, _ = blocks.launch(
-            server_name=host,
-            server_port=port or None,
-            share=False,
-            quiet=True,
-            prevent_thread_lock=True,
-            max_file_size=int(self._limits.max_upload_mb * 2**20),
-            allowed_paths=[str(self._workspace.root)],
-            ssr_mode=False,
-            mcp_server=False,
-            enable_monitoring=False,
-            footer_links=[],
-            css=CSS,
-            theme=self._gradio.themes.Default(
-                primary_hue="blue", font=list(FONTS), font_mono=["monospace"]
-            ),
+        upload_bytes = int(self._limits.max_upload_mb * 2**20)
+        guard = Guard(
+            self._application(upload_bytes),
+            host=host,
+            allowed_hosts=self._allowed_hosts,
+            upload_bytes=upload_bytes,
+            public_files=examples()[0][0].parent,
+            before_upload=lambda: self._workspace.make_room(upload_bytes),
         )
-        self._server = blocks
-        return str(address)
+        self._server = Server(guard, host=host, port=port)
+        return self._server.start()
 
     def close(self) -> None:
         """Stop the jobs that run, then the server."""
         self._supervisor.close()
         if self._server is not None:
-            self._server.close(verbose=False)
+            self._server.close()
+
+    def _application(self, upload_bytes: int) -> Any:
+        """The page and its results, as one ASGI application."""
+        gr = self._gradio
+        gr.set_static_paths([str(examples()[0][0].parent)])
+        application = require("fastapi", extra="app").FastAPI(openapi_url=None)
+        add_results(application, self._workspace)
+        blocks = self.build()
+        blocks.queue(max_size=self._limits.max_waiting, default_concurrency_limit=1)
+        return gr.mount_gradio_app(
+            application,
+            blocks,
+            path="/",
+            max_file_size=upload_bytes,
+            ssr_mode=False,
+            mcp_server=False,
+            enable_monitoring=False,
+            run_history=False,
+            footer_links=[],
+            css=CSS,
+            theme=gr.themes.Default(primary_hue="blue", font=list(FONTS), font_mono=["monospace"]),
+        )
 
     def build(self) -> Any:
         """The page, not started."""
         gr = self._gradio
-        # Gradio deletes uploaded and served copies after an hour.
+        # Gradio deletes uploaded copies after an hour.
         with gr.Blocks(title="texvent", delete_cache=(600, 60 * MINUTES_KEPT)) as blocks:
             gr.Markdown(
-                "# texvent\nThe events that an event camera would see, from a sentence or a video."
+                "### texvent: the events that an event camera would see, from a sentence or a video"
             )
             with gr.Row():
                 with gr.Column(scale=2, min_width=320):
@@ -133,45 +170,52 @@ class WebPage:
     def _inputs(self) -> dict[str, Any]:
         gr, limits = self._gradio, self._limits
         parts: dict[str, Any] = {}
-        with gr.Tab("Prompt"):
-            parts["prompt"] = gr.Textbox(
-                examples()[0][1], label="Prompt", lines=3, elem_id="prompt"
+        with gr.Tabs() as parts["tabs"]:
+            with gr.Tab("Prompt", id="prompt"):
+                parts["prompt"] = gr.Textbox(
+                    examples()[0][1], label="Prompt", lines=2, elem_id="prompt"
+                )
+                with gr.Row():
+                    parts["generator"] = _choice(gr, "Generator", self._generators)
+                    parts["duration"] = gr.Number(
+                        min(1.0, limits.max_seconds),
+                        label="Seconds",
+                        minimum=0.01,
+                        maximum=limits.max_seconds,
+                        min_width=120,
+                    )
+                parts["from_prompt"] = gr.Button(
+                    "Make events", variant="primary", elem_id="from-prompt"
+                )
+            with gr.Tab("Video", id="video"):
+                parts["video"] = gr.File(
+                    label=f"A video of at most {limits.max_upload_mb:g} MB and "
+                    f"{limits.max_seconds:g} s",
+                    height=140,
+                    elem_id="video",
+                )
+                parts["from_video"] = gr.Button(
+                    "Make events", variant="primary", elem_id="from-video"
+                )
+        with gr.Row():
+            parts["simulator"] = _choice(gr, "Simulator", SIMULATORS.names())
+            parts["preset"] = _choice(gr, "Preset", _presets(SIMULATORS.names()[0]))
+        with gr.Row():
+            parts["sensor"] = _choice(gr, "Sensor", [OWN_SIZE, *SENSORS], DEFAULT_SENSOR)
+            parts["seed"] = gr.Number(
+                0, label="Seed", precision=0, minimum=0, min_width=120, elem_id="seed"
             )
-            parts["generator"] = gr.Dropdown(
-                list(self._generators), value=self._generators[0], label="Generator"
-            )
-            parts["duration"] = gr.Slider(
-                0.1, limits.max_seconds, value=min(1.0, limits.max_seconds), label="Seconds"
-            )
-            parts["from_prompt"] = gr.Button(
-                "Make events", variant="primary", elem_id="from-prompt"
-            )
-            gr.Markdown("Or click an example:")
-            parts["gallery"] = gr.Gallery(
-                [(str(path), prompt) for path, prompt in examples()],
-                show_label=False,
-                columns=2,
-                height="auto",
-                buttons=[],
-                allow_preview=False,
-                interactive=False,
-                elem_id="examples",
-            )
-        with gr.Tab("Video"):
-            parts["video"] = gr.File(
-                label=f"A video of at most {limits.max_upload_mb:g} MB and "
-                f"{limits.max_seconds:g} s",
-                elem_id="video",
-            )
-            parts["from_video"] = gr.Button("Make events", variant="primary", elem_id="from-video")
-        parts["simulator"] = gr.Dropdown(
-            list(SIMULATORS.names()), value=SIMULATORS.names()[0], label="Simulator"
+        gr.Markdown("Or click an example:")
+        parts["gallery"] = gr.Gallery(
+            [(str(path), prompt) for path, prompt in examples()],
+            show_label=False,
+            columns=2,
+            height="auto",
+            buttons=[],
+            allow_preview=False,
+            interactive=False,
+            elem_id="examples",
         )
-        parts["preset"] = gr.Dropdown(
-            _presets(SIMULATORS.names()[0]), value=DEFAULT_PRESET, label="Preset"
-        )
-        parts["sensor"] = gr.Dropdown([OWN_SIZE, *SENSORS], value=DEFAULT_SENSOR, label="Sensor")
-        parts["seed"] = gr.Number(0, label="Seed", precision=0, minimum=0)
         return parts
 
     def _outputs(self) -> dict[str, Any]:
@@ -180,45 +224,56 @@ class WebPage:
         with gr.Row():
             with gr.Column(scale=5, min_width=200):
                 parts["status"] = gr.HTML(WELCOME, elem_id="status")
-            parts["stop"] = gr.Button("Stop", elem_id="stop", scale=1, min_width=80)
-        parts["preview"] = gr.Video(
-            label="Video and events",
-            show_label=False,
-            autoplay=True,
-            loop=True,
-            interactive=False,
-            elem_id="preview",
-        )
-        with gr.Row():
-            parts["format"] = gr.Dropdown(
-                list(CODECS.names()), value=CODECS.names()[0], label="Format", elem_id="format"
+            parts["stop"] = gr.Button(
+                "Stop", elem_id="stop", scale=1, min_width=80, interactive=False
             )
-            parts["prepare"] = gr.Button("Prepare download", elem_id="prepare")
-            parts["download"] = gr.File(
-                label="Events", interactive=False, height=110, elem_id="download"
-            )
+        parts["preview"] = gr.HTML()
+        with gr.Row(equal_height=True):
+            parts["format"] = _choice(gr, "Format", CODECS.names())
+            parts["download"] = gr.Button("Download", elem_id="download", interactive=False)
         parts["viewer"] = gr.HTML()
         parts["events"] = gr.State(None)
+        parts["address"] = gr.Textbox(visible=False)
         return parts
 
     def _connect(self, inputs: dict[str, Any], outputs: dict[str, Any]) -> None:
         """Connect the buttons to their handlers."""
         gr = self._gradio
-        shown = [outputs[name] for name in ("status", "preview", "viewer", "download", "events")]
+        stop, download = outputs["stop"], outputs["download"]
+        shown = [outputs[name] for name in ("status", "preview", "viewer", "events")]
+        shown += [stop, download]
         asked = [
             inputs[name]
             for name in ("generator", "duration", "simulator", "preset", "sensor", "seed")
         ]
         private = {"api_visibility": "private"}
-        running = [
-            inputs["from_prompt"].click(
-                self.from_prompt, [inputs["prompt"], *asked], shown, **private
-            ),
-            inputs["from_video"].click(
-                self.from_video, [inputs["video"], *asked], shown, **private
-            ),
-        ]
-        outputs["stop"].click(None, cancels=running, **private)
+        running = []
+        for button, source, run in (
+            (inputs["from_prompt"], inputs["prompt"], self.from_prompt),
+            (inputs["from_video"], inputs["video"], self.from_video),
+        ):
+            begun = button.click(
+                lambda: gr.Button(interactive=True), None, stop, queue=False, **private
+            )
+            job = begun.then(
+                _with_request(gr, run),
+                [source, *asked],
+                shown,
+                show_progress="minimal",
+                show_progress_on=outputs["status"],
+                concurrency_id="jobs",
+                **private,
+            )
+            job.then(None, js=REST_IF_UNWANTED, **private)
+            running.append(job)
+        stop.click(
+            lambda: ('<div class="texvent-status">Stopped.</div>', gr.Button(interactive=False)),
+            None,
+            [outputs["status"], stop],
+            cancels=running,
+            queue=False,
+            **private,
+        )
         inputs["simulator"].change(
             lambda name: gr.Dropdown(_presets(name), value=DEFAULT_PRESET),
             inputs["simulator"],
@@ -226,68 +281,90 @@ class WebPage:
             **private,
         )
 
-        def chosen(event: Any) -> str:
-            return examples()[int(event.index)][1]
+        def chosen(event: Any) -> tuple[Any, str]:
+            return gr.Tabs(selected="prompt"), examples()[int(event.index)][1]
 
         # Gradio passes the event because of this annotation.
         chosen.__annotations__["event"] = gr.SelectData
-        inputs["gallery"].select(chosen, None, inputs["prompt"], **private)
-        outputs["prepare"].click(
-            self.prepare_download,
+        inputs["gallery"].select(chosen, None, [inputs["tabs"], inputs["prompt"]], **private)
+        download.click(
+            _with_request(gr, self.prepare_download),
             [outputs["events"], outputs["format"]],
-            [outputs["status"], outputs["download"]],
+            [outputs["status"], outputs["address"]],
+            show_progress="minimal",
+            show_progress_on=outputs["status"],
             **private,
-        )
+        ).then(None, outputs["address"], js=FETCH, **private)
 
-    def from_prompt(self, prompt: str, *asked: Any) -> Iterator[list[Any]]:
-        """Run a prompt; yields the values of status, preview, viewer, download and state."""
+    def from_prompt(self, session: str, prompt: str, *asked: Any) -> Iterator[list[Any]]:
+        """Run a prompt; yields the values of status, preview, viewer, events, stop, download."""
         options = _options(asked)
-        yield from self._simulate(lambda folder: self._job(folder, options, prompt=prompt))
+        yield from self._simulate(session, options, prompt=prompt)
 
-    def from_video(self, video: str | None, *asked: Any) -> Iterator[list[Any]]:
+    def from_video(self, session: str, video: str | None, *asked: Any) -> Iterator[list[Any]]:
         """Run an uploaded video; yields the same."""
         options = _options(asked)
         for name in ("generator", "duration"):
             options.pop(name)
-        yield from self._simulate(lambda folder: self._job(folder, options, video=video or ""))
+        yield from self._simulate(session, options, video=video or "")
 
-    def prepare_download(self, events: str | None, format: str) -> Iterator[list[Any]]:
-        """Convert the events; yields the values of status and download."""
-        gr = self._gradio
+    def prepare_download(
+        self, session: str, events: str | None, format: str
+    ) -> Iterator[list[Any]]:
+        """Convert the events; yields the values of status and of the address to fetch."""
         try:
             if events is None or not os.path.exists(events):
                 raise ConfigError("there are no events to download yet; make some first")
-            yield [progress_html(Answer(kind="progress", text="converting")), gr.skip()]
-            folder = str(self._workspace.new_folder())
+            yield [progress_html(Answer(kind="progress", text="converting")), ""]
+            folder = str(self._workspace.new_folder(session))
             done = self._last(ConvertJob(source=events, folder=folder, format=format))
         except TexventError as error:
-            yield [failure_html(str(error)), None]
+            yield [failure_html(str(error)), ""]
             return
-        yield [summary_html(done), done.files["download"]]
+        address = address_of(done.files["download"])
+        yield [download_html(done, address), address]
 
-    def _job(self, folder: str, options: Mapping[str, Any], **source: str) -> SimulateJob:
-        if source.get("video") == "":
-            raise ConfigError("there is no video yet; drop one, or choose a file")
-        return SimulateJob(folder=folder, options=options, limits=self._limits, **source)
-
-    def _simulate(self, make_job: Any) -> Iterator[list[Any]]:
-        skip = self._gradio.skip()
+    def _simulate(
+        self, session: str, options: Mapping[str, Any], **source: str
+    ) -> Iterator[list[Any]]:
+        gr = self._gradio
+        skip, active, idle = gr.skip(), gr.Button(interactive=True), gr.Button(interactive=False)
         try:
-            job = make_job(str(self._workspace.new_folder()))
+            if source.get("video") == "":
+                raise ConfigError("there is no video yet; drop one, or choose a file")
+            folder = str(self._workspace.new_folder(session))
+            job = SimulateJob(folder=folder, options=options, limits=self._limits, **source)
             for answer in self._supervisor.run(job):
                 if answer.kind == "progress":
-                    yield [progress_html(answer), skip, skip, None, skip]
-                else:
-                    files = answer.files
-                    viewer = viewer_html(files["page"])
-                    yield [summary_html(answer), files["video"], viewer, None, files["events"]]
+                    yield [progress_html(answer), skip, skip, skip, skip, idle]
+                    continue
+                files = answer.files
+                video, viewer = video_html(address_of(files["video"])), viewer_html(files["page"])
+                yield [summary_html(answer), video, viewer, files["events"], idle, active]
         except TexventError as error:
             # Results of an earlier job are removed: they could be mistaken for this one's.
-            yield [failure_html(str(error)), None, "", None, None]
+            yield [failure_html(str(error)), "", "", None, idle, idle]
 
     def _last(self, job: Job) -> Answer:
         *_, done = self._supervisor.run(job)
         return done
+
+
+def _choice(gr: Any, label: str, names: Any, value: str | None = None) -> Any:
+    return gr.Dropdown(
+        list(names), value=value or names[0], label=label, min_width=120, elem_id=label.lower()
+    )
+
+
+def _with_request(gr: Any, handler: Any) -> Any:
+    """The handler, given the visitor's session first."""
+
+    def handle(request: Any, *values: Any) -> Iterator[list[Any]]:
+        yield from handler(str(request.cookies.get(SESSION, "")), *values)
+
+    # Gradio passes the request because of this annotation.
+    handle.__annotations__["request"] = gr.Request
+    return handle
 
 
 def _presets(simulator: str) -> list[str]:

@@ -21,6 +21,9 @@ class Limits:
     """Most events of one job."""
     time_limit: float = 600.0
     """Longest work on one job, seconds; then it is stopped."""
+    max_memory_gb: float = 8.0
+    """Most memory that a job may take beside the programs it loads, GB; learned generators are
+    exempt."""
     max_waiting: int = 20
     """Most jobs that wait for their turn; further visitors are asked to come back."""
 
@@ -30,4 +33,5 @@ class Limits:
         check_range("max_pixels", self.max_pixels, 16, 1e9)
         check_range("max_events", self.max_events, 1, 1e11)
         check_range("time_limit", self.time_limit, 1, 1e6)
+        check_range("max_memory_gb", self.max_memory_gb, 0.5, 1e5)
         check_range("max_waiting", self.max_waiting, 1, 10_000)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from texvent._registry import GENERATORS
 from texvent.capture.open import open_frames
 from texvent.errors import InputError, TexventError
 from texvent.events import EventStream
@@ -22,9 +23,11 @@ from texvent.run.prepare import prepare_prompt, prepare_video
 from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS, Frame
-from texvent.web.job import Answer, ConvertJob, SimulateJob, answer_line, read_job
+from texvent.web.job import Answer, ConvertJob, Job, SimulateJob, answer_line, read_job
 from texvent.web.limits import Limits
+from texvent.web.process_limits import bound_memory, bounded_probe
 
+OWN_GENERATOR = next(iter(GENERATORS.builtin))
 SendAnswer = Callable[[Answer], None]
 
 
@@ -37,11 +40,23 @@ def main() -> int:
 
     try:
         job = read_job(sys.stdin.readline())
+        _bound(job)
         send(convert(job) if isinstance(job, ConvertJob) else simulate(job, send))
     except TexventError as error:
         send(Answer(kind="failed", text=str(error)))
         return 1
+    except MemoryError:
+        send(Answer(kind="failed", text="the job needs more memory than it may take here"))
+        return 1
     return 0
+
+
+def _bound(job: Job) -> None:
+    """Bound memory, except of learned generators: those map whole graphics cards."""
+    if isinstance(job, ConvertJob):
+        bound_memory(Limits().max_memory_gb)
+    elif job.video is not None or job.options.get("generator") in (None, OWN_GENERATOR):
+        bound_memory(job.limits.max_memory_gb)
 
 
 def simulate(job: SimulateJob, send: SendAnswer) -> Answer:
@@ -105,6 +120,9 @@ def _prepare(job: SimulateJob, progress: _JobProgress) -> Simulation:
         _check_size(settings.size or SensorSize(1, 1), job.limits)
         return prepare_prompt(job.prompt or "", settings, progress=progress)
     settings = resolve("simulate", options)
+    # A damaged or crafted file shows itself here, before it can take the time of a whole job.
+    with bounded_probe():
+        next(iter(open_frames(job.video, settings.source, size=settings.size)), None)
     video = open_frames(job.video, settings.source, size=settings.size)
     _check_length(video, job.limits)
     return prepare_video(video, settings, progress=progress)

@@ -36,6 +36,9 @@ class AppOptions:
     """Address to listen on; 127.0.0.1 is reached from this machine only."""
     port: int = 0
     """TCP port; 0 takes the first free one from 7860 on."""
+    allow_host: str = ""
+    """Further host names that the page answers to, separated by commas, such as that of a proxy
+    before it."""
     generators: str = next(iter(GENERATORS.builtin))
     """Generators that visitors may choose, separated by commas."""
     browser: bool = True
@@ -57,14 +60,19 @@ def run(arguments: Sequence[str]) -> int:
         prog="texvent app",
         description=DESCRIPTION,
     )
-    generators = tuple(name.strip() for name in options.generators.split(",") if name.strip())
+    generators = _names(options.generators)
     for name in generators:
         GENERATORS.load(name)
     stop = threading.Event()
     before = signal.signal(signal.SIGTERM, lambda number, frame: stop.set())
     try:
         with Workspace() as workspace:
-            page = WebPage(workspace, limits=limits, generators=generators)
+            page = WebPage(
+                workspace,
+                limits=limits,
+                generators=generators,
+                allowed_hosts=_names(options.allow_host),
+            )
             address = page.launch(host=options.host, port=options.port)
             if not options.quiet:
                 sys.stdout.write(f"{address}\npress Ctrl-C to stop\n")
@@ -79,3 +87,7 @@ def run(arguments: Sequence[str]) -> int:
     finally:
         signal.signal(signal.SIGTERM, before)
     return 0
+
+
+def _names(text: str) -> tuple[str, ...]:
+    return tuple(name.strip() for name in text.split(",") if name.strip())
