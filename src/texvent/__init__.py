@@ -42,6 +42,7 @@ if TYPE_CHECKING:
         simulators,
     )
     from texvent.sensor import SENSORS, Sensor, SensorSize
+    from texvent.simulate.check_simulator import check_simulator
     from texvent.video import Frame, FrameStream, Video
 
 _HOMES = {
@@ -66,6 +67,7 @@ _HOMES = {
         "sensors",
         "simulators",
     ),
+    "simulate.check_simulator": ("check_simulator",),
     "sensor": ("SENSORS", "Sensor", "SensorSize"),
     "video": ("Frame", "FrameStream", "Video"),
 }
@@ -88,6 +90,7 @@ __all__ = [
     "TexventWarning",
     "Video",
     "__version__",
+    "check_simulator",
     "compare",
     "formats",
     "generate",

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from importlib import metadata
 from typing import Any
 
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, TexventError
 
 LONGEST_LISTING, FIRST_NAMES = 160, 8
 """Characters of a list that an error holds in full; names that it holds of a longer one."""
@@ -48,6 +48,8 @@ class Registry:
     """What the parts are, in the singular, as error messages say it."""
     builtin: Mapping[str, str]
     """Name → `"module:attribute"` of the parts that ship with texvent."""
+    check: str | None = None
+    """`"module:function"` that refuses a part of another package; it gets the part and its name."""
     table: str | None = None
     """Module of parts that are rows of data, not classes: `names()` to list and to suggest, and
     `find(name)`, which gives a part or None, also for names that are not listed (paths)."""
@@ -70,13 +72,34 @@ class Registry:
 
         Raises:
             ConfigError: no part has that name.
+            TexventError: a part of another package is broken.
         """
+        if name in self.builtin:
+            return load_object(self.builtin[name])
         entries = self.entries()
         if name in entries:
-            return load_object(entries[name])
+            return self._load_plugged_in(name, entries[name])
         part = importlib.import_module(self.table).find(name) if self.table else None
         if part is None:
             raise ConfigError(f"unknown {self.kind} {name!r}; {suggest(name, self.names())}")
+        return part
+
+    def _load_plugged_in(self, name: str, target: str) -> Any:
+        """A part of another package.
+
+        Raises:
+            TexventError: it cannot be imported, or lacks what its kind has.
+        """
+        try:
+            part = load_object(target)
+        except Exception as error:
+            text = " ".join(str(error).split())[:120]
+            raise TexventError(
+                f"{self.kind} {name!r} of another package cannot be loaded from {target} "
+                f"({type(error).__name__}: {text})"
+            ) from error
+        if self.check is not None:
+            load_object(self.check)(part, name)
         return part
 
 
@@ -116,6 +139,7 @@ SIMULATORS = Registry(
         "v2ce": "texvent.simulate.v2ce.simulator:V2ceSimulator",
         "voltmeter": "texvent.simulate.voltmeter.simulator:VoltmeterSimulator",
     },
+    check="texvent.simulate.plug_in:check_simulator_class",
 )
 CODECS = Registry(
     "event format",

@@ -22,6 +22,7 @@ PUBLIC = {
     "TexventWarning",
     "Video",
     "__version__",
+    "check_simulator",
     "compare",
     "formats",
     "generate",

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 from texvent._registry import SIMULATORS
 from texvent.config import InterpolateConfig, RunConfig
 from texvent.simulate.fused.continuous import check_continuous
+from texvent.simulate.plug_in import WatchedPlugIn
 from texvent.simulate.protocol import Simulator
 from texvent.simulate.stepping import with_advance
 
@@ -23,10 +24,18 @@ def build_simulator(run: RunConfig, config: Any) -> Simulator:
 
     Raises:
         ConfigError: there is no such simulator, or it has no such backend.
+        TexventError: a simulator of another package is broken; also while it runs.
     """
     options = {"backend": run.backend, "engine": run.engine}
     named = {name: value for name, value in options.items() if value not in ("auto", "frames")}
-    return with_advance(SIMULATORS.load(run.simulator)(config, seed=run.seed, **named))
+    kind = SIMULATORS.load(run.simulator)
+
+    def build() -> Any:
+        return kind(config, seed=run.seed, **named)
+
+    if run.simulator in SIMULATORS.builtin:
+        return with_advance(build())
+    return cast("Simulator", WatchedPlugIn(build, run.simulator))
 
 
 def check_engine(run: RunConfig, config: Any, interpolate: InterpolateConfig) -> None:
