@@ -101,7 +101,7 @@ def execute(simulation: Simulation, options: OutputOptions, files: RunFiles) -> 
         InputError: the frames cannot be used.
     """
     if options.dry_run:
-        sys.stdout.write(describe_estimate(estimate_run(simulation)) + "\n")
+        sys.stdout.write(describe_estimate(estimate_run(simulation, files)) + "\n")
         return 0
     progress = ConsoleProgress(is_quiet=options.quiet)
     for line in _notes(simulation):

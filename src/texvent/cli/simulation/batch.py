@@ -149,7 +149,7 @@ def _describe(plan: BatchPlan, samples: Sequence[Sample], manifest: Manifest) ->
         else:
             simulation = prepare_prompt(first.prompt or "", settings, upsample=plan.upsample)
         sys.stdout.write(f"the first, {first.name}:\n")
-        sys.stdout.write(describe_estimate(estimate_run(simulation)) + "\n")
+        sys.stdout.write(describe_estimate(estimate_run(simulation, plan.files_of(first))) + "\n")
     return 0
 
 

@@ -1,0 +1,68 @@
+"""`--dry-run` says what the run then takes; times depend on the machine and are not tested."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import texvent
+from texvent.cli.app import main
+
+CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
+FACTOR = 1.5
+
+
+@pytest.fixture(autouse=True)
+def _folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    drift = np.random.default_rng(2).integers(40, 200, (60, 160)).astype(np.uint8)
+    np.save("drift.npy", np.stack([np.roll(drift, step, axis=1)[:, :80] for step in range(120)]))
+
+
+def said_and_done(
+    capsys: pytest.CaptureFixture[str], *words: str
+) -> dict[str, tuple[float, float]]:
+    """What the dry run says, and what the run makes: events, bytes in all and of events."""
+    capsys.readouterr()
+    assert main([*words, "-o", "out.h5", "--dry-run"]) == 0
+    said = capsys.readouterr().out
+    assert not list(Path().glob("out*"))
+    assert main([*words, "-o", "out.h5", "-q"]) == 0
+    events = re.search(r"about ([\d,]+) events", said)
+    assert events is not None
+    found: dict[str, tuple[float, float]] = {
+        "events": (float(events[1].replace(",", "")), len(texvent.load("out.h5")))
+    }
+    unit = {"MB": 2**20, "KB": 2**10}
+    patterns = {"out*": r"files  ([\d.,]+) (MB|KB):", "out.h5": r"([\d.]+) (MB|KB) \.h5"}
+    for names, pattern in patterns.items():
+        size = re.search(pattern, said)
+        assert size is not None
+        written = sum(path.stat().st_size for path in Path().glob(names))
+        found[names] = (float(size[1]) * unit[size[2]], written)
+    return found
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("simulate", "drift.npy", "--fps", "60"),
+        ("simulate", "drift.npy", "--fps", "60", "--simulator", "v2e", "--interpolate", "none"),
+        ("simulate", str(CLIP), "--sensor", "80x60"),
+        ("generate", "a ball bounces", "--sensor", "64x48", "--samples", "1", "--duration", "2"),
+        ("simulate", "drift.npy", "--fps", "60", "--stop", "0.04"),
+    ],
+    ids=["array", "v2e", "video", "prompt", "three frames"],
+)
+def test_events_and_sizes_are_within_a_factor_of_the_run(capsys, words):
+    for what, (said, done) in said_and_done(capsys, *words).items():
+        assert done / FACTOR <= said <= done * FACTOR, (what, said, done)
+
+
+def test_a_single_frame_takes_nothing(capsys):
+    np.save("one.npy", np.zeros((1, 8, 8), np.uint8))
+    assert main(["simulate", "one.npy", "--fps", "30", "--dry-run"]) in (0, 2)
+    assert "Traceback" not in capsys.readouterr().err
