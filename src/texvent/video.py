@@ -28,6 +28,8 @@ from texvent.errors import InputError
 from texvent.sensor import SensorSize
 
 MICROSECONDS = 1_000_000
+PREVIEW_MARK = "preview of events, drawn by texvent"
+"""Comment in video files that show events, so that they are not taken for sources."""
 UINT16_PER_LEVEL = 257.0
 """65535 / 255: a uint16 pixel is full scale, so this brings it to the 0..255 scale."""
 

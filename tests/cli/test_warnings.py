@@ -108,3 +108,50 @@ def test_a_quiet_part_gives_an_empty_file_and_a_warning(capsys, recording):
     (said,) = warnings_of(capsys, "convert", "a.h5", "b.h5", "--time", "0.00001,0.00002")
     assert said.startswith("b.h5 holds no event")
     assert len(texvent.load("b.h5")) == 0
+
+
+@pytest.fixture
+def others(recording):
+    still_video("mine.mp4")
+    Path("README.md").write_text("# Events\n")
+    for name in ("shot.png", "page.html", "run.toml"):
+        Path(name).write_bytes(b"not read")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["view", "mine.mp4"], "mine.mp4 is no event file: it is a video; texvent simulate makes"),
+        (["info", "shot.h5"], "no such file: shot.h5; check the name and the folder"),
+        (["validate", "README.md"], "README.md has extension '.md'; event files end in .h5"),
+        (["convert", "shot.png", "b.h5"], "an image; texvent simulate takes a folder of images"),
+        (["render", "page.html", "-o", "b.png"], "a page, made of an event file; give that"),
+        (["view", "run.toml"], "a file of options, for --config"),
+        (["simulate", "a.h5", "-o", "b.h5"], "an event file; texvent render, view, convert and"),
+        (["simulate", "none/of/it.mp4", "-o", "b.h5"], "no such folder: none (of none/of/it.mp4)"),
+        (["simulate", "frames/", "-o", "b.h5"], "no such video or folder: frames"),
+        (["simulate", "/dev/video99", "-o", "b.h5"], "no such camera: /dev/video99; there is"),
+        (["convert", "none/a.h5", "b.h5"], "no such folder: none (of none/a.h5)"),
+    ],
+)
+def test_a_file_of_another_kind_is_named_with_the_command_that_takes_it(
+    capsys, others, words, said
+):
+    assert said in error_of(capsys, *words)
+
+
+def test_python_names_the_kind_too(others):
+    with pytest.raises(texvent.InputError, match="it is a video; texvent simulate"):
+        texvent.load("mine.mp4")
+    with pytest.raises(texvent.InputError, match="an event file; texvent render"):
+        texvent.simulate("a.h5")
+
+
+def test_a_preview_is_not_taken_for_a_source_without_a_word(capsys, recording):
+    for name in ("demo.events.mp4", "slow.mp4"):
+        assert run("render", "a.h5", "-o", name) == 0
+        words = ["simulate", name, "-o", "b.h5", "--events-only", "--overwrite", "--stop", 0.1]
+        said = warnings_of(capsys, *words)
+        assert said[0].startswith(f"{name} is a preview that texvent drew of events")
+    still_video("mine.mp4")
+    assert not any("preview" in one for one in warnings_of(capsys, "info", "mine.mp4"))

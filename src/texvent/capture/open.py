@@ -20,6 +20,7 @@ from texvent.capture.image_folder import ImageFolder
 from texvent.capture.prepare import PreparedFrames
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.io.files import event_extensions
 from texvent.sensor import SensorSize
 from texvent.video import FrameStream
 
@@ -101,7 +102,16 @@ def _open_address(address: str, config: CaptureConfig, given: FrameTimes | None)
         return Aedat4Frames(path, _file_times(config, given))
     from texvent.capture.video_file import VideoFile  # brings PyAV
 
-    return VideoFile(path, _file_times(config, given))
+    try:
+        return VideoFile(path, _file_times(config, given))
+    except FileFormatError as error:
+        # Some events and some videos share an extension, such as .dat: only now it is clear.
+        if path.suffix.lower() not in event_extensions():
+            raise
+        raise FileFormatError(
+            f"{path} is not a video but, by its name, an event file; texvent render, view, "
+            "convert and info take those"
+        ) from error
 
 
 def _is_live(address: str, path: Path) -> bool:

@@ -19,9 +19,10 @@ from av.video.stream import VideoStream
 from texvent.capture.decode import decoded_pixels
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError, warn
+from texvent.io.wrong_kind import refuse_missing
 from texvent.sensor import checked_size
-from texvent.video import MICROSECONDS, Frame, frame_time_us
+from texvent.video import MICROSECONDS, PREVIEW_MARK, Frame, frame_time_us
 
 SLACK_US = 100_000
 """A file may end this much before its header says, or three frames, before it counts as cut."""
@@ -50,6 +51,11 @@ class VideoFile(FrameSource):
         self._path = path
         self._times = times
         with _opened(path) as (container, stream):
+            if container.metadata.get("comment") == PREVIEW_MARK:
+                warn(
+                    f"{path} is a preview that texvent drew of events, not what a camera saw; give "
+                    "the video that the events were made of"
+                )
             self._rate = stream.average_rate or stream.guessed_rate
             count = stream.frames or _count_by_duration(stream, container)
             first = next(self._decode(container, stream), None)
@@ -179,8 +185,7 @@ class PresentationClock:
 @contextlib.contextmanager
 def _opened(path: Path) -> Iterator[tuple[InputContainer, VideoStream]]:
     """The container and its main video stream, decoding on all cores."""
-    if not path.exists():
-        raise InputError(f"{path} does not exist; check the name of the video")
+    refuse_missing(path, "video")
     try:
         # With the protocol named, a colon in the path is not taken for one.
         container = av.open(f"file:{path}")

@@ -11,6 +11,7 @@ from texvent.errors import ConfigError, InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.protocol import EventCodec, EventWriter, RecognisingCodec
+from texvent.io.wrong_kind import refuse_other_kind
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.sensor import SensorSize, SizeLike, as_size
 
@@ -32,7 +33,7 @@ def codec_that_reads(path: str | Path, format: str | None = None) -> EventCodec:
 
     Raises:
         ConfigError: unknown format, or unknown extension; the message lists the known ones.
-        InputError: a folder whose files no codec recognises.
+        InputError: a folder whose files no codec recognises, or a file of another kind.
     """
     if format is None and Path(path).is_dir():
         found = find_folder_codec(Path(path))
@@ -42,6 +43,8 @@ def codec_that_reads(path: str | Path, format: str | None = None) -> EventCodec:
                 "evreal); give the name of a file in it"
             )
         return found
+    if format is None and Path(path).suffix.lower() not in event_extensions():
+        refuse_other_kind(Path(path))
     codecs = _codecs_for(path, format)
     if len(codecs) == 1:
         return codecs[0]
@@ -91,14 +94,11 @@ def _codecs_for(path: str | Path, format: str | None) -> list[EventCodec]:
     found = [codec for codec in codecs if extension in codec.extensions]
     if found:
         return found
-    names: dict[str, list[str]] = {}
-    for codec in codecs:
-        for one in codec.extensions:
-            names.setdefault(one, []).append(codec.name)
-    known = [f"{one} ({' or '.join(formats)})" for one, formats in names.items()]
+    known = dict.fromkeys(one for codec in codecs for one in codec.extensions)
     what = f"extension {extension!r}" if extension else "no extension"
     raise ConfigError(
-        f"{path} has {what}; event files end in {', '.join(known)}, or state the format"
+        f"{path} has {what}; event files end in {', '.join(known)}; or state the format "
+        "(texvent.formats(), docs/files.md)"
     )
 
 

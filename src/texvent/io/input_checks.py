@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, InputError, MissingDependencyError
 from texvent.events import EventStream
+from texvent.io.wrong_kind import refuse_missing
 from texvent.sensor import SensorSize, checked_size
 
 ZIP_DAMAGE = (
@@ -44,8 +45,7 @@ def existing_file(path: str | Path) -> Path:
     path = Path(path)
     if path.is_dir():
         raise InputError(f"{path} is a folder; give the name of an event file")
-    if not path.exists():
-        raise InputError(f"no such file: {path}; check the name and the folder")
+    refuse_missing(path)
     if not os.access(path, os.R_OK):
         raise InputError(f"{path} must not be read by this user; change its permissions")
     return path

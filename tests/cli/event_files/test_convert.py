@@ -90,7 +90,7 @@ def test_what_a_format_cannot_hold_is_refused_and_nothing_is_left(
     )
     assert "crop is '1,2,3'" in refused(capsys, "convert", "in.h5", "x.npz", "--crop", "1,2,3")
     assert "time is '5'" in refused(capsys, "convert", "in.h5", "x.npz", "--time", "5")
-    assert "exists already" in refused_output(capsys, "convert", "in.h5", "in.h5")
+    assert "which is never replaced" in refused_output(capsys, "convert", "in.h5", "in.h5")
     assert sorted(path.name for path in Path().iterdir()) == ["in.h5"]
 
 

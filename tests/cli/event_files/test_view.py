@@ -95,7 +95,7 @@ def test_render_draws_boxes_and_flow_of_a_generated_recording(generated) -> None
         (["view", "in.h5", "-o", "p.html", "--video", "missing.mp4"], "no such video"),
         (["render", "in.h5", "-o", "p.mp4", "--overlay", "boxes"], "embedded generator"),
         (["render", "in.h5", "-o", "p.mp4", "--time", "1"], "give START,STOP in seconds"),
-        (["render", "in.h5", "-o", "p.mp4", "--time", "5,6"], "no events"),
+        (["render", "in.h5", "-o", "p.mp4", "--time", "5,6"], "no event from 5 to 6 s"),
         (["view", "in.h5", "-o", "p.html", "--time", "2,1"], "the stop must be after the start"),
     ],
 )

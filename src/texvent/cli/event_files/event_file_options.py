@@ -8,9 +8,9 @@ from typing import ClassVar
 
 from texvent.cli.event_files.time_option import keep_time_range
 from texvent.cli.option_types import REQUIRED
-from texvent.errors import InputError
 from texvent.event_packets import EventPackets
 from texvent.io.files import open_events
+from texvent.io.wrong_kind import refuse_missing
 from texvent.sensor import parse_sensor
 
 
@@ -33,8 +33,7 @@ class EventFileOptions:
         Raises:
             InputError: there is no such file, or it cannot be read.
         """
-        if not self.path.exists():
-            raise InputError(f"no such file: {self.path}")
+        refuse_missing(self.path)
         size = parse_sensor(self.sensor) if self.sensor else None
         return open_events(self.path, format=self.format, size=size)
 

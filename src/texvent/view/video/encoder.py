@@ -34,7 +34,14 @@ class VideoEncoder(AtomicOutput):
     """
 
     def __init__(
-        self, path: str | Path, *, width: int, height: int, fps: Fraction, overwrite: bool
+        self,
+        path: str | Path,
+        *,
+        width: int,
+        height: int,
+        fps: Fraction,
+        overwrite: bool,
+        comment: str | None = None,
     ) -> None:
         """Check that the file can be written; it is opened by the `with` statement.
 
@@ -44,8 +51,10 @@ class VideoEncoder(AtomicOutput):
             height: of every image, pixels, even.
             fps: nominal rate; the times given with the images are what counts.
             overwrite: whether an existing file may be replaced.
+            comment: metadata of an mp4.
         """
         super().__init__()
+        self._comment = comment
         self._path = Path(path)
         if self._path.suffix.lower() not in VIDEO_EXTENSIONS:
             raise ConfigError(f"{path} is no video; its name must end in .mp4 or .gif")
@@ -67,6 +76,8 @@ class VideoEncoder(AtomicOutput):
             self._container = stack.enter_context(
                 av.open(str(part), "w", format=container, options=options)
             )
+            if self._comment is not None:
+                self._container.metadata["comment"] = self._comment
             self._add_stream()
 
     def write(self, image: Image, t_us: int) -> None:

@@ -7,6 +7,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from texvent.sensor import SensorSize
+from texvent.video import PREVIEW_MARK
 from texvent.view.atomic_output import AtomicOutput
 from texvent.view.drawing.event_image import count_ceiling
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
@@ -61,6 +62,7 @@ class VideoWriter(AtomicOutput):
             width=self._layout.width,
             height=self._layout.height,
             fps=fps or Fraction(30),
+            comment=PREVIEW_MARK,
             overwrite=overwrite,
         )
         self._title = title
