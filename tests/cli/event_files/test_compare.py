@@ -1,6 +1,7 @@
 """`texvent compare` and `texvent bench` as a user meets them."""
 
 import json
+from pathlib import Path
 
 import pytest
 
@@ -49,6 +50,19 @@ def test_compare_shows_a_similarity_beside_its_controls(pair, capsys):
     assert "lfs, controls" in shown
     assert "split half" in shown
     assert "stpp, controls" not in shown
+
+
+def test_compare_writes_a_page_beside_its_table(pair, capsys):
+    words = ["compare", "guess.npz", "truth.npz", "--metrics", "stpp,isi", "-o", "both.html"]
+    assert main(words) == 0
+    page = Path("both.html").read_text("utf-8")
+    assert "stpp" in capsys.readouterr().out
+    for text in ("guess.npz", "truth.npz (reference)", ">stpp<", ">undefined<"):
+        assert text in page
+    assert main(words) != 0
+    assert "exists already" in capsys.readouterr().err
+    assert main([*words, "--overwrite", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["scores"]
 
 
 def test_compare_says_which_metrics_it_left_out_and_why(pair, capsys):
@@ -101,6 +115,7 @@ def test_compare_cuts_to_the_span(pair, capsys):
             ["compare", "guess.npz", "truth.npz", "--rvt-weights", "none.ckpt"],
             "no weights file none.ckpt",
         ),
+        (["compare", "guess.npz", "truth.npz", "-o", "both.pdf"], "must end in .html"),
         (["bench", "selftst"], "did you mean 'selftest'"),
         (["bench", "selftest", "--metrics", "spp"], "did you mean 'stpp'"),
         (["bench", "selftest", "-o", "truth.npz"], "exists already"),

@@ -18,6 +18,7 @@ from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
+from texvent.io.atomic import check_output
 from texvent.io.files import load
 from texvent.metrics.compare import compare, describe_metrics, load_metric
 from texvent.metrics.protocol import Metric
@@ -25,6 +26,7 @@ from texvent.metrics.rvt.eqs import EventQualityScore, load_eqs
 from texvent.metrics.stpp import SPACE_CELLS, TIME_CELLS, Stpp
 from texvent.sensor import SensorSize, parse_sensor
 from texvent.video import MICROSECONDS
+from texvent.view.page.comparison import MetricRow, write_comparison
 
 DESCRIPTION = """Compare two event files of one sensor: the one to judge, then the true one. Each
 metric says what it does not see; docs/metrics.md gives definitions and the self-test."""
@@ -35,6 +37,7 @@ class CompareOptions:
     """Which files, and by which metrics."""
 
     positional: ClassVar[tuple[str, ...]] = ("predicted", "reference")
+    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o"}
 
     predicted: Path = REQUIRED
     """Event file to judge."""
@@ -54,6 +57,14 @@ class CompareOptions:
     """Show the level matrix of STPP too: how far apart in time and space the events are."""
     json: bool = False
     """Print JSON instead of a table; undefined values are null."""
+    out: Path | None = None
+    """Write a page too (.html): the same window of both, their event rates and the metrics."""
+    overwrite: bool = False
+    """Replace the page if it exists already."""
+
+    def __post_init__(self) -> None:
+        if self.out is not None and self.out.suffix.lower() != ".html":
+            raise ConfigError(f"the page of a comparison must end in .html; got {self.out}")
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -61,6 +72,8 @@ def run(arguments: Sequence[str]) -> int:
     (options,) = parse_configs(
         arguments, {"input": CompareOptions()}, prog="texvent compare", description=DESCRIPTION
     )
+    if options.out is not None:
+        check_output(options.out, overwrite=options.overwrite)
     metrics, left_out = _choose_metrics(options)
     span_us = _span(options)
     size = parse_sensor(options.sensor) if options.sensor else None
@@ -81,6 +94,10 @@ def run(arguments: Sequence[str]) -> int:
         sys.stdout.write(json.dumps(document, indent=2, ensure_ascii=False) + "\n")
     else:
         _show(metrics, findings)
+    if options.out is not None:
+        names = (options.predicted.name, f"{options.reference.name} (reference)")
+        pair = tuple(zip(names, (predicted, reference), strict=True))
+        write_comparison(options.out, pair, _rows(metrics, findings), overwrite=options.overwrite)
     return 0
 
 
@@ -175,13 +192,25 @@ def _span(options: CompareOptions) -> tuple[int, int] | None:
     return start, stop
 
 
+def _rows(metrics: Sequence[Metric], findings: Findings) -> list[MetricRow]:
+    good = {"lower": "low", "higher": "high", "one": "near 1"}
+    return [
+        MetricRow(
+            name=metric.name,
+            value=_number(findings.scores[metric.name]),
+            unit=metric.unit,
+            good=good[metric.better],
+            blind_to=metric.blind_to,
+        )
+        for metric in metrics
+    ]
+
+
 def _show(metrics: Sequence[Metric], findings: Findings) -> None:
     console = Console(highlight=False)
     table = _table(("metric", "value", "unit", "good", "does not see"))
-    good = {"lower": "low", "higher": "high", "one": "near 1"}
-    for metric in metrics:
-        shown = _number(findings.scores[metric.name])
-        table.add_row(metric.name, shown, metric.unit, good[metric.better], metric.blind_to)
+    for row in _rows(metrics, findings):
+        table.add_row(row.name, row.value, row.unit, row.good, row.blind_to)
     console.print(table)
     for name, values in findings.controls.items():
         console.print()
@@ -193,8 +222,8 @@ def _show(metrics: Sequence[Metric], findings: Findings) -> None:
         console.print()
         cells = ("cells in time \\ space", *map(str, SPACE_CELLS))
         matrix = _table(cells, title="STPP levels")
-        for count, row in zip(TIME_CELLS, findings.levels, strict=True):
-            matrix.add_row(str(count), *(f"{value:.3f}" for value in row))
+        for count, shares in zip(TIME_CELLS, findings.levels, strict=True):
+            matrix.add_row(str(count), *(f"{value:.3f}" for value in shares))
         console.print(matrix)
     for name, missing in findings.left_out.items():
         console.print(f"\n{name} was left out: {missing}", style="dim", markup=False)

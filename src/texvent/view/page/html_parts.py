@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.events import EventStream
 from texvent.options.values import plain
@@ -16,25 +17,15 @@ from texvent.video import MICROSECONDS
 from texvent.view.drawing.palettes import Colour, Palette
 from texvent.view.page.frame_strip import FrameStrip
 from texvent.view.page.sample import RateCurve
+from texvent.view.page.template import PALETTE_PARTS
 
 LABELS = {
     "prompt": "Prompt",
     "texvent_version": "texvent version",
 }
 """Labels of facts where the capitalised name is not enough."""
-PALETTE_PARTS = ("on", "off", "background", "ink")
 CURVE_WIDTH = 1000
 CURVE_HEIGHT = 200
-
-
-def css_colour(colour: Colour) -> str:
-    """The colour as CSS writes it.
-
-    Example:
-        >>> css_colour((0, 93, 183))
-        'rgb(0 93 183)'
-    """
-    return f"rgb({colour[0]} {colour[1]} {colour[2]})"
 
 
 def count_text(count: float) -> str:
@@ -51,34 +42,62 @@ def count_text(count: float) -> str:
 
 
 def rate_curve_html(curve: RateCurve) -> str:
-    """The event rate over time: ON above the line, OFF below it, as SVG that needs no script."""
-    counts = curve.counts
-    if counts.shape[1] == 0:
+    """The event rate over time, over which the viewer's script marks the window and the region."""
+    if curve.counts.shape[1] == 0:
         return '<div class="panel rate"><p>No events.</p></div>'
-    per_second = MICROSECONDS / curve.bin_us
-    peak = int(counts.max())
-    middle = CURVE_HEIGHT / 2
-    on_area, off_area = (
-        _steps(counts[row], scale=direction * 0.96 * middle / peak)
-        for row, direction in ((1, -1), (0, 1))
-    )
-    stop_us = curve.start_us + curve.bin_us * counts.shape[1]
-    label = f"ON and OFF events per second over time; peak {count_text(peak * per_second)}"
-    return (
-        '<figure class="panel rate"><svg id="rate-curve" '
-        f'viewBox="0 0 {CURVE_WIDTH} {CURVE_HEIGHT}" '
-        f'preserveAspectRatio="none" role="img" aria-label="{label}">'
-        f'<path class="on-area" d="{on_area}"/><path class="off-area" d="{off_area}"/>'
+    marks = (
         f'<rect id="rate-window" class="window" x="0" y="0" width="0" height="{CURVE_HEIGHT}"/>'
         '<path id="rate-region" class="region-line" d=""/>'
-        f'<path class="zero" d="M0 {middle:g}H{CURVE_WIDTH}"/></svg>'
-        f'<div class="scale"><span>{curve.start_us / MICROSECONDS:.3f} s</span>'
-        f"<span>ON above, OFF below the line · peak {count_text(peak * per_second)} events/s · "
-        f"bins of {curve.bin_us / 1000:.3g} ms</span>"
-        f"<span>{stop_us / MICROSECONDS:.3f} s</span></div></figure>"
-        '<p class="note">Drag over the curve to choose a time, click to go there. '
+    )
+    figure = rate_figure(
+        curve.counts, start_us=curve.start_us, bin_us=curve.bin_us, marks=marks, name="rate-curve"
+    )
+    return (
+        f'{figure}<p class="note">Drag over the curve to choose a time, click to go there. '
         '<span id="rate-region-note" hidden>The line is the region alone, estimated from the '
         "events of the cloud.</span></p>"
+    )
+
+
+def rate_figure(
+    counts: NDArray[np.int64],
+    *,
+    start_us: int,
+    bin_us: float,
+    peak: int | None = None,
+    marks: str = "",
+    name: str = "",
+) -> str:
+    """The event rate over time: ON above the line, OFF below it, as SVG that needs no script.
+
+    Args:
+        counts: OFF and ON events per bin, [2, bins].
+        start_us: where the first bin begins, µs.
+        bin_us: width of a bin, µs.
+        peak: events per bin at full height; default: the most of these.
+        marks: SVG drawn over the areas.
+        name: id of the SVG element.
+    """
+    per_second = MICROSECONDS / bin_us
+    most = int(counts.max())
+    full = max(1, most if peak is None else peak)
+    middle = CURVE_HEIGHT / 2
+    on_area, off_area = (
+        _steps(counts[row], scale=direction * 0.96 * middle / full)
+        for row, direction in ((1, -1), (0, 1))
+    )
+    stop_us = start_us + bin_us * counts.shape[1]
+    label = f"ON and OFF events per second over time; peak {count_text(most * per_second)}"
+    return (
+        f'<figure class="panel rate"><svg id="{name}" '
+        f'viewBox="0 0 {CURVE_WIDTH} {CURVE_HEIGHT}" '
+        f'preserveAspectRatio="none" role="img" aria-label="{label}">'
+        f'<path class="on-area" d="{on_area}"/><path class="off-area" d="{off_area}"/>{marks}'
+        f'<path class="zero" d="M0 {middle:g}H{CURVE_WIDTH}"/></svg>'
+        f'<div class="scale"><span>{start_us / MICROSECONDS:.3f} s</span>'
+        f"<span>ON above, OFF below the line · peak {count_text(most * per_second)} events/s · "
+        f"bins of {bin_us / 1000:.3g} ms</span>"
+        f"<span>{stop_us / MICROSECONDS:.3f} s</span></div></figure>"
     )
 
 

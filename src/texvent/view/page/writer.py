@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import html
-import re
 import tempfile
 import webbrowser
 from collections.abc import Mapping
 from contextlib import ExitStack
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -24,10 +22,8 @@ from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
 from texvent.view.page import html_parts
 from texvent.view.page.frame_strip import FrameStrip
 from texvent.view.page.sample import SAMPLE_EVENTS, RateCurve, UniformSample
+from texvent.view.page.template import fill_template
 from texvent.view.stills.busiest_window import busiest_window_png
-
-SCRIPTS = ("state.js", "cloud.js", "plane.js", "rate.js", "controls.js")
-"""Parts of the viewer, in the order in which they build on one another."""
 
 
 class PageWriter(AtomicOutput):
@@ -132,15 +128,8 @@ class PageWriter(AtomicOutput):
                 seen=seen,
                 stop_us=max(self._curve.start_us + 1, self._stop_us - 1),
             ),
-            **{name: getattr(palette, name) for name in html_parts.PALETTE_PARTS},
-            **{f"dark_{name}": getattr(palette.dark, name) for name in html_parts.PALETTE_PARTS},
         }
-        return _fill_template(
-            {
-                name: value if isinstance(value, str) else html_parts.css_colour(value)
-                for name, value in parts.items()
-            }
-        )
+        return fill_template("page.html", parts, palette=palette)
 
     def _seconds(self) -> float:
         return max(0, self._stop_us - self._curve.start_us) / MICROSECONDS
@@ -200,15 +189,3 @@ def show(
     if path is None:
         webbrowser.open(page.as_uri())
     return page
-
-
-def _fill_template(parts: Mapping[str, str]) -> str:
-    """The page with every `{{name}}` replaced, in one pass: inserted text is never read again."""
-    folder = resources.files("texvent.view.page").joinpath("viewer")
-
-    def read(name: str) -> str:
-        return folder.joinpath(name).read_text("utf-8")
-
-    texts = {"style": read("page.css"), "script": "\n".join(map(read, SCRIPTS))}
-    known = {**texts, **parts}
-    return re.sub(r"\{\{(\w+)\}\}", lambda match: known[match[1]], read("page.html"))
