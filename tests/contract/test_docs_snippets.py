@@ -1,6 +1,7 @@
 """Every snippet in README.md and docs/ runs: Python blocks, and `$ texvent` lines of consoles.
 
-A page's blocks run in order, in one namespace, in an empty folder. A block that cannot run in a
+A page's blocks run in order, in one namespace, in an empty folder; then once more, as a reader who
+pastes them again runs them. A block that cannot run in a
 test (it needs a camera, a download or minutes) is fenced as `text`.
 """
 
@@ -28,8 +29,13 @@ def blocks(page: Path) -> list[tuple[str, str]]:
 @pytest.mark.parametrize(
     "page", [page for page in PAGES if blocks(page)], ids=lambda page: str(page.relative_to(ROOT))
 )
-def test_snippets_run(page, tmp_path, monkeypatch, capsys):
+def test_snippets_run_twice(page, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
+    for _ in range(2):
+        run_page(page, capsys)
+
+
+def run_page(page: Path, capsys: pytest.CaptureFixture[str]) -> None:
     namespace: dict[str, object] = {"__name__": "snippet"}
     for language, text in blocks(page):
         if language == "python":
