@@ -155,3 +155,43 @@ def test_a_preview_is_not_taken_for_a_source_without_a_word(capsys, recording):
         assert said[0].startswith(f"{name} is a preview that texvent drew of events")
     still_video("mine.mp4")
     assert not any("preview" in one for one in warnings_of(capsys, "info", "mine.mp4"))
+
+
+def test_convert_takes_its_output_with_or_without_a_flag(capsys, recording):
+    assert run("convert", "a.h5", "b.h5", "-q") == 0
+    assert run("convert", "a.h5", "-o", "c.h5", "-q") == 0
+    assert texvent.load("b.h5").equals(texvent.load("c.h5"))
+    for words in (["a.h5"], ["a.h5", "d.h5", "-o", "e.h5"]):
+        assert "name the file to write once" in error_of(capsys, "convert", *words)
+    assert run("convert", "a.h5", "-o", "a.h5", "--overwrite") == texvent.OutputError.exit_code
+    assert "which is never replaced" in capsys.readouterr().err
+
+
+def test_an_empty_recording_is_not_sound(capsys, folder):
+    texvent.EventStream.empty("8x6").save("empty.h5")
+    assert run("validate", "empty.h5") == 1
+    said = capsys.readouterr()
+    assert said.out.startswith("empty\n")
+    assert said.err == "warning  empty.h5 is empty: it holds no event\n"
+
+
+def test_a_config_file_of_another_command_is_named(capsys, recording):
+    Path("gen.toml").write_text('generator = "procedural"\n')
+    said = error_of(capsys, "simulate", "a.mp4", "-o", "b.h5", "--config", "gen.toml")
+    assert said.startswith("config file gen.toml is for texvent generate")
+    assert "generator" in error_of(capsys, "simulate", "a.mp4", "-o", "b.h5", "--generator", "x")
+
+
+def test_info_says_ten_lines_and_the_rest_on_request(capsys, folder):
+    words = ["generate", "a red ball bounces", "--duration", 0.1, "-o", "a.h5", "-q", *SMALL]
+    assert run(*words) == 0
+    assert run("info", "a.h5") == 0
+    *lines, more = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines] == [
+        *("sensor", "events", "on_share", "first_us", "last_us", "seconds", "events_per_second"),
+        *("prompt", "seed", "simulator"),
+    ]
+    assert more.startswith("... ")
+    assert more.endswith(" more: --all")
+    assert run("info", "a.h5", "--all") == 0
+    assert "contrast_threshold" in capsys.readouterr().out

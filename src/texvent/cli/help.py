@@ -13,6 +13,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from texvent.cli.option_types import REQUIRED, metavar
+from texvent.errors import ConfigError
 from texvent.options.fields import option_help
 
 HELP_FLAGS = ("-h", "--help")
@@ -25,7 +26,10 @@ FLAG_COLUMNS = 30
 def asked_help(arguments: Sequence[str], sections: Iterable[str]) -> str | None:
     """What `--help` asks for: "main", "all" or a section; None without `--help`.
 
-    A section may be misspelt. Another word behind `--help` belongs to the command.
+    A section may be misspelt. A path or a sentence behind `--help` belongs to the command.
+
+    Raises:
+        ConfigError: a word that is no section, of a command that has several.
 
     Example:
         >>> asked_help(["a.mp4", "--help", "simulator"], ["run", "simulate"])
@@ -36,7 +40,10 @@ def asked_help(arguments: Sequence[str], sections: Iterable[str]) -> str | None:
     for word, following in itertools.zip_longest(arguments, arguments[1:], fillvalue=""):
         flag, _, value = word.partition("=")
         if flag in HELP_FLAGS:
-            near = difflib.get_close_matches(value or following, (ALL, *sections), 1, cutoff=0.7)
+            names, word = (ALL, *sections), value or following
+            near = difflib.get_close_matches(word, names, 1, cutoff=0.7)
+            if not near and (value or (len(names) > 2 and re.fullmatch("[a-z_]+", word))):
+                raise ConfigError(f"help has no section {word!r}; allowed: {', '.join(names)}")
             return near[0] if near else MAIN
     return None
 

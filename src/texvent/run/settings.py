@@ -141,7 +141,10 @@ def base_settings(
         chosen = {**read_config(chosen.pop("sensor")), **chosen}
     parts = {name: chosen.pop(name, None) for name in ("generator", "simulator", "preset")}
     if command == "simulate" and parts["generator"] is not None:
-        raise ConfigError("generator is set, but frames are simulated, not generated; leave it out")
+        where = "generator is set"
+        if file_options.get("generator") is not None:
+            where = f"config file {config} is for texvent generate: it sets generator"
+        raise ConfigError(f"{where}, but frames are simulated, not generated; leave it out")
     if parts["preset"] is None:
         parts["preset"] = sensor_preset(parts["simulator"], chosen.get("sensor"))
     where = f"config file {config}" if config is not None else "options"

@@ -35,13 +35,16 @@ Edits happen in this order: merge, undistort, crop, resize, from-zero, time."""
 class ConvertOptions:
     """What is read, what is written, and what happens in between."""
 
-    positional: ClassVar[tuple[str, ...]] = ("path", "out")
-    short_flags: ClassVar[Mapping[str, str]] = {"crop": "--roi", "quiet": "-q"}
+    positional: ClassVar[tuple[str, ...]] = ("path", "to")
+    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "crop": "--roi", "quiet": "-q"}
+    outputs: ClassVar[tuple[str, ...]] = ("to", "out")
 
     path: Path = REQUIRED
     """Event file, or folder of one format, to read."""
-    out: Path = REQUIRED
+    to: Path | None = None
     """Event file to write; its extension decides the format."""
+    out: Path | None = None
+    """The same by a flag, as other commands have it; give one of the two."""
     format: str | None = None
     """Format to write, where the extension does not say which (`docs/files.md` lists them)."""
     from_format: str | None = None
@@ -67,16 +70,30 @@ class ConvertOptions:
     quiet: bool = False
     """Do not print what was written."""
 
+    @property
+    def target(self) -> Path:
+        """The file to write.
+
+        Raises:
+            ConfigError: it is named twice, or not at all.
+        """
+        if (self.to is None) == (self.out is None):
+            raise ConfigError(
+                "name the file to write once: texvent convert IN OUT, or texvent convert IN -o OUT"
+            )
+        return Path(self.to or self.out or "")
+
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
     (options,) = parse_configs(
         arguments, {"input": ConvertOptions()}, prog="texvent convert", description=DESCRIPTION
     )
+    out = options.target
     events = edit(_open_inputs(options), options)
     count = 0
     writer = open_writer(
-        options.out,
+        out,
         size=events.size,
         metadata=events.metadata,
         format=options.format,
@@ -87,9 +104,9 @@ def run(arguments: Sequence[str]) -> int:
             writer.append(packet)
             count += len(packet)
     if not count:
-        warn(f"{options.out} holds no event: there is none in the input, or in the part asked for")
+        warn(f"{out} holds no event: there is none in the input, or in the part asked for")
     if not options.quiet:
-        sys.stdout.write(f"{options.out}: {count:,} events, {events.size}\n")
+        sys.stdout.write(f"{out}: {count:,} events, {events.size}\n")
     return 0
 
 

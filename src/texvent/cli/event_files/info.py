@@ -21,6 +21,15 @@ from texvent.video import MICROSECONDS, FrameStream
 DESCRIPTION = """Say what an event file or a video holds, and how it was made. The whole file is
 read once, with flat memory, so the figures are exact and a damaged file is found."""
 
+MAIN_LINES = 10
+MEASURED = (
+    "sensor", "size", "events", "frames", "fps", "on_share", "first_us", "last_us", "seconds",
+    "events_per_second", "pixels",
+)  # fmt: skip
+"""What was counted."""
+ORIGIN = ("complete", "prompt", "source", "seed", "simulator", "generator", "texvent_version")
+"""What is said first of how a file was made."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class InfoOptions(EventFileOptions):
@@ -28,8 +37,10 @@ class InfoOptions(EventFileOptions):
 
     path: Path = REQUIRED
     """Event file, video file or image folder."""
+    all: bool = False
+    """Print everything that is stored, options included; otherwise the ten lines that matter."""
     json: bool = False
-    """Print JSON instead of lines."""
+    """Print everything as JSON instead of lines."""
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -44,8 +55,20 @@ def run(arguments: Sequence[str]) -> int:
     if options.json:
         sys.stdout.write(json.dumps(facts, indent=2, ensure_ascii=False) + "\n")
     else:
-        sys.stdout.write("\n".join(_lines(facts)) + "\n")
+        shown = facts if options.all else _main_facts(facts)
+        sys.stdout.write("\n".join(_lines(shown)) + "\n")
+        if len(shown) < len(facts):
+            sys.stdout.write(f"... {len(facts) - len(shown)} more: --all\n")
     return 0
+
+
+def _main_facts(facts: Mapping[str, Any]) -> dict[str, Any]:
+    """The first facts, what the reader wants to know of their origin before the rest."""
+    single = {name: value for name, value in facts.items() if not isinstance(value, Mapping)}
+    measured = [name for name in single if name in MEASURED]
+    origin = [name for name in ORIGIN if name in single]
+    names = dict.fromkeys([*measured, *origin, *single])
+    return {name: single[name] for name in list(names)[:MAIN_LINES]}
 
 
 def is_event_path(path: Path) -> bool:

@@ -41,6 +41,8 @@ class ReplayOptions:
     """The video or folder it was made from, where that has moved."""
     anyway: bool = False
     """Go on though the version, a weights file or the source is another one."""
+    format: str | None = None
+    """Format to write, where the extension does not say which; default: as it was stored."""
     overwrite: bool = False
     """Replace the file if it exists already."""
     quiet: bool = False
@@ -65,7 +67,7 @@ def run(arguments: Sequence[str]) -> int:
             f"{path} cannot be made again as it was: {'; '.join(differences[:4])}. "
             "--anyway makes it with what is here"
         )
-    format = stored.get("format")
+    format = options.format or stored.get("format")
     files = RunFiles(
         events=(out,),
         formats=(format,) if isinstance(format, str) else (),

@@ -11,16 +11,17 @@ from typing import Any, ClassVar
 
 from texvent.cli.event_files.event_file_options import EventFileOptions
 from texvent.cli.options import parse_configs
+from texvent.errors import warn
 from texvent.metrics.soundness import SoundnessCheck
 
 SUSPICIOUS = 1
-"""Exit code of a recording that can be read but is suspicious."""
+"""Exit code of a recording that can be read but is suspicious or empty."""
 SHOWN_HOT_PIXELS = 10
 DESCRIPTION = """Read a whole event file and say whether it can be trusted: order, coordinates and
 polarity (a file that breaks them is refused), exact duplicates, hot pixels, clumped timestamps,
 a missing polarity.
 
-Exit code: 0 sound, 1 suspicious, 2 damaged or unreadable."""
+Exit code: 0 sound, 1 suspicious or empty, 2 damaged or unreadable."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,12 +60,16 @@ def validate(options: ValidateOptions) -> dict[str, Any]:
         check.update(packet)
     report = check.report()
     complaints = report.complaints()
+    verdict = "suspicious" if complaints else "sound"
+    if not report.events:
+        verdict = "empty"
+        warn(f"{options.path} is empty: it holds no event")
     facts = asdict(report)
     hot = facts.pop("hot_pixels")
     shares = {name: facts[name] for name in ("clumped_share", "on_share")}
     rounded = {name: None if math.isnan(one) else round(one, 4) for name, one in shares.items()}
     return {
-        "verdict": "suspicious" if complaints else "sound",
+        "verdict": verdict,
         "complaints": complaints,
         "sensor": str(events.size),
         **facts,
