@@ -2,10 +2,28 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 
 
 def markdown_table(titles: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table, one line per row of cells."""
+    """A table, one line per row of cells, each of one line and without HTML tags."""
     lines = [titles, ["---"] * len(titles), *rows]
-    return "".join(f"| {' | '.join(cells)} |\n" for cells in lines)
+    return "".join(f"| {' | '.join(map(_cell, cells))} |\n" for cells in lines)
+
+
+def without_tags(text: str) -> str:
+    """Markdown in which no HTML tag begins; emphasis and links stay.
+
+    Names of recordings and entries come from files that others may have written.
+
+    Example:
+        >>> without_tags("a <b>, p < 0.05")
+        'a &lt;b>, p < 0.05'
+    """
+    return re.sub(r"<(?=[A-Za-z/!?])", "&lt;", text)
+
+
+def _cell(text: str) -> str:
+    one_line = " ".join(text.splitlines())
+    return re.sub(r"(?<!\\)\|", r"\|", without_tags(one_line))

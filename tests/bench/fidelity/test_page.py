@@ -1,5 +1,7 @@
 """The published pages are what `texvent bench page` makes of the published results."""
 
+import xml.etree.ElementTree as ElementTree
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -8,6 +10,8 @@ from texvent.bench.document import read_document
 from texvent.bench.fidelity import page
 from texvent.bench.fidelity.results import read_report
 from texvent.bench.fidelity.table import BASELINE
+
+from ..synthetic_report import synthetic_report
 
 RESULTS = Path(__file__).parents[3] / "docs" / "results"
 
@@ -32,3 +36,20 @@ def test_published_pages_and_charts_are_those_of_the_published_results(
         assert (RESULTS / name).is_file()
         if content:
             assert content == (RESULTS / name).read_bytes()
+
+
+def test_text_of_a_result_is_no_html_in_page_or_charts(monkeypatch):
+    monkeypatch.setattr(page, "event_image_grid", lambda report, scene: b"")
+    hostile = '</text></script><script>alert(1)</script>"><img src=x onerror=alert(1)>\u2028| x'
+    report = synthetic_report()
+    report = replace(
+        report,
+        references=[replace(one, scene=hostile) for one in report.references],
+        scores=[replace(one, scene=hostile, entry=hostile) for one in report.scores],
+    )
+    for name, content in page.page_files(report, "result.json", baseline=BASELINE).items():
+        text = content.decode()
+        assert "<script" not in text, name
+        assert "<img" not in text, name
+        if name.endswith(".svg"):
+            ElementTree.fromstring(text)

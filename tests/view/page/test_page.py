@@ -18,7 +18,10 @@ from texvent.sensor import SensorSize
 from texvent.view.page.writer import PageWriter, show
 
 SIZE = SensorSize(40, 30)
-HOSTILE = '</script><script>alert("x")</script> {{data}} &amp; <img src=https://example.org/x>'
+HOSTILE = (
+    '</script><script>alert("x")</script> {{data}} &amp; <img src=https://example.org/x> '
+    '"><img onerror=alert(1)> \u2028alert(2)'
+)
 
 
 def make_events(count: int, metadata: dict[str, object] | None = None) -> EventStream:
@@ -77,6 +80,8 @@ def test_text_from_the_user_stays_text(tmp_path: Path) -> None:
     plain = show(make_events(50, {"prompt": "x"}), tmp_path / "plain.html").read_text("utf-8")
     assert page.count("<script") == plain.count("<script") == 2
     assert "<img src=https" not in page
+    assert "<img onerror" not in page
+    assert "\u2028" not in str(re.findall(r"<script.*?</script>", page, re.DOTALL))
     assert html.escape(HOSTILE) in page, "a placeholder inside user text is not filled"
 
 

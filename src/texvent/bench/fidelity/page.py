@@ -10,6 +10,7 @@ from texvent.bench.fidelity.detail_charts import level_chart, time_chart
 from texvent.bench.fidelity.event_image_grid import event_image_grid
 from texvent.bench.fidelity.results import FidelityReport
 from texvent.bench.fidelity.table import BASELINE, fidelity_tables, motion_table
+from texvent.bench.markdown import without_tags
 
 
 def page_files(
@@ -48,7 +49,7 @@ def page_files(
         "## Scores",
         fidelity_tables(report, baseline=baseline),
     ]
-    page = "\n\n".join(part.rstrip() for part in parts) + "\n"
+    page = without_tags("\n\n".join(part.rstrip() for part in parts) + "\n")
     return {f"{name}.md": page.encode(), **charts}
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from texvent.bench.document import plain_values
 from texvent.bench.machine import describe_environment
-from texvent.bench.markdown import markdown_table
+from texvent.bench.markdown import markdown_table, without_tags
 from texvent.bench.reconstruction.image_scores import ImageScores, pool_scores
 from texvent.bench.reconstruction.noise_robustness import NoiseScore
 from texvent.bench.reconstruction.run import RECORDED, ReconstructionReport, ReconstructionRow
@@ -41,7 +41,7 @@ def reconstruction_tables(report: ReconstructionReport, noise: Sequence[NoiseSco
         parts.append(_noise_table([one for one in noise if one.recording == recording]))
     missing = {**report.absent, **report.skipped}
     parts += [f"not measured: {name}: {why}\n" for name, why in missing.items()]
-    return "\n".join(parts)
+    return without_tags("\n".join(parts))
 
 
 def reconstruction_document(
