@@ -40,7 +40,7 @@ test-torch: $(TORCH_VENV)/.torch
 	$(TORCH_VENV)/bin/python -m pytest -q -m torch tests
 
 test-app: $(APP_VENV)/.app
-	$(APP_VENV)/bin/python -m pytest -q -m app tests/view tests/web
+	$(APP_VENV)/bin/python -m pytest -q -m app tests/view tests/web tests/cli
 
 test-formats: $(FORMATS_VENV)/.formats
 	$(FORMATS_VENV)/bin/python -m pytest -q -k "parquet or blosc" tests/io

@@ -36,6 +36,10 @@ COMMANDS = {
         "texvent.cli.event_files.view",
         "Open an event file in the browser: point cloud, playback, rate.",
     ),
+    "rerun": (
+        "texvent.cli.event_files.rerun",
+        "Open an event file in the rerun viewer.",
+    ),
     "app": (
         "texvent.cli.simulation.web",
         "The web page: prompt or video in, events out.",
