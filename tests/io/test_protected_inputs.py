@@ -45,6 +45,7 @@ def test_nothing_is_put_among_the_files_of_an_input_folder(tmp_path: Path) -> No
         with pytest.raises(OutputError, match="would lie among the files of the input"):
             check_output(frames / "out.png", overwrite=False)
         check_output(frames / "events" / "out.png", overwrite=False)
+        check_output(frames / "out.h5", overwrite=False)
 
 
 def test_a_folder_that_holds_an_input_is_not_replaced(tmp_path: Path) -> None:

@@ -23,6 +23,24 @@ class ProtectedInput:
     status: os.stat_result
 
 
+READ_FROM_FOLDERS = frozenset(
+    (
+        ".avi",
+        ".bmp",
+        ".jpeg",
+        ".jpg",
+        ".mkv",
+        ".mov",
+        ".mp4",
+        ".npy",
+        ".png",
+        ".tif",
+        ".tiff",
+        ".webm",
+    )
+)
+"""Files of these kinds, put into an input folder, would be read as its frames by the next run."""
+
 _inputs: ContextVar[tuple[ProtectedInput, ...]] = ContextVar("inputs", default=())
 
 
@@ -37,7 +55,7 @@ def protected_inputs() -> Iterator[None]:
 
 
 def protect_inputs(paths: Iterable[str | Path]) -> None:
-    """Let no output replace these files, or be put into these folders; missing ones are skipped."""
+    """Let no output replace these files, or join the frames of these folders."""
     found = []
     for given in paths:
         try:
@@ -58,7 +76,8 @@ def refuse_inputs(path: str | Path, target: Path) -> None:
         target: the same, symbolic links resolved.
 
     Raises:
-        OutputError: it is an input, lies in an input folder, or is a folder that holds an input.
+        OutputError: it is an input, would be read as a frame of an input folder, or is a folder
+            that holds an input.
     """
     status = target.stat() if target.exists() else None
     for one in _inputs.get():
@@ -72,7 +91,7 @@ def refuse_inputs(path: str | Path, target: Path) -> None:
                 f"cannot write {path}: it holds the input {one.given}, which is never replaced; "
                 "give another name"
             )
-        if target.parent == one.path:
+        if target.parent == one.path and target.suffix.lower() in READ_FROM_FOLDERS:
             raise OutputError(
                 f"cannot write {path}: it would lie among the files of the input {one.given}; "
                 "give another folder"
