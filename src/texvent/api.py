@@ -263,8 +263,9 @@ def compare(
 def _collected(run: Simulation, progress: ProgressOption) -> EventStream:
     """The events of a run, with a warning if there are none."""
     events = run.packets.collect(progress=progress)
+    kept = run.settings.run.events
     if not len(events):
-        warn(NO_EVENTS)
+        warn(NO_EVENTS if kept == "all" else f"no events: the run keeps those of {kept} alone")
     return events
 
 

@@ -45,7 +45,8 @@ def test_a_residual_is_carried_over_frames():
     video = Video(levels[:, None, None].astype(np.float64), [1000 * k for k in range(21)])
     events = continuous(video, interpolate="none", cache="global", noise="none", **LINES)
     np.testing.assert_allclose(events.t / 1000, [3.636, 7.273, 10.909, 14.545, 18.182], atol=2e-3)
-    forgetful = continuous(video, interpolate="none", cache="local", noise="none", **LINES)
+    with pytest.warns(texvent.TexventWarning, match="no events"):
+        forgetful = continuous(video, interpolate="none", cache="local", noise="none", **LINES)
     assert len(forgetful) == 0
 
 
