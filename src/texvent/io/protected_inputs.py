@@ -24,7 +24,7 @@ class ProtectedInput:
 
 
 READ_FROM_FOLDERS = frozenset(
-    (
+    [
         ".avi",
         ".bmp",
         ".jpeg",
@@ -37,7 +37,7 @@ READ_FROM_FOLDERS = frozenset(
         ".tif",
         ".tiff",
         ".webm",
-    )
+    ]
 )
 """Files of these kinds, put into an input folder, would be read as its frames by the next run."""
 

@@ -23,8 +23,8 @@ class PullOptions:
 
     positional: ClassVar[tuple[str, ...]] = ("name",)
     short_flags: ClassVar[Mapping[str, str]] = {"quiet": "-q"}
-
     outputs: ClassVar[tuple[str, ...]] = ("folder",)
+
     name: str = REQUIRED
     """Name of the data set."""
     folder: Path | None = None
