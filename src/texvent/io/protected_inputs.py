@@ -23,22 +23,9 @@ class ProtectedInput:
     status: os.stat_result
 
 
-READ_FROM_FOLDERS = frozenset(
-    [
-        ".avi",
-        ".bmp",
-        ".jpeg",
-        ".jpg",
-        ".mkv",
-        ".mov",
-        ".mp4",
-        ".npy",
-        ".png",
-        ".tif",
-        ".tiff",
-        ".webm",
-    ]
-)
+VIDEOS = (".avi", ".mkv", ".mov", ".mp4", ".npy", ".webm")
+IMAGES = (".bmp", ".jpeg", ".jpg", ".png", ".tif", ".tiff")
+READ_FROM_FOLDERS = frozenset((*VIDEOS, *IMAGES))
 """Files of these kinds, put into an input folder, would be read as its frames by the next run."""
 
 _inputs: ContextVar[tuple[ProtectedInput, ...]] = ContextVar("inputs", default=())
