@@ -15,11 +15,12 @@ PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; 
 PIP_OPTIONS := --quiet --disable-pip-version-check -c constraints.txt
 PIP := $(VENV)/bin/python -m pip install $(PIP_OPTIONS)
 
-.PHONY: help demo test test-torch test-app test-formats test-gpl lint format clean
+.PHONY: help demo test fuzz test-torch test-app test-formats test-gpl lint format clean
 
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
 	@echo "make test    the default test suite"
+	@echo "make fuzz    thousands of damaged inputs for every reader, and a table of what became of them"
 	@echo "make test-torch   the tests that need torch, in $(TORCH_VENV)"
 	@echo "make test-app     the tests of the web page and of rerun files, in $(APP_VENV)"
 	@echo "make test-formats the tests of Parquet and blosc, in $(FORMATS_VENV)"
@@ -35,6 +36,9 @@ demo: $(VENV)/.base
 
 test: $(VENV)/.dev
 	$(VENV)/bin/python -m pytest -q -n 2 --durations=5
+
+fuzz: $(VENV)/.dev
+	$(VENV)/bin/python -m tests.fuzz
 
 test-torch: $(TORCH_VENV)/.torch
 	$(TORCH_VENV)/bin/python -m pytest -q -m torch tests

@@ -15,8 +15,10 @@ from dataclasses import dataclass
 from importlib import metadata
 from typing import Any
 
-from texvent.errors import ConfigError, TexventError
+from texvent.errors import ConfigError, TexventError, shown
 
+LONGEST_NAME = 60
+"""Longer names are no misspelling of an allowed one."""
 LONGEST_LISTING, FIRST_NAMES = 160, 8
 """Characters of a list that an error holds in full; names that it holds of a longer one."""
 
@@ -27,12 +29,13 @@ def load_object(target: str) -> Any:
     return getattr(importlib.import_module(module), attribute)
 
 
-def suggest(name: str, allowed: tuple[str, ...]) -> str:
+def suggest(name: object, allowed: tuple[str, ...]) -> str:
     """Say what is allowed, and the closest match if there is one: ` did you mean 'blend'?`.
 
     Of a long list, only the closest match or the first names are said.
     """
-    close = difflib.get_close_matches(name, allowed, n=1)
+    is_name = isinstance(name, str) and len(name) <= LONGEST_NAME
+    close = difflib.get_close_matches(str(name), allowed, n=1) if is_name else []
     listed, hint = ", ".join(allowed), f"did you mean {close[0]!r}?" if close else ""
     if len(listed) > LONGEST_LISTING:
         listed = f"{', '.join(allowed[:FIRST_NAMES])}, ... ({len(allowed)} in all)"
@@ -74,14 +77,15 @@ class Registry:
             ConfigError: no part has that name.
             TexventError: a part of another package is broken.
         """
-        if name in self.builtin:
+        is_name = isinstance(name, str)  # a config file may hold anything
+        if is_name and name in self.builtin:
             return load_object(self.builtin[name])
         entries = self.entries()
-        if name in entries:
+        if is_name and name in entries:
             return self._load_plugged_in(name, entries[name])
-        part = importlib.import_module(self.table).find(name) if self.table else None
+        part = importlib.import_module(self.table).find(name) if self.table and is_name else None
         if part is None:
-            raise ConfigError(f"unknown {self.kind} {name!r}; {suggest(name, self.names())}")
+            raise ConfigError(f"unknown {self.kind} {shown(name)}; {suggest(name, self.names())}")
         return part
 
     def _load_plugged_in(self, name: str, target: str) -> Any:

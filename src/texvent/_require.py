@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 from types import ModuleType
 
-from texvent.errors import MissingDependencyError
+from texvent.errors import MissingDependencyError, one_line
 
 
 def require(module: str, *, extra: str | None = None) -> ModuleType:
@@ -26,6 +26,6 @@ def require(module: str, *, extra: str | None = None) -> ModuleType:
     except ImportError as error:
         target = f"texvent[{extra}]" if extra else "texvent"
         raise MissingDependencyError(
-            f"{module} is needed here and could not be imported ({error}); "
+            f"{module} is needed here and could not be imported ({one_line(error)}); "
             f"install it with: pip install '{target}'"
         ) from error

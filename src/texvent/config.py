@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Literal
 
 from texvent._registry import suggest
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 from texvent.options.fields import renamed
 
 
@@ -28,7 +28,15 @@ def check_range(name: str, value: float | None, low: float, high: float = float(
     """
     if value is not None and not low <= value <= high:
         allowed = f"at least {low:g}" if high == float("inf") else f"{low:g}..{high:g}"
-        raise ConfigError(f"{name} is {value:g}; it must be {allowed}")
+        raise ConfigError(f"{name} is {_number(value)}; it must be {allowed}")
+
+
+def _number(value: float | Fraction) -> str:
+    """A number as messages say it, however many digits it has."""
+    try:
+        return f"{float(value):g}"
+    except OverflowError:
+        return "a number of more than 300 digits"
 
 
 def check_choices(config: object) -> None:
@@ -40,7 +48,7 @@ def check_choices(config: object) -> None:
     for name, hint in typing.get_type_hints(type(config)).items():
         value, allowed = getattr(config, name), typing.get_args(hint)
         if typing.get_origin(hint) is Literal and value not in allowed:
-            raise ConfigError(f"{name} is {value!r}; {suggest(str(value), allowed)}")
+            raise ConfigError(f"{name} is {shown(value)}; {suggest(value, allowed)}")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -109,7 +117,7 @@ class CaptureConfig:
         if self.white_level is not None and not 0 < self.white_level < float("inf"):
             raise ConfigError(f"white_level is {self.white_level:g}; it must be above 0")
         if self.fps is not None and not 0 < self.fps <= 1_000_000:
-            raise ConfigError(f"fps is {self.fps}; it must be above 0 and at most 1000000")
+            raise ConfigError(f"fps is {_number(self.fps)}; it must be above 0 and at most 1000000")
         if self.stop is not None and not self.stop > self.start:
             raise ConfigError(f"stop is {self.stop:g} s; it must be after start ({self.start:g} s)")
 

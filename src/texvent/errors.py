@@ -8,7 +8,9 @@
     └── MissingDependencyError   an optional package is not installed
 
 A message says what was wrong, the value, what is allowed and what to do. The command line
-prints it as one line and exits with `exit_code`; it never shows a traceback for these.
+prints it as one line and exits with `exit_code`; it never shows a traceback for these. What a
+message echoes of a file or a caller goes through `shown`, what a library said through `one_line`:
+both are bounded, so that a hostile file cannot fill the terminal.
 
 A `TexventWarning` says that a result is there but is hardly what was meant.
 """
@@ -16,15 +18,61 @@ A `TexventWarning` says that a result is there but is hardly what was meant.
 from __future__ import annotations
 
 import contextlib
+import reprlib
 import sys
 import warnings
 from collections.abc import Callable, Iterator
+from typing import Any
+
+MAX_SHOWN = 80
+"""Characters of a value that an error echoes."""
+MAX_REASON = 120
+"""Characters of what a library says."""
+
+
+def shown(value: object) -> str:
+    """A value as errors echo it: as `repr` writes it, on one line, its middle left out if long.
+
+    Example:
+        >>> shown("v3e"), len(shown("x" * 5000))
+        ("'v3e'", 80)
+    """
+    try:
+        # NumPy's numbers as they print.
+        value = value.item() if getattr(value, "size", None) == 1 else value  # type: ignore[attr-defined]
+        # Never the whole: a few aliases in a YAML file print as gigabytes.
+        text = " ".join(_SHORT.repr(value).split())
+    except Exception:  # noqa: BLE001  # such as numbers of too many digits; repr is anyone's code
+        return f"a value of type {type(value).__name__}"
+    return text if len(text) <= MAX_SHOWN else f"{text[: MAX_SHOWN - 4]}...{text[-1]}"
+
+
+def one_line(error: BaseException) -> str:
+    """What a library's error says, as one short line; its type where it says nothing."""
+    text = " ".join(str(error)[: 2 * MAX_REASON].split())
+    return (text if len(text) <= MAX_REASON else f"{text[: MAX_REASON - 3]}...") or type(
+        error
+    ).__name__
+
+
+def _short_repr() -> reprlib.Repr:
+    short = reprlib.Repr()
+    short.maxlevel = 3
+    short.maxstring = short.maxother = MAX_SHOWN
+    return short
+
+
+_SHORT = _short_repr()
 
 
 class TexventError(Exception):
     """Base of all errors that texvent raises on purpose."""
 
     exit_code: int = 1
+
+    def __init__(self, message: object = "", *more: Any, **facts: Any) -> None:
+        """Keep the message, its line breaks as spaces."""
+        super().__init__(" ".join(f"{message}".splitlines()), *more, **facts)
 
 
 class InputError(TexventError, ValueError):

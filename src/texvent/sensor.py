@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import NamedTuple, TypeAlias
 
 from texvent._registry import suggest
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 
 MAX_SIDE = 65_535
 """Largest width or height: coordinates are uint16."""
@@ -73,7 +73,8 @@ def parse_sensor(text: str) -> SensorSize:
     sensor = SENSORS.get(text.strip().lower())
     if sensor is None:
         raise ConfigError(
-            f"unknown sensor {text!r}; {suggest(text.lower(), tuple(SENSORS))}, or WIDTHxHEIGHT"
+            f"unknown sensor {shown(text)}; {suggest(text.lower(), tuple(SENSORS))}, or "
+            "WIDTHxHEIGHT"
         )
     return sensor.size
 
@@ -113,5 +114,7 @@ def checked_size(width: int, height: int) -> SensorSize:
         ConfigError: a side is out of range.
     """
     if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
-        raise ConfigError(f"sensor size {width}x{height}; each side must be 1..{MAX_SIDE}")
+        raise ConfigError(
+            f"sensor size {str(width)[:12]}x{str(height)[:12]}; each side must be 1..{MAX_SIDE}"
+        )
     return SensorSize(int(width), int(height))

@@ -134,5 +134,5 @@ def test_times_given_twice_are_refused():
 
 def test_a_damaged_npy_file_is_refused(tmp_path):
     (tmp_path / "a.npy").write_bytes(b"nonsense")
-    with pytest.raises(InputError, match="not a NumPy array file"):
+    with pytest.raises(InputError, match="not a NumPy array"):
         open_frames(tmp_path / "a.npy", AT_100)

@@ -1,6 +1,6 @@
 """Small files of every format, committed: what texvent wrote before it reads for ever.
 
-They are also the seeds of `fuzz_formats.py`. A new format's file is made by
+They are also the seeds of `tests/fuzz`. A new format's file is made by
 `python -m tests.io.test_corpus` in the repository's root, which never touches existing ones.
 """
 

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError, InputError, one_line
+from texvent.runtime.file_names import usable_path
 
 PROMPT_COLUMNS = ("prompt", "text", "caption")
 """Names under which a column or key holds the prompt; the first that is there counts."""
@@ -49,6 +50,7 @@ def read_list(path: Path) -> tuple[ListEntry, ...]:
         InputError: there is no such file, or it holds no entry.
         FileFormatError: a line cannot be read; the message names it.
     """
+    usable_path(path)
     readers = {".txt": _read_text, ".csv": _read_csv, ".jsonl": _read_jsonl}
     reader = readers.get(path.suffix.lower())
     if reader is None:
@@ -83,7 +85,7 @@ def _read_csv(path: Path, text: str) -> Iterator[ListEntry]:
         for row in reader:
             yield _from_mapping(path, reader.line_num, row)
     except csv.Error as error:
-        raise FileFormatError(f"{path} after line {reader.line_num}: {error}") from error
+        raise FileFormatError(f"{path} after line {reader.line_num}: {one_line(error)}") from error
 
 
 def _read_jsonl(path: Path, text: str) -> Iterator[ListEntry]:
@@ -93,7 +95,9 @@ def _read_jsonl(path: Path, text: str) -> Iterator[ListEntry]:
         try:
             entry = json.loads(line)
         except (ValueError, RecursionError) as error:
-            raise FileFormatError(f"{_where(path, number)} is not JSON: {error}") from error
+            raise FileFormatError(
+                f"{_where(path, number)} is not JSON: {one_line(error)}"
+            ) from error
         if isinstance(entry, str):
             entry = {"prompt": entry}
         if not isinstance(entry, Mapping):

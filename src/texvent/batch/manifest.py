@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent.batch.samples import Sample
-from texvent.errors import ConfigError, FileFormatError
+from texvent.errors import ConfigError, FileFormatError, one_line, shown
 from texvent.io.atomic import atomic_file
 
 OPTIONS_FILE, SAMPLES_FILE = "batch.json", "samples.jsonl"
@@ -114,7 +114,7 @@ def _read_options(path: Path) -> Any:
         return json.loads(path.read_text(encoding="utf-8"))
     except (ValueError, RecursionError) as error:
         raise FileFormatError(
-            f"{path} is damaged ({error}); name another folder with -o"
+            f"{path} is damaged ({one_line(error)}); name another folder with -o"
         ) from error
 
 
@@ -141,7 +141,12 @@ def _differences(old: Any, new: Any, name: str = "") -> Iterator[str]:
         for key in dict.fromkeys((*old, *new)):
             yield from _differences(old.get(key), new.get(key), f"{name}.{key}" if name else key)
     elif old != new:
-        yield f"{name.rpartition('.')[2]} was {old}, is {new}"
+        yield f"{name.rpartition('.')[2][:40]} was {_value(old)}, is {_value(new)}"
+
+
+def _value(value: Any) -> str:
+    text = value if isinstance(value, str) else shown(value)
+    return text[:40]
 
 
 def _size(path: Path) -> int | None:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from texvent.batch.list_files import LIST_EXTENSIONS, ListEntry, read_list
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError, InputError, shown
 
 VIDEO_EXTENSIONS = frozenset(
     (".avi", ".m4v", ".mkv", ".mov", ".mp4", ".mpeg", ".mpg", ".npy", ".ts", ".webm", ".wmv")
@@ -87,7 +87,7 @@ def _entries(source: str) -> Iterator[ListEntry]:
     elif glob.has_magic(source):
         found = sorted(glob.glob(source, recursive=True))
         if not found:
-            raise InputError(f"nothing matches {source!r}")
+            raise InputError(f"nothing matches {shown(source)}")
         for one in found:
             yield from _entries(one)
     else:
@@ -155,7 +155,7 @@ def _refuse_equal_names(samples: Sequence[Sample]) -> None:
         name = sample.name.lower()  # some file systems do not tell A from a
         if name in places:
             raise InputError(
-                f"{sample.where} and {places[name]} have one name, {sample.name!r}; give each "
+                f"{sample.where} and {places[name]} have one name, {shown(sample.name)}; give each "
                 "its own"
             )
         places[name] = sample.where

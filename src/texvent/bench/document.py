@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError, InputError, one_line
 from texvent.io.atomic import atomic_file
 
 DIGITS = 7
@@ -52,8 +52,8 @@ def read_document(path: Path) -> dict[str, Any]:
         document = json.loads(gzip.decompress(content) if path.suffix == COMPRESSED else content)
     except FileNotFoundError:
         raise InputError(f"there is no result {path}; write one with texvent bench --out") from None
-    except (OSError, EOFError, zlib.error, ValueError) as error:
-        raise FileFormatError(f"{path} is no JSON document ({error})") from error
+    except (OSError, EOFError, zlib.error, ValueError, RecursionError) as error:
+        raise FileFormatError(f"{path} is no JSON document ({one_line(error)})") from error
     if not isinstance(document, dict):
         raise FileFormatError(f"{path} holds {type(document).__name__}, not a JSON object")
     return document

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
 from texvent.capture.intensity_scale import refuse_unit_range, usable_pixels
-from texvent.errors import InputError
+from texvent.errors import InputError, shown
+from texvent.io.arrays.npy_file import StoredArray
 from texvent.sensor import checked_size
 from texvent.video import Frame, PixelArray
 
@@ -38,6 +39,8 @@ class ArrayFrames(FrameSource):
     ) -> None:
         if hasattr(frames, "__array__"):
             frames = _checked_array(np.asarray(frames))
+        elif isinstance(frames, StoredArray):
+            _check_shape(frames.shape)
         self._frames: Iterable[Any] = frames
         is_live = isinstance(frames, Iterator)
         self._times = times
@@ -76,13 +79,16 @@ class ArrayFrames(FrameSource):
 
 def _checked_array(array: NDArray[Any]) -> NDArray[Any]:
     """[N, H, W] or [N, H, W, 3]; a single grey channel is dropped."""
-    if array.ndim == 4 and array.shape[-1] == 1:
-        array = array[..., 0]
-    if array.ndim == 3 or (array.ndim == 4 and array.shape[-1] == 3):
-        return array
+    _check_shape(array.shape)
+    return array[..., 0] if array.ndim == 4 and array.shape[-1] == 1 else array
+
+
+def _check_shape(shape: tuple[int, ...]) -> None:
+    if len(shape) == 3 or (len(shape) == 4 and shape[-1] in (1, 3)):
+        return
     raise InputError(
-        f"frames must be [N, H, W] or [N, H, W, 3]; got shape {list(array.shape)}"
-        + _shape_hint(array.shape)
+        f"frames must be [N, H, W] or [N, H, W, 3]; got shape {shown(list(shape))}"
+        + _shape_hint(shape)
     )
 
 

@@ -27,8 +27,8 @@ from numpy.typing import NDArray
 from texvent._require import require
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.image_folder import ImageFolder
-from texvent.errors import FileFormatError
-from texvent.sensor import SensorSize
+from texvent.errors import FileFormatError, one_line, shown
+from texvent.sensor import SensorSize, checked_size
 from texvent.video import Frame
 
 EVENTS = Path("events/left/events.h5")
@@ -85,14 +85,20 @@ class DsecFrames(FrameSource):
 
 
 def _read_rectify_map(path: Path) -> NDArray[np.float64]:
-    h5py = require("h5py")
-    try:
-        with h5py.File(path) as file:
-            rectified = np.asarray(file["rectify_map"], np.float64)
-    except (OSError, KeyError) as error:
-        raise FileFormatError(f"{path} holds no rectify_map ({error})") from error
-    if rectified.ndim != 3 or rectified.shape[2] != 2:
-        raise FileFormatError(f"{path}: rectify_map has shape {rectified.shape}, not [H, W, 2]")
+    from texvent.io.hdf5.damage import check_claims, open_hdf5  # brings h5py
+
+    with open_hdf5(path) as file:
+        stored = file["rectify_map"]
+        if stored.ndim != 3 or stored.shape[2] != 2 or stored.dtype.kind != "f":
+            raise FileFormatError(
+                f"{path}: rectify_map is {shown(stored.dtype)} of shape {shown(stored.shape)}, not "
+                "numbers [H, W, 2]"
+            )
+        check_claims(stored, path)
+        rectified = np.asarray(stored, np.float64)
+    checked_size(rectified.shape[1], rectified.shape[0])
+    if not np.isfinite(rectified).all():
+        raise FileFormatError(f"{path}: rectify_map holds values that are NaN or infinite")
     return rectified
 
 
@@ -110,9 +116,9 @@ def _read_homography(path: Path) -> NDArray[np.float64]:
         turns = [np.asarray(extrinsics[f"R_rect{i}"], np.float64) for i in (0, 1)]
         turn = turns[1] @ between @ turns[0].T
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        raise FileFormatError(f"calibration {path} cannot be read ({error})") from error
-    except (KeyError, TypeError, ValueError, IndexError) as error:
-        raise FileFormatError(f"calibration {path} lacks an entry ({error!r})") from error
+        raise FileFormatError(f"calibration {path} cannot be read ({one_line(error)})") from error
+    except (KeyError, TypeError, ValueError, IndexError, RecursionError) as error:
+        raise FileFormatError(f"calibration {path} lacks an entry ({one_line(error)})") from error
     return np.asarray(frame @ turn @ np.linalg.inv(event))
 
 

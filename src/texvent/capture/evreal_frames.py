@@ -1,4 +1,4 @@
-"""Frames of EVREAL's folders: images and their times as memory-mapped arrays.
+"""Frames of EVREAL's folders: images and their times as arrays.
 
     images.npy     u1 [n, H, W] or [n, H, W, 1]
     images_ts.npy  f8 [n] or [n, 1], seconds, on the clock of the events
@@ -17,12 +17,14 @@ import numpy as np
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes, listed_times
 from texvent.capture.intensity_scale import usable_pixels
-from texvent.errors import FileFormatError
-from texvent.io.arrays.npy_file import map_array
+from texvent.errors import FileFormatError, shown
+from texvent.io.arrays.npy_file import StoredArray
 from texvent.sensor import checked_size
 from texvent.video import MICROSECONDS, Frame
 
 IMAGES, TIMES = "images.npy", "images_ts.npy"
+LAST_S = 2**51 / MICROSECONDS
+"""Later times, s, are not kept to the µs by the file's own numbers."""
 
 
 def is_evreal(folder: Path) -> bool:
@@ -31,7 +33,7 @@ def is_evreal(folder: Path) -> bool:
 
 
 class EvrealFrames(FrameSource):
-    """The images of a folder in order; they are mapped, not read, until they are asked for.
+    """The images of a folder in order; they are read when they are asked for.
 
     Args:
         folder: holds images.npy and images_ts.npy.
@@ -45,12 +47,10 @@ class EvrealFrames(FrameSource):
 
     def __init__(self, folder: Path, times: FrameTimes | None = None) -> None:
         self._folder = folder
-        images = map_array(folder / IMAGES)
-        if images.ndim == 4 and images.shape[3] == 1:
-            images = images[..., 0]
+        images = StoredArray(folder / IMAGES)
         if images.ndim not in (3, 4):
             raise FileFormatError(
-                f"{folder / IMAGES} has shape {images.shape}; images are [n, H, W]"
+                f"{folder / IMAGES} has shape {shown(images.shape)}; images are [n, H, W]"
             )
         self._images = images
         self._times = times or _read_times(folder / TIMES)
@@ -65,12 +65,16 @@ class EvrealFrames(FrameSource):
     def __iter__(self) -> Iterator[Frame]:
         """Frames in order, read one by one."""
         for index, image in enumerate(self._images):
-            pixels = usable_pixels(np.array(image), str(self._folder / IMAGES))
+            grey = image[..., 0] if image.shape[2:] == (1,) else image
+            pixels = usable_pixels(grey, str(self._folder / IMAGES))
             yield Frame(pixels, self._times(index))
 
 
 def _read_times(path: Path) -> FrameTimes:
-    seconds = np.asarray(map_array(path)).reshape(-1)
-    if seconds.dtype.kind not in "fiu" or not np.isfinite(seconds).all():
-        raise FileFormatError(f"{path} holds {seconds.dtype} that are not all seconds")
+    stored = StoredArray(path)
+    if stored.dtype.kind not in "fiu" or stored.ndim == 0:
+        raise FileFormatError(f"{path} holds {shown(stored.dtype)}, not a list of seconds")
+    seconds = stored.rows(0, len(stored)).reshape(-1).astype(np.float64)
+    if not (np.abs(seconds) < LAST_S).all():
+        raise FileFormatError(f"{path} holds {stored.dtype} that are not all seconds")
     return listed_times(np.rint(seconds * MICROSECONDS).astype(np.int64), path.name)

@@ -10,7 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.errors import ConfigError, FileFormatError, InputError, one_line, shown
+from texvent.options.values import parse_fraction
+from texvent.runtime.file_names import usable_path
 from texvent.video import frame_time_us
 
 PER_SECOND = {"s": 1, "ms": 1_000, "us": 1_000_000, "ns": 1_000_000_000}
@@ -146,21 +148,24 @@ def read_timestamps(path: Path, unit: str) -> Timestamps:
 
 def _lines(path: Path) -> list[str]:
     try:
-        return path.read_text(encoding="utf-8").splitlines()
+        return usable_path(path).read_text(encoding="utf-8").splitlines()
     except FileNotFoundError:
         raise InputError(f"timestamp file {path} does not exist; check --timestamps") from None
     except (OSError, UnicodeDecodeError) as error:
         raise FileFormatError(
-            f"timestamp file {path} cannot be read ({error}); it must be plain text"
+            f"timestamp file {path} cannot be read ({one_line(error)}); it must be plain text"
         ) from error
 
 
 def _microseconds(text: str, unit: str, where: str) -> int:
     """Exact: a float64 of a Unix time in ns would be off by up to 128 ns."""
     try:
-        return round(Fraction(text) * 1_000_000 / PER_SECOND[unit])
+        time_us = round(parse_fraction(text) * 1_000_000 / PER_SECOND[unit])
+        if abs(time_us) >= 2**63:
+            raise ValueError(text)
     except (ValueError, ZeroDivisionError):
         raise FileFormatError(
-            f"{where} begins with {text!r}; each line must begin with a time in {unit}, "
+            f"{where} begins with {shown(text)}; each line must begin with a time in {unit}, "
             "optionally followed by a file name"
         ) from None
+    return time_us

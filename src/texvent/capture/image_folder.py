@@ -11,7 +11,8 @@ import numpy as np
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes, Timestamps, read_timestamps
 from texvent.capture.intensity_scale import usable_pixels
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError, InputError, shown
+from texvent.runtime.file_names import usable_path
 from texvent.sensor import checked_size
 from texvent.video import Frame, PixelArray
 
@@ -88,7 +89,11 @@ def read_image(path: Path) -> PixelArray:
     data = np.fromfile(path, dtype=np.uint8)
     # Grey stays grey, 16-bit and float stay, alpha goes, and JPEG orientation is applied.
     flags = cv2.IMREAD_ANYCOLOR | cv2.IMREAD_ANYDEPTH
-    image = cv2.imdecode(data, flags) if data.size else None
+    try:
+        image = cv2.imdecode(data, flags) if data.size else None
+    except cv2.error as error:
+        # OpenCV refuses some damage, such as 2^30 pixels, by its assertions.
+        raise FileFormatError(f"image {path} is damaged: OpenCV refuses it") from error
     if image is None:
         raise FileFormatError(f"image {path} cannot be decoded; it may be cut off or damaged")
     if image.ndim == 3:
@@ -135,11 +140,12 @@ def _natural_key(path: Path) -> tuple[tuple[tuple[int, int | str], ...], str]:
 def _named_images(listing: Timestamps, file: Path, folder: Path) -> list[Path]:
     paths: list[Path] = []
     for name in listing.names or ():
+        usable_path(name)
         candidates = (file.parent / name, folder / name, folder / Path(name).name)
         path = next((candidate for candidate in candidates if candidate.is_file()), None)
         if path is None:
             raise InputError(
-                f"{file} names {name}, which is neither beside it nor in {folder}; "
+                f"{file} names {shown(name)}, which is neither beside it nor in {folder}; "
                 "remove the line or restore the image"
             )
         paths.append(path)

@@ -9,8 +9,6 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from texvent.capture.aedat4_frames import Aedat4Frames, is_aedat4
 from texvent.capture.array_frames import ArrayFrames
 from texvent.capture.dsec_frames import DsecFrames, is_dsec
@@ -20,7 +18,9 @@ from texvent.capture.image_folder import ImageFolder
 from texvent.capture.prepare import PreparedFrames
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.files import event_extensions
+from texvent.runtime.file_names import usable_path
 from texvent.sensor import SensorSize
 from texvent.video import FrameStream
 
@@ -84,7 +84,7 @@ def _file_times(config: CaptureConfig, given: FrameTimes | None) -> FrameTimes |
 
 
 def _open_address(address: str, config: CaptureConfig, given: FrameTimes | None) -> FrameStream:
-    path = Path(address.removeprefix("file://")).expanduser()
+    path = usable_path(Path(address.removeprefix("file://")).expanduser())
     if _is_live(address, path):
         from texvent.capture.live import LiveFrames  # brings PyAV
 
@@ -97,7 +97,7 @@ def _open_address(address: str, config: CaptureConfig, given: FrameTimes | None)
         unit = config.timestamps_unit
         return ImageFolder(path, given, timestamps=config.timestamps, unit=unit)
     if path.suffix.lower() == ".npy" and path.is_file():
-        return _open_array(_read_npy(path), config, given)
+        return _open_array(StoredArray(path), config, given)
     if is_aedat4(path):
         return Aedat4Frames(path, _file_times(config, given))
     from texvent.capture.video_file import VideoFile  # brings PyAV
@@ -142,11 +142,3 @@ def _adapt_stream(
     if is_whole and size in (None, stream.size):
         return stream
     return PreparedFrames(stream, config, size=size, check_scale=False)
-
-
-def _read_npy(path: Path) -> np.ndarray[Any, Any]:
-    """A .npy file, mapped rather than read, so that it may be larger than memory."""
-    try:
-        return np.asarray(np.load(path, mmap_mode="r", allow_pickle=False))
-    except (ValueError, OSError, EOFError) as error:
-        raise FileFormatError(f"{path} is not a NumPy array file ({error})") from error

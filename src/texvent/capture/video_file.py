@@ -188,7 +188,7 @@ def _opened(path: Path) -> Iterator[tuple[InputContainer, VideoStream]]:
     refuse_missing(path, "video")
     try:
         # With the protocol named, a colon in the path is not taken for one.
-        container = av.open(f"file:{path}")
+        container = av.open(f"file:{path}", metadata_errors="replace")
     except (FFmpegError, OSError) as error:
         raise FileFormatError(
             f"{path} is not a video that can be read ({error.strerror}); "

@@ -13,7 +13,7 @@ from texvent._registry import suggest
 from texvent._version import full_version
 from texvent.cli.notices import one_line_warnings, say
 from texvent.cli.shutdown import end_process
-from texvent.errors import ConfigError, OutputError, TexventError
+from texvent.errors import ConfigError, OutputError, TexventError, shown
 from texvent.io.protected_inputs import protected_inputs
 from texvent.runtime.interrupts import raise_interrupted
 
@@ -150,7 +150,9 @@ def _dispatch(words: list[str]) -> int:
         sys.stdout.write(f"texvent {full_version()}\n")
         return 0
     if words[0] not in COMMANDS:
-        raise ConfigError(f"unknown command {words[0]!r}; {suggest(words[0], tuple(COMMANDS))}")
+        raise ConfigError(
+            f"unknown command {shown(words[0])}; {suggest(words[0], tuple(COMMANDS))}"
+        )
     command = importlib.import_module(COMMANDS[words[0]][0])
     code: int = command.run(words[1:])
     return code

@@ -18,7 +18,7 @@ import tyro
 
 from texvent.cli.help import ALL, asked_help, render_help
 from texvent.cli.option_types import REQUIRED, SCALARS, without_none
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 from texvent.io.protected_inputs import protect_inputs
 from texvent.options.fields import RenamedOptionWarning, former_names, option_help, option_names
 
@@ -111,7 +111,7 @@ def refuse_arguments(arguments: Sequence[str], *, prog: str, description: str) -
         sys.stdout.write(render_help(ALL, {}, prog=prog, description=description))
         raise SystemExit(0)
     if arguments:
-        raise ConfigError(f"{prog} takes no arguments; got {' '.join(arguments)!r}")
+        raise ConfigError(f"{prog} takes no arguments; got {shown(' '.join(arguments))}")
 
 
 def peek_options(arguments: Sequence[str], names: Sequence[str]) -> dict[str, str | None]:
@@ -206,7 +206,7 @@ def _scalar_rule(
         try:
             return convert(words[0])
         except (ValueError, ZeroDivisionError):
-            raise ValueError(f"{words[0]!r} is not {_EXPECTED[kind]}") from None
+            raise ValueError(f"{shown(words[0])} is not {_EXPECTED[kind]}") from None
 
     return tyro.constructors.PrimitiveConstructorSpec(
         nargs=1,

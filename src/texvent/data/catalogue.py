@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from texvent._registry import suggest
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 
 
 @dataclass(frozen=True)
@@ -312,5 +312,5 @@ def find_data_set(name: str) -> DataSet:
         ConfigError: there is none.
     """
     if name not in DATA_SETS:
-        raise ConfigError(f"unknown data set {name!r}; {suggest(name, tuple(DATA_SETS))}")
+        raise ConfigError(f"unknown data set {shown(name)}; {suggest(name, tuple(DATA_SETS))}")
     return DATA_SETS[name]

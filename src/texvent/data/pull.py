@@ -24,7 +24,7 @@ from pypi_simple import (
 
 from texvent.data.catalogue import Archive, DataSet, find_data_set
 from texvent.data.unpack import DATA_VARIABLE, file_sha256, is_complete, unpack
-from texvent.errors import FileFormatError, TexventError
+from texvent.errors import FileFormatError, TexventError, one_line
 from texvent.io.atomic import atomic_file
 from texvent.runtime.cache_folder import cache_folder, make_folder
 
@@ -139,7 +139,7 @@ def _download(
                 connection.download_package(package, part, progress=progress, timeout=TIMEOUT_S)
     except (DigestMismatchError, NoDigestsError) as error:
         raise FileFormatError(
-            f"{archive.filename} did not arrive intact ({error}); try again. {by_hand}"
+            f"{archive.filename} did not arrive intact ({one_line(error)}); try again. {by_hand}"
         ) from error
     except NoSuchProjectError as error:
         raise TexventError(

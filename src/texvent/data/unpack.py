@@ -8,7 +8,7 @@ import zipfile
 from pathlib import Path
 
 from texvent.data.catalogue import DataFolder, DataSet
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, one_line
 from texvent.io.atomic import atomic_file
 from texvent.runtime.cache_folder import make_folder
 
@@ -83,7 +83,7 @@ def _read_members(archive: Path, data_set: DataSet) -> dict[str, bytes]:
             }
     except (tarfile.TarError, zipfile.BadZipFile, EOFError, OSError) as error:
         raise FileFormatError(
-            f"{archive} cannot be unpacked ({error}); delete it and pull again"
+            f"{archive} cannot be unpacked ({one_line(error)}); delete it and pull again"
         ) from error
 
 

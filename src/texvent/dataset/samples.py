@@ -12,7 +12,7 @@ from texvent._registry import suggest
 from texvent.api import Source
 from texvent.config import check_range
 from texvent.dataset.targets import Clip, Target, record_clip, target_of
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError, InputError, shown
 from texvent.events import EventStream
 from texvent.pipeline import Simulation
 from texvent.represent.named import load_representation, represent_window
@@ -75,7 +75,9 @@ class SimulatedSamples:
             raise ConfigError("give either prompts or videos, and at least one")
         for target in self.targets:
             if target not in get_args(Target):
-                raise ConfigError(f"unknown target {target!r}; {suggest(target, get_args(Target))}")
+                raise ConfigError(
+                    f"unknown target {shown(target)}; {suggest(target, get_args(Target))}"
+                )
         check_range("slice_us", self.slice_us, 1)
         check_range("seed", self.seed, 0, MAX_SEED)
         if "seed" in self.simulation:

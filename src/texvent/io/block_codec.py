@@ -66,6 +66,8 @@ class BlockCodec(ABC):
     limits: ClassVar[FormatLimits]
     has_sidecar: ClassVar[bool] = False
     """Whether size and metadata are written beside the file."""
+    has_checksums: ClassVar[bool] = False
+    """Whether events that were changed by damage are noticed; `texvent validate` says where not."""
     writer: ClassVar[type[BlockWriter]] = BlockWriter
 
     def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:

@@ -7,12 +7,13 @@ from pathlib import Path
 from typing import Any
 
 from texvent._registry import CODECS
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError, InputError, shown
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.protocol import EventCodec, EventWriter, RecognisingCodec
 from texvent.io.wrong_kind import refuse_other_kind
 from texvent.runtime.background_writer import BackgroundWriter
+from texvent.runtime.file_names import usable_path
 from texvent.sensor import SensorSize, SizeLike, as_size
 
 
@@ -35,6 +36,7 @@ def codec_that_reads(path: str | Path, format: str | None = None) -> EventCodec:
         ConfigError: unknown format, or unknown extension; the message lists the known ones.
         InputError: a folder whose files no codec recognises, or a file of another kind.
     """
+    usable_path(path)
     if format is None and Path(path).is_dir():
         found = find_folder_codec(Path(path))
         if found is None:
@@ -55,6 +57,15 @@ def codec_that_reads(path: str | Path, format: str | None = None) -> EventCodec:
         elif codec.recognises(Path(path)):
             return codec
     return (others or codecs)[0]
+
+
+def has_checksums(path: str | Path, format: str | None = None) -> bool:
+    """Whether the format of a file notices events that were changed by damage.
+
+    Raises:
+        ConfigError, InputError: as `codec_that_reads`.
+    """
+    return bool(getattr(codec_that_reads(path, format), "has_checksums", False))
 
 
 def find_folder_codec(path: Path) -> EventCodec | None:
@@ -95,7 +106,7 @@ def _codecs_for(path: str | Path, format: str | None) -> list[EventCodec]:
     if found:
         return found
     known = dict.fromkeys(one for codec in codecs for one in codec.extensions)
-    what = f"extension {extension!r}" if extension else "no extension"
+    what = f"extension {shown(extension)}" if extension else "no extension"
     raise ConfigError(
         f"{path} has {what}; event files end in {', '.join(known)}; or state the format "
         "(texvent.formats(), docs/files.md)"

@@ -14,9 +14,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError, InputError, MissingDependencyError
+from texvent.errors import FileFormatError, InputError, MissingDependencyError, one_line, shown
 from texvent.events import EventStream
 from texvent.io.wrong_kind import refuse_missing
+from texvent.runtime.file_names import usable_path
 from texvent.sensor import SensorSize, checked_size
 
 ZIP_DAMAGE = (
@@ -36,16 +37,22 @@ MAX_UNPACKED_BYTES = 256 * 2**20
 MAX_UNPACKED_RATIO = 100
 
 
+TIMESTAMP_SCALE_MS = 0.001
+"""Milliseconds per unit of time in files that state it."""
+
+
 def existing_file(path: str | Path) -> Path:
     """The path of a readable file.
 
     Raises:
         InputError: there is no such file, it is a folder, or it must not be read.
     """
-    path = Path(path)
+    path = usable_path(path)
     if path.is_dir():
         raise InputError(f"{path} is a folder; give the name of an event file")
     refuse_missing(path)
+    if not path.is_file():
+        raise InputError(f"{path} is a device or a pipe; give the name of an event file")
     if not os.access(path, os.R_OK):
         raise InputError(f"{path} must not be read by this user; change its permissions")
     return path
@@ -57,7 +64,7 @@ def existing_folder(path: str | Path) -> Path:
     Raises:
         InputError: there is no such folder, it is a file, or it must not be read.
     """
-    path = Path(path)
+    path = usable_path(path)
     if not path.exists():
         raise InputError(f"no such folder: {path}; check the name")
     if not path.is_dir():
@@ -96,11 +103,6 @@ def reporting_damage(path: Path, kind: str, damage: tuple[type[Exception], ...])
         raise FileFormatError(f"{path} is damaged or not {kind} ({one_line(error)})") from error
 
 
-def one_line(error: Exception) -> str:
-    """What an error says, as one short line; its type where it says nothing."""
-    return " ".join(str(error).split())[:200] or type(error).__name__
-
-
 def check_zip(path: Path, archive: zipfile.ZipFile) -> None:
     """Refuse an archive that claims to unpack to more than 100 times its size.
 
@@ -118,6 +120,27 @@ def check_zip(path: Path, archive: zipfile.ZipFile) -> None:
         )
 
 
+def check_time_unit(path: Path, stored: Any) -> None:
+    """Refuse a file that states another unit of time than the µs.
+
+    Args:
+        path: the file.
+        stored: what it states, ms per unit, of any type.
+
+    Raises:
+        FileFormatError: see above.
+    """
+    scale = np.asarray(stored)
+    is_number = scale.size == 1 and scale.dtype.kind in "fiu"
+    if not is_number:
+        raise FileFormatError(
+            f"{path} counts time in units of {shown(stored)}; texvent reads 0.001"
+        )
+    unit_ms = float(scale.reshape(-1)[0])
+    if not np.isclose(unit_ms, TIMESTAMP_SCALE_MS):
+        raise FileFormatError(f"{path} counts time in units of {unit_ms:g} ms; texvent reads 0.001")
+
+
 def binary_polarity(p: NDArray[Any]) -> NDArray[np.uint8]:
     """Polarity coded 0/1 (or false/true) or −1/+1 as uint8, 1 = ON; other values stay wrong.
 
@@ -126,6 +149,8 @@ def binary_polarity(p: NDArray[Any]) -> NDArray[np.uint8]:
     """
     if p.size == 0 or p.dtype == np.uint8:
         return np.asarray(p, dtype=np.uint8)
+    if p.dtype.kind not in "biuf":
+        raise InputError(f"polarity holds {shown(p.dtype)}; it must be 0/1 or -1/+1 (OFF/ON)")
     values = set(np.unique(p).tolist())
     if not (values <= {0, 1} or values <= {-1, 1}):
         raise InputError(f"polarity holds {sorted(values)[:4]}; it must be 0/1 or -1/+1 (OFF/ON)")

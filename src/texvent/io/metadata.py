@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError, InputError, one_line
 from texvent.options.values import plain
 from texvent.sensor import SensorSize
 
@@ -30,7 +30,8 @@ def metadata_to_json(metadata: Mapping[str, Any]) -> str:
         return json.dumps(plain(metadata), default=_plain_number)
     except (TypeError, ValueError) as error:
         raise InputError(
-            f"metadata cannot be stored ({error}); use text, numbers, lists and dictionaries"
+            f"metadata cannot be stored ({one_line(error)}); use text, numbers, lists and "
+            "dictionaries"
         ) from error
 
 
@@ -43,7 +44,7 @@ def metadata_from_json(path: Path, text: str | bytes) -> dict[str, Any]:
     try:
         metadata = json.loads(text)
     except (ValueError, RecursionError) as error:
-        raise FileFormatError(f"{path} holds damaged metadata ({error})") from error
+        raise FileFormatError(f"{path} holds damaged metadata ({one_line(error)})") from error
     if not isinstance(metadata, dict):
         raise FileFormatError(f"{path} holds damaged metadata (not a table of names and values)")
     return metadata

@@ -11,7 +11,7 @@ import warnings
 from collections.abc import Iterable, Mapping
 from typing import Any, cast
 
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 
 
 class RenamedOptionWarning(FutureWarning):
@@ -84,11 +84,11 @@ def with_current_names(
         if now != name:
             if now in options:
                 raise ConfigError(
-                    f"{where}: {name!r} is the former name of {now!r}, which is given too; "
-                    f"leave {name!r} out"
+                    f"{where}: {shown(name)} is the former name of {now!r}, which is given too; "
+                    f"leave {shown(name)} out"
                 )
             warnings.warn(
-                f"{where}: option {name!r} is now {now!r}; the former name goes with the next "
+                f"{where}: option {shown(name)} is now {now!r}; the former name goes with the next "
                 "release",
                 RenamedOptionWarning,
                 stacklevel=2,

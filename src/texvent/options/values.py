@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 import types
 import typing
 from collections.abc import Mapping
@@ -11,10 +12,14 @@ from pathlib import Path
 from typing import Any, Literal, TypeVar
 
 from texvent._registry import suggest
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 from texvent.options.fields import option_names, with_current_names
 
 Config = TypeVar("Config")
+MAX_DIGITS = 100
+"""Characters of a number; a Unix time in ns has 19."""
+_HUGE = r"[eE][+-]?[\d_]{4,}"
+"""Exponents of which the exact number would fill the memory."""
 
 
 def with_options(config: Config, options: Mapping[str, Any], *, where: str) -> Config:
@@ -35,7 +40,7 @@ def with_options(config: Config, options: Mapping[str, Any], *, where: str) -> C
     options = with_current_names(options, [config_type], where=where)
     for name, value in options.items():
         if name not in names:
-            raise ConfigError(f"{where}: unknown option {name!r}; {suggest(name, names)}")
+            raise ConfigError(f"{where}: unknown option {shown(name)}; {suggest(name, names)}")
         converted[name] = _convert(value, hints[name], f"{where}: {name}")
     return dataclasses.replace(config, **converted)  # type: ignore[type-var]
 
@@ -62,7 +67,7 @@ def _convert(value: Any, hint: Any, where: str) -> Any:
     if origin is Literal:
         if value not in arguments:
             allowed = tuple(str(argument) for argument in arguments)
-            raise ConfigError(f"{where} is {value!r}; {suggest(str(value), allowed)}")
+            raise ConfigError(f"{where} is {shown(value)}; {suggest(value, allowed)}")
         return value
     if origin in (typing.Union, types.UnionType):
         if value is None and type(None) in arguments:
@@ -72,8 +77,8 @@ def _convert(value: Any, hint: Any, where: str) -> Any:
         return _SCALARS[hint](value)
     except KeyError:
         return value
-    except (TypeError, ValueError, ZeroDivisionError):
-        raise ConfigError(f"{where} is {value!r}; it must be {_SCALAR_NAMES[hint]}") from None
+    except (TypeError, ValueError, ArithmeticError):
+        raise ConfigError(f"{where} is {shown(value)}; it must be {_SCALAR_NAMES[hint]}") from None
 
 
 def _bool(value: Any) -> bool:
@@ -104,7 +109,10 @@ def parse_fraction(value: Any) -> Fraction:
     """A rate from 24, 29.97, "29.97" or "30000/1001", exactly as written in decimal."""
     if isinstance(value, bool):
         raise TypeError
-    return Fraction(str(value)) if isinstance(value, float) else Fraction(value)
+    text = str(value) if isinstance(value, float) else value
+    if isinstance(text, str) and (len(text) > MAX_DIGITS or re.search(_HUGE, text)):
+        raise ValueError(text[:MAX_DIGITS])
+    return Fraction(text)
 
 
 _SCALARS: dict[Any, Any] = {

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent._registry import suggest
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 from texvent.events import EventStream
 from texvent.represent.array_ops import Array, Events, columns_of
 
@@ -44,7 +44,7 @@ def event_frame(events: Events, kind: EventFrameKind = "signed") -> Array:
     """
     if kind not in get_args(EventFrameKind):
         raise ConfigError(
-            f"unknown event frame {kind!r}; {suggest(kind, get_args(EventFrameKind))}"
+            f"unknown event frame {shown(kind)}; {suggest(kind, get_args(EventFrameKind))}"
         )
     columns = columns_of(events)
     counts, ops = columns.count((columns.p, 2), *columns.pixel_axes), columns.ops

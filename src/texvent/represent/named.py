@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from texvent._registry import REPRESENTATIONS, suggest
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 from texvent.represent.array_ops import Array, Events
 from texvent.represent.tensors import put_events
 
@@ -77,7 +77,7 @@ def load_representation(name: str, options: Iterable[str] = ()) -> Callable[...,
     allowed = option_names_of(function)
     for option in options:
         if option not in allowed:
-            raise ConfigError(f"{name} has no option {option!r}; {suggest(option, allowed)}")
+            raise ConfigError(f"{name} has no option {shown(option)}; {suggest(option, allowed)}")
     return function
 
 

@@ -6,7 +6,7 @@ from typing import Literal, get_args
 
 from texvent._registry import suggest
 from texvent.config import check_range
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 from texvent.represent.array_ops import Array, Events, columns_of, flat_index
 
 Decay = Literal["exponential", "linear"]
@@ -55,7 +55,7 @@ def time_surface(
     """
     check_range("tau_us", tau_us, 1, MAX_TAU_US)
     if decay not in get_args(Decay):
-        raise ConfigError(f"unknown decay {decay!r}; {suggest(decay, get_args(Decay))}")
+        raise ConfigError(f"unknown decay {shown(decay)}; {suggest(decay, get_args(Decay))}")
     columns = columns_of(events)
     ops, (height, width) = columns.ops, columns.size.shape
     instant = at_us if at_us is not None else int(columns.t[-1]) if len(columns) else 0

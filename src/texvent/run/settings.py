@@ -15,10 +15,11 @@ from typing import Any, Literal
 
 from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS, suggest
 from texvent.config import CaptureConfig, InterpolateConfig, RunConfig
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError, InputError, one_line, shown
 from texvent.io.files import event_extensions, open_events
 from texvent.options.fields import option_names, with_current_names
 from texvent.options.values import plain, with_options
+from texvent.runtime.file_names import usable_path
 from texvent.sensor import SENSORS, Sensor, SensorSize, parse_sensor
 from texvent.simulate.thresholds import with_contrast_threshold
 
@@ -79,9 +80,9 @@ def default_settings(
     simulator_class = SIMULATORS.load(simulator_name)
     presets = simulator_class.presets
     preset_name = preset or next(iter(presets))
-    if preset_name not in presets:
+    if not isinstance(preset_name, str) or preset_name not in presets:
         raise ConfigError(
-            f"simulator {simulator_name!r} has no preset {preset_name!r}; "
+            f"simulator {shown(simulator_name)} has no preset {shown(preset_name)}; "
             f"{suggest(preset_name, tuple(presets))}"
         )
     run = RunConfig(simulator=simulator_name, preset=preset_name)
@@ -137,7 +138,8 @@ def base_settings(
     file_options = read_config(config, command) if config is not None else {}
     given = {name: value for name, value in deciding.items() if value is not None}
     chosen = {**file_options, **given}
-    if str(chosen.get("sensor", "")).lower().endswith((".toml", ".yaml", ".yml")):
+    sensor = chosen.get("sensor")
+    if isinstance(sensor, str) and sensor.lower().endswith((".toml", ".yaml", ".yml")):
         chosen = {**read_config(chosen.pop("sensor")), **chosen}
     parts = {name: chosen.pop(name, None) for name in ("generator", "simulator", "preset")}
     if command == "simulate" and parts["generator"] is not None:
@@ -174,7 +176,7 @@ def unmeasured_sensor(run: RunConfig) -> str | None:
     measured = [name for name in presets if any(one.startswith(name) for one in SENSORS)]
     return (
         f"{run.sensor} sets the size only: {run.simulator} has measured constants of "
-        f"{', '.join(measured)}; those of preset {run.preset!r} stand in"
+        f"{', '.join(measured)}; those of preset {shown(run.preset)} stand in"
     )
 
 
@@ -232,7 +234,9 @@ def apply_options(settings: Settings, options: Mapping[str, Any], *, where: str)
         changed["simulate"] = {}
     for name, value in options.items():
         if name not in owners:
-            raise ConfigError(f"{where}: unknown option {name!r}; {suggest(name, tuple(owners))}")
+            raise ConfigError(
+                f"{where}: unknown option {shown(name)}; {suggest(name, tuple(owners))}"
+            )
         changed.setdefault(owners[name], {})[name] = value
     replaced = {
         key: with_options(groups[key], values, where=where) for key, values in changed.items()
@@ -246,7 +250,7 @@ def apply_options(settings: Settings, options: Mapping[str, Any], *, where: str)
 
 def _as_number(value: Any, where: str) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ConfigError(f"{where}: contrast_threshold is {value!r}; it must be a number")
+        raise ConfigError(f"{where}: contrast_threshold is {shown(value)}; it must be a number")
     return float(value)
 
 
@@ -261,7 +265,7 @@ def read_config(path: str | Path, command: Command | None = None) -> dict[str, A
         InputError: the file cannot be read.
         ConfigError: it is not valid TOML or YAML, holds no options, or two tables set the same one.
     """
-    path = Path(path)
+    path = usable_path(path)
     if path.suffix.lower() in event_extensions() - {".txt", ".csv"}:
         return _options_of_run(path, command)
     try:
@@ -270,12 +274,11 @@ def read_config(path: str | Path, command: Command | None = None) -> dict[str, A
         reason = error.strerror or error
         raise InputError(f"cannot read config file {path}: {reason}; check its name") from error
     except UnicodeDecodeError as error:
-        raise InputError(f"config file {path} is not UTF-8 text: {error}") from error
+        raise InputError(f"config file {path} is not UTF-8 text: {one_line(error)}") from error
     try:
         document = _parse(path, text)
-    except (tomllib.TOMLDecodeError, ValueError) as error:
-        reason = " ".join(str(error).split())
-        raise ConfigError(f"config file {path} is not valid: {reason}") from error
+    except (tomllib.TOMLDecodeError, ValueError, RecursionError) as error:
+        raise ConfigError(f"config file {path} is not valid: {one_line(error)}") from error
     if not isinstance(document, Mapping):
         raise ConfigError(f"config file {path} must hold options by name, such as: seed = 3")
     return flatten_tables(document, path)
@@ -291,7 +294,7 @@ def flatten_tables(tables: Mapping[str, Any], path: Path) -> dict[str, Any]:
     for name, value in tables.items():
         for option, item in (value if isinstance(value, Mapping) else {name: value}).items():
             if option in flat:
-                raise ConfigError(f"config file {path} sets {option!r} twice")
+                raise ConfigError(f"config file {path} sets {shown(option)} twice")
             flat[str(option).replace("-", "_")] = item
     return flat
 
@@ -314,4 +317,4 @@ def _parse(path: Path, text: str) -> Any:
             raise ValueError(error) from error
     if path.suffix.lower() == ".toml":
         return tomllib.loads(text)
-    raise ValueError(f"its name must end in .toml, .yaml or .yml, not {path.suffix!r}")
+    raise ValueError(f"its name must end in .toml, .yaml or .yml, not {shown(path.suffix)}")

@@ -15,7 +15,7 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
 
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 
 Part = TypeVar("Part")
 Result = TypeVar("Result")
@@ -34,7 +34,9 @@ def count_threads() -> int:
         value = os.environ.get(name)
         if value:
             if not value.isdecimal() or int(value) < 1:
-                raise ConfigError(f"${name} is {value!r}; it must be a whole number, at least 1")
+                raise ConfigError(
+                    f"${name} is {shown(value)}; it must be a whole number, at least 1"
+                )
             return int(value)
     return _count_cores()
 

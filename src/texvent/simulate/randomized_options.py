@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar
 
 from texvent._registry import suggest
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 from texvent.options.fields import option_names
 from texvent.simulate.random.draws import draw_normals, draw_uniforms, frame_key
 from texvent.simulate.thresholds import with_contrast_threshold
@@ -75,7 +75,7 @@ def draw_training_config(config: Config, recipe: Recipe, *, seed: int) -> Config
         V2V's training ranges: threshold uniform over 0.05..2, ratio of the two up to 1.5.
     """
     if recipe not in THRESHOLDS:
-        raise ConfigError(f"unknown recipe {recipe!r}; {suggest(recipe, tuple(THRESHOLDS))}")
+        raise ConfigError(f"unknown recipe {shown(recipe)}; {suggest(recipe, tuple(THRESHOLDS))}")
     key = frame_key(seed, CLIP_FRAME)
     chances = draw_uniforms(key, 0, 0, range(2 + len(NOISE))).tolist()
     if recipe == "v2v":

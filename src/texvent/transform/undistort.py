@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError, InputError, one_line
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
@@ -56,7 +56,7 @@ def read_calibration(path: Path) -> Calibration:
     try:
         numbers = [float(word) for word in words]
     except ValueError as error:
-        raise FileFormatError(f"{path} is not a calibration: {error}") from error
+        raise FileFormatError(f"{path} is not a calibration: {one_line(error)}") from error
     if len(numbers) != 9 or not np.isfinite(numbers).all() or min(numbers[:2]) <= 0:
         raise FileFormatError(
             f"{path} holds {len(numbers)} numbers; a calibration is nine: "

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent._registry import suggest
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError, InputError, shown
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, check_output
 from texvent.sensor import SensorSize
@@ -62,7 +62,7 @@ class Preview(AtomicOutput):
         unknown = [kind for kind in kinds if kind not in PREVIEW_KINDS]
         if unknown:
             raise ConfigError(
-                f"unknown preview {unknown[0]!r}; {suggest(unknown[0], PREVIEW_KINDS)}"
+                f"unknown preview {shown(unknown[0])}; {suggest(unknown[0], PREVIEW_KINDS)}"
             )
         self._paths = {kind: preview_path(stem, kind) for kind in kinds}
         for path in self._paths.values():

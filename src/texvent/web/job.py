@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any, Literal, TypeAlias
 
-from texvent.errors import InputError
+from texvent.errors import InputError, one_line, shown
 from texvent.web.limits import Limits
 
 
@@ -74,7 +74,7 @@ def read_job(line: str) -> Job:
             values["limits"] = Limits(**values["limits"])
         return kind(**values)
     except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise InputError(f"not a job: {line[:100]!r} ({error})") from error
+        raise InputError(f"not a job: {shown(line[:100])} ({one_line(error)})") from error
 
 
 def answer_line(answer: Answer) -> str:

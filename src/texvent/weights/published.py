@@ -11,7 +11,7 @@ from typing import Literal, TypeAlias
 
 from texvent._registry import suggest
 from texvent.data.catalogue import Archive, DataFile, DataSet
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 from texvent.metrics.lpips.layout import LpipsNet
 from texvent.metrics.lpips.weights import weights_file_name
 
@@ -136,5 +136,5 @@ def find_weights(name: str) -> PublishedWeights:
         ConfigError: there are none.
     """
     if name not in WEIGHTS:
-        raise ConfigError(f"unknown weights {name!r}; {suggest(name, tuple(WEIGHTS))}")
+        raise ConfigError(f"unknown weights {shown(name)}; {suggest(name, tuple(WEIGHTS))}")
     return WEIGHTS[name]

@@ -109,7 +109,8 @@ def test_a_document_read_back_gives_the_report(report):
 
 
 @pytest.mark.parametrize(
-    ("changes", "message"), [({"schema": "other-1"}, "'other-1'"), ({"scores": [{}]}, "damaged")]
+    ("changes", "message"),
+    [({"schema": "other-1"}, "'other-1'"), ({"scores": [{}]}, "scores lacks scene")],
 )
 def test_a_document_of_another_kind_is_refused(report, changes, message):
     with pytest.raises(FileFormatError, match=message):

@@ -138,3 +138,14 @@ def test_info_knows_every_format_and_folders_too(
         assert run("info", name, "--json") == 0
         facts = json.loads(capsys.readouterr().out)
         assert (facts["events"], facts["sensor"], facts["seed"]) == (5000, "346x260", 7)
+
+
+@pytest.mark.parametrize(("name", "has_checksums"), [("out.raw", False), ("in.h5", True)])
+def test_validate_says_whether_the_format_notices_damage(
+    recording: EventStream, capsys: pytest.CaptureFixture[str], name: str, has_checksums: bool
+) -> None:
+    run("convert", "in.h5", "out.raw", "--from-zero")
+    capsys.readouterr()
+    run("validate", name)
+    said = capsys.readouterr().out
+    assert ("the format cannot notice" in said) is not has_checksums

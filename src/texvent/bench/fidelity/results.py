@@ -8,9 +8,10 @@ from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
 from texvent.bench.document import plain_values, restore_nan
+from texvent.bench.document_types import check_record
 from texvent.bench.fidelity.details import Details
 from texvent.bench.oracle.pixel import TARGETS
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, shown
 from texvent.metrics.compare import load_metric
 from texvent.metrics.summary import Summary, normalise, summarise
 
@@ -145,37 +146,78 @@ def read_report(document: Mapping[str, Any]) -> FidelityReport:
     """
     if document.get("schema") != SCHEMA:
         raise FileFormatError(
-            f"the document's schema is {document.get('schema')!r}, not {SCHEMA!r}; "
+            f"the document's schema is {shown(document.get('schema'))}, not {SCHEMA!r}; "
             "run texvent bench fidelity --out again"
         )
-    try:
-        return FidelityReport(
-            environment=document["environment"],
-            fit_seeds=document["fit_seeds"],
-            score_seeds=document["score_seeds"],
-            references=[Reference(**_with_nan(one)) for one in document["references"]],
-            scores=[
-                Score(**{name: value for name, value in _with_nan(one).items() if name in _SCORE})
-                for one in document["scores"]
-            ],
-            skipped=document["skipped"],
-            seconds=document["seconds"],
-            floor_name=document["floor_name"],
-            protocol=document["protocol"],
-        )
-    except (KeyError, TypeError, AttributeError) as error:
-        raise FileFormatError(f"the document is damaged: {error!r}") from error
+    parts = {name: value for name, value in document.items() if name not in _RECORDS}
+    restored = {name: _with_nan(name, document) for name in _RECORDS}
+    check_record(FidelityReport, {**parts, **restored}, "the document")
+    report = FidelityReport(
+        **{name: parts[name] for name in _PARTS},
+        references=[_reference(one) for one in restored["references"]],
+        scores=[_score(one) for one in restored["scores"]],
+    )
+    _check_lengths(report)
+    return report
 
 
-_SCORE = {field.name for field in fields(Score)}
+_RECORDS = ("references", "scores")
+_PARTS = [field.name for field in fields(FidelityReport) if field.name not in _RECORDS]
 
 
-def _with_nan(part: Mapping[str, Any]) -> dict[str, Any]:
-    """A reference or score with NaN for undefined values; a threshold may be None."""
+def _reference(values: Mapping[str, Any]) -> Reference:
+    known = {field.name: values[field.name] for field in fields(Reference)}
+    return Reference(**{**known, "details": _details(values)})
+
+
+def _score(values: Mapping[str, Any]) -> Score:
+    known = {field.name: values[field.name] for field in fields(Score)}
+    return Score(**{**known, "details": _details(values)})
+
+
+def _details(values: Mapping[str, Any]) -> Details:
+    return Details(**{field.name: values["details"][field.name] for field in fields(Details)})
+
+
+def _check_lengths(report: FidelityReport) -> None:
+    """Refuse a report whose parts do not belong together.
+
+    Raises:
+        FileFormatError: a score has no reference, or a list is longer or shorter than the others.
+    """
+    known = {(one.scene, one.target): one for one in report.references}
+    if not known or not report.scores:
+        raise FileFormatError("the document has no reference or no score")
+    for reference in report.references:
+        if reference.floor.keys() != reference.null.keys():
+            raise FileFormatError(f"{shown(reference.title)}: floor and null differ in metrics")
+    for score in report.scores:
+        where = f"the score of {shown(score.entry)} on {shown(score.scene)}"
+        if (score.scene, score.target) not in known:
+            raise FileFormatError(f"{where} has no reference")
+        floor = known[score.scene, score.target].floor
+        if "stpp" not in score.values or score.values.keys() - floor.keys():
+            raise FileFormatError(f"{where} has other metrics than its reference, or no stpp")
+        if len({len(one) for one in (*score.values.values(), *floor.values())}) != 1:
+            raise FileFormatError(f"{where} and its reference have lists of unequal length")
+    details = [one.details for one in report.references]
+    details += [one.details for one in report.scores]
+    if len({tuple(map(len, (one.time_error, *one.levels))) for one in details}) != 1:
+        raise FileFormatError("the details of the scores have lists of unequal length")
+
+
+def _with_nan(name: str, document: Mapping[str, Any]) -> list[Any]:
+    """References or scores with NaN for undefined values; a threshold may be None."""
+    parts = document.get(name)
+    if not isinstance(parts, list) or not all(isinstance(one, Mapping) for one in parts):
+        raise FileFormatError(f"the document's {name} are no list of objects")
+    return [_restored(one) for one in parts]
+
+
+def _restored(part: Mapping[str, Any]) -> dict[str, Any]:
     restored = {
         name: restore_nan(value)
         for name, value in part.items()
-        if name in ("values", "floor", "null", "default_ratio")
+        if name in ("values", "floor", "null", "default_ratio", "details")
     }
-    details = Details(**restore_nan(part["details"]))
-    return {**part, **restored, "details": details}
+    return {**part, **restored}

@@ -9,7 +9,7 @@ from texvent._registry import suggest
 from texvent.bench.fidelity.results import FidelityReport, Reference, Score
 from texvent.bench.markdown import markdown_table
 from texvent.bench.oracle.pixel import TARGETS
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 from texvent.metrics.summary import normalise, summarise
 
 BASELINE = "texvent, blend"
@@ -41,7 +41,7 @@ def check_baseline(baseline: str, entries: Iterable[str], *, default: str = BASE
     """
     names = tuple(dict.fromkeys(entries))
     if baseline != default and baseline not in names:
-        raise ConfigError(f"baseline {baseline!r} does not run; {suggest(baseline, names)}")
+        raise ConfigError(f"baseline {shown(baseline)} does not run; {suggest(baseline, names)}")
 
 
 def fidelity_tables(report: FidelityReport, *, baseline: str = BASELINE) -> str:

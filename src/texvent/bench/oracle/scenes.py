@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from texvent._registry import suggest
 from texvent.bench.oracle.prompt_scenes import PROMPTS, build_prompt_scene
 from texvent.bench.oracle.smooth_texture import ValueNoise
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 from texvent.sensor import SensorSize
 
 Float64Array = NDArray[np.float64]
@@ -55,7 +55,7 @@ def check_scene(name: str) -> None:
         ConfigError: no scene has that name.
     """
     if name not in scene_names():
-        raise ConfigError(f"unknown scene {name!r}; {suggest(name, scene_names())}")
+        raise ConfigError(f"unknown scene {shown(name)}; {suggest(name, scene_names())}")
 
 
 def known_flow(name: str) -> tuple[float, float] | None:

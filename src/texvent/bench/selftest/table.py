@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
 from texvent.bench.document import plain_values, read_document, restore_nan
+from texvent.bench.document_types import check_record
 from texvent.bench.machine import describe_environment
 from texvent.bench.selftest.perturbations import PERTURBATIONS, SERIES
 from texvent.bench.selftest.run import (
@@ -17,7 +18,7 @@ from texvent.bench.selftest.run import (
     SelftestRow,
     ranked_rows,
 )
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, shown
 
 SCHEMA = "texvent-selftest-1"
 """Name of the document's layout: one entry of `rows` per `SelftestRow`."""
@@ -65,11 +66,13 @@ def read_selftest(path: Path) -> list[SelftestRow]:
     document = read_document(path)
     if document.get("schema") != SCHEMA:
         raise FileFormatError(
-            f"{path} has the schema {document.get('schema')!r}, expected {SCHEMA!r}; "
+            f"{path} has the schema {shown(document.get('schema'))}, expected {SCHEMA!r}; "
             "write one with texvent bench selftest --out"
         )
     names = {field.name for field in fields(SelftestRow)}
-    rows = document.get("rows", [])
-    if not all(isinstance(row, Mapping) and row.keys() == names for row in rows):
-        raise FileFormatError(f"{path}: its rows must have the fields {', '.join(sorted(names))}")
-    return [SelftestRow(**restore_nan(row)) for row in rows]
+    rows = restore_nan(document.get("rows"))
+    if not isinstance(rows, list):
+        raise FileFormatError(f"{path} has no list of rows")
+    for number, row in enumerate(rows):
+        check_record(SelftestRow, row, f"{path}: row {number}")
+    return [SelftestRow(**{name: row[name] for name in names}) for row in rows]

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Mapping, Sequence
 
 from texvent._registry import suggest
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 
 BENCHMARKS: Mapping[str, str] = {
     "classify": "how many streams does N-ImageNet's classifier recognise?",
@@ -29,7 +29,7 @@ def run(arguments: Sequence[str]) -> int:
         return 0 if arguments else 2
     name, *rest = arguments
     if name not in BENCHMARKS:
-        raise ConfigError(f"unknown benchmark {name!r}; {suggest(name, tuple(BENCHMARKS))}")
+        raise ConfigError(f"unknown benchmark {shown(name)}; {suggest(name, tuple(BENCHMARKS))}")
     importlib.import_module(f"texvent.cli.bench.{name}").run(rest)
     return 0
 

@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 from texvent.cli.event_files.time_option import keep_time_range
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
-from texvent.errors import ConfigError, warn
+from texvent.errors import ConfigError, shown, warn
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.files import open_events, open_writer
@@ -138,7 +138,7 @@ def parse_region(text: str) -> Region:
     words = text.split(",")
     if len(words) != 4 or not all(word.strip().isdecimal() for word in words):
         raise ConfigError(
-            f"crop is {text!r}; give X,Y,WIDTH,HEIGHT in pixels, such as 100,50,128,128"
+            f"crop is {shown(text)}; give X,Y,WIDTH,HEIGHT in pixels, such as 100,50,128,128"
         )
     return Region(*(int(word) for word in words))
 

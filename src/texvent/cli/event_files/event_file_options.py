@@ -11,6 +11,7 @@ from texvent.cli.option_types import REQUIRED
 from texvent.event_packets import EventPackets
 from texvent.io.files import open_events
 from texvent.io.wrong_kind import refuse_missing
+from texvent.runtime.file_names import usable_path
 from texvent.sensor import parse_sensor
 
 
@@ -33,7 +34,7 @@ class EventFileOptions:
         Raises:
             InputError: there is no such file, or it cannot be read.
         """
-        refuse_missing(self.path)
+        refuse_missing(usable_path(self.path))
         size = parse_sensor(self.sensor) if self.sensor else None
         return open_events(self.path, format=self.format, size=size)
 

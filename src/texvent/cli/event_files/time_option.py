@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 from texvent.event_packets import EventPackets
 from texvent.time_range import END_OF_TIME_US
 from texvent.transform.window import keep_time
@@ -33,6 +33,6 @@ def parse_time_range(text: str) -> tuple[int, int]:
         stop = round(float(words[1]) * MICROSECONDS) if words[1] else END_OF_TIME_US
     except (ValueError, OverflowError) as error:
         raise ConfigError(
-            f"time is {text!r}; give START,STOP in seconds, such as 0.5,2 or 0.5, or ,2"
+            f"time is {shown(text)}; give START,STOP in seconds, such as 0.5,2 or 0.5, or ,2"
         ) from error
     return start, stop

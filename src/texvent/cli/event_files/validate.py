@@ -12,6 +12,7 @@ from typing import Any, ClassVar
 from texvent.cli.event_files.event_file_options import EventFileOptions
 from texvent.cli.options import parse_configs
 from texvent.errors import warn
+from texvent.io.files import has_checksums
 from texvent.metrics.soundness import SoundnessCheck
 
 SUSPICIOUS = 1
@@ -22,6 +23,9 @@ polarity (a file that breaks them is refused), exact duplicates, hot pixels, clu
 a missing polarity.
 
 Exit code: 0 sound, 1 suspicious or empty, 2 damaged or unreadable."""
+
+
+NO_CHECKSUMS = "none: the format cannot notice events that were changed by damage"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,9 +72,11 @@ def validate(options: ValidateOptions) -> dict[str, Any]:
     hot = facts.pop("hot_pixels")
     shares = {name: facts[name] for name in ("clumped_share", "on_share")}
     rounded = {name: None if math.isnan(one) else round(one, 4) for name, one in shares.items()}
+    is_checked = has_checksums(options.path, options.format)
     return {
         "verdict": verdict,
         "complaints": complaints,
+        "checksums": "yes" if is_checked else NO_CHECKSUMS,
         "sensor": str(events.size),
         **facts,
         **rounded,

@@ -17,7 +17,7 @@ from texvent.capture.open import open_frames
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import CaptureConfig, InterpolateConfig, check_range
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError, InputError, shown
 from texvent.io.atomic import check_output
 from texvent.io.files import load
 from texvent.runtime.console_progress import ConsoleProgress
@@ -68,7 +68,7 @@ class CalibrateOptions:
         check_range("seconds", self.seconds, 0.1)
         if self.start_preset not in PRESETS:
             raise ConfigError(
-                f"unknown preset {self.start_preset!r}; "
+                f"unknown preset {shown(self.start_preset)}; "
                 f"{suggest(self.start_preset, tuple(PRESETS))}"
             )
 

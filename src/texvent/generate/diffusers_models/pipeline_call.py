@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent._require import require
-from texvent.errors import ConfigError, InputError, TexventError
+from texvent.errors import ConfigError, InputError, TexventError, one_line
 from texvent.generate.video_config import DiffusersConfig
 from texvent.runtime.progress import Progress
 
@@ -104,7 +104,9 @@ def _run(pipe: Any, arguments: Mapping[str, Any], seed: int) -> Any:
             **arguments, generator=torch.Generator("cpu").manual_seed(seed), return_dict=False
         )[0]
     except ValueError as error:
-        raise ConfigError(f"{type(pipe).__name__} refuses the options: {error}") from error
+        raise ConfigError(
+            f"{type(pipe).__name__} refuses the options: {one_line(error)}"
+        ) from error
     except torch.OutOfMemoryError as error:
         raise TexventError(
             f"{type(pipe).__name__} does not fit into the GPU's memory; try --offload model or "
@@ -147,7 +149,7 @@ def _fit_image(images: Any, operations: Any, path: Path, config: DiffusersConfig
         with images.open(path) as opened:
             image = opened.convert("RGB")
     except OSError as error:
-        raise InputError(f"{path} cannot be read as an image ({error})") from error
+        raise InputError(f"{path} cannot be read as an image ({one_line(error)})") from error
     if config.width is None or config.height is None:
         return image
     return operations.fit(image, (config.width, config.height))

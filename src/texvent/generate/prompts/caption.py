@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent._require import require
-from texvent.errors import InputError, TexventError
+from texvent.errors import InputError, TexventError, one_line
 from texvent.generate.diffusers_models.pipeline_loading import resolve_device
 from texvent.generate.video_models.loading import loading
 
@@ -60,7 +60,7 @@ class Captioner:
             with pil_image.open(image) as opened:
                 rgb = opened.convert("RGB")
         except OSError as error:
-            raise InputError(f"{image} cannot be read as an image ({error})") from error
+            raise InputError(f"{image} cannot be read as an image ({one_line(error)})") from error
         inputs = self._processor(images=rgb, text=self._ask(instruction), return_tensors="pt").to(
             self._device
         )

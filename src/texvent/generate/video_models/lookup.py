@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.video_models.known_models import MODELS, VideoModel
 
@@ -74,7 +74,7 @@ def find(name: str) -> ModelGenerator | None:
         repo, _, revision = name.removeprefix(HUB).partition("@")
         if not re.fullmatch(REPOSITORY, repo):
             raise ConfigError(
-                f"generator {name!r} names no repository; write hub:organisation/name"
+                f"generator {shown(name)} names no repository; write hub:organisation/name"
             )
         known = _row_like(repo.rpartition("/")[2])
         revision_or_row = revision or known.revision

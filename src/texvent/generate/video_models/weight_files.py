@@ -14,7 +14,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError, InputError, one_line
 
 INDEX = "model_index.json"
 CONFIG = "config.json"
@@ -151,7 +151,7 @@ def _read_json(path: Path) -> dict[str, Any]:
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        raise FileFormatError(f"{path} is damaged: {error}; fetch it again") from error
+        raise FileFormatError(f"{path} is damaged: {one_line(error)}; fetch it again") from error
     if not isinstance(content, dict):
         raise FileFormatError(f"{path} is damaged: it holds no names; fetch it again")
     return content

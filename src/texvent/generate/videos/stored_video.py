@@ -96,10 +96,12 @@ def reopen(path: Path) -> StoredVideo | None:
             if not container.streams.video:
                 return None
             stream = container.streams.video[0]
+            if getattr(stream, "codec_context", None) is None:  # libav does not know the codec
+                return None
             metadata = json.loads(container.metadata.get("comment", ""))
             size = SensorSize(stream.width, stream.height)
             rate, count = stream.average_rate, stream.frames
-    except (FFmpegError, ValueError):
+    except (FFmpegError, ValueError, RecursionError):
         return None
     is_ours = stream.codec_context.name == "ffv1" and isinstance(metadata, dict)
     if not is_ours or rate is None or count < 1:
@@ -192,7 +194,7 @@ def _full_scale(pixels: PixelArray) -> PixelArray:
 
 def _decode(path: Path) -> Iterator[PixelArray]:
     try:
-        with av.open(str(path)) as container:
+        with av.open(str(path), metadata_errors="replace") as container:
             if not container.streams.video:
                 raise FileFormatError(f"{path} holds no video")
             stream = container.streams.video[0]

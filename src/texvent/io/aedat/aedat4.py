@@ -54,6 +54,7 @@ class Aedat4Codec(BlockCodec):
     """AEDAT4 with LZ4."""
 
     name: ClassVar[str] = "aedat4"
+    has_checksums: ClassVar[bool] = True
     extensions: ClassVar[tuple[str, ...]] = (".aedat4",)
     packing: ClassVar[Packing] = LZ4
     limits: ClassVar[FormatLimits] = FormatLimits("AEDAT4", 1 << 15, 1 << 63)
@@ -108,6 +109,7 @@ class Aedat4NoneCodec(Aedat4Codec):
     """AEDAT4 without compression: quick to write, 16 bytes per event."""
 
     name: ClassVar[str] = "aedat4-none"
+    has_checksums: ClassVar[bool] = False
     extensions: ClassVar[tuple[str, ...]] = ()
     packing: ClassVar[Packing] = NONE
 

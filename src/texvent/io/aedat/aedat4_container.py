@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO
 
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, one_line
 from texvent.io.aedat.aedat4_packing import Packing, packing_of
 from texvent.io.aedat.aedat4_tables import UNKNOWN, StreamInfo, read_info
 from texvent.io.aedat.flatbuffer import Table
@@ -40,6 +40,8 @@ class Container:
     stop: int | None
     """First byte of the list of packets; None: there is no list."""
     streams: tuple[StreamInfo, ...]
+    length: int
+    """Bytes of the file when its header was read."""
 
     def find_stream(self, identifier: str) -> StreamInfo | None:
         """The first stream of a type, such as EVTS; None if there is none."""
@@ -70,14 +72,20 @@ class Container:
 
     def _seek_packets(self, file: BinaryIO, stream: StreamInfo) -> Iterator[tuple[int, int]]:
         """Go to each packet of a stream; its length and the byte after it."""
-        stop = os.fstat(file.fileno()).st_size if self.stop is None else self.stop
+        stop = self.length if self.stop is None else self.stop
         position = self.start
         while position < stop:
+            self._check_length(file)
             file.seek(position)
             number, count = _read_head(file, self.path, stop - position)
             position += PACKET_HEAD.size + count
             if number == stream.number:
                 yield count, position
+        self._check_length(file)
+
+    def _check_length(self, file: BinaryIO) -> None:
+        if os.fstat(file.fileno()).st_size < self.length:
+            raise FileFormatError(f"{self.path} became shorter while it was read; read it again")
 
 
 def open_container(path: Path) -> Container:
@@ -108,7 +116,7 @@ def open_container(path: Path) -> Container:
             f"{path} states its list of packets at byte {stop} of {length}; the file was cut off"
         )
     streams = tuple(read_info(path, xml))
-    return Container(path, packing, start, None if stop == UNKNOWN else stop, streams)
+    return Container(path, packing, start, None if stop == UNKNOWN else stop, streams, length)
 
 
 def stored_size(path: Path, stream: StreamInfo) -> tuple[int, int] | None:
@@ -122,7 +130,9 @@ def stored_size(path: Path, stream: StreamInfo) -> tuple[int, int] | None:
     except KeyError:
         return None
     except ValueError as error:
-        raise FileFormatError(f"{path}: its header states no sensor size ({error})") from error
+        raise FileFormatError(
+            f"{path}: its header states no sensor size ({one_line(error)})"
+        ) from error
 
 
 def _read_head(file: BinaryIO, path: Path, room: int) -> tuple[int, int]:

@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from texvent._require import require
-from texvent.errors import FileFormatError, MissingDependencyError
+from texvent.errors import FileFormatError, MissingDependencyError, one_line
 
 MAX_PACKET_BYTES = 256 * 2**20
 """16 million events, or a frame of 80 megapixels."""
@@ -86,7 +86,7 @@ def _unpack(decompressor: Any, data: bytes, failure: type[Exception], name: str)
             parts.append(part)
             total += len(part)
     except (failure, EOFError, MemoryError) as error:
-        raise FileFormatError(f"a packet is damaged ({name}: {error})") from error
+        raise FileFormatError(f"a packet is damaged ({name}: {one_line(error)})") from error
     if not decompressor.eof:
         what = "is cut off"
         if total >= MAX_PACKET_BYTES:

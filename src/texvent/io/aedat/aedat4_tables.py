@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, one_line
 from texvent.io.aedat.flatbuffer import Table
 
 EVENT = np.dtype(
@@ -165,7 +165,7 @@ def read_info(path: Path, xml: bytes) -> list[StreamInfo]:
     try:
         root = ElementTree.fromstring(xml)
     except (ElementTree.ParseError, ValueError, LookupError) as error:
-        raise FileFormatError(f"{path}: its header is damaged XML ({error})") from error
+        raise FileFormatError(f"{path}: its header is damaged XML ({one_line(error)})") from error
     streams = []
     for node in root.findall("./node[@name='outInfo']/node"):
         attributes = _attributes(node)

@@ -37,6 +37,7 @@ class EsimFolderCodec(FolderCodec):
     """Folders of numbered npz files."""
 
     name: ClassVar[str] = "esim"
+    has_checksums: ClassVar[bool] = True
     limits: ClassVar[FormatLimits] = FormatLimits("ESIM npz", 1 << 16, (1 << 63) // NS)
 
     def recognises(self, path: Path) -> bool:

@@ -1,4 +1,4 @@
-"""EVREAL's folders of memory-mapped arrays.
+"""EVREAL's folders of arrays.
 
     events_ts.npy  f8 [n], seconds   events_xy.npy  u2 [n, 2]   events_p.npy  bool [n]
     metadata.json  {"sensor_resolution": [height, width], "texvent": all metadata}
@@ -23,8 +23,8 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError
-from texvent.io.arrays.npy_file import growing_array, map_array
+from texvent.errors import FileFormatError, shown
+from texvent.io.arrays.npy_file import StoredArray, growing_array
 from texvent.io.block_codec import FileContents, FolderCodec
 from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.limits import FormatLimits
@@ -51,7 +51,7 @@ class EvrealFolderCodec(FolderCodec):
 
     def inspect(self, path: Path) -> FileContents:
         """Size and metadata lie in metadata.json."""
-        _map_arrays(path)
+        _open_arrays(path)
         size, metadata = _read_facts(path)
         return FileContents(size, metadata, partial(_read_blocks, path))
 
@@ -91,7 +91,7 @@ def _read_facts(path: Path) -> tuple[tuple[int, int] | None, dict[str, Any]]:
     stored = None
     if sides is not None:
         if not (isinstance(sides, list) and len(sides) == 2 and all(map(_is_whole, sides))):
-            raise FileFormatError(f"{facts} states a sensor_resolution of {sides!r}")
+            raise FileFormatError(f"{facts} states a sensor_resolution of {shown(sides)}")
         stored = sides[1], sides[0]
     return stored, metadata if isinstance(metadata, dict) else {}
 
@@ -100,41 +100,41 @@ def _is_whole(value: Any) -> bool:
     return isinstance(value, int) and not isinstance(value, bool)
 
 
-def _map_arrays(path: Path) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
-    """Times [n], places [n, 2] and polarities [n]."""
+def _open_arrays(path: Path) -> tuple[StoredArray, StoredArray, StoredArray]:
+    """Times [n] or [n, 1], places [n, 2] and polarities like the times."""
     missing = [name for name in (TIMES, PLACES, POLARITIES) if not (path / name).is_file()]
     if missing:
         raise FileFormatError(f"{path} has no {missing[0]}; EVREAL's folders have one")
-    times = map_array(path / TIMES)
-    places, polarities = map_array(path / PLACES), map_array(path / POLARITIES)
-    if times.ndim == 2 and times.shape[1] == 1:
-        times, polarities = times[:, 0], polarities.reshape(-1)
-    count = times.shape[0] if times.ndim == 1 else -1
-    if places.shape != (count, 2) or polarities.shape != (count,):
+    times = StoredArray(path / TIMES)
+    places, polarities = StoredArray(path / PLACES), StoredArray(path / POLARITIES)
+    count = times.shape[0] if times.ndim else -1
+    columns = ((count,), (count, 1))
+    if places.shape != (count, 2) or {times.shape, polarities.shape} - {*columns}:
+        shapes = f"{shown(times.shape)}, {shown(places.shape)}, {shown(polarities.shape)}"
         raise FileFormatError(
-            f"{path}: its arrays have shapes {times.shape}, {places.shape}, {polarities.shape}; "
-            "they must be [n], [n, 2] and [n]"
+            f"{path}: its arrays have shapes {shapes}; they must be [n], [n, 2] and [n]"
         )
     if times.dtype.kind not in "fiu" or places.dtype.kind not in "fiu":
-        raise FileFormatError(f"{path}: its arrays hold {times.dtype} and {places.dtype}")
+        kinds = f"{shown(times.dtype)} and {shown(places.dtype)}"
+        raise FileFormatError(f"{path}: its arrays hold {kinds}")
     if polarities.dtype.kind not in "biuf":
-        raise FileFormatError(f"{path}: its polarities are {polarities.dtype}")
+        raise FileFormatError(f"{path}: its polarities are {shown(polarities.dtype)}")
     return times, places, polarities
 
 
 def _read_blocks(path: Path) -> Iterator[Columns]:
-    times, places, polarities = _map_arrays(path)
+    times, places, polarities = _open_arrays(path)
     for start in range(0, len(times), PACKET_EVENTS):
-        part = slice(start, start + PACKET_EVENTS)
-        seconds = np.asarray(times[part], dtype=np.float64)
+        part = start, start + PACKET_EVENTS
+        seconds = np.asarray(times.rows(*part).reshape(-1), dtype=np.float64)
         if not (np.abs(seconds) < STOP_US / MICROSECONDS).all():
             raise FileFormatError(f"{path / TIMES} holds times that are not seconds")
-        xy = _whole(places[part], path / PLACES)
+        xy = _whole(places.rows(*part), path / PLACES)
         yield {
             "x": xy[:, 0],
             "y": xy[:, 1],
             "t": np.rint(seconds * MICROSECONDS).astype(np.int64),
-            "p": _whole(polarities[part], path / POLARITIES),
+            "p": _whole(polarities.rows(*part).reshape(-1), path / POLARITIES),
         }
 
 

@@ -33,6 +33,7 @@ class NImageNetCodec(BlockCodec):
     """npz of one structured array."""
 
     name: ClassVar[str] = "n-imagenet"
+    has_checksums: ClassVar[bool] = True
     extensions: ClassVar[tuple[str, ...]] = (".npz",)
     limits: ClassVar[FormatLimits] = FormatLimits("N-ImageNet npz", 1 << 16, 1 << 63)
 

@@ -20,16 +20,21 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, shown
 from texvent.events import COLUMN_TYPES
 from texvent.io.block_codec import BlockCodec, FileContents
 from texvent.io.block_writer import FileTarget, WriteBlock
-from texvent.io.input_checks import ZIP_DAMAGE, begins_with, check_zip, reporting_damage
+from texvent.io.input_checks import (
+    TIMESTAMP_SCALE_MS,
+    ZIP_DAMAGE,
+    begins_with,
+    check_time_unit,
+    check_zip,
+    reporting_damage,
+)
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.protocol import Columns
-
-TIMESTAMP_SCALE_MS = 0.001
 
 NPZ_DAMAGE = (
     *ZIP_DAMAGE,
@@ -37,6 +42,7 @@ NPZ_DAMAGE = (
     TypeError,
     OverflowError,
     SyntaxError,
+    UserWarning,
     tokenize.TokenError,
 )
 """NumPy and zipfile raise any of these on a damaged archive."""
@@ -46,6 +52,7 @@ class NpzCodec(BlockCodec):
     """NumPy archives."""
 
     name: ClassVar[str] = "npz"
+    has_checksums: ClassVar[bool] = True
     extensions: ClassVar[tuple[str, ...]] = (".npz",)
     limits: ClassVar[FormatLimits] = FormatLimits(
         "NumPy archive", 1 << 16, 1 << 63, start_us=-(1 << 63), label="kept"
@@ -57,10 +64,10 @@ class NpzCodec(BlockCodec):
         missing = [name for name in "xytp" if name not in arrays]
         if missing:
             raise FileFormatError(
-                f"{path} has no array {missing[0]!r} (it has: {', '.join(arrays) or 'none'}); "
+                f"{path} has no array {shown(missing[0])} (it has: {', '.join(arrays) or 'none'}); "
                 "texvent reads archives of x, y, t, p"
             )
-        _check_scale(path, arrays)
+        check_time_unit(path, arrays.get("timestamp_scale_ms", TIMESTAMP_SCALE_MS))
         columns = {name: arrays[name] for name in COLUMN_TYPES if name in arrays}
         return stored_contents(path, arrays, columns)
 
@@ -101,7 +108,21 @@ def read_arrays(path: Path) -> dict[str, Any]:
         with archive:
             with zipfile.ZipFile(path) as contents:
                 check_zip(path, contents)
-            return {name: archive[name] for name in archive.files}
+            return {name: _checked(archive[name], name, path) for name in archive.files}
+
+
+def _checked(member: Any, name: str, path: Path) -> NDArray[Any]:
+    """A member that is an array of numbers or text.
+
+    Raises:
+        FileFormatError: it is text, a pickle, or claims items of no bytes.
+    """
+    if not isinstance(member, np.ndarray):
+        raise FileFormatError(f"{path}: its member {shown(name)} is not a NumPy array")
+    kinds = [member.dtype[field] for field in member.dtype.names or ()] or [member.dtype]
+    if member.size and any(kind.itemsize == 0 for kind in kinds):
+        raise FileFormatError(f"{path}: its array {shown(name)} claims items of no bytes")
+    return member
 
 
 def stored_contents(
@@ -127,13 +148,7 @@ def _one_block(columns: Columns) -> Iterator[Columns]:
 
 def _read_whole(path: Path, value: NDArray[Any]) -> int:
     if value.size != 1 or value.dtype.kind not in "iu":
-        raise FileFormatError(f"{path}: width and height must be whole numbers; one is {value!r}")
+        raise FileFormatError(
+            f"{path}: width and height must be whole numbers; one is {shown(value)}"
+        )
     return int(value.reshape(-1)[0])
-
-
-def _check_scale(path: Path, arrays: Mapping[str, Any]) -> None:
-    if "timestamp_scale_ms" not in arrays:
-        return
-    scale = np.asarray(arrays["timestamp_scale_ms"])
-    if scale.size != 1 or not np.isclose(scale.astype(float).reshape(-1)[0], TIMESTAMP_SCALE_MS):
-        raise FileFormatError(f"{path} counts time in units of {scale} ms; texvent reads 0.001")

@@ -15,7 +15,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from texvent._require import require
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, shown
 from texvent.io.block_codec import BlockCodec, FileContents
 from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.input_checks import reporting_damage
@@ -97,7 +97,7 @@ def _column_names(path: Path, names: list[str]) -> dict[str, str]:
     missing = [name for name in TYPES if name not in found]
     if missing:
         raise FileFormatError(
-            f"{path} has no column {missing[0]!r} (it has: {', '.join(names)[:80]})"
+            f"{path} has no column {shown(missing[0])} (it has: {', '.join(names)[:80]})"
         )
     return found
 

@@ -15,7 +15,10 @@ from texvent.errors import FileFormatError, MissingDependencyError
 from texvent.io.hidden_parts import is_hidden_part
 from texvent.io.input_checks import reporting_damage
 
-HDF5_DAMAGE = (OSError, RuntimeError, KeyError, ValueError, TypeError, AttributeError, MemoryError)
+HDF5_DAMAGE = (
+    *(OSError, RuntimeError, KeyError, ValueError, TypeError, AttributeError, MemoryError),
+    OverflowError,
+)
 """h5py raises any of these on a damaged file."""
 MAX_CHUNK_BYTES = 256 * 2**20
 """HDF5 unpacks whole chunks: larger ones would fill the memory."""

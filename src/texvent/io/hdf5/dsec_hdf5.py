@@ -44,6 +44,7 @@ class DsecCodec(Hdf5Codec):
     """DSEC files, compressed with gzip."""
 
     name: ClassVar[str] = "dsec"
+    has_checksums: ClassVar[bool] = True
     extensions: ClassVar[tuple[str, ...]] = ()
     limits: ClassVar[OffsetLimits] = OffsetLimits(
         "DSEC HDF5", 1 << 16, 1 << 63, 2**32 - 1, label="kept", max_absolute_us=0
@@ -55,6 +56,7 @@ class DsecBloscCodec(DsecCodec):
     """DSEC files, compressed with blosc as the data set's own."""
 
     name: ClassVar[str] = "dsec-blosc"
+    has_checksums: ClassVar[bool] = False
     sink: ClassVar[type[Hdf5Sink]] = DsecBloscSink
 
     def check_target(self, target: FileTarget) -> None:

@@ -30,17 +30,17 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, shown
 from texvent.io.block_codec import FileContents, TimeSeek
 from texvent.io.block_writer import FileTarget
 from texvent.io.hdf5.chunks import append_chunks
 from texvent.io.hdf5.damage import check_claims, check_filters, open_hdf5
 from texvent.io.hdf5.writer import Hdf5BlockCodec, Hdf5Sink
+from texvent.io.input_checks import TIMESTAMP_SCALE_MS, check_time_unit
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.protocol import Columns
 
-TIMESTAMP_SCALE_MS = 0.001
 """Milliseconds per unit of events/t: µs."""
 CHUNK_EVENTS = 65_536
 INDEX_CHUNK = 4096
@@ -136,6 +136,7 @@ class Hdf5Codec(Hdf5BlockCodec):
     """Universal HDF5 and DSEC files."""
 
     name: ClassVar[str] = "hdf5"
+    has_checksums: ClassVar[bool] = True
     limits: ClassVar[OffsetLimits] = OffsetLimits(
         "HDF5", 1 << 16, 1 << 63, MAX_SPAN_US, label="kept"
     )
@@ -201,9 +202,7 @@ def _checked_columns(file: Any, path: Path) -> dict[str, Any]:
             raise FileFormatError(f"{path}: events/{name} holds {column.dtype}, not integers")
         check_filters(column, path)
         check_claims(column, path)
-    scale = float(file.attrs.get("timestamp_scale_ms", TIMESTAMP_SCALE_MS))
-    if not np.isclose(scale, TIMESTAMP_SCALE_MS):
-        raise FileFormatError(f"{path} counts time in units of {scale:g} ms; texvent reads 0.001")
+    check_time_unit(path, file.attrs.get("timestamp_scale_ms", TIMESTAMP_SCALE_MS))
     return columns
 
 
@@ -212,11 +211,12 @@ def _time_offset(file: Any, path: Path) -> int:
         return 0
     value = file["t_offset"]
     if value.size != 1 or value.dtype.kind not in "iu":
-        raise FileFormatError(f"{path}: t_offset must be one whole number; it is {value!r}")
+        raise FileFormatError(f"{path}: t_offset must be one whole number; it is {shown(value)}")
     offset_us = int(np.asarray(value[()]).reshape(-1)[0])
-    if int(file.attrs.get("t_offset", offset_us)) != offset_us:
+    if "t_offset" in file.attrs and _whole_attribute(file, "t_offset") != offset_us:
         raise FileFormatError(
-            f"{path} is damaged: t_offset is {offset_us}, written as {file.attrs['t_offset']}"
+            f"{path} is damaged: t_offset is {offset_us}, written as "
+            f"{shown(file.attrs['t_offset'])}"
         )
     return offset_us
 
@@ -225,7 +225,16 @@ def stored_size(node: Any) -> tuple[int, int] | None:
     """Width and height, pixels, from the attributes of the root or a group."""
     if "width" not in node.attrs or "height" not in node.attrs:
         return None
-    return int(node.attrs["width"]), int(node.attrs["height"])
+    width, height = (_whole_attribute(node, name) for name in ("width", "height"))
+    return width, height
+
+
+def _whole_attribute(node: Any, name: str) -> int:
+    """A whole number; ValueError, which is reported as damage, for anything else."""
+    value = np.asarray(node.attrs[name])
+    if value.size != 1 or value.dtype.kind not in "iu":
+        raise ValueError(f"{name} is {shown(value)}")
+    return int(value.reshape(-1)[0])
 
 
 def write_metadata(node: Any, metadata: Mapping[str, Any]) -> None:

@@ -61,6 +61,7 @@ class V2eHdf5Codec(Hdf5BlockCodec):
     """HDF5 as v2e writes it."""
 
     name: ClassVar[str] = "v2e"
+    has_checksums: ClassVar[bool] = True
     limits: ClassVar[FormatLimits] = FormatLimits("v2e HDF5", 1 << 16, STOP_US)
     sink: ClassVar[type[Hdf5Sink]] = V2eHdf5Sink
 

@@ -21,7 +21,7 @@ from functools import partial
 from pathlib import Path
 from typing import ClassVar
 
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, shown
 from texvent.io.block_codec import BlockCodec, FileContents, read_records, write_records
 from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header
@@ -71,7 +71,7 @@ class EvtCodec(BlockCodec):
         header = _read_header(path)
         named = _format_name(header)
         if named != self.title:
-            what = f"its header names {named!r}" if named else "its header names no format"
+            what = f"its header names {shown(named)}" if named else "its header names no format"
             raise FileFormatError(
                 f"{path} is not {self.title}: {what}; texvent reads RAW files of EVT2, EVT21, EVT3"
             )

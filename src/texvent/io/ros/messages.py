@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, shown
 from texvent.io.protocol import Columns
 from texvent.sensor import SensorSize
 
@@ -142,7 +142,7 @@ def open_event_packet(data: bytes) -> RawMessage:
     except struct.error as error:
         raise FileFormatError("a message of events is cut off") from error
     if encoding != b"evt3":
-        raise FileFormatError(f"a message is encoded as {encoding!r}; texvent reads evt3")
+        raise FileFormatError(f"a message is encoded as {shown(encoding)}; texvent reads evt3")
     payload = body[place + 4 : place + 4 + count]
     if len(payload) != count or count % 2:
         raise FileFormatError(f"a message states {count} bytes of events; it is damaged")

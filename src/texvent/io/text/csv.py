@@ -15,7 +15,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, shown
 from texvent.io.block_codec import BlockCodec, FileContents, write_records
 from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.limits import FormatLimits
@@ -71,10 +71,11 @@ def _read_header(path: Path) -> tuple[tuple[str, ...], int]:
     order = tuple(NAMES.get(word, "") for word in words)
     missing = [name for name in "txyp" if order.count(name) != 1]
     if missing:
-        shown = ", ".join(words)[:80]
+        first = ", ".join(words)
         raise FileFormatError(
-            f"{path} has no column {missing[0]!r} (its first line: {shown!r}); texvent reads CSV "
-            "with columns t, x, y, p, or without a header line in the order x, y, p, t"
+            f"{path} has no column {shown(missing[0])} (its first line: {shown(first)}); "
+            "texvent reads CSV with columns t, x, y, p, or without a header line in the order "
+            "x, y, p, t"
         )
     return order, len(line)
 

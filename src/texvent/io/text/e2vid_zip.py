@@ -35,6 +35,7 @@ class E2vidZipCodec(BlockCodec):
     """Zipped text with the size in its first line."""
 
     name: ClassVar[str] = "e2vid"
+    has_checksums: ClassVar[bool] = True
     extensions: ClassVar[tuple[str, ...]] = (".zip",)
     limits: ClassVar[FormatLimits] = FormatLimits("E2VID zip", 1 << 16, MAX_EXACT_S * MICROSECONDS)
     has_sidecar: ClassVar[bool] = True

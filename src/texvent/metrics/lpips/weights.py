@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError, InputError, one_line
+from texvent.io.arrays.npz import read_arrays
 from texvent.io.atomic import atomic_file
 from texvent.metrics.lpips.layout import LAYOUTS, LpipsLayout, LpipsNet
 from texvent.runtime.cache_folder import cache_folder
@@ -65,10 +66,10 @@ def read_lpips_weights(path: Path) -> LpipsWeights:
         FileFormatError: the file is damaged or holds another network.
     """
     try:
-        arrays = _read_archive(path) if path.suffix == ARCHIVE_SUFFIX else _read_published(path)
+        arrays = read_arrays(path) if path.suffix == ARCHIVE_SUFFIX else _read_published(path)
         shapes = {name: array.shape for name, array in arrays.items()}
     except (*DAMAGE, zlib.error, MemoryError) as error:
-        reason = f"{type(error).__name__}: {error}".splitlines()[0][:120]
+        reason = f"{type(error).__name__}: {one_line(error)}"
         raise FileFormatError(
             f"{path} cannot be read as LPIPS's weights, it is damaged or of another kind "
             f"({reason}); {where_from('alex')}"
@@ -96,12 +97,6 @@ def write_lpips_weights(weights: LpipsWeights, path: Path) -> None:
     arrays: dict[str, Any] = dict(weights.arrays)
     with atomic_file(path, overwrite=True) as part, part.open("wb") as file:
         np.savez(file, **arrays)
-
-
-def _read_archive(path: Path) -> dict[str, Any]:
-    # Opened here, because NumPy leaves a damaged archive open.
-    with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
-        return {name: archive[name] for name in archive.files}
 
 
 def _read_published(path: Path) -> dict[str, Any]:

@@ -36,6 +36,10 @@ LONGEST_LIST = 120
 _CLAUSE_SIGNS = frozenset(',.;:!?()[]"')
 
 
+LOOK_AHEAD = 100
+"""Phrases that are looked at after one: a sentence, and no more of a very long text."""
+
+
 def parse_prompt(prompt: str, nouns: Mapping[str, Noun] = NOUNS) -> SceneDescription:
     """What the prompt asks for, and which of its words were not understood.
 
@@ -207,10 +211,8 @@ class _PromptParser:
         return None if phrase is None else phrase.role
 
     def _next_phrase(self, position: int, skipped: frozenset[Role]) -> Phrase | None:
-        for later in range(position + 1, len(self._phrases)):
-            if self._phrases[later].role not in skipped:
-                return self._phrases[later]
-        return None
+        coming = self._phrases[position + 1 : position + 1 + LOOK_AHEAD]
+        return next((phrase for phrase in coming if phrase.role not in skipped), None)
 
     def _read_unknown(self, position: int) -> None:
         """An unlisted word where a noun should be takes the subject's place.

@@ -11,7 +11,7 @@ import numpy as np
 
 from texvent._registry import suggest
 from texvent._require import require
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 from texvent.runtime.background_jit import is_ready
 
 Function = TypeVar("Function")
@@ -36,7 +36,7 @@ def check_backend(backend: str, *, has_gpu: bool = False) -> str:
         )
     allowed = (*BACKENDS, GPU)
     if backend not in allowed:
-        raise ConfigError(f"unknown backend {backend!r}; {suggest(backend, allowed)}")
+        raise ConfigError(f"unknown backend {shown(backend)}; {suggest(backend, allowed)}")
     return backend
 
 

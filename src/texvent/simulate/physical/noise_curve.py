@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 
 DAVIS346_NOISE = "1:0.46 3.5:0.77 7.5:0.30 15:0.12 25:0.015 37.5:0.004 57.5:0.003"
 """Events per pixel and second, ON and OFF together, at the linear intensity of static pixels of a
@@ -55,12 +55,13 @@ def parse_noise_curve(text: str) -> NoiseCurve:
         levels, rates = np.array(points, np.float64).reshape(len(points), 2).T
     except ValueError:
         raise ConfigError(
-            f"noise_curve is {text!r}; it must be points LEVEL:RATE such as '2:0.5 20:0.1 60:0.003'"
+            f"noise_curve is {shown(text)}; it must be points LEVEL:RATE such as "
+            "'2:0.5 20:0.1 60:0.003'"
         ) from None
     is_range = levels[0] >= 0 and levels[-1] <= 255 and (np.diff(levels) > 0).all()
     if not (is_range and np.isfinite(rates).all() and (rates > 0).all()):
         raise ConfigError(
-            f"noise_curve is {text!r}; levels must increase within 0..255 and rates be above 0 "
-            "(for no noise at all, set noise_scale to 0)"
+            f"noise_curve is {shown(text)}; levels must increase within 0..255 and rates be "
+            "above 0 (for no noise at all, set noise_scale to 0)"
         )
     return NoiseCurve(levels, rates)

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 from texvent._registry import suggest
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 
 Colour = tuple[int, int, int]
 """Red, green, blue, 0..255."""
@@ -104,5 +104,5 @@ def get_palette(name: str | Palette) -> Palette:
     if isinstance(name, Palette):
         return name
     if name not in PALETTES:
-        raise ConfigError(f"unknown palette {name!r}; {suggest(name, tuple(PALETTES))}")
+        raise ConfigError(f"unknown palette {shown(name)}; {suggest(name, tuple(PALETTES))}")
     return PALETTES[name]

@@ -1,4 +1,4 @@
-"""Damaged files of every format are refused in one line, or give valid events; nothing else."""
+"""A cut file of every format is refused, or gives its beginning. Other damage: `tests/fuzz`."""
 
 from __future__ import annotations
 
@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from texvent.errors import InputError
 from texvent.events import EventStream
@@ -78,50 +76,3 @@ def test_a_file_cut_at_any_byte_is_refused_or_gives_its_beginning(
         if back is not None:
             assert case.name not in SEALED
             assert back.equals(whole[: len(back)])
-
-
-@settings(max_examples=300, deadline=None, derandomize=True)
-@given(
-    name=st.sampled_from([case.name for case in FILES]),
-    share=st.floats(0.0, 1.0, exclude_max=True),
-    flip=st.integers(1, 255),
-    length=st.integers(1, 8),
-)
-def test_flipped_bytes_are_refused_or_give_valid_events(
-    sound: dict[str, SoundFile], name: str, share: float, flip: int, length: int
-) -> None:
-    content = bytearray(sound[name].content)
-    start = int(share * len(content))
-    for place in range(start, min(start + length, len(content))):
-        content[place] ^= flip
-    back = sound[name].read(bytes(content))
-    assert back is None or len(back) <= len(content)
-
-
-@settings(max_examples=200, deadline=None, derandomize=True)
-@given(
-    name=st.sampled_from([case.name for case in FILES]),
-    place=st.floats(0.0, 1.0, exclude_max=True),
-    word=st.sampled_from([b"\xff\xff\xff\xff", b"\xff\xff\xff\x7f", b"\0\0\0\x80", bytes(8)]),
-)
-def test_absurd_numbers_anywhere_are_refused_or_give_valid_events(
-    sound: dict[str, SoundFile], name: str, place: float, word: bytes
-) -> None:
-    content = bytearray(sound[name].content)
-    start = int(place * len(content))
-    content[start : start + len(word)] = word
-    back = sound[name].read(bytes(content))
-    assert back is None or len(back) <= len(content)
-
-
-@settings(max_examples=150, deadline=None)
-@given(
-    name=st.sampled_from([case.name for case in FILES]),
-    keep=st.integers(0, 200),
-    noise=st.binary(max_size=300),
-)
-def test_random_bytes_after_a_sound_beginning_are_refused_or_give_valid_events(
-    sound: dict[str, SoundFile], name: str, keep: int, noise: bytes
-) -> None:
-    back = sound[name].read(sound[name].content[:keep] + noise)
-    assert back is None or len(back) <= keep + len(noise)

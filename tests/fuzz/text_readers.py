@@ -1,0 +1,172 @@
+"""Configs, lists, manifests, times, calibrations, and what stands on the command line."""
+
+from __future__ import annotations
+
+import json
+from contextlib import suppress
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import tomli_w
+import yaml
+
+from texvent.batch.list_files import read_list
+from texvent.batch.manifest import OPTIONS_FILE, SAMPLES_FILE, Manifest
+from texvent.capture.frame_times import read_timestamps
+from texvent.capture.open import open_frames
+from texvent.cli.event_files.time_option import parse_time_range
+from texvent.config import CaptureConfig
+from texvent.errors import TexventError
+from texvent.io.files import load
+from texvent.run.settings import resolve
+from texvent.scenes.language.parser import parse_prompt
+from texvent.scenes.staging.compose import compose_scene
+from texvent.sensor import SensorSize, parse_sensor
+from texvent.transform.undistort import read_calibration
+
+from .reader import Reader
+
+CONFIG = {
+    "run": {"simulator": "physical", "preset": "davis346", "sensor": "davis346", "seed": 3},
+    "interpolate": {"interpolate": "blend", "max_intermediate": 8, "deflicker": False},
+    "capture": {"fps": "30000/1001", "start": 0.5, "stop": 2.0, "fit": "cover"},
+}
+LISTS = {
+    ".txt": "# prompts\na red car drives left\n\na dog runs\n",
+    ".csv": 'prompt,video,name,seed\n"a car, red",,one,3\na dog,clip.mp4,two,\n',
+    ".jsonl": '{"prompt": "a car", "name": "a", "seed": 7}\n"a dog"\n{"video": "clip.mp4"}\n',
+}
+DONE = {
+    "key": "0123",
+    "name": "one",
+    "seed": 3,
+    "prompt": "a car",
+    "video": None,
+    "events": 12,
+    "files": {"one.h5": [120, "00ff"]},
+}
+TEXTS: dict[str, tuple[str, Any]] = {
+    "time": ("0.5,2", parse_time_range),
+    "sensor": ("240x180", parse_sensor),
+    "path": ("folder/name.h5", lambda text: _open_each(text)),
+    "prompt": ("a red car drives left past two trees at dusk", lambda text: _stage(text)),
+    **{
+        option: (value, lambda text, option=option: resolve("simulate", {option: text}))
+        for option, value in (
+            ("preset", "paper"),
+            ("simulator", "esim"),
+            ("fps", "30000/1001"),
+        )
+    },
+}
+
+
+def text_readers() -> list[Reader]:
+    """One per kind of text."""
+    return [
+        *(
+            Reader(f"config {ending}", partial(_make_config, ending), _read_config, 2)
+            for ending in (".toml", ".yaml")
+        ),
+        Reader("sensor file", _make_sensor_file, _read_sensor_file, 2),
+        *(
+            Reader(f"list {ending}", partial(_make_text, f"list{ending}", text), _read_list, 2)
+            for ending, text in LISTS.items()
+        ),
+        Reader("batch manifest", _make_manifest, _read_manifest, 2),
+        Reader(
+            "timestamps",
+            partial(_make_text, "timestamps.txt", "# s\n0.0 a.png\n0.04 b.png\n0.08 c.png\n"),
+            lambda path: repr(read_timestamps(path, "s")),
+        ),
+        Reader(
+            "calibration",
+            partial(_make_text, "calib.txt", "199.1 198.8 132.2 110.7 -0.37 0.15 0.0 0.0 0.0\n"),
+            lambda path: repr(read_calibration(path)),
+        ),
+        *(
+            Reader(f"option {name}", partial(_make_text, "option.txt", text), partial(_read, parse))
+            for name, (text, parse) in TEXTS.items()
+        ),
+    ]
+
+
+def _make_text(name: str, text: str, folder: Path) -> Path:
+    path = folder / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def _read(parse: Any, path: Path) -> str:
+    """The text as a command gets it: bytes that are not UTF-8 as surrogates."""
+    text = path.read_bytes().decode("utf-8", "surrogateescape")
+    return repr(parse(text))[:1000]
+
+
+def _open_each(text: str) -> str:
+    """A name of a file that every reader is asked for; there is none."""
+    path = f"{text}.txt"
+    asked = (
+        load,
+        partial(load, format="evreal"),
+        partial(open_frames, config=CaptureConfig()),
+        lambda name: read_list(Path(name)),
+        lambda name: read_timestamps(Path(name), "s"),
+        lambda name: resolve("simulate", {}, config=name),
+        lambda name: resolve("simulate", {"sensor": f"{name}.toml"}),
+    )
+    for read in asked:
+        with suppress(TexventError):
+            read(path)
+    return ""
+
+
+def _stage(text: str) -> Any:
+    return compose_scene(parse_prompt(text), seed=0, size=SensorSize(64, 48), duration_s=1.0)
+
+
+def _make_config(ending: str, folder: Path) -> Path:
+    text = tomli_w.dumps(CONFIG) if ending == ".toml" else yaml.safe_dump(CONFIG)
+    return _make_text(f"run{ending}", text, folder)
+
+
+def _read_config(path: Path) -> str:
+    return repr(resolve("simulate", {}, config=path).as_tables())[:1000]
+
+
+def _make_sensor_file(folder: Path) -> Path:
+    tables = {"run": {"simulator": "physical", "sensor": "346x260"}, "simulate": {}}
+    return _make_text("sensor.toml", tomli_w.dumps(tables), folder)
+
+
+def _read_sensor_file(path: Path) -> str:
+    return repr(resolve("simulate", {"sensor": str(path)}).as_tables())[:1000]
+
+
+def _read_list(path: Path) -> str:
+    return repr(read_list(path))[:1000]
+
+
+def _make_manifest(folder: Path) -> Path:
+    options = {"run": {"seed": 3, "simulator": "texvent"}, "formats": ["hdf5"]}
+    (folder / OPTIONS_FILE).write_text(json.dumps(options, indent=1))
+    lines = [json.dumps({**DONE, "key": key}) + "\n" for key in ("0123", "4567", "89ab")]
+    (folder / SAMPLES_FILE).write_text("".join(lines))
+    return folder
+
+
+def _read_manifest(path: Path) -> str:
+    manifest = Manifest(path)
+    try:
+        manifest.begin({"run": {"seed": 4, "simulator": "texvent"}}, overwrite=False)
+    except TexventError as error:
+        if "was made with other options" not in str(error):
+            raise
+        _check_line(str(error).replace(str(path), ""))
+    return repr(manifest.others([]))[:1000]
+
+
+def _check_line(message: str) -> None:
+    if "\n" in message or len(message) >= 300:
+        raise AssertionError(f"{len(message)} characters: {message[:60]!r}")
