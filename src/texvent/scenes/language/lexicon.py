@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum, auto
+from functools import cached_property
 from typing import Any
 
 from texvent.scenes.inflection import list_finite_forms, list_participles, list_plurals
@@ -94,7 +95,7 @@ class Lexicon:
         """Every word that is part of a known phrase."""
         return frozenset(word for phrase in self._meanings for word in phrase)
 
-    @property
+    @cached_property
     def longest(self) -> int:
         """Number of words of the longest phrase."""
         return max(self._longest.values(), default=0)
