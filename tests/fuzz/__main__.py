@@ -1,8 +1,8 @@
 """`python -m tests.fuzz`: damaged inputs for every reader, and a table of what became of them.
 
-    python -m tests.fuzz                          # all readers, 6,000 inputs, about 10 minutes
+    python -m tests.fuzz                          # all readers, 6,000 inputs, some minutes
     python -m tests.fuzz --only "events evt" -n 500 --first 1000
-    python -m tests.fuzz --table docs/design/fuzzing-table.md
+    python -m tests.fuzz --table table.md
 
 Exit code 1 if anything but a reading or one line of error came out.
 """
