@@ -9,6 +9,7 @@ the fields, `options/values.py` converts their values.
 
 from __future__ import annotations
 
+import math
 import typing
 from dataclasses import dataclass
 from fractions import Fraction
@@ -18,16 +19,24 @@ from typing import Literal
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown
 from texvent.options.fields import renamed
+from texvent.runtime.memory import parse_memory
+
+FPS_RANGE = 1e-9, 1e6
+"""Frame rates, 1/s: from one frame in 32 years to one in a microsecond."""
 
 
-def check_range(name: str, value: float | None, low: float, high: float = float("inf")) -> None:
-    """Refuse an option outside `low..high` (both allowed; NaN never is); None is not given.
+def check_range(
+    name: str, value: float | Fraction | None, low: float, high: float = math.inf
+) -> None:
+    """Refuse an option outside `low..high` (both allowed), NaN and infinity; None is not given.
 
     Raises:
         ConfigError: with the option's name, its value and the range.
     """
-    if value is not None and not low <= value <= high:
-        allowed = f"at least {low:g}" if high == float("inf") else f"{low:g}..{high:g}"
+    if value is not None and not (low <= value <= high and value != math.inf):
+        allowed = f"at least {low:g}" if high == math.inf else f"{low:g}..{high:g}"
+        if value == math.inf:
+            allowed += " and finite"
         raise ConfigError(f"{name} is {_number(value)}; it must be {allowed}")
 
 
@@ -81,6 +90,9 @@ class RunConfig:
     """Store beside every event whether it is signal (0) or noise (1), as an extra column."""
     target_rate: float | None = None
     """Events per second to aim for: the contrast threshold is adjusted on the first second."""
+    memory: str | None = None
+    """Memory that the run may take, such as 4GB or 512MiB; a run that needs more is refused before
+    it starts. Without it, 80 % of what the machine or its control group has."""
     randomize: Literal["none", "stoffregen", "v2v"] = "none"
     """Draw contrast thresholds and noise from the seed, for training sets: in the ranges of
     Stoffregen 2020 or of V2V. The drawn values replace those given and are stored."""
@@ -88,6 +100,8 @@ class RunConfig:
     def __post_init__(self) -> None:
         check_range("seed", self.seed, 0, 2**63 - 1)
         check_range("target_rate", self.target_rate, 1e-3, 1e12)
+        if self.memory is not None:
+            parse_memory(self.memory)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,10 +128,9 @@ class CaptureConfig:
 
     def __post_init__(self) -> None:
         check_range("start", self.start, 0.0)
-        if self.white_level is not None and not 0 < self.white_level < float("inf"):
-            raise ConfigError(f"white_level is {self.white_level:g}; it must be above 0")
-        if self.fps is not None and not 0 < self.fps <= 1_000_000:
-            raise ConfigError(f"fps is {_number(self.fps)}; it must be above 0 and at most 1000000")
+        check_range("stop", self.stop, 0.0)
+        check_range("white_level", self.white_level, 1e-9, 1e9)
+        check_range("fps", self.fps, *FPS_RANGE)
         if self.stop is not None and not self.stop > self.start:
             raise ConfigError(f"stop is {self.stop:g} s; it must be after start ({self.start:g} s)")
 

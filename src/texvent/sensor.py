@@ -67,7 +67,7 @@ def parse_sensor(text: str) -> SensorSize:
         >>> parse_sensor("64x48")
         SensorSize(width=64, height=48)
     """
-    match = re.fullmatch(r"(\d+)[xX×](\d+)", text.strip())
+    match = re.fullmatch(r"(\d{1,9})[xX×](\d{1,9})", text.strip())
     if match:
         return checked_size(int(match[1]), int(match[2]))
     sensor = SENSORS.get(text.strip().lower())
@@ -115,6 +115,6 @@ def checked_size(width: int, height: int) -> SensorSize:
     """
     if not (1 <= width <= MAX_SIDE and 1 <= height <= MAX_SIDE):
         raise ConfigError(
-            f"sensor size {str(width)[:12]}x{str(height)[:12]}; each side must be 1..{MAX_SIDE}"
+            f"sensor size {shown(width)}x{shown(height)}; each side must be 1..{MAX_SIDE}"
         )
     return SensorSize(int(width), int(height))

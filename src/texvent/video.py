@@ -24,12 +24,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.brightness import luma_bt601
-from texvent.errors import InputError
+from texvent.errors import InputError, shown
 from texvent.sensor import SensorSize
 
 MICROSECONDS = 1_000_000
 PREVIEW_MARK = "preview of events, drawn by texvent"
 """Comment in video files that show events, so that they are not taken for sources."""
+LATEST_US = 2**53
+"""Frame times lie within ± this many µs, 285 years: float64 holds them exactly."""
+HIGHEST_INTENSITY = 1e9
+"""Highest intensity of a frame, on the 0..255 scale: four million times white. Up to here every
+model's float32 and float64 arithmetic is finite."""
 UINT16_PER_LEVEL = 257.0
 """65535 / 255: a uint16 pixel is full scale, so this brings it to the 0..255 scale."""
 
@@ -232,8 +237,7 @@ class StreamChecker:
         """Return `frame` if it keeps the promises.
 
         Raises:
-            InputError: another size than before, a time that does not increase, or a pixel that
-                is NaN, infinite or negative.
+            InputError: as `check_order`, or a pixel outside 0..`HIGHEST_INTENSITY`.
         """
         check_intensity(frame.pixels, self.check_order(frame))
         return self.accept(frame)
@@ -245,9 +249,15 @@ class StreamChecker:
             Which frame it is, for messages about its pixels.
 
         Raises:
-            InputError: another size than before, or a time that does not increase.
+            InputError: another size than before, a time that does not increase, or one beyond
+                ± `LATEST_US`.
         """
-        where = f"frame {self._index} (t = {frame.t_us} µs)"
+        where = f"frame {self._index} (t = {shown(frame.t_us)} µs)"
+        if not -LATEST_US <= frame.t_us <= LATEST_US:
+            raise InputError(
+                f"{where} lies outside ±{LATEST_US} µs (285 years); give a higher fps, or times "
+                "that count from a later moment"
+            )
         if self._size is not None and frame.size != self._size:
             raise InputError(f"{where} is {frame.size}, the frames before it are {self._size}")
         if self._last_us is not None and frame.t_us <= self._last_us:
@@ -265,24 +275,25 @@ class StreamChecker:
 
 
 def check_intensity(pixels: PixelArray, where: str) -> None:
-    """Refuse NaN, infinite and negative intensities.
+    """Refuse intensities outside 0..`HIGHEST_INTENSITY`, and NaN.
 
     Raises:
-        InputError: a pixel is NaN, infinite or negative; the message counts them.
+        InputError: there is one; the message counts them.
     """
     if not is_intensity(pixels):
         raise bad_intensity(pixels, where)
 
 
 def is_intensity(pixels: PixelArray) -> bool:
-    """Whether no pixel is NaN, infinite or negative; integer pixels cannot be."""
-    return pixels.dtype.kind != "f" or bool(pixels.min() >= 0 and pixels.max() < np.inf)
+    """Whether all pixels lie in 0..`HIGHEST_INTENSITY`; integer pixels always do."""
+    return pixels.dtype.kind != "f" or bool(pixels.min() >= 0 and pixels.max() <= HIGHEST_INTENSITY)
 
 
 def bad_intensity(pixels: PixelArray, where: str) -> InputError:
-    """The error for a frame of which a pixel is NaN, infinite or negative."""
-    bad = pixels[~(np.isfinite(pixels) & (pixels >= 0))]
+    """The error for a frame of which a pixel is not in 0..`HIGHEST_INTENSITY`."""
+    bad = pixels[~((pixels >= 0) & (pixels <= HIGHEST_INTENSITY))]
     return InputError(
-        f"{where} has {bad.size} pixel(s) that are NaN, infinite or negative (first: {bad[0]:g}); "
-        "intensities must be finite and at least 0"
+        f"{where} has {bad.size} pixel(s) that are NaN, infinite or negative, or above "
+        f"{HIGHEST_INTENSITY:g} (first: {bad[0]:g}); intensities must be 0..{HIGHEST_INTENSITY:g}, "
+        "where 255 is white"
     )

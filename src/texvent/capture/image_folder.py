@@ -95,7 +95,9 @@ def read_image(path: Path) -> PixelArray:
         # OpenCV refuses some damage, such as 2^30 pixels, by its assertions.
         raise FileFormatError(f"image {path} is damaged: OpenCV refuses it") from error
     if image is None:
-        raise FileFormatError(f"image {path} cannot be decoded; it may be cut off or damaged")
+        raise FileFormatError(
+            f"image {path} cannot be decoded; it may be cut off, damaged, or of over 2^30 pixels"
+        )
     if image.ndim == 3:
         image = cv2.cvtColor(image, cv2.COLOR_BGR2RGB)
     return usable_pixels(np.asarray(image), str(path))

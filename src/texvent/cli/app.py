@@ -124,6 +124,9 @@ def _run(words: list[str], *, is_process: bool = False) -> int:
         # The reader of the output (head, less) has ended: end without a message, as is usual.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
+    except MemoryError:
+        say("error: memory ran out; use smaller frames, or close other programs")
+        return TexventError.exit_code
     except OSError as error:
         where = f" ({error.filename})" if error.filename else ""
         say(f"error: the system refused{where}: {error.strerror or error}")

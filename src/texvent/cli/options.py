@@ -22,6 +22,9 @@ from texvent.errors import ConfigError, shown
 from texvent.io.protected_inputs import protect_inputs
 from texvent.options.fields import RenamedOptionWarning, former_names, option_help, option_names
 
+MOST_MESSAGE = 240
+"""Characters of the parser's messages that are shown."""
+
 
 def parse_options(
     arguments: Sequence[str], groups: Mapping[str, Any], *, prog: str, description: str
@@ -67,7 +70,11 @@ def parse_options(
     except SystemExit as stop:
         if not stop.code:
             raise
-        raise ConfigError(f"{_first_message(complaint.getvalue())} (see {prog} --help)") from None
+        message = _first_message(complaint.getvalue())
+        if len(message) > MOST_MESSAGE:
+            # It echoes a value; what is allowed comes last.
+            message = f"{message[: MOST_MESSAGE // 2]} ... {message[-MOST_MESSAGE // 2 :]}"
+        raise ConfigError(f"{message} (see {prog} --help)") from None
     values: dict[str, Any] = {}
     for part in dataclasses.fields(parsed):
         group = getattr(parsed, part.name)
@@ -205,7 +212,7 @@ def _scalar_rule(
             return None
         try:
             return convert(words[0])
-        except (ValueError, ZeroDivisionError):
+        except (ValueError, ArithmeticError):
             raise ValueError(f"{shown(words[0])} is not {_EXPECTED[kind]}") from None
 
     return tyro.constructors.PrimitiveConstructorSpec(

@@ -14,8 +14,8 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from texvent._version import __version__
-from texvent.config import check_range
-from texvent.errors import ConfigError, warn
+from texvent.config import FPS_RANGE, check_range
+from texvent.errors import ConfigError, shown, warn
 from texvent.options.values import plain
 from texvent.sensor import SENSORS, SensorSize
 from texvent.video import MICROSECONDS, Frame, describe_stream, frame_time_us
@@ -48,12 +48,11 @@ class ProceduralConfig:
     def __post_init__(self) -> None:
         check_range("duration", self.duration, 1e-6, 86_400.0)
         check_range("samples", self.samples, 1, 8)
-        if not 0 < self.fps <= MICROSECONDS:
-            raise ConfigError(f"fps is {self.fps}; it must be above 0 and at most {MICROSECONDS}")
+        check_range("fps", self.fps, *FPS_RANGE)
         if self.intervals < 1:
             raise ConfigError(
                 f"duration is {self.duration:g} s, shorter than one frame interval at "
-                f"{self.fps} fps; it must be at least {float(1 / self.fps):g} s"
+                f"{shown(self.fps)} fps; it must be at least {float(1 / self.fps):g} s"
             )
 
     @property

@@ -7,7 +7,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Literal
 
-from texvent.config import check_range
+from texvent.config import FPS_RANGE, check_range
 from texvent.errors import ConfigError
 
 
@@ -39,8 +39,7 @@ class GeneratedVideoConfig:
         check_range("min_agreement", self.min_agreement, -1.0, 1.0)
         if self.min_agreement is not None and self.agreement_model is None:
             raise ConfigError("min_agreement is set, but no agreement_model to measure it with")
-        if self.fps is not None and not 0 < self.fps <= 1_000_000:
-            raise ConfigError(f"fps is {self.fps}; it must be above 0 and at most 1000000")
+        check_range("fps", self.fps, *FPS_RANGE)
 
 
 @dataclass(frozen=True, kw_only=True)

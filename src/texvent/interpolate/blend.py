@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import ClassVar
 
 from texvent.config import InterpolateConfig
 from texvent.pairs.motion_interpolation import MotionInterpolation
@@ -11,6 +12,8 @@ from texvent.video import Frame, FrameStream
 
 class BlendInterpolator:
     """Cross-fades: intensity changes linearly in time at every pixel."""
+
+    bytes_per_pixel: ClassVar[int] = 30
 
     def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
         del config, stream  # the arguments of every interpolator; not used here

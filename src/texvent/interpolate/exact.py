@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import ClassVar
 
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError
@@ -16,6 +17,8 @@ class ExactInterpolator:
     Raises:
         ConfigError: the stream cannot render an instant; only generated scenes can.
     """
+
+    bytes_per_pixel: ClassVar[int] = 30
 
     def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
         del config  # an argument of every interpolator; not used here

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import ClassVar
 
 from texvent.config import InterpolateConfig
 from texvent.interpolate.dis_flow.pair_flow import PairFlow
@@ -20,6 +21,8 @@ class FlowInterpolator:
 
     Deviation: the paper uses RIFE, which needs published weights.
     """
+
+    bytes_per_pixel: ClassVar[int] = 130
 
     def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
         del config, stream  # the arguments of every interpolator; not used here

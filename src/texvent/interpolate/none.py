@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import ClassVar
 
 from texvent.config import InterpolateConfig
 from texvent.video import Frame, FrameStream
@@ -10,6 +11,8 @@ from texvent.video import Frame, FrameStream
 
 class NoInterpolator:
     """Adds no frames (ablation of Eq. 4), whatever the change."""
+
+    bytes_per_pixel: ClassVar[int] = 0
 
     def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
         del config, stream  # the arguments of every interpolator; not used here

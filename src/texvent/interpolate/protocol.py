@@ -12,7 +12,8 @@ class Interpolator(Protocol):
     """Makes the frames between two source frames.
 
     A class whose weights are a file of the user's may offer `provenance(config)`: facts about that
-    file, to be stored with the events.
+    file, to be stored with the events. One may also declare `bytes_per_pixel`, what it takes per
+    pair of frames; see `run.memory`.
     """
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterable[Frame]:

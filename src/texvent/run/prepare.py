@@ -13,6 +13,7 @@ from texvent.calibrate.rate import reach_target_rate
 from texvent.errors import InputError
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.pipeline import Simulation, text_to_events, text_to_video, video_to_events
+from texvent.run.memory import check_memory
 from texvent.run.provenance import describe_weights
 from texvent.run.settings import Settings
 from texvent.runtime.progress import Progress
@@ -25,11 +26,14 @@ def check_run(settings: Settings) -> None:
 
     Raises:
         ConfigError: the engine cannot run the simulator, or there is no such backend.
-        InputError: weights of the simulator or the interpolator are not here.
+        InputError: weights of the simulator or the interpolator are not here, or the sensor's
+            pixels do not fit into memory.
         MissingDependencyError: the backend or a network needs a package.
     """
     check_engine(settings.run, settings.simulate, settings.interpolate)
     describe_weights(settings)
+    if settings.size is not None:
+        check_memory(settings, settings.size)
     if settings.run.backend != "auto":
         build_simulator(settings.run, settings.simulate)
 
@@ -110,6 +114,7 @@ def prepare_video(
 ) -> Simulation:
     """The run of a video that is open already; arguments and errors as `prepare_source`."""
     check_run(settings)
+    check_memory(settings, video.size)
     simulation = video_to_events(video, settings, prompt=prompt)
     return reach_target_rate(simulation, progress=progress)
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS, suggest
-from texvent.config import CaptureConfig, InterpolateConfig, RunConfig
+from texvent.config import CaptureConfig, InterpolateConfig, RunConfig, check_range
 from texvent.errors import ConfigError, InputError, one_line, shown
 from texvent.io.files import event_extensions, open_events
 from texvent.options.fields import option_names, with_current_names
@@ -209,7 +209,9 @@ def _sensor_text(sensor: Any) -> Any:
     if isinstance(sensor, Path):
         return str(sensor)
     is_size = isinstance(sensor, (tuple, list)) and len(sensor) == 2
-    return f"{sensor[0]}x{sensor[1]}" if is_size else sensor
+    return (
+        "x".join(str(s) if isinstance(s, str) else shown(s) for s in sensor) if is_size else sensor
+    )
 
 
 def apply_options(settings: Settings, options: Mapping[str, Any], *, where: str) -> Settings:
@@ -251,6 +253,7 @@ def apply_options(settings: Settings, options: Mapping[str, Any], *, where: str)
 def _as_number(value: Any, where: str) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise ConfigError(f"{where}: contrast_threshold is {shown(value)}; it must be a number")
+    check_range("contrast_threshold", value, 1e-6, 1e6)
     return float(value)
 
 

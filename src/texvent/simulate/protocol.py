@@ -21,7 +21,8 @@ class Simulator(Protocol):
     may also declare `default_interpolate`, the interpolation it was made for. One whose weights are
     a file of the user's may offer `provenance(config)`: facts about that file, stored with the
     events. One that runs in continuous time offers `continuous_misfit(config)`; see
-    `fused.continuous`.
+    `fused.continuous`. It may declare `bytes_per_pixel`: memory that its pixels, its packets and
+    the frames that wait for it take, measured on moving texture; `run.memory` adds it up.
     """
 
     config_type: ClassVar[type]

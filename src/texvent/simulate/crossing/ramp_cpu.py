@@ -17,6 +17,7 @@ from texvent.simulate.crossing.ramp import (
     Float64Array,
     RefractoryPeriod,
 )
+from texvent.simulate.packets.limits import check_event_number
 from texvent.simulate.packets.sorting_cpu import (
     KEY_USES,
     has_room_for_keys,
@@ -67,7 +68,9 @@ def list_crossing_keys(
     refractory: RefractoryPeriod,
 ) -> NDArray[np.uint64]:
     """Keys of all events, by pixel and then in time."""
-    keys = take_scratch(KEY_USES[0], _add_up(changes.steps) + FEW, np.uint64)
+    number = _add_up(changes.steps)
+    check_event_number(number)
+    keys = take_scratch(KEY_USES[0], number + FEW, np.uint64)
     with np.errstate(all="ignore"):
         return keys[: _list_crossings(pixel, changes, fired_us, layout, refractory, keys)]
 

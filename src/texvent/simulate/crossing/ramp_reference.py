@@ -10,6 +10,7 @@ from texvent.simulate.crossing.ramp import (
     RampCrossings,
     RefractoryPeriod,
 )
+from texvent.simulate.packets.limits import check_event_number
 
 
 def cross_ramp(
@@ -36,6 +37,8 @@ def cross_ramp(
         section 3.1: linear interpolation of log intensity between samples.
     """
     start_us, stop_us = span_us
+    threshold = np.where(ramp.stop > 0, ramp.threshold_on, ramp.threshold_off)
+    check_event_number(float(np.abs(ramp.stop / threshold).sum()))
     steps = np.zeros(ramp.start.shape, np.int64)
     pixels, times, polarities = [], [], []
     for sign, threshold in ((1, ramp.threshold_on), (-1, ramp.threshold_off)):

@@ -64,6 +64,7 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
     """
 
     config_type: ClassVar[type] = EsimConfig
+    bytes_per_pixel: ClassVar[int] = 90
     presets: ClassVar[Mapping[str, EsimConfig]] = {
         "default": EsimConfig(),
         "peer-common": EsimConfig(),

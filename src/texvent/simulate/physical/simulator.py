@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.limits import check_event_number
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.physical.circuit import (
@@ -70,6 +71,7 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
     """
 
     config_type: ClassVar[type] = PhysicalConfig
+    bytes_per_pixel: ClassVar[int] = 190
     presets: ClassVar[Mapping[str, PhysicalConfig]] = PRESETS
 
     @property
@@ -105,6 +107,7 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
     def _advance(
         self, intensity: IntensityArray, interval: FrameInterval
     ) -> UnsortedEvents | SortedEvents:
+        check_event_number(self._leak_hz * interval.duration_s)
         light = self._frames.until(intensity)
         noise = self._draw_noise(light, interval)
         rules = ResetRules(self.config.refractory_period_us, self.config.noise_resets)
@@ -126,6 +129,7 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
         leak = config.leak_rate_hz * _factors_of_mean_1(
             shape, key, Purpose.LEAK_RATE, config.leak_rate_decades
         )
+        self._leak_hz = float(leak.sum())
         leak_per_us = leak * on / MICROSECONDS
         self._mismatch = PixelMismatch(
             *(column.reshape(-1).astype(np.float32) for column in (on, off, leak_per_us))

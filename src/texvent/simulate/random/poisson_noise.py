@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from texvent.simulate.backend.select import AUTO
 from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.limits import check_event_number
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import Purpose, draw_uniforms
 from texvent.simulate.random.poisson_arrivals import DRAW_ARRIVALS
@@ -61,6 +62,7 @@ class PoissonNoise:
         """
         if self.is_silent:
             return UnsortedEvents.none()
+        check_event_number(float(self._cumulative_hz[:, -1].sum()) * interval.duration_s)
         pixel, fraction, order = DRAW_ARRIVALS.load(backend)(
             self._cumulative_hz, interval.duration_s, interval.key, self._stream
         )

@@ -49,6 +49,7 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
     """
 
     config_type: ClassVar[type] = SenpiConfig
+    bytes_per_pixel: ClassVar[int] = 60
     presets: ClassVar[Mapping[str, SenpiConfig]] = PRESETS
 
     @property

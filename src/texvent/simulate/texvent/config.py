@@ -65,7 +65,6 @@ class TexventConfig:
     def __post_init__(self) -> None:
         check_range("contrast_threshold", self.contrast_threshold, 1e-4, 10.0)
         check_range("balance", self.balance, 0.0, 1e6)
-        check_range("cache_reset_pairs", self.cache_reset_pairs, 0)
         check_range("cache_leak", self.cache_leak, 0.0, 1.0)
         check_range("noise_rate_hz", self.noise_rate_hz, 0.0, 1e4)
         check_range("noise_scale", self.noise_scale, 0.0, 1e3)
@@ -73,6 +72,7 @@ class TexventConfig:
         check_range("noise_on_fraction", self.noise_on_fraction, 0.0, 1.0)
         check_range("timestamp_scale", self.timestamp_scale, 1e-6, 1.0)
         check_choices(self)
+        check_range("cache_reset_pairs", self.cache_reset_pairs, 0, 10**9)
         if self.cache_reset_pairs > 0 and self.cache in ("local", "none"):
             raise ConfigError(
                 f"cache_reset_pairs is {self.cache_reset_pairs}, but cache {self.cache!r} forgets "

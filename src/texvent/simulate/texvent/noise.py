@@ -19,6 +19,7 @@ from texvent.errors import InputError
 from texvent.runtime.read_only import read_only
 from texvent.simulate.backend.select import AUTO
 from texvent.simulate.packets.interval import FrameInterval, place_in
+from texvent.simulate.packets.limits import check_event_number
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import UNIT, Purpose, draw_normals
 from texvent.simulate.texvent.kernels.noise_blocks import PLACE_NOISE, NoiseBlock
@@ -51,6 +52,7 @@ def draw_noise(
     Deviation: the paper gives noise no polarity and no time. Eq. 7 would put all of it at the end,
         because its change is below δ; real background activity is uniform in time.
     """
+    check_event_number(mean * (pixels + NOISE_BLOCK))
     noise = NoiseBlock(span.key, poisson_cumulative(mean * NOISE_BLOCK), float(on_fraction))
     places = PLACE_NOISE.load(backend)(noise, pixels)
     return UnsortedEvents.noise(places.pixel, place_in(span, places.fraction), places.p)

@@ -16,6 +16,7 @@ from texvent.brightness import check_balance
 from texvent.events import EventStream
 from texvent.runtime.read_only import read_only
 from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.limits import check_event_number
 from texvent.simulate.texvent.brightness_cache import CacheSchedule, Renewal
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.kernels.noise_blocks import PLACE_NOISE, NoiseBlock, NoisePlaces
@@ -171,7 +172,10 @@ def draw_noise_places(
     """
     if not config.has_added_noise:
         return _QUIET
-    cumulative = poisson_cumulative(config.expected_noise(span.duration_s) * NOISE_BLOCK)
+    mean = config.expected_noise(span.duration_s)
+    # Drawn for whole blocks, then cut to the frame.
+    check_event_number(mean * (size + NOISE_BLOCK))
+    cumulative = poisson_cumulative(mean * NOISE_BLOCK)
     block = NoiseBlock(span.key, cumulative, config.noise_on_fraction)
     noise = PLACE_NOISE.load(backend)(block, size)
     if config.noise == "random" or not len(noise.pixel):

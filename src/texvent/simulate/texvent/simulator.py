@@ -43,6 +43,7 @@ class TexventSimulator(SteppingSimulator):
     """
 
     config_type: ClassVar[type] = TexventConfig
+    bytes_per_pixel: ClassVar[int] = 30
     presets: ClassVar[Mapping[str, TexventConfig]] = {
         "paper": TexventConfig(),
         # Measured against true and recorded events (docs/benchmark.md): a reference that outlives

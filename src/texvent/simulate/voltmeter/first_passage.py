@@ -6,6 +6,7 @@ drawn once holds until it happens or the luma changes, over as many frames as th
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
 
@@ -72,6 +73,19 @@ class FirstPassageInput(NamedTuple):
     now: NDArray[Any]
     """[H, W] luma at the end, of the same type."""
     constants: Constants
+
+
+def most_passages(light: FirstPassageInput, duration_us: int) -> float:
+    """A bound on the expected number of events of an interval, without a look at each pixel.
+
+    A drift μ crosses |μ| thresholds per µs, a diffusion σ between two thresholds σ²; and
+    √L / (L + k2) is at most 1 / (2 √k2).
+    """
+    k1, k2, k3, k4, k5, k6 = light.constants
+    highest = max(float(light.before.max()), float(light.now.max()))
+    diffusion = k3 / (2.0 * math.sqrt(k2)) + k6
+    per_us = abs(k4) + abs(k5) * highest + diffusion * diffusion
+    return light.now.size * (per_us * duration_us + 2.0 * k1)
 
 
 FindFirstPassages: TypeAlias = Callable[

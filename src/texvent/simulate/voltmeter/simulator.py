@@ -13,6 +13,7 @@ from typing import ClassVar
 import numpy as np
 
 from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets.limits import check_event_number
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import Purpose, draw_uniforms
@@ -23,6 +24,7 @@ from texvent.simulate.voltmeter.first_passage import (
     FIND_FIRST_PASSAGES,
     Constants,
     FirstPassageInput,
+    most_passages,
     new_voltage,
 )
 
@@ -42,6 +44,7 @@ class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
     """
 
     config_type: ClassVar[type] = VoltmeterConfig
+    bytes_per_pixel: ClassVar[int] = 60
     presets: ClassVar[Mapping[str, VoltmeterConfig]] = PRESETS
 
     @property
@@ -77,5 +80,6 @@ class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
             self._seen = self._seen.astype(np.float32, copy=False)
             intensity = intensity.astype(np.float32, copy=False)
         light = FirstPassageInput(self._seen, intensity, self._constants)
+        check_event_number(most_passages(light, interval.duration_us))
         find_first_passages = FIND_FIRST_PASSAGES.load(self._backend, intensity.dtype)
         return find_first_passages(light, self._voltage, interval, self._begin_us)

@@ -17,9 +17,10 @@ from texvent.simulate.crossing.bitmask_cpu import (
     make_flags,
 )
 from texvent.simulate.texvent.kernels.scan import Intensity, ScanLevels
+from texvent.video import HIGHEST_INTENSITY
 
-LARGEST_FLOAT = np.finfo(np.float32).max.view(np.uint32)
-"""Bits of the largest float32."""
+LARGEST_FLOAT = np.float32(HIGHEST_INTENSITY).view(np.uint32)
+"""Bits of the largest float that a frame may hold."""
 FEW = 6
 """Up to so many candidates of a run are looked up one by one; of more, trigger levels first leave
 out those that cannot fire, as in moving texture most cannot."""

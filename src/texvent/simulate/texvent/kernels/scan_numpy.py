@@ -14,6 +14,7 @@ from texvent.simulate.texvent.kernels.scan import (
     Memory,
     ScanLevels,
 )
+from texvent.video import is_intensity
 
 CHUNK = 1 << 17
 """Pixels scanned at a time, so that what lies between two passes stays in the cache."""
@@ -39,7 +40,7 @@ def find_fired(
     candidates = []
     for first in range(0, frame.size, CHUNK):
         now = frame[first : first + CHUNK]
-        if now.dtype.kind == "f" and not (now.min() >= 0 and now.max() < np.inf):
+        if not is_intensity(now):
             return None
         may_fire = _may_fire(now, memory.reference[first : first + CHUNK], levels)
         candidates.append(np.flatnonzero(may_fire) + first)
