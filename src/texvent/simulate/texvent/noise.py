@@ -31,6 +31,8 @@ Float64Array = NDArray[np.float64]
 
 # What a uniform number cannot resolve need not be in the table.
 _CERTAIN = 1.0 - UNIT
+LARGE_MEAN = 1e4
+"""Events of a block from which on only the middle of the Poisson distribution is summed up."""
 
 
 def draw_noise(
@@ -52,7 +54,7 @@ def draw_noise(
     Deviation: the paper gives noise no polarity and no time. Eq. 7 would put all of it at the end,
         because its change is below δ; real background activity is uniform in time.
     """
-    check_event_number(mean * (pixels + NOISE_BLOCK))
+    check_event_number(mean * -(-pixels // NOISE_BLOCK) * NOISE_BLOCK)
     noise = NoiseBlock(span.key, poisson_cumulative(mean * NOISE_BLOCK), float(on_fraction))
     places = PLACE_NOISE.load(backend)(noise, pixels)
     return UnsortedEvents.noise(places.pixel, place_in(span, places.fraction), places.p)
@@ -107,8 +109,10 @@ def poisson_cumulative(mean: float) -> Float64Array:
         return read_only(np.ones(1))
     last = math.ceil(mean + 12 * math.sqrt(mean) + 40)
     log_mean = math.log(mean)
-    mass = [math.exp(k * log_mean - mean - math.lgamma(k + 1)) for k in range(last)]
-    cumulative = np.cumsum(mass)
+    # What lies so far below a large mean vanishes, as above; the table stays as long.
+    first = max(0, math.floor(mean - 12 * math.sqrt(mean))) if mean > LARGE_MEAN else 0
+    mass = [math.exp(k * log_mean - mean - math.lgamma(k + 1)) for k in range(first, last)]
+    cumulative = np.concatenate([np.zeros(first), np.cumsum(mass)])
     return read_only(cumulative[: int(np.searchsorted(cumulative, _CERTAIN)) + 1])
 
 

@@ -174,7 +174,7 @@ def draw_noise_places(
         return _QUIET
     mean = config.expected_noise(span.duration_s)
     # Drawn for whole blocks, then cut to the frame.
-    check_event_number(mean * (size + NOISE_BLOCK))
+    check_event_number(mean * -(-size // NOISE_BLOCK) * NOISE_BLOCK)
     cumulative = poisson_cumulative(mean * NOISE_BLOCK)
     block = NoiseBlock(span.key, cumulative, config.noise_on_fraction)
     noise = PLACE_NOISE.load(backend)(block, size)
