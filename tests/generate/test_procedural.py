@@ -77,7 +77,7 @@ def test_shadows_can_be_turned_off() -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"fps": Fraction(0)}, "fps is 0; it must be 1e-09..1e+06"),
+        ({"fps": Fraction(0)}, r"fps is 0; it must be 1e-09..1e\+06"),
         ({"duration": 0.0}, "duration is 0; it must be"),
         ({"duration": float("nan")}, "duration is nan"),
         ({"duration": 0.01}, "shorter than one frame interval at 24 fps; it must be at least"),

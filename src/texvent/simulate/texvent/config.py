@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from texvent.config import check_choices, check_range
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 from texvent.options.fields import renamed
 from texvent.simulate.texvent.brightness_cache import CachePolicy, ResetRule
 from texvent.simulate.texvent.noise import NoiseKind
@@ -72,11 +72,11 @@ class TexventConfig:
         check_range("noise_on_fraction", self.noise_on_fraction, 0.0, 1.0)
         check_range("timestamp_scale", self.timestamp_scale, 1e-6, 1.0)
         check_choices(self)
-        check_range("cache_reset_pairs", self.cache_reset_pairs, 0, 10**9)
+        check_range("cache_reset_pairs", self.cache_reset_pairs, 0)
         if self.cache_reset_pairs > 0 and self.cache in ("local", "none"):
             raise ConfigError(
-                f"cache_reset_pairs is {self.cache_reset_pairs}, but cache {self.cache!r} forgets "
-                "at every pair already; use cache 'global' or 'leaky', or leave it 0"
+                f"cache_reset_pairs is {shown(self.cache_reset_pairs)}, but cache {self.cache!r} "
+                "forgets at every pair already; use cache 'global' or 'leaky', or leave it 0"
             )
         if self.multi_event and self.timestamp_rule == "eq7":
             raise ConfigError(
