@@ -70,7 +70,7 @@ class Registry:
         """All parts of `entries`, in their order."""
         return [load_object(target) for target in self.entries().values()]
 
-    def load(self, name: object) -> Any:
+    def load(self, name: Any) -> Any:
         """Return the part called `name`.
 
         Raises:

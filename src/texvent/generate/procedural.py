@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from texvent._version import __version__
 from texvent.config import FPS_RANGE, check_range
-from texvent.errors import ConfigError, shown, warn
+from texvent.errors import ConfigError, warn
 from texvent.options.values import plain
 from texvent.sensor import SENSORS, SensorSize
 from texvent.video import MICROSECONDS, Frame, describe_stream, frame_time_us
@@ -52,7 +52,7 @@ class ProceduralConfig:
         if self.intervals < 1:
             raise ConfigError(
                 f"duration is {self.duration:g} s, shorter than one frame interval at "
-                f"{shown(self.fps)} fps; it must be at least {float(1 / self.fps):g} s"
+                f"{float(self.fps):g} fps; it must be at least {float(1 / self.fps):g} s"
             )
 
     @property
