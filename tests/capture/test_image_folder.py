@@ -88,7 +88,7 @@ def test_an_empty_folder_is_refused(tmp_path):
 def test_a_listed_image_that_is_missing_is_named(tmp_path):
     save_images(tmp_path)
     (tmp_path / "images.txt").write_text("0 frame0.png\n1 frame9.png\n")
-    with pytest.raises(InputError, match=r"names frame9\.png"):
+    with pytest.raises(InputError, match=r"names .frame9\.png"):
         open_frames(tmp_path, CaptureConfig())
 
 

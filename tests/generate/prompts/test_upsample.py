@@ -80,7 +80,8 @@ def test_events_know_both_prompts(server, tmp_path, monkeypatch):
     assert events.metadata["source"]["prompt"] == LONG
     (tmp_path / "p.txt").write_text("red car\n")
     assert main(["batch", "p.txt", "--upsample", server.address, *words]) == 0
-    batch = texvent.load("p/0001-red-car.h5")
+    (made,) = (tmp_path / "p").glob("red-car-*.h5")
+    batch = texvent.load(made)
     assert batch.metadata["source"]["prompt"] == LONG
 
 
