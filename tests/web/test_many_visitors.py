@@ -104,7 +104,8 @@ def refused(act: Any, *values: Any) -> int:
     """The status with which a request is refused."""
     with pytest.raises(urllib.error.HTTPError) as caught:
         act(*values)
-    return int(caught.value.code)
+    with caught.value as answer:
+        return int(answer.code)
 
 
 def test_an_uploaded_page_is_never_shown_from_here(address: str) -> None:
@@ -135,8 +136,8 @@ def test_one_hostile_visitor_of_twenty_harms_none(address: str, temporary: Path)
     def attack() -> list[str]:
         hostile = Visitor(address)
         statuses = [refused(hostile.upload, "large.mp4", bytes(2 * 2**20))]
-        with contextlib.suppress(OSError):
-            endless = http.client.HTTPConnection(host, int(port), timeout=60)
+        endless = http.client.HTTPConnection(host, int(port), timeout=60)
+        with contextlib.closing(endless), contextlib.suppress(OSError):
             kind = {
                 "Content-Type": "multipart/form-data; boundary=x",
                 "Transfer-Encoding": "chunked",
