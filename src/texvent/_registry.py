@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from importlib import metadata
 from typing import Any
 
-from texvent.errors import ConfigError, TexventError, shown
+from texvent.errors import ConfigError, TexventError, one_line, shown
 
 LONGEST_NAME = 60
 """Longer names are no misspelling of an allowed one."""
@@ -97,7 +97,7 @@ class Registry:
         try:
             part = load_object(target)
         except Exception as error:
-            text = " ".join(str(error).split())[:120]
+            text = one_line(error)
             raise TexventError(
                 f"{self.kind} {name!r} of another package cannot be loaded from {target} "
                 f"({type(error).__name__}: {text})"

@@ -5,7 +5,7 @@
 
 Each round starts `simulate`, `generate`, `convert` or `batch` in a folder, sends SIGKILL, SIGTERM
 or SIGINT after a random time, and then runs the same command to its end. Afterwards every file must
-be as a run that nobody disturbed makes it: nothing half-written, nothing lost, nothing twice, no
+be as an undisturbed run makes it: nothing half-written, nothing lost, nothing twice, no
 hidden file left. It prints a table and ends with 1 if a round failed.
 """
 

@@ -111,7 +111,7 @@ def test_a_prompt_gives_a_video_a_viewer_and_a_download(
     assert len(texvent.load(target, format="evt3")) == count
     link = page.find_element("id", "download-link").get_attribute("href")
     with pytest.raises(urllib.error.HTTPError, match="404") as refused:
-        urllib.request.urlopen(link)  # nobody else's session has this result
+        urllib.request.urlopen(link)  # no other session has this result
     refused.value.close()
 
     asked = requests_made()

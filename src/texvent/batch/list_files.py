@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from texvent.errors import FileFormatError, InputError, one_line
+from texvent.errors import FileFormatError, InputError, one_line, shown
 from texvent.runtime.file_names import usable_path
 
 PROMPT_COLUMNS = ("prompt", "text", "caption")
@@ -110,9 +110,9 @@ def _from_mapping(path: Path, number: int, entry: Mapping[Any, Any]) -> ListEntr
     prompt = next((entry[name] for name in PROMPT_COLUMNS if entry.get(name)), None)
     video = entry.get(VIDEO_COLUMN) or None
     if video is not None and not isinstance(video, str):
-        raise FileFormatError(f"{where}: video is {str(video)[:80]!r}; it must be a path")
+        raise FileFormatError(f"{where}: video is {shown(video)}; it must be a path")
     if prompt is not None and not (isinstance(prompt, str) and prompt.strip()):
-        raise FileFormatError(f"{where}: prompt is {str(prompt)[:80]!r}; it must be a text")
+        raise FileFormatError(f"{where}: prompt is {shown(prompt)}; it must be a text")
     if prompt is None and video is None:
         raise FileFormatError(f"{where} has no {', '.join(PROMPT_COLUMNS)} or {VIDEO_COLUMN}")
     return ListEntry(
@@ -131,7 +131,7 @@ def _name(where: str, value: Any) -> str | None:
     name = str(value)
     if "/" in name or "\0" in name or name.startswith(".") or len(name.encode()) > MAX_NAME_BYTES:
         raise FileFormatError(
-            f"{where}: {name[:80]!r} is no name for a file; use at most {MAX_NAME_BYTES} bytes, "
+            f"{where}: {shown(name)} is no name for a file; use at most {MAX_NAME_BYTES} bytes, "
             "without / and no dot in front"
         )
     return name
@@ -146,7 +146,7 @@ def _seed(where: str, value: Any) -> int | None:
         seed = -1
     if isinstance(value, (bool, float)) or not 0 <= seed < 2**63:
         raise FileFormatError(
-            f"{where}: seed is {repr(value)[:80]}; it must be a whole number from 0 to 2^63 - 1"
+            f"{where}: seed is {shown(value)}; it must be a whole number from 0 to 2^63 - 1"
         )
     return seed
 

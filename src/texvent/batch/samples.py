@@ -13,12 +13,10 @@ from pathlib import Path
 
 from texvent.batch.list_files import LIST_EXTENSIONS, ListEntry, read_list
 from texvent.errors import ConfigError, InputError, shown
+from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
 
-VIDEO_EXTENSIONS = frozenset(
-    (".avi", ".m4v", ".mkv", ".mov", ".mp4", ".mpeg", ".mpg", ".npy", ".ts", ".webm", ".wmv")
-)
+FOLDER_VIDEOS = VIDEO_EXTENSIONS | {".npy"}
 """Files of these names are the videos of a folder."""
-IMAGE_EXTENSIONS = frozenset((".bmp", ".jpeg", ".jpg", ".png", ".tif", ".tiff"))
 ID_DIGITS = 8
 
 
@@ -100,7 +98,7 @@ def _entries(source: str) -> Iterator[ListEntry]:
 def _folder_entries(folder: Path) -> Iterator[ListEntry]:
     """The videos in a folder, or its image folders, or itself if it holds images."""
     inside = sorted(path for path in folder.iterdir() if not path.name.startswith("."))
-    videos = [path for path in inside if path.suffix.lower() in VIDEO_EXTENSIONS]
+    videos = [path for path in inside if path.suffix.lower() in FOLDER_VIDEOS]
     if not videos and _holds_images(inside):
         videos = [folder]
     if not videos:
@@ -108,7 +106,7 @@ def _folder_entries(folder: Path) -> Iterator[ListEntry]:
     if not videos:
         raise InputError(
             f"{folder} holds no video, no images and no folders of images; videos end in "
-            f"{', '.join(sorted(VIDEO_EXTENSIONS))}"
+            f"{', '.join(sorted(FOLDER_VIDEOS))}"
         )
     for path in videos:
         yield ListEntry(where=str(path), video=path)

@@ -12,14 +12,10 @@ from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes, Timestamps, read_timestamps
 from texvent.capture.intensity_scale import usable_pixels
 from texvent.errors import FileFormatError, InputError, shown
-from texvent.runtime.file_names import usable_path
+from texvent.runtime.file_names import IMAGE_EXTENSIONS, usable_path
 from texvent.sensor import checked_size
 from texvent.video import Frame, PixelArray
 
-SUFFIXES = frozenset(
-    (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".webp", ".pgm", ".ppm", ".pnm", ".jp2")
-)
-"""Extensions that count as images."""
 TIMESTAMP_NAMES = ("timestamps.txt", "images.txt")
 """Names under which a timestamp file is found in the folder or beside it."""
 INNER_FOLDERS = ("images", "frames", "imgs")
@@ -113,8 +109,8 @@ def find_images_folder(folder: Path) -> Path:
         if candidate.is_dir() and any(_is_image(path) for path in candidate.iterdir()):
             return candidate
     raise InputError(
-        f"{folder} holds no image; looked for {', '.join(sorted(SUFFIXES))} in it and in its "
-        f"sub-folders {', '.join(INNER_FOLDERS)}"
+        f"{folder} holds no image; looked for {', '.join(sorted(IMAGE_EXTENSIONS))} in it and in "
+        f"its sub-folders {', '.join(INNER_FOLDERS)}"
     )
 
 
@@ -130,7 +126,9 @@ def find_timestamps(folder: Path) -> Path | None:
 
 
 def _is_image(path: Path) -> bool:
-    return path.suffix.lower() in SUFFIXES and not path.name.startswith(".") and path.is_file()
+    return (
+        path.suffix.lower() in IMAGE_EXTENSIONS and not path.name.startswith(".") and path.is_file()
+    )
 
 
 def _natural_key(path: Path) -> tuple[tuple[tuple[int, int | str], ...], str]:

@@ -15,7 +15,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from texvent.errors import OutputError
+from texvent.errors import OutputError, shown
 from texvent.io.hidden_parts import hidden_file, hidden_folder, is_hidden_part
 from texvent.io.protected_inputs import refuse_inputs
 
@@ -178,7 +178,7 @@ def _resolved(path: str | Path) -> Path:
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else error
         raise OutputError(
-            f"cannot write {str(path)[:80]!r}: {reason}; choose another name"
+            f"cannot write {shown(str(path))}: {reason}; choose another name"
         ) from error
     return target
 

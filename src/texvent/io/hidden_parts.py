@@ -1,7 +1,7 @@
 """Hidden files that hold an output until it is complete, and the sweep of those left behind.
 
-A process holds a lock on each of its parts for as long as it lives, however it ends. A part that
-nobody locks belongs to a process that was killed: the next run in that folder removes it.
+A process holds a lock on each of its parts for as long as it lives, however it ends. A part
+without a lock belongs to a process that was killed: the next run in that folder removes it.
 """
 
 from __future__ import annotations

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from texvent.errors import OutputError
+from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
 
 
 @dataclass(frozen=True)
@@ -23,9 +24,7 @@ class ProtectedInput:
     status: os.stat_result
 
 
-VIDEOS = (".avi", ".mkv", ".mov", ".mp4", ".npy", ".webm")
-IMAGES = (".bmp", ".jpeg", ".jpg", ".png", ".tif", ".tiff")
-READ_FROM_FOLDERS = frozenset((*VIDEOS, *IMAGES))
+READ_FROM_FOLDERS = IMAGE_EXTENSIONS | VIDEO_EXTENSIONS | {".npy"}
 """Files of these kinds, put into an input folder, would be read as its frames by the next run."""
 
 _inputs: ContextVar[tuple[ProtectedInput, ...]] = ContextVar("inputs", default=())

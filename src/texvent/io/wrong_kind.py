@@ -6,18 +6,15 @@ import re
 from pathlib import Path
 
 from texvent.errors import InputError
+from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
 
 _KINDS = {
-    "a video; texvent simulate makes its events": (
-        ".mp4 .avi .mov .mkv .webm .m4v .mpg .mpeg .wmv .flv .ts .m2ts .mts .gif .ogv .3gp .y4m"
-    ),
-    "an image; texvent simulate takes a folder of images": (
-        ".png .jpg .jpeg .bmp .tif .tiff .webp .ppm .pgm .exr"
-    ),
-    "a page, made of an event file; give that": ".html .htm",
-    "a file of options, for --config": ".toml .yaml .yml",
+    "a video; texvent simulate makes its events": VIDEO_EXTENSIONS,
+    "an image; texvent simulate takes a folder of images": IMAGE_EXTENSIONS,
+    "a page, made of an event file; give that": (".html", ".htm"),
+    "a file of options, for --config": (".toml", ".yaml", ".yml"),
 }
-_KIND_OF = {extension: kind for kind, text in _KINDS.items() for extension in text.split()}
+_KIND_OF = {extension: kind for kind, names in _KINDS.items() for extension in names}
 
 
 def refuse_other_kind(path: Path) -> None:

@@ -10,11 +10,8 @@ from typing import Any
 
 from texvent._registry import RECONSTRUCTORS
 from texvent.errors import FileFormatError, InputError
-from texvent.reconstruct.layers import EXTRA
-from texvent.reconstruct.protocol import PublishedNetwork
-from texvent.runtime.cache_folder import cache_folder
-from texvent.runtime.layer_shapes import BATCH_COUNTER, Shape
-from texvent.runtime.network_files import (
+from texvent.networks.layer_shapes import BATCH_COUNTER, Shape
+from texvent.networks.weight_files import (
     StandIn,
     Tensor,
     check_finite,
@@ -23,6 +20,9 @@ from texvent.runtime.network_files import (
     read_mapping,
     shapes_of,
 )
+from texvent.reconstruct.layers import EXTRA
+from texvent.reconstruct.protocol import PublishedNetwork
+from texvent.runtime.cache_folder import cache_folder
 
 LEFT_BY_TRAINING = (
     *("parse_config.ConfigParser", "utils.parse_config.ConfigParser"),

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from texvent.networks.layer_shapes import Shapes, batch_norm, convolution
+from texvent.networks.weight_files import Tensor
 from texvent.reconstruct.layers import Layers
-from texvent.runtime.layer_shapes import Shapes, batch_norm, convolution
-from texvent.runtime.network_files import Tensor
 
 ATOMS = 6
 """Kernels per pixel, of which every output channel takes its own mixture."""

@@ -7,8 +7,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from texvent.reconstruct.layers import Layers
-from texvent.runtime.layer_shapes import (
+from texvent.networks.layer_shapes import (
     Shape,
     Shapes,
     attention,
@@ -19,7 +18,8 @@ from texvent.runtime.layer_shapes import (
     layer_norm,
     linear,
 )
-from texvent.runtime.network_files import Tensor
+from texvent.networks.weight_files import Tensor
+from texvent.reconstruct.layers import Layers
 
 SCALES = 3
 HEADS = 8

@@ -6,15 +6,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from texvent.reconstruct.layers import Layers
-from texvent.runtime.layer_shapes import (
+from texvent.networks.layer_shapes import (
     Shape,
     Shapes,
     conv_gru,
     conv_layer,
     residual_block,
 )
-from texvent.runtime.network_files import Tensor
+from texvent.networks.weight_files import Tensor
+from texvent.reconstruct.layers import Layers
 
 PUBLISHED_HEAD = (16, 5, 3, 3)
 """Shape of the first kernel: channels, bins, side, side."""

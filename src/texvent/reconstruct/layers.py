@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from types import ModuleType
 
 from texvent._require import require
-from texvent.runtime.network_files import Tensor
+from texvent.networks.weight_files import Tensor
 
 EXTRA = "torch"
 """The texvent extra that brings torch."""

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from texvent.runtime.layer_shapes import Shape, Shapes
-from texvent.runtime.network_files import Tensor
+from texvent.networks.layer_shapes import Shape, Shapes
+from texvent.networks.weight_files import Tensor
 
 
 class RecurrentNetwork(Protocol):

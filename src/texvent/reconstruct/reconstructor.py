@@ -14,12 +14,12 @@ from texvent._registry import RECONSTRUCTORS
 from texvent._require import require
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.events import EventStream
+from texvent.networks.weight_files import Tensor
 from texvent.reconstruct.checkpoint import Checkpoint, find_weights, read_checkpoint
 from texvent.reconstruct.config import Device
 from texvent.reconstruct.layers import EXTRA
 from texvent.reconstruct.protocol import PublishedNetwork
 from texvent.represent.voxel_grid import voxel_e2vid
-from texvent.runtime.network_files import Tensor
 from texvent.sensor import SensorSize
 
 Intensity: TypeAlias = NDArray[np.float32]

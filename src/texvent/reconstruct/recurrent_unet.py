@@ -6,9 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from texvent.reconstruct.dynamic_decoder import decode_dynamically, dynamic_decoder_shapes
-from texvent.reconstruct.layers import Layers
-from texvent.runtime.layer_shapes import (
+from texvent.networks.layer_shapes import (
     Shape,
     Shapes,
     conv_gru,
@@ -17,7 +15,9 @@ from texvent.runtime.layer_shapes import (
     count_blocks,
     residual_block,
 )
-from texvent.runtime.network_files import Tensor
+from texvent.networks.weight_files import Tensor
+from texvent.reconstruct.dynamic_decoder import decode_dynamically, dynamic_decoder_shapes
+from texvent.reconstruct.layers import Layers
 
 PREFIX = "unetrecurrent"
 HEAD = f"{PREFIX}.head"

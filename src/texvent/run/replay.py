@@ -9,13 +9,11 @@ from typing import Any
 
 from texvent._registry import GENERATORS
 from texvent._version import full_version
-from texvent.errors import InputError
+from texvent.errors import InputError, shown
 from texvent.pipeline import Simulation
 from texvent.run.prepare import prepare_prompt, prepare_source
 from texvent.run.settings import flatten_tables, resolve
 from texvent.video import FrameStream, RenderableStream
-
-SHOWN_CHARACTERS = 60
 
 
 def render_again(metadata: Mapping[str, Any]) -> FrameStream | None:
@@ -116,10 +114,10 @@ def describe_differences(stored: Mapping[str, Any], now: Mapping[str, Any]) -> l
             ignored = ("source", "size_before_fit") if name == "source" else ()
             for key in dict.fromkeys((*before, *today)):
                 if key not in ignored and before.get(key) != today.get(key):
-                    was, is_now = (_short(one.get(key)) for one in (before, today))
+                    was, is_now = (shown(one.get(key)) for one in (before, today))
                     lines.append(f"{what}, {key}: was {was}, is {is_now}")
         else:
-            lines.append(f"{what}: was {_short(before)}, is {_short(today)}")
+            lines.append(f"{what}: was {shown(before)}, is {shown(today)}")
     return lines
 
 
@@ -131,8 +129,3 @@ COMPARED = {
     "seed": "seed",
 }
 """Parts of the provenance that decide a run's bytes → what messages call them."""
-
-
-def _short(value: Any) -> str:
-    text = str(value)
-    return text if len(text) <= SHOWN_CHARACTERS else f"{text[:SHOWN_CHARACTERS]}..."

@@ -1,4 +1,4 @@
-"""Names that no file can have: with a NUL byte, or too long for the system."""
+"""Names of files: which are images and videos, and which no file can have."""
 
 from __future__ import annotations
 
@@ -9,6 +9,16 @@ from texvent.errors import InputError, shown
 
 MAX_NAME_BYTES, MAX_PATH_BYTES = 255, 4095
 """Bytes of one name and of a whole path on Linux."""
+
+
+IMAGE_EXTENSIONS = frozenset(
+    (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".webp", ".pgm", ".ppm", ".pnm", ".jp2")
+)
+"""Files of these names are the frames of an image folder."""
+CLIPS = (".avi", ".gif", ".m4v", ".mkv", ".mov", ".mp4", ".mpeg", ".mpg", ".webm", ".wmv")
+STREAMS = (".3gp", ".flv", ".m2ts", ".mts", ".ogv", ".ts", ".y4m")
+VIDEO_EXTENSIONS = frozenset((*CLIPS, *STREAMS))
+"""Files of these names are videos."""
 
 
 def usable_path(path: str | Path) -> Path:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from texvent.errors import TexventError
+from texvent.errors import TexventError, one_line
 from texvent.events import COLUMN_TYPES, EventStream
 from texvent.pairs.frame_pair import FramePair
 from texvent.simulate.stepping import with_advance
@@ -58,7 +58,7 @@ def reporting(name: str, what: str) -> Iterator[None]:
     except (TexventError, MemoryError):
         raise
     except Exception as error:
-        text = " ".join(str(error).split())[:120]
+        text = one_line(error)
         raise broken(name, f"failed in {what} ({type(error).__name__}: {text})") from error
 
 

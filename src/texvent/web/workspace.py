@@ -1,6 +1,6 @@
 """Folders of the jobs: one each, the latest few kept, all gone when the page closes.
 
-A result is given to the visitor who asked for it and to nobody else.
+A result is given to the visitor who asked for it alone.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ KEPT_JOBS = 20
 UPLOADS_KEPT = 10
 """How many uploads of the largest size there is room for."""
 ABANDONED_S = 60.0
-"""Age of the last byte of an upload that nobody sends any more."""
+"""Age of the last byte of an upload that is no longer being sent."""
 
 
 class Workspace:

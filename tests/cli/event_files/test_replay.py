@@ -99,7 +99,7 @@ def test_another_version_is_told(capsys):
     changed = {**events.metadata, "texvent_version": "0.0.9"}
     events.with_metadata(changed).save("old.h5")
     assert run("replay", "old.h5") == 1
-    assert f"version: was 0.0.9, is {full_version()}" in capsys.readouterr().err
+    assert f"version: was '0.0.9', is {full_version()!r}" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

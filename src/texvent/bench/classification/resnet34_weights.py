@@ -12,9 +12,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from texvent.errors import FileFormatError, InputError
-from texvent.reconstruct.layers import EXTRA
-from texvent.runtime.layer_shapes import BATCH_COUNTER, Shape, batch_norm
-from texvent.runtime.network_files import (
+from texvent.networks.layer_shapes import BATCH_COUNTER, Shape, batch_norm
+from texvent.networks.weight_files import (
     Tensor,
     check_finite,
     describe_mismatch,
@@ -22,6 +21,7 @@ from texvent.runtime.network_files import (
     read_mapping,
     shapes_of,
 )
+from texvent.reconstruct.layers import EXTRA
 
 INPUT_CHANNELS, FIRST_KERNEL = 2, 14
 STAGES = 4

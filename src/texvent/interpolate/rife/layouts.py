@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from texvent.runtime.layer_shapes import Shape, Shapes, convolution
+from texvent.networks.layer_shapes import Shape, Shapes, convolution
 
 BODY_LAYERS = 8
 """Convolutions in the middle of a block."""

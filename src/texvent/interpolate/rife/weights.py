@@ -16,8 +16,7 @@ from texvent.interpolate.rife.layouts import (
     recognise_layout,
 )
 from texvent.io.atomic import atomic_file
-from texvent.runtime.cache_folder import cache_folder
-from texvent.runtime.network_files import (
+from texvent.networks.weight_files import (
     Tensor,
     check_finite,
     describe_file,
@@ -26,6 +25,7 @@ from texvent.runtime.network_files import (
     read_mapping,
     shapes_of,
 )
+from texvent.runtime.cache_folder import cache_folder
 
 DEFAULT_FILE = "rife.safetensors"
 """Name, in the weights folder, of the file that `texvent weights pull rife` writes."""

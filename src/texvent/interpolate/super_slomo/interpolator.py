@@ -13,7 +13,7 @@ from texvent.interpolate.networks.torch_warp import warp
 from texvent.interpolate.super_slomo.layout import FLOW_NET, PAD_TO, REFINE_NET
 from texvent.interpolate.super_slomo.network import UNet
 from texvent.interpolate.super_slomo.weights import check_checkpoint_path, read_checkpoint
-from texvent.runtime.network_files import describe_file
+from texvent.networks.weight_files import describe_file
 from texvent.video import FrameStream
 
 MEAN_COLOUR = (0.429, 0.431, 0.397)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from texvent.runtime.layer_shapes import Shapes, convolution
+from texvent.networks.layer_shapes import Shapes, convolution
 
 DEPTH = 5
 """How often a U-Net halves the image."""

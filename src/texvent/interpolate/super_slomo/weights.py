@@ -9,7 +9,7 @@ from typing import Any
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.interpolate.networks.torch_import import EXTRA
 from texvent.interpolate.super_slomo.layout import FLOW_NET, REFINE_NET, UNetLayout
-from texvent.runtime.network_files import (
+from texvent.networks.weight_files import (
     Tensor,
     check_finite,
     describe_mismatch,

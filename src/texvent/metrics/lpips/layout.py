@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from texvent.runtime.layer_shapes import Shapes
+from texvent.networks.layer_shapes import Shapes
 
 LpipsNet: TypeAlias = Literal["alex", "vgg"]
 

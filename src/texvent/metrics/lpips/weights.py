@@ -16,8 +16,8 @@ from texvent.errors import FileFormatError, InputError, one_line
 from texvent.io.arrays.npz import read_arrays
 from texvent.io.atomic import atomic_file
 from texvent.metrics.lpips.layout import LAYOUTS, LpipsLayout, LpipsNet
+from texvent.networks.weight_files import DAMAGE
 from texvent.runtime.cache_folder import cache_folder
-from texvent.runtime.network_files import DAMAGE
 
 Float32Array = NDArray[np.float32]
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from texvent.runtime.layer_shapes import Shapes, layer_norm, linear
+from texvent.networks.layer_shapes import Shapes, layer_norm, linear
 
 INPUT_CHANNELS = 20
 """Of the stacked histogram: 2 polarities of 10 bins."""

@@ -12,7 +12,7 @@ from texvent._require import require
 from texvent.metrics.rvt.latent_similarity import Features
 from texvent.metrics.rvt.layout import ATTENTIONS, STRIDES, RvtLayout, kernel_side
 from texvent.metrics.rvt.weights import EXTRA, RvtWeights
-from texvent.runtime.network_files import Tensor
+from texvent.networks.weight_files import Tensor
 
 PARTITION_PX = 64
 """The image is padded to a multiple of this; attention works on parts of (height / 64,

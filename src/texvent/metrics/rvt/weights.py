@@ -9,7 +9,7 @@ from pathlib import Path
 from texvent.errors import FileFormatError, InputError
 from texvent.metrics.rvt import layout as rvt_layout
 from texvent.metrics.rvt.layout import RvtLayout
-from texvent.runtime.network_files import (
+from texvent.networks.weight_files import (
     Tensor,
     check_finite,
     describe_mismatch,

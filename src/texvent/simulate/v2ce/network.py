@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from texvent._require import require
 from texvent.errors import ConfigError, FileFormatError, InputError
-from texvent.runtime.network_files import Tensor
+from texvent.networks.weight_files import Tensor
 from texvent.simulate.v2ce.layout import (
     DECODERS,
     ENCODERS,

@@ -13,8 +13,8 @@ from typing import ClassVar
 import numpy as np
 
 from texvent.events import EventStream
+from texvent.networks.weight_files import describe_file
 from texvent.pairs.frame_pair import FramePair
-from texvent.runtime.network_files import describe_file
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.sorting import make_packet
 from texvent.simulate.packets.unsorted_events import UnsortedEvents

@@ -8,7 +8,7 @@ from typing import Any
 
 from texvent._require import require
 from texvent.errors import ConfigError, FileFormatError, InputError
-from texvent.runtime.network_files import (
+from texvent.networks.weight_files import (
     Tensor,
     check_finite,
     describe_mismatch,

@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 
 from texvent._require import require
 from texvent.errors import FileFormatError
-from texvent.runtime.layer_shapes import Shape
+from texvent.networks.layer_shapes import Shape
 
 Tensor: TypeAlias = Any
 """torch.Tensor; torch is imported only when weights are read."""

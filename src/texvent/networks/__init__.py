@@ -1,0 +1,1 @@
+"""Files of published networks: their tensors, and the shapes that a network must have."""
