@@ -11,11 +11,13 @@ import pytest
 
 from texvent.io import hidden_parts
 from texvent.io.atomic import atomic_file, atomic_folder
+from texvent.io.hidden_parts import hidden_file, hidden_folder, remove_own_parts
 
 HOLD = """
 import sys
 from pathlib import Path
 from texvent.io.atomic import atomic_file, atomic_folder
+from texvent.io.hidden_parts import hidden_file, hidden_folder, remove_own_parts
 
 target = Path(sys.argv[1])
 if target.suffix:
@@ -96,6 +98,17 @@ def test_the_own_open_parts_and_files_of_others_stay(tmp_path: Path) -> None:
         assert part.exists()
         part.write_bytes(b"a")
     assert all(other.read_text() == "mine" for other in others)
+
+
+def test_a_signal_between_the_making_and_the_block_leaves_nothing(tmp_path: Path) -> None:
+    # A signal may end a context manager after it was entered and before its block begins.
+    (tmp_path / "kept").mkdir()
+    file, folder = hidden_file(tmp_path, ".h5"), hidden_folder(tmp_path)
+    old = hidden_folder(tmp_path, ".old")
+    file.__enter__(), folder.__enter__()
+    (tmp_path / "kept").rename(old.__enter__() / "kept")
+    remove_own_parts()
+    assert [path.name for path in tmp_path.iterdir()] == ["kept"]
 
 
 def test_a_link_with_the_name_of_a_part_is_not_followed(tmp_path: Path) -> None:

@@ -16,6 +16,8 @@ from texvent.runtime.file_names import usable_path
 PROMPT_COLUMNS = ("prompt", "text", "caption")
 """Names under which a column or key holds the prompt; the first that is there counts."""
 VIDEO_COLUMN = "video"
+LABEL_COLUMNS = ("label", "class")
+"""Names of the column or key with the class of a sample."""
 LIST_EXTENSIONS = (".txt", ".csv", ".jsonl")
 COMMENT = "#"
 MAX_NAME_BYTES = 200
@@ -35,6 +37,8 @@ class ListEntry:
     """Name for its results, without extension; None lets the caller make one."""
     seed: int | None = None
     """Seed of its own; None: one is derived."""
+    label: str | None = None
+    """Its class, for data sets."""
 
 
 def read_list(path: Path) -> tuple[ListEntry, ...]:
@@ -42,8 +46,8 @@ def read_list(path: Path) -> tuple[ListEntry, ...]:
 
     Args:
         path: `.txt`, one prompt per line, empty lines and those that begin with # skipped; `.csv`
-            with a column `prompt` (or `text`, `caption`) or `video`, and perhaps `name` and
-            `seed`; `.jsonl`, on each line a prompt or an object with those keys. Paths of videos
+            with a column `prompt` (or `text`, `caption`) or `video`, and perhaps `name`, `seed`
+            and `label` (or `class`); `.jsonl`, on each line a prompt or an object with those keys. Paths of videos
             count from the folder of the list.
 
     Raises:
@@ -121,6 +125,7 @@ def _from_mapping(path: Path, number: int, entry: Mapping[Any, Any]) -> ListEntr
         path.parent / video if video else None,
         _name(where, entry.get("name")),
         _seed(where, entry.get("seed")),
+        _label(where, entry),
     )
 
 
@@ -149,6 +154,13 @@ def _seed(where: str, value: Any) -> int | None:
             f"{where}: seed is {shown(value)}; it must be a whole number from 0 to 2^63 - 1"
         )
     return seed
+
+
+def _label(where: str, entry: Mapping[Any, Any]) -> str | None:
+    label = next((entry[name] for name in LABEL_COLUMNS if entry.get(name) not in (None, "")), None)
+    if isinstance(label, (list, dict)):
+        raise FileFormatError(f"{where}: label is {shown(label)}; it must be a text")
+    return None if label is None else str(label).strip()
 
 
 def _where(path: Path, number: int) -> str:

@@ -56,14 +56,11 @@ class Manifest:
         """
         wanted = json.loads(json.dumps(options))
         if self._options is not None and not overwrite:
-            differences = list(_differences(self._options, wanted))
+            differences = describe_differences(self._options, wanted)
             if differences:
-                more = f" and {len(differences) - SHOWN_DIFFERENCES} more"
                 raise ConfigError(
-                    f"{self._folder} was made with other options: "
-                    + "; ".join(differences[:SHOWN_DIFFERENCES])
-                    + (more if len(differences) > SHOWN_DIFFERENCES else "")
-                    + "; name another folder with -o, or replace all with --overwrite"
+                    f"{self._folder} was made with other options: {differences}; name another "
+                    "folder with -o, or replace all with --overwrite"
                 )
         if self._options != wanted:
             with atomic_file(self._folder / OPTIONS_FILE, overwrite=True) as part:
@@ -133,6 +130,13 @@ def _read_done(path: Path) -> Iterator[Done]:
                 raise FileFormatError(
                     f"{path} line {number} is damaged; name another folder with -o"
                 ) from None
+
+
+def describe_differences(old: Any, new: Any) -> str:
+    """What differs between two trees of options, the first few; empty if nothing does."""
+    found = list(_differences(old, new))
+    more = f" and {len(found) - SHOWN_DIFFERENCES} more" if len(found) > SHOWN_DIFFERENCES else ""
+    return "; ".join(found[:SHOWN_DIFFERENCES]) + more
 
 
 def _differences(old: Any, new: Any, name: str = "") -> Iterator[str]:

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import itertools
-import multiprocessing
-import os
 from collections.abc import Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, Future, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from texvent.batch.processes import interruptible, processes
 from texvent.batch.samples import Sample
 from texvent.errors import (
     ConfigError,
@@ -28,9 +26,7 @@ from texvent.io.files import open_events
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_prompt, prepare_source
 from texvent.run.settings import Settings
-from texvent.runtime.interrupts import raise_interrupted
 from texvent.runtime.progress import NoProgress, Progress
-from texvent.runtime.threads import THREADS_VARIABLE, count_threads
 from texvent.video import Frame
 
 BATCH_KEY = "batch_key"
@@ -91,7 +87,7 @@ def run_batch(
         for sample in samples:
             yield make_sample(plan, sample, sample.key in replaceable)
         return
-    with _processes(jobs) as pool:
+    with processes(jobs) as pool:
         waiting = iter(samples)
         running: set[Future[Outcome]] = set()
         while True:
@@ -158,30 +154,6 @@ def _is_own(path: Path, sample: Sample) -> bool:
         return False
 
 
-@contextmanager
-def _processes(jobs: int) -> Iterator[ProcessPoolExecutor]:
-    """Processes that share the cores; if the block fails, they are ended and clean up."""
-    threads = max(1, count_threads() // jobs)
-    pool = ProcessPoolExecutor(
-        jobs,
-        mp_context=multiprocessing.get_context("spawn"),
-        initializer=_start_process,
-        initargs=(threads,),
-    )
-    try:
-        yield pool
-    except BaseException:
-        for child in multiprocessing.active_children():
-            child.terminate()
-        raise
-    finally:
-        pool.shutdown(cancel_futures=True)
-
-
-def _start_process(threads: int) -> None:
-    os.environ[THREADS_VARIABLE] = str(threads)
-
-
 def _make_in_process(plan: BatchPlan, sample: Sample, is_replaceable: bool) -> Outcome:
-    with raise_interrupted():
+    with interruptible():
         return make_sample(plan, sample, is_replaceable, NoProgress())

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import glob
-import hashlib
 import json
 import re
 from collections import Counter
@@ -11,6 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from texvent.batch.identity import derived_seed, digest
 from texvent.batch.list_files import LIST_EXTENSIONS, ListEntry, read_list
 from texvent.errors import ConfigError, InputError, shown
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
@@ -53,7 +53,7 @@ def read_samples(sources: Sequence[str | Path], *, seed: int) -> tuple[Sample, .
         FileFormatError: a line of a list cannot be read.
         ConfigError: prompts and videos are mixed.
     """
-    entries = [entry for source in sources for entry in _entries(str(source))]
+    entries = [entry for source in sources for entry in entries_of(str(source))]
     if not entries:
         raise InputError("there is nothing to do; name a list of prompts, videos or a folder")
     if len({entry.video is None for entry in entries}) > 1:
@@ -67,14 +67,15 @@ def are_videos(sources: Sequence[str | Path]) -> bool:
     """True if the first source that can be read holds videos; errors come from `read_samples`."""
     for source in sources:
         try:
-            for entry in _entries(str(source)):
+            for entry in entries_of(str(source)):
                 return entry.video is not None
         except (ConfigError, InputError):
             continue
     return False
 
 
-def _entries(source: str) -> Iterator[ListEntry]:
+def entries_of(source: str) -> Iterator[ListEntry]:
+    """What a list, video, folder or pattern holds; errors as `read_samples`."""
     path = Path(source)
     if path.is_dir():
         yield from _folder_entries(path)
@@ -87,7 +88,7 @@ def _entries(source: str) -> Iterator[ListEntry]:
         if not found:
             raise InputError(f"nothing matches {shown(source)}")
         for one in found:
-            yield from _entries(one)
+            yield from entries_of(one)
     else:
         raise InputError(
             f"no such file or folder: {source}; give a list ({', '.join(LIST_EXTENSIONS)}), "
@@ -119,25 +120,23 @@ def _holds_images(paths: Iterable[Path]) -> bool:
 def _with_keys(entries: Iterable[ListEntry], seed: int) -> Iterator[Sample]:
     seen: Counter[str] = Counter()
     for entry in entries:
-        # The last two parts of a path: a list and its videos may move together.
-        video = "/".join(entry.video.absolute().parts[-2:]) if entry.video else None
+        video = moved_together(entry.video)
         what = [entry.prompt, video, entry.name, entry.seed]
         seen[json.dumps(what)] += 1
-        key = _digest([*what, seen[json.dumps(what)]])
-        derived = int(_digest([seed, key]), 16) & (2**63 - 1)
+        key = digest([*what, seen[json.dumps(what)]])
         yield Sample(
             key=key,
             name=entry.name or _made_name(entry, key),
-            seed=derived if entry.seed is None else entry.seed,
+            seed=derived_seed(seed, key) if entry.seed is None else entry.seed,
             where=entry.where,
             prompt=entry.prompt,
             video=entry.video,
         )
 
 
-def _digest(values: Sequence[object]) -> str:
-    text = json.dumps(values).encode()
-    return hashlib.blake2b(text, digest_size=16).hexdigest()
+def moved_together(path: Path | None) -> str | None:
+    """The last two parts of a path: a list and its videos may move together."""
+    return "/".join(path.absolute().parts[-2:]) if path else None
 
 
 def _made_name(entry: ListEntry, key: str) -> str:

@@ -14,6 +14,7 @@ from texvent._version import full_version
 from texvent.cli.notices import one_line_warnings, say
 from texvent.cli.shutdown import end_process
 from texvent.errors import ConfigError, OutputError, TexventError, shown
+from texvent.io.hidden_parts import remove_own_parts
 from texvent.io.protected_inputs import protected_inputs
 from texvent.runtime.interrupts import raise_interrupted
 
@@ -117,6 +118,7 @@ def _run(words: list[str], *, is_process: bool = False) -> int:
         # Help was shown.
         return int(stop.code or 0)
     except KeyboardInterrupt as interrupt:
+        remove_own_parts()
         number = getattr(interrupt, "number", signal.SIGINT)
         say(f"interrupted ({signal.Signals(number).name}); nothing half-written was left behind")
         return 128 + number

@@ -18,6 +18,8 @@ from pathlib import Path
 PREFIX = ".texvent-"
 _swept: set[str] = set()
 """Folders that this process has swept."""
+_own: set[Path] = set()
+"""Parts of this process."""
 
 
 @contextmanager
@@ -34,6 +36,7 @@ def hidden_file(folder: Path, suffix: str) -> Iterator[Path]:
     sweep(folder)
     while True:
         part = folder / f"{PREFIX}{secrets.token_hex(6)}.part{suffix}"
+        _own.add(part)  # before it exists: a signal may come at any moment
         descriptor = os.open(part, os.O_CREAT | os.O_EXCL | os.O_RDWR, 0o666)
         if _claim(descriptor, part):
             break
@@ -42,6 +45,7 @@ def hidden_file(folder: Path, suffix: str) -> Iterator[Path]:
         yield part
     finally:
         part.unlink(missing_ok=True)
+        _own.discard(part)
         os.close(descriptor)
 
 
@@ -55,6 +59,7 @@ def hidden_folder(folder: Path, suffix: str = ".part") -> Iterator[Path]:
     sweep(folder)
     while True:
         part = folder / f"{PREFIX}{secrets.token_hex(6)}{suffix}"
+        _own.add(part)
         part.mkdir()
         descriptor = os.open(part, os.O_RDONLY | os.O_DIRECTORY)
         if _claim(descriptor, part):
@@ -64,7 +69,19 @@ def hidden_folder(folder: Path, suffix: str = ".part") -> Iterator[Path]:
         yield part
     finally:
         shutil.rmtree(part, ignore_errors=True)
+        _own.discard(part)
         os.close(descriptor)
+
+
+def remove_own_parts() -> None:
+    """Remove parts that a signal left at the very moment when they came or went.
+
+    For a process that is about to end: what it was writing is dropped.
+    """
+    for part in list(_own):
+        with contextlib.suppress(OSError):
+            _remove(part)
+        _own.discard(part)
 
 
 def sweep(folder: Path) -> None:
@@ -92,14 +109,18 @@ def _remove_if_dead(part: Path) -> None:
     descriptor = os.open(part, os.O_RDONLY | os.O_NOFOLLOW)
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        if not part.is_dir():
-            part.unlink()
-            return
-        if part.suffix == ".old":
-            _put_back(part)
-        shutil.rmtree(part)
+        _remove(part)
     finally:
         os.close(descriptor)
+
+
+def _remove(part: Path) -> None:
+    if not part.is_dir():
+        part.unlink()
+        return
+    if part.suffix == ".old":
+        _put_back(part)
+    shutil.rmtree(part)
 
 
 def _put_back(old: Path) -> None:

@@ -1,0 +1,59 @@
+from __future__ import annotations
+
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+PROGRAM = """
+import os, sys, time
+from pathlib import Path
+from texvent.batch.processes import interruptible, processes, start_pool, stop_pool
+from texvent.io.hidden_parts import hidden_file
+
+def work(folder):
+    with interruptible(), hidden_file(folder, ".part"):
+        (folder / "begun").touch()
+        try:
+            time.sleep(60)
+        finally:
+            time.sleep(1)  # a second signal comes while it cleans up
+
+if __name__ == "__main__":
+    folder, how = Path(sys.argv[1]), sys.argv[2]
+    pool = start_pool(2)
+    pool.submit(work, folder)
+    pool.submit(os.getpid).result()  # the other process waits for a task
+    while not (folder / "begun").exists():
+        time.sleep(0.01)
+    if how == "stop":
+        stop_pool(pool)
+    else:
+        os._exit(9)
+"""
+
+
+@pytest.mark.parametrize("how", ["stop", "die"])
+def test_processes_of_a_pool_end_and_clean_up(tmp_path: Path, how: str) -> None:
+    program = tmp_path / "program.py"
+    program.write_text(PROGRAM)
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    started = subprocess.run(
+        [sys.executable, str(program), str(folder), how], timeout=60, capture_output=True
+    )
+    assert started.returncode == (0 if how == "stop" else 9), started.stderr
+    ends = time.monotonic() + 30
+    while time.monotonic() < ends and is_running(program):
+        time.sleep(0.1)
+    assert not is_running(program)
+    if how == "stop":
+        assert [path.name for path in folder.iterdir()] == ["begun"]
+
+
+def is_running(program: Path) -> bool:
+    """Whether a process of the pool is left; its main module is the program."""
+    found = subprocess.run(["pgrep", "-f", str(program)], capture_output=True)
+    return found.returncode == 0
