@@ -62,7 +62,11 @@ def text_to_video(
     """The video for a text prompt (Eq. 3), fitted to the sensor; see `text_to_events`."""
     generator_class = GENERATORS.load(settings.generator or "procedural")
     generator = generator_class(settings.source, seed=settings.run.seed, size=settings.size)
-    video: FrameStream = generator.generate(prompt, progress=progress)
+    return fit_to_sensor(generator.generate(prompt, progress=progress), settings)
+
+
+def fit_to_sensor(video: FrameStream, settings: Settings) -> FrameStream:
+    """A generated video at the size of the sensor, if one is asked for."""
     if settings.size in (None, video.size):
         return video
     fit = CaptureConfig(fit=getattr(settings.source, "fit", CaptureConfig.fit))

@@ -47,8 +47,8 @@ def read_list(path: Path) -> tuple[ListEntry, ...]:
     Args:
         path: `.txt`, one prompt per line, empty lines and those that begin with # skipped; `.csv`
             with a column `prompt` (or `text`, `caption`) or `video`, and perhaps `name`, `seed`
-            and `label` (or `class`); `.jsonl`, on each line a prompt or an object with those keys. Paths of videos
-            count from the folder of the list.
+            and `label` (or `class`); `.jsonl`, on each line a prompt or an object with those keys.
+            Paths of videos count from the folder of the list.
 
     Raises:
         InputError: there is no such file, or it holds no entry.

@@ -24,6 +24,7 @@ COMMANDS = {
         "Events, video, image and page from a text prompt.",
     ),
     "batch": ("texvent.cli.simulation.batch", "Events for every prompt of a file."),
+    "dataset": ("texvent.cli.dataset.dataset", "Data sets of any size: made, resumed, checked."),
     "caption": (
         "texvent.cli.simulation.caption",
         "Prompts from images, by a vision-language model of yours.",

@@ -271,6 +271,17 @@ def read_config(path: str | Path, command: Command | None = None) -> dict[str, A
     path = usable_path(path)
     if path.suffix.lower() in event_extensions() - {".txt", ".csv"}:
         return _options_of_run(path, command)
+    return flatten_tables(read_document(path), path)
+
+
+def read_document(path: Path) -> Mapping[str, Any]:
+    """The tables of a TOML or YAML file.
+
+    Raises:
+        InputError: the file cannot be read.
+        ConfigError: it is not valid TOML or YAML, or holds no names and values.
+    """
+    usable_path(path)
     try:
         text = path.read_text(encoding="utf-8")
     except OSError as error:
@@ -284,7 +295,7 @@ def read_config(path: str | Path, command: Command | None = None) -> dict[str, A
         raise ConfigError(f"config file {path} is not valid: {one_line(error)}") from error
     if not isinstance(document, Mapping):
         raise ConfigError(f"config file {path} must hold options by name, such as: seed = 3")
-    return flatten_tables(document, path)
+    return document
 
 
 def flatten_tables(tables: Mapping[str, Any], path: Path) -> dict[str, Any]:

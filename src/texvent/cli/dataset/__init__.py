@@ -1,0 +1,1 @@
+"""`texvent dataset`: data sets made, looked at, checked, published."""

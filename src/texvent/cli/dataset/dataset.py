@@ -1,0 +1,36 @@
+"""`texvent dataset`: one step of a data set's life per file, chosen by its name."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from collections.abc import Mapping, Sequence
+
+from texvent._registry import suggest
+from texvent.errors import ConfigError, shown
+
+STEPS: Mapping[str, str] = {
+    "make": "make a data set from a specification, or go on with one",
+    "status": "how far a data set is, while it is made or afterwards",
+}
+"""Name, which is its module beside this one → what it does."""
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the command; returns its exit code."""
+    if not arguments or arguments[0] in ("-h", "--help"):
+        sys.stdout.write(_usage())
+        return 0 if arguments else 2
+    name, *rest = arguments
+    if name not in STEPS:
+        raise ConfigError(f"unknown step {shown(name)}; {suggest(name, tuple(STEPS))}")
+    module = importlib.import_module(f"texvent.cli.dataset.{name.replace('-', '_')}")
+    code: int = module.run(rest)
+    return code
+
+
+def _usage() -> str:
+    width = max(map(len, STEPS))
+    lines = [f"  {name:<{width}}  {what}" for name, what in STEPS.items()]
+    usage = ["usage: texvent dataset STEP [OPTIONS]", "", *lines]
+    return "\n".join([*usage, "", "Help: texvent dataset STEP --help", ""])

@@ -1,0 +1,123 @@
+"""`texvent dataset make SPECIFICATION`: a data set, or what is still missing of it."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Mapping, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from pathlib import Path
+from typing import ClassVar
+
+from texvent.cli.dataset.live_table import LiveTable
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import parse_configs
+from texvent.config import check_range
+from texvent.dataset.generation.engines.protocol import Engine, in_this_process
+from texvent.dataset.generation.make import Work, find_work, make_shards
+from texvent.dataset.generation.recipe import Recipe, load_recipe
+from texvent.dataset.generation.records import FAILED, FILTERED, MADE
+from texvent.dataset.specification.reading import read_specification
+from texvent.errors import ConfigError, TexventError, shown
+from texvent.runtime.threads import count_threads
+
+DESCRIPTION = """Make a data set from a specification (TOML or YAML). What is complete is kept: the
+same command goes on where it was stopped or killed, on any machine that sees the folder.
+
+  texvent dataset make cars.toml -o cars --workers 8
+  texvent dataset make cars --shards 3/10     the third of ten parts, for job arrays
+  texvent dataset make cars --retry-failed"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class MakeOptions:
+    """What to make, and where it runs."""
+
+    positional: ClassVar[tuple[str, ...]] = ("specification",)
+    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+    outputs: ClassVar[tuple[str, ...]] = ("out", "specification")
+
+    specification: Path = REQUIRED
+    """The specification, or the folder of a data set that was begun."""
+    out: Path | None = None
+    """Folder of the data set; default: its name."""
+    workers: int | None = None
+    """Processes of this machine; default: one per core."""
+    shards: str | None = None
+    """K/N: of N parts of all shards, the K-th only, from 1."""
+    retry_failed: bool = False
+    """Make samples that failed again."""
+    quiet: bool = False
+    """Show errors only."""
+
+    def __post_init__(self) -> None:
+        check_range("workers", self.workers, 1, 1024)
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the command; returns 0, or raises if a shard could not be made."""
+    (options,) = parse_configs(
+        arguments,
+        {"data set": MakeOptions()},
+        prog="texvent dataset make",
+        description=DESCRIPTION,
+    )
+    part = parse_part(options.shards)
+    recipe, folder = _open(options)
+    recipe.begin(folder)
+    work = find_work(recipe, folder, part=part, retry_failed=options.retry_failed)
+    workers = count_threads() if options.workers is None else options.workers
+    with (
+        closing(_engine(workers, work)) as engine,
+        LiveTable(recipe, folder, work, is_quiet=options.quiet) as table,
+    ):
+        make_shards(work, engine, table.note)
+    return _finish(folder, work)
+
+
+def parse_part(text: str | None) -> tuple[int, int]:
+    """K and N of "K/N".
+
+    Raises:
+        ConfigError: it is something else.
+    """
+    match = re.fullmatch(r"(\d{1,9})/(\d{1,9})", text or "1/1")
+    if match is None:
+        raise ConfigError(f"shards is {shown(text)}; it must be K/N, such as 3/10")
+    return int(match[1]), int(match[2])
+
+
+def _open(options: MakeOptions) -> tuple[Recipe, Path]:
+    if options.specification.is_dir():
+        if options.out is not None:
+            raise ConfigError("-o goes with a specification; a data set goes on in its own folder")
+        return load_recipe(options.specification), options.specification
+    specification = read_specification(options.specification)
+    folder = Path(specification.name) if options.out is None else options.out
+    return Recipe.of(specification), folder.absolute()
+
+
+def _engine(workers: int, work: Work) -> Engine:
+    if workers == 1 or len(work.todo) + len(work.videos_todo) < 2:
+        return in_this_process()
+    from texvent.dataset.generation.engines.processes import ProcessEngine
+
+    return ProcessEngine(workers)
+
+
+def _finish(folder: Path, work: Work) -> int:
+    records = work.complete.values()
+    counts = {status: sum(one.count(status) for one in records) for status in (MADE, FILTERED)}
+    failed = sum(record.count(FAILED) for record in records)
+    sys.stdout.write(
+        f"{folder}: {counts[MADE]:,} samples, {sum(one.events for one in records):,} events in "
+        f"{len(work.complete)} shards; {counts[FILTERED]:,} filtered out, {failed:,} failed\n"
+    )
+    if work.failures:
+        shard, reason = next(iter(work.failures.items()))
+        raise TexventError(
+            f"{len(work.failures)} shards could not be made, such as {shard.path}: {reason}; the "
+            "others are kept: run the command again"
+        )
+    return 0

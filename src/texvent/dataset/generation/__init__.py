@@ -1,0 +1,1 @@
+"""A data set made shard by shard, resumable at any moment."""

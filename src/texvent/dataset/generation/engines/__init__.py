@@ -1,0 +1,1 @@
+"""Where shards are made: this process, processes of this machine, a Ray cluster."""

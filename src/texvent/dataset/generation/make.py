@@ -1,0 +1,107 @@
+"""A data set made: every shard that is not complete, in two stages where videos are stored."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from texvent.dataset.generation.engines.protocol import Engine, Outcome, Task
+from texvent.dataset.generation.make_shard import is_complete
+from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
+from texvent.dataset.generation.records import FAILED, ShardRecord
+from texvent.errors import ConfigError
+
+OnOutcome = Callable[[Outcome], None]
+
+
+@dataclass
+class Work:
+    """What is to do and what is done."""
+
+    complete: dict[Shard, ShardRecord] = field(default_factory=dict)
+    todo: list[Task] = field(default_factory=list)
+    """Of events, in order."""
+    videos_todo: list[Task] = field(default_factory=list)
+    failures: dict[Shard, str] = field(default_factory=dict)
+    """Shards that could not be made."""
+
+
+def find_work(
+    recipe: Recipe, folder: Path, *, part: tuple[int, int] = (1, 1), retry_failed: bool = False
+) -> Work:
+    """Which shards are complete and which are to make.
+
+    Args:
+        recipe: of the data set.
+        folder: of the data set.
+        part: (K, N): of N parts of all shards, the K-th, 1 ≤ K ≤ N.
+        retry_failed: whether shards with failed samples are made again.
+
+    Raises:
+        ConfigError: there is no such part.
+        FileFormatError: the record of a shard is damaged.
+    """
+    which, parts = part
+    if not 1 <= which <= parts:
+        raise ConfigError(f"shards is {which}/{parts}; it must be K/N with 1 ≤ K ≤ N")
+    work = Work()
+    stages = [*([VIDEOS] if recipe.stores_videos else []), *recipe.variants]
+    for stage in stages:
+        tasks = work.videos_todo if stage == VIDEOS else work.todo
+        for number, shard in enumerate(recipe.shards(stage)):
+            if number % parts != which - 1:
+                continue
+            record = is_complete(recipe, folder, shard)
+            again = retry_failed and record is not None and record.count(FAILED) > 0
+            if record is None or again:
+                tasks.append(Task(folder, shard, retry_failed=again))
+            else:
+                work.complete[shard] = record
+    return work
+
+
+def make_shards(work: Work, engine: Engine, on_outcome: OnOutcome) -> None:
+    """Make all that is to do; shards of events follow those of their videos.
+
+    Args:
+        work: what is to do; what is done is noted there.
+        engine: what makes it.
+        on_outcome: told of every shard.
+
+    Raises:
+        ConfigError, OutputError, MissingDependencyError: what all shards would meet.
+    """
+    videos, waiting = deque(work.videos_todo), _by_video(work.todo)
+    in_work = {_video_of(task.shard) for task in videos}
+    ready = deque(task for task in work.todo if _video_of(task.shard) not in in_work)
+    running = {True: 0, False: 0}
+    while True:
+        for is_video, queue in ((True, videos), (False, ready)):
+            while queue and running[is_video] < engine.capacity(videos=is_video):
+                engine.submit(queue.popleft())
+                running[is_video] += 1
+        if not any(running.values()):
+            return
+        outcome = engine.next()
+        shard = outcome.task.shard
+        is_video = shard.variant == VIDEOS
+        running[is_video] -= 1
+        if outcome.record is not None:
+            work.complete[shard] = outcome.record
+            ready.extend(waiting.get(shard, ()) if is_video else ())
+        else:
+            work.failures[shard] = outcome.failure or "unknown"
+        on_outcome(outcome)
+
+
+def _video_of(shard: Shard) -> Shard:
+    return replace(shard, variant=VIDEOS)
+
+
+def _by_video(tasks: Iterable[Task]) -> dict[Shard, list[Task]]:
+    waiting: dict[Shard, list[Task]] = {}
+    for task in tasks:
+        waiting.setdefault(_video_of(task.shard), []).append(task)
+    return waiting

@@ -1,0 +1,221 @@
+"""A data set as every process that makes it sees it: specification, items, folder."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from texvent._registry import GENERATORS
+from texvent._version import full_version
+from texvent.batch.manifest import describe_differences
+from texvent.dataset.generation.tar_shard import EXTENSION
+from texvent.dataset.specification.clips import Clip, Clips
+from texvent.dataset.specification.items import Item, Items, read_items
+from texvent.dataset.specification.reading import specification_from
+from texvent.dataset.specification.resolve import check_options
+from texvent.dataset.specification.specification import Specification, Variant
+from texvent.errors import ConfigError, FileFormatError, InputError, OutputError, one_line
+from texvent.io.atomic import atomic_file
+from texvent.run.settings import Command
+
+SPECIFICATION_FILE, ITEMS_FILE = "specification.json", "items.jsonl"
+VIDEOS = "videos"
+"""Folder of the shards of videos, and what their records call their variant."""
+
+
+@dataclass(frozen=True)
+class Shard:
+    """One file to make: what is in it depends on the specification and this alone."""
+
+    variant: str
+    """Name of a variant, or `VIDEOS`."""
+    split: str
+    number: int
+
+    @property
+    def name(self) -> str:
+        """Such as "train-000012"."""
+        return f"{self.split}-{self.number:06d}"
+
+    @property
+    def path(self) -> Path:
+        """Its place in the folder of the data set."""
+        return Path(self.variant) / f"{self.name}{EXTENSION}"
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """Everything that decides the bytes of a data set."""
+
+    specification: Specification
+    items: Items
+
+    @classmethod
+    def of(cls, specification: Specification) -> Recipe:
+        """Read the sources and check every option, before any work.
+
+        Raises:
+            InputError: a source does not exist or holds nothing.
+            ConfigError: an option that some run would refuse, or shares that leave a split empty.
+        """
+        recipe = cls(specification, read_items(specification))
+        check_options(specification, recipe.command, is_stored=recipe.stores_videos)
+        recipe.clips  # noqa: B018  (refuses splits that would be empty)
+        if VIDEOS in (variant.name for variant in specification.variants):
+            raise ConfigError(f"a variant cannot be called {VIDEOS}; that folder holds the videos")
+        return recipe
+
+    @property
+    def command(self) -> Command:
+        """Whose options the specification has."""
+        return "simulate" if self.items.are_videos else "generate"
+
+    @functools.cached_property
+    def clips(self) -> Clips:
+        """The numbered clips."""
+        return Clips(self.specification, self.items)
+
+    @functools.cached_property
+    def identity(self) -> str:
+        """Digest of everything that decides the samples, but for the version of texvent."""
+        return hashlib.sha256(json.dumps(self._facts, sort_keys=True).encode()).hexdigest()
+
+    @property
+    def _facts(self) -> dict[str, Any]:
+        tables = self.specification.tables
+        items = [asdict(item) for item in self.items.all]
+        return {name: one for name, one in tables.items() if name != "sources"} | {"items": items}
+
+    @property
+    def stores_videos(self) -> bool:
+        """True if videos are made and stored first, and simulated from there."""
+        if self.items.are_videos:
+            return False
+        if self.specification.store_videos is not None:
+            return self.specification.store_videos
+        name = self.specification.options.get("generator", next(iter(GENERATORS.builtin)))
+        return bool(GENERATORS.load(name).default_interpolate != "exact")
+
+    @property
+    def variants(self) -> Mapping[str, Variant]:
+        """By name."""
+        return {variant.name: variant for variant in self.specification.variants}
+
+    def shards(self, variant: str) -> Iterator[Shard]:
+        """All shards of a variant, or of the videos."""
+        for split, count in self.clips.counts.items():
+            for number in range(-(-count // self.specification.samples_per_shard)):
+                yield Shard(variant, split, number)
+
+    def clips_of(self, shard: Shard) -> Iterator[Clip]:
+        """The clips of a shard, in order."""
+        size = self.specification.samples_per_shard
+        end = min((shard.number + 1) * size, self.clips.counts[shard.split])
+        for number in range(shard.number * size, end):
+            yield self.clips.clip(shard.split, number)
+
+    def begin(self, folder: Path) -> None:
+        """Note in a folder what will be made there.
+
+        Raises:
+            ConfigError: the folder holds another data set, or was made by another version.
+            OutputError: the folder is a file or cannot be written.
+        """
+        if (folder / SPECIFICATION_FILE).exists():
+            load_recipe(folder).refuse_other(self, folder)
+            return
+        if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+            raise OutputError(f"{folder} exists and holds no data set of texvent; name another")
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise OutputError(f"cannot make {folder}: {one_line(error)}") from error
+        lines = (json.dumps(asdict(item), ensure_ascii=False) for item in self.items.all)
+        with atomic_file(folder / ITEMS_FILE, overwrite=True) as part:
+            part.write_text("".join(f"{line}\n" for line in lines), encoding="utf-8")
+        facts = {
+            "texvent_version": full_version(),
+            "identity": self.identity,
+            "duplicates": self.items.duplicates,
+            "labels": list(self.items.labels),
+            "specification": self.specification.tables,
+        }
+        with atomic_file(folder / SPECIFICATION_FILE, overwrite=True) as part:
+            part.write_text(json.dumps(facts, indent=1) + "\n", encoding="utf-8")
+
+    def refuse_other(self, wanted: Recipe, folder: Path) -> None:
+        """Refuse to go on with another specification than the one of the folder.
+
+        Raises:
+            ConfigError: they differ; the message says in what.
+        """
+        if self.identity == wanted.identity:
+            return
+        before, now = self._facts, wanted._facts
+        old, new = ({item["key"] for item in facts.pop("items")} for facts in (before, now))
+        if old != new:
+            change = f"{len(new - old)} prompts or videos more, {len(old - new)} fewer"
+        else:
+            change = describe_differences(before, now) or "the order of prompts"
+        raise ConfigError(
+            f"{folder} was made from another specification: {change}; name another folder with -o "
+            "(texvent dataset merge puts two together)"
+        )
+
+
+def load_recipe(folder: Path) -> Recipe:
+    """The recipe of a data set that was begun.
+
+    Raises:
+        InputError: the folder holds no data set.
+        FileFormatError: its specification is damaged.
+        ConfigError: it was begun by another version of texvent.
+    """
+    facts = read_facts(folder)
+    made_by = facts.get("texvent_version")
+    if made_by != full_version():
+        raise ConfigError(
+            f"{folder} was begun by texvent {made_by}, and this is {full_version()}, whose events "
+            "may differ; install that version, or name another folder with -o"
+        )
+    path = folder / ITEMS_FILE
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+        items = tuple(Item(**json.loads(line)) for line in lines)
+        specification = specification_from(facts["specification"], folder=Path())
+    except (OSError, ValueError, TypeError, KeyError) as error:
+        raise FileFormatError(f"{path} is damaged ({one_line(error)})") from error
+    recipe = Recipe(specification, Items(items, int(facts.get("duplicates", 0))))
+    if recipe.identity != facts.get("identity"):
+        raise FileFormatError(f"{folder / SPECIFICATION_FILE} or {path.name} was changed by hand")
+    return recipe
+
+
+@functools.lru_cache(maxsize=2)
+def load_recipe_once(folder: Path) -> Recipe:
+    """As `load_recipe`, read once per process: a folder's recipe never changes."""
+    return load_recipe(folder)
+
+
+def read_facts(folder: Path) -> Mapping[str, Any]:
+    """What `Recipe.begin` noted in a folder.
+
+    Raises:
+        InputError: the folder holds no data set.
+        FileFormatError: its specification is damaged.
+    """
+    path = folder / SPECIFICATION_FILE
+    try:
+        facts = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"{folder} holds no data set of texvent (no {path.name})") from error
+    except (ValueError, RecursionError) as error:
+        raise FileFormatError(f"{path} is damaged ({one_line(error)})") from error
+    if not isinstance(facts, dict):
+        raise FileFormatError(f"{path} is damaged")
+    return facts

@@ -1,0 +1,71 @@
+"""How far a data set is, read from its folder alone, while it is made or afterwards."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from texvent.dataset.generation.make_shard import is_complete
+from texvent.dataset.generation.recipe import VIDEOS, Recipe
+from texvent.dataset.generation.records import FAILED, FILTERED
+from texvent.dataset.generation.shard_log import log_path, read_log
+
+QUIET_S = 600.0
+"""A shard without news for this long counts as given up."""
+
+
+@dataclass
+class StageStatus:
+    """The videos, or a variant."""
+
+    name: str
+    total: int
+    """Samples in all."""
+    shards: int
+    """Shards in all."""
+    samples: int = 0
+    """Done: made, filtered out or failed."""
+    filtered: int = 0
+    failed: int = 0
+    events: int = 0
+    bytes: int = 0
+    complete: int = 0
+    """Complete shards."""
+    at_work: int = 0
+    """Shards being made."""
+    seconds: float = 0.0
+    """Working time of complete shards."""
+
+
+def read_status(recipe: Recipe, folder: Path) -> list[StageStatus]:
+    """The state of every stage: the videos, if they are stored, then the variants.
+
+    Raises:
+        FileFormatError: the record of a shard is damaged.
+    """
+    clips = sum(recipe.clips.counts.values())
+    stages = []
+    for name in [*([VIDEOS] if recipe.stores_videos else []), *recipe.variants]:
+        seeds = 1 if name == VIDEOS else recipe.variants[name].seeds
+        stage = StageStatus(name, clips * seeds, 0)
+        for shard in recipe.shards(name):
+            stage.shards += 1
+            record = is_complete(recipe, folder, shard)
+            if record is not None:
+                stage.complete += 1
+                stage.samples += len(record.samples)
+                stage.failed += record.count(FAILED)
+                stage.filtered += record.count(FILTERED)
+                stage.events += record.events
+                stage.bytes += record.bytes
+                stage.seconds += record.seconds
+            elif log_path(folder, shard).exists():
+                log = read_log(folder, shard)
+                if log is not None and time.time() - log.changed_s < QUIET_S:
+                    stage.at_work += 1
+                    stage.samples += log.samples
+                    stage.failed += log.failed
+                    stage.events += log.events
+        stages.append(stage)
+    return stages

@@ -1,0 +1,81 @@
+"""The numbered clips of a data set: which video comes at which place of which split."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from texvent.batch.identity import derived_seed, digest
+from texvent.dataset.specification.items import KEY_DIGITS, Item, Items
+from texvent.dataset.specification.specification import Specification
+from texvent.errors import ConfigError
+
+
+@dataclass(frozen=True, slots=True)
+class Clip:
+    """One video of a data set, of which every variant makes samples."""
+
+    key: str
+    """What makes it this clip: a digest of its item and which of its repeats it is."""
+    item: Item
+    split: str
+    number: int
+    """Place in its split."""
+    seed: int
+    """Seed of its video, and what those of its simulations are derived from."""
+
+
+class Clips:
+    """All clips, each computed from its number: none is stored.
+
+    The prompts of a split are in the order of a digest, so every shard holds some of each kind,
+    and repeat after repeat.
+    """
+
+    def __init__(self, specification: Specification, items: Items) -> None:
+        """Share the items out over the splits.
+
+        Raises:
+            ConfigError: a split would be empty.
+        """
+        self._seed = specification.seed
+        self._repeats = specification.repeats
+        self._items = _share_out(specification, items)
+        for split, share in specification.splits.items():
+            if share > 0 and not self._items[split]:
+                raise ConfigError(
+                    f"split {split} would be empty: {len(items.all)} prompts or videos are too "
+                    f"few for a share of {share:g}; give more, or other splits"
+                )
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """Split → number of clips."""
+        return {split: len(items) * self._repeats for split, items in self._items.items()}
+
+    def clip(self, split: str, number: int) -> Clip:
+        """The clip at a place, 0 ≤ number < counts[split]."""
+        repeat, place = divmod(number, len(self._items[split]))
+        item = self._items[split][place]
+        if repeat == 0 and item.seed is not None:
+            seed = item.seed
+        else:
+            seed = derived_seed(self._seed, item.key, repeat)
+        return Clip(digest([item.key, repeat])[:KEY_DIGITS], item, split, number, seed)
+
+
+def _share_out(specification: Specification, items: Items) -> dict[str, list[Item]]:
+    """Split → its items: those that ask for it, and its share of the others."""
+    seed = specification.seed
+    ordered = sorted(items.all, key=lambda item: digest([seed, "order", item.key]))
+    shared: dict[str, list[Item]] = {split: [] for split in specification.splits}
+    free: list[Item] = []
+    for item in ordered:
+        (free if item.split is None else shared[item.split]).append(item)
+    begin, sum_of_shares = 0, 0.0
+    for split, share in specification.splits.items():
+        sum_of_shares += share
+        end = min(math.floor(sum_of_shares * len(free) + 0.5), len(free))
+        shared[split] += free[begin:end]
+        begin = end
+    return shared

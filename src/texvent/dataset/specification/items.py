@@ -1,0 +1,177 @@
+"""The prompts or videos that the sources of a specification give."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import random
+import string
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from texvent.batch.identity import derived_seed, digest
+from texvent.batch.list_files import ListEntry
+from texvent.batch.samples import entries_of, moved_together
+from texvent.dataset.specification.specification import SampleSource, Specification
+from texvent.errors import ConfigError, InputError, shown
+
+MAX_ITEMS = 10_000_000
+KEY_DIGITS = 16
+
+
+@dataclass(frozen=True, slots=True)
+class Item:
+    """A prompt or a video, of which `repeats` videos and all variants are made."""
+
+    key: str
+    """What makes it this item, wherever it stands: a digest of its prompt or video and label."""
+    prompt: str | None = None
+    video: str | None = None
+    """Path of the video; None: it is generated."""
+    label: str | None = None
+    split: str | None = None
+    """The split that its source asks for."""
+    seed: int | None = None
+    """Seed that its list gives."""
+
+
+@dataclass(frozen=True)
+class Items:
+    """All of them."""
+
+    all: tuple[Item, ...]
+    duplicates: int = 0
+    """How many were left out because an equal one comes before."""
+
+    @property
+    def are_videos(self) -> bool:
+        """True if nothing is generated."""
+        return self.all[0].video is not None
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """All classes in alphabetical order; a sample's number is its place here."""
+        return tuple(sorted({item.label for item in self.all if item.label is not None}))
+
+
+def read_items(specification: Specification) -> Items:
+    """What the sources give, in their order; equal prompts once.
+
+    Raises:
+        InputError: a source does not exist, or holds nothing.
+        FileFormatError: a line of a list cannot be read.
+        ConfigError: a template does not fit its words, or prompts and videos are mixed.
+    """
+    found: dict[str, Item] = {}
+    duplicates = 0
+    for source in specification.sources:
+        for item in _items_of(source, specification.seed):
+            if item.key in found:
+                duplicates += 1
+                continue
+            found[item.key] = item
+            if len(found) > MAX_ITEMS:
+                raise ConfigError(
+                    f"the sources give over {MAX_ITEMS:,} prompts; give fewer with count, and more "
+                    "videos of each with repeats"
+                )
+    items = Items(tuple(found.values()), duplicates)
+    if len({item.video is None for item in items.all}) > 1:
+        raise ConfigError(
+            "the sources give prompts and videos; make two data sets and merge them with "
+            "texvent dataset merge"
+        )
+    labelled = sum(item.label is not None for item in items.all)
+    if 0 < labelled < len(items.all):
+        raise ConfigError(
+            f"{labelled} of {len(items.all)} prompts or videos have a label; give all one, or none"
+        )
+    return items
+
+
+def _items_of(source: SampleSource, seed: int) -> Iterator[Item]:
+    if source.template is not None:
+        yield from _of_template(source, seed)
+        return
+    for entry in _entries(source):
+        label = entry.label if entry.label is not None else _label(source, entry.video)
+        yield _item(entry.prompt, entry.video, label, source.split, entry.seed)
+
+
+def _entries(source: SampleSource) -> Iterable[ListEntry]:
+    if source.prompts:
+        return [ListEntry(where="prompts", prompt=prompt.strip()) for prompt in source.prompts]
+    if source.file is not None:
+        if not source.file.is_file():
+            raise InputError(f"no such list: {source.file}; file names a .txt, .csv or .jsonl")
+        return entries_of(str(source.file))
+    return itertools.chain.from_iterable(entries_of(video) for video in source.videos)
+
+
+def _item(
+    prompt: str | None,
+    video: Path | None,
+    label: str | None,
+    split: str | None,
+    seed: int | None = None,
+) -> Item:
+    key = digest([prompt, moved_together(video), label, seed])[:KEY_DIGITS]
+    return Item(key, prompt, None if video is None else str(video), label, split, seed)
+
+
+def _label(source: SampleSource, video: Path | None) -> str | None:
+    if source.label is None or video is None:
+        return source.label
+    names = {"folder": video.absolute().parent.name, "name": video.stem}
+    return _filled(source.label, names, "label")
+
+
+def _of_template(source: SampleSource, seed: int) -> Iterator[Item]:
+    """Prompts of a template: all combinations of its words in order, or some drawn of them."""
+    template = source.template or ""
+    names = _placeholders(template)
+    missing = [name for name in names if not source.words.get(name)]
+    unused = [name for name in source.words if name not in names]
+    if missing or unused:
+        which, problem = (missing, "has no words for") if missing else (unused, "does not use")
+        raise ConfigError(f"template {shown(template)} {problem} {', '.join(which)}")
+    lists = [source.words[name] for name in names]
+    total = math.prod(map(len, lists))
+    if source.count is not None and source.count > total:
+        raise ConfigError(
+            f"template {shown(template)} has {total} combinations of words, fewer than count = "
+            f"{source.count}; give more words, or more videos of each with repeats"
+        )
+    if source.count is None:
+        numbers: Iterable[int] = range(total)
+    else:
+        chance = random.Random(derived_seed(seed, "template", template))
+        numbers = sorted(chance.sample(range(total), source.count))
+    for number in numbers:
+        words = {}
+        for name, values in zip(reversed(names), reversed(lists), strict=True):
+            number, place = divmod(number, len(values))
+            words[name] = values[place]
+        label = None if source.label is None else _filled(source.label, words, "label")
+        yield _item(_filled(template, words, "template"), None, label, source.split)
+
+
+def _placeholders(template: str) -> list[str]:
+    try:
+        parts = [name for _, name, _, _ in string.Formatter().parse(template) if name is not None]
+    except ValueError as error:
+        raise ConfigError(
+            f"template {shown(template)}: {error}; words to fill in stand in {{}}"
+        ) from error
+    return list(dict.fromkeys(parts))
+
+
+def _filled(template: str, words: dict[str, str], what: str) -> str:
+    for name in _placeholders(template):
+        if name not in words:
+            raise ConfigError(
+                f"{what} {shown(template)} names {{{name}}}; there is: {', '.join(words)}"
+            )
+        template = template.replace(f"{{{name}}}", words[name])
+    return template

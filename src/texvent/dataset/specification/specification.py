@@ -1,0 +1,183 @@
+"""The specification of a data set."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from texvent.config import check_range
+from texvent.dataset.specification.option_ranges import is_range, range_values
+from texvent.errors import ConfigError, shown
+from texvent.options.values import plain
+
+MAX_SHARD = 100_000
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
+DEFAULT_VARIANT = "events"
+SOURCE_KINDS = ("prompts", "file", "videos", "template")
+
+
+@dataclass(frozen=True, kw_only=True)
+class SampleSource:
+    """Where prompts or videos come from: exactly one of prompts, file, videos and template.
+
+    Raises:
+        ConfigError: none or several of them, or a field that does not belong to the one.
+    """
+
+    prompts: tuple[str, ...] = ()
+    """Prompts themselves."""
+    file: Path | None = None
+    """A list: `.txt`, `.csv` or `.jsonl`, as `texvent batch` reads it; a column `label` gives the
+    class."""
+    videos: tuple[str, ...] = ()
+    """Videos, folders of videos or of images, patterns such as "clips/*/*.mp4"."""
+    template: str | None = None
+    """A prompt with words to fill in, such as "a {colour} {thing} drives {direction}"."""
+    words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    """Name in the template → its words."""
+    count: int | None = None
+    """How many combinations of words are drawn, without repetition; None: all of them."""
+    label: str | None = None
+    """Class of the samples. In a template, "{thing}" is that word; for videos, "{folder}" is the
+    name of the folder that a video lies in."""
+    split: str | None = None
+    """The split that all of these belong to; None: they are shared out."""
+
+    def __post_init__(self) -> None:
+        given = [name for name in SOURCE_KINDS if getattr(self, name)]
+        if len(given) != 1:
+            raise ConfigError(
+                f"a source has {' and '.join(given) or 'nothing'}; give one of "
+                f"{', '.join(SOURCE_KINDS)}"
+            )
+        if self.template is None and (self.words or self.count is not None):
+            raise ConfigError("words and count belong to a template; this source has none")
+        check_range("count", self.count, 1)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Variant:
+    """One way to simulate every video: a simulator, a sensor, options."""
+
+    name: str = DEFAULT_VARIANT
+    """Name of its folder."""
+    seeds: int = 1
+    """How many times each video is simulated, with another seed each."""
+    options: Mapping[str, Any] = field(default_factory=dict)
+    """Options that replace those of the data set."""
+
+    def __post_init__(self) -> None:
+        _check_name("variant", self.name)
+        check_range(f"seeds of variant {self.name}", self.seeds, 1, 1_000_000)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Filters:
+    """Which samples are left out."""
+
+    min_events: int = 1
+    """Fewest events of a sample."""
+    max_events: int | None = None
+    """Most events of a sample; the simulation of one that has more is stopped."""
+    failed_videos: bool = False
+    """Whether videos that look failed (frozen, dark, flickering ...) are left out."""
+
+    def __post_init__(self) -> None:
+        check_range("min_events", self.min_events, 0)
+        check_range("max_events", self.max_events, max(1, self.min_events))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Specification:
+    """Everything that decides a data set, but for the files it names.
+
+    Raises:
+        ConfigError: a value out of range or a name that cannot be a folder.
+
+    Example:
+        >>> spec = Specification(
+        ...     name="cars",
+        ...     sources=(SampleSource(prompts=("a red car drives left", "a dog runs")),),
+        ...     options={"duration": 0.5, "contrast_threshold": {"uniform": [0.1, 0.5]}},
+        ...     variants=(Variant(name="paper"), Variant(name="v2e", options={"simulator": "v2e"})),
+        ... )
+    """
+
+    name: str
+    """Name of the data set."""
+    sources: tuple[SampleSource, ...]
+    """What is shown."""
+    description: str = ""
+    """What it is for; stands in the card."""
+    license: str = ""
+    """Licence of what is published, such as "cc-by-4.0"."""
+    seed: int = 0
+    """Seed from which those of all samples are derived, 0..2⁶³−1."""
+    repeats: int = 1
+    """Videos per prompt, each with a seed of its own."""
+    samples_per_shard: int = 100
+    """Samples in one file."""
+    splits: Mapping[str, float] = field(default_factory=lambda: {"train": 1.0})
+    """Split → its share; all videos of a prompt lie in one split."""
+    options: Mapping[str, Any] = field(default_factory=dict)
+    """Options of `texvent generate`, or of `texvent simulate` for videos. A value may be a range
+    to draw from: {uniform = [0.1, 0.5]}, {log_uniform = [...]}, {integer = [...]},
+    {choice = [...]}."""
+    variants: tuple[Variant, ...] = field(default_factory=lambda: (Variant(),))
+    """Ways to simulate each video."""
+    filters: Filters = field(default_factory=Filters)
+    """Which samples are left out."""
+    previews: bool = True
+    """Whether each sample has an image to look at."""
+    store_videos: bool | None = None
+    """Whether videos are stored, so that other variants can be made of them later; None: those of
+    learned generators are."""
+
+    def __post_init__(self) -> None:
+        _check_name("name", self.name)
+        if not self.sources:
+            raise ConfigError("the data set has no sources; give at least one")
+        check_range("seed", self.seed, 0, 2**63 - 1)
+        check_range("repeats", self.repeats, 1, 100_000_000)
+        check_range("samples_per_shard", self.samples_per_shard, 1, MAX_SHARD)
+        _check_splits(self.splits, self.sources)
+        names = [variant.name.lower() for variant in self.variants]
+        if not names or len(set(names)) < len(names):
+            raise ConfigError("variants need names of their own, and at least one is needed")
+        for options in (self.options, *(variant.options for variant in self.variants)):
+            if "seed" in options:
+                raise ConfigError("every sample has a seed of its own; set seed beside options")
+            for option, value in options.items():
+                if is_range(value):
+                    range_values(option, value)
+
+    @property
+    def tables(self) -> dict[str, Any]:
+        """Plain values, ready for TOML and JSON."""
+        tables: dict[str, Any] = plain(self)
+        return tables
+
+
+def _check_name(what: str, name: Any) -> None:
+    if not isinstance(name, str) or not _NAME.fullmatch(name):
+        raise ConfigError(
+            f"{what} is {shown(name)}; use letters, digits, _ and -, at most 64 of them"
+        )
+
+
+def _check_splits(splits: Mapping[str, float], sources: tuple[SampleSource, ...]) -> None:
+    for name, share in splits.items():
+        _check_name("split", name)
+        check_range(f"share of split {name}", share, 0.0, 1.0)
+    if not math.isclose(sum(splits.values()), 1.0, abs_tol=1e-6):
+        raise ConfigError(f"the shares of splits add up to {sum(splits.values()):g}; make it 1")
+    for source in sources:
+        if source.split is not None and source.split not in splits:
+            raise ConfigError(
+                f"a source is for split {shown(source.split)}, which splits does not name; it has: "
+                f"{', '.join(splits)}"
+            )

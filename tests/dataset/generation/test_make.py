@@ -1,0 +1,244 @@
+"""Shards: the same bytes whoever makes them, resumed after anything, one bad sample harms none."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import json
+import tarfile
+from contextlib import closing
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import texvent
+from texvent.dataset.generation.engines.processes import ProcessEngine
+from texvent.dataset.generation.engines.protocol import Engine, in_this_process
+from texvent.dataset.generation.make import Work, find_work, make_shards
+from texvent.dataset.generation.recipe import Recipe, load_recipe
+from texvent.dataset.generation.records import FAILED, FILTERED, MADE, read_record
+from texvent.dataset.generation.status import read_status
+from texvent.dataset.generation.tar_shard import read_members
+from texvent.dataset.specification.reading import specification_from
+from texvent.errors import ConfigError, FileFormatError, OutputError
+
+SMALL = {"duration": 0.1, "sensor": "32x24"}
+CARS = {
+    "name": "cars",
+    "seed": 3,
+    "samples_per_shard": 2,
+    "splits": {"train": 0.5, "test": 0.5},
+    "options": {**SMALL, "contrast_threshold": {"uniform": [0.1, 0.3]}},
+    "sources": [
+        {"template": "a {c} {t} drives left", "label": "{t}",
+         "words": {"c": ["red", "blue", "green"], "t": ["car", "bus"]}}
+    ],
+    "variants": {"paper": {"seeds": 2}, "esim": {"simulator": "esim"}},
+}  # fmt: skip
+
+
+def recipe_of(folder: Path = Path(), **changes: Any) -> Recipe:
+    return Recipe.of(specification_from({**CARS, **changes}, folder=folder))
+
+
+def make(recipe: Recipe, folder: Path, engine: Engine | None = None, **options: Any) -> Work:
+    recipe.begin(folder)
+    work = find_work(recipe, folder, **options)
+    with closing(engine or in_this_process()) as running:
+        make_shards(work, running, lambda outcome: None)
+    return work
+
+
+def digests(folder: Path) -> dict[str, str]:
+    return {
+        str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted(folder.rglob("*.tar"))
+    }
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("whole") / "cars"
+    make(recipe_of(), folder)
+    return folder
+
+
+def test_processes_and_parts_make_the_bytes_of_one_process(whole: Path, tmp_path: Path) -> None:
+    make(recipe_of(), tmp_path / "pool", ProcessEngine(2))
+    for part in (1, 2, 3):
+        make(load_recipe(tmp_path / "pool"), tmp_path / "parts", part=(part, 3))
+    assert digests(tmp_path / "pool") == digests(tmp_path / "parts") == digests(whole)
+    assert len(digests(whole)) == 8
+
+
+def test_no_sample_is_missing_or_there_twice(whole: Path) -> None:
+    recipe = load_recipe(whole)
+    keys, clips = [], set()
+    for name in recipe.variants:
+        for shard in recipe.shards(name):
+            record = read_record(whole / shard.path)
+            assert record is not None
+            assert record.sha256 == digests(whole)[str(shard.path)]
+            keys += [sample.key for sample in record.samples]
+            clips |= {sample.clip for sample in record.samples}
+    assert len(set(keys)) == len(keys) == 6 * 2 + 6
+    assert len(clips) == 6
+
+
+def test_a_sample_is_what_a_run_of_its_options_gives(whole: Path) -> None:
+    shard = whole / "esim" / "train-000000.tar"
+    record = read_record(shard)
+    assert record is not None
+    sample = record.samples[0]
+    members = read_members(shard, sample.members)
+    facts = json.loads(members["json"])
+    columns = {name: np.load(io.BytesIO(members[f"{name}.npy"])) for name in "xytp"}
+    tables = facts["settings"]
+    events = texvent.generate(
+        facts["prompt"],
+        seed=sample.seed,
+        simulator="esim",
+        contrast_threshold=tables["simulate"]["contrast_threshold_on"],
+        **SMALL,
+    )
+    for name in "xytp":
+        np.testing.assert_array_equal(columns[name], getattr(events, name))
+    assert columns["t"].dtype == np.uint32
+    assert members["txt"].decode() == sample.prompt
+    assert members["cls"] == str(("bus", "car").index(sample.label or "")).encode()
+    assert facts["events"] == len(events) == sample.events
+    with tarfile.open(shard) as tar:
+        assert [one.name for one in tar][:4] == [f"{sample.key}.{name}.npy" for name in "xytp"]
+
+
+def test_the_videos_of_variants_are_the_same_and_simulations_differ(whole: Path) -> None:
+    records = {name: read_record(whole / name / "train-000000.tar") for name in ("paper", "esim")}
+    paper, esim = (record.samples for record in records.values() if record is not None)
+    assert [one.clip for one in paper[::2]] == [one.clip for one in esim]
+    assert paper[0].seed == esim[0].seed != paper[1].seed
+
+    def facts(name: str, number: int) -> Any:
+        record = records[name]
+        assert record is not None
+        shard = whole / name / "train-000000.tar"
+        return json.loads(read_members(shard, record.samples[number].members)["json"])
+
+    first, second = facts("paper", 0), facts("paper", 1)
+    assert first["source"] == second["source"] == facts("esim", 0)["source"]
+    assert first["seed"] != second["seed"]
+    thresholds = {facts("esim", n)["settings"]["simulate"]["contrast_threshold_on"] for n in (0, 1)}
+    assert len(thresholds) == 2
+
+
+def test_only_what_is_missing_is_made(whole: Path, tmp_path: Path) -> None:
+    import shutil
+
+    folder = tmp_path / "cars"
+    shutil.copytree(whole, folder)
+    (folder / "esim" / "test-000000.json").unlink()
+    (folder / "paper" / "train-000000.tar").write_bytes(b"cut off")
+    work = find_work(load_recipe(folder), folder)
+    assert [str(task.shard.path) for task in work.todo] == [
+        "paper/train-000000.tar",
+        "esim/test-000000.tar",
+    ]
+    make(load_recipe(folder), folder)
+    assert digests(folder) == digests(whole)
+    (stage, _) = read_status(load_recipe(folder), folder)
+    assert (stage.samples, stage.total, stage.complete, stage.shards) == (12, 12, 4, 4)
+
+
+def test_another_specification_is_refused_with_the_difference(whole: Path) -> None:
+    with pytest.raises(ConfigError, match="seed was 3, is 4"):
+        recipe_of(seed=4).begin(whole)
+    other = [{"prompts": ["a dog"], "label": "dog"}]
+    with pytest.raises(ConfigError, match="1 prompts or videos more, 6 fewer"):
+        recipe_of(sources=other, splits={"train": 1.0}).begin(whole)
+
+
+def test_another_version_is_refused(whole: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("texvent.dataset.generation.recipe.full_version", lambda: "9.9")
+    with pytest.raises(ConfigError, match=r"begun by texvent .*, and this is 9\.9"):
+        load_recipe(whole)
+
+
+def test_a_folder_of_other_things_and_a_changed_list_are_refused(
+    whole: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "note.txt").write_text("mine")
+    with pytest.raises(OutputError, match="holds no data set"):
+        recipe_of().begin(tmp_path)
+    import shutil
+
+    folder = tmp_path / "cars"
+    shutil.copytree(whole, folder)
+    items = folder / "items.jsonl"
+    items.write_text(items.read_text().replace("red", "black"))
+    with pytest.raises(FileFormatError, match="changed by hand"):
+        load_recipe(folder)
+
+
+def test_one_bad_video_harms_no_other_and_is_made_later(tmp_path: Path) -> None:
+    clip = np.zeros((6, 24, 32), np.uint8)
+    clip[:, 4:12, 4:12] = np.arange(6, dtype=np.uint8)[:, None, None] * 40
+    for name in ("a", "c"):
+        np.save(tmp_path / f"{name}.npy", clip)
+    (tmp_path / "b.npy").write_bytes(b"no array")
+    np.save(tmp_path / "still.npy", np.zeros_like(clip))
+    recipe = recipe_of(
+        tmp_path,
+        sources=[{"videos": "*.npy", "label": "{name}"}],
+        options={"fps": 30},
+        splits={"train": 1.0},
+        samples_per_shard=4,
+    )
+    folder = tmp_path / "out"
+    work = make(recipe, folder)
+    assert not work.failures
+    before = {record.variant: record for record in work.complete.values()}
+    assert {
+        (one.count(MADE), one.count(FILTERED), one.count(FAILED)) for one in before.values()
+    } == {
+        (6, 0, 2),  # a still video has the noise of the sensor
+        (2, 1, 1),
+    }
+    reasons = {one.status: one.reason or "" for one in before["esim"].samples}
+    assert "b.npy" in reasons[FAILED]
+    assert "0 events, fewer than 1" in reasons[FILTERED]
+    np.save(tmp_path / "b.npy", clip)
+    assert not find_work(recipe, folder).todo
+    work = make(recipe, folder, retry_failed=True)
+    after = {record.variant: record for record in work.complete.values()}
+    assert after["esim"].count(MADE) == 3
+    whole = tmp_path / "again"
+    make(recipe, whole)
+    assert digests(whole) == digests(folder)
+
+
+def test_stored_videos_serve_every_variant(tmp_path: Path) -> None:
+    few = {"sources": [{"prompts": ["a red car drives left"]}], "splits": {"train": 1.0},
+           "store_videos": True}  # fmt: skip
+    folder = tmp_path / "out"
+    make(recipe_of(**few), folder)
+    record = read_record(folder / "videos" / "train-000000.tar")
+    assert record is not None
+    assert set(record.samples[0].members) == {"avi", "txt"}
+    esim = read_record(folder / "esim" / "train-000000.tar")
+    assert esim is not None
+    assert (esim.samples[0].width, esim.samples[0].height) == (32, 24)
+    assert esim.samples[0].clip == record.samples[0].key
+    make(recipe_of(**few), tmp_path / "pool", ProcessEngine(2))
+    assert digests(tmp_path / "pool") == digests(folder)
+
+
+def test_options_that_would_change_the_video_belong_to_all() -> None:
+    with pytest.raises(ConfigError, match="variant long sets duration, which changes the video"):
+        recipe_of(variants={"long": {"duration": 3.0}})
+    with pytest.raises(ConfigError, match="unknown option 'durration'"):
+        recipe_of(options={"durration": 3.0})
+    with pytest.raises(ConfigError, match="contrast_threshold is -1"):
+        recipe_of(options={"contrast_threshold": {"uniform": [-1, 0.3]}})
+    with pytest.raises(ConfigError, match="cannot be called videos"):
+        recipe_of(variants={"videos": {}})

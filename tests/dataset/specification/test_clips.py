@@ -1,0 +1,56 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.dataset.specification.clips import Clips
+from texvent.dataset.specification.items import read_items
+from texvent.dataset.specification.reading import specification_from
+from texvent.errors import ConfigError
+
+
+def clips_of(prompts: list[str], **changes: object) -> Clips:
+    tables = {"name": "x", "sources": [{"prompts": prompts}], **changes}
+    specification = specification_from(tables, folder=Path())
+    return Clips(specification, read_items(specification))
+
+
+@given(
+    count=st.integers(4, 60),
+    repeats=st.integers(1, 4),
+    share=st.sampled_from([0.5, 0.75, 0.8]),
+    seed=st.integers(0, 5),
+)
+def test_splits_part_the_prompts_and_every_clip_is_there_once(
+    count: int, repeats: int, share: float, seed: int
+) -> None:
+    prompts = [f"car {number}" for number in range(count)]
+    splits = {"train": share, "test": 1 - share}
+    clips = clips_of(prompts, repeats=repeats, splits=splits, seed=seed)
+    counts = clips.counts
+    assert sum(counts.values()) == count * repeats
+    assert abs(counts["train"] / repeats - share * count) <= 0.5 + 1e-9
+    all_clips = [clips.clip(split, n) for split in counts for n in range(counts[split])]
+    assert len({clip.key for clip in all_clips}) == len({clip.seed for clip in all_clips})
+    assert len({clip.key for clip in all_clips}) == count * repeats
+    of_split = {
+        split: {clip.item.prompt for clip in all_clips if clip.split == split} for split in counts
+    }
+    assert not of_split["train"] & of_split["test"]
+
+
+def test_a_prompt_that_is_added_changes_no_clip_of_the_others() -> None:
+    prompts = [f"car {number}" for number in range(10)]
+    before, after = clips_of(prompts), clips_of(["a dog", *prompts])
+    seeds = {clip.key: clip.seed for clip in (after.clip("train", n) for n in range(11))}
+    assert all(
+        seeds[clip.key] == clip.seed for clip in (before.clip("train", n) for n in range(10))
+    )
+
+
+def test_a_split_that_would_be_empty_is_refused() -> None:
+    with pytest.raises(ConfigError, match="split test would be empty"):
+        clips_of(["a", "b"], splits={"train": 0.9, "test": 0.1})

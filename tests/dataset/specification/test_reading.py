@@ -1,0 +1,164 @@
+"""A specification is read as it was meant, or refused in one line that names the place."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from texvent.dataset.specification.items import read_items
+from texvent.dataset.specification.reading import read_specification, specification_from
+from texvent.errors import ConfigError, InputError
+
+WHOLE = """
+name = "cars"
+seed = 7
+samples-per-shard = 4
+splits = { train = 0.75, test = 0.25 }
+
+[options]
+duration = 0.2
+contrast-threshold = { uniform = [0.1, 0.5] }
+
+[[sources]]
+template = "a {colour} {thing}"
+words.colour = ["red", "blue"]
+words.thing = "things.txt"
+label = "{thing}"
+
+[[sources]]
+file = "more.csv"
+
+[variants.paper]
+seeds = 2
+
+[variants.v2e]
+simulator = "v2e"
+
+[filters]
+min-events = 10
+"""
+
+
+def test_every_part_of_a_file_is_read(tmp_path: Path) -> None:
+    (tmp_path / "spec.toml").write_text(WHOLE)
+    (tmp_path / "things.txt").write_text("car\n# a comment\ndog\n")
+    (tmp_path / "more.csv").write_text("prompt,label,seed\na bus turns,bus,3\na red car,car,\n")
+    spec = read_specification(tmp_path / "spec.toml")
+    assert (spec.name, spec.seed, spec.samples_per_shard) == ("cars", 7, 4)
+    assert spec.options == {"duration": 0.2, "contrast_threshold": {"uniform": [0.1, 0.5]}}
+    assert [(one.name, one.seeds, one.options) for one in spec.variants] == [
+        ("paper", 2, {}),
+        ("v2e", 1, {"simulator": "v2e"}),
+    ]
+    assert spec.filters.min_events == 10
+    items = read_items(spec)
+    # "a red car" of the list equals one of the template.
+    assert [item.prompt for item in items.all] == [
+        "a red car",
+        "a red dog",
+        "a blue car",
+        "a blue dog",
+        "a bus turns",
+    ]
+    assert items.duplicates == 1
+    assert items.labels == ("bus", "car", "dog")
+    assert items.all[4].seed == 3
+
+
+def test_a_specification_is_the_same_after_its_tables_were_stored(tmp_path: Path) -> None:
+    (tmp_path / "spec.toml").write_text(WHOLE)
+    (tmp_path / "things.txt").write_text("car\n")
+    spec = read_specification(tmp_path / "spec.toml")
+    again = specification_from(spec.tables, folder=Path())
+    assert again == spec
+
+
+def test_videos_take_their_class_from_their_folder(tmp_path: Path) -> None:
+    for name in ("cat/a.mp4", "dog/b.mp4"):
+        (tmp_path / name).parent.mkdir()
+        (tmp_path / name).touch()
+    source = {"videos": "*/*.mp4", "label": "{folder}"}
+    items = read_items(specification_from({"name": "v", "sources": [source]}, folder=tmp_path))
+    assert [item.label for item in items.all] == ["cat", "dog"]
+    assert items.are_videos
+
+
+def test_words_are_drawn_without_repetition_and_by_the_seed() -> None:
+    source = {"template": "{a} {b}", "words": {"a": list("abcdef"), "b": list("ghijkl")},
+              "count": 20}  # fmt: skip
+
+    def prompts(seed: int) -> list[str | None]:
+        spec = specification_from({"name": "x", "seed": seed, "sources": [source]}, folder=Path())
+        return [item.prompt for item in read_items(spec).all]
+
+    assert len(set(prompts(0))) == 20
+    assert prompts(0) == prompts(0) != prompts(1)
+
+
+def test_classes_are_words_and_labels() -> None:
+    source = {"classes": ["cat", "dog"], "template": "a photo of a {class}"}
+    items = read_items(specification_from({"name": "x", "sources": [source]}, folder=Path()))
+    assert [(item.prompt, item.label) for item in items.all] == [
+        ("a photo of a cat", "cat"),
+        ("a photo of a dog", "dog"),
+    ]
+
+
+ONE = {"name": "x", "sources": [{"prompts": ["a car"]}]}
+
+
+@pytest.mark.parametrize(
+    ("change", "wanted"),
+    [
+        ({"name": "a/b"}, "name is 'a/b'; use letters"),
+        ({"sources": []}, "has no sources"),
+        ({"sources": "prompts.txt"}, "must be a list of tables"),
+        ({"sources": [{"prompts": ["a"], "videos": "b"}]}, "source 1: a source has prompts and"),
+        ({"sources": [{"prompts": ["a"], "count": 3}]}, "belong to a template"),
+        ({"sources": [{"promts": ["a"]}]}, "source 1: unknown 'promts'; allowed: prompts, file"),
+        ({"sources": [{"classes": ["a"]}]}, "classes need a template"),
+        ({"seed": -1}, "seed is -1"),
+        ({"sede": 1}, "unknown 'sede'; allowed: name, sources"),
+        ({"repeats": 0}, "repeats is 0"),
+        ({"repeats": "many"}, "repeats is 'many'; it must be a whole number"),
+        ({"samples_per_shard": 1.5}, "it must be a whole number"),
+        ({"splits": {"train": 0.5}}, "add up to 0.5; make it 1"),
+        ({"sources": [{"prompts": ["a"], "split": "val"}]}, "for split 'val'"),
+        ({"options": {"seed": 3}}, "set seed beside options"),
+        ({"options": {"fps": {"unifrom": [1, 2]}}}, "range of fps"),
+        ({"options": {"fps": {"uniform": [2, 1]}}}, "must be [lowest, highest]"),
+        ({"options": {"fps": {"log_uniform": [0, 1]}}}, "begins at 0"),
+        ({"options": {"fps": {"integer": [0.5, 1]}}}, "whole numbers"),
+        ({"variants": {"a b": {}}}, "variant is 'a b'"),
+        ({"variants": {"a": {"seeds": 0}}}, "seeds of variant a is 0"),
+        ({"filters": {"min_event": 3}}, "unknown option 'min_event'"),
+        ({"filters": {"min_events": 9, "max_events": 3}}, "max_events is 3"),
+    ],
+)
+def test_what_is_wrong_is_said_in_one_line(change: dict[str, Any], wanted: str) -> None:
+    with pytest.raises(ConfigError) as caught:
+        specification_from({**ONE, **change}, folder=Path())
+    assert wanted in str(caught.value)
+    assert str(caught.value).startswith("specification: ")
+    assert len(str(caught.value)) < 300
+
+
+@pytest.mark.parametrize(
+    ("sources", "wanted"),
+    [
+        ([{"template": "a {thing}"}], "has no words for thing"),
+        ([{"template": "a car", "words": {"thing": ["a"]}}], "does not use thing"),
+        ([{"template": "a {thing", "words": {"thing": ["a"]}}], "words to fill in stand in {}"),
+        ([{"template": "{a}", "words": {"a": ["x"]}, "count": 2}], "has 1 combinations"),
+        ([{"template": "{a}", "words": {"a": ["x"]}, "label": "{b}"}], "names {b}"),
+        ([{"file": "none.txt"}], "no such list"),
+        ([{"videos": "none/*.mp4"}], "nothing matches"),
+        ([{"prompts": ["a"]}, {"prompts": ["b"], "label": "c"}], "1 of 2"),
+    ],
+)
+def test_sources_that_give_nothing_are_refused(sources: list[Any], wanted: str) -> None:
+    spec = specification_from({"name": "x", "sources": sources}, folder=Path())
+    with pytest.raises(InputError, match=wanted.replace("{", "\\{").replace("}", "\\}")):
+        read_items(spec)
