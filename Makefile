@@ -4,6 +4,7 @@ VENV := .venv
 TORCH_VENV := .venv-torch
 APP_VENV := .venv-app
 FORMATS_VENV := .venv-formats
+DATASET_VENV := .venv-dataset
 GPL_VENV := .venv-gpl
 # Readers of event files under the GPL: never a dependency, run only by who asks for it.
 GPL_READERS := event_stream==1.6.3 evutils==0.3.18 faery==0.7.1 tonic==1.7.0
@@ -15,7 +16,7 @@ PYTHON ?= $(shell for p in python3 python3.14 python3.13 python3.12 python3.11; 
 PIP_OPTIONS := --quiet --disable-pip-version-check -c constraints.txt
 PIP := $(VENV)/bin/python -m pip install $(PIP_OPTIONS)
 
-.PHONY: help demo test fuzz test-torch test-app test-formats test-gpl lint format clean
+.PHONY: help demo test fuzz test-torch test-app test-formats test-dataset test-gpl lint format clean
 
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
@@ -24,6 +25,7 @@ help:
 	@echo "make test-torch   the tests that need torch, in $(TORCH_VENV)"
 	@echo "make test-app     the tests of the web page and of rerun files, in $(APP_VENV)"
 	@echo "make test-formats the tests of Parquet and blosc, in $(FORMATS_VENV)"
+	@echo "make test-dataset the tests of Ray and of data sets in other libraries, in $(DATASET_VENV)"
 	@echo "make test-gpl     the tests with readers under the GPL, in $(GPL_VENV)"
 	@echo "make lint    ruff, mypy, import rules"
 	@echo "make format  let ruff rewrite the layout"
@@ -49,6 +51,9 @@ test-app: $(APP_VENV)/.app
 test-formats: $(FORMATS_VENV)/.formats
 	$(FORMATS_VENV)/bin/python -m pytest -q -k "parquet or blosc" tests/io
 
+test-dataset: $(DATASET_VENV)/.dataset
+	$(DATASET_VENV)/bin/python -m pytest -q -m dataset tests/dataset
+
 test-gpl: $(GPL_VENV)/.gpl
 	$(GPL_VENV)/bin/python -m pytest -q -m gpl tests/io
 
@@ -63,10 +68,10 @@ format: $(VENV)/.dev
 	$(VENV)/bin/ruff format .
 
 clean:
-	rm -rf $(VENV) $(TORCH_VENV) $(APP_VENV) $(FORMATS_VENV) $(GPL_VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
+	rm -rf $(VENV) $(TORCH_VENV) $(APP_VENV) $(FORMATS_VENV) $(DATASET_VENV) $(GPL_VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
 
 # One rule makes every environment.
-$(VENV)/bin/python $(TORCH_VENV)/bin/python $(APP_VENV)/bin/python $(FORMATS_VENV)/bin/python $(GPL_VENV)/bin/python:
+$(VENV)/bin/python $(TORCH_VENV)/bin/python $(APP_VENV)/bin/python $(FORMATS_VENV)/bin/python $(DATASET_VENV)/bin/python $(GPL_VENV)/bin/python:
 	@test -n "$(PYTHON)" || { echo "error: texvent needs Python 3.11 or newer; none was found. Install one, or name it: make PYTHON=/path/to/python3"; exit 2; }
 	$(PYTHON) -m venv $(patsubst %/bin/python,%,$@)
 
@@ -96,6 +101,11 @@ $(APP_VENV)/.app: $(APP_VENV)/bin/python pyproject.toml constraints.txt
 $(FORMATS_VENV)/.formats: $(FORMATS_VENV)/bin/python pyproject.toml constraints.txt
 	@echo "installing texvent, pyarrow and hdf5plugin into $(FORMATS_VENV) (once; these two take 360 MB)"
 	$(FORMATS_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,parquet,blosc]'
+	@touch $@
+
+$(DATASET_VENV)/.dataset: $(DATASET_VENV)/bin/python pyproject.toml constraints.txt
+	@echo "installing texvent, Ray, pyarrow and loaders of data sets into $(DATASET_VENV) (once; 1.5 GB)"
+	$(DATASET_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,dataset,ray,loaders]'
 	@touch $@
 
 $(GPL_VENV)/.gpl: $(GPL_VENV)/bin/python pyproject.toml constraints.txt Makefile
