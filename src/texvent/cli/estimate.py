@@ -244,13 +244,17 @@ def describe_estimate(estimate: Estimate) -> str:
         return f"about {per_pair}; length unknown\n{memory}"
     pairs = estimate.pairs_total
     sizes = estimate.sizes(pairs)
-    files = ", ".join(f"{_bytes(size)} {kind}" for kind, size in sizes.items())
+    files = ", ".join(f"{size_text(size)} {kind}" for kind, size in sizes.items())
     return (
         f"about {estimate.events(pairs):,.0f} events, in {estimate.seconds(pairs):,.1f} s "
         f"({pairs} pairs)\n{per_pair}\n"
-        f"files  {_bytes(sum(sizes.values()))}: {files}\n{memory}"
+        f"files  {size_text(sum(sizes.values()))}: {files}\n{memory}"
     )
 
 
-def _bytes(size: float) -> str:
-    return f"{size / 2**20:,.1f} MB" if size >= 2**20 else f"{size / 2**10:,.0f} KB"
+def size_text(size: float) -> str:
+    """Bytes for people, such as "1.2 GB"."""
+    for unit, name in ((2**40, "TB"), (2**30, "GB"), (2**20, "MB")):
+        if size >= unit:
+            return f"{size / unit:,.1f} {name}"
+    return f"{size / 2**10:,.0f} KB"

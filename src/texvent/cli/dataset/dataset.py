@@ -10,6 +10,7 @@ from texvent._registry import suggest
 from texvent.errors import ConfigError, shown
 
 STEPS: Mapping[str, str] = {
+    "plan": "check a specification; counts, size and time before anything runs",
     "make": "make a data set from a specification, or go on with one",
     "status": "how far a data set is, while it is made or afterwards",
 }

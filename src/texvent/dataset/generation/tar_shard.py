@@ -39,14 +39,18 @@ class TarShardWriter:
             info = tarfile.TarInfo(f"{key}.{extension}")
             info.size, info.mode = len(content), MODE
             self._tar.addfile(info, io.BytesIO(content))
-            # The content stands before the zeros that fill its last block of 512 bytes.
-            padded = -(-len(content) // tarfile.BLOCKSIZE) * tarfile.BLOCKSIZE
-            places[extension] = (self._tar.offset - padded, len(content))
+            begin = self._tar.offset - size_in_tar(len(content)) + tarfile.BLOCKSIZE
+            places[extension] = (begin, len(content))
         return places
 
     def close(self) -> None:
         """Write the end of the tar."""
         self._tar.close()
+
+
+def size_in_tar(size: int) -> int:
+    """Bytes that a member takes: its header, and its content in whole blocks of 512 bytes."""
+    return tarfile.BLOCKSIZE * (1 - (-size // tarfile.BLOCKSIZE))
 
 
 def read_members(

@@ -1,0 +1,151 @@
+"""`texvent dataset plan SPECIFICATION`: what a data set will be and take, before it is made."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import ClassVar
+
+from rich.console import Console
+from rich.table import Table
+
+from texvent.cli.dataset.live_table import time_text
+from texvent.cli.estimate import size_text
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import parse_configs
+from texvent.config import check_range
+from texvent.dataset.generation.recipe import VIDEOS, Recipe
+from texvent.dataset.generation.trial import StageEstimate, try_samples
+from texvent.dataset.specification.reading import read_specification
+from texvent.runtime.console_progress import ConsoleProgress
+from texvent.runtime.threads import THREADS_VARIABLE, count_threads
+
+HOUR_S = 3600.0
+DEFAULT_TRIAL = 3
+DESCRIPTION = """Check a specification and say what it gives: prompts, clips, splits, classes, and
+from a trial of a few samples the size and the time. Nothing is kept.
+
+  texvent dataset plan cars.toml --workers 8
+  texvent dataset plan films.toml --seconds-per-video 380     a learned model, without a trial"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlanOptions:
+    """Which specification, and what it would run on."""
+
+    positional: ClassVar[tuple[str, ...]] = ("specification",)
+    outputs: ClassVar[tuple[str, ...]] = ()
+
+    specification: Path = REQUIRED
+    """The specification: TOML or YAML."""
+    trial: int | None = None
+    """Clips that are made to measure time and size; 0: none. Default: 3, and none where a learned
+    model would have to make their videos."""
+    workers: int | None = None
+    """Processes that will share this machine's cores; default: one per core."""
+    seconds_per_video: float | None = None
+    """Time of a learned model for one video, s, where it is known."""
+
+    def __post_init__(self) -> None:
+        check_range("trial", self.trial, 0, 1000)
+        check_range("workers", self.workers, 1, 1024)
+        check_range("seconds_per_video", self.seconds_per_video, 0.0, 1e6)
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the command; returns 0."""
+    (options,) = parse_configs(
+        arguments, {"plan": PlanOptions()}, prog="texvent dataset plan", description=DESCRIPTION
+    )
+    recipe = Recipe.of(read_specification(options.specification))
+    sys.stdout.write("\n".join(describe_contents(recipe)) + "\n")
+    trial = options.trial
+    if trial is None:
+        trial = 0 if recipe.stores_videos else DEFAULT_TRIAL
+    workers = options.workers or count_threads()
+    if trial:
+        # As much of the machine as one of the workers will have.
+        os.environ[THREADS_VARIABLE] = str(max(1, count_threads() // workers))
+        with ConsoleProgress() as progress:
+            stages = try_samples(recipe, trial, progress)
+        _print_trial(stages, workers)
+    else:
+        sys.stdout.write("no trial: give --trial 1 to measure size and time of a sample\n")
+    if recipe.stores_videos:
+        sys.stdout.write(_video_cost(recipe, options.seconds_per_video))
+    return 0
+
+
+def describe_contents(recipe: Recipe) -> list[str]:
+    """What a specification gives, one line each."""
+    specification, items = recipe.specification, recipe.items
+    kind = "videos" if items.are_videos else "prompts"
+    counts = recipe.clips.counts
+    clips = sum(counts.values())
+    samples = sum(clips * variant.seeds for variant in specification.variants)
+    shards = sum(1 for name in recipe.variants for _ in recipe.shards(name))
+    left_out = f" ({items.duplicates:,} equal ones left out)" if items.duplicates else ""
+    splits = ", ".join(f"{split} {count:,}" for split, count in counts.items())
+    names = [
+        f"{one.name} ({one.seeds} seeds)" if one.seeds > 1 else one.name
+        for one in specification.variants
+    ]
+    lines = [
+        f"{specification.name}: {len(items.all):,} {kind}{left_out}, {clips:,} clips, "
+        f"{samples:,} samples in {shards:,} shards",
+        f"splits   {splits}",
+        f"variants {', '.join(names)}",
+    ]
+    if items.labels:
+        sizes = Counter(item.label for item in items.all).values()
+        each = f"{min(sizes):,}" if min(sizes) == max(sizes) else f"{min(sizes):,}-{max(sizes):,}"
+        lines.append(f"classes  {len(items.labels):,}, {each} {kind} each")
+    if recipe.stores_videos:
+        lines.append("videos   made and stored first; every variant is simulated from them")
+    if not specification.license:
+        lines.append("note     no license is named; a set that is published needs one")
+    return lines
+
+
+def _print_trial(stages: Sequence[StageEstimate], workers: int) -> None:
+    table = Table(box=None, pad_edge=False)
+    for name in ("", "samples", "events each", "size", "s each", f"time, {workers} workers"):
+        table.add_column(name, justify="left" if not name else "right")
+    for stage in stages:
+        processes = 1 if stage.name == VIDEOS else workers
+        table.add_row(
+            stage.name,
+            f"{stage.samples:,}",
+            f"{stage.events:,.0f}",
+            size_text(stage.bytes * stage.samples),
+            f"{stage.seconds:.2f}",
+            time_text(stage.seconds * stage.samples / processes),
+        )
+    Console(file=sys.stdout, highlight=False).print(table)
+    total = sum(stage.bytes * stage.samples for stage in stages)
+    sys.stdout.write(
+        f"in all   {size_text(total)}, from a trial of {stages[0].tried} samples each\n"
+    )
+    for stage in stages:
+        if stage.made < stage.tried:
+            sys.stdout.write(
+                f"note     {stage.tried - stage.made} of {stage.tried} samples of {stage.name} "
+                f"would not be there: {'; '.join(stage.reasons)[:150]}\n"
+            )
+
+
+def _video_cost(recipe: Recipe, seconds: float | None) -> str:
+    """GPU-hours of a learned model."""
+    videos = sum(recipe.clips.counts.values())
+    if seconds is None:
+        return (
+            f"cost     {videos:,} videos by a learned model; give --seconds-per-video, or "
+            "--trial 1 to make one here\n"
+        )
+    return (
+        f"cost     {videos:,} videos of {seconds:g} s: {videos * seconds / HOUR_S:,.1f} GPU-hours\n"
+    )

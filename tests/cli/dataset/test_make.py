@@ -1,0 +1,159 @@
+"""`texvent dataset plan`, `make` and `status`, as a user calls them."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from texvent.cli.app import main
+
+SPECIFICATION = """
+name = "cars"
+samples_per_shard = 2
+splits = { train = 0.75, test = 0.25 }
+
+[options]
+duration = 0.1
+sensor = "32x24"
+
+[[sources]]
+template = "a {colour} {thing} drives left"
+words.colour = ["red", "blue"]
+words.thing = ["car", "bus"]
+label = "{thing}"
+
+[variants.paper]
+seeds = 2
+
+[variants.esim]
+simulator = "esim"
+"""
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "cars.toml").write_text(SPECIFICATION)
+    return tmp_path
+
+
+def run(*words: object) -> int:
+    return main(["dataset", *map(str, words)])
+
+
+def digests(folder: Path) -> dict[str, str]:
+    return {
+        str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted(folder.rglob("*.tar"))
+    }
+
+
+def test_a_plan_says_what_there_will_be_and_leaves_nothing(folder, capsys):
+    assert run("plan", "cars.toml", "--trial", 1, "--workers", 1) == 0
+    said = capsys.readouterr().out
+    assert "4 prompts, 4 clips, 12 samples in 6 shards" in said
+    assert "train 3, test 1" in said
+    assert "paper (2 seeds), esim" in said
+    assert "classes  2, 2 prompts each" in said
+    assert "no license" in said
+    assert [path.name for path in folder.iterdir()] == ["cars.toml"]
+
+
+def test_a_plan_of_a_learned_model_costs_gpu_hours(folder, capsys):
+    words = SPECIFICATION.replace("[options]", "store_videos = true\n[options]")
+    (folder / "films.toml").write_text(words)
+    assert run("plan", "films.toml", "--seconds-per-video", 900) == 0
+    said = capsys.readouterr().out
+    assert "4 videos of 900 s: 1.0 GPU-hours" in said
+    assert "no trial" in said
+
+
+def test_a_plan_measures_as_many_bytes_and_events_as_are_made(folder, capsys):
+    assert run("plan", "cars.toml", "--trial", 4, "--workers", 1) == 0
+    rows = [line.split() for line in capsys.readouterr().out.splitlines()]
+    planned = {row[0]: int(row[2].replace(",", "")) for row in rows if row[0] in ("paper", "esim")}
+    assert run("make", "cars.toml", "--workers", 1, "-q") == 0
+    capsys.readouterr()
+    assert run("status", "cars", "--json") == 0
+    for stage in json.loads(capsys.readouterr().out):
+        assert stage["events"] / stage["samples"] == pytest.approx(planned[stage["name"]], abs=1)
+
+
+def test_making_again_changes_nothing_and_going_on_needs_the_folder_alone(folder, capsys):
+    assert run("make", "cars.toml", "--workers", 1) == 0
+    assert "12 samples" in capsys.readouterr().out
+    before = digests(folder / "cars")
+    (folder / "cars.toml").unlink()
+    (folder / "cars" / "esim" / "train-000001.json").unlink()
+    assert run("status", "cars") == 1
+    assert run("make", "cars", "--workers", 1) == 0
+    said = capsys.readouterr()
+    assert said.err.count("made ") == 1
+    assert digests(folder / "cars") == before
+    assert run("status", "cars") == 0
+
+
+def test_parts_of_a_job_array_make_the_whole(folder):
+    assert run("make", "cars.toml", "-o", "whole", "--workers", 1, "-q") == 0
+    for part in ("1/2", "2/2"):
+        assert run("make", "cars.toml", "-o", "parts", "--shards", part, "--workers", 1, "-q") == 0
+    assert digests(folder / "parts") == digests(folder / "whole")
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["cars.toml", "--shards", "0/3"], "it must be K/N with 1 ≤ K ≤ N"),
+        (["cars.toml", "--shards", "3"], "it must be K/N, such as 3/10"),
+        (["cars.toml", "--workers", "0"], "workers is 0"),
+        (["none.toml"], "cannot read config file none.toml"),
+        (["cars.toml", "-o", "cars.toml"], "holds no data set"),
+        (["."], "holds no data set"),
+    ],
+)
+def test_what_cannot_be_is_refused_in_one_line(folder, capsys, words, message):
+    assert run("make", *words) in (2, 3)
+    said = capsys.readouterr().err
+    assert message in said
+    assert len(said.splitlines()) == 1
+    assert len(said) < 300
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
+def test_a_killed_data_set_goes_on_without_loss(folder, workers, number):
+    words = [sys.executable, "-m", "texvent.cli.app", "dataset", "make", "cars.toml",
+             "--workers", str(workers)]  # fmt: skip
+    process = subprocess.Popen([*words, "-o", "killed"], stderr=subprocess.PIPE)
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline and not list(Path("killed").rglob("*.tar")):
+        time.sleep(0.02)
+    process.send_signal(number)  # to the one that leads: its workers must end by themselves
+    process.communicate(timeout=60)
+    subprocess.run([*words, "-o", "killed", "-q"], check=True, timeout=120)
+    subprocess.run([*words, "-o", "whole", "-q"], check=True, timeout=120)
+    assert digests(folder / "killed") == digests(folder / "whole")
+    hidden = [path for path in Path("killed").rglob(".texvent-*") if not is_locked(path)]
+    assert hidden == []
+
+
+def is_locked(path: Path) -> bool:
+    """Whether a process still writes a part; workers of a killed one take a moment to end."""
+    import fcntl
+
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    finally:
+        os.close(descriptor)
+    return False
