@@ -14,11 +14,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.bench.classification.classify import load_stream
 from texvent.bench.progress import Progress, no_progress
 from texvent.bench.selftest.perturbations import perturb
 from texvent.errors import InputError
 from texvent.events import EventStream
+from texvent.io.arrays.n_imagenet import load_stream
 from texvent.io.files import event_extensions
 from texvent.metrics.summary import normalise
 from texvent.metrics.unpaired.frechet import compare_statistics

@@ -97,7 +97,7 @@ def test_a_damaged_image_does_not_cost_the_captions_of_the_others(model, images,
 
 
 def test_mistakes_are_named(model, images, tmp_path, capsys):
-    with pytest.raises(InputError, match="there is no model in"):
+    with pytest.raises(InputError, match="there is no image-and-text model in"):
         Captioner(str(tmp_path / "none"))
     with pytest.raises(TexventError, match="hf download someone/model"):
         Captioner("hub:someone/model")

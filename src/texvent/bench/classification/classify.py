@@ -23,17 +23,15 @@ from numpy.typing import NDArray
 from texvent.bench.progress import Progress, no_progress
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.io.files import event_extensions, load
+from texvent.io.arrays.n_imagenet import load_stream
+from texvent.io.files import event_extensions
 from texvent.represent.binary_event_image import binary_event_image
-from texvent.sensor import SensorSize
 
 Classifier: TypeAlias = Callable[[NDArray[np.float32]], NDArray[np.float32]]
 """[n, 2, 224, 224] binary event images → [n, classes] scores."""
 
 SLICE_EVENTS = 30_000
 IMAGE_SIZE = (224, 224)
-SENSOR = SensorSize(640, 480)
-"""Of N-ImageNet's recordings, whose files do not store it."""
 BATCH = 16
 TOP = 5
 
@@ -147,14 +145,6 @@ def _batches(
         chosen = samples[first : first + BATCH]
         images = [_image(sample.path, seed, first + number) for number, sample in enumerate(chosen)]
         yield np.array([sample.label for sample in chosen]), np.stack(images)
-
-
-def load_stream(path: Path) -> EventStream:
-    """Events of a file; one that stores no sensor size is N-ImageNet's own."""
-    try:
-        return load(path)
-    except InputError:
-        return load(path, size=SENSOR)
 
 
 def _image(path: Path, seed: int, index: int) -> NDArray[np.float32]:

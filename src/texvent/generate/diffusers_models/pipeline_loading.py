@@ -54,11 +54,12 @@ class LoadRequest:
     """False leaves the text encoder out: prompts come as embeddings."""
 
 
-def resolve_device(wish: str) -> tuple[str, int | None]:
+def resolve_device(wish: str, option: str = "generator_device") -> tuple[str, int | None]:
     """The device, and its free memory in bytes (None for a CPU).
 
     Args:
         wish: "auto", or a torch device such as "cuda:1".
+        option: where the wish was given, for messages.
 
     Raises:
         ConfigError: there is no such device.
@@ -74,7 +75,7 @@ def resolve_device(wish: str) -> tuple[str, int | None]:
     except (RuntimeError, AssertionError) as error:
         reason = str(error).splitlines()[0]
         raise ConfigError(
-            f"generator_device is {wish!r}, which torch cannot use here ({reason}); "
+            f"{option} is {wish!r}, which torch cannot use here ({reason}); "
             "allowed: auto, cpu, cuda, cuda:N, mps"
         ) from error
     return str(device), free

@@ -8,19 +8,20 @@ caption.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 from texvent._require import require
-from texvent.errors import InputError, TexventError, one_line
+from texvent.errors import InputError, one_line
 from texvent.generate.diffusers_models.pipeline_loading import resolve_device
 from texvent.generate.video_models.loading import loading
+from texvent.generate.video_models.saved_models import find_saved_model
 
 EXTRA = "generate"
 INSTRUCTION = "Caption the image in detail."
 """The paper's."""
 PLAIN_CHAT = "USER: <image>\n{} ASSISTANT:"
 """Prompt of LLaVA 1.5, for models without a chat template."""
-HUB = "hub:"
+Dtype: TypeAlias = Literal["auto", "float16", "bfloat16", "float32"]
 IMAGE_EXTENSIONS = (".png", ".jpg", ".jpeg", ".webp", ".bmp")
 
 
@@ -30,6 +31,8 @@ class Captioner:
     Args:
         model: folder of a model saved by transformers, or `hub:org/name`.
         device: "auto", or a torch device.
+        dtype: numbers that it computes with; "auto" is bfloat16 on a GPU, else float32.
+        option: what the caller calls the device, for messages.
 
     Raises:
         InputError: there is no such model.
@@ -37,10 +40,19 @@ class Captioner:
         MissingDependencyError: transformers is not installed.
     """
 
-    def __init__(self, model: str, *, device: str = "auto") -> None:
-        self._device, free = resolve_device(device)
-        folder = _find_folder(model)
-        self._processor, self._model = _load(folder, "bfloat16" if free else "float32")
+    def __init__(
+        self,
+        model: str,
+        *,
+        device: str = "auto",
+        dtype: Dtype = "auto",
+        option: str = "generator_device",
+    ) -> None:
+        self._device, free = resolve_device(device, option)
+        folder = find_saved_model(model, "image-and-text model", example="llava-hf/llava-1.5-7b-hf")
+        if dtype == "auto":
+            dtype = "bfloat16" if free else "float32"
+        self._processor, self._model = _load(folder, dtype)
         self._model.to(self._device)
 
     def caption(self, image: Path, *, instruction: str = INSTRUCTION, longest: int = 124) -> str:
@@ -97,28 +109,6 @@ def find_images(path: Path) -> list[Path]:
     if not found:
         raise InputError(f"there is no image at {path} ({', '.join(IMAGE_EXTENSIONS)})")
     return found
-
-
-def _find_folder(model: str) -> Path:
-    if not model.startswith(HUB):
-        folder = Path(model).expanduser()
-        if not (folder / "config.json").is_file():
-            raise InputError(
-                f"there is no model in {folder} (no config.json); give the folder of an "
-                "image-and-text model saved by transformers, or hub:org/name, such as "
-                "hub:llava-hf/llava-1.5-7b-hf"
-            )
-        return folder
-    hub = require("huggingface_hub", extra=EXTRA)
-    repo = model.removeprefix(HUB)
-    try:
-        return Path(hub.snapshot_download(repo, ignore_patterns=["*.bin", "*.pt", "*.pth"]))
-    except (OSError, ValueError) as error:
-        reason = str(error).strip().splitlines()[0]
-        raise TexventError(
-            f"{repo} is not on this machine and the model hub cannot be reached: {reason}. Fetch "
-            f"it elsewhere (hf download {repo}) and name its folder"
-        ) from error
 
 
 def _load(folder: Path, dtype: str) -> tuple[Any, Any]:

@@ -8,7 +8,8 @@ from collections.abc import Callable
 
 from texvent.errors import TexventError
 from texvent.generate.video_config import GeneratedVideoConfig
-from texvent.generate.videos.clip_score import check_clip_folder, measure_clip_score
+from texvent.generate.videos.clip_model import check_clip_model
+from texvent.generate.videos.clip_score import measure_clip_score
 from texvent.generate.videos.failure_filter import FailureReport, check_video, judge_measures
 from texvent.generate.videos.stored_video import StoredVideo
 from texvent.generate.videos.video_cache import MEASURES
@@ -43,7 +44,7 @@ def generate_checked(
     if config.on_failure == "ignore":
         return make(seed, progress)
     if config.agreement_model is not None:
-        check_clip_folder(config.agreement_model)
+        check_clip_model(config.agreement_model)
     tries = config.retries + 1 if config.on_failure == "retry" else 1
     for attempt in range(tries):
         attempt_seed = nth_seed(seed, attempt)

@@ -17,15 +17,20 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, InputError
+from texvent.events import EventStream
 from texvent.io.arrays.npz import read_arrays, stored_contents
 from texvent.io.block_codec import BlockCodec, FileContents
 from texvent.io.block_writer import FileTarget, WriteBlock
+from texvent.io.files import load
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import metadata_to_json
 from texvent.io.protocol import Columns
+from texvent.sensor import SensorSize
 
 ARRAY = "event_data"
+SENSOR = SensorSize(640, 480)
+"""Of the recordings of the data set."""
 EVENT = np.dtype([("x", "<u2"), ("y", "<u2"), ("t", "<i8"), ("p", "?")])
 
 
@@ -77,3 +82,11 @@ class NImageNetCodec(BlockCodec):
         }
         with part.open("wb") as file:
             np.savez(file, **arrays)
+
+
+def load_stream(path: Path) -> EventStream:
+    """Events of a file of any format; one that stores no sensor size is N-ImageNet's own."""
+    try:
+        return load(path)
+    except InputError:
+        return load(path, size=SENSOR)
