@@ -9,10 +9,12 @@ Prints the median over frames of a moving scene; compiling is done before and ti
 from __future__ import annotations
 
 import argparse
+import os
 import statistics
 import time
 
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
+from texvent.runtime.threads import THREADS_VARIABLE
 from texvent.scenes.raycast.render import render
 from texvent.scenes.scene import Scene
 from texvent.sensor import SensorSize
@@ -54,10 +56,11 @@ def make_scene(prompt: str, size: SensorSize) -> Scene:
 
 def time_frames(scene: Scene, size: SensorSize, options: argparse.Namespace) -> float:
     """Median processor time of a frame on one thread, ms."""
+    os.environ[THREADS_VARIABLE] = "1"
     spent = []
     for index in range(options.frames):
         started = time.process_time()
-        render(scene, index / 24.0, size, threads=1)
+        render(scene, index / 24.0, size)
         spent.append((time.process_time() - started) * 1e3)
     return statistics.median(spent)
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from texvent.errors import InputError
+from texvent.runtime.threads import THREADS_VARIABLE
 from texvent.scenes.raycast.render import encode_srgb, render, sample_pattern
 from texvent.scenes.scene import Environment, Ground, Shape, Texture
 from texvent.sensor import SensorSize
@@ -44,10 +45,14 @@ def test_the_same_instant_gives_the_same_bits() -> None:
 
 
 @pytest.mark.parametrize("size", [SMALL, SensorSize(101, 67)])
-def test_the_number_of_threads_does_not_change_a_bit(size: SensorSize) -> None:
-    one = render(showcase(), 0.3, size, threads=1)
-    for threads in (2, 5):
-        np.testing.assert_array_equal(render(showcase(), 0.3, size, threads=threads), one)
+def test_the_number_of_threads_does_not_change_a_bit(
+    size: SensorSize, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(THREADS_VARIABLE, "1")
+    one = render(showcase(), 0.3, size)
+    for threads in ("2", "5"):
+        monkeypatch.setenv(THREADS_VARIABLE, threads)
+        np.testing.assert_array_equal(render(showcase(), 0.3, size), one)
 
 
 def test_a_scene_that_stands_still_gives_identical_images() -> None:

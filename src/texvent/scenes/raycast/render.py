@@ -6,12 +6,10 @@ with any number of threads, and a scene that stands still gives identical images
 
 from __future__ import annotations
 
-import os
-from concurrent.futures import ThreadPoolExecutor
-
 import numpy as np
 
 from texvent.errors import InputError
+from texvent.runtime.threads import run_parts
 from texvent.scenes.projection import camera_rays
 from texvent.scenes.raycast.acceleration import TILE, build_world
 from texvent.scenes.raycast.adaptive_sampling import render_tile_row
@@ -42,7 +40,6 @@ def render(
     *,
     samples: int = 2,
     shadows: bool = True,
-    threads: int | None = None,
 ) -> Float32Array:
     """Draw a scene as a camera would see it at one instant.
 
@@ -53,8 +50,6 @@ def render(
         samples: probes per pixel side that look for edges, which bisection then places; a pixel
             with something thinner than the probes is the mean of (4 · samples)² rays.
         shadows: False leaves out all shadows.
-        threads: how many threads share the work; None uses every core this process may use. It
-            does not change the image.
 
     Returns:
         [H, W, 3] RGB, float32, 0..255, gamma-coded with the sRGB curve (IEC 61966-2-1), not
@@ -73,20 +68,8 @@ def render(
     def draw(tile_row: int) -> None:
         render_tile_row(world, tile_row, samples, pattern, image)
 
-    workers = min(threads or _usable_cores(), rows)
-    if workers == 1:
-        for tile_row in range(rows):
-            draw(tile_row)
-    else:
-        with ThreadPoolExecutor(workers) as pool:
-            list(pool.map(draw, range(rows)))
+    run_parts(draw, range(rows))
     return encode_srgb(image)
-
-
-def _usable_cores() -> int:
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 def sample_pattern(count: int) -> Float64Array:
