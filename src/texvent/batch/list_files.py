@@ -16,6 +16,8 @@ from texvent.runtime.file_names import usable_path
 PROMPT_COLUMNS = ("prompt", "text", "caption")
 """Names under which a column or key holds the prompt; the first that is there counts."""
 VIDEO_COLUMN = "video"
+NAME_COLUMNS = ("name", "id")
+"""Names of the column or key with the name of a sample."""
 LABEL_COLUMNS = ("label", "class")
 """Names of the column or key with the class of a sample."""
 LIST_EXTENSIONS = (".txt", ".csv", ".jsonl")
@@ -46,9 +48,9 @@ def read_list(path: Path) -> tuple[ListEntry, ...]:
 
     Args:
         path: `.txt`, one prompt per line, empty lines and those that begin with # skipped; `.csv`
-            with a column `prompt` (or `text`, `caption`) or `video`, and perhaps `name`, `seed`
-            and `label` (or `class`); `.jsonl`, on each line a prompt or an object with those keys.
-            Paths of videos count from the folder of the list.
+            with a column `prompt` (or `text`, `caption`) or `video`, and perhaps `name` (or
+            `id`), `seed` and `label` (or `class`); `.jsonl`, on each line a prompt or an object
+            with those keys. Paths of videos count from the folder of the list.
 
     Raises:
         InputError: there is no such file, or it holds no entry.
@@ -123,7 +125,7 @@ def _from_mapping(path: Path, number: int, entry: Mapping[Any, Any]) -> ListEntr
         where,
         prompt.strip() if prompt else None,
         path.parent / video if video else None,
-        _name(where, entry.get("name")),
+        _name(where, next((entry[one] for one in NAME_COLUMNS if entry.get(one)), None)),
         _seed(where, entry.get("seed")),
         _label(where, entry),
     )

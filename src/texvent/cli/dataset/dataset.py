@@ -13,6 +13,7 @@ STEPS: Mapping[str, str] = {
     "plan": "check a specification; counts, size and time before anything runs",
     "make": "make a data set from a specification, or go on with one",
     "status": "how far a data set is, while it is made or afterwards",
+    "nt-imagenet": "recorded streams of N-ImageNet with captions, and prompts for our own",
 }
 """Name, which is its module beside this one → what it does."""
 

@@ -61,7 +61,12 @@ class Clips:
             seed = item.seed
         else:
             seed = derived_seed(self._seed, item.key, repeat)
-        return Clip(digest([item.key, repeat])[:KEY_DIGITS], item, split, number, seed)
+        return Clip(clip_key(item.key, repeat), item, split, number, seed)
+
+
+def clip_key(item_key: str, repeat: int) -> str:
+    """Key of a repeat of an item, from 0."""
+    return digest([item_key, repeat])[:KEY_DIGITS]
 
 
 def _share_out(specification: Specification, items: Items) -> dict[str, list[Item]]:

@@ -1,0 +1,89 @@
+"""Samples of ours beside the recorded streams that have the same caption."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+from texvent.dataset.generation.recipe import ITEMS_FILE, VIDEOS, read_facts
+from texvent.dataset.generation.records import MADE, SampleRecord, read_record
+from texvent.dataset.generation.tar_shard import EXTENSION
+from texvent.dataset.nt_imagenet.files import Captioned, Pair
+from texvent.dataset.nt_imagenet.selection import Stream
+from texvent.dataset.specification.clips import clip_key
+from texvent.errors import FileFormatError, InputError, one_line
+
+
+def list_pairs(
+    folder: Path, captioned: Sequence[Captioned], streams: Sequence[Stream]
+) -> list[Pair]:
+    """Every sample of a data set whose prompt is one of the captions, with its recorded stream.
+
+    Args:
+        folder: data set that was made from the captions.
+        captioned: the captions.
+        streams: the recorded streams.
+
+    Raises:
+        InputError: no data set is there, or it was not made from these captions.
+        FileFormatError: it is damaged.
+    """
+    ids = ids_of_clips(folder, captioned)
+    by_id = {stream.id: stream for stream in streams}
+    pairs = []
+    for shard, sample in made_samples(folder):
+        stream = by_id.get(ids.get(sample.clip, ""))
+        if stream is not None:
+            pairs.append(
+                Pair(
+                    id=stream.id,
+                    label=stream.wnid,
+                    stream=stream.path.as_posix(),
+                    stream_events=stream.events,
+                    shard=str(shard.relative_to(folder)),
+                    key=sample.key,
+                    events=sample.events,
+                )
+            )
+    return pairs
+
+
+def ids_of_clips(folder: Path, captioned: Sequence[Captioned]) -> Mapping[str, str]:
+    """Key of a clip of a data set → id of its caption.
+
+    Raises:
+        InputError: no data set is there, or it was not made from these captions.
+        FileFormatError: it is damaged.
+    """
+    known = {(one.seed, one.label, one.caption): one.id for one in captioned}
+    specification = read_facts(folder).get("specification", {})
+    path, ids = folder / ITEMS_FILE, dict[str, str]()
+    try:
+        repeats = int(specification.get("repeats", 1))
+        items = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+        for item in items:
+            id = known.get((item["seed"], item["label"], item["prompt"]))
+            if id is not None:
+                ids |= {clip_key(item["key"], repeat): id for repeat in range(repeats)}
+    except (OSError, ValueError, TypeError, KeyError, AttributeError) as error:
+        raise FileFormatError(f"{path} is damaged ({one_line(error)})") from error
+    if not ids:
+        raise InputError(
+            f"{folder} was not made from these captions; make it with texvent dataset make from "
+            "the specification.toml beside them"
+        )
+    return ids
+
+
+def made_samples(folder: Path) -> Iterator[tuple[Path, SampleRecord]]:
+    """The samples of all complete shards of events of a data set, with the file of their shard.
+
+    Raises:
+        FileFormatError: a record is damaged.
+    """
+    for shard in sorted(folder.glob(f"*/*{EXTENSION}")):
+        record = None if shard.parent.name == VIDEOS else read_record(shard)
+        for sample in record.samples if record is not None else ():
+            if sample.status == MADE:
+                yield shard, sample

@@ -1,0 +1,68 @@
+"""Tiny copies of N-ImageNet and ImageNet in their real layout."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+WNIDS = ("n01440764", "n01443537", "n01484850")
+NAMES = {
+    "n01440764": "tench, Tinca tinca",
+    "n01443537": "goldfish, Carassius auratus",
+    "n01484850": "great white shark, white shark",
+}
+EVENT = np.dtype([("x", "<u2"), ("y", "<u2"), ("t", "<i8"), ("p", "?")])
+
+
+def stream_id(number: int) -> str:
+    return f"ILSVRC2012_val_{number:08d}"
+
+
+def write_stream(path: Path, count: int, seed: int, *, duration_us: int = 50_000) -> None:
+    rng = np.random.default_rng(seed)
+    events = np.zeros(count, EVENT)
+    events["x"], events["y"] = rng.integers(0, 640, count), rng.integers(0, 480, count)
+    events["t"] = np.sort(rng.integers(0, duration_us, count))
+    events["p"] = rng.integers(0, 2, count)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    np.savez_compressed(path, event_data=events)
+
+
+def write_n_imagenet(folder: Path, counts: Mapping[str, Mapping[int, int]]) -> Path:
+    """Counts of events: class → number of the image → events."""
+    for wnid, streams in counts.items():
+        for number, count in streams.items():
+            path = folder / "extracted_val" / wnid / f"{stream_id(number)}.npz"
+            write_stream(path, count, number)
+    (folder / "val_list.txt").write_text("as in the data set\n")
+    return folder
+
+
+def write_imagenet(folder: Path, wnids: Mapping[int, str], *, by_class: bool = True) -> Path:
+    """Noise as JPEG files, with the list of names that Kaggle's copy has."""
+    for number, wnid in wnids.items():
+        place = folder / "val" / (wnid if by_class else "")
+        place.mkdir(parents=True, exist_ok=True)
+        noise = np.random.default_rng(number).integers(0, 255, (24, 32, 3), dtype=np.uint8)
+        (place / f"{stream_id(number)}.JPEG").write_bytes(cv2.imencode(".jpg", noise)[1].tobytes())
+    write_names(folder)
+    return folder
+
+
+def write_names(folder: Path) -> None:
+    folder.mkdir(parents=True, exist_ok=True)
+    lines = [f"{wnid} {names}\n" for wnid, names in NAMES.items()]
+    (folder / "LOC_synset_mapping.txt").write_text("".join(lines))
+
+
+def contents(folder: Path) -> dict[str, str]:
+    """Digest of every file."""
+    return {
+        str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    }
