@@ -1,1 +1,41 @@
-"""Training samples, simulated when they are asked for."""
+"""Data sets: made shard by shard, read back for training, or simulated while they are asked for.
+
+    import texvent.dataset
+
+    samples = texvent.dataset.open("cars", split="train")
+
+Importing this package loads nothing else; each part loads when it is used.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from texvent.dataset.loading.open_samples import open
+    from texvent.dataset.loading.stored_samples import StoredSample, StoredSamples
+    from texvent.dataset.samples import SimulatedSamples
+
+_HOME_OF = {
+    "SimulatedSamples": "samples",
+    "StoredSample": "loading.stored_samples",
+    "StoredSamples": "loading.stored_samples",
+    "open": "loading.open_samples",
+}
+
+__all__ = ["SimulatedSamples", "StoredSample", "StoredSamples", "open"]
+
+
+def __getattr__(name: str) -> Any:
+    """Load a public name on first use (PEP 562)."""
+    if name not in _HOME_OF:
+        raise AttributeError(f"module 'texvent.dataset' has no attribute {name!r}")
+    value = getattr(importlib.import_module(f"texvent.dataset.{_HOME_OF[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    """Public names only."""
+    return __all__

@@ -12,10 +12,10 @@ from texvent._registry import suggest
 from texvent.api import Source
 from texvent.config import check_range
 from texvent.dataset.targets import Clip, Target, record_clip, target_of
+from texvent.dataset.windows import check_representation, stack_windows
 from texvent.errors import ConfigError, InputError, shown
-from texvent.events import EventStream
 from texvent.pipeline import Simulation
-from texvent.represent.named import load_representation, represent_window
+from texvent.represent.named import represent_window
 from texvent.run.prepare import prepare_prompt, prepare_source
 from texvent.run.settings import Settings, resolve
 from texvent.simulate.random.draws import frame_key
@@ -84,9 +84,7 @@ class SimulatedSamples:
             raise ConfigError("every sample has a seed of its own; give seed beside simulation")
         # Refused now, not in a worker process.
         size = self._resolve(0).size
-        load_representation(self.representation, self.representation_options)
-        if size is not None:
-            self._represent(EventStream.empty(size), (0, 1))
+        check_representation(self.representation, self.representation_options, size)
 
     def seed_of(self, number: int) -> int:
         """Seed of the simulation of sample `number`."""
@@ -120,16 +118,14 @@ class SimulatedSamples:
         parts = [self._part(clip, window) for window in clip.windows]
         arrays = parts[0]
         if self.slice_us is not None:
-            arrays = {name: np.stack([part[name] for part in parts]) for name in arrays}
+            arrays = stack_windows(parts)
         source = number % len(self.prompts or self.videos)
         return {**arrays, "source": source, "number": number, "seed": self.seed_of(number)}
 
-    def _represent(self, events: EventStream, window: tuple[int, int]) -> Any:
-        return represent_window(self.representation, events, window, **self.representation_options)
-
     def _part(self, clip: Clip, window: tuple[int, int]) -> Sample:
         events = clip.events.cut(*window)
-        part = {"representation": self._represent(events, window)}
+        name, options = self.representation, self.representation_options
+        part = {"representation": represent_window(name, events, window, **options)}
         part |= {target: target_of(clip, target, window) for target in self.targets}
         return {**part, "stop_us": np.int64(window[1])}
 

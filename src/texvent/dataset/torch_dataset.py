@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-import numpy as np
-
 from texvent._require import require
 from texvent.config import check_range
+from texvent.dataset.loading.collate import as_tensors
 from texvent.dataset.samples import Sample, SimulatedSamples
 
-_torch: Any = require("torch", extra="torch")
 _data: Any = require("torch.utils.data", extra="torch")
 _IterableDataset: Any = _data.IterableDataset
 
@@ -61,7 +59,7 @@ class SimulatedDataset(_IterableDataset):
         worker, workers = (0, 1) if info is None else (info.id, info.num_workers)
         for begin in range(worker * self.batch_size, self.count, workers * self.batch_size):
             for offset in range(begin, min(begin + self.batch_size, self.count)):
-                yield _as_tensors(self.samples.make(self.first + offset))
+                yield as_tensors(self.samples.make(self.first + offset))
 
     def loader(self, *, workers: int = 0, **options: Any) -> Any:
         """A torch DataLoader with this dataset's batches.
@@ -74,12 +72,3 @@ class SimulatedDataset(_IterableDataset):
         context = "spawn" if workers else None
         settings = {"num_workers": workers, "multiprocessing_context": context, **options}
         return _data.DataLoader(self, batch_size=self.batch_size, **settings)
-
-
-def _as_tensors(sample: Sample) -> Sample:
-    return {
-        name: _torch.as_tensor(np.ascontiguousarray(value))
-        if isinstance(value, np.ndarray | np.generic)
-        else value
-        for name, value in sample.items()
-    }

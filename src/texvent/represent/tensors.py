@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, TypeAlias
+from typing import Any, Self, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,6 +78,13 @@ class EventTensors:
         """
         columns = to_torch(events, device)
         return cls(columns["x"], columns["y"], columns["t"], columns["p"], events.size)
+
+    @classmethod
+    def unchecked(cls, x: Tensor, y: Tensor, t: Tensor, p: Tensor, *, size: SensorSize) -> Self:
+        """From columns known to be right: a check would wait for the device."""
+        tensors = object.__new__(cls)
+        vars(tensors).update(x=x, y=y, t=t, p=p, size=size)
+        return tensors
 
     def to(self, device: str) -> EventTensors:
         """The same events on another device; the same tensors if they are there already.

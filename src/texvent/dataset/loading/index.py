@@ -1,0 +1,206 @@
+"""Which samples a data set has and where their members lie, as columns: small for millions."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent._registry import suggest
+from texvent.dataset.generation.records import (
+    MADE,
+    ShardRecord,
+    read_record,
+)
+from texvent.dataset.generation.tar_shard import EXTENSION
+from texvent.errors import ConfigError, FileFormatError, InputError, one_line, shown
+
+VIDEOS = "videos"
+MEMBERS = ("x.npy", "y.npy", "t.npy", "p.npy", "label.npy", "json", "txt", "cls", "png")
+ABSENT = (-1, 0)
+_NAME = re.compile(r".+-\d{6,}")
+Choice = str | Sequence[str] | None
+"""A name, several, or None for all."""
+
+
+@dataclass(frozen=True, eq=False)
+class Index:
+    """The samples of a data set in order: by variant, split, shard and place."""
+
+    shards: tuple[str, ...]
+    """Paths relative to the folder."""
+    variants: tuple[str, ...]
+    """Of each shard."""
+    splits: tuple[str, ...]
+    """Of each shard."""
+    captions: tuple[str | None, ...]
+    """All different captions."""
+    labels: tuple[str | None, ...]
+    """All different labels."""
+    shard: NDArray[np.int64]
+    """[n] of `shards`."""
+    caption: NDArray[np.int64]
+    """[n] of `captions`."""
+    label: NDArray[np.int64]
+    """[n] of `labels`."""
+    key: NDArray[np.str_]
+    """[n]."""
+    seed: NDArray[np.int64]
+    """[n] of the simulation."""
+    events: NDArray[np.int64]
+    """[n] number of events."""
+    duration_us: NDArray[np.int64]
+    """[n] from the first frame to the last."""
+    size: NDArray[np.int64]
+    """[n, 2] width, height."""
+    members: NDArray[np.int64]
+    """[n, len(MEMBERS), 2] position in the shard and bytes; −1 where there is none."""
+
+    def __len__(self) -> int:
+        return len(self.shard)
+
+    def select(self, numbers: NDArray[Any]) -> Index:
+        """Those samples, in that order."""
+        columns = {
+            one.name: value[numbers]
+            for one in fields(self)
+            if isinstance(value := getattr(self, one.name), np.ndarray)
+        }
+        return replace(self, **columns)
+
+
+def read_index(folder: Path, *, variant: Choice = None, split: Choice = None) -> Index:
+    """The samples of the complete shards of a folder.
+
+    Args:
+        folder: of the data set.
+        variant: only these.
+        split: only these.
+
+    Raises:
+        InputError: no such folder, or it holds no complete shard or no sample.
+        FileFormatError: a record is damaged, or its shard is missing or has another size.
+        ConfigError: no such variant or split.
+    """
+    paths = _recorded_shards(folder)
+    variants = choose("variant", variant, {path.parent.name for path in paths})
+    paths = [path for path in paths if path.parent.name in variants]
+    splits = choose("split", split, {_split_of(path) for path in paths})
+    rows = _Rows(folder)
+    for path in paths:
+        if _split_of(path) in splits:
+            rows.add(path, _checked_record(path))
+    if not rows.keys:
+        raise InputError(f"{folder} holds no sample that was made; see texvent dataset status")
+    return rows.index()
+
+
+def _recorded_shards(folder: Path) -> list[Path]:
+    """The shards that have a record, in order: those of a data set still being made have none."""
+    if not folder.is_dir():
+        raise InputError(f"no such data set: {folder}")
+    paths = [path.with_suffix(EXTENSION) for path in folder.glob("*/*.json")]
+    paths = [p for p in paths if _NAME.fullmatch(p.stem) and p.parent.name != VIDEOS]
+    if not paths:
+        raise InputError(
+            f"{folder} holds no complete shard (VARIANT/SPLIT-000000{EXTENSION} with its .json); "
+            "name the folder that texvent dataset make wrote"
+        )
+    return sorted(paths, key=lambda path: (path.parent.name, _split_of(path), path.name))
+
+
+def _split_of(path: Path) -> str:
+    return path.stem.rpartition("-")[0]
+
+
+def _checked_record(path: Path) -> ShardRecord:
+    """The record of a shard that is as large as it was."""
+    record = read_record(path)
+    if record is None:
+        raise FileFormatError(f"{path.with_suffix('.json')} is gone; run texvent dataset verify")
+    try:
+        size = path.stat().st_size
+    except OSError as error:
+        raise FileFormatError(
+            f"cannot read {path} ({one_line(error)}), and its record is there; "
+            "run texvent dataset verify"
+        ) from error
+    if size != record.bytes:
+        raise FileFormatError(
+            f"{path} has {size:,} bytes and its record says {record.bytes:,}; "
+            "run texvent dataset verify"
+        )
+    return record
+
+
+def choose(what: str, choice: Choice, known: set[str]) -> set[str]:
+    """The names that are asked for.
+
+    Raises:
+        ConfigError: one is not known, or none is named.
+    """
+    if choice is None:
+        return known
+    names = [choice] if isinstance(choice, str) else list(choice)
+    for name in names:
+        if name not in known:
+            raise ConfigError(
+                f"unknown {what} {shown(name)}; {suggest(name, tuple(sorted(known)))}"
+            )
+    if not names:
+        raise ConfigError(f"{what} names nothing; there is: {', '.join(sorted(known))}")
+    return set(names)
+
+
+class _Rows:
+    """The columns of an index while records are read."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._shards: list[tuple[str, str, str]] = []
+        self._captions: dict[str | None, int] = {}
+        self._labels: dict[str | None, int] = {}
+        self.keys: list[str] = []
+        self._numbers: list[tuple[int, ...]] = []
+        self._members: list[list[tuple[int, int]]] = []
+
+    def add(self, path: Path, record: ShardRecord) -> None:
+        """The samples of a shard."""
+        shard = len(self._shards)
+        self._shards.append((str(path.relative_to(self._folder)), record.variant, record.split))
+        for sample in record.samples:
+            if sample.status == MADE:
+                self.keys.append(sample.key)
+                caption = self._captions.setdefault(sample.prompt, len(self._captions))
+                label = self._labels.setdefault(sample.label, len(self._labels))
+                self._numbers.append(
+                    (shard, caption, label, sample.seed, sample.events, sample.duration_us,
+                     sample.width, sample.height)
+                )  # fmt: skip
+                self._members.append([sample.members.get(name, ABSENT) for name in MEMBERS])
+
+    def index(self) -> Index:
+        """The index."""
+        numbers = np.array(self._numbers, np.int64)
+        shards, variants, splits = zip(*self._shards, strict=True)
+        return Index(
+            shards=shards,
+            variants=variants,
+            splits=splits,
+            captions=tuple(self._captions),
+            labels=tuple(self._labels),
+            shard=numbers[:, 0],
+            caption=numbers[:, 1],
+            label=numbers[:, 2],
+            key=np.array(self.keys),
+            seed=numbers[:, 3],
+            events=numbers[:, 4],
+            duration_us=numbers[:, 5],
+            size=numbers[:, 6:8],
+            members=np.array(self._members, np.int64),
+        )

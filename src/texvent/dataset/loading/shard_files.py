@@ -1,0 +1,84 @@
+"""Parts of shards, read at their offsets by any number of threads and processes."""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections import OrderedDict
+from collections.abc import Sequence
+from pathlib import Path
+
+from texvent.errors import FileFormatError, one_line
+
+MAX_OPEN = 64
+"""Shards kept open per process; the one unused for longest is closed."""
+
+
+class ShardFiles:
+    """The shards of a data set, opened when they are first read.
+
+    Reads name their offset, so forked processes and threads share the open files. A pickled copy
+    opens its own.
+    """
+
+    def __init__(self, folder: Path, paths: Sequence[str]) -> None:
+        """Nothing is opened yet.
+
+        Args:
+            folder: of the data set.
+            paths: of its shards, relative to the folder.
+        """
+        self._folder, self._paths = folder, tuple(paths)
+        self._open: OrderedDict[int, _OpenFile] = OrderedDict()
+        self._lock = threading.Lock()
+
+    def __reduce__(self) -> tuple[type[ShardFiles], tuple[Path, tuple[str, ...]]]:
+        return ShardFiles, (self._folder, self._paths)
+
+    def path(self, shard: int) -> Path:
+        """Where a shard lies."""
+        return self._folder / self._paths[shard]
+
+    def read(self, shard: int, begin: int, size: int) -> bytes:
+        """`size` bytes of a shard from `begin` on.
+
+        Raises:
+            FileFormatError: the file is gone, or shorter than its record says.
+        """
+        try:
+            file = self._file(shard)
+            content = os.pread(file.descriptor, size, begin)
+            while 0 < len(content) < size:  # a read is at most 2 GiB, or interrupted
+                more = os.pread(file.descriptor, size - len(content), begin + len(content))
+                if not more:
+                    break
+                content += more
+        except OSError as error:
+            raise FileFormatError(f"cannot read {self.path(shard)}: {one_line(error)}") from error
+        if len(content) < size:
+            raise FileFormatError(
+                f"{self.path(shard)} is shorter than its record says; run texvent dataset verify"
+            )
+        return content
+
+    def _file(self, shard: int) -> _OpenFile:
+        with self._lock:
+            file = self._open.get(shard)
+            if file is None:
+                file = self._open[shard] = _OpenFile(self.path(shard))
+                if len(self._open) > MAX_OPEN:
+                    self._open.popitem(last=False)
+            else:
+                self._open.move_to_end(shard)
+            return file
+
+
+class _OpenFile:
+    """A descriptor that is closed when nothing reads it any more."""
+
+    def __init__(self, path: Path) -> None:
+        self.descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC)
+
+    def __del__(self) -> None:
+        if hasattr(self, "descriptor"):
+            os.close(self.descriptor)

@@ -1,0 +1,308 @@
+"""The samples of a data set, read by number."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from texvent.config import check_range
+from texvent.dataset.loading.index import ABSENT, MEMBERS, Index
+from texvent.dataset.loading.npy_columns import COLUMN_MEMBERS, events_of, npy_column
+from texvent.dataset.loading.shard_files import ShardFiles
+from texvent.dataset.windows import check_representation, stack_windows
+from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.events import EventStream
+from texvent.represent.named import represent_window
+from texvent.sensor import SensorSize
+
+if TYPE_CHECKING:
+    from texvent.dataset.loading.torch_loader import Loader
+
+NO_CLASS = -1
+Window: TypeAlias = tuple[int, int]
+"""Start (included) and end (excluded), µs."""
+_COLUMNS = len(COLUMN_MEMBERS)
+
+
+@dataclass(frozen=True, eq=False)
+class StoredSample:
+    """All that a data set holds of one sample."""
+
+    key: str
+    events: EventStream
+    """With `facts` as metadata."""
+    caption: str | None
+    """Its prompt."""
+    label: str | None
+    """Its class."""
+    class_number: int
+    """Place of the class in `StoredSamples.labels`; −1 without a class."""
+    variant: str
+    split: str
+    facts: Mapping[str, Any]
+    """How it was made: prompt, settings, seed, versions."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class StoredSamples:
+    """A table of samples that were made, in the order of their files.
+
+    `texvent.dataset.open` makes one. Reading by number takes one read of the shard, from any
+    number of threads or processes; a pickled copy opens its own files.
+
+    Raises:
+        ConfigError: an unknown representation or option, or two kinds of slices.
+        InputError: a sample is shorter than one slice.
+    """
+
+    folder: Path
+    """Of the data set."""
+    index: Index
+    """What is known of each sample without reading it: `index.events`, `index.duration_us` and
+    others."""
+    labels: tuple[str, ...]
+    """All classes of the data set; a sample's class number is its place here."""
+    files: ShardFiles
+    """Its shards."""
+    representation: str | None = None
+    """As `SimulatedSamples.representation`; None: the events themselves."""
+    representation_options: Mapping[str, Any] = field(default_factory=dict)
+    """As `SimulatedSamples.representation_options`."""
+    slice_us: int | None = None
+    """As `SimulatedSamples.slice_us`."""
+    slice_events: int | None = None
+    """Events per slice, instead of `slice_us`; a sample gives as many whole slices as it has."""
+
+    def __post_init__(self) -> None:
+        check_range("slice_us", self.slice_us, 1)
+        check_range("slice_events", self.slice_events, 1)
+        if self.slice_us is not None and self.slice_events is not None:
+            raise ConfigError("give either slice_us or slice_events, the length of a slice")
+        if self.representation is not None:
+            for size in np.unique(self.index.size, axis=0).tolist():
+                check_representation(
+                    self.representation, self.representation_options, SensorSize(*size)
+                )
+        elif self.representation_options:
+            raise ConfigError("representation_options belong to a representation; name it")
+        self._refuse_short()
+
+    def __len__(self) -> int:
+        """Number of samples."""
+        return len(self.index)
+
+    def __iter__(self) -> Iterator[StoredSample]:
+        """All samples in order."""
+        return (self[number] for number in range(len(self)))
+
+    def __getitem__(self, number: int) -> StoredSample:
+        """All of a sample; `make` gives what networks take.
+
+        Raises:
+            IndexError: there is no such number.
+            FileFormatError: its shard is missing, shorter than it was, or damaged.
+        """
+        number = self._checked(number)
+        index, shard = self.index, int(self.index.shard[number])
+        facts = json.loads(self.members(number, ("json",)).get("json", b"{}"))
+        events = self.events(number)
+        return StoredSample(
+            key=str(index.key[number]),
+            events=events.with_metadata(facts),
+            caption=index.captions[index.caption[number]],
+            label=index.labels[index.label[number]],
+            class_number=int(self._class_numbers[index.label[number]]),
+            variant=index.variants[shard],
+            split=index.splits[shard],
+            facts=facts,
+        )
+
+    def events(self, number: int) -> EventStream:
+        """The events of a sample, without metadata.
+
+        Raises:
+            IndexError, FileFormatError: as for `[number]`.
+        """
+        number = self._checked(number)
+        shard, places = int(self.index.shard[number]), self.index.members[number, :_COLUMNS]
+        there = [place for place in places.tolist() if place != list(ABSENT)]
+        # The columns stand one after another: one read for all.
+        begin = min((first for first, _ in there), default=0)
+        end = max((first + size for first, size in there), default=0)
+        content = memoryview(self.files.read(shard, begin, end - begin))
+        size = SensorSize(*self.index.size[number].tolist())
+        try:
+            columns = {
+                name.partition(".")[0]: npy_column(content[first - begin : first - begin + length])
+                for name, (first, length) in zip(COLUMN_MEMBERS, places.tolist(), strict=True)
+                if first >= 0
+            }
+            return events_of(columns, size)
+        except (FileFormatError, InputError) as error:
+            raise FileFormatError(
+                f"sample {self.index.key[number]} of {self.files.path(shard)} is damaged: {error}; "
+                "run texvent dataset verify"
+            ) from error
+
+    def members(self, number: int, only: Sequence[str] = MEMBERS) -> dict[str, bytes]:
+        """The files of a sample: extension, such as "json" or "png", → content.
+
+        Raises:
+            IndexError, FileFormatError: as for `[number]`.
+        """
+        number = self._checked(number)
+        shard = int(self.index.shard[number])
+        places = zip(MEMBERS, self.index.members[number].tolist(), strict=True)
+        return {
+            name: self.files.read(shard, begin, size)
+            for name, (begin, size) in places
+            if begin >= 0 and name in only
+        }
+
+    def make(self, number: int) -> dict[str, Any]:
+        """What a network is trained with, by name, as `SimulatedSamples.make`.
+
+        Returns:
+            With slices, the first two have a first axis for them.
+
+            * `representation`: see its own function. Without one, `events`: an EventStream, or a
+              tuple of them, one for each slice.
+            * `stop_us`: end of the slice, µs, int64; 1 µs after its last event with `slice_events`.
+            * `class_number`: place in `labels`; −1 without a class.
+            * `caption`: its prompt, "" without one.
+            * `key`, `number`, `seed`: of the sample.
+
+        Raises:
+            IndexError, FileFormatError: as for `[number]`.
+        """
+        number = self._checked(number)
+        index = self.index
+        return {
+            **self._arrays(number),
+            "class_number": int(self._class_numbers[index.label[number]]),
+            "caption": index.captions[index.caption[number]] or "",
+            "key": str(index.key[number]),
+            "number": number,
+            "seed": int(index.seed[number]),
+        }
+
+    def select(self, numbers: ArrayLike) -> StoredSamples:
+        """The samples of these numbers, in that order, or where a mask is true.
+
+        Example: `samples.select(samples.index.events > 1000)`.
+        """
+        chosen = np.asarray(numbers)
+        chosen = np.flatnonzero(chosen) if chosen.dtype == bool else chosen.astype(np.int64)
+        return replace(self, index=self.index.select(chosen))
+
+    def represented(
+        self,
+        representation: str | None = None,
+        *,
+        slice_us: int | None = None,
+        slice_events: int | None = None,
+        **options: Any,
+    ) -> StoredSamples:
+        """The same samples, which `make` turns into other arrays.
+
+        Args:
+            representation: its name; None: the events themselves.
+            slice_us: as the field.
+            slice_events: as the field.
+            **options: of the representation, such as `bins=5`.
+
+        Raises:
+            ConfigError, InputError: as for the class.
+        """
+        return replace(
+            self,
+            representation=representation,
+            representation_options=options,
+            slice_us=slice_us,
+            slice_events=slice_events,
+        )
+
+    def loader(self, **options: Any) -> Loader:
+        """Batches of tensors, made by worker processes; see `torch_loader.Loader`.
+
+        Raises:
+            MissingDependencyError: torch is not installed.
+        """
+        from texvent.dataset.loading.torch_loader import Loader  # brings torch
+
+        return Loader(self, **options)
+
+    @cached_property
+    def _class_numbers(self) -> NDArray[np.int64]:
+        """Number of each label of the index."""
+        numbers = {label: number for number, label in enumerate(self.labels)}
+        known = [NO_CLASS if label is None else numbers[label] for label in self.index.labels]
+        return np.array(known, np.int64)
+
+    def _checked(self, number: int) -> int:
+        if not -len(self) <= number < len(self):
+            raise IndexError(f"sample {number} does not exist; there are {len(self)}")
+        return int(number) % len(self)
+
+    def _arrays(self, number: int) -> dict[str, Any]:
+        parts = [self._part(events, window) for events, window in self._slices(number)]
+        if self.slice_us is None and self.slice_events is None:
+            return parts[0]
+        if self.representation is not None:
+            return stack_windows(parts)
+        stops = np.stack([part["stop_us"] for part in parts])
+        return {"events": tuple(part["events"] for part in parts), "stop_us": stops}
+
+    def _part(self, events: EventStream, window: Window) -> dict[str, Any]:
+        stop = {"stop_us": np.int64(window[1])}
+        if self.representation is None:
+            return {"events": events, **stop}
+        name, options = self.representation, self.representation_options
+        return {"representation": represent_window(name, events, window, **options), **stop}
+
+    def _slices(self, number: int) -> Iterator[tuple[EventStream, Window]]:
+        events = self.events(number)
+        if self.slice_events is not None:
+            for begin in range(0, len(events) - self.slice_events + 1, self.slice_events):
+                part = events[begin : begin + self.slice_events]
+                yield part, (int(part.t[0]), int(part.t[-1]) + 1)
+            return
+        duration = int(self.index.duration_us[number])
+        start = first_instant(events, duration)
+        if self.slice_us is None:
+            yield events, (start, start + duration)
+            return
+        for stop in range(start + self.slice_us, start + duration + 1, self.slice_us):
+            window = (stop - self.slice_us, stop)
+            yield events.cut(*window), window
+
+    def _refuse_short(self) -> None:
+        for name, length, known, unit in (
+            ("duration_us", self.slice_us, self.index.duration_us, "µs"),
+            ("events", self.slice_events, self.index.events, "events"),
+        ):
+            short = 0 if length is None else int((known < length).sum())
+            if short:
+                raise InputError(
+                    f"{short:,} of {len(self):,} samples are shorter than a slice of {length:,} "
+                    f"{unit}, the shortest has {int(known.min()):,}; give shorter slices, or "
+                    f"leave samples out: samples.select(samples.index.{name} >= {length})"
+                )
+
+
+def first_instant(events: EventStream, duration_us: int) -> int:
+    """Time of the first frame of a sample, µs.
+
+    It is 0, but for clips cut from a longer video, which keep its times; of those the first event
+    is taken.
+    """
+    if not len(events) or int(events.t[-1]) < max(duration_us, 1):
+        return 0
+    return int(events.t[0])

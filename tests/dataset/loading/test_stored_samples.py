@@ -1,0 +1,321 @@
+"""Stored samples: what was written comes back by number, from any thread, process or copy."""
+
+from __future__ import annotations
+
+import json
+import multiprocessing
+import pickle
+import subprocess
+import sys
+import tarfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.dataset.loading.written_set import (
+    DURATION_US,
+    LABELS,
+    SIZE,
+    random_events,
+    write_set,
+    write_shard,
+)
+
+import texvent.dataset
+from texvent.dataset.generation.engines.protocol import in_this_process
+from texvent.dataset.generation.make import find_work, make_shards
+from texvent.dataset.generation.recipe import Recipe
+from texvent.dataset.loading import shard_files
+from texvent.dataset.loading.stored_samples import StoredSamples
+from texvent.dataset.samples import SimulatedSamples
+from texvent.dataset.specification.reading import specification_from
+from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.events import EventStream
+from texvent.represent.named import represent_window
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("set") / "cars"
+
+
+@pytest.fixture(scope="module")
+def written(folder: Path) -> dict[str, EventStream]:
+    return write_set(folder)
+
+
+@pytest.fixture
+def samples(folder: Path, written: dict[str, EventStream]) -> StoredSamples:
+    return texvent.dataset.open(folder)
+
+
+def test_every_sample_comes_back_with_all_that_is_known(samples, written):
+    assert len(samples) == len(written) == 24
+    assert samples.labels == ("bus", "car", "dog")
+    for number, (key, events) in enumerate(written.items()):
+        sample = samples[number]
+        assert sample.events.equals(events)
+        assert samples.events(number).equals(events)
+        assert sample.key == key
+        assert sample.label == LABELS[number % 3 % 2]
+        assert sample.class_number == number % 3 % 2
+        assert sample.caption == f"a {sample.label} drives left"
+        assert sample.facts["key"] == key == sample.events.metadata["key"]
+        assert (sample.variant, sample.split) == (
+            ("esim", "paper")[number // 12],
+            ("test", "train")[number // 6 % 2],
+        )
+    assert [sample.key for sample in samples] == list(written)
+    assert samples[-1].key == list(written)[-1]
+
+
+def test_a_number_that_does_not_exist_is_an_index_error(samples):
+    for number in (24, -25):
+        with pytest.raises(IndexError, match=f"sample {number} does not exist; there are 24"):
+            samples[number]
+
+
+def test_members_are_the_files_of_the_tar(samples, folder):
+    with tarfile.open(folder / "esim" / "test-000000.tar") as tar:
+        files = {one.name.partition(".")[2]: tar.extractfile(one).read() for one in list(tar)[:7]}
+    assert samples.members(0) == files
+    assert set(files) == {"x.npy", "y.npy", "t.npy", "p.npy", "json", "txt", "cls"}
+    assert samples.members(0, ("txt",)) == {"txt": b"a bus drives left"}
+
+
+def test_filters_choose_variant_split_and_label(folder, written):
+    def keys(**chosen):
+        return [sample.key for sample in texvent.dataset.open(folder, **chosen)]
+
+    every = list(written)
+    assert keys(variant="paper") == every[12:]
+    assert keys(split=["train"]) == every[6:12] + every[18:]
+    assert keys(variant="esim", split="test", label="car") == [every[1], every[4]]
+    assert keys(variant=("esim", "paper"), label=("bus", "car")) == every
+    # The number of a class does not depend on what is chosen.
+    assert texvent.dataset.open(folder, label="car")[0].class_number == 1
+
+
+@pytest.mark.parametrize(
+    ("chosen", "message"),
+    [
+        ({"variant": "pape"}, "unknown variant 'pape'.*'paper'"),
+        ({"split": "val"}, "unknown split 'val'"),
+        ({"label": "dog"}, "unknown label 'dog'"),
+        ({"split": ()}, "split names nothing; there is: test, train"),
+        ({"representation": "voxel"}, "unknown representation 'voxel'"),
+        ({"representation": "voxel-e2vid", "representation_options": {"bins": 0}}, "bins is 0"),
+        ({"representation_options": {"bins": 5}}, "belong to a representation"),
+        ({"slice_us": 0}, "slice_us is 0"),
+        ({"slice_us": 5, "slice_events": 5}, "either slice_us or slice_events"),
+    ],
+)
+def test_wrong_choices_are_refused(folder, written, chosen, message):
+    with pytest.raises(ConfigError, match=message):
+        texvent.dataset.open(folder, **chosen)
+
+
+def test_slices_longer_than_a_sample_are_refused_at_once(folder, written):
+    with pytest.raises(InputError, match=r"24 of 24 samples are shorter than a slice of 10,001 µs"):
+        texvent.dataset.open(folder, slice_us=10_001)
+    with pytest.raises(InputError, match=r"shorter than a slice of 41 events.*index\.events >= 41"):
+        texvent.dataset.open(folder, slice_events=41)
+
+
+def test_slices_of_time_are_the_whole_windows_from_the_first_frame_on(samples, written):
+    events = next(iter(written.values()))
+    made = samples.represented("voxel-e2vid", slice_us=3000, bins=4).make(0)
+    windows = [(0, 3000), (3000, 6000), (6000, 9000)]
+    expected = [
+        represent_window("voxel-e2vid", events.cut(*window), window, bins=4) for window in windows
+    ]
+    np.testing.assert_array_equal(made["representation"], expected)
+    assert made["stop_us"].tolist() == [3000, 6000, 9000]
+    raw = samples.represented(slice_us=3000).make(0)
+    for part, window in zip(raw["events"], windows, strict=True):
+        assert part.equals(events.cut(*window))
+
+
+def test_slices_of_events_have_exactly_so_many(samples, written):
+    events = next(iter(written.values()))
+    made = samples.represented("event-frame", slice_events=15).make(0)
+    parts = [events[:15], events[15:30]]
+    expected = [part.represent("event-frame") for part in parts]
+    np.testing.assert_array_equal(made["representation"], expected)
+    assert made["stop_us"].tolist() == [int(part.t[-1]) + 1 for part in parts]
+    assert [len(part) for part in samples.represented(slice_events=40).make(3)["events"]] == [40]
+
+
+def test_without_slices_the_window_is_the_whole_clip(samples, written):
+    events = next(iter(written.values()))
+    made = samples.represented("time-surface", tau_us=500).make(0)
+    expected = represent_window("time-surface", events, (0, DURATION_US), tau_us=500)
+    np.testing.assert_array_equal(made["representation"], expected)
+    assert made["stop_us"] == DURATION_US
+    plain = samples.make(5)
+    assert plain["events"].equals(list(written.values())[5])
+    facts = {name: plain[name] for name in ("class_number", "caption", "key", "number", "seed")}
+    assert facts == {
+        "class_number": 0, "caption": "a bus drives left", "key": "k005", "number": 5, "seed": 2
+    }  # fmt: skip
+
+
+def test_a_clip_that_kept_the_times_of_a_longer_video_begins_at_its_first_event(tmp_path):
+    events = random_events(1, start_us=5_000_000)
+    write_shard(tmp_path, "paper", "train", 0, {"late": events})
+    first = int(events.t[0])
+    made = texvent.dataset.open(tmp_path, slice_us=5000).make(0)
+    assert made["stop_us"].tolist() == [first + 5000, first + 10_000]
+
+
+def test_odd_columns_are_read_too(tmp_path):
+    """Times above 2³² µs are stored as int64; streams may have no event or a label."""
+    plain = random_events(3, start_us=2**33)
+    labelled = EventStream(
+        plain.x, plain.y, plain.t, plain.p, SIZE, {}, np.arange(len(plain), dtype=np.uint8) % 2
+    )
+    streams = {"long": plain, "none": EventStream.empty(SIZE), "labelled": labelled}
+    write_shard(tmp_path, "paper", "train", 0, streams, labels=())
+    samples = texvent.dataset.open(tmp_path)
+    for number, events in enumerate(streams.values()):
+        assert samples[number].events.equals(events)
+    assert samples.labels == ()
+    assert samples[0].label is None
+    assert samples.make(0)["class_number"] == -1
+
+
+def test_select_takes_numbers_and_masks(samples, written):
+    every = list(written)
+    assert [sample.key for sample in samples.select([7, 0, 7])] == [every[7], every[0], every[7]]
+    mask = samples.index.seed == 1
+    assert [sample.key for sample in samples.select(mask)] == every[1::3]
+
+
+def read_keys(samples: StoredSamples) -> list[tuple[str, int]]:
+    return [(sample.key, int(sample.events.t.sum())) for sample in samples]
+
+
+def test_copies_forks_fresh_processes_and_threads_read_the_same(samples):
+    expected = read_keys(samples)  # its files are open now
+    assert read_keys(pickle.loads(pickle.dumps(samples))) == expected
+    for method in ("fork", "spawn"):
+        with multiprocessing.get_context(method).Pool(2) as pool:
+            assert pool.map(read_keys, [samples] * 2) == [expected] * 2
+    with ThreadPoolExecutor(4) as threads:
+        assert list(threads.map(lambda _: read_keys(samples), range(8))) == [expected] * 8
+
+
+def test_only_some_shards_stay_open(samples, written, monkeypatch):
+    monkeypatch.setattr(shard_files, "MAX_OPEN", 2)
+    fresh = pickle.loads(pickle.dumps(samples))
+    with ThreadPoolExecutor(4) as threads:
+        streams = list(threads.map(fresh.events, [*range(24)] * 3))
+    for events, expected in zip(streams, list(written.values()) * 3, strict=True):
+        assert events.equals(expected)
+    assert len(fresh.files._open) == 2
+
+
+def test_a_published_folder_loads_and_a_shard_without_a_record_does_not_count(tmp_path):
+    write_set(tmp_path)
+    (tmp_path / "specification.json").unlink()
+    (tmp_path / "paper" / "train-000001.json").unlink()  # still being made
+    (tmp_path / "croissant.json").write_text("{}")
+    (tmp_path / "paper" / "notes.json").write_text("{}")
+    (tmp_path / "videos").mkdir()
+    (tmp_path / "videos" / "train-000000.json").write_text("{}")
+    samples = texvent.dataset.open(tmp_path)
+    assert len(samples) == 21
+    assert samples.labels == LABELS
+
+
+def test_missing_and_changed_files_give_one_line(tmp_path):
+    with pytest.raises(InputError, match="no such data set"):
+        texvent.dataset.open(tmp_path / "none")
+    with pytest.raises(InputError, match="holds no complete shard"):
+        texvent.dataset.open(tmp_path)
+    write_set(tmp_path)
+    samples = texvent.dataset.open(tmp_path)
+    shard = tmp_path / "paper" / "train-000001.tar"
+    content = shard.read_bytes()
+    shard.write_bytes(content[:2000])
+    with pytest.raises(FileFormatError, match=r"train-000001.tar has 2,000 bytes and its record"):
+        texvent.dataset.open(tmp_path)
+    with pytest.raises(FileFormatError, match=r"train-000001.tar is shorter than its record says"):
+        samples.events(23)
+    shard.unlink()
+    with pytest.raises(FileFormatError, match=r"cannot read .*train-000001.tar.*verify"):
+        texvent.dataset.open(tmp_path)
+    with pytest.raises(FileFormatError, match=r"cannot read .*train-000001.tar"):
+        pickle.loads(pickle.dumps(samples)).events(23)
+    (tmp_path / "paper" / "train-000000.json").write_text("{")
+    with pytest.raises(FileFormatError, match=r"train-000000\.json is damaged"):
+        texvent.dataset.open(tmp_path, variant="paper")
+    (tmp_path / "specification.json").write_text("[]")
+    with pytest.raises(FileFormatError, match=r"specification\.json is damaged"):
+        texvent.dataset.open(tmp_path, variant="esim")
+
+
+@pytest.mark.parametrize(
+    ("name", "offset", "value", "message"),
+    [
+        ("x.npy", 128, b"\xff\xff", r"sample k000 of .*test-000000.tar is damaged: x runs from"),
+        ("t.npy", 128, b"\xff\xff\xff\xff", "time decreases"),
+        ("p.npy", 128, b"\x02", "p runs from"),
+        ("y.npy", 0, b"none", "not a .npy column"),
+        ("x.npy", 60, b"9", "damaged"),
+    ],
+)
+def test_damaged_columns_are_named_with_their_sample(tmp_path, name, offset, value, message):
+    write_set(tmp_path)
+    path = tmp_path / "esim" / "test-000000.tar"
+    places = json.loads(path.with_suffix(".json").read_text())["samples"][1]["members"]
+    with path.open("r+b") as file:
+        file.seek(places[name][0] + offset)
+        file.write(value)
+    with pytest.raises(FileFormatError, match=message):
+        texvent.dataset.open(tmp_path).events(0)
+
+
+def test_stored_and_simulated_samples_are_the_same_arrays(tmp_path):
+    """What `texvent dataset make` stores, sliced here, is what the simulation gives when asked."""
+    options = {"duration": 0.125, "sensor": "32x24", "samples": 1, "shadows": False}
+    tables = {
+        "name": "one",
+        "sources": [{"prompts": ["a red ball flies left"]}],
+        "options": options,
+    }
+    recipe = Recipe.of(specification_from(tables, folder=Path()))
+    recipe.begin(tmp_path / "one")
+    engine = in_this_process()
+    make_shards(find_work(recipe, tmp_path / "one"), engine, lambda outcome: None)
+    engine.close()
+    stored = texvent.dataset.open(tmp_path / "one", representation="voxel-e2vid", slice_us=40_000)
+    # The seed of a simulated sample follows from its number, that of a stored one from its key.
+    simulated = SimulatedSamples(
+        prompts=["a red ball flies left"], slice_us=40_000, simulation=options
+    )
+    events = texvent.generate("a red ball flies left", seed=simulated.seed_of(0), **options)
+    write_shard(tmp_path / "again", "paper", "train", 0, {"one": events})
+    path = tmp_path / "again" / "paper" / "train-000000.json"
+    record = json.loads(path.read_text())
+    record["samples"][1] |= {"width": 32, "height": 24, "duration_us": 125_000}
+    path.write_text(json.dumps(record))
+    again = texvent.dataset.open(tmp_path / "again", representation="voxel-e2vid", slice_us=40_000)
+    expected = simulated.make(0)
+    for name in ("representation", "stop_us"):
+        np.testing.assert_array_equal(again.make(0)[name], expected[name])
+        assert stored.make(0)[name].shape == expected[name].shape
+    assert stored.index.duration_us[0] == 125_000
+
+
+def test_opening_and_reading_loads_no_heavy_package(folder, written):
+    code = (
+        "import sys, texvent.dataset\n"
+        f"samples = texvent.dataset.open({str(folder)!r}, representation='voxel-e2vid')\n"
+        "samples[0], samples.make(0)\n"
+        "print([name for name in ('torch', 'numba', 'cv2', 'av', 'h5py', 'pyarrow', 'tyro')"
+        " if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"

@@ -1,0 +1,204 @@
+"""Batches in torch: every sample once over ranks and workers; no worker changes the order."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from tests.dataset.loading.written_set import random_events, write_set, write_shard
+
+import texvent.dataset
+from texvent.errors import ConfigError
+
+pytestmark = pytest.mark.torch
+torch = pytest.importorskip("torch")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("set") / "cars"
+    write_set(folder)
+    return folder
+
+
+@pytest.fixture
+def samples(folder):
+    return texvent.dataset.open(folder, representation="event-frame")
+
+
+def numbers(batches):
+    return [batch["number"].tolist() for batch in batches]
+
+
+def test_batches_are_what_direct_reading_gives(samples):
+    (first, *_) = samples.loader(batch_size=5)
+    expected = [samples.make(number) for number in range(5)]
+    for name in ("representation", "stop_us"):
+        np.testing.assert_array_equal(first[name].numpy(), [one[name] for one in expected])
+    assert first["class_number"].tolist() == [0, 1, 0, 0, 1]
+    assert first["class_number"].dtype == torch.int64
+    assert first["key"] == ["k000", "k001", "k002", "k003", "k004"]
+    assert first["caption"][1] == "a car drives left"
+
+
+def test_events_of_a_batch_lie_end_to_end(folder, tmp_path):
+    streams = {"a": random_events(1, 30), "b": random_events(2, 0), "c": random_events(3, 7)}
+    write_shard(tmp_path, "paper", "train", 0, streams)
+    (batch,) = texvent.dataset.open(tmp_path).loader(batch_size=3)
+    events = batch["events"]
+    assert len(events) == 3
+    for tensors, stream in zip(events, streams.values(), strict=True):
+        assert tensors.size == stream.size
+        for name in "xytp":
+            np.testing.assert_array_equal(getattr(tensors, name).numpy(), getattr(stream, name))
+    assert events.sample.tolist() == [0] * 30 + [2] * 7
+    assert events.to("cpu").ends == (30, 30, 37)
+    assert events[-1].t.tolist() == streams["c"].t.tolist()
+    from texvent.represent.named import represent
+
+    np.testing.assert_array_equal(
+        represent("voxel-e2vid", events[0]).numpy(), represent("voxel-e2vid", streams["a"])
+    )
+
+
+def test_slices_and_unequal_shapes_become_lists(folder, tmp_path):
+    write_shard(tmp_path, "paper", "train", 0, {"a": random_events(1, 30), "b": random_events(2)})
+    samples = texvent.dataset.open(tmp_path, slice_events=10)
+    (batch,) = samples.loader(batch_size=2)
+    assert [len(slices) for slices in batch["events"]] == [3, 4]
+    assert [len(one) for one in batch["events"][1]] == [10] * 4
+    (batch,) = samples.represented("event-frame", slice_events=10).loader(batch_size=2)
+    assert [one.shape[0] for one in batch["representation"]] == [3, 4]
+
+
+@pytest.mark.parametrize("options", [{}, {"shuffle": True}, {"shuffle": True, "shuffle_buffer": 4}])
+@pytest.mark.parametrize("drop_last", [False, True])
+def test_ranks_get_every_sample_once(samples, options, drop_last):
+    for world_size in (1, 2, 5):
+        ranks = [
+            samples.loader(
+                batch_size=3,
+                rank=rank,
+                world_size=world_size,
+                seed=4,
+                drop_last=drop_last,
+                **options,
+            )
+            for rank in range(world_size)
+        ]
+        parts = [numbers(loader) for loader in ranks]
+        assert [len(loader) for loader in ranks] == list(map(len, parts))
+        together = [number for part in parts for batch in part for number in batch]
+        assert len(set(together)) == len(together)
+        if drop_last:
+            assert len({len(part) for part in parts}) == 1
+            assert {len(batch) for part in parts for batch in part} == {3}
+        else:
+            assert sorted(together) == list(range(24))
+
+
+def test_no_number_of_workers_changes_a_batch_and_epochs_differ(folder):
+    from texvent.dataset.loading.torch_loader import StoredStream
+
+    samples = texvent.dataset.open(folder)
+    sharing = {"batch_size": 5, "shuffle": True, "seed": 3, "rank": 1, "world_size": 2}
+    alone = samples.loader(**sharing)
+    expected = [list(alone) for _ in range(3)]
+    assert alone.epoch == 3
+    assert len({str(numbers(epoch)) for epoch in expected}) == 3
+    for workers in (1, 2):
+        loader = samples.loader(workers=workers, start_method="fork", **sharing)
+        stream = StoredStream(samples, **sharing)
+        streamed = torch.utils.data.DataLoader(
+            stream,
+            batch_size=5,
+            num_workers=workers,
+            persistent_workers=True,
+            collate_fn=lambda batch: [one["number"] for one in batch],
+        )
+        for epoch, batches in enumerate(expected):
+            for batch, other in zip(batches, loader, strict=True):
+                assert batch["key"] == other["key"]
+                assert torch.equal(batch["events"].t, other["events"].t)
+            stream.set_epoch(epoch)
+            assert list(streamed) == numbers(batches)
+    assert len(stream) == 12
+
+
+def test_spawned_workers_read_the_same(samples):
+    expected = list(samples.loader(batch_size=7))
+    loader = samples.loader(batch_size=7, workers=2, prefetch=1)
+    for _ in range(2):
+        for batch, other in zip(expected, loader, strict=True):
+            assert torch.equal(batch["representation"], other["representation"])
+
+
+@pytest.mark.parametrize("workers", [0, 2])
+def test_an_epoch_goes_on_where_it_stopped(samples, workers):
+    def loader():
+        return samples.loader(
+            batch_size=5, shuffle=True, seed=1, workers=workers, start_method="fork"
+        )
+
+    whole = loader()
+    expected = numbers(whole) + numbers(whole)
+    stopped = loader()
+    seen = []
+    for batch in stopped:
+        seen.append(batch["number"].tolist())
+        if len(seen) == 2:
+            break
+    state = stopped.state_dict()
+    assert (state["epoch"], state["position"]) == (0, 10)
+    resumed = loader()
+    resumed.load_state_dict(state)
+    assert resumed.state_dict() == state
+    seen += numbers(resumed)
+    seen += numbers(resumed)
+    assert seen == expected
+    # Without the state, a pass that was not finished begins again.
+    assert numbers(stopped) == expected[:5]
+
+
+def test_a_state_of_another_order_is_refused(samples):
+    state = samples.loader(shuffle=True, seed=1).state_dict()
+    with pytest.raises(ConfigError, match=r"'seed': 1.*this one has.*'seed': 2"):
+        samples.loader(shuffle=True, seed=2).load_state_dict(state)
+
+
+def test_ranks_of_torch_distributed_are_taken(samples, tmp_path):
+    from texvent.dataset.loading.torch_loader import Sharing
+
+    torch.distributed.init_process_group(
+        "gloo", init_method=f"file://{tmp_path}/store", rank=0, world_size=1
+    )
+    try:
+        assert Sharing.of(None, None) == Sharing(rank=0, world_size=1)
+    finally:
+        torch.distributed.destroy_process_group()
+
+
+def test_a_user_s_own_sampler_takes_the_map_style_dataset(samples):
+    from texvent.dataset.loading.collate import collate
+    from texvent.dataset.loading.torch_loader import StoredDataset
+
+    loader = torch.utils.data.DataLoader(
+        StoredDataset(samples), sampler=[5, 3, 8], batch_size=2, collate_fn=collate
+    )
+    assert numbers(loader) == [[5, 3], [8]]
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"batch_size": 0}, "batch_size is 0"),
+        ({"workers": -1}, "workers is -1"),
+        ({"prefetch": 0}, "prefetch is 0"),
+        ({"rank": 1}, "both rank and world_size"),
+        ({"rank": 2, "world_size": 2}, "rank is 2"),
+        ({"shuffle_buffer": 5}, "shuffle=True"),
+        ({"seed": -1}, "seed is -1"),
+    ],
+)
+def test_wrong_options_are_refused(samples, options, message):
+    with pytest.raises(ConfigError, match=message):
+        samples.loader(**options)

@@ -1,0 +1,100 @@
+"""A data set folder of random events, written by the code of `texvent dataset make`."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+
+import numpy as np
+
+from texvent.dataset.generation.records import FILTERED, SampleRecord, ShardRecord, write_record
+from texvent.dataset.generation.sample import MadeEvents, sample_members
+from texvent.dataset.generation.tar_shard import TarShardWriter
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(16, 12)
+DURATION_US = 10_000
+LABELS = ("bus", "car")
+
+
+def random_events(seed: int, count: int = 40, *, start_us: int = 0) -> EventStream:
+    chance = np.random.default_rng(seed)
+    t = np.sort(chance.integers(start_us, start_us + DURATION_US, count))
+    x, y, p = (chance.integers(0, end, count) for end in (SIZE.width, SIZE.height, 2))
+    return EventStream(x, y, t, p, SIZE)
+
+
+def write_shard(
+    folder: Path,
+    variant: str,
+    split: str,
+    number: int,
+    samples: dict[str, EventStream],
+    *,
+    labels: tuple[str, ...] = LABELS,
+) -> Path:
+    """A shard of these samples, one that was filtered out, and its record."""
+    path = folder / variant / f"{split}-{number:06d}.tar"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    records = [SampleRecord(key="gone", clip="gone", status=FILTERED, seed=0)]
+    with path.open("wb") as file:
+        writer = TarShardWriter(file)
+        for place, (key, events) in enumerate(samples.items()):
+            label = labels[place % len(labels)] if labels else None
+            facts = {"prompt": f"a {label} drives left", "key": key, "label": label}
+            members = sample_members(
+                MadeEvents(events, DURATION_US),
+                facts,
+                class_number=None if label is None else labels.index(label),
+                preview=False,
+            )
+            records.append(
+                SampleRecord(
+                    key=key,
+                    clip=key,
+                    status="made",
+                    seed=place,
+                    prompt=facts["prompt"],
+                    label=label,
+                    events=len(events),
+                    duration_us=DURATION_US,
+                    width=SIZE.width,
+                    height=SIZE.height,
+                    members=writer.add(key, members),
+                )
+            )
+        writer.close()
+    content = path.read_bytes()
+    write_record(
+        path,
+        ShardRecord(
+            name=path.stem,
+            split=split,
+            variant=variant,
+            identity="",
+            sha256=hashlib.sha256(content).hexdigest(),
+            bytes=len(content),
+            samples=tuple(records),
+            seconds=0.0,
+        ),
+    )
+    return path
+
+
+def write_set(folder: Path, *, per_shard: int = 3, shards: int = 2) -> dict[str, EventStream]:
+    """Two variants, two splits; key → events, in the order of `texvent.dataset.open`."""
+    written: dict[str, EventStream] = {}
+    for variant in ("esim", "paper"):
+        for split in ("test", "train"):
+            for number in range(shards):
+                begin = len(written)
+                samples = {
+                    f"k{begin + place:03d}": random_events(begin + place)
+                    for place in range(per_shard)
+                }
+                write_shard(folder, variant, split, number, samples)
+                written |= samples
+    (folder / "specification.json").write_text(json.dumps({"labels": ["bus", "car", "dog"]}))
+    return written
