@@ -14,6 +14,7 @@ STEPS: Mapping[str, str] = {
     "make": "make a data set from a specification, or go on with one",
     "status": "how far a data set is, while it is made or afterwards",
     "nt-imagenet": "recorded streams of N-ImageNet with captions, and prompts for our own",
+    "align": "how well the events fit their texts, by a CLIP model of yours",
 }
 """Name, which is its module beside this one → what it does."""
 

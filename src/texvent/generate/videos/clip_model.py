@@ -68,7 +68,7 @@ class ClipModel:
 
     def count_tokens(self, text: str) -> int:
         """Tokens of a sentence, those that the model adds included."""
-        return len(self._tokenizer(text)["input_ids"])
+        return len(self._tokenizer(text, verbose=False)["input_ids"])
 
     def _vectors_of_images(self, images: list[Any]) -> Any:
         torch = require("torch", extra=EXTRA)
