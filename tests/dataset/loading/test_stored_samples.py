@@ -319,3 +319,4 @@ def test_opening_and_reading_loads_no_heavy_package(folder, written):
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+    assert done.stderr == ""  # also where files are open at the end of the process

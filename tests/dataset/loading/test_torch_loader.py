@@ -187,6 +187,20 @@ def test_a_user_s_own_sampler_takes_the_map_style_dataset(samples):
     assert numbers(loader) == [[5, 3], [8]]
 
 
+def test_the_iterable_dataset_gives_tensors_that_collate_takes(samples):
+    from texvent.dataset.loading.collate import collate
+    from texvent.dataset.loading.torch_loader import StoredStream
+
+    stream = StoredStream(samples, batch_size=4)
+    sample = next(iter(stream))
+    assert isinstance(sample["representation"], torch.Tensor)
+    (batch, *_) = torch.utils.data.DataLoader(stream, batch_size=4, collate_fn=collate)
+    (expected, *_) = samples.loader(batch_size=4)
+    assert torch.equal(batch["representation"], expected["representation"])
+    assert torch.equal(batch["stop_us"], expected["stop_us"])
+    assert batch["key"] == expected["key"]
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [

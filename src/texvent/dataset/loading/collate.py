@@ -91,7 +91,7 @@ def collate(samples: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 def as_tensors(sample: Mapping[str, Any]) -> dict[str, Any]:
     """A sample with arrays as tensors."""
     return {
-        name: _torch.as_tensor(np.ascontiguousarray(value))
+        name: _torch.as_tensor(np.ascontiguousarray(value) if np.ndim(value) else value)
         if isinstance(value, np.ndarray | np.generic)
         else value
         for name, value in sample.items()
@@ -104,12 +104,12 @@ def _collated(values: list[Any]) -> Any:
         return EventBatch.of(values)
     if isinstance(first, tuple):
         return [EventBatch.of(slices) for slices in values]
-    if isinstance(first, np.ndarray):
-        tensors = [_torch.from_numpy(np.ascontiguousarray(value)) for value in values]
+    if isinstance(first, np.ndarray | np.generic | _torch.Tensor):
+        tensors = [_torch.as_tensor(value) for value in values]
         same = all(value.shape == first.shape for value in values)
         return _data.default_collate(tensors) if same else tensors
-    if isinstance(first, int | np.integer):
-        return _torch.tensor([int(value) for value in values])
+    if isinstance(first, int):
+        return _torch.tensor(values)
     return values
 
 
