@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from texvent.errors import OutputError
-from texvent.io.atomic import atomic_file, check_output, is_disk_full
+from texvent.io.atomic import atomic_file, check_output, is_disk_full, noting_completed
 
 WRITER = """
 import sys, time
@@ -162,3 +162,14 @@ def test_ctrl_c_leaves_nothing_at_all(tmp_path: Path, folder_is_clean: Callable[
     process.communicate(timeout=20)
     assert process.returncode != 0
     assert folder_is_clean()
+
+
+def test_only_what_this_process_put_in_place_is_noted(tmp_path: Path) -> None:
+    (tmp_path / "b").write_text("of another run")
+    with noting_completed() as completed:
+        with atomic_file(tmp_path / "a", overwrite=False) as part:
+            part.write_text("mine")
+        with pytest.raises(OutputError), atomic_file(tmp_path / "b", overwrite=False):
+            pass
+        (tmp_path / "c").write_text("of another run")
+    assert completed == [tmp_path / "a"]

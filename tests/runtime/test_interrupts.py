@@ -36,6 +36,21 @@ def test_without_ctrl_c_nothing_happens_and_handlers_come_back() -> None:
     assert [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)] == before
 
 
+def test_an_interrupt_inside_a_compiled_function_is_one() -> None:
+    # As CPython says it when C code returns a result with an exception set.
+    def work() -> None:
+        try:
+            signal.raise_signal(signal.SIGTERM)
+        except BaseException as error:
+            raise SystemError("CPUDispatcher returned a result with an exception set") from error
+
+    with pytest.raises(Interrupted) as caught, raise_interrupted():
+        work()
+    assert caught.value.number == signal.SIGTERM
+    with pytest.raises(SystemError, match="another"), raise_interrupted():
+        raise SystemError("another")
+
+
 def test_other_threads_are_left_alone() -> None:
     seen: list[object] = []
 

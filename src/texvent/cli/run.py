@@ -15,6 +15,7 @@ from texvent.cli.estimate import describe_estimate, estimate_run
 from texvent.cli.outputs import OutputOptions
 from texvent.errors import warn
 from texvent.events import EventStream
+from texvent.io.atomic import noting_completed
 from texvent.pairs.scene_change import SceneChange
 from texvent.pipeline import NO_EVENTS, Simulation
 from texvent.run.files import RunFiles, write_run
@@ -133,23 +134,15 @@ def execute(simulation: Simulation, options: OutputOptions, files: RunFiles) -> 
 
 @contextmanager
 def _saying_what_is_complete(paths: Sequence[Path]) -> Iterator[None]:
-    """If the block fails, name the files that were completed before."""
-    before = {path: _identity(path) for path in paths}
-    try:
-        yield
-    except BaseException:
-        complete = [str(path) for path in paths if _identity(path) not in (None, before[path])]
-        if complete:
-            sys.stderr.write(f"complete {', '.join(complete)}\n")
-        raise
-
-
-def _identity(path: Path) -> tuple[int, int] | None:
-    try:
-        status = path.stat()
-    except OSError:
-        return None
-    return status.st_ino, status.st_mtime_ns
+    """If the block fails, name the files that it completed before."""
+    with noting_completed() as completed:
+        try:
+            yield
+        except BaseException:
+            named = [str(path) for path in paths if path.resolve() in completed]
+            if named:
+                sys.stderr.write(f"complete {', '.join(named)}\n")
+            raise
 
 
 def _notes(simulation: Simulation) -> Iterator[str]:

@@ -20,6 +20,24 @@ from texvent.io.hidden_parts import hidden_file, hidden_folder, is_hidden_part
 from texvent.io.protected_inputs import refuse_inputs
 
 DISK_FULL = (errno.ENOSPC, errno.EDQUOT)
+_completed: list[list[Path]] = []
+"""Lists that note what is put in place."""
+
+
+@contextmanager
+def noting_completed() -> Iterator[list[Path]]:
+    """The files and folders that this process puts in place inside the block, in order."""
+    completed: list[Path] = []
+    _completed.append(completed)
+    try:
+        yield completed
+    finally:
+        _completed.remove(completed)
+
+
+def _note(target: Path) -> None:
+    for completed in _completed:
+        completed.append(target)
 
 
 def check_output(path: str | Path, *, overwrite: bool) -> Path:
@@ -97,6 +115,7 @@ def atomic_file(path: str | Path, *, overwrite: bool) -> Iterator[Path]:
         # Another program may have made the file meanwhile.
         check_output(path, overwrite=overwrite)
         os.replace(part, target)
+        _note(target)
     _flush_to_disk(target.parent)
 
 
@@ -156,6 +175,7 @@ def atomic_folder(
             _replace_folder(target, part)
         else:
             os.replace(part, target)
+        _note(target)
     _flush_to_disk(target.parent)
 
 

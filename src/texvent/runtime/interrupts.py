@@ -53,11 +53,22 @@ def raise_interrupted(*, until_exit: bool = False) -> Iterator[None]:
     with _handling(interrupt, only_callable=False):
         try:
             yield
-        except Interrupted:
+        except (Interrupted, SystemError) as error:
+            interrupted = _interrupted_in(error)
+            if interrupted is None:
+                raise
             if until_exit:
                 for number in ENDING:
                     signal.signal(number, signal.SIG_IGN)
-            raise
+            raise interrupted from None
+
+
+def _interrupted_in(error: BaseException) -> Interrupted | None:
+    """The interrupt behind an error: a compiled function that it meets ends in a SystemError."""
+    cause: BaseException | None = error
+    while cause is not None and not isinstance(cause, Interrupted):
+        cause = cause.__cause__ or cause.__context__
+    return cause
 
 
 @contextmanager
