@@ -10,9 +10,9 @@ from typing import Any
 from texvent._registry import GENERATORS
 from texvent._version import full_version
 from texvent.errors import InputError, shown
-from texvent.pipeline import Simulation
-from texvent.run.prepare import prepare_prompt, prepare_source
-from texvent.run.settings import flatten_tables, resolve
+from texvent.pipeline import Simulation, text_to_video
+from texvent.run.prepare import prepare_prompt, prepare_source, prepare_video
+from texvent.run.settings import Settings, flatten_tables, resolve
 from texvent.video import FrameStream, RenderableStream
 
 
@@ -43,7 +43,8 @@ def render_again(metadata: Mapping[str, Any]) -> FrameStream | None:
     options = {**tables.get("run", {}), **tables.get("generate", {})}
     try:
         settings = resolve("generate", options)
-        generator = generator_class(settings.source, seed=settings.run.seed, size=settings.size)
+        seed = _video_seed(metadata.get("source"), settings)
+        generator = generator_class(settings.source, seed=seed, size=settings.size)
         video = generator.generate(prompt)
     except InputError:
         # Any program can write metadata: a prompt that is no scene does not make events invalid.
@@ -80,11 +81,22 @@ def prepare_replay(
     options, prompt = flatten_tables(tables, folder), metadata.get("prompt")
     prompt = prompt if isinstance(prompt, str) else None
     if "generate" in tables:
-        settings = resolve("generate", options)
-        simulation = prepare_prompt(str(facts.get("prompt", prompt)), settings)
+        settings, detailed = resolve("generate", options), str(facts.get("prompt", prompt))
+        seed = _video_seed(facts, settings)
+        if seed == settings.run.seed:
+            simulation = prepare_prompt(detailed, settings)
+        else:
+            of_video = replace(settings, run=replace(settings.run, seed=seed))
+            simulation = prepare_video(text_to_video(detailed, of_video), settings)
         return replace(simulation, prompt=prompt)
     settings = resolve("simulate", options)
     return prepare_source(source or _find_source(facts, folder), settings, prompt=prompt)
+
+
+def _video_seed(facts: Any, settings: Settings) -> int:
+    """Seed of the video: in data sets a video is simulated several times with a seed each."""
+    seed = facts.get("seed") if isinstance(facts, Mapping) else None
+    return seed if isinstance(seed, int) else settings.run.seed
 
 
 def _find_source(facts: Mapping[str, Any], folder: Path) -> Path:

@@ -13,6 +13,12 @@ STEPS: Mapping[str, str] = {
     "plan": "check a specification; counts, size and time before anything runs",
     "make": "make a data set from a specification, or go on with one",
     "status": "how far a data set is, while it is made or afterwards",
+    "verify": "check every file of a data set, and every sample",
+    "stats": "count what a data set holds, with plots",
+    "sample": "look at some samples, as an image and a page",
+    "publish": "write the index, the card and the description of a data set",
+    "merge": "put data sets together",
+    "export": "write the samples of a data set in another layout",
     "nt-imagenet": "recorded streams of N-ImageNet with captions, and prompts for our own",
     "align": "how well the events fit their texts, by a CLIP model of yours",
 }

@@ -73,7 +73,7 @@ def run(arguments: Sequence[str]) -> int:
         LiveTable(recipe, folder, work, is_quiet=options.quiet) as table,
     ):
         make_shards(work, engine, table.note)
-    return _finish(folder, work)
+    return _finish(folder, work, is_whole=part[1] == 1)
 
 
 def parse_part(text: str | None) -> tuple[int, int]:
@@ -106,7 +106,7 @@ def _engine(workers: int, work: Work) -> Engine:
     return ProcessEngine(workers)
 
 
-def _finish(folder: Path, work: Work) -> int:
+def _finish(folder: Path, work: Work, *, is_whole: bool) -> int:
     records = work.complete.values()
     counts = {status: sum(one.count(status) for one in records) for status in (MADE, FILTERED)}
     failed = sum(record.count(FAILED) for record in records)
@@ -120,4 +120,6 @@ def _finish(folder: Path, work: Work) -> int:
             f"{len(work.failures)} shards could not be made, such as {shard.path}: {reason}; the "
             "others are kept: run the command again"
         )
+    if is_whole:
+        sys.stdout.write(f"next: texvent dataset sample {folder}, then verify, stats, publish\n")
     return 0

@@ -174,16 +174,35 @@ def load_recipe(folder: Path) -> Recipe:
     Raises:
         InputError: the folder holds no data set.
         FileFormatError: its specification is damaged.
-        ConfigError: it was begun by another version of texvent.
+        ConfigError: it was begun by another version of texvent, or put together from others.
     """
     facts = read_facts(folder)
+    if "merged" in facts:
+        raise ConfigError(
+            f"{folder} was merged from other data sets and cannot be made further; make those, and "
+            "merge them again (texvent dataset verify and stats work on it)"
+        )
     made_by = facts.get("texvent_version")
     if made_by != full_version():
         raise ConfigError(
             f"{folder} was begun by texvent {made_by}, and this is {full_version()}, whose events "
             "may differ; install that version, or name another folder with -o"
         )
-    path = folder / ITEMS_FILE
+    return read_recipe(folder)
+
+
+def read_recipe(folder: Path) -> Recipe:
+    """The recipe of a data set that any version began, to look at.
+
+    Raises:
+        InputError: the folder holds no data set, or a copy to load from.
+        FileFormatError: its specification is damaged.
+    """
+    facts, path = read_facts(folder), folder / ITEMS_FILE
+    if not path.exists():
+        raise InputError(
+            f"{folder} has no {path.name}, so it is a copy to load from and cannot be made further"
+        )
     try:
         lines = path.read_text(encoding="utf-8").splitlines()
         items = tuple(Item(**json.loads(line)) for line in lines)

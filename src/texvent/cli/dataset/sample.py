@@ -1,0 +1,82 @@
+"""`texvent dataset sample DIR`: some samples of a data set, to look at."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import ClassVar
+
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import parse_configs
+from texvent.config import check_range
+from texvent.dataset.contents.made_set import MadeSet
+from texvent.dataset.looking.chosen_samples import Choice, choose_samples
+from texvent.errors import ConfigError
+
+DESCRIPTION = """Look at some samples, drawn by chance: a contact sheet (PNG) and a page (HTML) with
+images, captions and all facts. Beside the shards, samples.png also appears in the card.
+
+  texvent dataset sample cars
+  texvent dataset sample cars --variant paper --label bus -n 60 -o buses.html"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SampleOptions:
+    """Which samples."""
+
+    positional: ClassVar[tuple[str, ...]] = ("folder",)
+    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "count": "-n"}
+    outputs: ClassVar[tuple[str, ...]] = ("folder", "out")
+
+    folder: Path = REQUIRED
+    """Folder of the data set."""
+    out: Path | None = None
+    """The page; the sheet is beside it as .png. Default: samples.html in the folder."""
+    count: int = 24
+    """How many."""
+    variant: str | None = None
+    """Of this variant only."""
+    split: str | None = None
+    """Of this split only."""
+    label: str | None = None
+    """Of this class only."""
+    seed: int = 0
+    """Another draws others."""
+    overwrite: bool = False
+    """Replace files that exist."""
+
+    def __post_init__(self) -> None:
+        check_range("count", self.count, 1, 1000)
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the command; returns its exit code."""
+    (options,) = parse_configs(
+        arguments,
+        {"data set": SampleOptions()},
+        prog="texvent dataset sample",
+        description=DESCRIPTION,
+    )
+    from texvent.dataset.looking.sample_page import write_contact_sheet, write_sample_page
+    from texvent.io.atomic import check_outputs
+
+    page = options.folder / "samples.html" if options.out is None else options.out
+    if page.suffix.lower() not in (".html", ".htm"):
+        raise ConfigError(f"out is {page}; it names the page, which ends in .html")
+    sheet = page.with_suffix(".png")
+    made = MadeSet.open(options.folder)
+    check_outputs([page, sheet], overwrite=options.overwrite)
+    choice = Choice(
+        count=options.count,
+        variant=options.variant,
+        split=options.split,
+        label=options.label,
+        seed=options.seed,
+    )
+    samples = choose_samples(made, choice)
+    write_contact_sheet(samples, sheet, overwrite=options.overwrite)
+    write_sample_page(made, samples, page, overwrite=options.overwrite)
+    sys.stdout.write(f"{len(samples)} samples of {made.name}: {page}, {sheet}\n")
+    return 0

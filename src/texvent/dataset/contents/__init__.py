@@ -1,0 +1,1 @@
+"""A data set that was made: what its folder holds, checked, counted, put together."""

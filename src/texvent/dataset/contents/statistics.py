@@ -1,0 +1,170 @@
+"""What a data set holds, counted from its records: samples, events, rates, classes, failures."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from texvent.dataset.contents.made_set import MadeSet, MadeShard
+from texvent.dataset.generation.records import FAILED, FILTERED, MADE
+
+QUANTILES = (0.05, 0.5, 0.95)
+MOST_REASONS = 10
+MICROSECONDS = 1_000_000
+
+
+@dataclass
+class Statistics:
+    """Of all shards, of a variant, or of a split of one."""
+
+    shards: int = 0
+    bytes: int = 0
+    seconds: float = 0.0
+    """Working time that the shards took."""
+    filtered: int = 0
+    failed: int = 0
+    events: list[int] = field(default_factory=list)
+    """Of each sample."""
+    durations_us: list[int] = field(default_factory=list)
+    """Of each sample."""
+    clips: set[str] = field(default_factory=set)
+    classes: Counter[str] = field(default_factory=Counter)
+    sensors: Counter[str] = field(default_factory=Counter)
+    reasons: Counter[str] = field(default_factory=Counter)
+    """Why samples are not there, numbers left out."""
+    warnings: Counter[str] = field(default_factory=Counter)
+    versions: Counter[str] = field(default_factory=Counter)
+    """Version of texvent → shards."""
+
+    def add(self, shard: MadeShard) -> None:
+        """Count a shard."""
+        record = shard.record
+        self.shards += 1
+        self.bytes += record.bytes
+        self.seconds += record.seconds
+        self.filtered += record.count(FILTERED)
+        self.failed += record.count(FAILED)
+        self.versions[record.versions.get("texvent", "unknown")] += 1
+        for sample in record.samples:
+            self.warnings.update(map(without_numbers, sample.warnings))
+            if sample.status != MADE:
+                self.reasons[f"{sample.status}: {without_numbers(sample.reason or '')}"] += 1
+                continue
+            self.events.append(sample.events)
+            self.durations_us.append(sample.duration_us)
+            self.clips.add(sample.clip)
+            self.sensors[f"{sample.width}x{sample.height}"] += 1
+            if sample.label is not None:
+                self.classes[sample.label] += 1
+
+    @property
+    def samples(self) -> int:
+        """How many there are."""
+        return len(self.events)
+
+    @property
+    def rates(self) -> list[float]:
+        """Events per second of each sample that lasts."""
+        pairs = zip(self.events, self.durations_us, strict=True)
+        return [events / us * MICROSECONDS for events, us in pairs if us]
+
+    @property
+    def tables(self) -> dict[str, Any]:
+        """Plain values, ready for JSON."""
+        return {
+            "samples": self.samples,
+            "filtered": self.filtered,
+            "failed": self.failed,
+            "clips": len(self.clips),
+            "shards": self.shards,
+            "bytes": self.bytes,
+            "working_seconds": round(self.seconds, 1),
+            "events": sum(self.events),
+            "duration_s": sum(self.durations_us) / MICROSECONDS,
+            "events_per_sample": quantiles(self.events),
+            "duration_s_per_sample": quantiles([us / MICROSECONDS for us in self.durations_us]),
+            "events_per_second": quantiles(self.rates),
+            "sensors": dict(sorted(self.sensors.items())),
+            "classes": dict(sorted(self.classes.items())),
+            "reasons": dict(self.reasons.most_common(MOST_REASONS)),
+            "warnings": dict(self.warnings.most_common(MOST_REASONS)),
+            "texvent_versions": dict(sorted(self.versions.items())),
+        }
+
+
+@dataclass(frozen=True)
+class SetStatistics:
+    """Of a data set, counted in one pass."""
+
+    total: Statistics
+    parts: dict[tuple[str, str], Statistics]
+    """(variant, split) → its own, in the order of the shards."""
+
+    @classmethod
+    def of(cls, made: MadeSet) -> SetStatistics:
+        """Read all records.
+
+        Raises:
+            FileFormatError: one is damaged.
+        """
+        total, parts = Statistics(), dict[tuple[str, str], Statistics]()
+        for shard in made.shards():
+            total.add(shard)
+            place = shard.record.variant, shard.record.split
+            parts.setdefault(place, Statistics()).add(shard)
+        return cls(total, parts)
+
+    @property
+    def tables(self) -> dict[str, Any]:
+        """Plain values, ready for JSON."""
+        variants: dict[str, Any] = {}
+        for (variant, split), part in self.parts.items():
+            variants.setdefault(variant, {})[split] = part.tables
+        return {"total": self.total.tables, "variants": variants}
+
+
+def quantiles(values: Sequence[float]) -> dict[str, float]:
+    """Mean, 5 %, median, 95 %, least and most; nothing of no values."""
+    if not values:
+        return {}
+    low, middle, high = np.quantile(values, QUANTILES)
+    facts = {"mean": np.mean(values), "p5": low, "median": middle, "p95": high,
+             "min": min(values), "max": max(values)}  # fmt: skip
+    return {name: float(f"{value:.7g}") for name, value in facts.items()}
+
+
+def number_text(value: float) -> str:
+    """Three digits, or all before the point.
+
+    Example:
+        >>> number_text(0.08333), number_text(23894.5)
+        ('0.0833', '23,894')
+    """
+    return f"{value:,.0f}" if value >= 1000 else f"{value:.3g}"
+
+
+def without_numbers(text: str) -> str:
+    """A message with N for its numbers, so that equal ones count together.
+
+    Example:
+        >>> without_numbers("12 events, fewer than 1,000")
+        'N events, fewer than N'
+    """
+    return re.sub(r"\b\d[\d,.]*\b", "N", text)
+
+
+def in_several_splits(shards: Iterable[MadeShard]) -> set[str]:
+    """Prompts, or videos, of which samples lie in several splits: tested is what was trained on."""
+    split_of: dict[str, str] = {}
+    found = set()
+    for shard in shards:
+        for sample in shard.samples:
+            shows = sample.prompt or sample.clip
+            if split_of.setdefault(shows, shard.record.split) != shard.record.split:
+                found.add(shows)
+    return found

@@ -1,0 +1,1 @@
+"""Data sets to look at: pages, plots, contact sheets."""

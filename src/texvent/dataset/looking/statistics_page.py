@@ -1,0 +1,100 @@
+"""What a data set holds as one HTML file: counts, plots, classes, reasons."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from texvent.dataset.contents.made_set import MadeSet
+from texvent.dataset.contents.statistics import MICROSECONDS, SetStatistics, Statistics, number_text
+from texvent.dataset.looking.charts import bars, histogram
+from texvent.io.atomic import atomic_file
+from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
+from texvent.view.page.html_parts import count_text
+from texvent.view.page.template import fill_template
+
+COUNTS = ("variant", "split", "samples", "filtered", "failed", "events", "median events",
+          "median s", "median events/s", "MB")  # fmt: skip
+
+
+def write_statistics_page(
+    made: MadeSet, statistics: SetStatistics, path: Path, *, overwrite: bool
+) -> Path:
+    """Write the page; it opens offline and holds no script.
+
+    Raises:
+        OutputError: the file exists already or cannot be written.
+    """
+    total = statistics.total
+    body = [
+        _table(COUNTS, counts_rows(statistics)),
+        "<h2>Samples</h2>",
+        f'<div class="charts">{_charts(total)}</div>',
+    ]
+    if total.classes:
+        body += [f"<h2>Classes: {len(total.classes):,}</h2>", bars(total.classes)]
+    if len(total.sensors) > 1:
+        body += ["<h2>Sensors</h2>", bars(total.sensors)]
+    if total.reasons:
+        body += ["<h2>Why samples are not there</h2>", bars(total.reasons)]
+    if total.warnings:
+        body += ["<h2>Warnings</h2>", bars(total.warnings)]
+    summary = (
+        f"{total.samples:,} samples of {len(total.clips):,} videos, "
+        f"{count_text(sum(total.events))} events in {sum(total.durations_us) / MICROSECONDS:,.1f} s"
+    )
+    page = fill_template(
+        "document.html",
+        {"title": html.escape(made.name), "summary": summary, "body": "\n".join(body)},
+        palette=get_palette(DEFAULT_PALETTE),
+    )
+    with atomic_file(path, overwrite=overwrite) as part:
+        part.write_text(page, encoding="utf-8")
+    return path
+
+
+def counts_rows(statistics: SetStatistics) -> list[list[str]]:
+    """Cells for `COUNTS`: a row for each split of each variant."""
+    rows = []
+    for (variant, split), part in statistics.parts.items():
+        facts = part.tables
+        medians = (
+            facts[name].get("median", 0.0)
+            for name in ("events_per_sample", "duration_s_per_sample", "events_per_second")
+        )
+        counts = (part.samples, part.filtered, part.failed, facts["events"])
+        rows.append(
+            [
+                *(variant, split),
+                *(f"{count:,}" for count in counts),
+                *map(number_text, medians),
+                f"{part.bytes / 1e6:,.2f}",
+            ]
+        )
+    return rows
+
+
+def _table(titles: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    head = "".join(f'<th scope="col">{html.escape(title)}</th>' for title in titles)
+    lines = [
+        f'<tr><th scope="row">{html.escape(first)}</th>'
+        + "".join(f"<td>{html.escape(cell)}</td>" for cell in cells)
+        + "</tr>"
+        for first, *cells in rows
+    ]
+    return (
+        '<div class="wide"><table class="facts numbers">'
+        f"<thead><tr>{head}</tr></thead><tbody>{''.join(lines)}</tbody></table></div>"
+    )
+
+
+def _charts(total: Statistics) -> str:
+    seconds = [us / MICROSECONDS for us in total.durations_us]
+    return "".join(
+        (
+            histogram("Events per sample", total.events, unit="events", is_log=True),
+            histogram("Events per second", total.rates, unit="events/s", is_log=True),
+            histogram("Duration", seconds, unit="s", is_log=False),
+        )
+    )

@@ -1,0 +1,1 @@
+"""What makes a folder of shards a published data set: an index, a card, a description."""

@@ -1,0 +1,59 @@
+"""A small data set, made once for the tests of what is done with data sets."""
+
+from __future__ import annotations
+
+import shutil
+from contextlib import closing
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from texvent.dataset.generation.engines.protocol import in_this_process
+from texvent.dataset.generation.make import find_work, make_shards
+from texvent.dataset.generation.recipe import Recipe
+from texvent.dataset.specification.reading import specification_from
+
+CARS: dict[str, Any] = {
+    "name": "cars",
+    "description": "Cars & buses <b>that</b> drive left.",
+    "license": "cc-by-4.0",
+    "seed": 3,
+    "samples_per_shard": 2,
+    "splits": {"train": 0.67, "test": 0.33},
+    "options": {
+        "duration": 0.1,
+        "sensor": "32x24",
+        "contrast_threshold": {"uniform": [0.1, 0.3]},
+    },
+    "sources": [
+        {"prompts": ["a red car drives left", "a blue car | zooms & <i>drives</i> left"],
+         "label": "car"},
+        {"prompts": ["a red bus drives left"], "label": "bus"},
+    ],
+    "variants": {"paper": {"seeds": 2}, "esim": {"simulator": "esim"}},
+}  # fmt: skip
+"""Three clips, two splits, two variants: nine samples in four shards."""
+
+
+def make_set(folder: Path, **changes: Any) -> Path:
+    """The data set `CARS`, changed, made in a new folder."""
+    recipe = Recipe.of(specification_from({**CARS, **changes}, folder=Path()))
+    recipe.begin(folder)
+    work = find_work(recipe, folder)
+    with closing(in_this_process()) as engine:
+        make_shards(work, engine, lambda outcome: None)
+    assert not work.failures
+    return folder
+
+
+@pytest.fixture(scope="session")
+def cars(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of `CARS`; tests that change it take `copied`."""
+    return make_set(tmp_path_factory.mktemp("cars") / "cars")
+
+
+@pytest.fixture
+def copied(cars: Path, tmp_path: Path) -> Path:
+    """A copy of `cars` that a test may change."""
+    return shutil.copytree(cars, tmp_path / "cars")

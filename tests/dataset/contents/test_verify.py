@@ -1,0 +1,121 @@
+"""`verify` finds each kind of damage, and nothing in a sound set or a published copy of one."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from texvent.cli.app import main
+from texvent.dataset.contents.made_set import MadeSet
+from texvent.dataset.contents.verify import Findings, verify
+from texvent.dataset.generation.records import ShardRecord, read_record, write_record
+from texvent.dataset.generation.sample import npy_bytes
+from texvent.dataset.generation.tar_shard import TarShardWriter, read_members
+
+
+def check(folder: Path) -> Findings:
+    return verify(MadeSet.open(folder), workers=2)
+
+
+def record_of(shard: Path) -> ShardRecord:
+    record = read_record(shard)
+    assert record is not None
+    return record
+
+
+def test_a_sound_set_is_sound(cars: Path) -> None:
+    findings = check(cars)
+    assert findings.is_sound
+    assert not findings.notes
+    assert (findings.shards, findings.samples) == (4, 9)
+    assert findings.events > 0
+
+
+def test_missing_changed_and_foreign_files_are_told_apart(copied: Path) -> None:
+    (copied / "esim" / "test-000000.tar").unlink()
+    (copied / "paper" / "test-000000.json").unlink()
+    shard = copied / "paper" / "train-000000.tar"
+    content = bytearray(shard.read_bytes())
+    content[700] ^= 1
+    shard.write_bytes(content)
+    for suffix in (".tar", ".json"):
+        own = copied / "esim" / f"train-000000{suffix}"
+        shutil.copy(own, own.with_stem("train-000009"))
+    (copied / "paper" / "notes.txt").write_text("mine")
+    (copied / "mine.txt").write_text("mine")
+    findings = check(copied)
+    assert findings.missing == ["esim/test-000000.tar", "paper/test-000000.tar"]
+    assert findings.changed == ["paper/train-000000.tar: its sha256 is not that of its record"]
+    assert [one.split(":")[0] for one in findings.foreign] == [
+        "paper/notes.txt",
+        "esim/train-000009.json",
+        "esim/train-000009.tar",
+    ]
+    assert findings.notes == ["mine.txt is not of texvent"]
+
+
+def test_samples_that_cannot_be_used_are_named_although_digests_agree(copied: Path) -> None:
+    shard = copied / "paper" / "train-000000.tar"
+    record = record_of(shard)
+    samples, problems = [], iter(("outside", "order", "facts", None))
+    contents = [read_members(shard, sample.members) for sample in record.samples]
+    with shard.open("wb") as file:
+        writer = TarShardWriter(file)
+        for sample, members in zip(record.samples, contents, strict=True):
+            match next(problems, None):
+                case "outside":
+                    members["x.npy"] = npy_bytes(np.full(sample.events, 32, np.uint16))
+                case "order":
+                    times = np.arange(sample.events, 0, -1, dtype=np.uint32)
+                    members["t.npy"] = npy_bytes(times)
+                case "facts":
+                    facts = {**json.loads(members["json"]), "seed": 1}
+                    members["json"] = json.dumps(facts).encode()
+            samples.append(replace(sample, members=writer.add(sample.key, members)))
+        writer.close()
+    import hashlib
+
+    content = shard.read_bytes()
+    sha256 = hashlib.sha256(content).hexdigest()
+    changed = replace(record, samples=tuple(samples), sha256=sha256, bytes=len(content))
+    write_record(shard, changed)
+    findings = check(copied)
+    assert not findings.changed
+    first, second, third = findings.unsound
+    assert "outside" in first or "32" in first
+    assert samples[1].key in second
+    assert "seed is 1 in the shard" in third
+    assert verify(MadeSet.open(copied), contents=False).is_sound
+
+
+def test_a_key_of_two_samples_is_found(copied: Path) -> None:
+    shard = copied / "paper" / "train-000000.tar"
+    record = record_of(shard)
+    first, second, *others = record.samples
+    write_record(shard, replace(record, samples=(first, replace(second, key=first.key), *others)))
+    assert check(copied).twice == [first.key]
+
+
+def test_a_copy_without_items_and_logs_is_checked_too(copied: Path) -> None:
+    (copied / "items.jsonl").unlink()
+    shutil.rmtree(copied / "logs", ignore_errors=True)
+    findings = check(copied)
+    assert findings.is_sound
+    assert "not noticed" in findings.notes[0]
+    assert main(["dataset", "make", str(copied)]) == 2
+
+
+def test_the_command_says_it_in_its_exit_code(
+    copied: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["dataset", "verify", str(copied)]) == 0
+    assert "all is well" in capsys.readouterr().out
+    (copied / "esim" / "test-000000.tar").unlink()
+    assert main(["dataset", "verify", str(copied), "--json"]) == 1
+    assert json.loads(capsys.readouterr().out)["missing"] == ["esim/test-000000.tar"]
+    assert main(["dataset", "verify", str(copied / "logs")]) == 2
