@@ -1,0 +1,116 @@
+"""A published set is read by the libraries it is published for, by the lines its card shows."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from texvent.dataset.contents.made_set import MadeSet
+from texvent.dataset.contents.stored_events import read_events
+from texvent.dataset.publishing.notice import Notice
+from texvent.dataset.publishing.publication import publish
+from texvent.events import EventStream
+
+pytestmark = [
+    pytest.mark.dataset,
+    pytest.mark.filterwarnings("ignore::DeprecationWarning"),
+    pytest.mark.filterwarnings("ignore::FutureWarning"),
+    pytest.mark.filterwarnings("ignore::ResourceWarning"),
+    pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning"),
+]
+
+
+@pytest.fixture
+def published(copied: Path) -> Path:
+    pytest.importorskip("pyarrow")
+    publish(MadeSet.open(copied), Notice(date="2026-11-21", creator="A", url="https://a.b/c"))
+    return copied
+
+
+def samples_of(folder: Path, variant: str) -> dict[str, EventStream]:
+    return {
+        sample.key: read_events(shard.path, sample)
+        for shard in MadeSet.open(folder).shards(variant)
+        for sample in shard.samples
+    }
+
+
+def assert_same(columns: dict[str, Any], events: EventStream) -> None:
+    for name in "xytp":
+        np.testing.assert_array_equal(np.asarray(columns[name]), getattr(events, name))
+
+
+def test_webdataset_reads_the_shards(published: Path) -> None:
+    webdataset = pytest.importorskip("webdataset")
+    expected, seen = samples_of(published, "paper"), 0
+    for shard in MadeSet.open(published).shards("paper"):
+        for sample in webdataset.WebDataset(str(shard.path), shardshuffle=False).decode():
+            columns = {name: sample[f"{name}.npy"] for name in "xytp"}
+            assert_same(columns, expected[sample["__key__"]])
+            assert sample["txt"] == sample["json"]["prompt"]
+            assert isinstance(sample["cls"], int)
+            assert sample["png"].startswith(b"\x89PNG")
+            seen += 1
+    assert seen == len(expected)
+
+
+def test_hugging_face_datasets_reads_the_folder(published: Path, tmp_path: Path) -> None:
+    pytest.importorskip("PIL")
+    datasets = pytest.importorskip("datasets")
+    expected, seen = samples_of(published, "paper"), 0
+    for split in ("train", "test"):
+        table = datasets.load_dataset(
+            str(published), "paper", split=split, cache_dir=str(tmp_path / "cache")
+        )
+        assert table.features["cls"].names == ["bus", "car"]
+        assert table.features["x.npy"].feature.dtype == "uint16"
+        for sample in table:
+            columns = {name: sample[f"{name}.npy"] for name in "xytp"}
+            assert_same(columns, expected[sample["__key__"].split("/")[-1]])
+            assert sample["json"]["prompt"] == sample["txt"]
+            assert sample["png"].size == (32, 24)
+            seen += 1
+    assert seen == len(expected)
+    default = datasets.load_dataset(str(published), split="train", streaming=True)
+    assert next(iter(default.select_columns(["txt"])))["txt"]
+
+
+def test_mlcroissant_validates_the_description_and_reads_the_index(published: Path) -> None:
+    mlcroissant = pytest.importorskip("mlcroissant")
+    described = mlcroissant.Dataset(jsonld=str(published / "croissant.json"))
+    assert not described.metadata.ctx.issues.errors
+    assert all("citeAs" in warning for warning in described.metadata.ctx.issues.warnings)
+    records = list(described.records("samples"))
+    expected = {**samples_of(published, "paper"), **samples_of(published, "esim")}
+    assert {record["samples/key"].decode() for record in records} == set(expected)
+    for record in records:
+        assert record["samples/events"] == len(expected[record["samples/key"].decode()])
+
+
+def test_the_lines_of_the_card_run(published: Path, tmp_path: Path) -> None:
+    for package in ("webdataset", "datasets", "pandas", "PIL"):
+        pytest.importorskip(package)
+    card = (published / "README.md").read_text("utf-8")
+    blocks = re.findall(r"```python\n(.*?)```", card, re.DOTALL)
+    assert len(blocks) >= 4
+    script = "\n".join(blocks).replace("DIR", str(published)) + "\nprint(len(times), caption)\n"
+    place = tmp_path / "card.py"
+    place.write_text(script)
+    environment = {**os.environ, "HF_HOME": str(tmp_path / "hf"), "HF_HUB_OFFLINE": "1"}
+    done = subprocess.run(
+        [sys.executable, str(place)],
+        capture_output=True,
+        text=True,
+        env=environment,
+        timeout=300,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr[-2000:]
+    assert "drives left" in done.stdout
