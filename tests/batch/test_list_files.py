@@ -60,6 +60,12 @@ def test_json_lines_hold_texts_or_objects(tmp_path):
         ("p.csv", "prompt,seed\na car,x\n", "line 2: seed is 'x'"),
         ("p.csv", "prompt,seed\n,3\n", "line 2 has no prompt"),
         ("p.csv", 'prompt\n"a car\n', "after line 1"),
+        (
+            "p.csv",
+            "prompt\na car, fast, drives\n",
+            "line 2 has 3 values for 1 column; put a prompt with commas in double quotes",
+        ),
+        ("p.csv", "name,prompt,seed\na,a car,1\nb,a dog\n", "line 3 has 2 values for 3 columns"),
         ("p.jsonl", '"a car"\n{"prompt": \n', "line 2 is not JSON"),
         ("p.jsonl", "[1]\n", "line 1 is neither a text nor an object"),
         ("p.jsonl", '{"prompt": "a", "seed": -1}\n', "line 1: seed is -1"),

@@ -89,9 +89,26 @@ def _read_csv(path: Path, text: str) -> Iterator[ListEntry]:
                 f"{', '.join(columns)[:100]}"
             )
         for row in reader:
+            _check_width(path, reader.line_num, row, len(columns))
             yield _from_mapping(path, reader.line_num, row)
     except csv.Error as error:
         raise FileFormatError(f"{path} after line {reader.line_num}: {one_line(error)}") from error
+
+
+def _check_width(path: Path, number: int, row: Mapping[Any, Any], columns: int) -> None:
+    """Refuse a row with more or fewer values than columns: a comma too many cuts a prompt.
+
+    Raises:
+        FileFormatError: see above.
+    """
+    extra, missing = row.get(None) or (), sum(value is None for value in row.values())
+    if extra or missing:
+        values = columns + len(extra) - missing
+        raise FileFormatError(
+            f"{_where(path, number)} has {values} value{'s' * (values != 1)} for {columns} "
+            f"column{'s' * (columns != 1)}; put a prompt with commas in double quotes, and leave "
+            "a column empty by two commas"
+        )
 
 
 def _read_jsonl(path: Path, text: str) -> Iterator[ListEntry]:
