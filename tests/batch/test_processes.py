@@ -10,7 +10,7 @@ import pytest
 PROGRAM = """
 import os, sys, time
 from pathlib import Path
-from texvent.batch.processes import interruptible, processes, start_pool, stop_pool
+from texvent.batch.processes import interruptible, processes, start_pool, stop_pools
 from texvent.io.hidden_parts import hidden_file
 
 def work(folder):
@@ -29,7 +29,7 @@ if __name__ == "__main__":
     while not (folder / "begun").exists():
         time.sleep(0.01)
     if how == "stop":
-        stop_pool(pool)
+        stop_pools(pool)
     else:
         os._exit(9)
 """

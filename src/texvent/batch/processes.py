@@ -17,21 +17,28 @@ from texvent.runtime.threads import THREADS_VARIABLE, count_threads
 ORPHAN_EXIT, INTERRUPTED_EXIT = 3, 130
 
 
-def start_pool(processes: int) -> ProcessPoolExecutor:
-    """A pool whose processes share the cores, and end when this process does, however it ends."""
+def start_pool(processes: int, *, of: int | None = None) -> ProcessPoolExecutor:
+    """A pool whose processes share the cores, and end when this process does, however it ends.
+
+    Args:
+        processes: of the pool.
+        of: how many share the cores, if there are further pools.
+    """
     return ProcessPoolExecutor(
         processes,
         mp_context=multiprocessing.get_context("spawn"),
         initializer=_start_process,
-        initargs=(max(1, count_threads() // processes),),
+        initargs=(max(1, count_threads() // (of or processes)),),
     )
 
 
-def stop_pool(pool: ProcessPoolExecutor) -> None:
-    """End the processes of a pool at once; they clean up what they are at."""
-    for process in list((pool._processes or {}).values()):
-        process.terminate()
-    pool.shutdown(cancel_futures=True)
+def stop_pools(*pools: ProcessPoolExecutor) -> None:
+    """End the processes of pools at once; they clean up what they are at."""
+    for pool in pools:
+        for process in list((pool._processes or {}).values()):
+            process.terminate()
+    for pool in pools:
+        pool.shutdown(cancel_futures=True)
 
 
 @contextmanager
@@ -41,7 +48,7 @@ def processes(count: int) -> Iterator[ProcessPoolExecutor]:
     try:
         yield pool
     except BaseException:
-        stop_pool(pool)
+        stop_pools(pool)
         raise
     finally:
         pool.shutdown(cancel_futures=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 import sys
 from collections.abc import Mapping, Sequence
@@ -15,7 +16,7 @@ from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.dataset.generation.engines.protocol import Engine, in_this_process
-from texvent.dataset.generation.make import Work, find_work, make_shards
+from texvent.dataset.generation.make import Work, find_work, make_shards, remove_dead_parts
 from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.generation.records import FAILED, FILTERED, MADE
 from texvent.dataset.specification.reading import read_specification
@@ -27,6 +28,7 @@ same command goes on where it was stopped or killed, on any machine that sees th
 
   texvent dataset make cars.toml -o cars --workers 8
   texvent dataset make cars --shards 3/10     the third of ten parts, for job arrays
+  texvent dataset make cars --ray auto        on the Ray cluster that this machine belongs to
   texvent dataset make cars --retry-failed"""
 
 
@@ -44,6 +46,11 @@ class MakeOptions:
     """Folder of the data set; default: its name."""
     workers: int | None = None
     """Processes of this machine; default: one per core."""
+    ray: str | None = None
+    """Ray cluster that makes the shards: its address, such as head:6379; "auto", the one this
+    machine belongs to; "local", one of --workers processes for this run."""
+    ray_memory_gb: float | None = None
+    """Memory that each shard of events reserves on its Ray node, GB."""
     shards: str | None = None
     """K/N: of N parts of all shards, the K-th only, from 1."""
     retry_failed: bool = False
@@ -53,6 +60,13 @@ class MakeOptions:
 
     def __post_init__(self) -> None:
         check_range("workers", self.workers, 1, 1024)
+        check_range("ray_memory_gb", self.ray_memory_gb, 0.001, 1e6)
+        if self.ray_memory_gb is not None and self.ray is None:
+            raise ConfigError("ray_memory_gb is for a Ray cluster; name it with --ray")
+        if self.workers is not None and self.ray not in (None, "local"):
+            raise ConfigError(
+                "workers is for this machine; --ray uses all CPUs that the cluster offers"
+            )
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -67,11 +81,12 @@ def run(arguments: Sequence[str]) -> int:
     recipe, folder = _open(options)
     recipe.begin(folder)
     work = find_work(recipe, folder, part=part, retry_failed=options.retry_failed)
-    workers = count_threads() if options.workers is None else options.workers
     with (
-        closing(_engine(workers, work)) as engine,
+        contextlib.ExitStack() as later,
+        closing(_engine(options, work)) as engine,
         LiveTable(recipe, folder, work, is_quiet=options.quiet) as table,
     ):
+        later.callback(remove_dead_parts, recipe, folder)
         make_shards(work, engine, table.note)
     return _finish(folder, work, is_whole=part[1] == 1)
 
@@ -92,14 +107,20 @@ def _open(options: MakeOptions) -> tuple[Recipe, Path]:
     if options.specification.is_dir():
         if options.out is not None:
             raise ConfigError("-o goes with a specification; a data set goes on in its own folder")
-        return load_recipe(options.specification), options.specification
+        return load_recipe(options.specification), options.specification.absolute()
     specification = read_specification(options.specification)
     folder = Path(specification.name) if options.out is None else options.out
     return Recipe.of(specification), folder.absolute()
 
 
-def _engine(workers: int, work: Work) -> Engine:
-    if workers == 1 or len(work.todo) + len(work.videos_todo) < 2:
+def _engine(options: MakeOptions, work: Work) -> Engine:
+    shards = len(work.todo) + len(work.videos_todo)
+    if options.ray is not None and shards:
+        from texvent.dataset.generation.engines.ray_cluster import RayEngine
+
+        return RayEngine(options.ray, workers=options.workers, memory_gb=options.ray_memory_gb)
+    workers = count_threads() if options.workers is None else options.workers
+    if workers == 1 or shards < 2:
         return in_this_process()
     from texvent.dataset.generation.engines.processes import ProcessEngine
 

@@ -12,6 +12,7 @@ from texvent.dataset.generation.make_shard import is_complete
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
 from texvent.dataset.generation.records import FAILED, ShardRecord
 from texvent.errors import ConfigError
+from texvent.io.hidden_parts import sweep
 
 OnOutcome = Callable[[Outcome], None]
 
@@ -94,6 +95,12 @@ def make_shards(work: Work, engine: Engine, on_outcome: OnOutcome) -> None:
         else:
             work.failures[shard] = outcome.failure or "unknown"
         on_outcome(outcome)
+
+
+def remove_dead_parts(recipe: Recipe, folder: Path) -> None:
+    """Remove what processes that were killed left behind; shards at work elsewhere are kept."""
+    for stage in (VIDEOS, *recipe.variants):
+        sweep(folder / stage)
 
 
 def _video_of(shard: Shard) -> Shard:

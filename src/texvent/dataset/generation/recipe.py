@@ -21,6 +21,7 @@ from texvent.dataset.specification.resolve import check_options
 from texvent.dataset.specification.specification import Specification, Variant
 from texvent.errors import ConfigError, FileFormatError, InputError, OutputError, one_line
 from texvent.io.atomic import atomic_file
+from texvent.io.hidden_parts import is_hidden_part
 from texvent.run.settings import Command
 
 SPECIFICATION_FILE, ITEMS_FILE = "specification.json", "items.jsonl"
@@ -129,7 +130,7 @@ class Recipe:
         if (folder / SPECIFICATION_FILE).exists():
             load_recipe(folder).refuse_other(self, folder)
             return
-        if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
+        if folder.exists() and (not folder.is_dir() or _holds_others(folder)):
             raise OutputError(f"{folder} exists and holds no data set of texvent; name another")
         try:
             folder.mkdir(parents=True, exist_ok=True)
@@ -166,6 +167,11 @@ class Recipe:
             f"{folder} was made from another specification: {change}; name another folder with -o "
             "(texvent dataset merge puts two together)"
         )
+
+
+def _holds_others(folder: Path) -> bool:
+    """True if there is more than what `Recipe.begin` leaves when it is killed."""
+    return any(one.name != ITEMS_FILE and not is_hidden_part(one) for one in folder.iterdir())
 
 
 def load_recipe(folder: Path) -> Recipe:

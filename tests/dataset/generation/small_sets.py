@@ -1,0 +1,50 @@
+"""Small data sets to make, and what is compared of them."""
+
+from __future__ import annotations
+
+import hashlib
+from contextlib import closing
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from texvent.dataset.generation.engines.protocol import Engine, in_this_process
+from texvent.dataset.generation.make import Work, find_work, make_shards
+from texvent.dataset.generation.recipe import Recipe
+from texvent.dataset.specification.reading import specification_from
+
+
+def clips_recipe(folder: Path, *, clips: int = 6, **changes: Any) -> Recipe:
+    """A recipe of tiny clips that are written to a folder: 4 samples per clip, 2 clips a shard."""
+    (folder / "clips").mkdir()
+    random_pixels = np.random.default_rng(0)
+    for number in range(clips):
+        clip = random_pixels.integers(0, 255, (6, 12, 16), dtype=np.uint8)
+        np.save(folder / "clips" / f"{number}.npy", clip)
+    tables = {
+        "name": "tiny",
+        "samples_per_shard": 2,
+        "previews": False,
+        "options": {"fps": 120, "interpolate": "none"},
+        "sources": [{"videos": ["clips/*.npy"]}],
+        "variants": {"paper": {"seeds": 3}, "esim": {"simulator": "esim"}},
+    }
+    return Recipe.of(specification_from({**tables, **changes}, folder=folder))
+
+
+def make(recipe: Recipe, folder: Path, engine: Engine | None = None) -> Work:
+    """Make a data set, by one process if no engine is given."""
+    recipe.begin(folder)
+    work = find_work(recipe, folder)
+    with closing(engine or in_this_process()) as running:
+        make_shards(work, running, lambda outcome: None)
+    return work
+
+
+def digests(folder: Path) -> dict[str, str]:
+    """Path of every shard → sha256 of its bytes."""
+    return {
+        str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted(folder.rglob("*.tar"))
+    }

@@ -1,0 +1,142 @@
+"""A Ray cluster makes the bytes of one process, whatever it loses; an unfit node is named."""
+
+from __future__ import annotations
+
+import os
+import socket
+from collections.abc import Iterator
+from contextlib import closing
+from pathlib import Path
+from typing import Any
+
+import pytest
+from tests.dataset.generation.small_sets import clips_recipe, digests, make
+
+import texvent
+from texvent.dataset.generation.engines.protocol import Outcome, Task
+from texvent.dataset.generation.engines.ray_cluster import RayEngine
+from texvent.dataset.generation.make import find_work, make_shards, remove_dead_parts
+from texvent.dataset.generation.recipe import Shard
+from texvent.errors import ConfigError, MissingDependencyError, OutputError
+
+pytestmark = pytest.mark.dataset
+pytest.importorskip("ray")
+
+NODE = {"object_store_memory": 100 * 2**20, "num_gpus": 0}
+
+
+@pytest.fixture(scope="module")
+def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
+    """A head that makes shards of events, one at a time."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("RAY_USAGE_STATS_ENABLED", "0")
+        patch.setenv("RAY_AUTH_MODE", "disabled")
+        from ray.cluster_utils import Cluster
+
+        nodes = Cluster(initialize_head=True, head_node_args={**NODE, "num_cpus": 1})
+        yield nodes
+        nodes.shutdown()
+
+
+def test_videos_are_made_by_actors_that_then_give_way(cluster: Any, tmp_path: Path) -> None:
+    recipe = clips_recipe(
+        tmp_path,
+        clips=0,
+        sources=[{"prompts": ["a red car drives left"]}],
+        options={"duration": 0.05, "sensor": "16x12"},
+        repeats=2,
+        samples_per_shard=1,
+        store_videos=True,
+    )
+    make(recipe, tmp_path / "wanted")
+    # The only CPU is the actor's until the last video is made.
+    work = make(recipe, tmp_path / "out", RayEngine(cluster.address))
+    assert not work.failures
+    assert digests(tmp_path / "out") == digests(tmp_path / "wanted")
+    assert len(digests(tmp_path / "out")) == 6
+
+
+def test_a_node_without_the_folder_is_named(cluster: Any, tmp_path: Path) -> None:
+    with closing(RayEngine(cluster.address)) as engine:
+        engine.submit(Task(tmp_path / "elsewhere", Shard("paper", "train", 0)))
+        with pytest.raises(OutputError, match="elsewhere is not here; all workers need") as found:
+            engine.next()
+        (tmp_path / "local").mkdir()
+        engine.submit(Task(tmp_path / "local", Shard("paper", "train", 0)))
+        with pytest.raises(ConfigError, match="holds no data set of texvent"):
+            engine.next()
+    assert str(found.value).startswith(f"node {socket.gethostname()}: ")
+
+
+ABSENT = "import sys\nsys.modules['texvent'] = None\n"
+OTHER_NUMBA = """
+from importlib import metadata
+of = metadata.version
+metadata.version = lambda name: "0.1" if name == "numba" else of(name)
+"""
+OTHER_TEXVENT = """
+import sys, types
+sys.modules["texvent._version"] = types.ModuleType("texvent._version")
+sys.modules["texvent._version"].full_version = lambda: "9.9"
+"""
+
+
+@pytest.mark.parametrize(
+    ("startup", "message"),
+    [
+        (ABSENT, r"node \S+ has no texvent \d.*; install it on every node"),
+        (OTHER_NUMBA, r"node \S+ has numba 0\.1, and this machine \d.*install the same"),
+        (OTHER_TEXVENT, r"node \S+ has texvent 9\.9, and this machine \d.*install the same"),
+    ],
+    ids=["absent", "other numba", "other texvent"],
+)
+def test_a_node_without_texvent_or_with_other_packages_ends_the_run_in_one_line(
+    cluster: Any, tmp_path: Path, startup: str, message: str
+) -> None:
+    (tmp_path / "site").mkdir()
+    (tmp_path / "site" / "sitecustomize.py").write_text(startup)
+    places = [str(tmp_path / "site"), str(Path(texvent.__file__).parents[1])]
+    recipe, folder = clips_recipe(tmp_path), tmp_path / "out"
+    recipe.begin(folder)
+    node = cluster.add_node(**NODE, num_cpus=8, env_vars={"PYTHONPATH": os.pathsep.join(places)})
+    try:
+        with (
+            closing(RayEngine(cluster.address)) as engine,
+            pytest.raises(MissingDependencyError, match=message) as found,
+        ):
+            make_shards(find_work(recipe, folder), engine, lambda outcome: None)
+    finally:
+        cluster.remove_node(node, allow_graceful=False)
+    assert "\n" not in str(found.value)
+    assert not list(folder.rglob(".texvent-*"))
+
+
+def test_memory_that_no_node_has_and_a_cluster_that_is_not_there(cluster: Any) -> None:
+    with pytest.raises(ConfigError, match=r"ray_memory_gb is 900000, and no node .* more than"):
+        RayEngine(cluster.address, memory_gb=900_000)
+    with pytest.raises(ConfigError, match=r"cannot use the Ray cluster 'nowhere'") as found:
+        RayEngine("nowhere")
+    assert "\n" not in str(found.value)
+
+
+def test_a_node_that_is_lost_changes_no_byte(cluster: Any, tmp_path: Path) -> None:
+    recipe, folder = clips_recipe(tmp_path), tmp_path / "out"
+    make(recipe, tmp_path / "wanted")
+    second = cluster.add_node(**NODE, num_cpus=1)
+    recipe.begin(folder)
+    work, seen = find_work(recipe, folder), list[Outcome]()
+
+    def lose_a_node(outcome: Outcome) -> None:
+        seen.append(outcome)
+        if len(seen) == 1:
+            cluster.remove_node(second, allow_graceful=False)
+
+    with closing(RayEngine(cluster.address)) as engine:
+        assert engine.capacity(videos=False) >= 4
+        make_shards(work, engine, lose_a_node)
+    remove_dead_parts(recipe, folder)
+    assert not work.failures
+    assert len(seen) == len(work.complete) == 6
+    assert sum(len(record.samples) for record in work.complete.values()) == 24
+    assert digests(folder) == digests(tmp_path / "wanted")
+    assert not list(folder.rglob(".texvent-*"))

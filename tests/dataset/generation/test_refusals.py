@@ -1,0 +1,160 @@
+"""A disk that is full, a folder that is read-only, another specification or version: one line each.
+
+What was made before stays, and the same command goes on when the cause is gone.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import resource
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.dataset.generation.small_sets import digests
+
+SPECIFICATION = """
+name = "tiny"
+seed = 1
+samples_per_shard = 1
+[options]
+fps = 120
+interpolate = "none"
+[[sources]]
+videos = ["clips/*.npy"]
+[variants.paper]
+seeds = 2
+"""
+
+
+@pytest.fixture(scope="module")
+def inputs(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A specification of six shards, and the data set as one process makes it."""
+    folder = tmp_path_factory.mktemp("inputs")
+    (folder / "clips").mkdir()
+    for number in range(6):
+        clip = np.random.default_rng(number).integers(0, 255, (6, 12, 16), dtype=np.uint8)
+        np.save(folder / "clips" / f"{number}.npy", clip)
+    (folder / "tiny.toml").write_text(SPECIFICATION)
+    done = make(folder, folder / "wanted")
+    assert done.returncode == 0, done.stderr
+    return folder
+
+
+def make(
+    inputs: Path, out: Path, *words: str, before: Callable[[], None] | None = None
+) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "texvent.cli.app", "dataset", "make", "--quiet"]
+    return subprocess.run(
+        [*command, str(inputs / "tiny.toml"), "-o", str(out), "--workers", "1", *words],
+        capture_output=True,
+        text=True,
+        timeout=300,
+        preexec_fn=before,
+    )
+
+
+def check_one_line(done: subprocess.CompletedProcess[str]) -> str:
+    assert done.returncode in (1, 2, 3)
+    lines = done.stderr.strip().splitlines()
+    assert len(lines) == 1, done.stderr
+    assert lines[0].startswith("error: ")
+    return lines[0]
+
+
+@contextlib.contextmanager
+def disk(folder: Path, kilobytes: int) -> Iterator[None]:
+    """A disk of its own under a folder; skips where this user may not mount one."""
+    folder.mkdir()
+    options = ["mount", "-t", "tmpfs", "-o", f"size={kilobytes}k", "tmpfs", str(folder)]
+    if os.geteuid() or subprocess.run(options, capture_output=True).returncode:
+        pytest.skip("only root may mount a small disk, and not in every container")
+    try:
+        yield
+    finally:
+        subprocess.run(["umount", str(folder)], check=True)
+
+
+@pytest.mark.parametrize("kilobytes", [4, 16, 150])
+def test_a_full_disk(inputs: Path, tmp_path: Path, kilobytes: int) -> None:
+    # The smaller ones take not even the specification, or only that.
+    with disk(tmp_path / "disk", kilobytes):
+        out = tmp_path / "disk" / "out"
+        line = check_one_line(make(inputs, out))
+        assert "full" in line or "No space left" in line
+        before = digests(out) if out.exists() else {}
+        assert len(before) < 6
+        assert before.items() <= digests(inputs / "wanted").items()
+        subprocess.run(["mount", "-o", "remount,size=8m", str(out.parent)], check=True)
+        assert make(inputs, out).returncode == 0
+        assert digests(out) == digests(inputs / "wanted")
+        assert not list(out.rglob(".texvent-*"))
+
+
+@pytest.mark.parametrize("workers", ["1", "2"])
+def test_files_that_may_not_grow(inputs: Path, tmp_path: Path, workers: str) -> None:
+    def limit() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (16_000, 16_000))
+
+    out = tmp_path / "out"
+    line = check_one_line(make(inputs, out, "--workers", workers, before=limit))
+    assert "it grew over the largest file allowed here" in line
+    assert not list(out.rglob("*.tar"))
+    assert make(inputs, out).returncode == 0
+    assert digests(out) == digests(inputs / "wanted")
+
+
+def test_a_read_only_folder(inputs: Path, tmp_path: Path) -> None:
+    with disk(tmp_path / "disk", 8000):
+        out = tmp_path / "disk" / "out"
+        assert make(inputs, out, "--shards", "1/2").returncode == 0
+        before = digests(out)
+        subprocess.run(["mount", "-o", "remount,ro", str(out.parent)], check=True)
+        assert "Read-only file system" in check_one_line(make(inputs, out))
+        subprocess.run(["mount", "-o", "remount,rw", str(out.parent)], check=True)
+        assert digests(out) == before
+        assert make(inputs, out).returncode == 0
+        assert digests(out) == digests(inputs / "wanted")
+
+
+def test_a_specification_that_changed(inputs: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    assert make(inputs, out, "--shards", "1/2").returncode == 0
+    before = digests(out)
+    (inputs / "tiny.toml").write_text(SPECIFICATION.replace("seed = 1", "seed = 2"))
+    try:
+        line = check_one_line(make(inputs, out))
+    finally:
+        (inputs / "tiny.toml").write_text(SPECIFICATION)
+    assert "was made from another specification: seed was 1, is 2" in line
+    assert digests(out) == before
+    assert make(inputs, out).returncode == 0
+
+
+def test_another_version_of_texvent(inputs: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    assert make(inputs, out, "--shards", "1/2").returncode == 0
+    before, note = digests(out), out / "specification.json"
+    text = note.read_text()
+    note.write_text(json.dumps({**json.loads(text), "texvent_version": "9.9"}))
+    line = check_one_line(make(inputs, out))
+    assert "was begun by texvent 9.9" in line
+    assert "install that version, or name another folder" in line
+    note.write_text(text)
+    assert digests(out) == before
+    assert make(inputs, out).returncode == 0
+
+
+def test_a_kill_while_a_folder_is_begun(inputs: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "items.jsonl").write_text((inputs / "wanted" / "items.jsonl").read_text()[:40])
+    (out / ".texvent-0123456789ab.part.json").touch()
+    assert make(inputs, out).returncode == 0
+    assert digests(out) == digests(inputs / "wanted")
+    assert not list(out.rglob(".texvent-*"))
