@@ -5,7 +5,7 @@ recording, and the score is how high its own text stands. Texts of equal similar
 ranks, so a model that sees no difference at all is exactly at chance.
 
 The control keeps the similarities and exchanges the texts at random: what is left of the score then
-says nothing about the pairs.
+says nothing about the pairs. Exchanged within classes only, it says what the classes alone give.
 """
 
 from __future__ import annotations
@@ -53,12 +53,17 @@ class RetrievalReport:
     """What an exchange of the texts gives in the long run, computed."""
     p_value: float
     """Share of the exchanges whose mean similarity is at least the measured one; never 0."""
+    within: Retrieval | None = None
+    """Mean over random exchanges of texts within their groups."""
+    p_within: float | None = None
+    """As `p_value`, of those exchanges."""
 
 
 def score_retrieval(
     similarity: NDArray[Any],
     own: NDArray[Any] | None = None,
     *,
+    groups: NDArray[Any] | None = None,
     seed: int = 0,
     resamples: int = 1000,
     exchanges: int = 100,
@@ -68,6 +73,7 @@ def score_retrieval(
     Args:
         similarity: of recording i and text j, [n, m], more is more similar.
         own: number of the text that belongs to each recording, [n]; default: the same number.
+        groups: class of each text, [m], any values; None: no exchange within groups.
         seed: of the bootstrap and of the exchanges.
         resamples: bootstrap samples of the recordings; the texts stay.
         exchanges: random exchanges of the texts.
@@ -96,28 +102,49 @@ def score_retrieval(
     places = _Places.of(similarity, targets)
     samples = chance.integers(count, size=(resamples, count))
     drawn = [_values(places.take(sample)) for sample in samples]
-    mixed = [
-        _values(_Places.of(similarity, chance.permutation(texts)[targets]))
-        for _ in range(exchanges)
-    ]
+
+    def exchange(classes: NDArray[Any]) -> tuple[Retrieval, float]:
+        """Mean over exchanges within classes, and the share that is as good as the pairs."""
+        mixed = np.array(
+            [
+                _values(_Places.of(similarity, _permuted(classes, chance)[targets]))
+                for _ in range(exchanges)
+            ]
+        )
+        at_least = int((mixed[:, -1] >= measured[-1]).sum())
+        return _retrieval(mixed.mean(axis=0)), (1 + at_least) / (1 + exchanges)
+
     measured = _values(places)
+    shuffled, p_value = exchange(np.zeros(texts, np.int64))
+    within = (None, None) if groups is None else exchange(np.asarray(groups))
     tail = 50 * (1 - CONFIDENCE)
-    low, high = np.percentile(drawn, (tail, 100 - tail), axis=0) if drawn else (measured, measured)
-    at_least = sum(values[-1] >= measured[-1] for values in mixed)
+    low, high = np.percentile(drawn, (tail, 100 - tail), axis=0)
     return RetrievalReport(
         recordings=count,
         texts=texts,
         measured=_retrieval(measured),
         low=_retrieval(low),
         high=_retrieval(high),
-        shuffled=_retrieval(np.mean(mixed, axis=0) if mixed else np.full_like(measured, np.nan)),
+        shuffled=shuffled,
         chance=Retrieval(
             recall={k: min(k / texts, 1.0) for k in RECALL_AT},
             median_rank=(texts + 1) / 2,
             mean_similarity=float(similarity.mean(dtype=np.float64)),
         ),
-        p_value=float((1 + at_least) / (1 + len(mixed))),
+        p_value=p_value,
+        within=within[0],
+        p_within=within[1],
     )
+
+
+def _permuted(groups: NDArray[Any], chance: np.random.Generator) -> NDArray[np.int64]:
+    """A random permutation that exchanges numbers of equal groups only."""
+    count = len(groups)
+    sorted_places = np.argsort(groups, kind="stable")
+    mixed_places = np.lexsort((chance.random(count), groups))
+    permutation = np.empty(count, np.int64)
+    permutation[sorted_places] = mixed_places
+    return permutation
 
 
 @dataclass(frozen=True)

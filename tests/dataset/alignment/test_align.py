@@ -118,7 +118,7 @@ def test_ours_and_recorded_streams_rank_the_captions_that_both_have(
     said = capsys.readouterr().out
     assert [row["source"] for row in both["rows"]] == ["texvent", "N-ImageNet"]
     assert [row["texts"] for row in both["rows"]] == [3, 3]
-    assert said.count("captions exchanged") == said.count("chance") == 2
+    assert said.count("texts exchanged") == said.count("chance") == 2
     alone = run(clip, tmp_path / "real.json", *real)
     assert [row["texts"] for row in alone["rows"]] == [4]
     assert alone["rows"][0]["chance"]["recall"] == {"1": 0.25, "5": 1.0, "10": 1.0}

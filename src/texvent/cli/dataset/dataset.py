@@ -10,7 +10,7 @@ from texvent._registry import suggest
 from texvent.errors import ConfigError, shown
 
 STEPS: Mapping[str, str] = {
-    "plan": "check a specification; counts, size and time before anything runs",
+    "plan": "check a specification; counts, size and time before it runs",
     "make": "make a data set from a specification, or go on with one",
     "status": "how far a data set is, while it is made or afterwards",
     "verify": "check every file of a data set, and every sample",
@@ -19,7 +19,7 @@ STEPS: Mapping[str, str] = {
     "publish": "write the index, the card and the description of a data set",
     "merge": "put data sets together",
     "export": "write the samples of a data set in another layout",
-    "nt-imagenet": "recorded streams of N-ImageNet with captions, and prompts for our own",
+    "nt-imagenet": "streams of N-ImageNet with captions, as prompts for our own",
     "align": "how well the events fit their texts, by a CLIP model of yours",
 }
 """Name, which is its module beside this one → what it does."""

@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.dataset.alignment.recordings import Recording
 from texvent.dataset.alignment.views import View
@@ -63,10 +64,19 @@ def align(
             for name, view in views.items():
                 vectors[name].append(_mean(clip.embed_images(view(events))))
         of_texts = clip.embed_texts(texts)
+        groups = _labels(recordings, texts)
         for name in views:
-            report = score_retrieval(np.concatenate(vectors[name]) @ of_texts.T, own, seed=seed)
+            similarity = np.concatenate(vectors[name]) @ of_texts.T
+            report = score_retrieval(similarity, own, groups=groups, seed=seed)
             rows.append(AlignmentRow(source=source, view=name, report=report))
     return rows
+
+
+def _labels(recordings: Sequence[Recording], texts: Sequence[str]) -> NDArray[Any] | None:
+    """Class of each text; None where there are none, or one alone."""
+    found = {recording.text: recording.label for recording in recordings}
+    labels = {label for label in found.values() if label is not None}
+    return np.array([str(found[text]) for text in texts]) if len(labels) > 1 else None
 
 
 def _mean(vectors: Vectors) -> Vectors:
@@ -88,8 +98,11 @@ def alignment_table(rows: Sequence[AlignmentRow]) -> str:
         lines.append(
             [row.source, row.view, *counts, *_with_interval(report), f"{report.p_value:.3f}"]
         )
-        for name, control in (("captions exchanged", report.shuffled), ("chance", report.chance)):
-            lines.append(["", name, "", "", *_cells(control), ""])
+        lines.append(["", "texts exchanged", "", "", *_cells(report.shuffled), ""])
+        if report.within is not None:
+            p_value = f"{report.p_within:.3f}"
+            lines.append(["", "within classes", "", "", *_cells(report.within), p_value])
+        lines.append(["", "chance", "", "", *_cells(report.chance), ""])
     widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
     return "".join(
         "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()

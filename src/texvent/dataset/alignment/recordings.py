@@ -31,6 +31,8 @@ class Recording:
     """What it shares with recordings of the same text in other sources."""
     text: str
     load: Callable[[], EventStream]
+    label: str | None = None
+    """Class of the text."""
 
 
 def list_samples(
@@ -58,7 +60,8 @@ def list_samples(
             continue
         if not sample.prompt:
             raise InputError(f"{folder} is made of videos without prompts; there is no text to fit")
-        recording = Recording(id, sample.prompt, partial(read_events, shard, sample))
+        load = partial(read_events, shard, sample)
+        recording = Recording(id, sample.prompt, load, sample.label)
         found.setdefault(shard.parent.name, []).append(recording)
     if not found:
         where = "" if split is None else f" in split {split}"
@@ -95,7 +98,7 @@ def list_streams(n_imagenet: Path, captioned: Sequence[Captioned]) -> list[Recor
         path = root / one.label / f"{one.id}{STREAM_EXTENSION}"
         if not path.is_file():
             raise InputError(f"{root} lacks {one.label}/{path.name}; its caption is there")
-        recordings.append(Recording(one.id, one.caption, partial(load_stream, path)))
+        recordings.append(Recording(one.id, one.caption, partial(load_stream, path), one.label))
     return recordings
 
 
