@@ -55,7 +55,7 @@ test-dataset: $(DATASET_VENV)/.dataset
 	$(DATASET_VENV)/bin/python -m pytest -q -m dataset tests/dataset
 
 test-gpl: $(GPL_VENV)/.gpl
-	$(GPL_VENV)/bin/python -m pytest -q -m gpl tests/io
+	$(GPL_VENV)/bin/python -m pytest -q -m gpl tests/io tests/dataset/loading
 
 lint: $(VENV)/.dev
 	$(VENV)/bin/ruff check .

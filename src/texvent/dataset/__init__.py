@@ -15,16 +15,18 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from texvent.dataset.loading.open_samples import open
     from texvent.dataset.loading.stored_samples import StoredSample, StoredSamples
+    from texvent.dataset.loading.tonic_style import EventClips
     from texvent.dataset.samples import SimulatedSamples
 
 _HOME_OF = {
+    "EventClips": "loading.tonic_style",
     "SimulatedSamples": "samples",
     "StoredSample": "loading.stored_samples",
     "StoredSamples": "loading.stored_samples",
     "open": "loading.open_samples",
 }
 
-__all__ = ["SimulatedSamples", "StoredSample", "StoredSamples", "open"]
+__all__ = ["EventClips", "SimulatedSamples", "StoredSample", "StoredSamples", "open"]
 
 
 def __getattr__(name: str) -> Any:

@@ -2,25 +2,20 @@
 
 from __future__ import annotations
 
-import io
 import json
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from texvent.dataset.generation.records import SampleRecord
-from texvent.dataset.generation.sample import COLUMNS
 from texvent.dataset.generation.tar_shard import read_members
+from texvent.dataset.loading.npy_columns import COLUMN_MEMBERS, events_of, npy_column
 from texvent.errors import FileFormatError, InputError, one_line
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 
-LABEL = "label"
-
 
 def read_events(shard: Path, sample: SampleRecord) -> EventStream:
-    """The events of a sample with all that is known of them as metadata.
+    """The events of a sample, checked, with all that is known of them as metadata.
 
     Args:
         shard: the tar.
@@ -29,21 +24,16 @@ def read_events(shard: Path, sample: SampleRecord) -> EventStream:
     Raises:
         FileFormatError: the shard is cut off or changed, or the events are not sound.
     """
-    wanted = tuple(f"{name}.npy" for name in (*COLUMNS, LABEL))
-    members = read_members(shard, sample.members, (*wanted, "json"))
+    members = read_members(shard, sample.members, COLUMN_MEMBERS)
     try:
-        columns: dict[str, Any] = {
-            name.removesuffix(".npy"): np.load(io.BytesIO(members[name]), allow_pickle=False)
-            for name in wanted
-            if name in members
+        columns = {
+            name.removesuffix(".npy"): npy_column(memoryview(content))
+            for name, content in members.items()
         }
-        columns["t"] = columns["t"].astype(np.int64)
-        size = SensorSize(sample.width, sample.height)
-        return EventStream(**columns, size=size, metadata=json.loads(members["json"]))
-    except (KeyError, ValueError, TypeError, EOFError, InputError) as error:
-        raise FileFormatError(
-            f"{shard}: sample {sample.key} is damaged ({one_line(error)})"
-        ) from error
+        events = events_of(columns, SensorSize(sample.width, sample.height))
+    except InputError as error:
+        raise FileFormatError(f"{shard}: sample {sample.key} is damaged ({error})") from error
+    return events.with_metadata(read_sample_facts(shard, sample))
 
 
 def read_sample_facts(shard: Path, sample: SampleRecord) -> dict[str, Any]:

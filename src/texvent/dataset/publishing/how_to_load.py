@@ -5,13 +5,13 @@ from __future__ import annotations
 from texvent.dataset.contents.made_set import MadeSet
 from texvent.dataset.publishing.index import INDEX_FILE
 
-TEMPLATE = """With [texvent](https://pypi.org/project/texvent):
+TEMPLATE = """With texvent:
 
 ```python
-from texvent.dataset.exporting.tonic_style import EventClips
+import texvent.dataset
 
-clips = EventClips("DIR", variant="VARIANT", split="SPLIT")   # or a split of tonic's conventions
-events, target = clips[0]                                     # structured array x, y, t, p
+samples = texvent.dataset.open("DIR", variant="VARIANT", split="SPLIT")
+events, caption = samples[0].events, samples[0].caption
 ```
 
 With [webdataset](https://github.com/webdataset/webdataset):

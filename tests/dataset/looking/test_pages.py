@@ -1,0 +1,96 @@
+"""Pages and sheets show what is in the set, whatever stands in its captions."""
+
+from __future__ import annotations
+
+import html
+from html.parser import HTMLParser
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from tests.dataset.conftest import CARS
+
+from texvent.cli.app import main
+from texvent.dataset.contents.made_set import MadeSet
+from texvent.dataset.looking.charts import bars, histogram
+from texvent.dataset.looking.chosen_samples import Choice, choose_samples
+from texvent.errors import InputError
+
+
+class Tags(HTMLParser):
+    """Names of the elements of a page."""
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.names: list[str] = []
+        self.feed(page)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        del attrs
+        self.names.append(tag)
+
+
+def test_the_page_shows_every_sample_with_its_caption(
+    cars: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "look.html"
+    assert main(["dataset", "sample", str(cars), "-o", str(out), "-n", "100"]) == 0
+    assert "9 samples of cars" in capsys.readouterr().out
+    page = out.read_text("utf-8")
+    tags = Tags(page).names
+    assert tags.count("picture") == tags.count("pre") == 9
+    assert not {"script", "i", "link", "iframe"} & set(tags)
+    for prompt in CARS["sources"][0]["prompts"]:
+        assert html.escape(prompt) in page
+    sheet = cv2.imread(str(tmp_path / "look.png"))
+    assert sheet is not None
+    assert len(np.unique(sheet)) > 10
+    assert main(["dataset", "sample", str(cars), "-o", str(out)]) == 3
+    assert main(["dataset", "sample", str(cars), "-o", str(tmp_path / "look.png")]) == 2
+
+
+def test_samples_are_chosen_by_chance_and_the_same_every_time(cars: Path) -> None:
+    made = MadeSet.open(cars)
+
+    def keys(**choice: object) -> list[str]:
+        return [one.record.key for one in choose_samples(made, Choice(**choice))]  # type: ignore[arg-type]
+
+    assert keys(count=4) == keys(count=4)
+    assert len({tuple(keys(count=4, seed=seed)) for seed in range(8)}) > 3
+    everything = [sample.key for shard in made.shards() for sample in shard.samples]
+    assert keys(count=100) == everything
+    drawn = [key for seed in range(300) for key in keys(count=3, seed=seed)]
+    counts = [drawn.count(key) for key in everything]
+    assert min(counts) > 60  # 100 each on average, by chance
+    assert max(counts) < 140
+    assert len(keys(label="bus", variant="paper")) == 2
+    with pytest.raises(InputError, match="holds no samples with split 'val'"):
+        keys(split="val")
+
+
+def test_the_page_of_counts_opens_without_a_script(
+    cars: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    page = tmp_path / "stats.html"
+    assert main(["dataset", "stats", str(cars), "--page", str(page)]) == 0
+    capsys.readouterr()
+    text = page.read_text("utf-8")
+    tags = Tags(text).names
+    assert "script" not in tags
+    assert tags.count("svg") == 3
+    assert "9 samples of 3 videos" in text
+    assert text.count("<tr>") == 1 + 4
+
+
+def test_every_sample_is_in_one_bar() -> None:
+    values = [1.0, 2.0, 2.0, 1000.0, 0.0]
+    figure = histogram("n", values, unit="events", is_log=True)
+    assert "at most 2 per bar" in figure
+    assert 'height="140.0"' in figure
+    assert "No values" in histogram("n", [], unit="s", is_log=False)
+    assert histogram("n", [5, 5, 5], unit="s", is_log=True).count("<rect") == 1
+    many = bars({f"class <{n}>": n for n in range(100)})
+    assert "70 between" in many
+    assert "&lt;99&gt;" in many
+    assert "<99>" not in many
