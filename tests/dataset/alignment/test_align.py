@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -18,10 +19,15 @@ torch.set_num_threads(1)
 
 from texvent.cli.app import main  # noqa: E402
 from texvent.dataset.alignment.align import align, alignment_table  # noqa: E402
-from texvent.dataset.alignment.recordings import Recording, list_samples  # noqa: E402
+from texvent.dataset.alignment.recordings import (  # noqa: E402
+    Recording,
+    list_samples,
+    list_streams,
+)
 from texvent.dataset.alignment.views import DrawnEvents  # noqa: E402
+from texvent.dataset.nt_imagenet.files import read_captioned  # noqa: E402
 from texvent.events import EventStream  # noqa: E402
-from texvent.generate.videos.clip_model import ClipModel  # noqa: E402
+from texvent.generate.videos.clip_model import ClipModel, _prepare  # noqa: E402
 from texvent.sensor import SensorSize  # noqa: E402
 
 from ...generate import tiny_pipelines  # noqa: E402
@@ -103,6 +109,36 @@ def test_recordings_of_one_text_are_right_with_the_same_text(clip: Path) -> None
     assert row.report.texts == 2
     assert row.report.measured.recall[1] == 0.5
     assert row.report.chance.recall[1] == 0.5
+
+
+def train(folder: Path, samples: list[Recording]) -> Path:
+    """A tiny CLIP that has learned the pairs by heart."""
+    tiny_pipelines.save_clip(folder)
+    model = transformers.CLIPModel.from_pretrained(folder)
+    tokenizer = transformers.AutoTokenizer.from_pretrained(folder)
+    words = tokenizer([one.text for one in samples], padding=True, return_tensors="pt")
+    pixels = torch.cat([_prepare(DrawnEvents(images=1)(one.load())[0], 32) for one in samples])
+    optimiser = torch.optim.Adam(model.parameters(), lr=3e-3)
+    for _ in range(300):
+        optimiser.zero_grad()
+        loss = model(**words, pixel_values=pixels, return_loss=True).loss
+        loss.backward()
+        optimiser.step()
+    assert loss.item() < 0.1, loss
+    model.save_pretrained(folder)
+    return folder
+
+
+def test_a_model_that_knows_the_pairs_finds_them_and_no_others(data: Path, tmp_path: Path) -> None:
+    samples = list_samples(data / "events")["texvent"]
+    samples += list_streams(data / "N", read_captioned(data / "nt" / "captions.jsonl")[3:])
+    model, views = ClipModel(train(tmp_path / "clip", samples)), {"drawn": DrawnEvents(images=1)}
+    others = [replace(one, text=samples[number - 1].text) for number, one in enumerate(samples)]
+    right, wrong = align({"right": samples, "wrong": others}, views, model)
+    assert right.report.measured.recall[1] == 1.0
+    assert right.report.measured.mean_similarity > right.report.shuffled.mean_similarity + 0.1
+    assert wrong.report.measured.recall[1] == 0.0
+    assert wrong.report.chance.recall[1] == 0.25
 
 
 def run(clip: Path, out: Path, *words: str) -> Any:

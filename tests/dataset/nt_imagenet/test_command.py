@@ -144,6 +144,8 @@ def test_mistakes_are_named(data: Path, tmp_path: Path, capsys: pytest.CaptureFi
     two = [*real, "--class-count", "2"]
     (tmp_path / "a.csv").write_text("id,caption\nnone,x\n")
     assert "has no caption of these streams" in said(*two, "--captions", str(tmp_path / "a.csv"))
+    inside = ["--captions", str(tmp_path / "nt" / "captions.jsonl")]
+    assert "lies in the folder that is written" in said(*two, *inside)
     other = ["--captions", str(data / "elsewhere.jsonl")]
     assert "holds other files" in said(*two[:2], "-o", str(tmp_path), *two[4:], *other)
     assert "cannot be read as captions" in said("-o", str(tmp_path / "nt"), "--events", str(data))

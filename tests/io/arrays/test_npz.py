@@ -72,3 +72,14 @@ def test_random_bytes_are_no_archive_and_nobody_advises_to_unpickle_them(tmp_pat
     with pytest.raises(FileFormatError, match="is not a NumPy archive") as caught:
         open_events(path)
     assert "pickle" not in str(caught.value)
+
+
+def test_older_files_of_n_imagenet_have_longer_names_of_fields(tmp_path: Path) -> None:
+    fields = [("x_pos", "<u2"), ("y_pos", "<u2"), ("timestamp", "<i8"), ("polarity", "?")]
+    rows = [(3, 4, 10, True), (639, 479, 20, False)]
+    np.savez(tmp_path / "old.npz", event_data=np.array(rows, dtype=fields))
+    events = load(tmp_path / "old.npz", size=SensorSize(640, 480))
+    assert events.x.tolist() == [3, 639]
+    assert events.y.tolist() == [4, 479]
+    assert events.t.tolist() == [10, 20]
+    assert events.p.tolist() == [1, 0]

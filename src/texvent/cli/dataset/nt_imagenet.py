@@ -120,6 +120,10 @@ class NtImagenetOptions:
         if self.model is not None and self.imagenet is None:
             raise ConfigError("the model describes images; give their folder with --imagenet")
         has_source = self.model is not None or self.captions is not None
+        if self.captions is not None and self.captions.resolve().parent == self.out.resolve():
+            raise ConfigError(
+                f"{self.captions} lies in the folder that is written; name another folder with -o"
+            )
         if self.events is not None and has_source:
             raise ConfigError("events pairs with captions that are there; run it after them, alone")
         if self.events is None and self.n_imagenet is None:

@@ -1,5 +1,7 @@
 """N-ImageNet's npz: one array `event_data` with fields x u2, y u2, t i8 (µs), p bool.
 
+Older files call them x_pos, y_pos, timestamp and polarity.
+
 Beside it lie width, height and texvent (all metadata as JSON), which its loader does not look
 for; files of the data set itself have none: it is 640x480, to be given. As with every npz, writer
 and reader hold the whole recording in memory (13 bytes per event).
@@ -31,6 +33,8 @@ from texvent.sensor import SensorSize
 ARRAY = "event_data"
 SENSOR = SensorSize(640, 480)
 """Of the recordings of the data set."""
+FIELDS = ("x", "y", "t", "p")
+OLD_FIELDS = ("x_pos", "y_pos", "timestamp", "polarity")
 EVENT = np.dtype([("x", "<u2"), ("y", "<u2"), ("t", "<i8"), ("p", "?")])
 
 
@@ -55,9 +59,10 @@ class NImageNetCodec(BlockCodec):
         arrays = read_arrays(path)
         events = arrays.get(ARRAY)
         names = getattr(getattr(events, "dtype", None), "names", None) or ()
-        if events is None or events.ndim != 1 or not {*"xytp"} <= {*names}:
+        fields = next((one for one in (FIELDS, OLD_FIELDS) if {*one} <= {*names}), None)
+        if events is None or events.ndim != 1 or fields is None:
             raise FileFormatError(f"{path} has no array {ARRAY} with fields x, y, t, p")
-        columns = {name: events[name] for name in "xytp"}
+        columns = {name: events[field] for name, field in zip(FIELDS, fields, strict=True)}
         if columns["p"].dtype.kind == "b":
             columns["p"] = columns["p"].astype(np.uint8)
         return stored_contents(path, arrays, columns)
