@@ -15,23 +15,30 @@ from texvent.dataset.generation.engines.protocol import Outcome
 from texvent.dataset.generation.make import Work
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.generation.records import FAILED, FILTERED
-from texvent.dataset.generation.status import StageStatus, read_status
+from texvent.dataset.generation.status import StageStatus, Summary, read_status
 
 REFRESH_S = 1.0
+SELDOM = 20
+"""The folder is looked at for one part in so many of the time."""
 
 
 class LiveTable:
     """Samples, events, rates and what is left, for each stage; a line per shard elsewhere."""
 
     def __init__(self, recipe: Recipe, folder: Path, work: Work, *, is_quiet: bool) -> None:
-        self._recipe, self._folder, self._work = recipe, folder, work
+        self._recipe, self._folder = recipe, folder
         self._console = Console(stderr=True, quiet=is_quiet, highlight=False)
         self._started = time.monotonic()
-        self._before = {stage.name: stage.samples for stage in read_status(recipe, folder)}
+        self._seen = {shard: Summary.of(record) for shard, record in work.complete.items()}
+        self._before: dict[str, int] = {}
+        self._stages: list[StageStatus] = []
+        self._due = self._started
         self._live: Live | None = None
 
     def __enter__(self) -> Self:
         if self._console.is_terminal and not self._console.quiet:
+            self._look()
+            self._before = {stage.name: stage.samples for stage in self._stages}
             self._live = Live(
                 console=self._console, get_renderable=self._table, refresh_per_second=1 / REFRESH_S
             )
@@ -53,6 +60,7 @@ class LiveTable:
         if record is None:
             self._console.print(f"failed   {shard.path}: {outcome.failure}", markup=False)
             return
+        self._seen[shard] = Summary.of(record)
         for sample in record.samples:
             if sample.status == FAILED:
                 self._console.print(
@@ -70,11 +78,16 @@ class LiveTable:
             )
 
     def _table(self) -> Table:
-        return status_table(
-            read_status(self._recipe, self._folder),
-            seconds=time.monotonic() - self._started,
-            before=self._before,
-        )
+        if time.monotonic() >= self._due:
+            self._look()
+        seconds = time.monotonic() - self._started
+        return status_table(self._stages, seconds=seconds, before=self._before)
+
+    def _look(self) -> None:
+        """Read the folder; seldom where that takes long, as with many shards on a shared disk."""
+        started = time.monotonic()
+        self._stages = read_status(self._recipe, self._folder, self._seen)
+        self._due = time.monotonic() + SELDOM * (time.monotonic() - started)
 
 
 def status_table(

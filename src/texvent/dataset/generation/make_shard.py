@@ -23,6 +23,7 @@ from texvent.dataset.generation.records import (
     SampleRecord,
     ShardRecord,
     read_record,
+    record_path,
     write_record,
 )
 from texvent.dataset.generation.sample import FilteredError, sample_members, simulate_sample
@@ -95,6 +96,9 @@ def make_shard(
             writer.close()
         with part.open("rb") as file:
             sha256, size = hashlib.file_digest(file, "sha256").hexdigest(), part.stat().st_size
+        # Killed after the next line, the shard counts as not made; the record of other samples must
+        # not stand beside a new file, which may be as long.
+        record_path(path).unlink(missing_ok=True)
     record = ShardRecord(
         name=shard.name,
         split=shard.split,

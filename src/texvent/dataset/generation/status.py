@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from texvent.dataset.generation.make_shard import is_complete
-from texvent.dataset.generation.recipe import VIDEOS, Recipe
-from texvent.dataset.generation.records import FAILED, FILTERED
+from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
+from texvent.dataset.generation.records import FAILED, FILTERED, ShardRecord
 from texvent.dataset.generation.shard_log import log_path, read_log
 
 QUIET_S = 600.0
@@ -38,28 +38,61 @@ class StageStatus:
     """Working time of complete shards."""
 
 
-def read_status(recipe: Recipe, folder: Path) -> list[StageStatus]:
+@dataclass(frozen=True)
+class Summary:
+    """What counts of a complete shard."""
+
+    samples: int
+    filtered: int
+    failed: int
+    events: int
+    bytes: int
+    seconds: float
+
+    @classmethod
+    def of(cls, record: ShardRecord) -> Summary:
+        """Of a record, which is many times as large."""
+        return cls(
+            samples=len(record.samples),
+            filtered=record.count(FILTERED),
+            failed=record.count(FAILED),
+            events=record.events,
+            bytes=record.bytes,
+            seconds=record.seconds,
+        )
+
+
+def read_status(
+    recipe: Recipe, folder: Path, seen: dict[Shard, Summary] | None = None
+) -> list[StageStatus]:
     """The state of every stage: the videos, if they are stored, then the variants.
+
+    Args:
+        recipe: of the data set.
+        folder: of the data set.
+        seen: shards known to be complete, which are not read; those found complete are added.
 
     Raises:
         FileFormatError: the record of a shard is damaged.
     """
     clips = sum(recipe.clips.counts.values())
-    stages = []
+    stages, seen = [], {} if seen is None else seen
     for name in [*([VIDEOS] if recipe.stores_videos else []), *recipe.variants]:
         seeds = 1 if name == VIDEOS else recipe.variants[name].seeds
         stage = StageStatus(name, clips * seeds, 0)
         for shard in recipe.shards(name):
             stage.shards += 1
-            record = is_complete(recipe, folder, shard)
-            if record is not None:
+            done = seen.get(shard)
+            if done is None and (record := is_complete(recipe, folder, shard)) is not None:
+                done = seen[shard] = Summary.of(record)
+            if done is not None:
                 stage.complete += 1
-                stage.samples += len(record.samples)
-                stage.failed += record.count(FAILED)
-                stage.filtered += record.count(FILTERED)
-                stage.events += record.events
-                stage.bytes += record.bytes
-                stage.seconds += record.seconds
+                stage.samples += done.samples
+                stage.failed += done.failed
+                stage.filtered += done.filtered
+                stage.events += done.events
+                stage.bytes += done.bytes
+                stage.seconds += done.seconds
             elif log_path(folder, shard).exists():
                 log = read_log(folder, shard)
                 if log is not None and time.time() - log.changed_s < QUIET_S:
