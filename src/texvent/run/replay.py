@@ -10,7 +10,7 @@ from typing import Any
 from texvent._registry import GENERATORS
 from texvent._version import full_version
 from texvent.errors import InputError, shown
-from texvent.pipeline import Simulation, text_to_video
+from texvent.pipeline import Simulation, fit_to_sensor, text_to_video
 from texvent.run.prepare import prepare_prompt, prepare_source, prepare_video
 from texvent.run.settings import Settings, flatten_tables, resolve
 from texvent.video import FrameStream, RenderableStream
@@ -60,7 +60,8 @@ def prepare_replay(
     Args:
         metadata: of an event file, as a run stores it.
         folder: of the event file: a source that is not where it was is looked for there.
-        source: the frames, where they are elsewhere.
+        source: the frames, where they are elsewhere; of a generated recording, the video that
+            texvent stored, which is then not generated again.
 
     Raises:
         InputError: no run is stored, the file was edited or is only a part, or its source is gone.
@@ -82,6 +83,9 @@ def prepare_replay(
     prompt = prompt if isinstance(prompt, str) else None
     if "generate" in tables:
         settings, detailed = resolve("generate", options), str(facts.get("prompt", prompt))
+        if source is not None:
+            video = fit_to_sensor(_stored_video(source), settings)
+            return prepare_video(video, settings, prompt=prompt)
         seed = _video_seed(facts, settings)
         if seed == settings.run.seed:
             simulation = prepare_prompt(detailed, settings)
@@ -91,6 +95,15 @@ def prepare_replay(
         return replace(simulation, prompt=prompt)
     settings = resolve("simulate", options)
     return prepare_source(source or _find_source(facts, folder), settings, prompt=prompt)
+
+
+def _stored_video(path: Path) -> FrameStream:
+    from texvent.generate.videos.stored_video import reopen  # brings PyAV
+
+    video = reopen(path)
+    if video is None:
+        raise InputError(f"{path} is no video that texvent generated and stored; name that one")
+    return video
 
 
 def _video_seed(facts: Any, settings: Settings) -> int:

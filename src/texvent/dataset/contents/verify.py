@@ -205,11 +205,18 @@ def _notes(made: MadeSet) -> Iterator[str]:
             f"{len(shared)} prompts or videos are in several splits, such as "
             f"{shown(min(shared))}: tests would see what was trained on"
         )
-    if made.expected() is None and not (made.folder / CROISSANT_FILE).is_file():
+    expected = made.expected()
+    if expected is not None and not made.has_videos and any(map(_is_video, expected)):
+        yield "its videos are not here; no loader needs them"
+    if expected is None and not (made.folder / CROISSANT_FILE).is_file():
         yield (
             "there is neither items.jsonl nor croissant.json, so shards missing at the end of a "
             "split are not noticed"
         )
+
+
+def _is_video(place: str) -> bool:
+    return place.startswith(f"{VIDEOS}/")
 
 
 def _differing_description(made: MadeSet) -> Iterator[str]:
