@@ -59,6 +59,24 @@ def test_packets_can_be_saved_and_read_again(events, tmp_path):
     assert packets.collect().equals(events)  # simulated a second time
 
 
+def of_a_generator():
+    frames = np.random.default_rng(1).integers(0, 256, (12, 8, 10), dtype=np.uint8)
+    return texvent.simulate((frame for frame in frames), fps=60, as_packets=True)
+
+
+def test_a_generator_gives_its_events_once_and_never_others(tmp_path):
+    """A pass that was broken off took frames along; the next one began in the middle."""
+    broken_off = of_a_generator()
+    next(iter(broken_off))
+    with pytest.raises(InputError, match=r"can be read once, and was.*collect\(\)"):
+        broken_off.save(tmp_path / "g.h5")
+    assert list(tmp_path.iterdir()) == []
+    part = of_a_generator()
+    assert len(part.between(50_000, 80_000).collect()) > 0
+    with pytest.raises(InputError, match="can be read once, and was"):
+        part.collect()
+
+
 def test_prompt_upsampling_is_a_keyword_too(monkeypatch):
     asked = []
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, InputError
 from texvent.event_packets import EventPackets, LazyPackets
 from texvent.events import EventStream
 from texvent.io.files import load, open_events, save
@@ -123,3 +123,10 @@ def test_lazy_packets_are_made_anew_for_each_pass(whole):
     assert packets.collect().equals(whole)
     assert packets.collect().equals(whole)
     assert repr(packets) == "EventPackets(32x24, read when iterated)"
+
+
+def test_a_generator_of_packets_is_read_once(whole):
+    packets = EventPackets((whole[i : i + 100] for i in range(0, COUNT, 100)), SIZE)
+    assert len(packets.collect()) == COUNT
+    with pytest.raises(InputError, match="generator of packets can be read once, and was"):
+        packets.collect()

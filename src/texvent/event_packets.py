@@ -10,6 +10,7 @@ from typing import Any, Protocol, runtime_checkable
 
 from texvent.events import EventStream
 from texvent.runtime.progress import Progress, ProgressOption, open_progress
+from texvent.runtime.read_once import ReadOnce
 from texvent.sensor import SensorSize, as_size
 from texvent.time_range import SeenTimes, check_time_range, warn_of_doubtful_range
 
@@ -55,7 +56,7 @@ def _ignore(times: SeenTimes) -> None:
 class EventPackets:
     """Events packet by packet, for recordings that need not fit in memory.
 
-    Every pass reads or simulates them anew.
+    Every pass reads or simulates them anew; of a generator or a camera there is one pass.
 
     Example:
         >>> size = SensorSize(8, 6)
@@ -74,6 +75,9 @@ class EventPackets:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "size", as_size(self.size))
+        if isinstance(self.packets, Iterator):
+            once = ReadOnce(self.packets, "a generator of packets")
+            object.__setattr__(self, "packets", once)
 
     def __iter__(self) -> Iterator[EventStream]:
         return iter(self.packets)

@@ -46,6 +46,15 @@ def test_a_list_can_be_read_again_and_a_generator_once():
     assert stream.is_live
     frames = list(stream)
     assert [np.array_equal(f.pixels, p) for f, p in zip(frames, images, strict=True)] == [True] * 3
+    with pytest.raises(InputError, match="generator of frames can be read once, and was"):
+        iter(stream).__next__()
+
+
+def test_a_generator_that_was_read_elsewhere_has_no_frame_left():
+    images = iter(ramp(np.uint8))
+    list(images)
+    with pytest.raises(InputError, match=r"no frame \(left\); if it was read, make it again"):
+        open_frames(images, AT_100)
 
 
 def test_npy_files_are_read(tmp_path):

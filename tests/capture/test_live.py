@@ -62,7 +62,7 @@ def test_a_named_pipe_is_live_and_keeps_the_streams_times(pipe, film):
     assert (stream.is_live, stream.frame_count, stream.size) == (True, None, (64, 48))
     assert [frame.t_us for frame in stream] == [40_000 * i for i in range(20)]
     assert stream.metadata["clock"] == "presentation"
-    with pytest.raises(InputError, match="live and was read already"):
+    with pytest.raises(InputError, match="is live; it can be read once, and was"):
         list(stream)
 
 

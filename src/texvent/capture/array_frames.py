@@ -14,6 +14,7 @@ from texvent.capture.frame_times import FrameTimes
 from texvent.capture.intensity_scale import refuse_unit_range, usable_pixels
 from texvent.errors import InputError, shown
 from texvent.io.arrays.npy_file import StoredArray
+from texvent.runtime.read_once import ReadOnce
 from texvent.sensor import checked_size
 from texvent.video import Frame, PixelArray
 
@@ -59,10 +60,14 @@ class ArrayFrames(FrameSource):
         """Frames in order.
 
         Raises:
-            InputError: an image of an iterable has a wrong shape or type.
+            InputError: an image of an iterable has a wrong shape or type, or an iterator is read a
+                second time.
         """
+        return self._run(iter(self._frames))
+
+    def _run(self, images: Iterator[Any]) -> Iterator[Frame]:
         count = 0
-        for count, image in enumerate(self._frames, start=1):
+        for count, image in enumerate(images, start=1):
             pixels = _checked_image(image, f"frame {count - 1}")
             yield Frame(pixels, self._times(count - 1))
         self._times.check_count(count)
@@ -71,9 +76,12 @@ class ArrayFrames(FrameSource):
         """The first image; an iterator gets it back in front."""
         iterator = iter(self._frames)
         first = next(iterator, None)
+        if is_live and first is None:
+            raise InputError("the generator has no frame (left); if it was read, make it again")
         _refuse_if_empty(first is None)
         if is_live:
-            self._frames = itertools.chain((first,), iterator)
+            whole = itertools.chain((first,), iterator)
+            self._frames = ReadOnce(whole, "a generator of frames")
         return _checked_image(first, "frame 0")
 
 

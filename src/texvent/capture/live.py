@@ -22,6 +22,7 @@ from texvent.capture.decode import decoded_pixels
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
 from texvent.errors import InputError
+from texvent.runtime.read_once import ReadOnce
 from texvent.sensor import checked_size
 from texvent.video import MICROSECONDS, Frame
 
@@ -56,7 +57,7 @@ class LiveFrames(FrameSource):
         self._times = times
         self._container = _open_live(address, self._name)
         self._frames = self._decode()
-        self._is_read = False
+        self._arrivals = ReadOnce(self._arriving(), f"{self._name} is live; it")
         first = next(self._frames, None)
         if first is None:
             self._container.close()
@@ -81,15 +82,12 @@ class LiveFrames(FrameSource):
         Raises:
             InputError: the frames were read before.
         """
-        if self._is_read:
-            raise InputError(f"{self._name} is live and was read already; open it again")
-        self._is_read = True
-        return self._run()
+        return self._run(iter(self._arrivals))
 
-    def _run(self) -> Iterator[Frame]:
+    def _run(self, arrivals: Iterator[tuple[VideoFrame, int]]) -> Iterator[Frame]:
         last_us = -1
         with self._container, interrupts_noted() as interrupted:
-            for index, (frame, arrived_us) in enumerate(self._arrivals()):
+            for index, (frame, arrived_us) in enumerate(arrivals):
                 t_us = self._time_us(index, frame, arrived_us)
                 if t_us > last_us:
                     yield Frame(decoded_pixels(frame), t_us)
@@ -99,7 +97,7 @@ class LiveFrames(FrameSource):
                 if interrupted.is_set():
                     return
 
-    def _arrivals(self) -> Iterator[tuple[VideoFrame, int]]:
+    def _arriving(self) -> Iterator[tuple[VideoFrame, int]]:
         yield self._first, self._arrived_us
         for frame in self._frames:
             yield frame, _now_us()
