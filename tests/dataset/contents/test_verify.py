@@ -101,6 +101,17 @@ def test_a_key_of_two_samples_is_found(copied: Path) -> None:
     assert check(copied).twice == [first.key]
 
 
+def test_damaged_records_are_all_named(copied: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for variant in ("paper", "esim"):
+        (copied / variant / "train-000000.json").write_text('{"name": "train')
+    findings = check(copied)
+    assert len(findings.changed) == 2
+    assert all("train-000000.json is damaged" in one for one in findings.changed)
+    assert main(["dataset", "verify", str(copied)]) == 1
+    assert main(["dataset", "publish", str(copied)]) == 2
+    capsys.readouterr()
+
+
 def test_a_copy_without_items_and_logs_is_checked_too(copied: Path) -> None:
     (copied / "items.jsonl").unlink()
     shutil.rmtree(copied / "logs", ignore_errors=True)

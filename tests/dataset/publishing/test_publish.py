@@ -66,8 +66,8 @@ def test_the_card_has_what_the_hub_reads(cars: Path) -> None:
         "config_name": "paper",
         "default": True,
         "data_files": [
-            {"split": "train", "path": "paper/train-*.tar"},
-            {"split": "test", "path": "paper/test-*.tar"},
+            {"split": "train", "path": "paper/train-??????.tar"},
+            {"split": "test", "path": "paper/test-??????.tar"},
         ],
     }
     assert "9 samples of 3 videos" in card

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import itertools
 import json
 from collections import Counter
 from collections.abc import Iterable, Iterator
@@ -85,32 +86,54 @@ def verify(made: MadeSet, *, workers: int = 1, contents: bool = True) -> Finding
         contents: whether the samples are read, beside the digests of their shards.
 
     Raises:
-        FileFormatError: the specification, or the record of a shard, is damaged.
+        FileFormatError: the specification is damaged.
     """
     findings = Findings()
     kinds = [*made.variants, *([VIDEOS] if made.has_videos else [])]
+    findings.changed = list(_damaged_records(made, kinds))
+    if findings.changed:
+        findings.notes.append("nothing else was checked, because records are damaged")
+        return findings
     findings.missing = made.missing(*kinds)
-    keys: Counter[tuple[str, str]] = Counter()
-    check = partial(_check_shard, contents=contents)
-    with ThreadPoolExecutor(workers) as pool:
-        for found in pool.map(check, made.shards(*kinds)):
-            record = found.shard.record
-            if found.changed:
-                findings.changed.append(f"{found.shard.place}: {found.changed}")
-            findings.unsound += [f"{found.shard.place}: {one}" for one in found.unsound]
-            is_video = record.variant == VIDEOS
-            keys.update((VIDEOS if is_video else "", one.key) for one in record.samples)
-            findings.shards += 1
-            if not is_video:
-                findings.samples += sum(1 for _ in found.shard.samples)
-                findings.events += record.events
-                findings.filtered += record.count(FILTERED)
-                findings.failed += record.count(FAILED)
-    findings.twice = sorted(key for (_, key), count in keys.items() if count > 1)
+    keys: Counter[str] = Counter()
+    for found in _checked(made.shards(*kinds), workers, contents=contents):
+        record = found.shard.record
+        if found.changed:
+            findings.changed.append(f"{found.shard.place}: {found.changed}")
+        findings.unsound += [f"{found.shard.place}: {one}" for one in found.unsound]
+        findings.shards += 1
+        # A sample may have the key of its video.
+        prefix = f"{VIDEOS}/" if record.variant == VIDEOS else ""
+        keys.update(prefix + sample.key for sample in record.samples)
+        if not prefix:
+            findings.samples += sum(1 for _ in found.shard.samples)
+            findings.events += record.events
+            findings.filtered += record.count(FILTERED)
+            findings.failed += record.count(FAILED)
+    findings.twice = sorted(key for key, count in keys.items() if count > 1)
     findings.foreign = _foreign_shards(made, kinds, set(findings.missing))
     findings.notes = [*_other_files(made), *_notes(made)]
     findings.changed += _differing_description(made)
     return findings
+
+
+def _damaged_records(made: MadeSet, kinds: Iterable[str]) -> Iterator[str]:
+    for kind in kinds:
+        for path in made.shard_files(kind):
+            try:
+                read_record(path)
+            except FileFormatError as error:
+                yield str(error)
+
+
+def _checked(
+    shards: Iterator[MadeShard], workers: int, *, contents: bool
+) -> Iterator[_ShardFindings]:
+    """Some shards at once: the records of millions of samples would not fit into memory."""
+    check = partial(_check_shard, contents=contents)
+    with ThreadPoolExecutor(workers) as pool:
+        while some := list(itertools.islice(shards, 4 * workers)):
+            yield from pool.map(check, some)
 
 
 def _check_shard(shard: MadeShard, *, contents: bool) -> _ShardFindings:

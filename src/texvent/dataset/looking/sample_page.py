@@ -85,7 +85,9 @@ def _panel(sample: ChosenSample, width: float) -> Image:
     layout = PanelLayout(size, get_palette(DEFAULT_PALETTE), side_by_side=False, target_width=width)
     image = _liveliest(sample.events(), layout.palette)
     title = record.prompt or record.label or record.key
-    return shrink(layout.compose(None, image, title=title, facts=""), int(width))
+    return shrink(
+        layout.compose(None, image, title=title, facts=sample.shard.record.variant), int(width)
+    )
 
 
 def _padded(panel: Image, width: int, height: int) -> Image:

@@ -21,6 +21,8 @@ TAGS = ("event-camera", "neuromorphic", "synthetic", "webdataset", "croissant", 
 SIZES = (("n<1K", 10**3), ("1K<n<10K", 10**4), ("10K<n<100K", 10**5), ("100K<n<1M", 10**6),
          ("1M<n<10M", 10**7), ("10M<n<100M", 10**8))  # fmt: skip
 LARGEST = "n>100M"
+NUMBER = "??????"
+"""Of a shard, as a pattern. A star would also find those of "train-hard" for "train"."""
 
 
 def card_text(made: MadeSet, statistics: SetStatistics, notice: Notice, *, missing: int) -> str:
@@ -52,7 +54,7 @@ def card_text(made: MadeSet, statistics: SetStatistics, notice: Notice, *, missi
         "## How it was made",
         _making(made, statistics.total),
         "## Limits",
-        _limits(made, statistics.total),
+        _limits(statistics.total),
     ]
     return "\n\n".join(part for part in parts if part) + "\n"
 
@@ -62,7 +64,7 @@ def _header(made: MadeSet, statistics: SetStatistics, notice: Notice) -> dict[st
     for number, variant in enumerate(dict.fromkeys(one for one, _ in statistics.parts)):
         splits = [split for one, split in statistics.parts if one == variant]
         files = [
-            {"split": hub_name(split), "path": f"{variant}/{split}-*{EXTENSION}"}
+            {"split": hub_name(split), "path": f"{variant}/{split}-{NUMBER}{EXTENSION}"}
             for split in splits
         ]
         is_first = {"default": True} if number == 0 else {}
@@ -155,8 +157,7 @@ def _making(made: MadeSet, total: Statistics) -> str:
     return "\n\n".join(lines)
 
 
-def _limits(made: MadeSet, total: Statistics) -> str:
-    del made
+def _limits(total: Statistics) -> str:
     lines = [
         "Events are simulated, not recorded: no sensor was there, and what a model of the camera "
         "leaves out is not in them. Test on recordings what is trained on these.",
