@@ -12,7 +12,8 @@ events themselves; with it, a voxel grid of each sample.
 
 A pass reads all samples once. Passes of all loaders alternate; the first of each, which starts
 workers and fills the page cache, is not counted. Ratios are taken within a repeat; their median
-and quartiles are printed.
+and quartiles are printed: of the time on the clock, and of CPU time of all processes, which other
+programs on the machine disturb less.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ import argparse
 import functools
 import hashlib
 import json
+import os
 import platform
 import tempfile
 import time
@@ -46,6 +48,7 @@ DURATION_US = 1_000_000
 REPRESENTATION = "voxel-e2vid"
 BASE = "webdataset"
 COLUMNS = "xytp"
+Passes = Mapping[str, list[tuple[float, float]]]
 
 
 @dataclass(frozen=True)
@@ -220,24 +223,34 @@ def make_loaders(
     }  # fmt: skip
 
 
-def timed_pass(batches: Any, samples: int) -> float:
-    """Seconds of a pass; it must hold every sample once."""
-    started, count = time.perf_counter(), 0
+def cpu_seconds() -> float:
+    """CPU time of this process and the worker processes that run."""
+    ticks = 0
+    for task in Path("/proc/self/task").iterdir():
+        for child in (task / "children").read_text().split():
+            fields = Path(f"/proc/{child}/stat").read_text().rpartition(")")[2].split()
+            ticks += int(fields[11]) + int(fields[12])
+    return time.process_time() + ticks / os.sysconf("SC_CLK_TCK")
+
+
+def timed_pass(batches: Any, samples: int) -> tuple[float, float]:
+    """Seconds and CPU-seconds of a pass; it must hold every sample once."""
+    started, used, count = time.perf_counter(), cpu_seconds(), 0
     for batch in batches:
         count += len(batch["class_number"])
     if count != samples:
         raise SystemExit(f"a pass gave {count} of {samples} samples")
-    return time.perf_counter() - started
+    return time.perf_counter() - started, cpu_seconds() - used
 
 
 def measure(
     written: Written, *, workers: int, batch_size: int, repeats: int, is_represented: bool
-) -> dict[str, list[float]]:
-    """Name → seconds of each pass."""
+) -> Passes:
+    """Name → seconds and CPU-seconds of each pass."""
     loaders = make_loaders(
         written, workers=workers, batch_size=batch_size, is_represented=is_represented
     )
-    seconds: dict[str, list[float]] = {name: [] for name in loaders}
+    seconds: dict[str, list[tuple[float, float]]] = {name: [] for name in loaders}
     for repeat in range(repeats + 1):
         for name, loader in loaders.items():
             taken = timed_pass(loader, len(written.keys))
@@ -252,26 +265,32 @@ def quartiles(values: Any) -> tuple[float, float, float]:
     return low, middle, high
 
 
-def rows_of(written: Written, seconds: Mapping[str, list[float]]) -> Iterator[dict[str, Any]]:
-    """A row per loader; `ratio` is how many times as fast as webdataset."""
-    base = np.array(seconds[BASE])
-    for name, one in seconds.items():
-        _, middle, _ = quartiles(one)
+def rows_of(written: Written, passes: Passes) -> Iterator[dict[str, Any]]:
+    """A row per loader; ratios are how many times as fast as webdataset."""
+    base = np.array(passes[BASE])
+    for name, one in passes.items():
+        ratios = base / np.array(one)
+        seconds, cpu_s = np.median(one, axis=0).tolist()
         yield {
             "loader": name,
-            "samples_per_s": len(written.keys) / middle,
-            "events_per_s": written.events / middle,
-            "ratio": quartiles(base / np.array(one)),
+            "samples_per_s": len(written.keys) / seconds,
+            "events_per_s": written.events / seconds,
+            "cpu_ms_per_sample": 1e3 * cpu_s / len(written.keys),
+            "ratio": quartiles(ratios[:, 0]),
+            "cpu_ratio": quartiles(ratios[:, 1]),
         }
 
 
 def line_of(row: Mapping[str, Any]) -> str:
     """A row of a Markdown table."""
-    low, middle, high = row["ratio"]
+    ratios = (
+        f"{middle:.2f} ({low:.2f} to {high:.2f})"
+        for low, middle, high in (row["ratio"], row["cpu_ratio"])
+    )
     return (
         f"| {row['loader']} | {row['workers']} | {'yes' if row['is_represented'] else 'no'} | "
-        f"{row['samples_per_s']:,.0f} | {row['events_per_s'] / 1e6:.0f} | "
-        f"{middle:.2f} ({low:.2f} to {high:.2f}) |"
+        f"{row['samples_per_s']:,.0f} | {row['events_per_s'] / 1e6:.1f} | "
+        f"{row['cpu_ms_per_sample']:.2f} | {' | '.join(ratios)} |"
     )
 
 
@@ -289,18 +308,19 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as scratch:
         written = write_all(Path(scratch), arguments.samples, arguments.events)
         print(f"{len(written.keys)} samples, {written.events:,} events; {platform.machine()}")
-        print("| loader | workers | voxel grid | samples/s | M events/s | times webdataset |")
-        print("|---|---|---|---|---|---|")
+        print("| loader | workers | voxel grid | samples/s | M events/s | CPU ms per sample | "
+              "times webdataset, clock | times webdataset, CPU |")  # fmt: skip
+        print("|---|---|---|---|---|---|---|---|")
         for is_represented in (False, True):
             for workers in arguments.workers:
-                seconds = measure(
+                passes = measure(
                     written,
                     workers=workers,
                     batch_size=arguments.batch_size,
                     repeats=arguments.repeats,
                     is_represented=is_represented,
                 )
-                for row in rows_of(written, seconds):
+                for row in rows_of(written, passes):
                     row |= {"workers": workers, "is_represented": is_represented}
                     rows.append(row)
                     print(line_of(row), flush=True)

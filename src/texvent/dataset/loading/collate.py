@@ -114,10 +114,18 @@ def _collated(values: list[Any]) -> Any:
 
 
 def _joined(name: str, streams: Sequence[EventStream], count: int) -> Tensor:
-    """A column of all streams; in a worker, made in the memory it is handed over in."""
-    joined = np.empty(count, TENSOR_TYPES[name])
-    begin = 0
+    """A column of all streams."""
+    joined = _new_tensor(count, _torch.from_numpy(np.empty(0, TENSOR_TYPES[name])))
+    column, begin = joined.numpy(), 0
     for events in streams:
-        joined[begin : begin + len(events)] = getattr(events, name)
+        column[begin : begin + len(events)] = getattr(events, name)
         begin += len(events)
-    return _torch.from_numpy(joined)
+    return joined
+
+
+def _new_tensor(count: int, like: Tensor) -> Tensor:
+    """A tensor, in a worker in the memory that it is handed over in, as torch's own collation."""
+    if _data.get_worker_info() is None or not count:
+        return like.new_empty(count)
+    storage = like._typed_storage()._new_shared(count, device=like.device)
+    return like.new(storage).resize_(count)
