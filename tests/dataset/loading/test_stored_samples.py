@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.dataset.conftest import make_set
 from tests.dataset.loading.written_set import (
     DURATION_US,
     LABELS,
@@ -23,6 +24,8 @@ from tests.dataset.loading.written_set import (
 )
 
 import texvent.dataset
+from texvent.dataset.contents.made_set import MadeSet
+from texvent.dataset.contents.merge import merge
 from texvent.dataset.generation.engines.protocol import in_this_process
 from texvent.dataset.generation.make import find_work, make_shards
 from texvent.dataset.generation.recipe import Recipe
@@ -227,6 +230,22 @@ def test_a_published_folder_loads_and_a_shard_without_a_record_does_not_count(tm
     samples = texvent.dataset.open(tmp_path)
     assert len(samples) == 21
     assert samples.labels == LABELS
+
+
+def test_a_merged_set_loads_with_its_own_numbers_of_classes(cars, tmp_path):
+    """Merging adds a class before the others, so their numbers in the tars change too."""
+    ape = {"sources": [{"prompts": ["a bird flies up"], "label": "bird"}], "splits": {"train": 1.0}}
+    birds = make_set(tmp_path / "birds", **ape)
+    merge([MadeSet.open(cars), MadeSet.open(birds)], tmp_path / "merged")
+    samples = texvent.dataset.open(tmp_path / "merged")
+    assert samples.labels == ("bird", "bus", "car")
+    parts = [*texvent.dataset.open(cars), *texvent.dataset.open(birds)]
+    assert len(samples) == len(parts)
+    originals = {part.key: part.events for part in parts}
+    for number, sample in enumerate(samples):
+        assert sample.class_number == int(samples.members(number, ("cls",))["cls"])
+        assert sample.label == samples.labels[sample.class_number]
+        assert sample.events.equals(originals[sample.key])
 
 
 def test_missing_and_changed_files_give_one_line(tmp_path):

@@ -165,16 +165,32 @@ def test_a_state_of_another_order_is_refused(samples):
         samples.loader(shuffle=True, seed=2).load_state_dict(state)
 
 
-def test_ranks_of_torch_distributed_are_taken(samples, tmp_path):
-    from texvent.dataset.loading.torch_loader import Sharing
+def train_rank(rank, folder, store, results):
+    torch.distributed.init_process_group("gloo", init_method=store, rank=rank, world_size=2)
+    batches = numbers(texvent.dataset.open(folder).loader(batch_size=4, shuffle=True))
+    torch.distributed.destroy_process_group()
+    results.put((rank, batches))
 
-    torch.distributed.init_process_group(
-        "gloo", init_method=f"file://{tmp_path}/store", rank=0, world_size=1
-    )
-    try:
-        assert Sharing.of(None, None) == Sharing(rank=0, world_size=1)
-    finally:
-        torch.distributed.destroy_process_group()
+
+def test_ranks_of_torch_distributed_are_taken(folder, tmp_path):
+    context = torch.multiprocessing.get_context("fork")
+    results = context.Queue()
+    processes = [
+        context.Process(target=train_rank, args=(rank, folder, f"file://{tmp_path}/store", results))
+        for rank in range(2)
+    ]
+    for process in processes:
+        process.start()
+    found = dict(results.get(timeout=60) for _ in processes)
+    for process in processes:
+        process.join()
+        assert process.exitcode == 0
+    samples = texvent.dataset.open(folder)
+    for rank, batches in found.items():
+        sharing = {"batch_size": 4, "shuffle": True, "rank": rank, "world_size": 2}
+        assert batches == numbers(samples.loader(**sharing))
+    both = [number for batch in found[0] + found[1] for number in batch]
+    assert sorted(both) == list(range(24))
 
 
 def test_a_user_s_own_sampler_takes_the_map_style_dataset(samples):
