@@ -48,6 +48,9 @@ def test_a_merged_set_holds_every_sample_and_is_sound(
     assert made.simulator_of("esim") == "esim"
     for key, number in classes_of(tmp_path / "all").items():
         assert number == str(made.labels.index(key.split()[0])).encode()
+    opened = texvent.dataset.open(tmp_path / "all")
+    assert (len(opened), opened.labels) == (10, made.labels)
+    assert all(opened.labels[one.class_number] == one.label for one in opened)
     events = {
         sample.key: read_events(shard.path, sample)
         for shard in made.shards()

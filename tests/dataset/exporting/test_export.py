@@ -183,6 +183,17 @@ def test_noise_labels_go_where_they_can_be_held(tmp_path: Path) -> None:
     assert "does not hold which events are noise" in " ".join(done.doubts)
 
 
+def test_splits_that_become_one_are_said(tmp_path: Path) -> None:
+    three = make_set(
+        tmp_path / "three",
+        splits={"train": 0.34, "val": 0.33, "test": 0.33},
+        variants={"esim": {"simulator": "esim"}},
+    )
+    done = export(MadeSet.open(three), "n-imagenet", tmp_path / "n")
+    assert "splits val and test are written as one" in done.doubts
+    assert len((tmp_path / "n" / "val_list.txt").read_text().splitlines()) == 2
+
+
 def test_classes_become_folder_names() -> None:
     assert folder_name("../../etc") == "etc"
     assert re.fullmatch(r"[\w.-]+", folder_name("fire truck / red"))

@@ -20,7 +20,7 @@ from texvent.dataset.publishing.croissant import croissant_text
 from texvent.dataset.publishing.index import index_rows
 from texvent.dataset.publishing.notice import Notice
 from texvent.dataset.publishing.publication import publish
-from texvent.errors import InputError, OutputError, TexventWarning
+from texvent.errors import ConfigError, InputError, OutputError, TexventWarning
 
 
 def card_of(folder: Path, **notice: str) -> str:
@@ -89,6 +89,11 @@ def test_the_description_names_every_shard_with_its_digest(cars: Path, tmp_path:
     assert document["conformsTo"][0] == "http://mlcommons.org/croissant/1.1"
     assert document["license"] == "cc-by-4.0"
     assert {"rai:dataCollection", "rai:dataBiases", "rai:dataLimitations"} < document.keys()
+
+
+def test_a_date_is_a_day() -> None:
+    with pytest.raises(ConfigError, match="date is 'yesterday'; it must be a day"):
+        Notice(date="yesterday")
 
 
 def test_missing_shards_foreign_cards_and_no_licence_are_said(copied: Path) -> None:

@@ -16,7 +16,7 @@ from rich.table import Table
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.contents.statistics import MICROSECONDS, SetStatistics
+from texvent.dataset.contents.statistics import COUNTS, MICROSECONDS, SetStatistics, counts_rows
 
 MOST_CLASSES = 12
 WIDTH = 110
@@ -67,8 +67,6 @@ def run(arguments: Sequence[str]) -> int:
 
 
 def _print(made: MadeSet, statistics: SetStatistics) -> None:
-    from texvent.dataset.looking.statistics_page import COUNTS, counts_rows
-
     console = Console(file=sys.stdout, highlight=False, soft_wrap=True, width=WIDTH)
     table = Table(box=None, pad_edge=False)
     for number, title in enumerate(COUNTS):

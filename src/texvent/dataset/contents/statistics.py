@@ -16,6 +16,8 @@ from texvent.dataset.generation.records import FAILED, FILTERED, MADE
 QUANTILES = (0.05, 0.5, 0.95)
 MOST_REASONS = 10
 MICROSECONDS = 1_000_000
+COUNTS = ("variant", "split", "samples", "filtered", "failed", "events", "median events",
+          "median s", "median events/s", "MB")  # fmt: skip
 
 
 @dataclass
@@ -126,6 +128,27 @@ class SetStatistics:
         for (variant, split), part in self.parts.items():
             variants.setdefault(variant, {})[split] = part.tables
         return {"total": self.total.tables, "variants": variants}
+
+
+def counts_rows(statistics: SetStatistics) -> list[list[str]]:
+    """Cells for `COUNTS`: a row for each split of each variant."""
+    rows = []
+    for (variant, split), part in statistics.parts.items():
+        facts = part.tables
+        medians = (
+            facts[name].get("median", 0.0)
+            for name in ("events_per_sample", "duration_s_per_sample", "events_per_second")
+        )
+        counts = (part.samples, part.filtered, part.failed, facts["events"])
+        rows.append(
+            [
+                *(variant, split),
+                *(f"{count:,}" for count in counts),
+                *map(number_text, medians),
+                f"{part.bytes / 1e6:,.2f}",
+            ]
+        )
+    return rows
 
 
 def quantiles(values: Sequence[float]) -> dict[str, float]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from texvent.dataset.contents.made_set import MadeSet, MadeShard
 from texvent.dataset.contents.stored_events import read_events
-from texvent.dataset.exporting.layouts import Exported, Layout, find_layout, folder_name
+from texvent.dataset.exporting.layouts import EVALUATION, Exported, Layout, find_layout, folder_name
 from texvent.dataset.generation.records import SampleRecord
 from texvent.errors import InputError, OutputError, one_line
 from texvent.io.atomic import atomic_file
@@ -150,6 +150,9 @@ def _doubts(made: MadeSet, layout: Layout, variant: str, *, labelled: bool) -> t
     doubts = [f"it does not hold {layout.lost}"] if layout.lost else []
     if labelled and layout.format not in KEEP_NOISE:
         doubts.append("it does not hold which events are noise")
+    evaluation = [split for split in made.splits if split in EVALUATION]
+    if len(evaluation) > 1 and layout.has_two_splits:
+        doubts.append(f"splits {' and '.join(evaluation)} are written as one")
     if layout.size is not None:
         sizes = {(one.width, one.height) for shard in made.shards(variant) for one in shard.samples}
         width, height = layout.size

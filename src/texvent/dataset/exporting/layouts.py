@@ -37,6 +37,8 @@ class Layout:
     lists: Callable[[Path, list[Exported]], Files] = lambda folder, exported: {}
     """Exported folder and what is in it → further files."""
     needs_classes: bool = False
+    has_two_splits: bool = False
+    """Whether all splits of `EVALUATION` become one."""
     size: tuple[int, int] | None = None
     """Width and height that its readers take for granted, pixels."""
     lost: str = ""
@@ -107,6 +109,7 @@ LAYOUTS: Mapping[str, Layout] = {
     "n-imagenet": Layout(
         format="n-imagenet",
         place=_n_imagenet,
+        has_two_splits=True,
         lists=_n_imagenet_lists,
         needs_classes=True,
         size=(640, 480),
@@ -114,6 +117,7 @@ LAYOUTS: Mapping[str, Layout] = {
     ),
     "dsec": Layout(
         format="dsec",
+        has_two_splits=True,
         place=lambda split, label, key: (
             Path(_train_or("test", split)) / key / "events" / "left" / "events.h5"
         ),

@@ -7,15 +7,18 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.contents.statistics import MICROSECONDS, SetStatistics, Statistics, number_text
+from texvent.dataset.contents.statistics import (
+    COUNTS,
+    MICROSECONDS,
+    SetStatistics,
+    Statistics,
+    counts_rows,
+)
 from texvent.dataset.looking.charts import bars, histogram
 from texvent.io.atomic import atomic_file
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
 from texvent.view.page.html_parts import count_text
 from texvent.view.page.template import fill_template
-
-COUNTS = ("variant", "split", "samples", "filtered", "failed", "events", "median events",
-          "median s", "median events/s", "MB")  # fmt: skip
 
 
 def write_statistics_page(
@@ -52,27 +55,6 @@ def write_statistics_page(
     with atomic_file(path, overwrite=overwrite) as part:
         part.write_text(page, encoding="utf-8")
     return path
-
-
-def counts_rows(statistics: SetStatistics) -> list[list[str]]:
-    """Cells for `COUNTS`: a row for each split of each variant."""
-    rows = []
-    for (variant, split), part in statistics.parts.items():
-        facts = part.tables
-        medians = (
-            facts[name].get("median", 0.0)
-            for name in ("events_per_sample", "duration_s_per_sample", "events_per_second")
-        )
-        counts = (part.samples, part.filtered, part.failed, facts["events"])
-        rows.append(
-            [
-                *(variant, split),
-                *(f"{count:,}" for count in counts),
-                *map(number_text, medians),
-                f"{part.bytes / 1e6:,.2f}",
-            ]
-        )
-    return rows
 
 
 def _table(titles: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
