@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from tests.dataset.conftest import make_set
 
+import texvent.dataset
 from texvent.cli.app import main
 from texvent.dataset.contents.made_set import MadeSet
 from texvent.dataset.contents.merge import merge
