@@ -3,6 +3,8 @@
     python -m benchmarks.dataset_loading [--samples 256] [--events 20000] [--workers 0 1 2]
                                          [--repeats 7] [--json FILE]
 
+It needs torch and webdataset: pip install 'texvent[torch,loaders]'.
+
 One set of random events is written four ways: as the shards of `texvent dataset make` (which
 webdataset reads too), one HDF5 per clip, and one HDF5 of all clips. Every loader is a torch
 DataLoader with the same batches, workers and collation, and gives the same tensors; what others

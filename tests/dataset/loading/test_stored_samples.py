@@ -172,6 +172,12 @@ def test_a_clip_that_kept_the_times_of_a_longer_video_begins_at_its_first_event(
     assert made["stop_us"].tolist() == [first + 5000, first + 10_000]
 
 
+def test_shards_come_in_the_order_of_their_numbers(tmp_path):
+    for number in (1_000_000, 999_999):
+        write_shard(tmp_path, "paper", "train", number, {f"k{number}": random_events(number)})
+    assert [one.key for one in texvent.dataset.open(tmp_path)] == ["k999999", "k1000000"]
+
+
 def test_odd_columns_are_read_too(tmp_path):
     """Times above 2³² µs are stored as int64; streams may have no event or a label."""
     plain = random_events(3, start_us=2**33)

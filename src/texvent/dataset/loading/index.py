@@ -23,7 +23,7 @@ from texvent.errors import ConfigError, FileFormatError, InputError, one_line, s
 VIDEOS = "videos"
 MEMBERS = ("x.npy", "y.npy", "t.npy", "p.npy", "label.npy", "json", "txt", "cls", "png")
 ABSENT = (-1, 0)
-_NAME = re.compile(r".+-\d{6,}")
+_NAME = re.compile(r".+-[0-9]{6,}")
 Choice = str | Sequence[str] | None
 """A name, several, or None for all."""
 
@@ -111,11 +111,15 @@ def _recorded_shards(folder: Path) -> list[Path]:
             f"{folder} holds no complete shard (VARIANT/SPLIT-000000{EXTENSION} with its .json); "
             "name the folder that texvent dataset make wrote"
         )
-    return sorted(paths, key=lambda path: (path.parent.name, _split_of(path), path.name))
+    return sorted(paths, key=lambda path: (path.parent.name, _split_of(path), _number_of(path)))
 
 
 def _split_of(path: Path) -> str:
     return path.stem.rpartition("-")[0]
+
+
+def _number_of(path: Path) -> int:
+    return int(path.stem.rpartition("-")[2])
 
 
 def _checked_record(path: Path) -> ShardRecord:
