@@ -34,10 +34,10 @@ DESCRIPTION = """Does the text that a recording was made from fit it better than
 model of yours ranks all texts for each recording; beside it stand captions exchanged at random.
 
   texvent dataset align nt-events --clip hub:openai/clip-vit-large-patch14
-  texvent dataset align --n-imagenet N_Imagenet --captions nt/captions.jsonl --clip clip/
-  texvent dataset align nt-events --n-imagenet N_Imagenet --captions nt/captions.jsonl --clip clip/
+  texvent dataset align --n-imagenet N_Imagenet --captions nt/captions.jsonl \\
+      --clip clip/
 
-The last ranks the same captions for ours and for the recorded streams."""
+With both, the same captions are ranked for ours and for the recorded streams."""
 RECORDED = "N-ImageNet"
 
 

@@ -165,6 +165,7 @@ _SPECIFICATION = """\
 #     texvent dataset make specification.toml -o events
 name = "nt-imagenet"
 description = "Events simulated from captions of ImageNet's validation images"
+# license = "..."       # of captions and events; a set that is published needs one
 samples_per_shard = 50
 
 [splits]
