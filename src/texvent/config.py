@@ -14,7 +14,7 @@ import typing
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import Literal
+from typing import ClassVar, Literal
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown
@@ -63,6 +63,8 @@ def check_choices(config: object) -> None:
 @dataclass(frozen=True, kw_only=True)
 class RunConfig:
     """What decides a run as a whole."""
+
+    inputs: ClassVar[tuple[str, ...]] = ("sensor",)
 
     simulator: str = "texvent"
     """Pixel model, such as texvent, esim, v2e, voltmeter or physical. It turns brightness into

@@ -90,6 +90,21 @@ def test_outputs_do_not_lie_among_input_images(folder, clip, capsys):
     assert "would lie among the files of the input frames" in capsys.readouterr().err
 
 
+def test_a_prompt_and_names_of_parts_are_no_paths(folder, capsys):
+    """A folder may be called as the prompt, the palette or the simulator are."""
+    for name in ("car", "paper", "v2e"):
+        Path(name).mkdir()
+        words = ("--dry-run", "--simulator", "v2e", "--duration", 0.1, "--sensor", "32x24")
+        assert run("generate", "car", "-o", f"{name}/o.h5", *words) == 0
+
+
+def test_a_sensor_file_is_an_input(folder, clip, capsys):
+    Path("camera.toml").write_text("sensor = 3")
+    words = ("-o", "out.h5", "-o", "camera.toml", "--format", "hdf5", "--format", "hdf5")
+    assert run("simulate", clip, *words, "--overwrite", "--sensor", "camera.toml") != 0
+    assert Path("camera.toml").read_text() == "sensor = 3"
+
+
 def test_one_run_writes_several_formats(folder, clip, capsys):
     words = ("-o", "a.h5", "-o", "b.aedat4", "-o", "c.h5", "--events-only", *SMALL)
     formats = ("--format", "hdf5", "--format", "aedat4", "--format", "dsec")

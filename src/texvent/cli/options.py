@@ -36,7 +36,8 @@ def parse_options(
         groups: title → config instance whose values are the defaults that `--help` shows. Class
             attributes name its fields: those in `positional` are given without a flag, those in
             `repeated` several times, those in `short_flags` also have a short one, those in
-            `outputs` say what is written ("out" if there is no such attribute). `main_options` of
+            `outputs` say what is written ("out" if there is no such attribute); those in `inputs`
+            are texts that may be the path of something read, as a `Path` always is. `main_options` of
             the first group names the options that `--help` alone shows, if there are too many for
             one screen.
         prog: how the command is called.
@@ -84,13 +85,18 @@ def parse_options(
 
 
 def _inputs(values: Mapping[str, Any], groups: Iterable[Any]) -> Iterator[str | Path]:
-    """Every value that may name a file which is read; texts that name none do no harm."""
-    outputs = {name for group in groups for name in getattr(group, "outputs", ("out",))}
+    """Every value that names what is read: paths, and texts that may be one.
+
+    Other texts name none, though a file or folder may have the same name: `generate "car"`.
+    """
+    configs = tuple(groups)
+    outputs = {name for one in configs for name in getattr(one, "outputs", ("out",))}
+    inputs = {name for one in configs for name in getattr(one, "inputs", ())}
     for name, value in values.items():
-        if name not in outputs:
-            for one in value if isinstance(value, tuple) else (value,):
-                if isinstance(one, str | Path):
-                    yield one
+        for one in value if isinstance(value, tuple) else (value,):
+            is_path = isinstance(one, Path) and name not in outputs
+            if is_path or (isinstance(one, str) and name in inputs):
+                yield one
 
 
 def parse_configs(
