@@ -21,11 +21,15 @@ import contextlib
 import reprlib
 import sys
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 MAX_SHOWN = 80
 """Characters of a value that an error echoes."""
+MOST_WORDS = 5
+"""Words of a list that a message names."""
+MAX_WORD = 40
+"""Characters of each."""
 MAX_REASON = 120
 """Characters of what a library says."""
 
@@ -45,6 +49,18 @@ def shown(value: object) -> str:
     except Exception:  # noqa: BLE001  # such as numbers of too many digits; repr is anyone's code
         return f"a value of type {type(value).__name__}"
     return text if len(text) <= MAX_SHOWN else f"{text[: MAX_SHOWN - 4]}...{text[-1]}"
+
+
+def few(words: Sequence[str]) -> str:
+    """The first words of a list, each bounded, and how many more there are.
+
+    Example:
+        >>> few(["a", "b"]), few(list("abcdefgh"))
+        ('a, b', 'a, b, c, d, e and 3 more')
+    """
+    first, more = words[:MOST_WORDS], len(words) - MOST_WORDS
+    bounded = (one if len(one) <= MAX_WORD else f"{one[: MAX_WORD - 3]}..." for one in first)
+    return ", ".join(bounded) + (f" and {more} more" if more > 0 else "")
 
 
 def one_line(error: BaseException) -> str:

@@ -197,3 +197,38 @@ def test_info_says_ten_lines_and_the_rest_on_request(capsys, folder):
     assert more.endswith(" more: --all")
     assert run("info", "a.h5", "--all") == 0
     assert "contrast_threshold" in capsys.readouterr().out
+
+
+HOSTILE = "a red ball bounces past a \x1b[31mwug\x1b]0;t\x07 \u202egnp.exe über 🦩\nevents  9"
+
+
+def test_texts_of_files_and_arguments_reach_the_terminal_written_out(capsys, folder):
+    words = ("--duration", 0.1, "--events-only", "--sensor", "48x36", "--overwrite")
+    assert run("generate", HOSTILE, "-o", "a.h5", *words) == 0
+    assert run("info", "a.h5") == 0
+    assert run("info", "a.h5", "--all") == 0
+    assert run("info", "a.h5", "--json") == 0
+    assert run("info", "no\x1b[31m\u202efile.h5") == 2
+    assert run("generate", HOSTILE, "--print-config") == 0
+    out, err = capsys.readouterr()
+    for text in (out, err):
+        assert not set(text) & set("\x1b\x07\u202e")
+    assert r"\u001b[31mwug" in out
+    assert "über 🦩" in out
+    assert "not understood" in err
+    assert sum(line.startswith("events ") for line in out.splitlines()) == 2
+
+
+def test_a_word_of_100_kb_gives_a_short_line(capsys, folder):
+    prompt = "a red ball bounces " + " ".join(
+        ["wugs", *(f"blick{i}" for i in range(9)), "x" * 99_000]
+    )
+    words = ("--duration", 0.1, "--events-only", "--sensor", "48x36")
+    assert run("generate", prompt, "-o", "a.h5", *words) == 0
+    assert run("info", "a.h5") == 0
+    out, err = capsys.readouterr()
+    assert max(map(len, (out + err).splitlines())) < 300
+    assert " more" in err
+    assert error_of(capsys, "generate", "x" * 99_000, "-o", "b.h5", *words)
+    assert run("info", "a.h5", "--all") == 0
+    assert "x" * 99_000 in capsys.readouterr().out

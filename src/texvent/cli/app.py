@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 from texvent._registry import suggest
 from texvent._version import full_version
-from texvent.cli.notices import one_line_warnings, say
+from texvent.cli.notices import one_line_warnings, say, write_out
 from texvent.cli.shutdown import end_process
 from texvent.errors import ConfigError, OutputError, TexventError, shown
 from texvent.io.hidden_parts import remove_own_parts
@@ -153,7 +153,7 @@ def _dispatch(words: list[str]) -> int:
         _show_help()
         return 0 if words else 2
     if words[0] in ("-V", "--version"):
-        sys.stdout.write(f"texvent {full_version()}\n")
+        write_out(f"texvent {full_version()}\n")
         return 0
     if words[0] not in COMMANDS:
         raise ConfigError(
@@ -177,7 +177,7 @@ def _show_help() -> None:
         "Help: texvent COMMAND --help    Version: texvent --version",
         "",
     ]
-    sys.stdout.write("\n".join(lines))
+    write_out("\n".join(lines))
 
 
 if __name__ == "__main__":

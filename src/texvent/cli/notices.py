@@ -11,6 +11,7 @@ from typing import Any
 
 from texvent.errors import warnings_to
 from texvent.options.fields import RenamedOptionWarning
+from texvent.runtime.visible_text import visible, visible_lines
 
 _BOLD_YELLOW, _PLAIN = "\x1b[1;33m", "\x1b[0m"
 
@@ -34,12 +35,17 @@ def one_line_warnings() -> Iterator[None]:
 
 def say(line: str) -> None:
     """Write a line to stderr."""
-    sys.stderr.write(" ".join(line.split()) + "\n")
+    sys.stderr.write(visible(" ".join(line.split())) + "\n")
+
+
+def write_out(text: str) -> None:
+    """Write a result to stdout: lines, each with its end."""
+    sys.stdout.write(visible_lines(text))
 
 
 def say_warning(message: str) -> None:
     """Write a line to stderr that stands out; coloured in a terminal."""
-    text = " ".join(message.split())
+    text = visible(" ".join(message.split()))
     has_colours = sys.stderr.isatty() and not os.environ.get("NO_COLOR")
     first, last = (_BOLD_YELLOW, _PLAIN) if has_colours else ("", "")
     sys.stderr.write(f"{first}warning  {text}{last}\n")

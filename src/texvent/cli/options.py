@@ -7,7 +7,6 @@ import dataclasses
 import io
 import itertools
 import re
-import sys
 import typing
 import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -17,6 +16,7 @@ from typing import Annotated, Any
 import tyro
 
 from texvent.cli.help import ALL, asked_help, render_help
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED, SCALARS, without_none
 from texvent.errors import ConfigError, shown
 from texvent.io.protected_inputs import protect_inputs
@@ -37,9 +37,9 @@ def parse_options(
             attributes name its fields: those in `positional` are given without a flag, those in
             `repeated` several times, those in `short_flags` also have a short one, those in
             `outputs` say what is written ("out" if there is no such attribute); those in `inputs`
-            are texts that may be the path of something read, as a `Path` always is. `main_options` of
-            the first group names the options that `--help` alone shows, if there are too many for
-            one screen.
+            are texts that may be the path of something read, as a `Path` always is.
+            `main_options` of the first group names the options that `--help` alone shows, if there
+            are too many for one screen.
         prog: how the command is called.
         description: first lines of its help; indented ones are kept as they are.
 
@@ -52,7 +52,7 @@ def parse_options(
     """
     asked = asked_help(arguments, groups)
     if asked is not None:
-        sys.stdout.write(render_help(asked, groups, prog=prog, description=description))
+        write_out(render_help(asked, groups, prog=prog, description=description))
         raise SystemExit(0)
     form = dataclasses.make_dataclass(
         "Form", [(title.replace(" ", "_"), _group(group)) for title, group in groups.items()]
@@ -121,7 +121,7 @@ def refuse_arguments(arguments: Sequence[str], *, prog: str, description: str) -
         SystemExit: `--help` was asked for and shown.
     """
     if asked_help(arguments, ()) is not None:
-        sys.stdout.write(render_help(ALL, {}, prog=prog, description=description))
+        write_out(render_help(ALL, {}, prog=prog, description=description))
         raise SystemExit(0)
     if arguments:
         raise ConfigError(f"{prog} takes no arguments; got {shown(' '.join(arguments))}")

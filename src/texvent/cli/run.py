@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -12,6 +11,7 @@ from pathlib import Path
 import tomli_w
 
 from texvent.cli.estimate import describe_estimate, estimate_run
+from texvent.cli.notices import say, write_out
 from texvent.cli.outputs import OutputOptions
 from texvent.errors import warn
 from texvent.events import EventStream
@@ -30,7 +30,7 @@ SIGNALLED = 128
 
 def print_settings(settings: Settings) -> int:
     """Write the resolved options to stdout as TOML; returns exit code 0."""
-    sys.stdout.write(tomli_w.dumps(settings.as_tables()))
+    write_out(tomli_w.dumps(settings.as_tables()))
     return 0
 
 
@@ -102,7 +102,7 @@ def execute(simulation: Simulation, options: OutputOptions, files: RunFiles) -> 
         InputError: the frames cannot be used.
     """
     if options.dry_run:
-        sys.stdout.write(describe_estimate(estimate_run(simulation, files)) + "\n")
+        write_out(describe_estimate(estimate_run(simulation, files)) + "\n")
         return 0
     progress = ConsoleProgress(is_quiet=options.quiet)
     for line in _notes(simulation):
@@ -124,7 +124,7 @@ def execute(simulation: Simulation, options: OutputOptions, files: RunFiles) -> 
         )
     if not options.quiet:
         for written in files.paths:
-            sys.stdout.write(f"{written}\n")
+            write_out(f"{written}\n")
     if early is None:
         return 0
     if early.error is not None:
@@ -141,7 +141,7 @@ def _saying_what_is_complete(paths: Sequence[Path]) -> Iterator[None]:
         except BaseException:
             named = [str(path) for path in paths if path.resolve() in completed]
             if named:
-                sys.stderr.write(f"complete {', '.join(named)}\n")
+                say(f"complete {', '.join(named)}")
             raise
 
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from texvent._version import __version__
 from texvent.config import FPS_RANGE, check_range
-from texvent.errors import ConfigError, warn
+from texvent.errors import ConfigError, few, warn
 from texvent.options.values import plain
 from texvent.sensor import SENSORS, SensorSize
 from texvent.video import MICROSECONDS, Frame, describe_stream, frame_time_us
@@ -160,7 +160,7 @@ class ProceduralGenerator:
 
         description = parse_prompt(prompt)
         if description.not_understood:
-            words = ", ".join(description.not_understood)
+            words = few(description.not_understood)
             warn(f"not understood in the prompt, without effect: {words}")
         scene = compose_scene(
             description, seed=self.seed, size=self.size, duration_s=self.config.duration

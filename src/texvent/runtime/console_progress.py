@@ -20,6 +20,7 @@ from rich.progress import (
 
 PATIENCE_SECONDS = 0.5
 """Work that ends sooner shows no bar."""
+from texvent.runtime.visible_text import visible
 
 
 class ConsoleProgress:
@@ -66,7 +67,7 @@ class ConsoleProgress:
 
     def announce(self, line: str) -> None:
         """Print a line."""
-        self._console.print(line, markup=False, soft_wrap=True)
+        self._console.print(visible(line), markup=False, soft_wrap=True)
 
     def advance(self, stage: str, done: int, total: int | None) -> None:
         """Move the bar of a stage."""

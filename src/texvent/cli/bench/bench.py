@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import importlib
-import sys
 from collections.abc import Mapping, Sequence
 
 from texvent._registry import suggest
+from texvent.cli.notices import write_out
 from texvent.errors import ConfigError, shown
 
 BENCHMARKS: Mapping[str, str] = {
@@ -25,7 +25,7 @@ BENCHMARKS: Mapping[str, str] = {
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
     if not arguments or arguments[0] in ("-h", "--help"):
-        sys.stdout.write(_usage())
+        write_out(_usage())
         return 0 if arguments else 2
     name, *rest = arguments
     if name not in BENCHMARKS:

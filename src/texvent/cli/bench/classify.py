@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -13,6 +12,7 @@ from texvent.bench.classification.resnet34 import ResNetClassifier
 from texvent.bench.classification.resnet34_weights import read_resnet_weights
 from texvent.bench.machine import describe_environment
 from texvent.cli.bench.result_options import ResultOptions
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 
@@ -66,7 +66,7 @@ def run(arguments: Sequence[str]) -> None:
         }
     )
     first, second = found.standard_errors
-    sys.stdout.write(
+    write_out(
         f"top-1 {found.top1:.4f} ± {first:.4f}, top-5 {found.top5:.4f} ± {second:.4f} "
         f"({found.count} streams, {classifier.class_count} classes)\n"
     )

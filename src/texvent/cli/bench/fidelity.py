@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -10,6 +9,7 @@ from texvent.bench.fidelity.entries import choose_entries
 from texvent.bench.fidelity.run import FULL, FidelityPlan, run_fidelity
 from texvent.bench.fidelity.table import fidelity_tables
 from texvent.cli.bench.result_options import ResultOptions
+from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 
 
@@ -48,4 +48,4 @@ def run(arguments: Sequence[str]) -> None:
     plan = replace(plan, entries=choose_entries(options.simulators, options.interpolations))
     report = run_fidelity(plan, jobs=options.jobs, progress=output.progress)
     output.write(report.document)
-    sys.stdout.write(fidelity_tables(report))
+    write_out(fidelity_tables(report))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +11,7 @@ from texvent.bench.document import read_document, result_name
 from texvent.bench.fidelity.page import page_files
 from texvent.bench.fidelity.results import read_report
 from texvent.bench.fidelity.table import BASELINE, check_baseline
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.io.atomic import atomic_file, check_output
@@ -57,4 +57,4 @@ def run(arguments: Sequence[str]) -> None:
     for file, content in files.items():
         with atomic_file(folder / file, overwrite=options.overwrite) as part:
             part.write_bytes(content)
-    sys.stdout.write("".join(f"{folder / file}\n" for file in files))
+    write_out("".join(f"{folder / file}\n" for file in files))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -24,6 +23,7 @@ from texvent.bench.progress import Progress
 from texvent.bench.real.run import RealPlan, run_real
 from texvent.bench.real.scene import open_scene
 from texvent.cli.bench.result_options import ResultOptions
+from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.errors import ConfigError
@@ -111,7 +111,7 @@ def run(arguments: Sequence[str]) -> None:
         found = _run_ablations(options, output.progress)
     else:
         figures = measure_table(options.table, options.inputs, output.progress)
-        sys.stdout.write(compare_with_paper(TABLES[options.table], figures))
+        write_out(compare_with_paper(TABLES[options.table], figures))
         found = {f"table {options.table}": asdict(figures)}
     output.write(
         lambda: {
@@ -142,8 +142,8 @@ def _run_ablations(options: PaperOptions, progress: Progress) -> dict[str, Any]:
     tables: dict[str, Any] = {}
     for number in TABLES_HERE if options.table is None else (options.table,):
         figures = join_figures([ablation_figures(number, report) for report in reports])
-        sys.stdout.write(f"{compare_with_paper(TABLES[number], figures)}\n")
+        write_out(f"{compare_with_paper(TABLES[number], figures)}\n")
         tables[f"table {number}"] = asdict(figures)
     for report in reports:
-        sys.stdout.write(f"{fidelity_tables(report, baseline=options.baseline)}\n")
+        write_out(f"{fidelity_tables(report, baseline=options.baseline)}\n")
     return {**tables, "reports": [report.document() for report in reports]}

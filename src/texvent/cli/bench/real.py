@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +18,7 @@ from texvent.bench.paper.config_entry import ConfigEntry
 from texvent.bench.real.run import INTERPOLATIONS, RealPlan, real_entries, run_real
 from texvent.bench.real.scene import WITH_FRAMES, RecordingPart, open_scene
 from texvent.cli.bench.result_options import ResultOptions
+from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 
@@ -90,8 +90,8 @@ def run(arguments: Sequence[str]) -> None:
         progress=output.progress,
     )
     output.write(report.document)
-    sys.stdout.write(fidelity_tables(report, baseline=options.baseline))
-    sys.stdout.write(f"\n{motion_table(report)}")
+    write_out(fidelity_tables(report, baseline=options.baseline))
+    write_out(f"\n{motion_table(report)}")
 
 
 def _choose_entries(options: RealOptions) -> list[Entry]:

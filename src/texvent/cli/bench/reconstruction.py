@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -22,6 +21,7 @@ from texvent.bench.reconstruction.run import (
 from texvent.bench.reconstruction.table import reconstruction_document, reconstruction_tables
 from texvent.cli.bench.result_options import ResultOptions
 from texvent.cli.event_files.time_option import parse_time_range
+from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError
 from texvent.io.atomic import atomic_file
@@ -146,7 +146,7 @@ def run(arguments: Sequence[str]) -> None:
     if options.image is not None:
         with atomic_file(options.image, overwrite=output.overwrite) as part:
             part.write_bytes(grid.png())
-    sys.stdout.write(reconstruction_tables(report, noise))
+    write_out(reconstruction_tables(report, noise))
 
 
 def _instants(recording: FrameRecording, plan: ReconstructionPlan) -> list[int]:

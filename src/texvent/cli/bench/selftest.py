@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,6 +10,7 @@ from texvent.bench.selftest.chart import selftest_chart
 from texvent.bench.selftest.run import SelftestRow, run_selftest
 from texvent.bench.selftest.table import read_selftest, selftest_document, selftest_table
 from texvent.cli.bench.result_options import ResultOptions
+from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError
 from texvent.io.atomic import atomic_file
@@ -47,7 +47,7 @@ def run(arguments: Sequence[str]) -> None:
     if options.chart is not None:
         with atomic_file(options.chart, overwrite=output.overwrite) as part:
             part.write_text(selftest_chart(rows), encoding="utf-8")
-    sys.stdout.write(selftest_table(rows))
+    write_out(selftest_table(rows))
 
 
 def _run_selftest(options: SelftestOptions, output: ResultOptions) -> list[SelftestRow]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import ClassVar
 from texvent.bench.machine import describe_environment
 from texvent.bench.unpaired import compare_folders
 from texvent.cli.bench.result_options import ResultOptions
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
@@ -60,7 +60,7 @@ def run(arguments: Sequence[str]) -> None:
             "normalised": report.normalised,
         }
     )
-    sys.stdout.write(
+    write_out(
         f"Fréchet distance {report.simulated:.2f} (floor {report.floor:.2f}, null "
         f"{report.null:.2f}; S* {report.normalised:.2f}), {report.simulated_files} simulated and "
         f"{report.recorded_files} recorded files\n"

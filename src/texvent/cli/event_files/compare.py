@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +13,7 @@ from rich.console import Console
 from rich.table import Table
 
 from texvent.bench.selftest.controls import CONTROLLED, run_controls
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError, InputError
@@ -91,7 +91,7 @@ def run(arguments: Sequence[str]) -> int:
     if options.json:
         events = {"predicted": len(predicted), "reference": len(reference)}
         document = _document(options, events, span_us, findings)
-        sys.stdout.write(json.dumps(document, indent=2, ensure_ascii=False) + "\n")
+        write_out(json.dumps(document, indent=2, ensure_ascii=False) + "\n")
     else:
         _show(metrics, findings)
     if options.out is not None:

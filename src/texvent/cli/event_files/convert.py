@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
 from texvent.cli.event_files.time_option import keep_time_range
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError, shown, warn
@@ -106,7 +106,7 @@ def run(arguments: Sequence[str]) -> int:
     if not count:
         warn(f"{out} holds no event: there is none in the input, or in the part asked for")
     if not options.quiet:
-        sys.stdout.write(f"{out}: {count:,} events, {events.size}\n")
+        write_out(f"{out}: {count:,} events, {events.size}\n")
     return 0
 
 

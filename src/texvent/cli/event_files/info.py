@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,17 +10,21 @@ from typing import Any
 
 from texvent.capture.open import open_frames
 from texvent.cli.event_files.event_file_options import EventFileOptions
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import CaptureConfig
 from texvent.event_packets import EventPackets
 from texvent.io.files import event_extensions, find_folder_codec
+from texvent.runtime.visible_text import visible
 from texvent.video import MICROSECONDS, FrameStream
 
 DESCRIPTION = """Say what an event file or a video holds, and how it was made. The whole file is
 read once, with flat memory, so the figures are exact and a damaged file is found."""
 
 MAIN_LINES = 10
+MOST_SHOWN = 80
+"""Characters of a value, unless everything is asked for."""
 MEASURED = (
     "sensor", "size", "events", "frames", "fps", "on_share", "first_us", "last_us", "seconds",
     "events_per_second", "pixels",
@@ -38,7 +41,8 @@ class InfoOptions(EventFileOptions):
     path: Path = REQUIRED
     """Event file, video file or image folder."""
     all: bool = False
-    """Print everything that is stored, options included; otherwise the ten lines that matter."""
+    """Print everything that is stored, options included and in full; otherwise the ten lines that
+    matter."""
     json: bool = False
     """Print everything as JSON instead of lines."""
 
@@ -53,12 +57,13 @@ def run(arguments: Sequence[str]) -> int:
     else:
         facts = describe_frames(open_frames(options.path, CaptureConfig()))
     if options.json:
-        sys.stdout.write(json.dumps(facts, indent=2, ensure_ascii=False) + "\n")
+        write_out(json.dumps(facts, indent=2, ensure_ascii=False) + "\n")
     else:
         shown = facts if options.all else _main_facts(facts)
-        sys.stdout.write("\n".join(_lines(shown)) + "\n")
+        most = None if options.all else MOST_SHOWN
+        write_out("\n".join(_lines(shown, most=most)) + "\n")
         if len(shown) < len(facts):
-            sys.stdout.write(f"... {len(facts) - len(shown)} more: --all\n")
+            write_out(f"... {len(facts) - len(shown)} more: --all\n")
     return 0
 
 
@@ -124,17 +129,27 @@ def describe_frames(video: FrameStream) -> dict[str, Any]:
     }
 
 
-def _lines(facts: Mapping[str, Any], indent: str = "") -> list[str]:
-    """`key  value` lines; tables are indented under their name."""
+def _lines(facts: Mapping[str, Any], indent: str = "", *, most: int | None = None) -> list[str]:
+    """`key  value` lines; tables are indented under their name, values longer than `most` cut."""
     width = max((len(key) for key in facts), default=0)
     lines = []
     for key, value in facts.items():
         if isinstance(value, Mapping):
-            lines += [f"{indent}{key}", *_lines(value, indent + "  ")]
+            lines += [f"{indent}{key}", *_lines(value, indent + "  ", most=most)]
         else:
-            shown = (
-                f"{value:,}" if isinstance(value, int) and not isinstance(value, bool) else value
-            )
-            shown = ", ".join(map(str, shown)) if isinstance(shown, list) else shown
-            lines.append(f"{indent}{key:<{width}}  {shown}")
+            # Within a value even a line end would begin a line that looks like another fact.
+            lines.append(f"{indent}{key:<{width}}  {shortened(visible(_text(value)), most)}")
     return lines
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, int) and not isinstance(value, bool):
+        return f"{value:,}"
+    return ", ".join(map(str, value)) if isinstance(value, list) else str(value)
+
+
+def shortened(text: str, most: int | None) -> str:
+    """A text of at most `most` characters: beginning and end, which of a path say the most."""
+    if most is None or len(text) <= most:
+        return text
+    return f"{text[: most // 2]}...{text[3 - most // 2 :]}"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -11,6 +10,7 @@ from typing import Any, ClassVar
 
 from texvent._version import full_version
 from texvent.cli.event_files.event_file_options import EventRangeOptions
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
@@ -84,7 +84,7 @@ def run(arguments: Sequence[str]) -> int:
                 sink.add(t_us, image)
                 progress.advance("reconstructing", number, None)
     if not options.quiet:
-        sys.stdout.write(f"{options.out}\n")
+        write_out(f"{options.out}\n")
     return 0
 
 

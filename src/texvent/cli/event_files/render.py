@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import ClassVar
 
 from texvent.cli.event_files.event_file_options import EventRangeOptions
 from texvent.cli.event_files.video_option import AUTOMATIC, frames_for_overlay
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.view.render import RenderConfig, render_events
@@ -63,5 +63,5 @@ def run(arguments: Sequence[str]) -> int:
         overwrite=options.overwrite,
     )
     if not options.quiet:
-        sys.stdout.write(f"{written}\n")
+        write_out(f"{written}\n")
     return 0

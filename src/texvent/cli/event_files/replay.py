@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import filecmp
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.errors import InputError, TexventError
@@ -89,11 +89,11 @@ def run(arguments: Sequence[str]) -> int:
 def _compare(path: Path, out: Path) -> int:
     """Say whether two files are the same; returns 0 if their bytes are, else 1."""
     if out.is_file() and filecmp.cmp(path, out, shallow=False):
-        sys.stdout.write(f"{out}: the same bytes as {path}\n")
+        write_out(f"{out}: the same bytes as {path}\n")
         return 0
     before, again = load(path), load(out)
     if again.equals(before):
-        sys.stdout.write(f"{out}: the same events as {path}, in other bytes\n")
+        write_out(f"{out}: the same events as {path}, in other bytes\n")
         return 0 if out.is_dir() else 1
-    sys.stdout.write(f"{out}: other events than {path}, {len(again):,} for {len(before):,}\n")
+    write_out(f"{out}: other events than {path}, {len(again):,} for {len(before):,}\n")
     return 1

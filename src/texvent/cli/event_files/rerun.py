@@ -13,6 +13,7 @@ from typing import ClassVar
 from texvent._require import require
 from texvent.cli.event_files.event_file_options import EventRangeOptions
 from texvent.cli.event_files.video_option import AUTOMATIC, frames_for_overlay
+from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError
 from texvent.view.drawing.palettes import DEFAULT_PALETTE
@@ -67,7 +68,7 @@ def run(arguments: Sequence[str]) -> int:
             overwrite=options.overwrite,
         )
         if not options.quiet:
-            sys.stdout.write(f"{out}\n")
+            write_out(f"{out}\n")
         if options.out is not None:
             return 0
         return subprocess.run([sys.executable, "-m", "rerun", str(out)], check=False).returncode

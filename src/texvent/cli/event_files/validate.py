@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 import math
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, ClassVar
 
 from texvent.cli.event_files.event_file_options import EventFileOptions
+from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import warn
 from texvent.io.files import has_checksums
@@ -48,7 +48,7 @@ def run(arguments: Sequence[str]) -> int:
     facts = validate(options)
     if not options.quiet:
         text = json.dumps(facts, indent=2) if options.json else "\n".join(_lines(facts))
-        sys.stdout.write(text + "\n")
+        write_out(text + "\n")
     return 0 if facts["verdict"] == "sound" else SUSPICIOUS
 
 

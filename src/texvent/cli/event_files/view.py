@@ -12,6 +12,7 @@ from typing import ClassVar
 
 from texvent.cli.event_files.event_file_options import EventRangeOptions
 from texvent.cli.event_files.video_option import AUTOMATIC, frames_for_overlay
+from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.errors import ConfigError
@@ -71,7 +72,7 @@ def run(arguments: Sequence[str]) -> int:
         overwrite=options.overwrite,
     )
     if not options.quiet:
-        sys.stdout.write(f"{page}\n")
+        write_out(f"{page}\n")
     if options.out is None and not webbrowser.open(page.resolve().as_uri()):
         sys.stderr.write("no browser could be opened; open that page yourself\n")
     return 0

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +11,7 @@ from rich.console import Console
 from rich.table import Table
 
 from texvent._registry import suggest
+from texvent.cli.notices import write_out
 from texvent.cli.options import parse_options, refuse_arguments
 from texvent.data.download_bar import show_progress
 from texvent.errors import ConfigError
@@ -39,7 +39,7 @@ class Downloads:
     def run(self, arguments: Sequence[str]) -> int:
         """Run the command; returns its exit code."""
         if not arguments or arguments[0] in ("-h", "--help"):
-            sys.stdout.write(
+            write_out(
                 f"usage: texvent {self.command} list\n"
                 f"       texvent {self.command} pull NAME [OPTIONS]\n\n{self.purpose}\n"
             )
@@ -80,5 +80,5 @@ class Downloads:
             progress=show_progress if console.is_terminal and not is_quiet else None,
             announce=lambda line: console.print(line, markup=False),
         )
-        sys.stdout.write(f"{path}\n")
+        write_out(f"{path}\n")
         return 0

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,7 +16,7 @@ from texvent.batch.runner import BatchPlan, run_batch
 from texvent.batch.samples import Sample, are_videos, read_samples
 from texvent.cli.command import resolve_command
 from texvent.cli.estimate import describe_estimate, estimate_run
-from texvent.cli.notices import say_warning
+from texvent.cli.notices import say, say_warning, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.outputs import OutputOptions
 from texvent.cli.run import print_settings
@@ -141,7 +140,7 @@ def _options(plan: BatchPlan, is_of_videos: bool) -> Mapping[str, Any]:
 def _describe(plan: BatchPlan, samples: Sequence[Sample], manifest: Manifest) -> int:
     """How much is to do, and what the first sample of it takes."""
     todo = [sample for sample in samples if not manifest.is_done(sample)]
-    sys.stdout.write(f"{len(samples)} samples, {len(samples) - len(todo)} done already\n")
+    write_out(f"{len(samples)} samples, {len(samples) - len(todo)} done already\n")
     if todo:
         first = todo[0]
         settings = plan.settings_of(first)
@@ -149,8 +148,8 @@ def _describe(plan: BatchPlan, samples: Sequence[Sample], manifest: Manifest) ->
             simulation = prepare_source(first.video, settings, prompt=first.prompt)
         else:
             simulation = prepare_prompt(first.prompt or "", settings, upsample=plan.upsample)
-        sys.stdout.write(f"the first, {first.name}:\n")
-        sys.stdout.write(describe_estimate(estimate_run(simulation, plan.files_of(first))) + "\n")
+        write_out(f"the first, {first.name}:\n")
+        write_out(describe_estimate(estimate_run(simulation, plan.files_of(first))) + "\n")
     return 0
 
 
@@ -181,7 +180,7 @@ def _make_all(
                 say_warning(f"{sample.where}: {text}")
             if outcome.failure is not None:
                 failed += 1
-                sys.stderr.write(f"failed   {sample.where}: {outcome.failure}\n")
+                say(f"failed   {sample.where}: {outcome.failure}")
                 continue
             done += 1
             paths = plan.files_of(sample).paths

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +13,7 @@ from texvent.calibrate.fit import fit_sensor
 from texvent.calibrate.preset import describe_fit, write_preset
 from texvent.calibrate.recording import Recording
 from texvent.capture.open import open_frames
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import CaptureConfig, InterpolateConfig, check_range
@@ -108,5 +108,5 @@ def run(arguments: Sequence[str]) -> int:
     written = write_preset(
         fit, options.out, size=events.size, source=source, overwrite=options.overwrite
     )
-    sys.stdout.write(f"{written}\n")
+    write_out(f"{written}\n")
     return 0

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import csv
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
+from texvent.cli.notices import say, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
@@ -80,18 +80,18 @@ def run(arguments: Sequence[str]) -> int:
             # The other images keep their captions.
             if len(images) == 1:
                 raise
-            sys.stderr.write(f"failed   {error}\n")
+            say(f"failed   {error}")
             continue
         rows.append((_row_name(image, images), text))
         if options.out is None:
-            sys.stdout.write(f"{text}\n")
+            write_out(f"{text}\n")
     if options.out is not None and rows:
         with (
             atomic_file(options.out, overwrite=options.overwrite) as part,
             part.open("w", encoding="utf-8", newline="") as file,
         ):
             csv.writer(file).writerows([("name", "prompt"), *rows])
-        sys.stdout.write(f"{options.out}\n")
+        write_out(f"{options.out}\n")
     if len(rows) < len(images):
         failed = len(images) - len(rows)
         raise TexventError(f"{failed} of {len(images)} images have no caption")

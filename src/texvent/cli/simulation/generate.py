@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import ClassVar
 
 from texvent._registry import GENERATORS
 from texvent.cli.command import resolve_command
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import peek_options
 from texvent.cli.outputs import OutputOptions, default_event_file
@@ -82,7 +82,7 @@ def run(arguments: Sequence[str]) -> int:
     check_run(settings)
     files = output.files(own.prompt)
     if output.dry_run and (plan := _plan(own.prompt, settings)) is not None:
-        sys.stdout.write(f"{plan}\n")
+        write_out(f"{plan}\n")
         return 0
     with ConsoleProgress(is_quiet=output.quiet) as progress:
         simulation = prepare_prompt(own.prompt, settings, upsample=own, progress=progress)
@@ -146,5 +146,5 @@ def _write_video(own: PromptOptions, settings: Settings, output: OutputOptions) 
         video = make_video(own.prompt, settings, upsample=own, progress=progress)
         write_stream(video, path, overwrite=output.overwrite)
     if not output.quiet:
-        sys.stdout.write(f"{path}\n")
+        write_out(f"{path}\n")
     return 0

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from texvent._registry import GENERATORS
+from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.errors import ConfigError
@@ -75,7 +76,7 @@ def run(arguments: Sequence[str]) -> int:
             )
             address = page.launch(host=options.host, port=options.port)
             if not options.quiet:
-                sys.stdout.write(f"{address}\npress Ctrl-C to stop\n")
+                write_out(f"{address}\npress Ctrl-C to stop\n")
                 sys.stdout.flush()
             if options.browser:
                 webbrowser.open(address)
