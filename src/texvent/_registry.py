@@ -169,6 +169,7 @@ CODECS = Registry(
         "evreal": "texvent.io.arrays.evreal_folder:EvrealFolderCodec",
         "aedat2": "texvent.io.aedat.aedat2:Aedat2Codec",
         "aedat2-davis346": "texvent.io.aedat.aedat2:Davis346Codec",
+        "aedat2-jaer-dvs128": "texvent.io.aedat.aedat2:JaerDvs128Codec",
         "aedat2-dvs128": "texvent.io.aedat.aedat2:Dvs128Codec",
         "cifar10-dvs": "texvent.io.aedat.aedat2:Cifar10DvsCodec",
         "aedat3": "texvent.io.aedat.aedat3:Aedat3Codec",

@@ -44,6 +44,7 @@ SHORT = SensorSize(32_768, 32_768)
 CASES = (
     FormatCase("aedat2", "e.aedat", DAVIS, 2**31, is_exact_size=True),
     FormatCase("aedat2-davis346", "e.aedat", DAVIS, 2**31, is_exact_size=True),
+    FormatCase("aedat2-jaer-dvs128", "e.aedat", DVS, 2**31, is_exact_size=True),
     FormatCase("aedat2-dvs128", "e.aedat", DVS, 2**31, is_exact_size=True),
     FormatCase("cifar10-dvs", "e.aedat", DVS, 2**31, is_exact_size=True),
     FormatCase("aedat3", "e.aedat", SHORT),

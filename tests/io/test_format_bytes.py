@@ -33,6 +33,7 @@ def body(path: Path, end: bytes) -> bytes:
     [
         ("aedat2", DAVIS, (259 - 20) << 22 | (345 - 10) << 12 | 1 << 11),
         ("aedat2-davis346", DAVIS, (259 - 20) << 22 | (345 - 10) << 12 | 1 << 11),
+        ("aedat2-jaer-dvs128", DVS, (127 - 20) << 8 | (127 - 10) << 1 | 0),
         ("aedat2-dvs128", DVS, 10 << 8 | 20 << 1 | 1),
         ("cifar10-dvs", DVS, (127 - 10) << 8 | (127 - 20) << 1 | 0),
     ],
@@ -55,6 +56,22 @@ def test_no_first_record_of_aedat2_looks_like_text(tmp_path: Path, y: int) -> No
     assert not records.startswith(b"#")
     assert len(records) == (16 if 116 <= y <= 119 else 8)
     assert load(path).equals(events)
+
+
+def test_a_dvs128_recording_of_jaer_is_read_as_jaer_shows_it(tmp_path: Path) -> None:
+    """Bit 0 is 0 for ON, x is mirrored, y counts from the bottom, bit 15 is no event."""
+    chip = b"# AEChip: ch.unizh.ini.jaer.chip.retina.DVS128\r\n"
+    on_left_top = 127 << 8 | 127 << 1 | 0
+    off_right_bottom = 0 << 8 | 0 << 1 | 1
+    records = struct.pack(">6I", on_left_top, 10, 1 << 15, 15, off_right_bottom, 20)
+    path = tmp_path / "e.aedat"
+    path.write_bytes(b"#!AER-DAT2.0\r\n" + chip + records)
+    for events in (load(path), load(path, format="aedat2-jaer-dvs128")):
+        assert events.size == DVS
+        assert list(zip(events.x, events.y, events.t, events.p, strict=True)) == [
+            (0, 0, 10, 1),
+            (127, 127, 20, 0),
+        ]
 
 
 def test_aedat2_of_other_programs_is_read_with_the_layout_named(tmp_path: Path) -> None:

@@ -18,9 +18,10 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
+from texvent.runtime.visible_text import visible
+
 PATIENCE_SECONDS = 0.5
 """Work that ends sooner shows no bar."""
-from texvent.runtime.visible_text import visible
 
 
 class ConsoleProgress:

@@ -31,6 +31,7 @@ from texvent.io.aedat.aedat2_layouts import (
     CIFAR10_DVS,
     DAVIS346,
     DVS128,
+    JAER_DVS128,
     LAYOUTS,
     SPECIAL,
     AddressLayout,
@@ -120,6 +121,14 @@ class Davis346Codec(Aedat2Codec):
     layout: ClassVar[AddressLayout | None] = DAVIS346
 
 
+class JaerDvs128Codec(Aedat2Codec):
+    """AEDAT2 of a DVS128, as jAER writes and shows it."""
+
+    name: ClassVar[str] = "aedat2-jaer-dvs128"
+    extensions: ClassVar[tuple[str, ...]] = ()
+    layout: ClassVar[AddressLayout | None] = JAER_DVS128
+
+
 class Dvs128Codec(Aedat2Codec):
     """AEDAT2 of a DVS128, as tonic reads it."""
 
@@ -129,7 +138,7 @@ class Dvs128Codec(Aedat2Codec):
 
 
 class Cifar10DvsCodec(Aedat2Codec):
-    """AEDAT2 of a DVS128, as CIFAR10-DVS stores it."""
+    """AEDAT2 of a DVS128, as SpikingJelly reads CIFAR10-DVS."""
 
     name: ClassVar[str] = "cifar10-dvs"
     extensions: ClassVar[tuple[str, ...]] = ()
@@ -138,12 +147,16 @@ class Cifar10DvsCodec(Aedat2Codec):
 
 def _named_layout(path: Path, header: AedatHeader) -> AddressLayout:
     name = header.value("Layout")
-    if name is None and "davis346" in (header.value("AEChip") or "").lower():
+    chip = (header.value("AEChip") or "").lower()
+    if name is None and "davis346" in chip:
         name = DAVIS346.name
+    if name is None and chip.endswith("dvs128"):
+        name = JAER_DVS128.name
     if name is None:
         raise InputError(
             f"{path} is AEDAT2 but does not say how its addresses are laid out; state the format: "
-            f"--format {Davis346Codec.name}, {Dvs128Codec.name} or {Cifar10DvsCodec.name}"
+            f"--format {Davis346Codec.name}, {JaerDvs128Codec.name} (jAER's recordings), "
+            f"{Dvs128Codec.name} (as tonic reads) or {Cifar10DvsCodec.name} (as SpikingJelly reads)"
         )
     if name not in LAYOUTS:
         raise FileFormatError(f"{path}: its header names an unknown layout {name[:40]!r}")
