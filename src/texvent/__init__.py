@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 from texvent._version import __version__
 
 if TYPE_CHECKING:
-    from texvent import pixel_models
+    from texvent import dataset, pixel_models
     from texvent.api import compare, generate, load, open, simulate, video
     from texvent.errors import (
         ConfigError,
@@ -92,6 +92,7 @@ __all__ = [
     "__version__",
     "check_simulator",
     "compare",
+    "dataset",
     "formats",
     "generate",
     "generators",
@@ -125,8 +126,8 @@ sys.modules[__name__].__class__ = _Package
 
 def __getattr__(name: str) -> Any:
     """Load a public name on first use (PEP 562)."""
-    if name == "pixel_models":
-        return importlib.import_module("texvent.pixel_models")
+    if name in ("dataset", "pixel_models"):
+        return importlib.import_module(f"texvent.{name}")
     if name not in _HOME_OF:
         raise AttributeError(f"module 'texvent' has no attribute {name!r}")
     value = getattr(importlib.import_module(f"texvent.{_HOME_OF[name]}"), name)

@@ -24,6 +24,7 @@ PUBLIC = {
     "__version__",
     "check_simulator",
     "compare",
+    "dataset",
     "formats",
     "generate",
     "generators",

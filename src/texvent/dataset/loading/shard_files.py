@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import os
-import threading
 from collections import OrderedDict
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
 
 from texvent.errors import FileFormatError, one_line
@@ -30,7 +30,6 @@ class ShardFiles:
         """
         self._folder, self._paths = folder, tuple(paths)
         self._open: OrderedDict[int, _OpenFile] = OrderedDict()
-        self._lock = threading.Lock()
 
     def __reduce__(self) -> tuple[type[ShardFiles], tuple[Path, tuple[str, ...]]]:
         return ShardFiles, (self._folder, self._paths)
@@ -62,15 +61,17 @@ class ShardFiles:
         return content
 
     def _file(self, shard: int) -> _OpenFile:
-        with self._lock:
-            file = self._open.get(shard)
-            if file is None:
-                file = self._open[shard] = _OpenFile(self.path(shard))
-                if len(self._open) > MAX_OPEN:
-                    self._open.popitem(last=False)
-            else:
+        # No lock: a process forked while a thread holds one would wait for ever. Two threads may
+        # open a file twice, and a file that is closed here stays open for who reads it.
+        file = self._open.get(shard)
+        if file is None:
+            file = self._open[shard] = _OpenFile(self.path(shard))
+            if len(self._open) > MAX_OPEN:
+                self._open.popitem(last=False)
+        else:
+            with suppress(KeyError):  # another thread closed it
                 self._open.move_to_end(shard)
-            return file
+        return file
 
 
 class _OpenFile:
