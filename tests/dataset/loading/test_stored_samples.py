@@ -205,6 +205,7 @@ def read_keys(samples: StoredSamples) -> list[tuple[str, int]]:
     return [(sample.key, int(sample.events.t.sum())) for sample in samples]
 
 
+@pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")  # Python 3.12 and newer
 def test_copies_forks_fresh_processes_and_threads_read_the_same(samples):
     expected = read_keys(samples)  # its files are open now
     assert read_keys(pickle.loads(pickle.dumps(samples))) == expected

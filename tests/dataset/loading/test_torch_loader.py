@@ -9,7 +9,8 @@ from tests.dataset.loading.written_set import random_events, write_set, write_sh
 import texvent.dataset
 from texvent.errors import ConfigError
 
-pytestmark = pytest.mark.torch
+# Python 3.12 and newer warn of forks beside threads.
+pytestmark = [pytest.mark.torch, pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")]
 torch = pytest.importorskip("torch")
 
 
