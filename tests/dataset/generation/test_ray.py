@@ -117,6 +117,8 @@ def test_memory_that_no_node_has_and_a_cluster_that_is_not_there(cluster: Any) -
     with pytest.raises(ConfigError, match=r"cannot use the Ray cluster 'nowhere'") as found:
         RayEngine("nowhere")
     assert "\n" not in str(found.value)
+    with pytest.raises(ConfigError, match=r"no Ray cluster answers at '127\.0\.0\.1:1' \("):
+        RayEngine("127.0.0.1:1")
 
 
 def test_a_node_that_is_lost_changes_no_byte(cluster: Any, tmp_path: Path) -> None:

@@ -25,6 +25,8 @@ from texvent.runtime.threads import THREADS_VARIABLE
 
 ATTEMPTS = 5
 """How often a shard is made whose process or node dies, before it is given up."""
+MEMORY_RETRIES = 8
+"""How often a shard is made again that Ray ended for want of memory; the pauses double from 1 s."""
 AHEAD = 2
 """Shards at work or waiting, per CPU or per actor: none of them waits for the driver."""
 RESOURCES_S = 5.0
@@ -112,16 +114,19 @@ class RayEngine:
         except self._ray.exceptions.RayTaskError as error:
             raise error.cause from None
         except self._ray.exceptions.RayError as error:
-            name = type(error).__name__
-            return Outcome(
-                task, failure=f"its process or node died {ATTEMPTS} times ({name}); see Ray's logs"
-            )
+            return Outcome(task, failure=self._why(error))
         if isinstance(result, str):
             raise MissingDependencyError(result)
         if isinstance(result, TexventError):
             raise result
         outcome: Outcome = result
         return outcome
+
+    def _why(self, error: Exception) -> str:
+        if isinstance(error, self._ray.exceptions.OutOfMemoryError):
+            return "Ray ended it again and again for want of memory; reserve more: --ray-memory-gb"
+        name = type(error).__name__
+        return f"its process or node died {ATTEMPTS} times ({name}); see Ray's logs"
 
     def close(self) -> None:
         """Drop what is at work, let it clean up, and leave the cluster."""
@@ -183,9 +188,11 @@ def connect(address: str, workers: int | None = None) -> Any:
     """
     os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
     os.environ.setdefault("RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO", "0")
+    os.environ.setdefault("RAY_task_oom_retries", str(MEMORY_RETRIES))  # for ever, by default
     if address != "local" and _has_token():
         os.environ.setdefault("RAY_AUTH_MODE", "token")
     ray = require("ray", extra="ray")
+    _knock(address)
     own = {"num_cpus": workers, "include_dashboard": False} if address == "local" else {}
     on_stop = signal.getsignal(signal.SIGTERM)
     try:
@@ -200,6 +207,20 @@ def connect(address: str, workers: int | None = None) -> Any:
         if callable(on_stop):
             signal.signal(signal.SIGTERM, on_stop)
     return ray
+
+
+def _knock(address: str) -> None:
+    """Refuse an address where nothing answers, which Ray would try for minutes."""
+    host, colon, port = address.rpartition(":")
+    if not (colon and port.isdecimal() and "/" not in host):
+        return
+    try:
+        socket.create_connection((host.strip("[]"), int(port)), PATIENCE_S).close()
+    except (OSError, OverflowError) as error:
+        raise ConfigError(
+            f"no Ray cluster answers at {shown(address)} ({one_line(error)}); `ray start --head` "
+            "says the address of a cluster, and `ray status` whether it runs"
+        ) from error
 
 
 def _has_token() -> bool:
