@@ -16,12 +16,14 @@ import texvent
 from texvent.dataset.generation.engines.protocol import Outcome, Task
 from texvent.dataset.generation.engines.ray_cluster import RayEngine
 from texvent.dataset.generation.make import find_work, make_shards, remove_dead_parts
-from texvent.dataset.generation.recipe import Shard
+from texvent.dataset.generation.recipe import Recipe, Shard
 from texvent.errors import ConfigError, MissingDependencyError, OutputError
 
 pytestmark = pytest.mark.dataset
 pytest.importorskip("ray")
 
+SOON = {"health_check_period_ms": 1000, "health_check_failure_threshold": 4}
+"""A lost node is noticed in seconds."""
 NODE = {"object_store_memory": 100 * 2**20, "num_gpus": 0}
 
 
@@ -33,21 +35,28 @@ def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
         patch.setenv("RAY_AUTH_MODE", "disabled")
         from ray.cluster_utils import Cluster
 
-        nodes = Cluster(initialize_head=True, head_node_args={**NODE, "num_cpus": 1})
+        nodes = Cluster(
+            initialize_head=True, head_node_args={**NODE, "num_cpus": 1, "_system_config": SOON}
+        )
         yield nodes
         nodes.shutdown()
 
 
-def test_videos_are_made_by_actors_that_then_give_way(cluster: Any, tmp_path: Path) -> None:
-    recipe = clips_recipe(
-        tmp_path,
+def video_recipe(folder: Path, videos: int) -> Recipe:
+    """Shards of one video each, which are stored before they are simulated."""
+    return clips_recipe(
+        folder,
         clips=0,
         sources=[{"prompts": ["a red car drives left"]}],
         options={"duration": 0.05, "sensor": "16x12"},
-        repeats=2,
+        repeats=videos,
         samples_per_shard=1,
         store_videos=True,
     )
+
+
+def test_videos_are_made_by_actors_that_then_give_way(cluster: Any, tmp_path: Path) -> None:
+    recipe = video_recipe(tmp_path, 2)
     make(recipe, tmp_path / "wanted")
     # The only CPU is the actor's until the last video is made.
     work = make(recipe, tmp_path / "out", RayEngine(cluster.address))
