@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from texvent.config import check_range
-from texvent.represent.array_ops import Array, Events, columns_of
+from texvent.represent.array_ops import Array, EventColumns, Events, columns_of
 from texvent.represent.voxel_grid import MAX_BINS
 
+BINS = CUTOFF = 10
+"""Time bins, and the largest count of one, that RVT uses."""
 
-def stacked_histogram(events: Events, *, bins: int = 10, cutoff: int = 10) -> Array:
+
+def stacked_histogram(events: Events, *, bins: int = BINS, cutoff: int = CUTOFF) -> Array:
     """Events of one slice as a [2 · bins, H, W] image.
 
     Args:
@@ -30,9 +33,13 @@ def stacked_histogram(events: Events, *, bins: int = 10, cutoff: int = 10) -> Ar
     check_range("cutoff", cutoff, 1, 255)
     columns = columns_of(events)
     height, width = columns.size.shape
+    ops = columns.ops
+    counts = columns.count((columns.p, 2), (time_bins(columns, bins), bins), *columns.pixel_axes)
+    return ops.cast(ops.xp.clip(counts, 0, cutoff).reshape(2 * bins, height, width), "uint8")
+
+
+def time_bins(columns: EventColumns, bins: int) -> Array:
+    """The bin of each event; the bins span the first event to the last."""
     since = columns.t - columns.t[:1]
     span = max(int(since[-1]), 1) if len(columns) else 1
-    ops = columns.ops
-    time_bin = ops.xp.clip(since * bins // span, 0, bins - 1)
-    counts = columns.count((columns.p, 2), (time_bin, bins), *columns.pixel_axes)
-    return ops.cast(ops.xp.clip(counts, 0, cutoff).reshape(2 * bins, height, width), "uint8")
+    return columns.ops.xp.clip(since * bins // span, 0, bins - 1)

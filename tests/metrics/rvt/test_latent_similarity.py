@@ -47,3 +47,11 @@ def test_streams_without_events_are_undefined_and_equal_ones_score_one():
     assert math.isnan(LatentSimilarity()(nothing, nothing))
     a = random_events(1)
     assert LatentSimilarity()(a, a) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("size", [SensorSize(16, 13), SensorSize(7, 9)])
+def test_the_histogram_alone_is_not_filled_in_but_scores_the_same(size):
+    # 4000 events on 63 pixels: counts beyond the cutoff, sides that are no multiple of 3.
+    a, b = (random_events(seed, 4000, size, 120_000) for seed in (1, 2))
+    dense = LatentSimilarity(backbone=lambda histogram: (histogram,))
+    assert LatentSimilarity()(a, b) == dense(a, b)

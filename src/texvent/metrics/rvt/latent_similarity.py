@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -11,8 +12,9 @@ from numpy.typing import NDArray
 
 from texvent.events import EventStream
 from texvent.metrics.protocol import UNDEFINED, Metric
-from texvent.metrics.windows import occupied_windows, rate_of_window
-from texvent.represent.stacked_histogram import stacked_histogram
+from texvent.metrics.windows import flat_index, occupied_windows, rate_of_window
+from texvent.represent.array_ops import columns_of
+from texvent.represent.stacked_histogram import BINS, CUTOFF, stacked_histogram, time_bins
 
 Features: TypeAlias = NDArray[np.float32]
 Backbone: TypeAlias = Callable[[Features], Sequence[Features]]
@@ -56,6 +58,8 @@ class LatentSimilarity(Metric):
         return float(np.mean(defined)) if defined else UNDEFINED
 
     def _score_window(self, predicted: EventStream, reference: EventStream) -> float:
+        if self.backbone is keep_input:
+            return _cosine_of_means(_histogram_patches(predicted), _histogram_patches(reference))
         stages = zip(
             *(
                 self.backbone(stacked_histogram(events).astype(np.float32))
@@ -77,12 +81,16 @@ def patch_cosine(a: Features, b: Features) -> float:
     Returns:
         −1..1, or NaN if every patch of both is zero.
     """
-    means = [_average_patches(one) for one in (a, b)]
-    lengths = [np.linalg.norm(one, axis=0) for one in means]
+    return _cosine_of_means(_average_patches(a), _average_patches(b))
+
+
+def _cosine_of_means(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
+    """Mean cosine of averaged patches, [C, rows, columns]."""
+    lengths = [np.linalg.norm(one, axis=0) for one in (a, b)]
     present = (lengths[0] > 0) | (lengths[1] > 0)
     if not present.any():
         return UNDEFINED
-    product = (means[0] * means[1]).sum(axis=0)
+    product = (a * b).sum(axis=0)
     scale = lengths[0] * lengths[1]
     cosine = np.divide(product, scale, out=np.zeros_like(product), where=scale > 0)
     return float(cosine[present].mean())
@@ -98,3 +106,16 @@ def _average_patches(features: Features) -> NDArray[np.float64]:
             part = features[:, down::PATCH, across::PATCH]
             total[:, : part.shape[1], : part.shape[2]] += part
     return total / PATCH**2
+
+
+def _histogram_patches(events: EventStream) -> NDArray[np.float64]:
+    """`_average_patches` of the stacked histogram, from its cells that hold events alone."""
+    height, width = events.size.shape
+    shape = (2 * BINS, -(-height // PATCH), -(-width // PATCH))
+    bins = time_bins(columns_of(events), BINS)
+    axes = ((events.p, 2), (bins, BINS), (events.y, height), (events.x, width))
+    cells, counts = np.unique(flat_index(*axes), return_counts=True)
+    channel, row, column = np.unravel_index(cells, (2 * BINS, height, width))
+    patch = flat_index((channel, shape[0]), (row // PATCH, shape[1]), (column // PATCH, shape[2]))
+    total = np.bincount(patch, np.minimum(counts, CUTOFF), minlength=math.prod(shape))
+    return total.reshape(shape) / PATCH**2
