@@ -83,8 +83,13 @@ def prepare_replay(
     prompt = prompt if isinstance(prompt, str) else None
     if "generate" in tables:
         settings, detailed = resolve("generate", options), str(facts.get("prompt", prompt))
+        if source is None and facts.get("stored") is not None:
+            raise InputError(
+                f"its video was stored, in {facts['stored']} of its data set; take it out of that "
+                "tar and name it with --source"
+            )
         if source is not None:
-            video = fit_to_sensor(_stored_video(source), settings)
+            video = fit_to_sensor(_stored_video(source, facts), settings)
             return prepare_video(video, settings, prompt=prompt)
         seed = _video_seed(facts, settings)
         if seed == settings.run.seed:
@@ -97,13 +102,14 @@ def prepare_replay(
     return prepare_source(source or _find_source(facts, folder), settings, prompt=prompt)
 
 
-def _stored_video(path: Path) -> FrameStream:
+def _stored_video(path: Path, facts: Mapping[str, Any]) -> FrameStream:
     from texvent.generate.videos.stored_video import reopen  # brings PyAV
 
     video = reopen(path)
     if video is None:
         raise InputError(f"{path} is no video that texvent generated and stored; name that one")
-    return video
+    place = facts.get("stored")
+    return video if place is None else video.with_metadata(stored=place)
 
 
 def _video_seed(facts: Any, settings: Settings) -> int:

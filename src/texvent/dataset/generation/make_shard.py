@@ -271,7 +271,7 @@ class _StoredVideos:
     """The videos of a shard of the first stage."""
 
     def __init__(self, folder: Path, shard: Shard, scratch: Path) -> None:
-        self._path, self._scratch = folder / shard.path, scratch
+        self._shard, self._path, self._scratch = shard, folder / shard.path, scratch
         record = read_record(self._path)
         if record is None:
             raise InputError(f"{self._path} is not made yet; make the shards of videos first")
@@ -294,5 +294,5 @@ class _StoredVideos:
         video = reopen(place)
         if video is None:
             raise InputError(f"{self._path} holds no video for {clip.key}")
-        self._open = (clip.key, video)
-        return video
+        self._open = (clip.key, video.with_metadata(stored=str(self._shard.path)))
+        return self._open[1]

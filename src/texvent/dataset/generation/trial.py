@@ -15,6 +15,10 @@ from texvent.errors import TexventError
 from texvent.runtime.progress import Progress
 
 
+LIMIT_S = 60.0
+"""A stage is tried no longer than this, but for the sample at hand."""
+
+
 @dataclass(frozen=True)
 class StageEstimate:
     """The videos, or a variant, as far as a trial can tell."""
@@ -40,7 +44,8 @@ class StageEstimate:
 def try_samples(recipe: Recipe, clips: int, progress: Progress) -> list[StageEstimate]:
     """Make a few clips in every variant, in a folder that is removed.
 
-    The first clip is made once more beforehand, so that compiling is not counted.
+    The first clip is made once more beforehand, so that compiling is not counted. A stage of slow
+    samples is tried with fewer of them.
 
     Args:
         recipe: of the data set.
@@ -64,7 +69,9 @@ def try_samples(recipe: Recipe, clips: int, progress: Progress) -> list[StageEst
             for split, number in [*numbers[:1], *numbers]:
                 records.append(make_shard(single, folder, Shard(stage, split, number)))
                 progress.advance("trial", len(results) * (len(numbers) + 1) + len(records), total)
-            results.append(_estimate(recipe, stage, seeds, records[1:]))
+                if sum(record.seconds for record in records) > LIMIT_S:
+                    break
+            results.append(_estimate(recipe, stage, seeds, records[1:] or records))
     return results
 
 

@@ -11,7 +11,7 @@ from texvent.dataset.generation.records import MADE, SampleRecord, read_record
 from texvent.dataset.generation.tar_shard import EXTENSION
 from texvent.dataset.nt_imagenet.files import Captioned, Pair
 from texvent.dataset.nt_imagenet.selection import Stream
-from texvent.dataset.specification.clips import clip_key
+from texvent.dataset.specification.clips import clip_key, video_seed
 from texvent.errors import FileFormatError, InputError, one_line
 
 
@@ -60,12 +60,14 @@ def ids_of_clips(folder: Path, captioned: Sequence[Captioned]) -> Mapping[str, s
     specification = read_facts(folder).get("specification", {})
     path, ids = folder / ITEMS_FILE, dict[str, str]()
     try:
-        repeats = int(specification.get("repeats", 1))
+        root, repeats = int(specification["seed"]), int(specification["repeats"])
         items = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
         for item in items:
             id = known.get((item["seed"], item["label"], item["prompt"]))
             if id is not None:
-                ids |= {clip_key(item["key"], repeat): id for repeat in range(repeats)}
+                for repeat in range(repeats):
+                    seed = video_seed(root, item["key"], item["seed"], repeat)
+                    ids[clip_key(item["key"], seed)] = id
     except (OSError, ValueError, TypeError, KeyError, AttributeError) as error:
         raise FileFormatError(f"{path} is damaged ({one_line(error)})") from error
     if not ids:

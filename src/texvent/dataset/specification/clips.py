@@ -16,7 +16,7 @@ class Clip:
     """One video of a data set, of which every variant makes samples."""
 
     key: str
-    """What makes it this clip: a digest of its item and which of its repeats it is."""
+    """What makes it this clip: a digest of its item and its seed."""
     item: Item
     split: str
     number: int
@@ -57,16 +57,20 @@ class Clips:
         """The clip at a place, 0 ≤ number < counts[split]."""
         repeat, place = divmod(number, len(self._items[split]))
         item = self._items[split][place]
-        if repeat == 0 and item.seed is not None:
-            seed = item.seed
-        else:
-            seed = derived_seed(self._seed, item.key, repeat)
-        return Clip(clip_key(item.key, repeat), item, split, number, seed)
+        seed = video_seed(self._seed, item.key, item.seed, repeat)
+        return Clip(clip_key(item.key, seed), item, split, number, seed)
 
 
-def clip_key(item_key: str, repeat: int) -> str:
-    """Key of a repeat of an item, from 0."""
-    return digest([item_key, repeat])[:KEY_DIGITS]
+def video_seed(root: int, item_key: str, item_seed: int | None, repeat: int) -> int:
+    """Seed of a repeat of an item, from 0; the first has the one that its list gives, if any."""
+    if repeat == 0 and item_seed is not None:
+        return item_seed
+    return derived_seed(root, item_key, repeat)
+
+
+def clip_key(item_key: str, seed: int) -> str:
+    """Key of the video of an item with a seed."""
+    return digest([item_key, seed])[:KEY_DIGITS]
 
 
 def _share_out(specification: Specification, items: Items) -> dict[str, list[Item]]:
