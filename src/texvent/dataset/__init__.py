@@ -13,20 +13,46 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from texvent.dataset.generation.api import make
     from texvent.dataset.loading.open_samples import open
     from texvent.dataset.loading.stored_samples import StoredSample, StoredSamples
     from texvent.dataset.loading.tonic_style import EventClips
     from texvent.dataset.samples import SimulatedSamples
+    from texvent.dataset.specification.reading import read_specification
+    from texvent.dataset.specification.specification import (
+        Filters,
+        SampleSource,
+        Specification,
+        Variant,
+    )
 
 _HOME_OF = {
     "EventClips": "loading.tonic_style",
+    "Filters": "specification.specification",
+    "SampleSource": "specification.specification",
     "SimulatedSamples": "samples",
+    "Specification": "specification.specification",
     "StoredSample": "loading.stored_samples",
     "StoredSamples": "loading.stored_samples",
+    "Variant": "specification.specification",
+    "make": "generation.api",
     "open": "loading.open_samples",
+    "read_specification": "specification.reading",
 }
 
-__all__ = ["EventClips", "SimulatedSamples", "StoredSample", "StoredSamples", "open"]
+__all__ = [
+    "EventClips",
+    "Filters",
+    "SampleSource",
+    "SimulatedSamples",
+    "Specification",
+    "StoredSample",
+    "StoredSamples",
+    "Variant",
+    "make",
+    "open",
+    "read_specification",
+]
 
 
 def __getattr__(name: str) -> Any:

@@ -14,7 +14,6 @@ from texvent.dataset.generation.tar_shard import size_in_tar
 from texvent.errors import TexventError
 from texvent.runtime.progress import Progress
 
-
 LIMIT_S = 60.0
 """A stage is tried no longer than this, but for the sample at hand."""
 
