@@ -65,6 +65,16 @@ def test_rate_curves_share_their_time_and_scale(tmp_path: Path) -> None:
     assert page.count("0.159 s") + page.count("0.160 s") == 2
 
 
+def test_the_peak_is_that_of_both_polarities(tmp_path: Path) -> None:
+    """It was that of the larger one, which can lie below the mean rate of both."""
+    times = np.arange(0, 160_000, 1000)
+    ones = np.ones(2 * len(times), np.int64)
+    polarity = np.tile([0, 1], len(times))
+    even = EventStream(3 * ones, 5 * ones, np.repeat(times, 2), polarity, SIZE)
+    page = write_comparison(tmp_path / "x.html", (("a", even), ("b", even)), []).read_text()
+    assert page.count("peak 2.01 k events/s") == 2
+
+
 def test_names_and_metrics_stay_text_and_nothing_is_asked_of_any_server(tmp_path: Path) -> None:
     row = MetricRow(name=HOSTILE, value=HOSTILE, unit=HOSTILE, good=HOSTILE, blind_to=HOSTILE)
     pair = ((HOSTILE, make_events([1, 2])), (HOSTILE, make_events([3])))

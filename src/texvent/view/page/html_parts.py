@@ -74,13 +74,13 @@ def rate_figure(
         counts: OFF and ON events per bin, [2, bins].
         start_us: where the first bin begins, µs.
         bin_us: width of a bin, µs.
-        peak: events per bin at full height; default: the most of these.
+        peak: events of one polarity per bin at full height; default: the most of these.
         marks: SVG drawn over the areas.
         name: id of the SVG element.
     """
     per_second = MICROSECONDS / bin_us
-    most = int(counts.max())
-    full = max(1, most if peak is None else peak)
+    full = max(1, int(counts.max()) if peak is None else peak)
+    most = int(counts.sum(axis=0).max())
     middle = CURVE_HEIGHT / 2
     on_area, off_area = (
         _steps(counts[row], scale=direction * 0.96 * middle / full)
