@@ -151,3 +151,25 @@ def test_a_node_that_is_lost_changes_no_byte(cluster: Any, tmp_path: Path) -> No
     assert sum(len(record.samples) for record in work.complete.values()) == 24
     assert digests(folder) == digests(tmp_path / "wanted")
     assert not list(folder.rglob(".texvent-*"))
+
+
+def test_actors_have_a_gpu_each_and_outlive_its_node(cluster: Any, tmp_path: Path) -> None:
+    # GPUs that Ray counts; nothing looks for the device.
+    recipe, folder = video_recipe(tmp_path, 5), tmp_path / "out"
+    make(recipe, tmp_path / "wanted")
+    nodes = [cluster.add_node(**{**NODE, "num_gpus": 1}, num_cpus=1) for _ in range(2)]
+    recipe.begin(folder)
+    work, seen = find_work(recipe, folder), list[Outcome]()
+
+    def lose_a_node(outcome: Outcome) -> None:
+        seen.append(outcome)
+        if len(seen) == 1:
+            cluster.remove_node(nodes.pop(), allow_graceful=False)
+
+    with closing(RayEngine(cluster.address)) as engine:
+        assert engine.capacity(videos=True) == 4
+        make_shards(work, engine, lose_a_node)
+    remove_dead_parts(recipe, folder)
+    assert not work.failures
+    assert digests(folder) == digests(tmp_path / "wanted")
+    assert len(digests(folder)) == 15

@@ -41,8 +41,8 @@ DECIDING = ("numpy", "numba", "opencv-python-headless")
 class RayEngine:
     """Tasks of one CPU for events. Actors for videos: one per GPU, else on half of the CPUs.
 
-    An actor keeps its process, and with it the model. Where a node is lost, Ray makes its shards
-    again on another one.
+    An actor keeps its process, and with it the model. Where a node is lost, Ray makes its shards of
+    events again on another one, and the engine those of videos.
     """
 
     def __init__(
@@ -61,12 +61,16 @@ class RayEngine:
         """
         self._ray = connect(address, workers)
         memory = {} if memory_gb is None else {"memory": round(memory_gb * GIGABYTE)}
-        self._actors: list[Any] = []
+        self._actors: dict[int, Any] = {}
         self._loads = Counter[int]()
+        self._proven: set[int] = set()
+        self._started = 0
+        self._deaths = Counter[Task]()
         self._running: dict[Any, tuple[Task, int | None]] = {}
         self._ready: deque[Any] = deque()
         self._resources: tuple[float, Mapping[str, float]] = (-RESOURCES_S, {})
         self._versions = package_versions()
+        self._has_gpus = self._count("GPU") > 0
         make_on_node, video_worker = _code_for_nodes()
         self._make = self._ray.remote(num_cpus=1, max_retries=ATTEMPTS - 1, **memory)(make_on_node)
         self._video_worker = video_worker
@@ -98,29 +102,44 @@ class RayEngine:
         Raises:
             ConfigError, OutputError, MissingDependencyError: what all shards would meet.
         """
-        if not any(self._loads.values()):
-            self._release_actors()
-        if not self._ready:
-            waiting = list(self._running)
-            (first,), others = self._ray.wait(waiting)
-            more = self._ray.wait(others, num_returns=len(others), timeout=0)[0] if others else ()
-            self._ready.extend((first, *more))
-        reference = self._ready.popleft()
-        task, number = self._running.pop(reference)
+        while True:
+            reference = self._next_ready()
+            task, number = self._running.pop(reference)
+            if number in self._actors:
+                self._loads[number] -= 1
+            try:
+                result = self._ray.get(reference)
+            except self._ray.exceptions.RayTaskError as error:
+                raise error.cause from None
+            except self._ray.exceptions.RayError as error:
+                self._deaths[task] += 1
+                if number is not None and self._deaths[task] < ATTEMPTS:
+                    self._drop_actor(number)
+                    self.submit(task)
+                    continue
+                return Outcome(task, failure=self._why(error))
+            break
         if number is not None:
-            self._loads[number] -= 1
-        try:
-            result = self._ray.get(reference)
-        except self._ray.exceptions.RayTaskError as error:
-            raise error.cause from None
-        except self._ray.exceptions.RayError as error:
-            return Outcome(task, failure=self._why(error))
+            self._proven.add(number)
         if isinstance(result, str):
             raise MissingDependencyError(result)
         if isinstance(result, TexventError):
             raise result
         outcome: Outcome = result
         return outcome
+
+    def _next_ready(self) -> Any:
+        """Reference to a result, or to an error; waits for one."""
+        if not any(self._loads.values()):
+            self._release_actors()
+        while not self._ready:
+            done, others = self._ray.wait(list(self._running), timeout=RESOURCES_S)
+            if not done:
+                self._drop_surplus()
+                continue
+            more = self._ray.wait(others, num_returns=len(others), timeout=0)[0] if others else []
+            self._ready.extend((*done, *more))
+        return self._ready.popleft()
 
     def _why(self, error: Exception) -> str:
         if isinstance(error, self._ray.exceptions.OutOfMemoryError):
@@ -148,26 +167,35 @@ class RayEngine:
         return int(known.get(resource, 0))
 
     def _actor_count(self) -> int:
-        return self._count("GPU") or max(1, self._count("CPU") // 2)
+        return max(1, self._count("GPU") if self._has_gpus else self._count("CPU") // 2)
 
     def _idlest_actor(self) -> int:
         """Number of the actor with the fewest shards; a new one if there may be more."""
-        idlest = min(range(len(self._actors)), key=lambda number: self._loads[number], default=None)
+        idlest = min(self._actors, key=lambda number: self._loads[number], default=None)
         if idlest is not None and (
             self._loads[idlest] == 0 or len(self._actors) >= self._actor_count()
         ):
             return idlest
-        needs = {"num_gpus": 1, "num_cpus": 0} if self._count("GPU") else {"num_cpus": 1}
-        remote = self._ray.remote(max_restarts=-1, max_task_retries=ATTEMPTS - 1, **needs)
-        self._actors.append(remote(self._video_worker).remote())
-        return len(self._actors) - 1
+        needs = {"num_gpus": 1, "num_cpus": 0} if self._has_gpus else {"num_cpus": 1}
+        self._started += 1
+        self._actors[self._started] = self._ray.remote(**needs)(self._video_worker).remote()
+        return self._started
+
+    def _drop_actor(self, number: int) -> None:
+        if number in self._actors:
+            self._ray.kill(self._actors.pop(number))
+            del self._loads[number]
+
+    def _drop_surplus(self) -> None:
+        """Drop actors that wait for a GPU which is lost; others make their shards."""
+        waiting = [number for number in self._actors if number not in self._proven]
+        for number in waiting[: max(0, len(self._actors) - self._actor_count())]:
+            self._drop_actor(number)
 
     def _release_actors(self) -> None:
         """End the actors: what they hold goes to the tasks."""
-        for actor in self._actors:
-            self._ray.kill(actor)
-        self._actors.clear()
-        self._loads.clear()
+        for number in list(self._actors):
+            self._drop_actor(number)
 
     def _check_memory(self, wanted_gb: float | None) -> None:
         nodes = [node for node in self._ray.nodes() if node["Alive"]]
