@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent.errors import InputError, OutputError
+from texvent.errors import ConfigError, InputError, OutputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.files import load, open_events, open_writer, save
@@ -241,3 +241,32 @@ def test_any_events_cut_anywhere_come_back(
     back = load(save(path, parts, format=name), format=name)
     assert back.equals(events)
     assert back.metadata == METADATA
+
+
+@pytest.mark.parametrize(
+    ("name", "format", "what"),
+    [
+        ("mm.aedat4", "evt3", r"\.aedat4 files are not read as evt3; name it mm\.raw"),
+        ("o.h5", "aedat4", r"name it o\.aedat4"),
+        ("o.npz", "dsec", r"name it o\.h5"),
+        ("o.h5", "esim", "name a folder"),
+    ],
+)
+def test_a_name_of_another_format_is_refused_before_a_file_appears(tmp_path, name, format, what):
+    events = EventStream.from_columns([1], [0], [10], [1], size=(4, 3))
+    with pytest.raises(ConfigError, match=what):
+        events.save(tmp_path / name, format=format)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_name_of_no_format_may_be_given_to_any(tmp_path):
+    events = EventStream.from_columns([1], [0], [10], [1], size=(4, 3))
+    events.save(tmp_path / "events.bytes", format="evt3")
+    assert load(tmp_path / "events.bytes", format="evt3").equals(events)
+
+
+def test_none_is_no_path():
+    events = EventStream.from_columns([1], [0], [10], [1], size=(4, 3))
+    for call in (load, events.save):
+        with pytest.raises(InputError, match="None is no path; give a text or a Path"):
+            call(None)

@@ -84,7 +84,7 @@ def _file_times(config: CaptureConfig, given: FrameTimes | None) -> FrameTimes |
 
 
 def _open_address(address: str, config: CaptureConfig, given: FrameTimes | None) -> FrameStream:
-    path = usable_path(Path(address.removeprefix("file://")).expanduser())
+    path = usable_path(usable_path(address.removeprefix("file://")).expanduser())
     if _is_live(address, path):
         from texvent.capture.live import LiveFrames  # brings PyAV
 

@@ -21,9 +21,20 @@ def codec_for(path: str | Path, format: str | None = None) -> EventCodec:
     """The codec that writes `path`: the one called `format`, or the first of its extension.
 
     Raises:
-        ConfigError: unknown format, or unknown extension; the message lists the known ones.
+        ConfigError: unknown format, unknown extension, or an extension of other formats than the
+            one given, by which the file could not be read.
+        InputError: it is no path.
     """
-    return _codecs_for(path, format)[0]
+    path, codec = usable_path(path), _codecs_for(path, format)[0]
+    extension = path.suffix.lower()
+    own = _extensions_of(type(codec))
+    if extension in event_extensions() and extension not in own:
+        what = f"name it {path.with_suffix(own[0]).name}" if own else "name a folder"
+        raise ConfigError(
+            f"{path} is named as another format: {extension} files are not read as {codec.name}; "
+            f"{what}, or give another --format"
+        )
+    return codec
 
 
 def codec_that_reads(path: str | Path, format: str | None = None) -> EventCodec:
@@ -84,11 +95,13 @@ def extension_of(format: str) -> str:
         >>> extension_of("evt3"), extension_of("dsec")
         ('.raw', '.h5')
     """
-    for kind in type(CODECS.load(format)()).__mro__:
-        extensions = getattr(kind, "extensions", ())
-        if extensions:
-            return str(extensions[0])
-    return ""
+    return next(iter(_extensions_of(CODECS.load(format))), "")
+
+
+def _extensions_of(codec: type) -> tuple[str, ...]:
+    """Extensions of a format: its own, else those of the format it is a variant of."""
+    found = (getattr(kind, "extensions", ()) for kind in codec.__mro__)
+    return next((tuple(one) for one in found if one), ())
 
 
 def event_extensions() -> set[str]:

@@ -25,10 +25,14 @@ def usable_path(path: str | Path) -> Path:
     """A path that the system can be asked for.
 
     Raises:
-        InputError: it holds a NUL byte or is too long; every function of the system would refuse it
-            in words of its own.
+        InputError: it is no path, holds a NUL byte or is too long; every function of the system
+            would refuse it in words of its own.
     """
+    if not isinstance(path, str | bytes | os.PathLike):
+        raise InputError(f"{shown(path)} is no path; give a text or a Path")
     content = os.fsencode(os.fspath(path))
+    if not content.strip():
+        raise InputError("the path is empty; give the name of a file or folder")
     if b"\0" in content:
         raise InputError(f"{shown(str(path))} is no file name: it holds a NUL byte")
     longest = max(map(len, content.split(b"/")))
