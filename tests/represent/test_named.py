@@ -1,5 +1,7 @@
 """What holds for every representation; a new one is tested the moment it is registered."""
 
+from typing import get_type_hints
+
 import numpy as np
 import pytest
 
@@ -57,3 +59,17 @@ def test_arrays_that_are_no_stream_are_refused(device):
     records = random_events(1, 3, SMALL).to_structured()
     with pytest.raises(InputError, match="EventStream or EventTensors; got ndarray"):
         represent("event-frame", records, device=device)
+
+
+@pytest.mark.parametrize("bins", [2.5, "5", None, True, float("inf"), [5]])
+def test_options_of_another_type_are_refused_in_one_line(bins):
+    with pytest.raises(ConfigError, match=r"voxel-e2vid: bins is .*; it must be a whole number"):
+        represent("voxel-e2vid", EventStream.empty(SMALL), bins=bins)
+
+
+def test_every_representation_refuses_options_of_another_type():
+    for name in REPRESENTATIONS.names():
+        for option, hint in get_type_hints(REPRESENTATIONS.load(name)).items():
+            if hint in (bool, int, float):
+                with pytest.raises(ConfigError, match=f"^{name}: {option} is"):
+                    represent(name, EventStream.empty(SMALL), **{option: "5"})

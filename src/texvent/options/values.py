@@ -41,7 +41,7 @@ def with_options(config: Config, options: Mapping[str, Any], *, where: str) -> C
     for name, value in options.items():
         if name not in names:
             raise ConfigError(f"{where}: unknown option {shown(name)}; {suggest(name, names)}")
-        converted[name] = _convert(value, hints[name], f"{where}: {name}")
+        converted[name] = convert(value, hints[name], f"{where}: {name}")
     return dataclasses.replace(config, **converted)  # type: ignore[type-var]
 
 
@@ -61,8 +61,14 @@ def plain(value: Any) -> Any:
     return value
 
 
-def _convert(value: Any, hint: Any, where: str) -> Any:
-    """`value` as type `hint`; bool, int, float, str, Path, Fraction, Literal and unions of them."""
+def convert(value: Any, hint: Any, where: str) -> Any:
+    """`value` as type `hint`; bool, int, float, str, Path, Fraction, Literal and unions of them.
+
+    Values of other types are taken as they are.
+
+    Raises:
+        ConfigError: it is of another type; the message begins with `where`.
+    """
     origin, arguments = typing.get_origin(hint), typing.get_args(hint)
     if origin is Literal:
         if value not in arguments:
@@ -72,7 +78,7 @@ def _convert(value: Any, hint: Any, where: str) -> Any:
     if origin in (typing.Union, types.UnionType):
         if value is None and type(None) in arguments:
             return None
-        return _convert(value, next(one for one in arguments if one is not type(None)), where)
+        return convert(value, next(one for one in arguments if one is not type(None)), where)
     try:
         return _SCALARS[hint](value)
     except KeyError:

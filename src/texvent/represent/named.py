@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterable, Mapping
-from typing import Any
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+from typing import Any, get_type_hints
 
 from texvent._registry import REPRESENTATIONS, suggest
 from texvent.errors import ConfigError, shown
+from texvent.options.values import convert
 from texvent.represent.array_ops import Array, Events
 from texvent.represent.tensors import put_events
 
@@ -39,7 +41,8 @@ def represent(name: str, events: Events, *, device: str | None = None, **options
         >>> represent("voxel-e2vid", EventStream.empty(SensorSize(4, 3)), bins=5).shape
         (5, 3, 4)
     """
-    function = load_representation(name, options)
+    function = load_representation(name)
+    options = checked_options(name, function, options)
     if device is not None:
         events = put_events(events, device)
     return function(events, **options)
@@ -67,18 +70,35 @@ def represent_window(
     return represent(name, events, device=device, **{**window, **options})
 
 
-def load_representation(name: str, options: Iterable[str] = ()) -> Callable[..., Array]:
+def load_representation(
+    name: str, options: Mapping[str, Any] = MappingProxyType({})
+) -> Callable[..., Array]:
     """The function of a representation, which takes the events and its options.
 
     Raises:
-        ConfigError: unknown name, or it has no option of one of the names in `options`.
+        ConfigError: unknown name, or one of `options` as `checked_options` says.
     """
     function: Callable[..., Array] = REPRESENTATIONS.load(name)
-    allowed = option_names_of(function)
+    checked_options(name, function, options)
+    return function
+
+
+def checked_options(
+    name: str, function: Callable[..., Array], options: Mapping[str, Any]
+) -> dict[str, Any]:
+    """The options, each as the type that the representation declares for it.
+
+    Raises:
+        ConfigError: the representation has no option of that name, or it is of another type.
+    """
+    allowed, hints = option_names_of(function), get_type_hints(function)
     for option in options:
         if option not in allowed:
             raise ConfigError(f"{name} has no option {shown(option)}; {suggest(option, allowed)}")
-    return function
+    return {
+        option: convert(value, hints.get(option, Any), f"{name}: {option}")
+        for option, value in options.items()
+    }
 
 
 def option_names_of(function: Callable[..., Array]) -> tuple[str, ...]:
