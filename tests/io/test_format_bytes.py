@@ -186,7 +186,11 @@ def test_csv_of_other_programs_is_read(tmp_path: Path) -> None:
     for text, message in (
         ("t,x,y\n1,2,3\n", "has no column 'p'"),
         ("t,x,y,p\n1,2,3\n", "rows of 3 values"),
-        ("t,x,y,p\n1.5,2,3,1\n", "not whole µs"),
+        ("t,x,x,p\n1,2,3,1\n", "has 2 columns 'x'"),
+        ("t,x,y,p\n1.5,2,3,1\n", "not whole µs, such as 1.5 in column 't'.* not seconds"),
+        ("1,2,3,1\n5,6,3,2\n", "does not name its columns, so they are x, y, p, t"),
+        ("t,x,y,p\n1,2,3,True\n", "rows of numbers `t,x,y,p`, polarity 0/1 or -1/\\+1"),
+        ("t,x,y,p\n1,2,3,1\n1,2\n", "rows of numbers `t,x,y,p`"),
         ("t,x,y,p\n1,2.5,3,1\n", "not whole numbers"),
         ("t,x,y,p\n1,2,3,7\n", "polarity holds"),
     ):

@@ -50,6 +50,16 @@ def test_wrong_arrays_are_one_clear_line(
         load(path, size=(4, 4))
 
 
+def test_arrays_of_other_programs_and_records_are_read(tmp_path: Path) -> None:
+    expected = EventStream.from_columns([3, 4], [5, 6], [70, 80], [1, 0], size=SensorSize(9, 9))
+    path = tmp_path / "events.npz"
+    np.savez(path, xs=[3, 4], ys=[5, 6], timestamp=[70, 80], polarity=[True, False])
+    assert load(path, size=(9, 9)).equals(expected)
+    kind = [("ts", "i8"), ("x", "u2"), ("y", "u2"), ("p", "i1")]
+    np.savez(path, events=np.array([(70, 3, 5, 1), (80, 4, 6, -1)], dtype=kind))
+    assert load(path, size=(9, 9)).equals(expected)
+
+
 def test_a_single_array_is_not_an_archive(tmp_path: Path) -> None:
     path = tmp_path / "events.npz"
     with path.open("wb") as file:

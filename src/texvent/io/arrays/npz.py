@@ -24,6 +24,7 @@ from texvent.errors import FileFormatError, shown
 from texvent.events import COLUMN_TYPES
 from texvent.io.block_codec import BlockCodec, FileContents
 from texvent.io.block_writer import FileTarget, WriteBlock
+from texvent.io.column_names import find_columns
 from texvent.io.input_checks import (
     TIMESTAMP_SCALE_MS,
     ZIP_DAMAGE,
@@ -61,14 +62,8 @@ class NpzCodec(BlockCodec):
     def inspect(self, path: Path) -> FileContents:
         """The archive's arrays, all in memory."""
         arrays = read_arrays(path)
-        missing = [name for name in "xytp" if name not in arrays]
-        if missing:
-            raise FileFormatError(
-                f"{path} has no array {shown(missing[0])} (it has: {', '.join(arrays) or 'none'}); "
-                "texvent reads archives of x, y, t, p"
-            )
         check_time_unit(path, arrays.get("timestamp_scale_ms", TIMESTAMP_SCALE_MS))
-        columns = {name: arrays[name] for name in COLUMN_TYPES if name in arrays}
+        columns = _find_events(path, arrays)
         return stored_contents(path, arrays, columns)
 
     @contextmanager
@@ -140,6 +135,22 @@ def stored_contents(
     if "texvent" in arrays:
         metadata = metadata_from_json(path, str(arrays["texvent"]))
     return FileContents(size, metadata, partial(_one_block, columns))
+
+
+def _find_events(path: Path, arrays: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
+    """Columns x, y, t, p, and label if known: arrays of their own, or fields of the only records.
+
+    Raises:
+        FileFormatError: a column is missing.
+    """
+    records = [name for name, array in arrays.items() if array.dtype.names]
+    if len(records) == 1:
+        table = arrays[records[0]]
+        found = find_columns(path, table.dtype.names, kind="field")
+        return {name: table[field] for name, field in found.items()}
+    found = find_columns(path, arrays, kind="array")
+    columns = {name: arrays[array] for name, array in found.items()}
+    return columns | ({"label": arrays["label"]} if "label" in arrays else {})
 
 
 def _one_block(columns: Columns) -> Iterator[Columns]:

@@ -15,14 +15,14 @@ from typing import Any, ClassVar
 import numpy as np
 
 from texvent._require import require
-from texvent.errors import FileFormatError, shown
+from texvent.errors import FileFormatError
 from texvent.io.block_codec import BlockCodec, FileContents
 from texvent.io.block_writer import FileTarget, WriteBlock
+from texvent.io.column_names import find_columns
 from texvent.io.input_checks import reporting_damage
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.protocol import Columns
-from texvent.io.text.csv import NAMES
 
 TYPES = {"t": "int64", "x": "uint16", "y": "uint16", "p": "uint8"}
 PACKET_EVENTS = 2**18
@@ -39,7 +39,7 @@ class ParquetCodec(BlockCodec):
     def inspect(self, path: Path) -> FileContents:
         """The schema states size and metadata."""
         with _open_table(path) as table:
-            order = _column_names(path, table.schema_arrow.names)
+            order = find_columns(path, table.schema_arrow.names)
             facts = table.schema_arrow.metadata or {}
         size = None
         try:
@@ -89,17 +89,6 @@ def _open_table(path: Path) -> Iterator[Any]:
         parquet.ParquetFile(path, page_checksum_verification=True) as table,
     ):
         yield table
-
-
-def _column_names(path: Path, names: list[str]) -> dict[str, str]:
-    """t, x, y, p → the name of the column in the file."""
-    found = {NAMES[name.lower()]: name for name in names if name.lower() in NAMES}
-    missing = [name for name in TYPES if name not in found]
-    if missing:
-        raise FileFormatError(
-            f"{path} has no column {shown(missing[0])} (it has: {', '.join(names)[:80]})"
-        )
-    return found
 
 
 def _read_blocks(path: Path, order: Mapping[str, str]) -> Iterator[Columns]:

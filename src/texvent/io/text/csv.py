@@ -7,17 +7,20 @@ size nor metadata: texvent writes both beside the file, in `NAME.csv.json`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import AbstractContextManager
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, shown
 from texvent.io.block_codec import BlockCodec, FileContents, write_records
 from texvent.io.block_writer import FileTarget, WriteBlock
+from texvent.io.column_names import find_columns
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import read_sidecar
 from texvent.io.protocol import Columns
@@ -25,13 +28,6 @@ from texvent.io.text.rows import parse_table, read_text_blocks, whole_numbers
 
 HEADER = b"t,x,y,p\n"
 HEADLESS = ("x", "y", "p", "t")
-NAMES = {
-    **{name: "t" for name in ("t", "ts", "timestamp", "time", "t_us", "timestamp_us")},
-    **{name: "p" for name in ("p", "pol", "polarity")},
-    "x": "x",
-    "y": "y",
-}
-"""Names of columns, in lower case."""
 STOP_US = 1 << 53
 """Up to here float64, which the parser uses, keeps every µs (285 years)."""
 MAX_HEADER = 4096
@@ -48,8 +44,8 @@ class CsvCodec(BlockCodec):
     def inspect(self, path: Path) -> FileContents:
         """Size and metadata lie beside the file; its first line names the columns."""
         size, metadata = read_sidecar(path)
-        order, start = _read_header(path)
-        return FileContents(size, metadata, partial(_read_blocks, path, order, start))
+        columns = _read_header(path)
+        return FileContents(size, metadata, partial(_read_blocks, path, columns))
 
     def start(self, target: FileTarget, part: Path) -> AbstractContextManager[WriteBlock]:
         """Write the line that names the columns."""
@@ -61,39 +57,70 @@ def _encode(columns: Columns) -> bytes:
     return "".join(f"{t},{x},{y},{p}\n" for t, x, y, p in zip(*lists, strict=True)).encode()
 
 
-def _read_header(path: Path) -> tuple[tuple[str, ...], int]:
-    """Order of the columns, and where the first row begins."""
+@dataclass(frozen=True)
+class _Table:
+    """Where the columns are, and where the first row begins."""
+
+    names: tuple[str, ...]
+    """What the file calls its columns, in their order."""
+    places: Mapping[str, int]
+    """t, x, y, p → number of the column."""
+    start: int
+    has_header: bool
+
+    @property
+    def rows(self) -> str:
+        """What a row should be, for messages."""
+        return f"rows of numbers `{','.join(self.names)[:60]}`, polarity 0/1 or -1/+1"
+
+
+def _read_header(path: Path) -> _Table:
+    """The columns that the first line names, or those of a file without such a line."""
     with path.open("rb") as file:
         line = file.readline(MAX_HEADER)
     words = [word.strip().strip('"').lower() for word in line.decode("latin-1").split(",")]
     if words[0][:1].isdecimal() or words == [""]:
-        return HEADLESS, 0
-    order = tuple(NAMES.get(word, "") for word in words)
-    missing = [name for name in "txyp" if order.count(name) != 1]
-    if missing:
-        first = ", ".join(words)
-        raise FileFormatError(
-            f"{path} has no column {shown(missing[0])} (its first line: {shown(first)}); "
-            "texvent reads CSV with columns t, x, y, p, or without a header line in the order "
-            "x, y, p, t"
-        )
-    return order, len(line)
+        return _Table(HEADLESS, {name: HEADLESS.index(name) for name in "txyp"}, 0, False)
+    found = find_columns(path, words)
+    places = {name: words.index(found[name]) for name in "txyp"}
+    return _Table(tuple(words), places, len(line), True)
 
 
-def _read_blocks(path: Path, order: tuple[str, ...], start: int) -> Iterator[Columns]:
+def _read_blocks(path: Path, columns: _Table) -> Iterator[Columns]:
     with path.open("rb") as file:
-        file.seek(start)
+        file.seek(columns.start)
         for block in read_text_blocks(file):
-            table = parse_table(block, path, delimiter=",")
+            table = parse_table(block, path, delimiter=",", rows=columns.rows)
             if table.size == 0:
                 continue
-            if table.shape[1] != len(order):
+            if table.shape[1] != len(columns.names):
                 raise FileFormatError(
-                    f"{path} has rows of {table.shape[1]} values, and {len(order)} columns"
+                    f"{path} has rows of {table.shape[1]} values, and {len(columns.names)} columns"
                 )
-            t = table[:, order.index("t")]
-            if not (np.abs(t) < STOP_US).all() or (t != np.rint(t)).any():
-                raise FileFormatError(f"{path} holds times that are not whole µs")
-            pixels = [table[:, order.index(name)] for name in "xyp"]
-            whole = whole_numbers(np.stack(pixels, axis=1), path)
-            yield {"t": t.astype(np.int64), "x": whole[:, 0], "y": whole[:, 1], "p": whole[:, 2]}
+            values = {name: table[:, place] for name, place in columns.places.items()}
+            _check_values(path, columns, values)
+            whole = whole_numbers(np.stack([values[name] for name in "xyp"], axis=1), path)
+            t = values["t"].astype(np.int64)
+            yield {"t": t, "x": whole[:, 0], "y": whole[:, 1], "p": whole[:, 2]}
+
+
+def _check_values(path: Path, columns: _Table, values: Mapping[str, NDArray[np.float64]]) -> None:
+    """Refuse columns in another order or unit.
+
+    Raises:
+        FileFormatError: see above; the message says which are expected.
+    """
+    t, p = values["t"], values["p"]
+    wrong = p[~np.isin(p, (-1, 0, 1))]
+    if wrong.size and not columns.has_header:
+        raise FileFormatError(
+            f"{path} does not name its columns, so they are x, y, p, t; but the third, polarity, "
+            f"holds {wrong[0]:g}: put a first line with their names, such as t,x,y,p"
+        )
+    fractions = t[~((np.abs(t) < STOP_US) & (t == np.rint(t)))]
+    if fractions.size:
+        raise FileFormatError(
+            f"{path} holds times that are not whole µs, such as {shown(fractions[0])} in column "
+            f"{shown(columns.names[columns.places['t']])}; times in CSV are whole µs, not seconds "
+            "or ms: multiply and round them first"
+        )
