@@ -164,8 +164,7 @@ class EventPackets:
         from texvent.io.files import save
 
         with open_progress(progress) as shown:
-            make = partial(self._reporting_to, shown)
-            packets = EventPackets(LazyPackets(make), self.size, self.metadata)
+            packets = self.reporting_to(shown)
             return save(path, packets, format=format, overwrite=overwrite)
 
     def show(self, path: str | Path | None = None, *, overwrite: bool = False) -> Path:
@@ -203,6 +202,11 @@ class EventPackets:
         return represent_slices(
             name, self, duration_us=duration_us, count=count, device=device, **options
         )
+
+    def reporting_to(self, progress: Progress) -> EventPackets:
+        """The same packets; `progress` is told of each, at every pass."""
+        make = partial(self._reporting_to, progress)
+        return EventPackets(LazyPackets(make), self.size, self.metadata)
 
     def _reporting_to(self, progress: Progress) -> Iterator[EventStream]:
         """The packets; `progress` is told of each."""

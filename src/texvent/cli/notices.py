@@ -6,7 +6,7 @@ import contextlib
 import os
 import sys
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from texvent.errors import warnings_to
@@ -16,10 +16,22 @@ from texvent.runtime.visible_text import visible, visible_lines
 _BOLD_YELLOW, _PLAIN = "\x1b[1;33m", "\x1b[0m"
 
 
+def _each_once(listener: Callable[[str], None]) -> Callable[[str], None]:
+    """The listener without what it has heard: a file that is read twice warns twice."""
+    heard: set[str] = set()
+
+    def hear(text: str) -> None:
+        if text not in heard:
+            heard.add(text)
+            listener(text)
+
+    return hear
+
+
 @contextlib.contextmanager
 def one_line_warnings() -> Iterator[None]:
     """Show a `TexventWarning` as `warning  ...`, former names of options as `note: ...`."""
-    with warnings.catch_warnings(), warnings_to(say_warning):
+    with warnings.catch_warnings(), warnings_to(_each_once(say_warning)):
         warnings.simplefilter("always", RenamedOptionWarning)
         show = warnings.showwarning
 

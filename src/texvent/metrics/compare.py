@@ -8,6 +8,7 @@ from texvent._registry import METRICS
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.metrics.protocol import Metric, check_pair, find_missing
+from texvent.runtime.progress import NO_PROGRESS, Progress
 
 
 def compare(
@@ -16,6 +17,7 @@ def compare(
     metrics: str | Metric | Iterable[str | Metric] | None = None,
     *,
     span_us: tuple[int, int] | None = None,
+    progress: Progress = NO_PROGRESS,
 ) -> dict[str, float]:
     """Scores of `predicted` against `reference`.
 
@@ -25,6 +27,7 @@ def compare(
         metrics: a name from the registry, a metric with parameters of its own, or several of them;
             default: see `default_metrics`.
         span_us: compare only events with `start <= t < stop`, µs; default: all.
+        progress: told of each metric.
 
     Returns:
         Name → value, NaN where a metric is undefined for these streams.
@@ -50,7 +53,11 @@ def compare(
     else:
         chosen = default_metrics() if metrics is None else metrics
     built = [load_metric(metric) if isinstance(metric, str) else metric for metric in chosen]
-    return {metric.name: metric(predicted, reference) for metric in built}
+    scores = {}
+    for done, metric in enumerate(built):
+        progress.advance("metrics", done, len(built))
+        scores[metric.name] = metric(predicted, reference)
+    return scores
 
 
 def load_metric(name: str) -> Metric:

@@ -36,6 +36,9 @@ class NoProgress:
         """Ignore a step."""
 
 
+NO_PROGRESS = NoProgress()
+
+
 class CallbackProgress:
     """Progress that goes to a function; a line to show comes with the latest step."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from pathlib import Path
 
@@ -10,13 +10,14 @@ from texvent.errors import ConfigError, InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, check_output
+from texvent.runtime.progress import NO_PROGRESS, Progress
 from texvent.video import MICROSECONDS, FrameStream
 from texvent.view.drawing.canvas import png_bytes
 from texvent.view.drawing.caption import title_of
 from texvent.view.page.writer import PageWriter
 from texvent.view.render_config import RenderConfig
 from texvent.view.rerun_export import write_rrd
-from texvent.view.stills.busiest_window import BusiestWindow
+from texvent.view.stills.busiest_window import BusiestWindow, find_busiest
 from texvent.view.stills.contact_sheet import draw_contact_sheet
 from texvent.view.video.encoder import VIDEO_EXTENSIONS
 from texvent.view.video.writer import VideoWriter
@@ -26,6 +27,7 @@ from texvent.view.windows.cut import (
     cut_windows,
     still_window_us,
     time_range,
+    with_fading,
 )
 from texvent.view.windows.event_window import EventWindow
 from texvent.view.windows.source_overlay import SourceOverlay
@@ -42,6 +44,7 @@ def render_events(
     config: RenderConfig | None = None,
     frames: FrameStream | None = None,
     overwrite: bool = False,
+    progress: Progress = NO_PROGRESS,
 ) -> Path:
     """Show events as a video (.mp4, .gif), an image (.png), a page (.html) or for rerun (.rrd).
 
@@ -51,6 +54,7 @@ def render_events(
         config: how to show them.
         frames: the source video, of the same size and clock.
         overwrite: whether an existing file may be replaced.
+        progress: told of events that are read, and of images of a video.
 
     Returns:
         The path written.
@@ -69,6 +73,7 @@ def render_events(
         )
     check_output(path, overwrite=overwrite)
     packets = events if isinstance(events, EventPackets) else _as_packets(events)
+    packets = packets.reporting_to(progress)
     source = SourceOverlay(frames, config.overlay, size=packets.size)
     if kind == ".png":
         draw = _contact_sheet if config.panels > 1 else _still
@@ -144,7 +149,14 @@ def _still(packets: EventPackets, config: RenderConfig, source: SourceOverlay) -
         side_by_side=source.frames is not None,
         title=title_of(packets.metadata),
     )
-    windows = _cut(packets, config, Fraction(window_us), window_us)
+    windows: Iterable[EventWindow]
+    if config.events_per_image is not None:
+        windows = cut_counts(packets, size=packets.size, count=config.events_per_image)
+    else:
+        found = find_busiest(packets, window_us)
+        if found is not None and config.tau_us is not None:
+            found = with_fading(found, packets, size=packets.size, tau_us=config.tau_us)
+        windows = () if found is None else (found,)
     best: EventWindow | None = None
     for window in source.add_frames(windows):
         # Windows of equal count differ in length: the shortest is the busiest.

@@ -56,7 +56,13 @@ def test_compare_writes_a_page_beside_its_table(pair, capsys):
     words = ["compare", "guess.npz", "truth.npz", "--metrics", "stpp,isi", "-o", "both.html"]
     assert main(words) == 0
     page = Path("both.html").read_text("utf-8")
-    assert "stpp" in capsys.readouterr().out
+    shown = capsys.readouterr().out
+    assert "stpp" in shown
+    assert shown.endswith("\nboth.html\n")
+    assert main([*words, "--json", "--overwrite"]) == 0
+    said = capsys.readouterr()
+    assert json.loads(said.out)["scores"]["stpp"] < 1
+    assert said.err == "both.html\n"
     for text in ("guess.npz", "truth.npz (reference)", ">stpp<", ">undefined<"):
         assert text in page
     assert main(words) != 0

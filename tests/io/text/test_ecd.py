@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError, InputError, TexventWarning
 from texvent.events import EventStream
 from texvent.io.files import load, open_events, save
 from texvent.io.text import rows as text_rows
@@ -106,3 +106,14 @@ def test_a_damaged_companion_file_is_reported(tmp_path: Path) -> None:
         (tmp_path / "events.txt.json").write_text(text)
         with pytest.raises(FileFormatError):
             load(path)
+
+
+def test_microseconds_where_seconds_belong_are_said(tmp_path: Path) -> None:
+    path = write(tmp_path, "".join(f"{10 * k} 3 4 1\n" for k in range(9_000)))
+    with pytest.warns(TexventWarning, match=r"spans 1\.0 days with 9,000 events: .* probably µs"):
+        load(path, size=(240, 180))
+
+
+def test_a_day_with_fractions_of_seconds_is_taken_without_a_word(tmp_path: Path) -> None:
+    path = write(tmp_path, "".join(f"{10 * k}.5 3 4 1\n" for k in range(9_000)))
+    assert len(load(path, size=(240, 180))) == 9_000  # warnings are errors in tests

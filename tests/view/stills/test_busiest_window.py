@@ -1,12 +1,15 @@
 from __future__ import annotations
 
+from fractions import Fraction
+
 import cv2
 import numpy as np
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Frame
-from texvent.view.stills.busiest_window import BusiestWindow
+from texvent.view.stills.busiest_window import BusiestWindow, find_busiest
+from texvent.view.windows.cut import cut_windows
 from texvent.view.windows.event_window import WindowCollector
 
 SIZE = SensorSize(32, 24)
@@ -46,3 +49,27 @@ def test_a_lone_frame_is_shown_with_no_events() -> None:
     image = image_of(picker.png())
     assert (image[-5, 5] == 99).all()
     assert (image[-5, -5] == 255).all()
+
+
+def test_the_busiest_window_is_that_of_all_windows_however_packets_are_cut() -> None:
+    rng = np.random.default_rng(0)
+    for _ in range(40):
+        count = int(rng.integers(1, 60))
+        columns = (rng.integers(0, 24, count), rng.integers(0, 24, count))
+        times = np.cumsum(rng.choice([0, 1, 3, 50, 500], count))
+        events = EventStream(*columns, times, rng.integers(0, 2, count), SIZE)
+        cut = int(rng.integers(0, count + 1))
+        packets, length = (events[:cut], events[cut:]), int(rng.integers(1, 120))
+        windows = cut_windows(packets, size=SIZE, step_us=Fraction(length), window_us=length)
+        wanted = max(windows, key=lambda window: window.event_count)
+        found = find_busiest(packets, length)
+        assert found is not None
+        assert (found.start_us, found.stop_us) == (wanted.start_us, wanted.stop_us)
+        assert np.array_equal(found.counts, wanted.counts)
+
+
+def test_a_pause_of_a_year_costs_nothing() -> None:
+    events = EventStream([1, 2, 3], [0, 0, 0], [0, 3 * 10**13, 3 * 10**13 + 1], [1, 1, 0], SIZE)
+    found = find_busiest((events,), 1000)  # 3e10 windows
+    assert found is not None
+    assert (found.start_us, found.event_count) == (3 * 10**13, 2)

@@ -24,6 +24,7 @@ from texvent.metrics.compare import compare, describe_metrics, load_metric
 from texvent.metrics.protocol import Metric
 from texvent.metrics.rvt.eqs import EventQualityScore, load_eqs
 from texvent.metrics.stpp import SPACE_CELLS, TIME_CELLS, Stpp
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent.sensor import SensorSize, parse_sensor
 from texvent.video import MICROSECONDS
 from texvent.view.page.comparison import MetricRow, write_comparison
@@ -82,8 +83,10 @@ def run(arguments: Sequence[str]) -> int:
     if span_us is not None:
         predicted, reference = (one.cut(*span_us) for one in whole)
         _refuse_empty_span(options, (predicted, reference), whole)
+    with ConsoleProgress() as progress:
+        scores = compare(*whole, metrics, span_us=span_us, progress=progress)
     findings = Findings(
-        compare(*whole, metrics, span_us=span_us),
+        scores,
         {one.name: run_controls(one, reference) for one in metrics if one.name in CONTROLLED},
         Stpp().levels(predicted, reference).tolist() if options.levels else None,
         left_out,
@@ -98,6 +101,8 @@ def run(arguments: Sequence[str]) -> int:
         names = (options.predicted.name, f"{options.reference.name} (reference)")
         pair = tuple(zip(names, (predicted, reference), strict=True))
         write_comparison(options.out, pair, _rows(metrics, findings), overwrite=options.overwrite)
+        # Not among the JSON.
+        (sys.stderr if options.json else sys.stdout).write(f"{options.out}\n")
     return 0
 
 

@@ -12,6 +12,7 @@ from texvent.cli.event_files.video_option import AUTOMATIC, frames_for_overlay
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent.view.render import RenderConfig, render_events
 
 DESCRIPTION = """Render an event file as a video (.mp4, .gif), an image (.png), an interactive page
@@ -55,13 +56,15 @@ def run(arguments: Sequence[str]) -> int:
         description=DESCRIPTION,
     )
     events = options.open()
-    written = render_events(
-        events,
-        options.out,
-        config=config,
-        frames=frames_for_overlay(options.video, events),
-        overwrite=options.overwrite,
-    )
+    with ConsoleProgress(is_quiet=options.quiet) as progress:
+        written = render_events(
+            events,
+            options.out,
+            config=config,
+            frames=frames_for_overlay(options.video, events),
+            overwrite=options.overwrite,
+            progress=progress,
+        )
     if not options.quiet:
         write_out(f"{written}\n")
     return 0

@@ -16,6 +16,7 @@ from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.errors import ConfigError
+from texvent.runtime.console_progress import ConsoleProgress
 from texvent.view.drawing.palettes import DEFAULT_PALETTE
 from texvent.view.render import RenderConfig, render_events
 
@@ -64,13 +65,15 @@ def run(arguments: Sequence[str]) -> int:
     )
     events = options.open()
     page = options.out or Path(tempfile.mkdtemp(prefix="texvent-")) / "events.html"
-    render_events(
-        events,
-        page,
-        config=RenderConfig(palette=options.palette, points=options.points),
-        frames=frames_for_overlay(options.video, events),
-        overwrite=options.overwrite,
-    )
+    with ConsoleProgress(is_quiet=options.quiet) as progress:
+        render_events(
+            events,
+            page,
+            config=RenderConfig(palette=options.palette, points=options.points),
+            frames=frames_for_overlay(options.video, events),
+            overwrite=options.overwrite,
+            progress=progress,
+        )
     if not options.quiet:
         write_out(f"{page}\n")
     if options.out is None and not webbrowser.open(page.resolve().as_uri()):

@@ -23,7 +23,14 @@ from texvent.io.input_checks import ZIP_DAMAGE, check_zip, reporting_damage
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import read_sidecar
 from texvent.io.protocol import Columns
-from texvent.io.text.rows import MAX_EXACT_S, MICROSECONDS, make_rows, parse_rows, read_text_blocks
+from texvent.io.text.rows import (
+    MAX_EXACT_S,
+    MICROSECONDS,
+    make_rows,
+    parse_rows,
+    read_text_blocks,
+    warn_of_wrong_unit,
+)
 
 LEVEL = 1
 """Of zip's compression: text shrinks to a fourth even so."""
@@ -45,7 +52,7 @@ class E2vidZipCodec(BlockCodec):
         with _open_text(path) as file:
             size = _read_size(file, path)
         _, metadata = read_sidecar(path)
-        return FileContents(size, metadata, partial(_read_blocks, path))
+        return FileContents(size, metadata, partial(_read, path))
 
     @contextmanager
     def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
@@ -86,6 +93,10 @@ def _read_size(file: BinaryIO, path: Path) -> tuple[int, int]:
             f"{path}: its text begins with {line[:40]!r}, not with width and height"
         )
     return int(match[1]), int(match[2])
+
+
+def _read(path: Path) -> Iterator[Columns]:
+    return warn_of_wrong_unit(_read_blocks(path), path)
 
 
 def _read_blocks(path: Path) -> Iterator[Columns]:

@@ -24,7 +24,7 @@ from texvent.io.block_writer import FileTarget, WriteBlock
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import read_sidecar
 from texvent.io.protocol import Columns
-from texvent.io.text.rows import make_rows, parse_rows, read_text_blocks
+from texvent.io.text.rows import make_rows, parse_rows, read_text_blocks, warn_of_wrong_unit
 
 
 class EcdCodec(BlockCodec):
@@ -38,11 +38,15 @@ class EcdCodec(BlockCodec):
     def inspect(self, path: Path) -> FileContents:
         """Size and metadata lie beside the file."""
         size, metadata = read_sidecar(path)
-        return FileContents(size, metadata, partial(_read_blocks, path))
+        return FileContents(size, metadata, partial(_read, path))
 
     def start(self, target: FileTarget, part: Path) -> AbstractContextManager[WriteBlock]:
         """Rows begin at once."""
         return write_records(part, b"", make_rows)
+
+
+def _read(path: Path) -> Iterator[Columns]:
+    return warn_of_wrong_unit(_read_blocks(path), path)
 
 
 def _read_blocks(path: Path) -> Iterator[Columns]:

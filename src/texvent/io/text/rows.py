@@ -10,12 +10,14 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, warn
 from texvent.io.protocol import Columns
 
 BLOCK_BYTES = 16 * 2**20
 """Text parsed at once: about 800,000 events."""
 MICROSECONDS = 1_000_000
+DAY_S, RAREST_HZ = 86_400, 100
+"""Longer recordings with fewer events per second are hardly meant."""
 MAX_EXACT_S = 2**33
 """Up to here (272 years) float64 seconds keep every µs."""
 
@@ -49,8 +51,16 @@ def read_text_blocks(file: BinaryIO) -> Iterator[bytes]:
         yield rest
 
 
-def parse_table(block: bytes, path: Path, *, delimiter: str | None = None) -> NDArray[np.float64]:
+def parse_table(
+    block: bytes, path: Path, *, delimiter: str | None = None, rows: str = "text rows of `t x y p`"
+) -> NDArray[np.float64]:
     """Numbers of a block of text, [rows, columns] float64; no rows: [0, 0].
+
+    Args:
+        block: the text.
+        path: the file, for messages.
+        delimiter: what stands between two numbers; default: white space.
+        rows: what it should hold, for messages.
 
     Raises:
         FileFormatError: it is not a table of numbers.
@@ -61,8 +71,36 @@ def parse_table(block: bytes, path: Path, *, delimiter: str | None = None) -> ND
         text = io.StringIO(block.decode("ascii"))
         return np.loadtxt(text, dtype=np.float64, ndmin=2, delimiter=delimiter)
     except (ValueError, OverflowError, MemoryError) as error:
-        reason = " ".join(str(error).split())[:160]
-        raise FileFormatError(f"{path} is not text rows of `t x y p` ({reason})") from error
+        reason = " ".join(str(error).split("; use")[0].split())[:100]
+        raise FileFormatError(f"{path} is not {rows} ({reason})") from error
+
+
+def warn_of_wrong_unit(blocks: Iterator[Columns], path: Path) -> Iterator[Columns]:
+    """The blocks of a file whose times are seconds; at its end, a warning if they are hardly so.
+
+    Events of 0.1 s or more with times in µs seem to take over a day, and to be rare: a camera
+    gives fewer than 100 million events in a second.
+
+    Warns:
+        TexventWarning: whole seconds, more than a day, fewer than 100 events per second.
+    """
+    first_us = last_us = count = 0
+    are_whole = True
+    for columns in blocks:
+        times = columns["t"]
+        if len(times):
+            first_us = int(times[0]) if count == 0 else first_us
+            last_us = int(times[-1])
+            count += len(times)
+            are_whole = are_whole and not (times % MICROSECONDS).any()
+        yield columns
+    seconds = (last_us - first_us) / MICROSECONDS
+    if are_whole and seconds > DAY_S and count < RAREST_HZ * seconds:
+        warn(
+            f"{path} spans {seconds / DAY_S:.1f} days with {count:,} events: times in this format "
+            "are seconds, and these are probably µs; divide them by 1,000,000, or give the file "
+            "as CSV with columns t,x,y,p"
+        )
 
 
 def parse_rows(block: bytes, path: Path) -> dict[str, NDArray[Any]]:

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
+from collections.abc import Iterable
+
+import numpy as np
 
 from texvent.events import EventStream
+from texvent.represent.event_frame import count_events
 from texvent.sensor import SensorSize
 from texvent.view.drawing.canvas import png_bytes
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
 from texvent.view.drawing.panels import PanelLayout
-from texvent.view.windows.cut import cut_windows, still_window_us
+from texvent.view.windows.cut import still_window_us
 from texvent.view.windows.draw_window import compose_window
 from texvent.view.windows.event_window import EventWindow
 
@@ -45,15 +48,53 @@ class BusiestWindow:
         return None if self._best is None else self.draw(self._best)
 
 
+def find_busiest(packets: Iterable[EventStream], window_us: int) -> EventWindow | None:
+    """The window `[s, s + window_us)` with the most events; the earlier one wins a tie.
+
+    Windows begin at the first event and follow each other; those without events take no time, so
+    that a long pause, or a clock in another unit, costs nothing. Memory holds the events of two
+    windows and one packet.
+
+    Args:
+        packets: events in time order.
+        window_us: length of the windows, µs.
+    """
+    first_us: int | None = None
+    best: tuple[EventStream, ...] = ()
+    latest: tuple[EventStream, ...] = ()  # the window that the next packet may go on with
+    latest_index = -1
+    for packet in packets:
+        if not len(packet):
+            continue
+        first_us = int(packet.t[0]) if first_us is None else first_us
+        indices = (packet.t - first_us) // window_us
+        ends = np.flatnonzero(np.diff(indices)) + 1
+        starts, stops = np.append(0, ends), np.append(ends, len(packet))
+        if indices[0] == latest_index:
+            latest = (*latest, packet[: stops[0]])
+            starts, stops = starts[1:], stops[1:]
+        if len(starts):
+            best = max(best, latest, key=_count)
+            busiest = int(np.argmax(stops - starts))
+            best = max(best, (packet[starts[busiest] : stops[busiest]],), key=_count)
+            latest, latest_index = (packet[starts[-1] : stops[-1]],), int(indices[-1])
+    best = max(best, latest, key=_count)
+    if first_us is None:
+        return None
+    start_us = int(best[0].t[0])
+    start_us -= (start_us - first_us) % window_us
+    return EventWindow(start_us, start_us + window_us, count_events(EventStream.concat(best)))
+
+
+def _count(parts: tuple[EventStream, ...]) -> int:
+    return sum(map(len, parts))
+
+
 def busiest_window_png(events: EventStream, *, title: str) -> bytes | None:
     """A PNG of the window with the most events, or None without events."""
     extent = events.time_range
     if extent is None:
         return None
-    length_us = still_window_us(extent)
-    busiest = BusiestWindow(size=events.size, side_by_side=False, title=title)
-    for window in cut_windows(
-        (events,), size=events.size, step_us=Fraction(length_us), window_us=length_us
-    ):
-        busiest.consider(window)
-    return busiest.png()
+    window = find_busiest((events,), still_window_us(extent))
+    still = BusiestWindow(size=events.size, side_by_side=False, title=title)
+    return None if window is None else still.draw(window)

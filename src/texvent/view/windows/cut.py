@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.errors import ConfigError
 from texvent.event_packets import EventPackets
@@ -67,9 +69,27 @@ def cut_fading(
     for start_us, part in cut_streams(packets, size, step_us, window_us):
         stop_us = start_us + window_us
         np.maximum.at(latest, (part.p, part.y, part.x), part.t)
-        age = (stop_us - 1 - latest).astype(np.float32) / tau_us
-        fading = np.where(latest == NEVER, np.float32(0), np.exp(-age))
+        fading = _strength(latest, stop_us, tau_us)
         yield EventWindow(start_us, stop_us, count_events(part), fading=fading)
+
+
+def with_fading(
+    window: EventWindow, packets: Iterable[EventStream], *, size: SensorSize, tau_us: int
+) -> EventWindow:
+    """A window with the exponential time surface at its end, as `cut_fading` gives it."""
+    latest = np.full((2, *size.shape), NEVER, dtype=np.int64)
+    for packet in packets:
+        part = packet[: int(np.searchsorted(packet.t, window.stop_us))]
+        np.maximum.at(latest, (part.p, part.y, part.x), part.t)
+        if len(part) < len(packet):
+            break
+    return replace(window, fading=_strength(latest, window.stop_us, tau_us))
+
+
+def _strength(latest: NDArray[np.int64], stop_us: int, tau_us: int) -> NDArray[np.float32]:
+    """exp(−age / τ) of the last events, 0 where there was none."""
+    age = (stop_us - 1 - latest).astype(np.float32) / tau_us
+    return np.where(latest == NEVER, np.float32(0), np.exp(-age))
 
 
 def cut_counts(
