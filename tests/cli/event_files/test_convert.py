@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -77,8 +78,20 @@ def test_region_time_and_size_are_edits_in_this_order(recording: EventStream) ->
 
 
 def test_several_files_become_one(recording: EventStream) -> None:
-    assert run("convert", "in.h5", "two.h5", "--merge", "in.h5", "in.h5") == 0
-    assert len(load("two.h5")) == 3 * len(recording)
+    shutil.copy("in.h5", "copy.h5")
+    recording.save("other.npz")
+    assert run("convert", "in.h5", "three.h5", "--merge", "copy.h5", "other.npz") == 0
+    assert len(load("three.h5")) == 3 * len(recording)
+
+
+def test_a_file_is_not_merged_with_itself(
+    recording: EventStream, capsys: pytest.CaptureFixture[str]
+) -> None:
+    Path("link.h5").symlink_to("in.h5")
+    words = ["in.h5", "two.h5", "--merge", "link.h5"]
+    text = refused(capsys, "convert", *words)
+    assert "link.h5 and in.h5 are the same file, whose events would be doubled" in text
+    assert not Path("two.h5").exists()
 
 
 def test_what_a_format_cannot_hold_is_refused_and_nothing_is_left(
@@ -117,7 +130,8 @@ def test_validate_gives_a_verdict_and_an_exit_code(
 ) -> None:
     assert run("validate", "in.h5") == 0
     assert capsys.readouterr().out.startswith("sound\n")
-    run("convert", "in.h5", "twice.h5", "--merge", "in.h5", "-q")
+    shutil.copy("in.h5", "copy.h5")
+    run("convert", "in.h5", "twice.h5", "--merge", "copy.h5", "-q")
     assert run("validate", "twice.h5", "--json") == 1
     facts = json.loads(capsys.readouterr().out)
     assert facts["verdict"] == "suspicious"

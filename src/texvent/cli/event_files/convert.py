@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +16,7 @@ from texvent.errors import ConfigError, shown, warn
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.files import open_events, open_writer
+from texvent.runtime.file_names import usable_path
 from texvent.sensor import parse_sensor
 from texvent.transform.merge import merge
 from texvent.transform.packets import add_metadata, map_packets
@@ -148,8 +150,29 @@ def _open_inputs(options: ConvertOptions) -> EventPackets:
     first = open_events(options.path, format=options.from_format, size=size)
     if not options.merge:
         return first
+    _refuse_same_files([options.path, *options.merge])
     more = [open_events(path, format=options.from_format, size=size) for path in options.merge]
     return merge([first, *more])
+
+
+def _refuse_same_files(paths: Sequence[Path]) -> None:
+    """Refuse a file that is merged with itself, which would double every event.
+
+    Files are compared by identity, so that links and other spellings of a name count.
+
+    Raises:
+        ConfigError: two paths are one file.
+    """
+    seen: list[tuple[Path, os.stat_result]] = []
+    for path in paths:
+        status = usable_path(path).stat()
+        for other, known in seen:
+            if os.path.samestat(status, known):
+                raise ConfigError(
+                    f"--merge: {path} and {other} are the same file, whose events would be "
+                    "doubled; name each file once"
+                )
+        seen.append((path, status))
 
 
 def _edits(options: ConvertOptions) -> dict[str, Any]:
