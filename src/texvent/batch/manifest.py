@@ -9,17 +9,20 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from texvent.batch.samples import Sample
-from texvent.errors import ConfigError, FileFormatError, one_line, shown
+from texvent.errors import ConfigError, FileFormatError, one_line
 from texvent.io.atomic import atomic_file
 
 OPTIONS_FILE, SAMPLES_FILE = "batch.json", "samples.jsonl"
-SHOWN_DIFFERENCES = 3
+KIND, VERSION = "samples", "texvent_version"
+"""Names, in `batch.json`, of what samples are made of and of the version that made them."""
+MAX_DIFFERENCES, MAX_VALUE = 120, 40
+"""Characters of all differences that an error tells, and of a value."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +59,7 @@ class Manifest:
         """
         wanted = json.loads(json.dumps(options))
         if self._options is not None and not overwrite:
-            differences = describe_differences(self._options, wanted)
+            differences = _describe_other_batch(self._options, wanted)
             if differences:
                 raise ConfigError(
                     f"{self._folder} was made with other options: {differences}; name another "
@@ -132,25 +135,54 @@ def _read_done(path: Path) -> Iterator[Done]:
                 ) from None
 
 
-def describe_differences(old: Any, new: Any) -> str:
-    """What differs between two trees of options, the first few; empty if nothing does."""
-    found = list(_differences(old, new))
-    more = f" and {len(found) - SHOWN_DIFFERENCES} more" if len(found) > SHOWN_DIFFERENCES else ""
-    return "; ".join(found[:SHOWN_DIFFERENCES]) + more
+def _describe_other_batch(old: Any, new: Any) -> str:
+    """What differs between the options of two batches, in the words of the command line."""
+    kinds = [one.get(KIND) if isinstance(one, Mapping) else None for one in (old, new)]
+    if kinds[0] != kinds[1]:
+        return f"it holds a batch of {kinds[0]}, and this is one of {kinds[1]}"
+    return describe_differences(old, new, name_of=_flag)
 
 
-def _differences(old: Any, new: Any, name: str = "") -> Iterator[str]:
-    """What differs between two trees of options, as `name: old then, new now`."""
-    if isinstance(old, Mapping) and isinstance(new, Mapping):
-        for key in dict.fromkeys((*old, *new)):
-            yield from _differences(old.get(key), new.get(key), f"{name}.{key}" if name else key)
+def _flag(name: str) -> str:
+    """An option as it is given: `texvent_version` is none."""
+    return "the version of texvent" if name == VERSION else f"--{name.replace('_', '-')}"
+
+
+def describe_differences(old: Any, new: Any, *, name_of: Callable[[str], str] = str) -> str:
+    """What differs between two trees of options, as many as fit a line; empty if nothing does.
+
+    Args:
+        old: the tree that is stored.
+        new: the one that is asked for.
+        name_of: how an option is called, from its name in the tree.
+    """
+    found = list(_differences(old, new, name_of))
+    told: list[str] = []
+    for one in found:
+        if told and len("; ".join([*told, one])) > MAX_DIFFERENCES:
+            break
+        told.append(one)
+    more = f" and {len(found) - len(told)} more" if len(told) < len(found) else ""
+    return "; ".join(told) + more
+
+
+def _differences(
+    old: Any, new: Any, name_of: Callable[[str], str], name: str = ""
+) -> Iterator[str]:
+    """What differs between two trees of options, as `name was this, is that`, leaf by leaf."""
+    if isinstance(old, Mapping) or isinstance(new, Mapping):
+        before, now = (one if isinstance(one, Mapping) else {} for one in (old, new))
+        for key in dict.fromkeys((*before, *now)):
+            yield from _differences(before.get(key), now.get(key), name_of, str(key))
     elif old != new:
-        yield f"{name.rpartition('.')[2][:40]} was {_value(old)}, is {_value(new)}"
+        yield f"{name_of(name)[:40]} was {_value(old)}, is {_value(new)}"
 
 
 def _value(value: Any) -> str:
-    text = value if isinstance(value, str) else shown(value)
-    return text[:40]
+    if value is None:
+        return "not set"
+    text = ", ".join(map(str, value)) if isinstance(value, list) else str(value)
+    return text if len(text) <= MAX_VALUE else f"{text[: MAX_VALUE - 3]}..."
 
 
 def _size(path: Path) -> int | None:

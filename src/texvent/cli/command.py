@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from texvent._registry import SIMULATORS
 from texvent.cli.options import parse_options, peek_options
 from texvent.cli.outputs import OutputOptions
-from texvent.options.fields import option_names
+from texvent.errors import ConfigError
+from texvent.options.fields import former_names, option_names
 from texvent.run.settings import DECIDING, Command, Settings, apply_options, base_settings
 
 
@@ -28,6 +30,7 @@ def resolve_command(
     *,
     description: str,
     prog: str | None = None,
+    output: OutputOptions | None = None,
 ) -> tuple[Settings, Any, OutputOptions]:
     """Settings, the command's own options and the output options from a command line.
 
@@ -40,6 +43,7 @@ def resolve_command(
         subject: the command's own config, such as its prompt.
         description: first lines of its help.
         prog: how it is called, where that is not "texvent" and the command.
+        output: the output options, where their help differs.
 
     Raises:
         ConfigError: an unknown flag or name, or a value that does not fit.
@@ -49,13 +53,15 @@ def resolve_command(
     if command == "simulate":
         deciding.pop("generator")
     defaults = base_settings(command, **deciding)
-    groups = {"input": subject, "output": OutputOptions(), **defaults.groups()}
+    output = output or OutputOptions()
+    groups = {"input": subject, "output": output, **defaults.groups()}
     if "contrast_threshold" not in option_names(type(defaults.simulate)):
         groups["threshold"] = OneThreshold()
+    _refuse_options_of_others(arguments, groups, defaults)
     values = parse_options(
         arguments, groups, prog=prog or f"texvent {command}", description=description
     )
-    own, output = _take(subject, values), _take(OutputOptions(), values)
+    own, output = _take(subject, values), _take(output, values)
     shown = {
         name: getattr(group, name)
         for title, group in groups.items()
@@ -66,6 +72,38 @@ def resolve_command(
     for name in DECIDING:  # they have had their effect; a sensor file is a size by now
         given.pop(name, None)
     return apply_options(defaults, given, where="options"), own, output
+
+
+def _refuse_options_of_others(
+    arguments: Sequence[str], groups: Mapping[str, Any], settings: Settings
+) -> None:
+    """Refuse a flag that other simulators have, naming those and the like ones of the chosen one.
+
+    Raises:
+        ConfigError: there is such a flag.
+    """
+    known = {name for group in groups.values() for name in option_names(type(group))}
+    known |= set(former_names(map(type, groups.values())))
+    for word in arguments:
+        name = word.partition("=")[0].removeprefix("--").removeprefix("no-").replace("-", "_")
+        if not word.startswith("--") or name in known:
+            continue
+        owners = [one for one in SIMULATORS.builtin if name in _options_of_simulator(one)]
+        if owners:
+            chosen = settings.run.simulator
+            own, words = _options_of_simulator(chosen), {*name.split("_")}
+            like = [one.replace("_", "-") for one in own if words & {*one.split("_")}]
+            near = f"near: --{', --'.join(like[:3])}; " if like else ""
+            raise ConfigError(
+                f"{chosen} has no --{name.replace('_', '-')} ({', '.join(owners[:4])} "
+                f"{'have' if len(owners) > 1 else 'has'} it); {near}"
+                f"all of {chosen}: --simulator {chosen} --help simulate"
+            )
+
+
+def _options_of_simulator(name: str) -> tuple[str, ...]:
+    presets = SIMULATORS.load(name).presets
+    return option_names(type(next(iter(presets.values()))))
 
 
 def _take(config: Any, values: dict[str, Any]) -> Any:

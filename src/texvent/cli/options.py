@@ -80,6 +80,8 @@ def parse_options(
     for part in dataclasses.fields(parsed):
         group = getattr(parsed, part.name)
         values.update({one.name: getattr(group, one.name) for one in dataclasses.fields(group)})
+    if "" in map(str.strip, arguments):
+        _refuse_empty(values, groups.values())
     protect_inputs(_inputs(values, groups.values()))
     return values
 
@@ -97,6 +99,20 @@ def _inputs(values: Mapping[str, Any], groups: Iterable[Any]) -> Iterator[str | 
             is_path = isinstance(one, Path) and name not in outputs
             if is_path or (isinstance(one, str) and name in inputs):
                 yield one
+
+
+def _refuse_empty(values: Mapping[str, Any], groups: Iterable[Any]) -> None:
+    """Refuse an empty text for an operand: as a path it would be the current folder.
+
+    Raises:
+        ConfigError: see above; the message says what the operand is.
+    """
+    for group in groups:
+        for name in getattr(group, "positional", ()):
+            given = values[name] if isinstance(values[name], tuple) else (values[name],)
+            if any(str(one).strip() == "" or one == Path() for one in given):
+                what = option_help(type(group)).get(name, "")
+                raise ConfigError(f"{name.upper()} is empty; give: {what[:200]}")
 
 
 def parse_configs(

@@ -68,6 +68,17 @@ class PromptBatchOptions(BatchOptions):
     """Text-to-video generator, as in texvent generate."""
 
 
+@dataclass(frozen=True, kw_only=True)
+class BatchOutputOptions(OutputOptions):
+    """What is written, and where."""
+
+    out: tuple[Path, ...] = ()
+    """Folder for the event files, previews and batch.json. Without it: a name made from the first
+    source, in the current folder."""
+    format: tuple[str, ...] = ()
+    """Format of the event files (docs/files.md lists them); default: HDF5 (.h5)."""
+
+
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns 0, or raises if a sample failed."""
     leading = list(itertools.takewhile(lambda word: not word.startswith("-"), arguments))
@@ -78,6 +89,7 @@ def run(arguments: Sequence[str]) -> int:
         BatchOptions() if is_of_videos else PromptBatchOptions(),
         description=DESCRIPTION,
         prog="texvent batch",
+        output=BatchOutputOptions(),
     )
     if output.print_config:
         return print_settings(settings)
@@ -164,30 +176,34 @@ def _make_all(
     todo = [sample for sample in samples if not manifest.is_done(sample)]
     replaceable = {sample.key for sample in todo if manifest.is_known(sample)}
     done, failed = len(samples) - len(todo), 0
-    with ConsoleProgress(is_quiet=is_quiet) as progress:
-        if done:
-            progress.announce(f"kept     {done} of {len(samples)} samples, done before")
-        others = manifest.others(samples)
-        if others:
-            progress.announce(
-                f"note     {len(others)} complete samples are no longer in the list, such as "
-                f"{others[0]}; they stay"
-            )
-        progress.advance("samples", done, len(samples))
-        for outcome in run_batch(plan, todo, replaceable=replaceable, jobs=jobs):
-            sample = outcome.sample
-            for text in outcome.warnings:
-                say_warning(f"{sample.where}: {text}")
-            if outcome.failure is not None:
-                failed += 1
-                say(f"failed   {sample.where}: {outcome.failure}")
-                continue
-            done += 1
-            paths = plan.files_of(sample).paths
-            manifest.add(sample, paths, events=outcome.events)
-            warning = "" if outcome.events else ": nothing changed enough to fire"
-            progress.announce(f"made     {paths[0]}, {outcome.events:,} events{warning}")
+    try:
+        with ConsoleProgress(is_quiet=is_quiet) as progress:
+            if done:
+                progress.announce(f"kept     {done} of {len(samples)} samples, done before")
+            others = manifest.others(samples)
+            if others:
+                progress.announce(
+                    f"note     {len(others)} complete samples are no longer in the list, such as "
+                    f"{others[0]}; they stay"
+                )
             progress.advance("samples", done, len(samples))
+            for outcome in run_batch(plan, todo, replaceable=replaceable, jobs=jobs):
+                sample = outcome.sample
+                for text in outcome.warnings:
+                    say_warning(f"{sample.where}: {text}")
+                if outcome.failure is not None:
+                    failed += 1
+                    say(f"failed   {sample.where}: {outcome.failure}")
+                    continue
+                done += 1
+                paths = plan.files_of(sample).paths
+                manifest.add(sample, paths, events=outcome.events)
+                warning = "" if outcome.events else ": nothing changed enough to fire"
+                progress.announce(f"made     {paths[0]}, {outcome.events:,} events{warning}")
+                progress.advance("samples", done, len(samples))
+    except KeyboardInterrupt:
+        say(f"kept     {done} of {len(samples)} samples; the same command goes on")
+        raise
     if failed:
         raise TexventError(
             f"{failed} of {len(samples)} samples failed; the others are in {plan.folder}"
