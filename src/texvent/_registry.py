@@ -29,15 +29,15 @@ def load_object(target: str) -> Any:
     return getattr(importlib.import_module(module), attribute)
 
 
-def suggest(name: object, allowed: tuple[str, ...]) -> str:
+def suggest(name: object, allowed: tuple[str, ...], *, longest: int = LONGEST_LISTING) -> str:
     """Say what is allowed, and the closest match if there is one: ` did you mean 'blend'?`.
 
-    Of a long list, only the closest match or the first names are said.
+    Of a list of more than `longest` characters, only the closest match or the first names are said.
     """
     is_name = isinstance(name, str) and len(name) <= LONGEST_NAME
     close = difflib.get_close_matches(str(name), allowed, n=1) if is_name else []
     listed, hint = ", ".join(allowed), f"did you mean {close[0]!r}?" if close else ""
-    if len(listed) > LONGEST_LISTING:
+    if len(listed) > longest:
         listed = f"{', '.join(allowed[:FIRST_NAMES])}, ... ({len(allowed)} in all)"
         return hint or f"allowed: {listed}"
     return f"allowed: {listed}{hint and f'; {hint}'}"

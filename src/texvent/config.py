@@ -34,7 +34,7 @@ def check_range(
         ConfigError: with the option's name, its value and the range.
     """
     if value is not None and not (low <= value <= high and value != math.inf):
-        allowed = f"at least {low:g}" if high == math.inf else f"{low:g}..{high:g}"
+        allowed = f"at least {low:g}" if high == math.inf else f"{_number(low)}..{_number(high)}"
         if value == math.inf:
             allowed += " and finite"
         raise ConfigError(f"{name} is {_number(value)}; it must be {allowed}")
@@ -42,6 +42,8 @@ def check_range(
 
 def _number(value: float | Fraction) -> str:
     """A number as messages say it, however many digits it has."""
+    if value == 2**63 - 1 and isinstance(value, int):
+        return "2^63 - 1"
     try:
         return f"{float(value):g}"
     except OverflowError:

@@ -73,8 +73,7 @@ def parse_sensor(text: str) -> SensorSize:
     sensor = SENSORS.get(text.strip().lower())
     if sensor is None:
         raise ConfigError(
-            f"unknown sensor {shown(text)}; {suggest(text.lower(), tuple(SENSORS))}, or "
-            "WIDTHxHEIGHT"
+            f"unknown sensor {shown(text)}; {suggest(text.lower(), (*SENSORS, 'WIDTHxHEIGHT'))}"
         )
     return sensor.size
 

@@ -18,6 +18,7 @@ import pytest
 import texvent
 from texvent.cli.app import main
 from texvent.cli.setup.doctor import EXTRAS
+from texvent.errors import InputError
 
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
 PYPROJECT = Path(__file__).parents[2] / "pyproject.toml"
@@ -180,13 +181,18 @@ def test_every_command_explains_its_flags(command, capsys):
 
 def test_unknown_commands_flags_presets_and_parts_are_named(folder, capsys):
     assert "did you mean 'simulate'" in fails(capsys, "simulat")
+    assert "allowed: generate, batch, dataset, " in fails(capsys, "frobnicate")
     assert "did you mean --balance" in fails(capsys, "simulate", CLIP, "--balanc", "3")
     assert "no preset 'papper'; allowed: paper" in fails(
         capsys, "simulate", CLIP, "--preset", "papper"
     )
     assert "unknown simulator 'dvs'" in fails(capsys, "simulate", CLIP, "--simulator", "dvs")
     assert "unknown interpolator 'flw'" in fails(capsys, "simulate", CLIP, "--interpolate", "flw")
-    assert "unknown sensor 'davis'" in fails(capsys, "simulate", CLIP, "--sensor", "davis")
+    said = fails(capsys, "simulate", CLIP, "--sensor", "davis")
+    assert said.rstrip().endswith("WIDTHxHEIGHT; did you mean 'davis346'?")
+    said = fails(capsys, "simulate", CLIP, "--simulator", "v2e", "--noise", "none")
+    assert "v2e has no --noise (texvent has it); near: --shot-noise-rate-hz" in said
+    assert "it must be 0..2^63 - 1" in fails(capsys, "simulate", CLIP, "--seed", "-1")
     assert "unknown palette" in fails(capsys, "simulate", CLIP, "--palette", "pink")
     assert "'cold'" in fails(capsys, "simulate", CLIP, "--noise", "cold")
     assert "'x' is not a rate" in fails(capsys, "simulate", CLIP, "--fps", "x")
@@ -223,6 +229,14 @@ def test_a_missing_file_and_a_missing_argument_are_named(folder, capsys):
     assert "nope.toml" in fails(capsys, "simulate", CLIP, "--config", "nope.toml")
     fails(capsys, "simulate")
     assert not list(folder.iterdir())
+
+
+def test_empty_texts_are_refused_first(folder, capsys):
+    assert "PROMPT is empty; give: What to show" in fails(capsys, "generate", " ")
+    assert "SOURCE is empty; give: Video file" in fails(capsys, "simulate", "")
+    assert "PATH is empty; give: Event file" in fails(capsys, "view", "")
+    with pytest.raises(InputError, match="the path is empty; give the name"):
+        texvent.simulate("")
 
 
 def test_a_truncated_video_is_one_line_and_leaves_nothing(folder, capsys):

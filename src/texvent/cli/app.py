@@ -90,6 +90,8 @@ COMMANDS = {
     "doctor": ("texvent.cli.setup.doctor", "What is installed, what is missing, how to get it."),
 }
 """Command → its module, which has a function `run(arguments)`, and what it does."""
+LONGEST_LISTING, LONGEST_WORD = 220, 30
+"""Characters of the list of commands and of a word that is none, in an error."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -156,9 +158,8 @@ def _dispatch(words: list[str]) -> int:
         write_out(f"texvent {full_version()}\n")
         return 0
     if words[0] not in COMMANDS:
-        raise ConfigError(
-            f"unknown command {shown(words[0])}; {suggest(words[0], tuple(COMMANDS))}"
-        )
+        listed = suggest(words[0], tuple(COMMANDS), longest=LONGEST_LISTING)
+        raise ConfigError(f"unknown command {shown(words[0][:LONGEST_WORD])}; {listed}")
     command = importlib.import_module(COMMANDS[words[0]][0])
     code: int = command.run(words[1:])
     return code

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -9,7 +10,7 @@ from typing import Any
 
 from texvent._registry import GENERATORS
 from texvent._version import full_version
-from texvent.errors import InputError, shown
+from texvent.errors import MAX_SHOWN, InputError, shown
 from texvent.pipeline import Simulation, fit_to_sensor, text_to_video
 from texvent.run.prepare import prepare_prompt, prepare_source, prepare_video
 from texvent.run.settings import Settings, flatten_tables, resolve
@@ -53,13 +54,13 @@ def render_again(metadata: Mapping[str, Any]) -> FrameStream | None:
 
 
 def prepare_replay(
-    metadata: Mapping[str, Any], *, folder: Path, source: Path | None = None
+    metadata: Mapping[str, Any], *, path: Path, source: Path | None = None
 ) -> Simulation:
     """The run that made a recording, ready to be made again.
 
     Args:
         metadata: of an event file, as a run stores it.
-        folder: of the event file: a source that is not where it was is looked for there.
+        path: of the event file: a source that is not where it was is looked for in its folder.
         source: the frames, where they are elsewhere; of a generated recording, the video that
             texvent stored, which is then not generated again.
 
@@ -67,17 +68,18 @@ def prepare_replay(
         InputError: no run is stored, the file was edited or is only a part, or its source is gone.
         ConfigError: its options are not known here.
     """
-    tables, facts = metadata.get("settings"), metadata.get("source")
+    tables, facts, folder = metadata.get("settings"), metadata.get("source"), path.parent
     if not (isinstance(tables, Mapping) and isinstance(facts, Mapping)):
         raise InputError("the file does not say how it was made, so it cannot be made again")
     if metadata.get("edits"):
         raise InputError(
-            "the file was edited after its run (see texvent info), so its run makes another one; "
-            "use --config FILE for the options"
+            "the file was edited after its run (see texvent info), so its run makes another one: "
+            f"{_command(tables, facts, path)}"
         )
     if metadata.get("complete") is False:
         raise InputError(
-            "the file is a part: its run was stopped; use --config FILE to make it whole"
+            "the file is a part: its run was stopped; this makes it whole: "
+            f"{_command(tables, facts, path)}"
         )
     options, prompt = flatten_tables(tables, folder), metadata.get("prompt")
     prompt = prompt if isinstance(prompt, str) else None
@@ -116,6 +118,18 @@ def _video_seed(facts: Any, settings: Settings) -> int:
     """Seed of the video: in data sets a video is simulated several times with a seed each."""
     seed = facts.get("seed") if isinstance(facts, Mapping) else None
     return seed if isinstance(seed, int) else settings.run.seed
+
+
+def _command(tables: Mapping[str, Any], facts: Mapping[str, Any], path: Path) -> str:
+    """The command line that makes the whole run again, into a new file."""
+    command, key, word = "simulate", "source", "SOURCE"
+    if "generate" in tables:
+        command, key, word = "generate", "prompt", "PROMPT"
+    given = facts.get(key)
+    if isinstance(given, str) and len(given) <= MAX_SHOWN:
+        word = shlex.quote(given)
+    name = str(path) if len(str(path)) <= MAX_SHOWN else f"FILE{path.suffix}"
+    return f"texvent {command} {word} --config {shlex.quote(name)} -o whole{path.suffix}"
 
 
 def _find_source(facts: Mapping[str, Any], folder: Path) -> Path:

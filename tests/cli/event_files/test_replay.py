@@ -108,7 +108,10 @@ def test_another_version_is_told(capsys):
         ({}, "does not say how it was made"),
         ({"settings": {}, "source": {"kind": "array", "source": "array"}}, "came from memory"),
         ({"settings": {}, "source": {}, "edits": [{"crop": "1"}]}, "was edited after its run"),
-        ({"settings": {}, "source": {}, "complete": False}, "is a part"),
+        (
+            {"settings": {}, "source": {"source": "my clip.mp4"}, "complete": False},
+            "makes it whole: texvent simulate 'my clip.mp4' --config a.h5 -o whole.h5",
+        ),
         ({"settings": {"run": {"seed": "x"}}, "source": {}}, "seed"),
         ({"settings": {"run": {"none": 1}}, "source": {}}, "unknown option 'none'"),
     ],

@@ -13,7 +13,7 @@ from rich.console import Console
 from rich.table import Table
 
 from texvent.bench.selftest.controls import CONTROLLED, run_controls
-from texvent.cli.notices import write_out
+from texvent.cli.notices import say, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError, InputError
@@ -102,7 +102,7 @@ def run(arguments: Sequence[str]) -> int:
         pair = tuple(zip(names, (predicted, reference), strict=True))
         write_comparison(options.out, pair, _rows(metrics, findings), overwrite=options.overwrite)
         # Not among the JSON.
-        (sys.stderr if options.json else sys.stdout).write(f"{options.out}\n")
+        (say if options.json else write_out)(f"{options.out}\n")
     return 0
 
 

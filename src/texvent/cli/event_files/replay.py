@@ -60,7 +60,7 @@ def run(arguments: Sequence[str]) -> int:
     out = options.out or Path(f"{path.stem}.replay{path.suffix}")
     check_output(out, overwrite=options.overwrite)
     stored = open_events(path).metadata
-    simulation = prepare_replay(stored, folder=path.parent, source=options.source)
+    simulation = prepare_replay(stored, path=path, source=options.source)
     differences = describe_differences(stored, simulation.provenance)
     if differences and not options.anyway:
         raise TexventError(
