@@ -46,8 +46,8 @@ def one_line_warnings() -> Iterator[None]:
 
 
 def say(line: str) -> None:
-    """Write a line to stderr."""
-    sys.stderr.write(visible(" ".join(line.split())) + "\n")
+    """Write a line to stderr, its columns as they are."""
+    sys.stderr.write(visible(" ".join(line.splitlines())) + "\n")
 
 
 def write_out(text: str) -> None:
