@@ -113,7 +113,7 @@ def write_shard(folder: Path, number: int, made: Mapping[str, EventStream]) -> N
         for key, events in made.items():
             facts = {"prompt": "a red car drives left", "key": key, "settings": {"fps": 30}}
             members = sample_members(
-                MadeEvents(events, DURATION_US), facts, class_number=0, preview=False
+                MadeEvents(events, 0, DURATION_US), facts, class_number=0, preview=False
             )
             records.append(
                 SampleRecord(

@@ -34,6 +34,7 @@ def write_shard(
     samples: dict[str, EventStream],
     *,
     labels: tuple[str, ...] = LABELS,
+    start_us: int = 0,
 ) -> Path:
     """A shard of these samples, one that was filtered out, and its record."""
     path = folder / variant / f"{split}-{number:06d}.tar"
@@ -45,7 +46,7 @@ def write_shard(
             label = labels[place % len(labels)] if labels else None
             facts = {"prompt": f"a {label} drives left", "key": key, "label": label}
             members = sample_members(
-                MadeEvents(events, DURATION_US),
+                MadeEvents(events, start_us, DURATION_US),
                 facts,
                 class_number=None if label is None else labels.index(label),
                 preview=False,
@@ -59,6 +60,7 @@ def write_shard(
                     prompt=facts["prompt"],
                     label=label,
                     events=len(events),
+                    start_us=start_us,
                     duration_us=DURATION_US,
                     width=SIZE.width,
                     height=SIZE.height,

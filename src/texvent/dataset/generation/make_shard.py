@@ -212,6 +212,7 @@ def _events_job(
         width, height = simulation.video.size
         known = {
             "events": len(made.events),
+            "start_us": made.start_us,
             "duration_us": made.duration_us,
             "width": width,
             "height": height,

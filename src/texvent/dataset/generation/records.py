@@ -34,6 +34,8 @@ class SampleRecord:
     """What is hardly meant, such as words that are not understood."""
     events: int = 0
     duration_us: int = 0
+    start_us: int = 0
+    """Time of the first frame: 0, but for clips cut from a longer video."""
     width: int = 0
     height: int = 0
     members: Mapping[str, tuple[int, int]] = field(default_factory=dict)

@@ -31,6 +31,8 @@ class MadeEvents:
     """The events of a sample, and what is known of its video."""
 
     events: EventStream
+    start_us: int
+    """Time of the first frame, µs."""
     duration_us: int
     """From the first frame to the last, µs."""
 
@@ -59,7 +61,8 @@ def simulate_sample(simulation: Simulation, filters: Filters) -> MadeEvents:
         if not report.is_fine:
             raise FilteredError(f"the video looks failed: {report.summary}")
     events = EventStream.concat(packets) if packets else EventStream.empty(simulation.video.size)
-    return MadeEvents(events, times[-1] - times[0] if times else 0)
+    start = times[0] if times else 0
+    return MadeEvents(events, start, times[-1] - start if times else 0)
 
 
 def event_columns(events: EventStream) -> dict[str, NDArray[Any]]:

@@ -56,6 +56,8 @@ class Index:
     """[n] number of events."""
     duration_us: NDArray[np.int64]
     """[n] from the first frame to the last."""
+    start_us: NDArray[np.int64]
+    """[n] time of the first frame; 0, but for clips cut from a longer video."""
     size: NDArray[np.int64]
     """[n, 2] width, height."""
     members: NDArray[np.int64]
@@ -184,7 +186,7 @@ class _Rows:
                 label = self._labels.setdefault(sample.label, len(self._labels))
                 self._numbers.append(
                     (shard, caption, label, sample.seed, sample.events, sample.duration_us,
-                     sample.width, sample.height)
+                     sample.width, sample.height, sample.start_us)
                 )  # fmt: skip
                 self._members.append([sample.members.get(name, ABSENT) for name in MEMBERS])
 
@@ -205,6 +207,7 @@ class _Rows:
             seed=numbers[:, 3],
             events=numbers[:, 4],
             duration_us=numbers[:, 5],
+            start_us=numbers[:, 8],
             size=numbers[:, 6:8],
             members=np.array(self._members, np.int64),
         )

@@ -275,7 +275,7 @@ class StoredSamples:
                 yield part, (int(part.t[0]), int(part.t[-1]) + 1)
             return
         duration = int(self.index.duration_us[number])
-        start = first_instant(events, duration)
+        start = int(self.index.start_us[number])
         if self.slice_us is None:
             yield events, (start, start + duration)
             return
@@ -295,14 +295,3 @@ class StoredSamples:
                     f"{unit}, the shortest has {int(known.min()):,}; give shorter slices, or "
                     f"leave samples out: samples.select(samples.index.{name} >= {length})"
                 )
-
-
-def first_instant(events: EventStream, duration_us: int) -> int:
-    """Time of the first frame of a sample, µs.
-
-    It is 0, but for clips cut from a longer video, which keep its times; of those the first event
-    is taken.
-    """
-    if not len(events) or int(events.t[-1]) < max(duration_us, 1):
-        return 0
-    return int(events.t[0])
