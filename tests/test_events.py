@@ -106,7 +106,7 @@ def test_packets_collect_into_one_stream_with_the_metadata():
     [
         ({"x": [8]}, "x runs from 8 to 8; a 8x6 sensor allows 0..7"),
         ({"y": [-1]}, "y runs from -1"),
-        ({"p": [-1]}, "must be 0 .OFF. or 1 .ON.*texvent.io"),
+        ({"p": [-1]}, "must be 0 .OFF. or 1 .ON.*// 2"),
         ({"label": [2]}, "must be 0 .signal. or 1 .noise."),
         ({"label": [0, 1]}, "label must hold 1 integers"),
     ],
@@ -139,3 +139,11 @@ def test_concatenating_nothing_or_two_sizes_is_refused():
 def test_the_representation_fits_one_line():
     assert repr(stream([1, 5])) == "EventStream(2 events, 8x6, t 1..5 µs)"
     assert repr(EventStream.empty(SIZE)) == "EventStream(0 events, 8x6)"
+
+
+def test_errors_say_what_to_do_about_polarities_of_one_and_times_in_seconds():
+    zero = np.zeros(2, int)
+    with pytest.raises(InputError, match=r"p runs from -1 to 1.*\(p \+ 1\) // 2"):
+        EventStream(zero, zero, zero, np.array([-1, 1]), SensorSize(4, 3))
+    with pytest.raises(InputError, match=r"t must hold integers, µs.*float64"):
+        EventStream(zero, zero, np.array([0.1, 0.2]), zero, SensorSize(4, 3))

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, Unpack, overload
 
 from numpy.typing import NDArray
 
-from texvent.errors import warn
+from texvent.errors import InputError, shown, warn
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.generate.prompts.upsample_config import UpsampleConfig
@@ -222,6 +222,8 @@ def open(
     """
     from texvent.io.files import open_events
 
+    if not isinstance(path, str | Path):
+        raise InputError(f"cannot open {shown(path)}; give the path of an event file or folder")
     return open_events(path, format=format, size=size)
 
 

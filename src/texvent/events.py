@@ -302,7 +302,8 @@ def _check_columns(columns: Mapping[str, NDArray[Any]], size: SensorSize) -> Non
         return
     for name, column in columns.items():
         if column.dtype.kind not in "iub":
-            raise InputError(f"{name} must hold integers; got {column.dtype}")
+            what = "integers, µs: (seconds * 1e6).astype(int)" if name == "t" else "integers"
+            raise InputError(f"{name} must hold {what}; got {column.dtype}")
     for name, side in (("x", size.width), ("y", size.height)):
         low, high = int(columns[name].min()), int(columns[name].max())
         if low < 0 or high >= side:
@@ -314,7 +315,11 @@ def _check_columns(columns: Mapping[str, NDArray[Any]], size: SensorSize) -> Non
     if low < 0 or high > 1:
         raise InputError(
             f"p runs from {low} to {high}; it must be 0 (OFF) or 1 (ON). "
-            "Read ±1 data through texvent.io"
+            + (
+                "Of -1 and +1 make them by (p + 1) // 2"
+                if low == -1
+                else "Is p given in the place of another column? The order is x, y, t, p"
+            )
         )
     backwards = np.flatnonzero(columns["t"][1:] < columns["t"][:-1])
     if backwards.size:

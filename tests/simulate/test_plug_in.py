@@ -265,3 +265,15 @@ def test_a_plug_in_that_cannot_be_imported_is_named(install):
     assert "mine" in texvent.simulators()
     with pytest.raises(TexventError, match=r"simulator 'mine' of another package .*mine_module"):
         texvent.presets("mine")
+
+
+def test_all_that_a_class_lacks_is_said_at_once():
+    class Nothing:
+        pass
+
+    with pytest.raises(TexventError) as caught:
+        texvent.check_simulator(Nothing)
+    said = str(caught.value)
+    for what in ("step(frame)", "reset()", "config_type", "presets"):
+        assert what in said
+    assert len(said) < 300

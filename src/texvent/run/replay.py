@@ -158,7 +158,11 @@ def describe_differences(stored: Mapping[str, Any], now: Mapping[str, Any]) -> l
         if isinstance(before, Mapping) and isinstance(today, Mapping):
             ignored = ("source", "size_before_fit") if name == "source" else ()
             for key in dict.fromkeys((*before, *today)):
-                if key not in ignored and before.get(key) != today.get(key):
+                if key in ignored or before.get(key) == today.get(key):
+                    continue
+                if key == "fingerprint":
+                    lines.append("its source was changed")
+                else:
                     was, is_now = (shown(one.get(key)) for one in (before, today))
                     lines.append(f"{what}, {key}: was {was}, is {is_now}")
         else:

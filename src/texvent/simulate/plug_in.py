@@ -30,19 +30,33 @@ def check_simulator_class(kind: Any, name: str) -> None:
     """
     if not isinstance(kind, type):
         raise broken(name, f"is a {type(kind).__name__}, not a class")
-    if not any(callable(getattr(kind, method, None)) for method in ("step", "advance")):
-        raise broken(name, "has neither step(frame) nor advance(pair)")
+    problems = _missing_methods(kind)
     config_type = getattr(kind, "config_type", None)
     if not (isinstance(config_type, type) and dataclasses.is_dataclass(config_type)):
-        raise broken(name, f"has config_type {config_type!r:.40}; it must be a frozen dataclass")
+        problems.append(f"has config_type {config_type!r:.40}; it must be a frozen dataclass")
+        config_type = None
     presets = getattr(kind, "presets", None)
+    wanted = "config_type" if config_type is None else config_type.__name__
     if not (isinstance(presets, Mapping) and presets):
-        raise broken(
-            name, f"has presets {presets!r:.40}; they must be name → {config_type.__name__}"
-        )
-    for preset, config in presets.items():
-        if not (isinstance(preset, str) and isinstance(config, config_type)):
-            raise broken(name, f"has preset {preset!r:.40}, which is no {config_type.__name__}")
+        problems.append(f"has presets {presets!r:.40}; they must be name → {wanted}")
+    elif config_type is not None:
+        problems += [
+            f"has preset {preset!r:.40}, which is no {wanted}"
+            for preset, config in presets.items()
+            if not (isinstance(preset, str) and isinstance(config, config_type))
+        ][:1]
+    if problems:
+        raise broken(name, "; it ".join(problems))
+
+
+def _missing_methods(kind: type) -> list[str]:
+    """What a class must define besides `config_type` and `presets`, if it does not."""
+    problems = []
+    if not any(callable(getattr(kind, method, None)) for method in ("step", "advance")):
+        problems.append("has neither step(frame) nor advance(pair)")
+    if not callable(getattr(kind, "reset", None)):
+        problems.append("has no reset()")
+    return problems
 
 
 def broken(name: str, problem: str) -> TexventError:
