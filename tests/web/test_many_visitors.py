@@ -80,7 +80,7 @@ class Visitor:
             for one in json.loads(self.get("config"))["dependencies"]
             if len(one["inputs"]) == 7 and len(one["outputs"]) == 6
         ]
-        values = [source, "procedural", 0.1, "texvent", "default", "dvs128", 0]
+        values = [source, "procedural", 0.1, "texvent", "paper (default)", "dvs128", 0]
         job = jobs[1 if video else 0]
         call = {"data": values, "fn_index": job["id"], "session_hash": self._session}
         self.post("gradio_api/queue/join", call)

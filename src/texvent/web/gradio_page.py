@@ -29,7 +29,8 @@ from texvent.web.supervisor import Supervisor
 from texvent.web.workspace import Workspace
 
 OWN_SIZE = "as the video"
-DEFAULT_PRESET = "default"
+DEFAULT_PRESET = "(default)"
+"""Ends the name of the preset that is used unless one is chosen or the sensor has its own."""
 FONTS = ("system-ui", "Segoe UI", "Roboto", "DejaVu Sans", "sans-serif")
 """Fonts of the visitor's own machine: none is fetched."""
 CSS = """
@@ -275,7 +276,7 @@ class WebPage:
             **private,
         )
         inputs["simulator"].change(
-            lambda name: gr.Dropdown(_presets(name), value=DEFAULT_PRESET),
+            lambda name: gr.Dropdown(_presets(name), value=_presets(name)[0]),
             inputs["simulator"],
             inputs["preset"],
             **private,
@@ -368,7 +369,8 @@ def _with_request(gr: Any, handler: Any) -> Any:
 
 
 def _presets(simulator: str) -> list[str]:
-    return [DEFAULT_PRESET, *SIMULATORS.load(simulator).presets]
+    first, *others = SIMULATORS.load(simulator).presets
+    return [f"{first} {DEFAULT_PRESET}".replace("default (", "("), *others]
 
 
 def _options(asked: tuple[Any, ...]) -> dict[str, Any]:
@@ -377,7 +379,7 @@ def _options(asked: tuple[Any, ...]) -> dict[str, Any]:
         "generator": generator,
         "duration": duration,
         "simulator": simulator,
-        "preset": None if preset == DEFAULT_PRESET else preset,
+        "preset": None if preset.endswith(DEFAULT_PRESET) else preset,
         "sensor": None if sensor == OWN_SIZE else sensor,
         "seed": int(seed or 0),
     }
