@@ -66,7 +66,7 @@ def check_choices(config: object) -> None:
 class RunConfig:
     """What decides a run as a whole."""
 
-    inputs: ClassVar[tuple[str, ...]] = ("sensor",)
+    input_texts: ClassVar[tuple[str, ...]] = ("sensor",)
 
     simulator: str = "texvent"
     """Pixel model, such as texvent, esim, v2e, voltmeter or physical. It turns brightness into

@@ -136,8 +136,18 @@ def test_the_noise_label_is_kept(tmp_path: Path, extension: str) -> None:
 
 def test_the_format_may_be_given_instead_of_an_extension(tmp_path: Path) -> None:
     events = EventStream.from_columns([1], [1], [5], [1], size=SensorSize(4, 4))
-    path = save(tmp_path / "events.dat", events, format="npz")
+    path = save(tmp_path / "events.bin2", events, format="npz")
     assert load(path, format="npz").equals(events)
+
+
+def test_a_format_may_be_read_under_any_name_but_not_written_under_that_of_another(
+    tmp_path: Path,
+) -> None:
+    events = EventStream.from_columns([1], [1], [5], [1], size=SensorSize(4, 4))
+    save(tmp_path / "events.npz", events).rename(tmp_path / "events.dat")
+    assert load(tmp_path / "events.dat", format="npz").equals(events)
+    with pytest.raises(ConfigError, match=r"name it other\.npz"):
+        save(tmp_path / "other.dat", events, format="npz")
 
 
 def test_an_unknown_extension_lists_the_known_ones(tmp_path: Path) -> None:

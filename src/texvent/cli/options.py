@@ -36,8 +36,8 @@ def parse_options(
         groups: title → config instance whose values are the defaults that `--help` shows. Class
             attributes name its fields: those in `positional` are given without a flag, those in
             `repeated` several times, those in `short_flags` also have a short one, those in
-            `outputs` say what is written ("out" if there is no such attribute); those in `inputs`
-            are texts that may be the path of something read, as a `Path` always is.
+            `outputs` say what is written ("out" if there is no such attribute); those in
+            `input_texts` are texts that may be the path of something read, as a `Path` always is.
             `main_options` of the first group names the options that `--help` alone shows, if there
             are too many for one screen.
         prog: how the command is called.
@@ -93,7 +93,7 @@ def _inputs(values: Mapping[str, Any], groups: Iterable[Any]) -> Iterator[str | 
     """
     configs = tuple(groups)
     outputs = {name for one in configs for name in getattr(one, "outputs", ("out",))}
-    inputs = {name for one in configs for name in getattr(one, "inputs", ())}
+    inputs = {name for one in configs for name in getattr(one, "input_texts", ())}
     for name, value in values.items():
         for one in value if isinstance(value, tuple) else (value,):
             is_path = isinstance(one, Path) and name not in outputs

@@ -23,7 +23,7 @@ class ReadOnce(Generic[Item]):
         >>> once = ReadOnce((i for i in range(3)), "a generator of numbers")
         >>> next(iter(once))
         0
-        >>> iter(once)
+        >>> iter(once)  # doctest: +ELLIPSIS
         Traceback (most recent call last):
         texvent.errors.InputError: a generator of numbers can be read once, and was; ...
     """

@@ -34,7 +34,7 @@ explains the tables."""
 class RealOptions:
     """What to run."""
 
-    inputs: ClassVar[tuple[str, ...]] = ("sources",)
+    input_texts: ClassVar[tuple[str, ...]] = ("sources",)
     positional: ClassVar[tuple[str, ...]] = ("sources",)
     main_options: ClassVar[tuple[str, ...]] = (
         "start", "seconds", "simulators", "interpolations", "config", "baseline", "out",

@@ -45,7 +45,7 @@ GRID_PARTS = (0.2, 0.4, 0.6, 0.8)
 class ReconstructionOptions:
     """What to run."""
 
-    inputs: ClassVar[tuple[str, ...]] = ("recordings", "frames")
+    input_texts: ClassVar[tuple[str, ...]] = ("recordings", "frames")
     positional: ClassVar[tuple[str, ...]] = ("recordings",)
     main_options: ClassVar[tuple[str, ...]] = (
         "network", "weights", "simulators", "interpolations", "match_rate", "time", "noise", "out",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import ClassVar
 
 from texvent.bench.machine import describe_environment
 from texvent.cli.bench.result_options import ResultOptions
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
@@ -45,6 +45,7 @@ RECORDED = "N-ImageNet"
 class AlignOptions:
     """Which recordings, which model."""
 
+    input_texts: ClassVar[tuple[str, ...]] = ("clip",)
     positional: ClassVar[tuple[str, ...]] = ("folder",)
 
     folder: Path | None = None
@@ -128,9 +129,9 @@ def run(arguments: Sequence[str]) -> int:
             "rows": [row.facts for row in rows],
         }
     )
-    sys.stdout.write(alignment_table(rows))
+    write_out(alignment_table(rows))
     if cut:
-        sys.stdout.write(
+        write_out(
             f"{cut:,} of {len(texts):,} texts are longer than the {clip.most_tokens} tokens that "
             "this model reads\n"
         )

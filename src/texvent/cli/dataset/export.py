@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.dataset.contents.made_set import MadeSet
@@ -52,7 +52,7 @@ def run(arguments: Sequence[str]) -> int:
     made = MadeSet.open(options.folder)
     done = export(made, options.format, options.out, variant=options.variant)
     kept = f" ({done.kept:,} were there)" if done.kept else ""
-    sys.stdout.write(f"{options.out}: {done.samples:,} samples as {options.format}{kept}\n")
+    write_out(f"{options.out}: {done.samples:,} samples as {options.format}{kept}\n")
     for doubt in done.doubts:
-        sys.stdout.write(f"note: {doubt}\n")
+        write_out(f"note: {doubt}\n")
     return 0

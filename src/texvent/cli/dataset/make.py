@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import re
-import sys
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
@@ -12,6 +11,7 @@ from pathlib import Path
 from typing import ClassVar
 
 from texvent.cli.dataset.live_table import LiveTable
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
@@ -131,7 +131,7 @@ def _finish(folder: Path, work: Work, *, is_whole: bool) -> int:
     records = work.complete.values()
     counts = {status: sum(one.count(status) for one in records) for status in (MADE, FILTERED)}
     failed = sum(record.count(FAILED) for record in records)
-    sys.stdout.write(
+    write_out(
         f"{folder}: {counts[MADE]:,} samples, {sum(one.events for one in records):,} events in "
         f"{len(work.complete)} shards; {counts[FILTERED]:,} filtered out, {failed:,} failed\n"
     )
@@ -142,5 +142,5 @@ def _finish(folder: Path, work: Work, *, is_whole: bool) -> int:
             "others are kept: run the command again"
         )
     if is_whole:
-        sys.stdout.write(f"next: texvent dataset sample {folder}, then verify, stats, publish\n")
+        write_out(f"next: texvent dataset sample {folder}, then verify, stats, publish\n")
     return 0

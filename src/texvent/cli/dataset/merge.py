@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.dataset.contents.made_set import MadeSet
@@ -50,7 +50,7 @@ def run(arguments: Sequence[str]) -> int:
     sources = [MadeSet.open(folder) for folder in options.folders]
     merged = merge(sources, options.out.absolute(), name=options.name)
     how = f", {merged.rewritten:,} of them with new class numbers" if merged.rewritten else ""
-    sys.stdout.write(
+    write_out(
         f"{options.out}: {merged.samples:,} samples of {len(sources)} data sets in "
         f"{merged.shards:,} shards{how}\n"
     )

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import functools
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
 from texvent._registry import suggest
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
@@ -50,6 +50,7 @@ The same command goes on where it was stopped. docs/datasets-nt-imagenet.md expl
 class NtImagenetOptions:
     """Which streams, and where their captions come from."""
 
+    input_texts: ClassVar[tuple[str, ...]] = ("model", "sentence_model")
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
     main_options: ClassVar[tuple[str, ...]] = (
         "n_imagenet", "imagenet", "out", "model", "captions", "events", "classes", "class_names",
@@ -281,15 +282,15 @@ def _write(options: NtImagenetOptions, report: Report, root: Path) -> None:
     files.write_captions(out, captioned)
     files.write_report(out, report.facts, report.text)
     is_new = files.write_specification(out, generator=options.generator)
-    sys.stdout.write(report.text)
-    sys.stdout.write(f"{out}: {len(captioned):,} captions in {files.CAPTIONS}\n")
+    write_out(report.text)
+    write_out(f"{out}: {len(captioned):,} captions in {files.CAPTIONS}\n")
     if not is_new:
-        sys.stdout.write(f"{files.SPECIFICATION} was there already and is kept\n")
+        write_out(f"{files.SPECIFICATION} was there already and is kept\n")
 
 
 def _pair(out: Path, events: Path) -> int:
     captioned = files.read_captioned(out / files.CAPTIONS)
     pairs = list_pairs(events, captioned, files.read_streams(out / files.STREAMS))
     files.write_pairs(out, pairs)
-    sys.stdout.write(f"{len(pairs):,} samples beside their streams in {out / files.PAIRS}\n")
+    write_out(f"{len(pairs):,} samples beside their streams in {out / files.PAIRS}\n")
     return 0

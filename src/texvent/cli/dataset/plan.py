@@ -15,6 +15,7 @@ from rich.table import Table
 
 from texvent.cli.dataset.live_table import time_text
 from texvent.cli.estimate import size_text
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
@@ -62,7 +63,7 @@ def run(arguments: Sequence[str]) -> int:
         arguments, {"plan": PlanOptions()}, prog="texvent dataset plan", description=DESCRIPTION
     )
     recipe = Recipe.of(read_specification(options.specification))
-    sys.stdout.write("\n".join(describe_contents(recipe)) + "\n")
+    write_out("\n".join(describe_contents(recipe)) + "\n")
     trial = options.trial
     if trial is None:
         trial = 0 if recipe.stores_videos else DEFAULT_TRIAL
@@ -74,9 +75,9 @@ def run(arguments: Sequence[str]) -> int:
             stages = try_samples(recipe, trial, progress)
         _print_trial(stages, workers)
     else:
-        sys.stdout.write("no trial: give --trial 1 to measure size and time of a sample\n")
+        write_out("no trial: give --trial 1 to measure size and time of a sample\n")
     if recipe.stores_videos:
-        sys.stdout.write(_video_cost(recipe, options.seconds_per_video))
+        write_out(_video_cost(recipe, options.seconds_per_video))
     return 0
 
 
@@ -127,12 +128,10 @@ def _print_trial(stages: Sequence[StageEstimate], workers: int) -> None:
         )
     Console(file=sys.stdout, highlight=False).print(table)
     total = sum(stage.bytes * stage.samples for stage in stages)
-    sys.stdout.write(
-        f"in all   {size_text(total)}, from a trial of {stages[0].tried} samples each\n"
-    )
+    write_out(f"in all   {size_text(total)}, from a trial of {stages[0].tried} samples each\n")
     for stage in stages:
         if stage.made < stage.tried:
-            sys.stdout.write(
+            write_out(
                 f"note     {stage.tried - stage.made} of {stage.tried} samples of {stage.name} "
                 f"would not be there: {'; '.join(stage.reasons)[:150]}\n"
             )

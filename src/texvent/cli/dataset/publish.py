@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.dataset.contents.made_set import MadeSet
@@ -64,7 +64,7 @@ def run(arguments: Sequence[str]) -> int:
     published = publish(MadeSet.open(options.folder), notice, partial=options.partial)
     names = ", ".join(path.name for path in published.files)
     total = published.statistics.total
-    sys.stdout.write(
+    write_out(
         f"{options.folder}: {total.samples:,} samples in {total.shards:,} shards described in "
         f"{names}{f'; {published.missing} shards are missing' if published.missing else ''}\n"
     )

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
@@ -78,5 +78,5 @@ def run(arguments: Sequence[str]) -> int:
     samples = choose_samples(made, choice)
     write_contact_sheet(samples, sheet, overwrite=options.overwrite)
     write_sample_page(made, samples, page, overwrite=options.overwrite)
-    sys.stdout.write(f"{len(samples)} samples of {made.name}: {page}, {sheet}\n")
+    write_out(f"{len(samples)} samples of {made.name}: {page}, {sheet}\n")
     return 0

@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.dataset.contents.made_set import MadeSet
@@ -60,7 +61,7 @@ def run(arguments: Sequence[str]) -> int:
 
         write_statistics_page(made, statistics, options.page, overwrite=options.overwrite)
     if options.json:
-        sys.stdout.write(json.dumps(statistics.tables, indent=1, ensure_ascii=False) + "\n")
+        write_out(json.dumps(statistics.tables, indent=1, ensure_ascii=False) + "\n")
     else:
         _print(made, statistics)
     return 0

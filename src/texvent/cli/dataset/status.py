@@ -13,6 +13,7 @@ from typing import ClassVar
 from rich.console import Console
 
 from texvent.cli.dataset.live_table import status_table
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.dataset.generation.recipe import load_recipe
@@ -47,7 +48,7 @@ def run(arguments: Sequence[str]) -> int:
     stages = read_status(recipe, options.folder)
     if options.json:
         facts = [dataclasses.asdict(stage) for stage in stages]
-        sys.stdout.write(json.dumps(facts, indent=1) + "\n")
+        write_out(json.dumps(facts, indent=1) + "\n")
     else:
         Console(file=sys.stdout, highlight=False).print(status_table(stages))
     is_whole = all(stage.complete == stage.shards and not stage.failed for stage in stages)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import dataclasses
 import json
-import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
@@ -62,9 +62,9 @@ def run(arguments: Sequence[str]) -> int:
     findings = verify(MadeSet.open(options.folder), workers=workers, contents=options.contents)
     if options.json:
         facts = {**dataclasses.asdict(findings), "is_sound": findings.is_sound}
-        sys.stdout.write(json.dumps(facts, indent=1) + "\n")
+        write_out(json.dumps(facts, indent=1) + "\n")
     else:
-        sys.stdout.write("".join(f"{line}\n" for line in _lines(options, findings)))
+        write_out("".join(f"{line}\n" for line in _lines(options, findings)))
     return 0 if findings.is_sound else 1
 
 

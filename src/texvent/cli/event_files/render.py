@@ -29,7 +29,7 @@ DESCRIPTION = """Render an event file as a video (.mp4, .gif), an image (.png), 
 class RenderOptions(EventRangeOptions):
     """Which events, and where the result goes."""
 
-    inputs: ClassVar[tuple[str, ...]] = ("video",)
+    input_texts: ClassVar[tuple[str, ...]] = ("video",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
     main_options: ClassVar[tuple[str, ...]] = (
         "out", "video", "time", "speed", "render_fps", "window", "decay", "panels", "overlay",

@@ -31,7 +31,7 @@ the video on a timeline, a point cloud, the rate.
 class RerunOptions(EventRangeOptions):
     """Which events, and how they are shown."""
 
-    inputs: ClassVar[tuple[str, ...]] = ("video",)
+    input_texts: ClassVar[tuple[str, ...]] = ("video",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
 
     out: Path | None = None

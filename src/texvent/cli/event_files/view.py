@@ -32,7 +32,7 @@ region to select, the event rate and the source video.
 class ViewOptions(EventRangeOptions):
     """Which events, and how the page is made."""
 
-    inputs: ClassVar[tuple[str, ...]] = ("video",)
+    input_texts: ClassVar[tuple[str, ...]] = ("video",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
 
     out: Path | None = None

@@ -43,7 +43,7 @@ goes on where it was stopped.
 class BatchOptions(UpsampleConfig):
     """What to make, and how many at once."""
 
-    inputs: ClassVar[tuple[str, ...]] = ("sources", "generator")
+    input_texts: ClassVar[tuple[str, ...]] = ("sources", "generator")
     positional: ClassVar[tuple[str, ...]] = ("sources",)
     main_options: ClassVar[tuple[str, ...]] = (
         "jobs", "out", "generator", "duration", "fps", "sensor", "simulator", "preset", "seed",

@@ -37,7 +37,7 @@ good the fit is. The result is a config file.
 class CalibrateOptions:
     """Which recording, and where the result goes."""
 
-    inputs: ClassVar[tuple[str, ...]] = ("frames",)
+    input_texts: ClassVar[tuple[str, ...]] = ("frames",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
     main_options: ClassVar[tuple[str, ...]] = (
         "frames", "events", "out", "sensor", "start_preset", "frames_gamma", "seconds", "start",

@@ -28,7 +28,7 @@ transformers), one line each. The result of -o is a file for texvent batch:
 class CaptionOptions:
     """Which images, which model, what to ask."""
 
-    inputs: ClassVar[tuple[str, ...]] = ("model",)
+    input_texts: ClassVar[tuple[str, ...]] = ("model",)
     positional: ClassVar[tuple[str, ...]] = ("images",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
 

@@ -36,7 +36,7 @@ VIDEO_EXTENSION = ".avi"
 class PromptOptions(UpsampleConfig):
     """What to show."""
 
-    inputs: ClassVar[tuple[str, ...]] = ("generator",)
+    input_texts: ClassVar[tuple[str, ...]] = ("generator",)
     positional: ClassVar[tuple[str, ...]] = ("prompt",)
     main_options: ClassVar[tuple[str, ...]] = (
         "out", "generator", "duration", "fps", "sensor", "simulator", "preset",

@@ -21,7 +21,7 @@ DESCRIPTION = """Turn a video into the events that an event camera would have re
 class VideoOptions:
     """Which frames."""
 
-    inputs: ClassVar[tuple[str, ...]] = ("source",)
+    input_texts: ClassVar[tuple[str, ...]] = ("source",)
     positional: ClassVar[tuple[str, ...]] = ("source",)
     main_options: ClassVar[tuple[str, ...]] = (
         "out", "sensor", "simulator", "preset", "contrast_threshold", "noise", "interpolate",
