@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 import os
 import shutil
+import sys
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,6 +16,10 @@ import pytest
 if shutil.which("nvidia-smi") is None:
     # Triton looks when it is first imported, and other packages may import it first.
     os.environ.setdefault("TRITON_INTERPRET", "1")
+
+# The stand-in for NVIDIA's guardrail must be importable before any test imports diffusers, which
+# looks for it once.
+sys.path.insert(0, str(Path(__file__).parent / "generate" / "stand_ins"))
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 DRIVER = shutil.which("chromedriver")

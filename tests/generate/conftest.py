@@ -1,12 +1,6 @@
 """What the tests of learned generators share; diffusers is imported only by those that need it."""
 
-import sys
-from pathlib import Path
-
 import pytest
-
-# The stand-in for NVIDIA's guardrail must be importable before any test imports diffusers.
-sys.path.insert(0, str(Path(__file__).parent / "stand_ins"))
 
 
 @pytest.fixture(scope="session")
