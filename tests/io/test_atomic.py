@@ -173,3 +173,12 @@ def test_only_what_this_process_put_in_place_is_noted(tmp_path: Path) -> None:
             pass
         (tmp_path / "c").write_text("of another run")
     assert completed == [tmp_path / "a"]
+
+
+def test_the_inner_of_two_lists_is_closed_not_the_outer(tmp_path: Path) -> None:
+    with noting_completed() as outer:
+        with noting_completed() as inner:
+            pass
+        with atomic_file(tmp_path / "a", overwrite=False) as part:
+            part.write_text("mine")
+    assert (outer, inner) == ([tmp_path / "a"], [])

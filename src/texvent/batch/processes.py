@@ -75,7 +75,7 @@ def _start_process(threads: int) -> None:
 
 
 def _end_with_parent() -> None:
-    """Without a parent nobody waits for the result, and the queue of tasks never ends."""
+    """End with the parent: without it the queue of tasks never ends."""
     parent = multiprocessing.parent_process()
     if parent is not None:
         wait([parent.sentinel])

@@ -32,7 +32,8 @@ def noting_completed() -> Iterator[list[Path]]:
     try:
         yield completed
     finally:
-        _completed.remove(completed)
+        # By identity: two empty lists are equal.
+        _completed[:] = [one for one in _completed if one is not completed]
 
 
 def _note(target: Path) -> None:

@@ -86,18 +86,8 @@ def score_retrieval(
         >>> report.measured.recall[1], report.measured.median_rank, report.chance.recall[1]
         (1.0, 1.0, 0.5)
     """
-    similarity = np.asarray(similarity)
-    if similarity.ndim != 2 or 0 in similarity.shape:
-        raise InputError(f"similarity has shape {similarity.shape}; it must be [recordings, texts]")
-    if not np.isfinite(similarity).all():
-        raise InputError("similarity holds NaN or infinity; the model's weights may be damaged")
+    similarity, targets = _checked(similarity, own)
     count, texts = similarity.shape
-    targets = np.arange(count) if own is None else np.asarray(own)
-    if targets.shape != (count,) or targets.min() < 0 or targets.max() >= texts:
-        raise InputError(
-            f"own texts are {targets.shape} numbers up to {targets.max(initial=-1)}; there are "
-            f"{count} recordings and {texts} texts"
-        )
     chance = np.random.default_rng(seed)
     places = _Places.of(similarity, targets)
     samples = chance.integers(count, size=(resamples, count))
@@ -135,6 +125,25 @@ def score_retrieval(
         within=within[0],
         p_within=within[1],
     )
+
+
+def _checked(
+    similarity: NDArray[Any], own: NDArray[Any] | None
+) -> tuple[NDArray[Any], NDArray[Any]]:
+    """The matrix, and the number of the text of each recording; errors as `score_retrieval`."""
+    similarity = np.asarray(similarity)
+    if similarity.ndim != 2 or 0 in similarity.shape:
+        raise InputError(f"similarity has shape {similarity.shape}; it must be [recordings, texts]")
+    if not np.isfinite(similarity).all():
+        raise InputError("similarity holds NaN or infinity; the model's weights may be damaged")
+    count, texts = similarity.shape
+    targets = np.arange(count) if own is None else np.asarray(own)
+    if targets.shape != (count,) or targets.min() < 0 or targets.max() >= texts:
+        raise InputError(
+            f"own texts are {targets.shape} numbers up to {targets.max(initial=-1)}; there are "
+            f"{count} recordings and {texts} texts"
+        )
+    return similarity, targets
 
 
 def _permuted(groups: NDArray[Any], chance: np.random.Generator) -> NDArray[np.int64]:
