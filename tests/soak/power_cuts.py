@@ -23,12 +23,21 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from tests.soak.kills import COMMAND, RUNS, contents, judge, make_inputs, names, run_whole
+from tests.soak.kills import (
+    COMMAND,
+    RUNS,
+    contents,
+    judge,
+    make_inputs,
+    names,
+    repeat,
+    run_undisturbed,
+    run_whole,
+)
 
 DISK_BYTES = 256 * 2**20
 SHUTDOWN = 0x8004587D
@@ -120,7 +129,7 @@ def main() -> int:
     parser.add_argument("--cuts", type=int, default=60)
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args()
-    chance, rounds, failed = random.Random(options.seed), Counter[str](), Counter[str]()
+    chance = random.Random(options.seed)
     with tempfile.TemporaryDirectory(prefix="texvent-cuts-") as name:
         scratch = Path(name)
         image, place = scratch / "disk.ext4", scratch / "disk"
@@ -128,27 +137,16 @@ def main() -> int:
             file.truncate(DISK_BYTES)
         system("mkfs.ext4", "-q", image)
         place.mkdir()
-        wanted, seconds = {}, {}
         with disk(image, place):
             make_inputs(place / "in")
-            for kind, words in RUNS.items():
-                (place / "out").mkdir()
-                seconds[kind] = run_whole(words, place)
-                wanted[kind] = scratch / "wanted" / kind
-                shutil.move(place / "out", wanted[kind])
-        for number in range(options.cuts):
-            kind = list(RUNS)[number % len(RUNS)]
+            wanted, seconds = run_undisturbed(place, scratch / "wanted")
+
+        def cut(kind: str) -> str:
             is_new = kind.startswith("batch") or chance.random() < 0.5
             after_s = chance.uniform(0.3, 1.2) * seconds[kind]
-            rounds[kind] += 1
-            fault = attack(kind, image, place, wanted[kind], after_s, is_new)
-            if fault:
-                failed[kind] += 1
-                sys.stdout.write(f"{kind}, round {number}: {fault}\n")
-                sys.stdout.flush()
-    for kind, count in rounds.items():
-        sys.stdout.write(f"{kind:14} {count:4} cuts, {failed[kind]} failed\n")
-    return 1 if failed else 0
+            return attack(kind, image, place, wanted[kind], after_s, is_new)
+
+        return repeat(options.cuts, "cuts", cut)
 
 
 if __name__ == "__main__":

@@ -56,7 +56,7 @@ def publish(made: MadeSet, notice: Notice, *, partial: bool = False) -> Publishe
             "give that with --notes"
         )
     if not notice.license_of(made):
-        warn("no licence is stated, so nobody may use the data set; state one with --license")
+        warn("no licence is stated, so others may not use the data set; state one with --license")
     index = write_index(made)
     text = {
         card: card_text(made, statistics, notice, missing=len(missing)),
