@@ -1,4 +1,4 @@
-"""A browser, a moving texture; Triton's interpreter where there is no GPU."""
+"""A browser, a moving texture; Triton's interpreter where there is no GPU; untimed properties."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, settings
 
 if shutil.which("nvidia-smi") is None:
     # Triton looks when it is first imported, and other packages may import it first.
@@ -20,6 +21,10 @@ if shutil.which("nvidia-smi") is None:
 # The stand-in for NVIDIA's guardrail must be importable before any test imports diffusers, which
 # looks for it once.
 sys.path.insert(0, str(Path(__file__).parent / "generate" / "stand_ins"))
+
+# The first example may compile a kernel, and machines are busy: no property is held to a time.
+settings.register_profile("untimed", deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.load_profile("untimed")
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 DRIVER = shutil.which("chromedriver")

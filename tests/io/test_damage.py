@@ -42,7 +42,7 @@ def _load_or_refuse(path: Path) -> EventStream | None:
     return None
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
+@settings(max_examples=60, derandomize=True)
 @given(share=st.floats(0.0, 1.0, exclude_max=True))
 def test_a_truncated_file_is_refused(sound: Path, share: float) -> None:
     content = sound.read_bytes()
@@ -59,7 +59,7 @@ def test_another_start_time_than_the_one_written_is_refused(tmp_path: Path) -> N
         load(path)
 
 
-@settings(max_examples=120, deadline=None, derandomize=True)
+@settings(max_examples=120, derandomize=True)
 @given(share=st.floats(0.0, 1.0, exclude_max=True), flip=st.integers(1, 255))
 def test_a_flipped_byte_is_refused_or_harmless(sound: Path, share: float, flip: int) -> None:
     content = bytearray(sound.read_bytes())

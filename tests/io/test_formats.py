@@ -211,7 +211,7 @@ def test_an_empty_or_foreign_file_is_an_input_error_of_one_line(
         assert "\n" not in str(caught.value)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(
     rows=st.lists(
         st.tuples(

@@ -163,7 +163,7 @@ def test_extensions_are_read_in_any_case(tmp_path: Path) -> None:
     assert codec_for(tmp_path / "EVENTS.H5").name == "hdf5"
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(
     rows=st.lists(
         st.tuples(st.integers(0, 9), st.integers(0, 6), st.integers(0, 3_000_000), st.booleans()),

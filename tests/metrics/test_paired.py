@@ -157,7 +157,7 @@ def test_van_rossum_agrees_with_sampled_traces():
 
 @pytest.mark.parametrize("name", EVERY_METRIC)
 @given(a=streams(), b=streams())
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=12)
 def test_values_are_symmetric_and_in_range_or_undefined(name, a, b):
     metric = describe_metrics()[name]
     value, mirrored = metric(a, b), metric(b, a)
@@ -171,7 +171,7 @@ def test_values_are_symmetric_and_in_range_or_undefined(name, a, b):
 
 @pytest.mark.parametrize("name", EVERY_METRIC)
 @given(a=streams(least=1))
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=8)
 def test_a_stream_scores_best_against_itself(name, a):
     metric = describe_metrics()[name]
     best = {"lower": metric.range[0], "higher": metric.range[1], "one": 1.0}[metric.better]

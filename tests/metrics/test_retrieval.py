@@ -90,7 +90,7 @@ def test_exchanged_texts_come_out_at_chance_and_the_p_value_tells_pairs_from_non
 
 
 @given(matrices())
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_perfect_pairs_give_one(matrix: NDArray[np.float64]) -> None:
     report = score(matrix + 3.0 * np.eye(len(matrix)))
     assert set(report.measured.recall.values()) == {1.0}
@@ -100,7 +100,7 @@ def test_perfect_pairs_give_one(matrix: NDArray[np.float64]) -> None:
 
 
 @given(matrices())
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_all_cyclic_exchanges_together_are_exactly_chance(matrix: NDArray[np.float64]) -> None:
     side = len(matrix)
     chance = score(matrix).chance
@@ -113,7 +113,7 @@ def test_all_cyclic_exchanges_together_are_exactly_chance(matrix: NDArray[np.flo
 
 
 @given(matrices(), st.integers(0, 1000))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_the_order_of_pairs_and_the_scale_do_not_matter(
     matrix: NDArray[np.float64], seed: int
 ) -> None:
@@ -126,7 +126,6 @@ def test_the_order_of_pairs_and_the_scale_do_not_matter(
 
 
 @given(st.integers(1, 30))
-@settings(deadline=None)
 def test_a_model_that_sees_no_difference_is_at_chance(side: int) -> None:
     report = score(np.full((side, side), 0.25))
     assert close(report.measured, report.chance)

@@ -113,7 +113,7 @@ def test_time_may_start_at_the_first_event() -> None:
     assert len(start_at_zero(EventPackets([], SIZE)).collect()) == 0
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     parts=st.lists(st.tuples(ROWS, st.integers(0, 40), st.integers(0, 40)), min_size=1, max_size=4)
 )

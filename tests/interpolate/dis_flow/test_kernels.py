@@ -114,7 +114,7 @@ def test_refining_leaves_a_perfect_flow_and_mends_most_of_a_vector_that_is_not(k
     assert abs(kernels.refine(start, stop, flow)[0, 12, 16] - 1.0) < 0.8
 
 
-@settings(deadline=None, max_examples=6)
+@settings(max_examples=6)
 @given(
     st.sampled_from([(8, 8), (9, 8), (24, 33), (30, 21)]),
     st.floats(0, 40),

@@ -51,7 +51,7 @@ def test_plain_h5py_finds_the_universal_layout(tmp_path: Path, stream: EventStre
         assert file.attrs["timestamp_scale_ms"] == 0.001
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(times=st.lists(st.integers(0, 12_000), max_size=25))
 def test_ms_to_idx_follows_its_definition(
     tmp_path_factory: pytest.TempPathFactory, times: list[int]

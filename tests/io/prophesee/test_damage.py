@@ -53,7 +53,7 @@ def test_a_file_cut_at_any_byte_is_refused_or_holds_the_first_events(
     assert refused > len(content) // 3
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(share=st.floats(0.0, 1.0, exclude_max=True))
 def test_a_truncated_hdf5_file_is_refused(
     tmp_path_factory: pytest.TempPathFactory, share: float
@@ -67,7 +67,7 @@ def test_a_truncated_hdf5_file_is_refused(
     assert "\n" not in str(caught.value)
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(
     flips=st.lists(
         st.tuples(st.floats(0.0, 1.0, exclude_max=True), st.integers(1, 255)),
@@ -89,7 +89,7 @@ def test_flipped_bytes_are_refused_or_give_valid_events(
 
 
 @pytest.mark.parametrize("format", WORD_FORMATS)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(noise=st.binary(max_size=200))
 def test_random_bytes_after_a_sound_header_are_refused_or_give_valid_events(
     tmp_path_factory: pytest.TempPathFactory, format: str, noise: bytes

@@ -75,13 +75,13 @@ def test_a_chunk_of_pairs_worked_out_by_hand() -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(events=events_lists)
 def test_every_legal_body_is_read(kind: str, events: list[Event]) -> None:
     assert events_in(make_chunk(events, kind)) == events
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(events=events_lists)
 def test_what_is_written_is_the_packed_body(events: list[Event]) -> None:
     chunk = ecf_chunks.encode_chunk(columns_of(events))
@@ -136,7 +136,7 @@ def test_absurd_numbers_are_refused(chunk: bytes) -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(data=st.data())
 def test_flipped_bytes_are_refused_or_give_some_events(kind: str, data: st.DataObject) -> None:
     events = [(8 + i % 7, 9 + i // 20, 5 + 40 * i, i // 9 % 2) for i in range(60)]

@@ -44,7 +44,7 @@ def test_one_event_has_two_entries() -> None:
     assert build([7]) == [(0, -1), (0, 0)]
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.lists(st.integers(0, 30_000), max_size=25), st.integers(0, 25))
 def test_the_index_follows_its_definition_however_packets_are_cut(
     times: list[int], cut: int

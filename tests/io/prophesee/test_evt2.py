@@ -65,7 +65,7 @@ def test_a_small_fall_of_time_is_damage_not_a_wrap(tmp_path: Path) -> None:
         load(path)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(
     st.lists(
         st.one_of(

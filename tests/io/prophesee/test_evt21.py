@@ -85,7 +85,7 @@ def test_the_header_states_the_order_of_halves_twice(tmp_path: Path) -> None:
     assert b"% format EVT21;endianness=legacy;height=720;width=1280" in lines
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(
     st.lists(
         st.one_of(

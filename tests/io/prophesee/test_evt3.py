@@ -96,7 +96,7 @@ def test_twelve_days_of_silence_cost_less_than_half_a_megabyte(tmp_path: Path) -
     assert load(path).t.tolist() == [0, 2**40]
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(
     st.lists(
         st.one_of(

@@ -64,7 +64,7 @@ def test_packet_sizes_do_not_change_the_file(tmp_path: Path, format: str) -> Non
     assert files[0].read_bytes() == files[1].read_bytes()
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(
     rows=st.lists(
         st.tuples(

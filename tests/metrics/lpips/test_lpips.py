@@ -56,7 +56,7 @@ def test_rows_in_blocks_give_the_same_distance(monkeypatch):
 
 
 @given(seed=st.integers(0, 100))
-@settings(max_examples=5, deadline=None)
+@settings(max_examples=5)
 def test_the_distance_is_symmetric_and_zero_for_equal_images(seed):
     a, b = images(seed, 31, 33)
     assert lpips_distance(a, a, WEIGHTS) == 0.0

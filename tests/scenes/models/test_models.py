@@ -224,7 +224,7 @@ def test_seeds_vary_the_looks() -> None:
 
 
 @given(radius=st.floats(0.05, 2.0), start=st.floats(0.0, 500.0))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 def test_a_wheel_does_not_slip(radius: float, start: float) -> None:
     wheel = Wheel((0.4, 0.2, radius), radius, 0.1)
     # The point of the tyre that touches the ground now stands still in the world.

@@ -82,7 +82,7 @@ def test_the_kernel_equals_the_reference_on_random_rays(shape: Shape) -> None:
     origin=st.tuples(*[st.floats(-5, 5)] * 3),
     direction=st.tuples(*[st.floats(-2, 2)] * 3),
 )
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 def test_what_is_hit_lies_on_the_surface_and_faces_the_ray(
     shape: Shape, origin: tuple[float, float, float], direction: tuple[float, float, float]
 ) -> None:

@@ -22,7 +22,7 @@ FOOTPRINTS = st.floats(0.01, 5.0)
 
 
 @given(x=PLACES, footprint=FOOTPRINTS)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_a_square_wave_is_the_average_over_the_footprint(x: float, footprint: float) -> None:
     points = x + footprint * ((np.arange(20_000) + 0.5) / 20_000 - 0.5)
     expected = np.mean(points - np.floor(points) < 0.5)
@@ -30,7 +30,7 @@ def test_a_square_wave_is_the_average_over_the_footprint(x: float, footprint: fl
 
 
 @given(x=PLACES, footprint=FOOTPRINTS, low=PLACES, width=st.floats(0.0, 10.0))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_a_band_is_the_share_of_the_footprint_inside(
     x: float, footprint: float, low: float, width: float
 ) -> None:
@@ -48,7 +48,7 @@ def test_a_pattern_is_shown_whole_when_large_and_not_at_all_below_two_pixels_a_p
 
 
 @given(x=PLACES, y=PLACES, z=PLACES)
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 def test_noise_is_bounded_and_continuous(x: float, y: float, z: float) -> None:
     for value, near in (
         (noise_2d(x, y, 3), noise_2d(x + 1e-4, y - 1e-4, 3)),
@@ -69,7 +69,7 @@ def test_noise_varies_and_has_no_bias() -> None:
         st.tuples(*[st.integers(-3, 9)] * 2, *[st.integers(-3, 7)] * 2), max_size=12
     )
 )
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 def test_every_cell_lists_the_rectangles_that_touch_it_in_order(
     rectangles: list[tuple[int, int, int, int]],
 ) -> None:

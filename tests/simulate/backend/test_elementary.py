@@ -49,7 +49,7 @@ def _all_compiled(x, turns):
     return log, exponential, decay, gain, elementary_cpu.cosine_of_turns(turns)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(st.floats(1e-25, 1e9), st.floats(0, 1, exclude_max=True))
 def test_numpy_and_numba_give_equal_bits(x, turns):
     one, turn = np.array([x]), np.array([turns])

@@ -71,7 +71,7 @@ def test_a_rest_keeps_or_loses_the_levels_it_swallows(backend, is_level_lost, st
     assert fired.tolist() == [761] + [NEVER] * 23
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(changes, changes, thresholds, thresholds, rests, st.sampled_from([1, 2, 1000, 41_667]))
 def test_backends_agree_and_crossings_are_sound(start, stop, on, off, rest, duration):
     # Every other pixel of a sensor of twice as many.

@@ -56,7 +56,7 @@ def esim_of_every_pixel(frames, config, seed) -> list[tuple[int, int, int]]:
     return sorted(events)
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(
     DTYPES,
     st.integers(0, 2**32),
@@ -96,7 +96,7 @@ def senpi_of_every_pixel(frames, config, seed) -> list[tuple[int, int, int]]:
     return events
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     DTYPES,
     st.integers(0, 2**32),

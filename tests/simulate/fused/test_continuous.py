@@ -59,7 +59,7 @@ def test_a_blend_is_straight_in_intensity_not_in_brightness():
     np.testing.assert_allclose(events.t / 100_000, exact, atol=0.02)
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=12)
 @given(st.integers(0, 2**32), st.sampled_from(["flow", "blend"]))
 def test_at_the_instants_of_the_frames_it_gives_the_events_of_the_frames(seed, interpolate):
     rng = np.random.default_rng(seed)

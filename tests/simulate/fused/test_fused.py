@@ -170,7 +170,7 @@ def test_one_frame_alone_gives_one_empty_packet():
     assert assert_equal(panning(1)) == 0
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(st.integers(0, 2**32), st.sampled_from(["texvent", "esim"]), st.floats(0, 40))
 def test_any_frames_give_the_same_events(seed, simulator, spread):
     rng = np.random.default_rng(seed)

@@ -26,7 +26,7 @@ def by_pixel(unordered: UnsortedEvents) -> UnsortedEvents:
     return UnsortedEvents(*(column[order] for column in unordered))
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(
     st.integers(0, 2**32),
     st.sampled_from([0, 1, 5, 700, 9000]),

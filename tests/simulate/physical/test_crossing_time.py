@@ -72,7 +72,7 @@ CURVES = st.builds(
 )
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(CURVES, st.floats(0.05, 0.6))
 @example(curve_of(0.0, 1e-6, 1e-8, 1e-4, 1e6), 0.05)
 def test_backends_agree_and_find_the_first_crossing(curve, on):

@@ -162,7 +162,7 @@ CONFIGS = st.builds(
 )
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(CONFIGS, st.integers(0, 2**63 - 1), st.integers(0, 99))
 def test_backends_agree_and_packets_are_sound_for_any_options(config, seed, scene):
     frames = moving_texture(5, (4, 6), step_us=41_667, seed=scene)
@@ -189,7 +189,7 @@ def events_of_pixels(events) -> list:
     ]
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.integers(0, 2**32))
 def test_inverted_contrast_swaps_on_and_off(scene):
     logs = np.random.default_rng(scene).uniform(-1, 1, (5, 3, 4))

@@ -107,7 +107,7 @@ def _numba_draw(key, y, x, draw):
     return draw_word(key, y, x, draw), draw_uniform(key, y, x, draw)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(SEEDS, st.integers(-(2**62), 2**62), COORDINATES, COORDINATES, st.integers(0, 2**32 - 1))
 def test_numpy_and_numba_draw_equal_bits(seed, frame, y, x, draw):
     key = frame_key(seed, frame)

@@ -81,7 +81,7 @@ def test_two_streams_of_one_sensor_are_independent():
     assert abs(np.corrcoef(*maps)[0, 1]) < 4 / math.sqrt(3000)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(
     st.integers(0, 2**63 - 1),
     st.tuples(st.integers(1, 9), st.integers(1, 9)),

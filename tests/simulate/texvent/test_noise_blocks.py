@@ -12,7 +12,7 @@ from texvent.simulate.texvent.kernels.scan import NOISE_BLOCK
 from texvent.simulate.texvent.noise import poisson_cumulative
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     st.integers(0, 2**63 - 1),
     st.sampled_from([1, 7, 4095, 4096, 4097, 20_000]),

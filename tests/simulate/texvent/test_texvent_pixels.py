@@ -70,7 +70,7 @@ def assert_backends_agree(frames, **options) -> EventStream:
     return expected
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(
     clips(),
     st.sampled_from(OPTIONS),
@@ -96,7 +96,7 @@ def test_pixels_at_the_threshold_itself_fire_on_every_backend(low, high, dtype):
     assert counts == [81, 81, 0]
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(
     st.floats(0, 2.0**29, width=32),
     st.sampled_from([1e-4, 0.2, 10.0]),

@@ -20,7 +20,7 @@ from texvent.events import EventStream
 from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.video import Frame
 
-CHECKED = settings(max_examples=60, deadline=None)
+CHECKED = settings(max_examples=60)
 NOISY = {"noise_rate_hz": 50.0, "noise_intensity": 150.0}
 
 
@@ -143,7 +143,7 @@ def rows(events: EventStream) -> list[tuple[int, int, int, int]]:
     )
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(clips(), st.sampled_from([one for one in SWITCHES if one["timestamp_rule"] != "random"]))
 def test_events_are_those_of_the_naive_simulator(frames, options):
     config = TexventConfig(noise="none", **options)
@@ -151,7 +151,7 @@ def test_events_are_those_of_the_naive_simulator(frames, options):
     assert rows(events) == naive_events(frames, config)
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(clips(), switches, noises, seeds)
 def test_cpu_equals_the_reference_exactly(frames, options, noise, seed):
     both = [

@@ -20,7 +20,7 @@ from texvent.simulate.v2ce.ldati import (
     voxel_to_events,
 )
 
-CHECKED = settings(max_examples=60, deadline=None)
+CHECKED = settings(max_examples=60)
 NINTH_US = 1_000_000
 """Sub-interval of ten nodes over nine seconds."""
 WHOLE_US = 9 * NINTH_US

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.events import EventStream
@@ -62,7 +62,6 @@ def test_the_seed_decides_the_sample() -> None:
     assert not drawn(0).equals(drawn(1))
 
 
-@settings(deadline=None)
 @given(
     gaps=st.lists(st.integers(0, 200_000), min_size=1, max_size=40),
     start_us=st.integers(0, 10**15),

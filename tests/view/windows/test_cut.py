@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.errors import ConfigError
@@ -52,7 +52,6 @@ def test_windows_may_overlap_or_leave_gaps() -> None:
     assert [n for *_, n in counted(events, Fraction(10), 1)] == [1, 1, 1]
 
 
-@settings(deadline=None)
 @given(
     times=st.lists(st.integers(0, 3000), min_size=1, max_size=40).map(sorted),
     cut=st.integers(0, 40),
