@@ -26,7 +26,7 @@ from texvent.runtime.console_progress import ConsoleProgress
 from texvent.runtime.threads import THREADS_VARIABLE, count_threads
 
 HOUR_S = 3600.0
-DEFAULT_TRIAL = 3
+DEFAULT_TRIAL = 8
 DESCRIPTION = """Check a specification and say what it gives: prompts, clips, splits, classes, and
 from a trial of a few samples the size and the time. Nothing is kept.
 
@@ -44,7 +44,7 @@ class PlanOptions:
     specification: Path = REQUIRED
     """The specification: TOML or YAML."""
     trial: int | None = None
-    """Clips that are made to measure time and size; 0: none. Default: 3, and none where a learned
+    """Clips that are made to measure time and size; 0: none. Default: 8, and none where a learned
     model would have to make their videos."""
     workers: int | None = None
     """Processes that will share this machine's cores; default: one per core."""

@@ -12,10 +12,11 @@ from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
 from texvent.dataset.generation.records import FAILED, MADE, ShardRecord
 from texvent.dataset.generation.tar_shard import size_in_tar
 from texvent.errors import TexventError
+from texvent.runtime.background_jit import wait_until_idle
 from texvent.runtime.progress import Progress
 
-LIMIT_S = 60.0
-"""A stage is tried no longer than this, but for the sample at hand."""
+LIMIT_S = 30.0
+"""Each of the two rounds of a stage takes no longer than this, but for the sample at hand."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,7 @@ class StageEstimate:
 def try_samples(recipe: Recipe, clips: int, progress: Progress) -> list[StageEstimate]:
     """Make a few clips in every variant, in a folder that is removed.
 
-    The first clip is made once more beforehand, so that compiling is not counted. A stage of slow
+    All are made twice, and the second time counts, when every kernel is compiled. A stage of slow
     samples is tried with fewer of them.
 
     Args:
@@ -56,21 +57,24 @@ def try_samples(recipe: Recipe, clips: int, progress: Progress) -> list[StageEst
     """
     # One clip per shard, so that any can be had.
     single = Recipe(dataclasses.replace(recipe.specification, samples_per_shard=1), recipe.items)
-    numbers = _spread(single, clips)
+    places = _spread(single, clips)
     stages = [*([VIDEOS] if recipe.stores_videos else []), *recipe.variants]
-    total = len(stages) * (len(numbers) + 1)
     results: list[StageEstimate] = []
     with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
         for stage in stages:
-            seeds = 1 if stage == VIDEOS else recipe.variants[stage].seeds
             records: list[ShardRecord] = []
-            for split, number in [*numbers[:1], *numbers]:
-                records.append(make_shard(single, folder, Shard(stage, split, number)))
-                progress.advance("trial", len(results) * (len(numbers) + 1) + len(records), total)
-                if sum(record.seconds for record in records) > LIMIT_S:
-                    break
-            results.append(_estimate(recipe, stage, seeds, records[1:] or records))
+            for again in range(2):
+                wait_until_idle()
+                done = (2 * len(results) + again) * len(places)
+                shards = [Shard(stage, *place) for place in places[: len(records) or None]]
+                records = []
+                for shard in shards:
+                    records.append(make_shard(single, Path(name), shard))
+                    progress.advance("trial", done + len(records), 2 * len(stages) * len(places))
+                    if sum(record.seconds for record in records) > LIMIT_S:
+                        break
+            seeds = 1 if stage == VIDEOS else recipe.variants[stage].seeds
+            results.append(_estimate(recipe, stage, seeds, records))
     return results
 
 
