@@ -1,6 +1,6 @@
 """How a data set's making scales: one and two workers measured, a thousand simulated.
 
-    python -m benchmarks.dataset_scale [--samples 400] [--repeats 3] [--queue 2000] [--json FILE]
+    python -m benchmarks.dataset_scale [--samples 1000] [--repeats 7] [--queue 2000] [--json FILE]
 
 Tiny clips are simulated, 20 samples a shard. Processes and Ray (extra `ray`; a cluster for this
 run) make them with one worker and with two, in turn, after shards that are not counted; the ratio
@@ -9,8 +9,9 @@ for 1,000 CPUs: what the driver's own thread computes for a shard, from submissi
 is its price, and so is what it keeps in memory for a sample.
 
 From these and the measured times of shards follows the schedule of 1,000 workers: the driver hands
-out one shard after the other, each worker has two, and a shard takes as long as a measured one,
-times a factor. How busy the workers are says where the driver's limit lies.
+out one shard after the other, two per worker are at the cluster, a free worker takes the next, and
+a shard takes as long as a measured one, times a factor. How busy the workers are says where the
+driver's limit lies; at the end, some wait for the last shards.
 """
 
 from __future__ import annotations
@@ -96,7 +97,8 @@ def measure_rates(
                     work, took, _ = make(recipe, engine)
                 rates.setdefault(f"{name}, {workers}", []).append(samples / took)
                 if workers == 1:
-                    seconds += [record.seconds for record in work.complete.values()]
+                    # The first may have started its process, which no shard does again.
+                    seconds += [shard.seconds for shard in work.complete.values()][1:]
     return rates, seconds
 
 
@@ -134,7 +136,7 @@ def measure_folder(folder: Path, samples: int) -> dict[str, float]:
         work = find_work(recipe, out)
         kept, _ = tracemalloc.get_traced_memory()
         tracemalloc.stop()
-    count = sum(len(record.samples) for record in work.complete.values())
+    count = sum(record.samples for record in work.complete.values())
     return {"status_us": 1e6 * status / count, "kept_bytes": kept / count}
 
 
@@ -151,32 +153,25 @@ def simulate_schedule(
         seed: of the draws.
     """
     draw, clock, busy = random.Random(seed), 0.0, 0.0
-    free_at = [0.0] * workers  # when each has done all that it was given
-    returns: list[tuple[float, int]] = []  # when a shard is done, and by whom
-    given = 0
-    for turn in range(AHEAD * workers + shards):
-        if turn < AHEAD * workers:
-            worker = turn % workers
-        else:
-            done, worker = heapq.heappop(returns)
-            clock = max(clock, done)
-        if given < shards:
-            clock += driver_s
-            length = draw.choice(seconds)
-            free_at[worker] = max(free_at[worker], clock) + length
-            heapq.heappush(returns, (free_at[worker], worker))
-            busy += length
-            given += 1
-        if not returns:
-            break
+    free_at = [0.0] * workers
+    returns: list[float] = []
+    for number in range(shards):
+        if number >= AHEAD * workers:
+            clock = max(clock, heapq.heappop(returns))
+        clock += driver_s
+        length = draw.choice(seconds)
+        end = max(clock, heapq.heappop(free_at)) + length
+        heapq.heappush(free_at, end)
+        heapq.heappush(returns, end)
+        busy += length
     return busy / (workers * max(free_at))
 
 
 def main() -> None:
     """Measure, simulate and print."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("--samples", type=int, default=400)
-    parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--samples", type=int, default=1000)
+    parser.add_argument("--repeats", type=int, default=7)
     parser.add_argument("--queue", type=int, default=AHEAD * WORKERS)
     parser.add_argument("--json", type=Path)
     options = parser.parse_args()
@@ -189,12 +184,16 @@ def main() -> None:
     print(f"{result['cores']} cores, load {result['load']:.1f}")
     for engine in ("processes", "Ray"):
         pairs = zip(rates[f"{engine}, 1"], rates[f"{engine}, 2"], strict=True)
-        ratio = statistics.median(two / one for one, two in pairs)
-        result[f"ratio {engine}"] = ratio
+        low, ratio, high = statistics.quantiles([two / one for one, two in pairs], n=4)
+        result[f"ratio {engine}"] = [low, ratio, high]
         one, two = (result["rates"][f"{engine}, {workers}"] for workers in (1, 2))
         print(
-            f"{engine:10} {one:7.0f} and {two:7.0f} samples/s with 1 and 2 workers: {ratio:.2f} ×"
+            f"{engine:10} {one:7.0f} and {two:7.0f} samples/s with 1 and 2 workers: {ratio:.2f} × "
+            f"({low:.2f} to {high:.2f})"
         )
+    low, high = min(seconds) / statistics.mean(seconds), max(seconds) / statistics.mean(seconds)
+    print(f"shards     took {low:.2f} to {high:.2f} times their mean")
+    result["shard_times"] = [low, high]
     driver_s = result["driver_ms"] / 1e3
     print(
         f"driver     {result['driver_ms']:.2f} ms per shard, {options.queue} in its queue; "

@@ -233,6 +233,12 @@ RECONSTRUCTORS = Registry(
         "et-net": "texvent.reconstruct.networks:ET_NET",
     },
 )
+TASKS = Registry(
+    "task",
+    {
+        "classification": "texvent.train.classification.config:ClassificationConfig",
+    },
+)
 REGISTRIES = {
     registry.kind: registry
     for registry in (
@@ -243,5 +249,6 @@ REGISTRIES = {
         METRICS,
         REPRESENTATIONS,
         RECONSTRUCTORS,
+        TASKS,
     )
 }

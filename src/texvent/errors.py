@@ -18,6 +18,7 @@ A `TexventWarning` says that a result is there but is hardly what was meant.
 from __future__ import annotations
 
 import contextlib
+import re
 import reprlib
 import sys
 import warnings
@@ -32,6 +33,8 @@ MAX_WORD = 40
 """Characters of each."""
 MAX_REASON = 120
 """Characters of what a library says."""
+HIDDEN = re.compile(r"[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
+"""Control characters, which begin a terminal's commands; line ends; marks that turn text around."""
 
 
 def shown(value: object) -> str:
@@ -49,6 +52,21 @@ def shown(value: object) -> str:
     except Exception:  # noqa: BLE001  # such as numbers of too many digits; repr is anyone's code
         return f"a value of type {type(value).__name__}"
     return text if len(text) <= MAX_SHOWN else f"{text[: MAX_SHOWN - 4]}...{text[-1]}"
+
+
+def visible(text: str) -> str:
+    r"""The text with what a terminal would obey written out; ordinary Unicode stays.
+
+    Example:
+        >>> visible("zwölf 🦩"), visible("a\x1b[31m\nb")
+        ('zwölf 🦩', 'a\\u001b[31m\\u000ab')
+    """
+    return HIDDEN.sub(lambda match: f"\\u{ord(match[0]):04x}", text)
+
+
+def visible_lines(text: str) -> str:
+    """`visible` of every line; the line ends stay."""
+    return "\n".join(map(visible, text.split("\n")))
 
 
 def few(words: Sequence[str]) -> str:

@@ -25,6 +25,10 @@ COMMANDS = {
     ),
     "batch": ("texvent.cli.simulation.batch", "Events for every prompt of a file."),
     "dataset": ("texvent.cli.dataset.dataset", "Data sets of any size: made, resumed, checked."),
+    "train": (
+        "texvent.cli.training.train",
+        "Train a network on events: simulated ones, or those of a data set.",
+    ),
     "caption": (
         "texvent.cli.simulation.caption",
         "Prompts from images, by a vision-language model of yours.",

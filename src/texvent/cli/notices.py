@@ -9,9 +9,8 @@ import warnings
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from texvent.errors import warnings_to
+from texvent.errors import visible, visible_lines, warnings_to
 from texvent.options.fields import RenamedOptionWarning
-from texvent.runtime.visible_text import visible, visible_lines
 
 _BOLD_YELLOW, _PLAIN = "\x1b[1;33m", "\x1b[0m"
 

@@ -11,6 +11,7 @@ from typing import Any
 from texvent._registry import RECONSTRUCTORS
 from texvent.errors import FileFormatError, InputError
 from texvent.networks.layer_shapes import BATCH_COUNTER, Shape
+from texvent.networks.layers import EXTRA
 from texvent.networks.weight_files import (
     StandIn,
     Tensor,
@@ -20,7 +21,6 @@ from texvent.networks.weight_files import (
     read_mapping,
     shapes_of,
 )
-from texvent.reconstruct.layers import EXTRA
 from texvent.reconstruct.protocol import PublishedNetwork
 from texvent.runtime.cache_folder import cache_folder
 

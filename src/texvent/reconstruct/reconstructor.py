@@ -14,10 +14,10 @@ from texvent._registry import RECONSTRUCTORS
 from texvent._require import require
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.events import EventStream
+from texvent.networks.layers import EXTRA
 from texvent.networks.weight_files import Tensor
 from texvent.reconstruct.checkpoint import Checkpoint, find_weights, read_checkpoint
 from texvent.reconstruct.config import Device
-from texvent.reconstruct.layers import EXTRA
 from texvent.reconstruct.protocol import PublishedNetwork
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize

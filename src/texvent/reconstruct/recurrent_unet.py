@@ -15,9 +15,9 @@ from texvent.networks.layer_shapes import (
     count_blocks,
     residual_block,
 )
+from texvent.networks.layers import Layers
 from texvent.networks.weight_files import Tensor
 from texvent.reconstruct.dynamic_decoder import decode_dynamically, dynamic_decoder_shapes
-from texvent.reconstruct.layers import Layers
 
 PREFIX = "unetrecurrent"
 HEAD = f"{PREFIX}.head"

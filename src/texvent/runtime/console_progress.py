@@ -18,7 +18,7 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
-from texvent.runtime.visible_text import visible
+from texvent.errors import visible
 
 PATIENCE_SECONDS = 0.5
 """Work that ends sooner shows no bar."""

@@ -14,11 +14,12 @@ import numpy as np
 import pytest
 
 import texvent
+from texvent.dataset.contents.made_set import MadeSet
 from texvent.dataset.generation.engines.processes import ProcessEngine
 from texvent.dataset.generation.engines.protocol import Engine, in_this_process
 from texvent.dataset.generation.make import Work, find_work, make_shards
 from texvent.dataset.generation.recipe import Recipe, load_recipe
-from texvent.dataset.generation.records import FAILED, FILTERED, MADE, read_record
+from texvent.dataset.generation.records import FAILED, FILTERED, read_record
 from texvent.dataset.generation.status import read_status
 from texvent.dataset.generation.tar_shard import read_members
 from texvent.dataset.specification.reading import specification_from
@@ -197,21 +198,19 @@ def test_one_bad_video_harms_no_other_and_is_made_later(tmp_path: Path) -> None:
     folder = tmp_path / "out"
     work = make(recipe, folder)
     assert not work.failures
-    before = {record.variant: record for record in work.complete.values()}
-    assert {
-        (one.count(MADE), one.count(FILTERED), one.count(FAILED)) for one in before.values()
-    } == {
+    assert {(one.made, one.filtered, one.failed) for one in work.complete.values()} == {
         (6, 0, 2),  # a still video has the noise of the sensor
         (2, 1, 1),
     }
-    reasons = {one.status: one.reason or "" for one in before["esim"].samples}
+    (record,) = (one.record for one in MadeSet.open(folder).shards("esim"))
+    reasons = {one.status: one.reason or "" for one in record.samples}
     assert "b.npy" in reasons[FAILED]
     assert "0 events, fewer than 1" in reasons[FILTERED]
     np.save(tmp_path / "b.npy", clip)
     assert not find_work(recipe, folder).todo
     work = make(recipe, folder, retry_failed=True)
-    after = {record.variant: record for record in work.complete.values()}
-    assert after["esim"].count(MADE) == 3
+    after = {shard.variant: counts for shard, counts in work.complete.items()}
+    assert after["esim"].made == 3
     whole = tmp_path / "again"
     make(recipe, whole)
     assert digests(whole) == digests(folder)

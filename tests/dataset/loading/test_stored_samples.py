@@ -25,15 +25,15 @@ from tests.dataset.loading.written_set import (
 
 import texvent.dataset
 from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.contents.merge import merge
 from texvent.dataset.generation.engines.protocol import in_this_process
 from texvent.dataset.generation.make import find_work, make_shards
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.loading import shard_files
 from texvent.dataset.loading.stored_samples import StoredSamples
+from texvent.dataset.merge import merge
 from texvent.dataset.samples import SimulatedSamples
 from texvent.dataset.specification.reading import specification_from
-from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.represent.named import represent_window
 
@@ -105,7 +105,8 @@ def test_filters_choose_variant_split_and_label(folder, written):
     [
         ({"variant": "pape"}, "unknown variant 'pape'.*'paper'"),
         ({"split": "val"}, "unknown split 'val'"),
-        ({"label": "dog"}, "unknown label 'dog'"),
+        ({"label": "dag"}, "unknown label 'dag'.*did you mean 'dog'"),
+        ({"label": "dog"}, "no sample of 'dog'"),
         ({"split": ()}, "split names nothing; there is: test, train"),
         ({"representation": "voxel"}, "unknown representation 'voxel'"),
         ({"representation": "voxel-e2vid", "representation_options": {"bins": 0}}, "bins is 0"),
@@ -115,7 +116,7 @@ def test_filters_choose_variant_split_and_label(folder, written):
     ],
 )
 def test_wrong_choices_are_refused(folder, written, chosen, message):
-    with pytest.raises(ConfigError, match=message):
+    with pytest.raises(InputError, match=message):
         texvent.dataset.open(folder, **chosen)
 
 
@@ -188,7 +189,6 @@ def test_odd_columns_are_read_too(tmp_path):
     samples = texvent.dataset.open(tmp_path)
     for number, events in enumerate(streams.values()):
         assert samples[number].events.equals(events)
-    assert samples.labels == ()
     assert samples[0].label is None
     assert samples.make(0)["class_number"] == -1
 
@@ -227,7 +227,6 @@ def test_only_some_shards_stay_open(samples, written, monkeypatch):
 
 def test_a_published_folder_loads_and_a_shard_without_a_record_does_not_count(tmp_path):
     write_set(tmp_path)
-    (tmp_path / "specification.json").unlink()
     (tmp_path / "paper" / "train-000001.json").unlink()  # still being made
     (tmp_path / "croissant.json").write_text("{}")
     (tmp_path / "paper" / "notes.json").write_text("{}")
@@ -235,7 +234,7 @@ def test_a_published_folder_loads_and_a_shard_without_a_record_does_not_count(tm
     (tmp_path / "videos" / "train-000000.json").write_text("{}")
     samples = texvent.dataset.open(tmp_path)
     assert len(samples) == 21
-    assert samples.labels == LABELS
+    assert samples.labels == (*LABELS, "dog")
 
 
 def test_a_merged_set_loads_with_its_own_numbers_of_classes(cars, tmp_path):
@@ -255,9 +254,9 @@ def test_a_merged_set_loads_with_its_own_numbers_of_classes(cars, tmp_path):
 
 
 def test_missing_and_changed_files_give_one_line(tmp_path):
-    with pytest.raises(InputError, match="no such data set"):
+    with pytest.raises(InputError, match="holds no data set of texvent"):
         texvent.dataset.open(tmp_path / "none")
-    with pytest.raises(InputError, match="holds no complete shard"):
+    with pytest.raises(InputError, match="holds no data set of texvent"):
         texvent.dataset.open(tmp_path)
     write_set(tmp_path)
     samples = texvent.dataset.open(tmp_path)

@@ -39,6 +39,7 @@ def write_shard(
     """A shard of these samples, one that was filtered out, and its record."""
     path = folder / variant / f"{split}-{number:06d}.tar"
     path.parent.mkdir(parents=True, exist_ok=True)
+    write_specification(folder)
     records = [SampleRecord(key="gone", clip="gone", status=FILTERED, seed=0)]
     with path.open("wb") as file:
         writer = TarShardWriter(file)
@@ -85,6 +86,20 @@ def write_shard(
     return path
 
 
+def write_specification(folder: Path) -> None:
+    """What the folder says of itself."""
+    facts = {
+        "identity": "",
+        "labels": ["bus", "car", "dog"],
+        "specification": {
+            "name": "random",
+            "splits": {"test": 0.5, "train": 0.5},
+            "variants": [{"name": "esim"}, {"name": "paper"}],
+        },
+    }
+    (folder / "specification.json").write_text(json.dumps(facts))
+
+
 def write_set(folder: Path, *, per_shard: int = 3, shards: int = 2) -> dict[str, EventStream]:
     """Two variants, two splits; key → events, in the order of `texvent.dataset.open`."""
     written: dict[str, EventStream] = {}
@@ -98,5 +113,4 @@ def write_set(folder: Path, *, per_shard: int = 3, shards: int = 2) -> dict[str,
                 }
                 write_shard(folder, variant, split, number, samples)
                 written |= samples
-    (folder / "specification.json").write_text(json.dumps({"labels": ["bus", "car", "dog"]}))
     return written

@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 from texvent.cli.app import main
+from texvent.dataset.contents.made_set import MadeSet
 from texvent.dataset.nt_imagenet.files import read_captioned, read_streams
-from texvent.dataset.nt_imagenet.pairing import made_samples
 
 from .tiny_data import WNIDS, contents, stream_id, write_imagenet, write_n_imagenet
 
@@ -117,13 +117,14 @@ def test_the_captions_become_events_that_stand_beside_their_streams(
     with (built / "pairs.csv").open() as file:
         pairs = list(csv.DictReader(file))
     (built / "pairs.csv").unlink()
-    samples = {sample.key: (shard, sample) for shard, sample in made_samples(events)}
+    shards = MadeSet.open(events).shards()
+    samples = {one.key: (shard, one) for shard in shards for one in shard.samples}
     assert len(pairs) == len(samples) == 4 * 2 * 2
     for pair in pairs:
         shard, sample = samples[pair["key"]]
         number = int(pair["id"][-8:])
         assert sample.prompt == CAPTIONS[number]
-        assert shard == events / pair["shard"]
+        assert shard.place == pair["shard"]
         assert pair["stream"].endswith(f"{pair['id']}.npz")
         assert int(pair["events"]) == sample.events
         assert sample.label == pair["label"]

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.bench.classification.resnet34_weights import ResNetWeights
+from texvent.networks.layers import Layers
 from texvent.networks.weight_files import Tensor
-from texvent.reconstruct.layers import Layers
 
 FIRST_PADDING = 3
 

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from texvent.errors import FileFormatError, InputError
 from texvent.networks.layer_shapes import BATCH_COUNTER, Shape, batch_norm
+from texvent.networks.layers import EXTRA
 from texvent.networks.weight_files import (
     Tensor,
     check_finite,
@@ -21,7 +22,6 @@ from texvent.networks.weight_files import (
     read_mapping,
     shapes_of,
 )
-from texvent.reconstruct.layers import EXTRA
 
 INPUT_CHANNELS, FIRST_KERNEL = 2, 14
 STAGES = 4

@@ -15,7 +15,7 @@ from texvent.dataset.generation.engines.protocol import Outcome
 from texvent.dataset.generation.make import Work
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.generation.records import FAILED, FILTERED
-from texvent.dataset.generation.status import StageStatus, Summary, read_status
+from texvent.dataset.generation.status import StageStatus, read_status
 
 REFRESH_S = 1.0
 SELDOM = 20
@@ -29,7 +29,7 @@ class LiveTable:
         self._recipe, self._folder = recipe, folder
         self._console = Console(stderr=True, quiet=is_quiet, highlight=False)
         self._started = time.monotonic()
-        self._seen = {shard: Summary.of(record) for shard, record in work.complete.items()}
+        self._seen = dict(work.complete)
         self._before: dict[str, int] = {}
         self._stages: list[StageStatus] = []
         self._due = self._started
@@ -60,7 +60,7 @@ class LiveTable:
         if record is None:
             self._console.print(f"failed   {shard.path}: {outcome.failure}", markup=False)
             return
-        self._seen[shard] = Summary.of(record)
+        self._seen[shard] = record.summary
         for sample in record.samples:
             if sample.status == FAILED:
                 self._console.print(

@@ -17,8 +17,7 @@ from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.dataset.generation.engines.protocol import Engine, in_this_process
 from texvent.dataset.generation.make import Work, find_work, make_shards, remove_dead_parts
-from texvent.dataset.generation.recipe import Recipe, load_recipe
-from texvent.dataset.generation.records import FAILED, FILTERED, MADE
+from texvent.dataset.generation.recipe import VIDEOS, Recipe, load_recipe
 from texvent.dataset.specification.reading import read_specification
 from texvent.errors import ConfigError, TexventError, shown
 from texvent.runtime.threads import count_threads
@@ -128,12 +127,12 @@ def _engine(options: MakeOptions, work: Work) -> Engine:
 
 
 def _finish(folder: Path, work: Work, *, is_whole: bool) -> int:
-    records = work.complete.values()
-    counts = {status: sum(one.count(status) for one in records) for status in (MADE, FILTERED)}
-    failed = sum(record.count(FAILED) for record in records)
+    shards = [one for shard, one in work.complete.items() if shard.variant != VIDEOS]
     write_out(
-        f"{folder}: {counts[MADE]:,} samples, {sum(one.events for one in records):,} events in "
-        f"{len(work.complete)} shards; {counts[FILTERED]:,} filtered out, {failed:,} failed\n"
+        f"{folder}: {sum(one.made for one in shards):,} samples, "
+        f"{sum(one.events for one in shards):,} events in {len(shards):,} shards; "
+        f"{sum(one.filtered for one in shards):,} filtered out, "
+        f"{sum(one.failed for one in work.complete.values()):,} failed\n"
     )
     if work.failures:
         shard, reason = next(iter(work.failures.items()))

@@ -11,7 +11,7 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.contents.merge import merge
+from texvent.dataset.merge import merge
 from texvent.errors import ConfigError
 
 DESCRIPTION = """Put data sets together in a new folder. Shards are linked (copied to another disk),

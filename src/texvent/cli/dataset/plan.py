@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections import Counter
 from collections.abc import Sequence
@@ -23,10 +22,10 @@ from texvent.dataset.generation.recipe import VIDEOS, Recipe
 from texvent.dataset.generation.trial import StageEstimate, try_samples
 from texvent.dataset.specification.reading import read_specification
 from texvent.runtime.console_progress import ConsoleProgress
-from texvent.runtime.threads import THREADS_VARIABLE, count_threads
+from texvent.runtime.threads import count_threads
 
 HOUR_S = 3600.0
-DEFAULT_TRIAL = 8
+DEFAULT_TRIAL = 32
 DESCRIPTION = """Check a specification and say what it gives: prompts, clips, splits, classes, and
 from a trial of a few samples the size and the time. Nothing is kept.
 
@@ -44,7 +43,7 @@ class PlanOptions:
     specification: Path = REQUIRED
     """The specification: TOML or YAML."""
     trial: int | None = None
-    """Clips that are made to measure time and size; 0: none. Default: 8, and none where a learned
+    """Clips that are made to measure time and size; 0: none. Default: 32, and none where a learned
     model would have to make their videos."""
     workers: int | None = None
     """Processes that will share this machine's cores; default: one per core."""
@@ -69,10 +68,8 @@ def run(arguments: Sequence[str]) -> int:
         trial = 0 if recipe.stores_videos else DEFAULT_TRIAL
     workers = options.workers or count_threads()
     if trial:
-        # As much of the machine as one of the workers will have.
-        os.environ[THREADS_VARIABLE] = str(max(1, count_threads() // workers))
         with ConsoleProgress() as progress:
-            stages = try_samples(recipe, trial, progress)
+            stages = try_samples(recipe, trial, progress, workers=workers)
         _print_trial(stages, workers)
     else:
         write_out("no trial: give --trial 1 to measure size and time of a sample\n")
@@ -114,7 +111,8 @@ def describe_contents(recipe: Recipe) -> list[str]:
 
 def _print_trial(stages: Sequence[StageEstimate], workers: int) -> None:
     table = Table(box=None, pad_edge=False)
-    for name in ("", "samples", "events each", "size", "s each", f"time, {workers} workers"):
+    noun = "worker" if workers == 1 else "workers"
+    for name in ("", "samples", "events each", "size", "s each", f"time, {workers} {noun}", "±"):
         table.add_column(name, justify="left" if not name else "right")
     for stage in stages:
         processes = 1 if stage.name == VIDEOS else workers
@@ -125,6 +123,7 @@ def _print_trial(stages: Sequence[StageEstimate], workers: int) -> None:
             size_text(stage.bytes * stage.samples),
             f"{stage.seconds:.2f}",
             time_text(stage.seconds * stage.samples / processes),
+            f"{100 * stage.seconds_error / stage.seconds:.0f} %" if stage.seconds else "",
         )
     Console(file=sys.stdout, highlight=False).print(table)
     total = sum(stage.bytes * stage.samples for stage in stages)

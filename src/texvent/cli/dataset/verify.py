@@ -14,7 +14,7 @@ from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.contents.verify import Findings, verify
+from texvent.dataset.verify import Findings, verify
 from texvent.runtime.threads import count_threads
 
 MOST_LINES = 20

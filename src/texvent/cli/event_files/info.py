@@ -14,9 +14,9 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import CaptureConfig
+from texvent.errors import visible
 from texvent.event_packets import EventPackets
 from texvent.io.files import event_extensions, find_folder_codec
-from texvent.runtime.visible_text import visible
 from texvent.video import MICROSECONDS, FrameStream
 
 DESCRIPTION = """Say what an event file or a video holds, and how it was made. The whole file is

@@ -2,25 +2,18 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-import numpy as np
-
-from texvent.dataset.generation.records import SampleRecord
-from texvent.dataset.generation.tar_shard import read_members
+from texvent.dataset.contents.made_set import MadeSet
+from texvent.dataset.contents.stored_events import read_events
 from texvent.dataset.nt_imagenet.files import Captioned
-from texvent.dataset.nt_imagenet.pairing import made_samples
 from texvent.dataset.nt_imagenet.selection import STREAM_EXTENSION, validation_folder
-from texvent.errors import FileFormatError, InputError, one_line
+from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.arrays.n_imagenet import load_stream
-from texvent.sensor import SensorSize
-
-MEMBERS = ("x.npy", "y.npy", "t.npy", "p.npy")
 
 
 @dataclass(frozen=True)
@@ -46,44 +39,28 @@ def list_samples(
         ids: key of a clip → id; others are left out. Default: the keys themselves.
 
     Raises:
-        InputError: there is no sample, or samples have no prompt.
+        InputError: it is no data set, there is no sample, or samples have no prompt.
         FileFormatError: the record of a shard is damaged.
     """
-    if not folder.is_dir():
-        raise InputError(f"there is no folder {folder}")
     found: dict[str, list[Recording]] = {}
-    for shard, sample in made_samples(folder):
-        if split is not None and shard.name.rpartition("-")[0] != split:
+    for shard in MadeSet.open(folder).shards():
+        if split not in (None, shard.record.split):
             continue
-        id = sample.clip if ids is None else ids.get(sample.clip)
-        if id is None:
-            continue
-        if not sample.prompt:
-            raise InputError(f"{folder} is made of videos without prompts; there is no text to fit")
-        load = partial(read_events, shard, sample)
-        recording = Recording(id, sample.prompt, load, sample.label)
-        found.setdefault(shard.parent.name, []).append(recording)
+        for sample in shard.samples:
+            id = sample.clip if ids is None else ids.get(sample.clip)
+            if id is None:
+                continue
+            if not sample.prompt:
+                raise InputError(
+                    f"{folder} is made of videos without prompts; there is no text to fit"
+                )
+            load = partial(read_events, shard.path, sample)
+            recording = Recording(id, sample.prompt, load, sample.label)
+            found.setdefault(shard.record.variant, []).append(recording)
     if not found:
         where = "" if split is None else f" in split {split}"
         raise InputError(f"{folder} holds no sample of texvent{where}; make it first")
     return found
-
-
-def read_events(shard: Path, sample: SampleRecord) -> EventStream:
-    """The events of a sample.
-
-    Raises:
-        FileFormatError: the shard is damaged.
-    """
-    members = read_members(shard, sample.members, MEMBERS)
-    try:
-        columns = [np.load(io.BytesIO(members[name]), allow_pickle=False) for name in MEMBERS]
-        x, y, t, p = columns
-        return EventStream(x, y, t.astype(np.int64), p, SensorSize(sample.width, sample.height))
-    except (ValueError, KeyError, EOFError) as error:
-        raise FileFormatError(
-            f"{shard} is damaged at {sample.key} ({one_line(error)}); run texvent dataset verify"
-        ) from error
 
 
 def list_streams(n_imagenet: Path, captioned: Sequence[Captioned]) -> list[Recording]:

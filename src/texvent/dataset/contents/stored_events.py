@@ -6,9 +6,9 @@ import json
 from pathlib import Path
 from typing import Any
 
+from texvent.dataset.contents.npy_columns import COLUMN_MEMBERS, events_of, npy_column
 from texvent.dataset.generation.records import SampleRecord
 from texvent.dataset.generation.tar_shard import read_members
-from texvent.dataset.loading.npy_columns import COLUMN_MEMBERS, events_of, npy_column
 from texvent.errors import FileFormatError, InputError, one_line
 from texvent.events import EventStream
 from texvent.sensor import SensorSize

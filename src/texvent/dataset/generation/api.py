@@ -33,7 +33,7 @@ def make(
         progress: told of every shard.
 
     Returns:
-        The records of all complete shards, and why others could not be made.
+        The counts of all complete shards, and why others could not be made.
 
     Raises:
         InputError, ConfigError, OutputError: before any work, what all samples would meet.

@@ -10,7 +10,7 @@ from pathlib import Path
 from texvent.dataset.generation.engines.protocol import Engine, Outcome, Task
 from texvent.dataset.generation.make_shard import is_complete
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
-from texvent.dataset.generation.records import FAILED, ShardRecord
+from texvent.dataset.generation.records import FAILED, ShardSummary
 from texvent.errors import ConfigError
 from texvent.io.hidden_parts import sweep
 
@@ -21,7 +21,7 @@ OnOutcome = Callable[[Outcome], None]
 class Work:
     """What is to do and what is done."""
 
-    complete: dict[Shard, ShardRecord] = field(default_factory=dict)
+    complete: dict[Shard, ShardSummary] = field(default_factory=dict)
     todo: list[Task] = field(default_factory=list)
     """Of events, in order."""
     videos_todo: list[Task] = field(default_factory=list)
@@ -59,7 +59,7 @@ def find_work(
             if record is None or again:
                 tasks.append(Task(folder, shard, retry_failed=again))
             else:
-                work.complete[shard] = record
+                work.complete[shard] = record.summary
     return work
 
 
@@ -90,7 +90,7 @@ def make_shards(work: Work, engine: Engine, on_outcome: OnOutcome) -> None:
         is_video = shard.variant == VIDEOS
         running[is_video] -= 1
         if outcome.record is not None:
-            work.complete[shard] = outcome.record
+            work.complete[shard] = outcome.record.summary
             ready.extend(waiting.get(shard, ()) if is_video else ())
         else:
             work.failures[shard] = outcome.failure or "unknown"

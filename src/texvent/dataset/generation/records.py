@@ -43,6 +43,23 @@ class SampleRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
+class ShardSummary:
+    """The counts of a complete shard; small, where its record is not."""
+
+    made: int
+    filtered: int
+    failed: int
+    events: int
+    bytes: int
+    seconds: float
+
+    @property
+    def samples(self) -> int:
+        """All of them, also those that are not there."""
+        return self.made + self.filtered + self.failed
+
+
+@dataclass(frozen=True, kw_only=True)
 class ShardRecord:
     """A complete shard."""
 
@@ -70,6 +87,18 @@ class ShardRecord:
     def events(self) -> int:
         """Events of all its samples."""
         return sum(sample.events for sample in self.samples)
+
+    @property
+    def summary(self) -> ShardSummary:
+        """Its counts."""
+        return ShardSummary(
+            made=self.count(MADE),
+            filtered=self.count(FILTERED),
+            failed=self.count(FAILED),
+            events=self.events,
+            bytes=self.bytes,
+            seconds=self.seconds,
+        )
 
 
 def record_path(shard: Path) -> Path:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from texvent.dataset.generation.make_shard import is_complete
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
-from texvent.dataset.generation.records import FAILED, FILTERED, ShardRecord
+from texvent.dataset.generation.records import ShardSummary
 from texvent.dataset.generation.shard_log import log_path, read_log
 
 QUIET_S = 600.0
@@ -38,32 +38,8 @@ class StageStatus:
     """Working time of complete shards."""
 
 
-@dataclass(frozen=True)
-class Summary:
-    """What counts of a complete shard."""
-
-    samples: int
-    filtered: int
-    failed: int
-    events: int
-    bytes: int
-    seconds: float
-
-    @classmethod
-    def of(cls, record: ShardRecord) -> Summary:
-        """Of a record, which is many times as large."""
-        return cls(
-            samples=len(record.samples),
-            filtered=record.count(FILTERED),
-            failed=record.count(FAILED),
-            events=record.events,
-            bytes=record.bytes,
-            seconds=record.seconds,
-        )
-
-
 def read_status(
-    recipe: Recipe, folder: Path, seen: dict[Shard, Summary] | None = None
+    recipe: Recipe, folder: Path, seen: dict[Shard, ShardSummary] | None = None
 ) -> list[StageStatus]:
     """The state of every stage: the videos, if they are stored, then the variants.
 
@@ -84,7 +60,7 @@ def read_status(
             stage.shards += 1
             done = seen.get(shard)
             if done is None and (record := is_complete(recipe, folder, shard)) is not None:
-                done = seen[shard] = Summary.of(record)
+                done = seen[shard] = record.summary
             if done is not None:
                 stage.complete += 1
                 stage.samples += done.samples

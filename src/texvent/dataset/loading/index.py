@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
@@ -12,18 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent._registry import suggest
-from texvent.dataset.generation.records import (
-    MADE,
-    ShardRecord,
-    read_record,
-)
-from texvent.dataset.generation.tar_shard import EXTENSION
+from texvent.dataset.contents.made_set import MadeSet
+from texvent.dataset.generation.records import MADE, ShardRecord, read_record
 from texvent.errors import ConfigError, FileFormatError, InputError, one_line, shown
 
-VIDEOS = "videos"
 MEMBERS = ("x.npy", "y.npy", "t.npy", "p.npy", "label.npy", "json", "txt", "cls", "png")
 ABSENT = (-1, 0)
-_NAME = re.compile(r".+-[0-9]{6,}")
 Choice = str | Sequence[str] | None
 """A name, several, or None for all."""
 
@@ -85,82 +78,63 @@ def read_index(folder: Path, *, variant: Choice = None, split: Choice = None) ->
         split: only these.
 
     Raises:
-        InputError: no such folder, or it holds no complete shard or no sample.
-        FileFormatError: a record is damaged, or its shard is missing or has another size.
+        InputError: it is no data set, or no sample of these is made.
+        FileFormatError: a record is damaged, or its shard is missing, has another size, or is of
+            another data set.
         ConfigError: no such variant or split.
     """
-    paths = _recorded_shards(folder)
-    variants = choose("variant", variant, {path.parent.name for path in paths})
-    paths = [path for path in paths if path.parent.name in variants]
-    splits = choose("split", split, {_split_of(path) for path in paths})
+    made = MadeSet.open(folder)
+    variants = choose("variant", variant, tuple(made.variants))
+    splits = choose("split", split, made.splits)
     rows = _Rows(folder)
-    for path in paths:
-        if _split_of(path) in splits:
-            rows.add(path, _checked_record(path))
+    for name in variants:
+        for path in made.shard_files(name):
+            record = read_record(path)
+            if record is None or record.split not in splits:
+                continue  # still being made, or not asked for
+            _check_shard(made, path, record)
+            rows.add(path, record)
     if not rows.keys:
-        raise InputError(f"{folder} holds no sample that was made; see texvent dataset status")
+        raise InputError(f"{folder} holds no such sample yet; see texvent dataset status")
     return rows.index()
 
 
-def _recorded_shards(folder: Path) -> list[Path]:
-    """The shards that have a record, in order: those of a data set still being made have none."""
-    if not folder.is_dir():
-        raise InputError(f"no such data set: {folder}")
-    paths = [path.with_suffix(EXTENSION) for path in folder.glob("*/*.json")]
-    paths = [p for p in paths if _NAME.fullmatch(p.stem) and p.parent.name != VIDEOS]
-    if not paths:
-        raise InputError(
-            f"{folder} holds no complete shard (VARIANT/SPLIT-000000{EXTENSION} with its .json); "
-            "name the folder that texvent dataset make wrote"
-        )
-    return sorted(paths, key=lambda path: (path.parent.name, _split_of(path), _number_of(path)))
+def _check_shard(made: MadeSet, path: Path, record: ShardRecord) -> None:
+    """Refuse a shard that is not as it was made.
 
-
-def _split_of(path: Path) -> str:
-    return path.stem.rpartition("-")[0]
-
-
-def _number_of(path: Path) -> int:
-    return int(path.stem.rpartition("-")[2])
-
-
-def _checked_record(path: Path) -> ShardRecord:
-    """The record of a shard that is as large as it was."""
-    record = read_record(path)
-    if record is None:
-        raise FileFormatError(f"{path.with_suffix('.json')} is gone; run texvent dataset verify")
+    Raises:
+        FileFormatError: see above.
+    """
+    remedy = "run texvent dataset verify"
+    if not made.is_own(record, path):
+        raise FileFormatError(f"{path} belongs to another data set; {remedy}")
     try:
         size = path.stat().st_size
     except OSError as error:
         raise FileFormatError(
-            f"cannot read {path} ({one_line(error)}), and its record is there; "
-            "run texvent dataset verify"
+            f"cannot read {path} ({one_line(error)}), and its record is there; {remedy}"
         ) from error
     if size != record.bytes:
         raise FileFormatError(
-            f"{path} has {size:,} bytes and its record says {record.bytes:,}; "
-            "run texvent dataset verify"
+            f"{path} has {size:,} bytes and its record says {record.bytes:,}; {remedy}"
         )
-    return record
 
 
-def choose(what: str, choice: Choice, known: set[str]) -> set[str]:
-    """The names that are asked for.
+def choose(what: str, choice: Choice, known: Sequence[str]) -> list[str]:
+    """The names that are asked for, in the order of `known`.
 
     Raises:
         ConfigError: one is not known, or none is named.
     """
     if choice is None:
-        return known
+        return list(known)
     names = [choice] if isinstance(choice, str) else list(choice)
     for name in names:
         if name not in known:
-            raise ConfigError(
-                f"unknown {what} {shown(name)}; {suggest(name, tuple(sorted(known)))}"
-            )
+            raise ConfigError(f"unknown {what} {shown(name)}; {suggest(name, tuple(known))}")
     if not names:
-        raise ConfigError(f"{what} names nothing; there is: {', '.join(sorted(known))}")
-    return set(names)
+        raise ConfigError(f"{what} names nothing; there is: {', '.join(known)}")
+    return [name for name in known if name in names]
 
 
 class _Rows:

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from texvent.dataset.loading.index import Choice, Index, choose, read_index
+from texvent.dataset.contents.made_set import MadeSet
+from texvent.dataset.loading.index import Choice, choose, read_index
 from texvent.dataset.loading.shard_files import ShardFiles
 from texvent.dataset.loading.stored_samples import StoredSamples
-from texvent.errors import FileFormatError, one_line
-
-SPECIFICATION_FILE = "specification.json"
+from texvent.errors import InputError, shown
 
 
 def open(
@@ -49,11 +47,14 @@ def open(
     """
     folder = Path(folder)
     index = read_index(folder, variant=variant, split=split)
-    labels = _all_labels(folder, index)
+    # Of the whole set, so that the numbers of classes do not depend on what is chosen of it.
+    labels = MadeSet.open(folder).labels
     if label is not None:
-        chosen = choose("label", label, {one for one in index.labels if one is not None})
+        chosen = choose("label", label, labels)
         places = [place for place, one in enumerate(index.labels) if one in chosen]
         index = index.select(np.flatnonzero(np.isin(index.label, places)))
+        if not len(index):
+            raise InputError(f"{folder} holds no sample of {shown(label)} in what was chosen of it")
     return StoredSamples(
         folder=folder,
         index=index,
@@ -64,18 +65,3 @@ def open(
         slice_us=slice_us,
         slice_events=slice_events,
     )
-
-
-def _all_labels(folder: Path, index: Index) -> tuple[str, ...]:
-    """The classes of the whole data set, so that numbers do not depend on what is chosen of it."""
-    there = {label for label in index.labels if label is not None}
-    try:
-        facts = json.loads((folder / SPECIFICATION_FILE).read_text(encoding="utf-8"))
-        known = [str(label) for label in facts["labels"]]
-    except FileNotFoundError:
-        known = []
-    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
-        raise FileFormatError(
-            f"{folder / SPECIFICATION_FILE} is damaged ({one_line(error)})"
-        ) from error
-    return (*known, *sorted(there - set(known)))

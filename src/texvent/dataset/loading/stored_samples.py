@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from texvent.config import check_range
+from texvent.dataset.contents.npy_columns import COLUMN_MEMBERS, events_of, npy_column
 from texvent.dataset.loading.index import ABSENT, MEMBERS, Index
-from texvent.dataset.loading.npy_columns import COLUMN_MEMBERS, events_of, npy_column
 from texvent.dataset.loading.shard_files import ShardFiles
 from texvent.dataset.windows import check_representation, stack_windows
 from texvent.errors import ConfigError, FileFormatError, InputError
@@ -118,7 +118,7 @@ class StoredSamples:
             events=events.with_metadata(facts),
             caption=index.captions[index.caption[number]],
             label=index.labels[index.label[number]],
-            class_number=int(self._class_numbers[index.label[number]]),
+            class_number=self.class_number(number),
             variant=index.variants[shard],
             split=index.splits[shard],
             facts=facts,
@@ -150,6 +150,10 @@ class StoredSamples:
                 f"sample {self.index.key[number]} of {self.files.path(shard)} is damaged: {error}; "
                 "run texvent dataset verify"
             ) from error
+
+    def class_number(self, number: int) -> int:
+        """Place of the class of a sample in `labels`; −1 without a class."""
+        return int(self._class_numbers[self.index.label[self._checked(number)]])
 
     def members(self, number: int, only: Sequence[str] = MEMBERS) -> dict[str, bytes]:
         """The files of a sample: extension, such as "json" or "png", → content.
@@ -186,7 +190,7 @@ class StoredSamples:
         index = self.index
         return {
             **self._arrays(number),
-            "class_number": int(self._class_numbers[index.label[number]]),
+            "class_number": self.class_number(number),
             "caption": index.captions[index.caption[number]] or "",
             "key": str(index.key[number]),
             "number": number,

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from texvent.dataset.generation.recipe import ITEMS_FILE, VIDEOS, read_facts
-from texvent.dataset.generation.records import MADE, SampleRecord, read_record
-from texvent.dataset.generation.tar_shard import EXTENSION
+from texvent.dataset.contents.made_set import MadeSet
+from texvent.dataset.generation.recipe import ITEMS_FILE, read_facts
 from texvent.dataset.nt_imagenet.files import Captioned, Pair
 from texvent.dataset.nt_imagenet.selection import Stream
 from texvent.dataset.specification.clips import clip_key, video_seed
@@ -32,20 +31,21 @@ def list_pairs(
     ids = ids_of_clips(folder, captioned)
     by_id = {stream.id: stream for stream in streams}
     pairs = []
-    for shard, sample in made_samples(folder):
-        stream = by_id.get(ids.get(sample.clip, ""))
-        if stream is not None:
-            pairs.append(
-                Pair(
-                    id=stream.id,
-                    label=stream.wnid,
-                    stream=stream.path.as_posix(),
-                    stream_events=stream.events,
-                    shard=str(shard.relative_to(folder)),
-                    key=sample.key,
-                    events=sample.events,
+    for shard in MadeSet.open(folder).shards():
+        for sample in shard.samples:
+            stream = by_id.get(ids.get(sample.clip, ""))
+            if stream is not None:
+                pairs.append(
+                    Pair(
+                        id=stream.id,
+                        label=stream.wnid,
+                        stream=stream.path.as_posix(),
+                        stream_events=stream.events,
+                        shard=shard.place,
+                        key=sample.key,
+                        events=sample.events,
+                    )
                 )
-            )
     return pairs
 
 
@@ -76,16 +76,3 @@ def ids_of_clips(folder: Path, captioned: Sequence[Captioned]) -> Mapping[str, s
             "the specification.toml beside them"
         )
     return ids
-
-
-def made_samples(folder: Path) -> Iterator[tuple[Path, SampleRecord]]:
-    """The samples of all complete shards of events of a data set, with the file of their shard.
-
-    Raises:
-        FileFormatError: a record is damaged.
-    """
-    for shard in sorted(folder.glob(f"*/*{EXTENSION}")):
-        record = None if shard.parent.name == VIDEOS else read_record(shard)
-        for sample in record.samples if record is not None else ():
-            if sample.status == MADE:
-                yield shard, sample

@@ -1,4 +1,4 @@
-"""Layers of the reconstruction networks, computed from named tensors."""
+"""Layers of networks, computed from named tensors."""
 
 from __future__ import annotations
 
@@ -15,13 +15,19 @@ EXTRA = "torch"
 class Layers:
     """Named tensors of a network, and the layers that can be made of them.
 
-    Images are [1, channels, H, W]. The layer's name selects its tensors; their shapes say how
-    many channels and how large a kernel.
+    Images are [n, channels, H, W]; attention takes one alone. The layer's name selects its
+    tensors; their shapes say how many channels and how large a kernel.
     """
 
-    def __init__(self, tensors: Mapping[str, Tensor]) -> None:
-        """Layers over tensors whose names and shapes have been checked."""
+    def __init__(self, tensors: Mapping[str, Tensor], *, is_training: bool = False) -> None:
+        """Layers over tensors whose names and shapes have been checked.
+
+        Args:
+            tensors: name → tensor.
+            is_training: whether normalisations take the statistics of the batch, and note them.
+        """
         self._tensors = dict(tensors)
+        self._is_training = is_training
 
     @property
     def torch(self) -> ModuleType:
@@ -50,11 +56,12 @@ class Layers:
         return self.torch.nn.functional.conv2d(x, weight, bias, stride=stride, padding=around)
 
     def normalise(self, x: Tensor, name: str) -> Tensor:
-        """Batch normalisation by the statistics of training, if the network has it there."""
+        """Batch normalisation, if the network has it there."""
         if not self.has(f"{name}.running_mean"):
             return x
         parts = ("running_mean", "running_var", "weight", "bias")
-        return self.torch.nn.functional.batch_norm(x, *(self[f"{name}.{part}"] for part in parts))
+        tensors = (self[f"{name}.{part}"] for part in parts)
+        return self.torch.nn.functional.batch_norm(x, *tensors, training=self._is_training)
 
     def conv_layer(self, x: Tensor, name: str, *, stride: int = 1) -> Tensor:
         """Convolution and normalisation, without activation."""

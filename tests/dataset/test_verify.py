@@ -12,10 +12,10 @@ import pytest
 
 from texvent.cli.app import main
 from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.contents.verify import Findings, verify
 from texvent.dataset.generation.records import ShardRecord, read_record, write_record
 from texvent.dataset.generation.sample import npy_bytes
 from texvent.dataset.generation.tar_shard import TarShardWriter, read_members
+from texvent.dataset.verify import Findings, verify
 
 
 def check(folder: Path) -> Findings:

@@ -10,11 +10,11 @@ from tests.dataset.conftest import make_set
 import texvent.dataset
 from texvent.cli.app import main
 from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.contents.merge import merge
 from texvent.dataset.contents.stored_events import read_events
-from texvent.dataset.contents.verify import verify
 from texvent.dataset.generation.recipe import load_recipe
 from texvent.dataset.generation.tar_shard import read_members
+from texvent.dataset.merge import merge
+from texvent.dataset.verify import verify
 from texvent.errors import ConfigError, InputError, OutputError, TexventWarning
 
 APE = {

@@ -1,0 +1,1 @@
+"""Classes of recordings: samples, networks, loss and accuracy."""

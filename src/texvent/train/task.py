@@ -1,0 +1,71 @@
+"""What a task brings to the training loop."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar, Protocol
+
+from texvent.networks.weight_files import Tensor
+from texvent.train.batches import Batches
+from texvent.train.schedule import Schedule
+
+
+class TaskConfig(Protocol):
+    """What a training file may say for a task: a frozen dataclass, its tables dataclasses too."""
+
+    @property
+    def seed(self) -> int:
+        """Of the initial weights, the order of samples and their augmentation."""
+        ...
+
+    @property
+    def schedule(self) -> Schedule:
+        """How long and how it is trained."""
+        ...
+
+    def make_task(self) -> Task:
+        """The task; this imports torch, and reads what is known of the data.
+
+        Raises:
+            InputError, ConfigError, FileFormatError: it cannot be trained; the message says why.
+        """
+        ...
+
+
+@dataclass(frozen=True)
+class Score:
+    """The score by which the best epoch is chosen."""
+
+    name: str
+    """In what `Task.validate` gives."""
+    is_higher_better: bool
+
+
+class Task(Protocol):
+    """A network, its samples, its loss and its scores.
+
+    `validate` and `loss` are given the network on its device and move what they need there.
+    """
+
+    score: ClassVar[Score]
+
+    def make_network(self) -> Any:
+        """The network, a torch module, with initial weights that depend on the seed alone."""
+        ...
+
+    def batches(self, *, workers: int) -> Batches:
+        """The training samples."""
+        ...
+
+    def loss(self, network: Any, batch: Mapping[str, Any], device: Any) -> Tensor:
+        """Of a batch, a scalar; it depends on its arguments alone."""
+        ...
+
+    def validate(self, network: Any, device: Any, *, workers: int) -> dict[str, float]:
+        """Scores on the validation samples by name."""
+        ...
+
+    def published(self, network: Any) -> Mapping[str, Any]:
+        """The trained network as a checkpoint in its published layout."""
+        ...

@@ -1,0 +1,159 @@
+"""The training loop: scores, files, continuation to equal weights, refusals."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from texvent.cli.app import main
+
+torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
+
+from texvent.errors import TexventError  # noqa: E402
+from texvent.options.values import plain  # noqa: E402
+from texvent.train.checkpoint import read_state  # noqa: E402
+from texvent.train.classification.config import ClassificationConfig  # noqa: E402
+from texvent.train.classification.task import ClassificationTask  # noqa: E402
+from texvent.train.reading import read_training  # noqa: E402
+from texvent.train.run import train_from_file  # noqa: E402
+from texvent.train.schedule import Hardware  # noqa: E402
+
+from .written_samples import write_bars  # noqa: E402
+
+pytestmark = pytest.mark.torch
+CPU = Hardware(device="cpu")
+
+
+@pytest.fixture
+def specification(tmp_path: Path) -> Path:
+    write_bars(tmp_path / "bars")
+    path = tmp_path / "bars.toml"
+    path.write_text(
+        'data = {folder = "bars"}\n[schedule]\nepochs = 4\nbatch_size = 5\nlearning_rate = 0.01\n'
+    )
+    return path
+
+
+def weights(folder: Path) -> dict[str, torch.Tensor]:
+    return torch.load(folder / "weights.pt", weights_only=True)["state_dict"]
+
+
+def test_a_small_network_learns_and_its_files_say_how(specification: Path, tmp_path: Path) -> None:
+    state = train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
+    assert state.rows[-1]["accuracy"] == 1.0
+    assert state.rows[-1]["training loss"] < state.rows[0]["training loss"]
+    told = json.loads((tmp_path / "run" / "history.json").read_text())
+    assert [row["epoch"] for row in told["epochs"]] == [1, 2, 3, 4]
+    assert told["best_epoch"] == state.best_epoch
+    assert told["training"]["schedule"]["epochs"] == 4
+    assert (tmp_path / "run" / "curves.png").read_bytes().startswith(b"\x89PNG")
+    for name, tensor in weights(tmp_path / "run").items():
+        torch.testing.assert_close(tensor, state.best[name.replace(".", "/")], rtol=0, atol=0)
+
+
+def test_equal_trainings_give_equal_weights_and_another_seed_others(
+    specification: Path, tmp_path: Path
+) -> None:
+    for name in ("one", "two"):
+        train_from_file(ClassificationConfig, specification, tmp_path / name, CPU)
+    specification.write_text("seed = 1\n" + specification.read_text())
+    train_from_file(ClassificationConfig, specification, tmp_path / "three", CPU)
+    one, two, three = (weights(tmp_path / name) for name in ("one", "two", "three"))
+    assert all(torch.equal(one[name], two[name]) for name in one)
+    assert not torch.equal(one["conv0.weight"], three["conv0.weight"])
+
+
+def test_workers_change_nothing(specification: Path, tmp_path: Path) -> None:
+    train_from_file(ClassificationConfig, specification, tmp_path / "one", CPU)
+    train_from_file(
+        ClassificationConfig, specification, tmp_path / "two", Hardware(device="cpu", workers=1)
+    )
+    one, two = weights(tmp_path / "one"), weights(tmp_path / "two")
+    assert all(torch.equal(one[name], two[name]) for name in one)
+
+
+def test_a_killed_training_ends_with_equal_weights(specification: Path, tmp_path: Path) -> None:
+    text = specification.read_text().replace("epochs = 4", "epochs = 20")
+    specification.write_text(text)
+    train_from_file(ClassificationConfig, specification, tmp_path / "whole", CPU)
+    words = ["train", "classification", str(specification), "-o", str(tmp_path / "killed")]
+    words += ["--device", "cpu", "-q"]
+    for rows in (1, 5):
+        process = subprocess.Popen([sys.executable, "-m", "texvent.cli.app", *words])
+        history, deadline = tmp_path / "killed" / "history.json", time.monotonic() + 120
+        while time.monotonic() < deadline:
+            if history.exists() and len(json.loads(history.read_text())["epochs"]) >= rows:
+                break
+        os.kill(process.pid, signal.SIGKILL)
+        assert process.wait() == -signal.SIGKILL
+    config = read_training(specification, ClassificationConfig())
+    stopped = read_state(tmp_path / "killed", plain(config))
+    assert stopped is not None
+    assert 4 <= stopped.epochs < 20
+    assert main(words) == 0
+    whole, killed = weights(tmp_path / "whole"), weights(tmp_path / "killed")
+    assert all(torch.equal(whole[name], killed[name]) for name in whole)
+
+
+def test_the_rate_falls_and_training_stops_where_nothing_improves(
+    specification: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    specification.write_text(
+        'data = {folder = "bars"}\n[schedule]\nepochs = 30\npatience = 1\nreduction = 0.5\n'
+        "stop_after = 5\nlearning_rate = 1e-9\n"
+    )
+    state = train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
+    assert state.epochs == state.best_epoch + 5
+    rate = state.optimizer["param_groups"][0]["lr"]
+    # Reduced after two epochs without a better score, and again after two more.
+    assert rate == pytest.approx(0.25e-9)
+
+
+def test_a_loss_that_is_no_number_ends_it_with_the_place(
+    specification: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    cross_entropy = ClassificationTask.loss
+    monkeypatch.setattr(
+        ClassificationTask, "loss", lambda *words: (cross_entropy(*words) - 1e9).log()
+    )
+    with pytest.raises(TexventError, match=r"the loss is nan in epoch 1, batch 1; give a smaller"):
+        train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
+
+
+def test_another_training_is_not_continued(
+    specification: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["train", "classification", str(specification), "-o", str(tmp_path / "run"), "-q"]
+    assert main(words) == 0
+    specification.write_text(specification.read_text().replace("0.01", "0.02"))
+    assert main(words) == 2
+    assert "learning_rate was 0.01, is 0.02" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ("epochs = 0", "epochs is 0; it must be 1..1e+06"),
+        ("epoch = 3", "unknown option 'epoch'; allowed"),
+        ('optimizer = "sgd"', "optimizer"),
+        ("learning_rate = nan", "learning_rate is nan"),
+    ],
+)
+def test_wrong_files_are_refused_before_any_work(
+    specification: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], change: str,
+    message: str
+) -> None:  # fmt: skip
+    specification.write_text(f'data = {{folder = "bars"}}\n[schedule]\n{change}\n')
+    words = ["train", "classification", str(specification), "-o", str(tmp_path / "run"), "-q"]
+    assert main(words) == 2
+    error = capsys.readouterr().err
+    assert message in error
+    assert len(error.strip().splitlines()) == 1
+    assert not (tmp_path / "run").exists()
