@@ -7,6 +7,7 @@ import tempfile
 import time
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ import numpy as np
 from texvent._version import full_version
 from texvent.batch.identity import digest
 from texvent.batch.runner import ENDING_ALL
+from texvent.dataset.generation.clip_simulation import prepare_clip, with_seed
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
 from texvent.dataset.generation.records import (
     FAILED,
@@ -35,8 +37,8 @@ from texvent.dataset.specification.specification import Variant
 from texvent.errors import InputError, TexventError, warnings_to
 from texvent.generate.videos.stored_video import EXTENSION, reopen, write_stream
 from texvent.io.atomic import atomic_file
-from texvent.pipeline import Simulation, fit_to_sensor, text_to_video
-from texvent.run.prepare import make_video, prepare_source, prepare_video
+from texvent.pipeline import Simulation, fit_to_sensor
+from texvent.run.prepare import make_video, prepare_video
 from texvent.run.settings import Settings
 from texvent.video import FrameStream
 
@@ -207,7 +209,7 @@ def _events_job(
     record = _record(key, clip, seed)
 
     def make() -> tuple[Members, dict[str, Any]]:
-        simulation = source(clip, _with_seed(settings, seed))
+        simulation = source(clip, with_seed(settings, seed))
         made = simulate_sample(simulation, recipe.specification.filters)
         width, height = simulation.video.size
         known = {
@@ -244,28 +246,14 @@ def _record(key: str, clip: Clip, seed: int) -> SampleRecord:
     )
 
 
-def _with_seed(settings: Settings, seed: int) -> Settings:
-    return replace(settings, run=replace(settings.run, seed=seed))
-
-
 def _source(recipe: Recipe, folder: Path, shard: Shard, scratch: Path) -> Source:
     """Where the clips of a shard come from: recorded, stored, or made now."""
-    if recipe.items.are_videos:
-        return lambda clip, settings: prepare_source(
-            clip.item.video, settings, prompt=clip.item.prompt
-        )
     if recipe.stores_videos:
         stored = _StoredVideos(folder, replace(shard, variant=VIDEOS), scratch)
         return lambda clip, settings: prepare_video(
             fit_to_sensor(stored.open(clip), settings), settings, prompt=clip.item.prompt
         )
-    return _generated
-
-
-def _generated(clip: Clip, settings: Settings) -> Simulation:
-    """A clip generated now; its video has the clip's seed, its simulation that of the settings."""
-    video = text_to_video(clip.item.prompt or "", _with_seed(settings, clip.seed))
-    return prepare_video(video, settings, prompt=clip.item.prompt)
+    return partial(prepare_clip, recipe)
 
 
 class _StoredVideos:

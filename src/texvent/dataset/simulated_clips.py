@@ -1,0 +1,88 @@
+"""The samples of a specification, simulated when they are asked for instead of stored."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from texvent._registry import suggest
+from texvent.dataset.generation.clip_simulation import prepare_clip, with_seed
+from texvent.dataset.generation.recipe import Recipe
+from texvent.dataset.specification.clips import Clip
+from texvent.dataset.specification.reading import read_specification
+from texvent.dataset.specification.resolve import clip_settings, simulation_seed
+from texvent.dataset.specification.specification import Specification
+from texvent.errors import ConfigError, shown
+from texvent.pipeline import Simulation
+
+
+class SimulatedClips:
+    """A split of a variant: sample `n` is what `texvent dataset make` would store, and its video.
+
+    Filters are not applied: what they leave out is known only after it is simulated.
+    """
+
+    def __init__(
+        self, specification: Specification | str | Path, *, split: str, variant: str | None = None
+    ) -> None:
+        """Read the sources; nothing is simulated yet.
+
+        Args:
+            specification: an object, or a TOML or YAML file.
+            split: which.
+            variant: which; None: the only one.
+
+        Raises:
+            InputError, ConfigError: as `texvent.dataset.make`; no such split or variant; or videos
+                of a learned generator, which are to be made once.
+        """
+        if not isinstance(specification, Specification):
+            specification = read_specification(specification)
+        self.recipe = Recipe.of(specification)
+        if self.recipe.stores_videos:
+            raise ConfigError(
+                f"{specification.name} stores its videos; make it with texvent dataset make, and "
+                "name its folder instead"
+            )
+        self.split = _chosen("split", split, tuple(self.recipe.clips.counts))
+        names = tuple(self.recipe.variants)
+        if variant is None and len(names) > 1:
+            raise ConfigError(
+                f"{specification.name} has variants {', '.join(names)}; choose one of them"
+            )
+        self.variant = self.recipe.variants[_chosen("variant", variant or names[0], names)]
+        self.labels = self.recipe.items.labels
+
+    def __len__(self) -> int:
+        """Number of samples."""
+        return self.recipe.clips.counts[self.split] * self.variant.seeds
+
+    def simulation(self, number: int) -> Simulation:
+        """The simulation of sample `number`, made ready.
+
+        Raises:
+            IndexError: there is no such sample.
+            TexventError: its video cannot be read or made.
+        """
+        clip, seed_number = self._clip(number)
+        recipe = self.recipe
+        settings = clip_settings(
+            recipe.specification, self.variant, clip, recipe.command, is_stored=False
+        )
+        return prepare_clip(recipe, clip, with_seed(settings, simulation_seed(clip, seed_number)))
+
+    def class_number(self, number: int) -> int:
+        """Place of the class of a sample in `labels`; −1 without a class."""
+        clip, _ = self._clip(number)
+        return -1 if clip.item.label is None else self.labels.index(clip.item.label)
+
+    def _clip(self, number: int) -> tuple[Clip, int]:
+        if not 0 <= number < len(self):
+            raise IndexError(f"sample {number} does not exist; there are {len(self)}")
+        place, seed_number = divmod(number, self.variant.seeds)
+        return self.recipe.clips.clip(self.split, place), seed_number
+
+
+def _chosen(what: str, name: str, known: tuple[str, ...]) -> str:
+    if name not in known:
+        raise ConfigError(f"unknown {what} {shown(name)}; {suggest(name, known)}")
+    return name
