@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import contextlib
 import signal
 import threading
 
@@ -71,6 +72,17 @@ def test_every_ending_signal_is_raised_with_its_number(number: signal.Signals) -
         signal.raise_signal(number)
     assert caught.value.number == number
     assert signal.getsignal(number) is before
+
+
+def test_an_interrupt_that_a_library_replaces_keeps_its_number() -> None:
+    def work() -> None:
+        with contextlib.suppress(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGTERM)
+        raise KeyboardInterrupt
+
+    with pytest.raises(Interrupted) as caught, raise_interrupted():
+        work()
+    assert caught.value.number == signal.SIGTERM
 
 
 def test_signals_that_follow_at_once_do_not_disturb_the_clean_up() -> None:

@@ -41,20 +41,22 @@ def raise_interrupted(*, until_exit: bool = False) -> Iterator[None]:
     Args:
         until_exit: after an interrupt, ignore further signals: the process is about to end.
     """
-    last_s = -REPEAT_S
+    last_s, received = -REPEAT_S, Interrupted(signal.SIGINT)
 
     def interrupt(number: int, frame: FrameType | None) -> None:
         del frame
-        nonlocal last_s
+        nonlocal last_s, received
         if time.monotonic() - last_s >= REPEAT_S:
-            last_s = time.monotonic()
-            raise Interrupted(number)
+            last_s, received = time.monotonic(), Interrupted(number)
+            raise received
 
     with _handling(interrupt, only_callable=False):
         try:
             yield
-        except (Interrupted, SystemError) as error:
-            interrupted = _interrupted_in(error)
+        except (KeyboardInterrupt, SystemError) as error:
+            # A library may catch the interrupt and raise one of its own, as Ray does.
+            is_other = isinstance(error, KeyboardInterrupt)
+            interrupted = _interrupted_in(error) or (received if is_other else None)
             if interrupted is None:
                 raise
             if until_exit:
