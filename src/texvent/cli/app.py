@@ -27,7 +27,7 @@ COMMANDS = {
     "dataset": ("texvent.cli.dataset.dataset", "Data sets of any size: made, resumed, checked."),
     "train": (
         "texvent.cli.training.train",
-        "Train a network on events: simulated ones, or those of a data set.",
+        "Train a network on simulated events or a data set.",
     ),
     "caption": (
         "texvent.cli.simulation.caption",
