@@ -29,6 +29,7 @@ COMMANDS = {
         "texvent.cli.training.train",
         "Train a network on simulated events or a data set.",
     ),
+    "evaluate": ("texvent.cli.training.evaluate", "Scores of trained weights on other samples."),
     "caption": (
         "texvent.cli.simulation.caption",
         "Prompts from images, by a vision-language model of yours.",

@@ -14,12 +14,13 @@ from typing import Any, TypeAlias
 
 from texvent._require import require
 from texvent.errors import FileFormatError
-from texvent.networks.layer_shapes import Shape
+from texvent.networks.layer_shapes import BATCH_COUNTER, Shape
 
 Tensor: TypeAlias = Any
 """torch.Tensor; torch is imported only when weights are read."""
 
 SAFETENSORS = ".safetensors"
+STATE = "state_dict"
 DAMAGE = (
     *(RuntimeError, OSError, EOFError, ValueError, LookupError, AttributeError, TypeError),
     *(pickle.UnpicklingError, zipfile.BadZipFile),
@@ -98,6 +99,29 @@ def named_tensors(mapping: Mapping[str, Any], *, extra: str) -> dict[str, Tensor
         for name, tensor in mapping.items()
         if isinstance(tensor, torch.Tensor)
     }
+
+
+def state_tensors(
+    content: Mapping[str, Any], path: Path, where_from: str, *, extra: str
+) -> dict[str, Tensor]:
+    """The network's tensors in a checkpoint, without counters that nothing computes with.
+
+    Args:
+        content: of the file: `{"state_dict": {name: tensor}}`, or the tensors themselves.
+        path: of the file, for messages.
+        where_from: as in `read_mapping`.
+        extra: as in `read_mapping`.
+
+    Raises:
+        FileFormatError: the state holds no named tensors.
+    """
+    state = content.get(STATE, content)
+    if not isinstance(state, Mapping):
+        raise FileFormatError(
+            f"{path}: its {STATE} is {type(state).__name__}, not named tensors; {where_from}"
+        )
+    named = named_tensors(state, extra=extra)
+    return {name: one for name, one in named.items() if not name.endswith(BATCH_COUNTER)}
 
 
 def check_finite(tensors: Mapping[str, Tensor], path: Path) -> None:

@@ -10,16 +10,16 @@ from typing import Any
 
 from texvent._registry import RECONSTRUCTORS
 from texvent.errors import FileFormatError, InputError
-from texvent.networks.layer_shapes import BATCH_COUNTER, Shape
+from texvent.networks.layer_shapes import Shape
 from texvent.networks.layers import EXTRA
 from texvent.networks.weight_files import (
     StandIn,
     Tensor,
     check_finite,
     describe_mismatch,
-    named_tensors,
     read_mapping,
     shapes_of,
+    state_tensors,
 )
 from texvent.reconstruct.protocol import PublishedNetwork
 from texvent.runtime.cache_folder import cache_folder
@@ -30,7 +30,6 @@ LEFT_BY_TRAINING = (
     *("numpy.core.multiarray.scalar", "numpy._core.multiarray.scalar", "numpy.dtype"),
 )
 """Classes of objects that the programs which trained these networks stored with the weights."""
-STATE = "state_dict"
 CONFIG = "config"
 
 
@@ -81,13 +80,7 @@ def read_checkpoint(published: PublishedNetwork, path: Path) -> Checkpoint:
     _refuse_another_published(published, path, digest)
     where = published.where_from
     content = read_mapping(path, where, extra=EXTRA, stand_ins=LEFT_BY_TRAINING)
-    state = content.get(STATE, content)
-    if not isinstance(state, Mapping):
-        raise FileFormatError(
-            f"{path}: its {STATE} is {type(state).__name__}, not named tensors; {where}"
-        )
-    named = named_tensors(state, extra=EXTRA)
-    tensors = {name: one for name, one in named.items() if not name.endswith(BATCH_COUNTER)}
+    tensors = state_tensors(content, path, where, extra=EXTRA)
     _check_layout(published, tensors, path)
     check_finite(tensors, path)
     return Checkpoint(tensors, _network_settings(content), digest)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +15,9 @@ import numpy as np
 
 from texvent._require import require
 from texvent._version import full_version
-from texvent.errors import TexventError
+from texvent.errors import OutputError, TexventError, one_line
 from texvent.runtime.progress import Progress
+from texvent.train.batches import Batches
 from texvent.train.checkpoint import WEIGHTS_FILE, TrainingState, read_state, save, write_state
 from texvent.train.history import write_history
 from texvent.train.schedule import EXTRA, Hardware, Schedule
@@ -44,7 +44,7 @@ def train(
     Args:
         task: what to train.
         schedule: how long and how.
-        folder: of the training; it exists.
+        folder: of the training; made if it is missing.
         seed: see `TaskConfig`.
         tables: what is trained and how, as plain values; another training is not continued.
         hardware: what trains.
@@ -54,11 +54,15 @@ def train(
         The state after the last epoch.
 
     Raises:
-        ConfigError: another training was begun in the folder.
+        InputError, ConfigError, FileFormatError: the training samples do not fit, or another
+            training was begun in the folder.
+        OutputError: the folder cannot be made.
         TexventError: the loss is no longer a number.
     """
     torch = require("torch", extra=EXTRA)
     device = hardware.find_device()
+    batches = task.batches(workers=hardware.workers)
+    _make_folder(folder)
     state = read_state(folder, tables) or TrainingState(tables=tables)
     network = task.make_network().to(device)
     optimizer = schedule.make_optimizer(network)
@@ -69,8 +73,10 @@ def train(
     while not _is_over(state, schedule):
         started = time.perf_counter()
         torch.manual_seed(int(np.random.SeedSequence((seed, state.epochs)).generate_state(1)[0]))
-        loss = _train_epoch(task, computed, optimizer, schedule, state.epochs, hardware, progress)
-        with torch.inference_mode(), _autocast(hardware, device):
+        loss = _train_epoch(
+            task, batches, computed, optimizer, schedule, state.epochs, hardware, progress
+        )
+        with torch.inference_mode(), hardware.autocast(device):
             network.eval()
             scores = task.validate(computed, device, workers=hardware.workers)
         row = {"epoch": state.epochs + 1, LOSS: loss, **scores}
@@ -83,8 +89,16 @@ def train(
     return state
 
 
+def _make_folder(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"cannot make {folder}: {one_line(error)}") from error
+
+
 def _train_epoch(
     task: Task,
+    batches: Batches,
     network: Any,
     optimizer: Any,
     schedule: Schedule,
@@ -96,9 +110,9 @@ def _train_epoch(
     torch = require("torch", extra=EXTRA)
     device = hardware.find_device()
     network.train()
-    total, batches = 0.0, task.batches(workers=hardware.workers)
+    total = 0.0
     for number, batch in enumerate(batches.epoch(epoch)):
-        with _autocast(hardware, device):
+        with hardware.autocast(device):
             loss = task.loss(network, batch, device)
         value = float(loss.detach())
         if not np.isfinite(value):
@@ -114,14 +128,6 @@ def _train_epoch(
         total += value
         progress.advance(f"epoch {epoch + 1} of {schedule.epochs}", number + 1, len(batches))
     return total / len(batches)
-
-
-def _autocast(hardware: Hardware, device: Any) -> AbstractContextManager[Any]:
-    if hardware.precision == "float32":
-        return nullcontext()
-    torch = require("torch", extra=EXTRA)
-    context: AbstractContextManager[Any] = torch.autocast(device.type, torch.bfloat16)
-    return context
 
 
 def _note_epoch(

@@ -1,17 +1,28 @@
-"""A training from its file."""
+"""A training from its file, and the scores of trained weights."""
 
 from __future__ import annotations
 
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-from texvent.errors import OutputError, one_line
+from texvent._require import require
+from texvent._version import full_version
+from texvent.errors import InputError
+from texvent.io.atomic import atomic_file
+from texvent.networks.weight_files import describe_file, read_mapping
 from texvent.options.values import plain
 from texvent.runtime.progress import NO_PROGRESS, Progress
 from texvent.train.checkpoint import TrainingState
 from texvent.train.loop import train
 from texvent.train.reading import read_training
-from texvent.train.schedule import Hardware
+from texvent.train.schedule import EXTRA, Hardware
 from texvent.train.task import TaskConfig
+
+WHERE_FROM = "texvent train writes it as weights.pt"
+"""Of a weights file, for messages."""
 
 
 def train_from_file(
@@ -37,13 +48,8 @@ def train_from_file(
         TexventError: the loss is no longer a number.
     """
     config = read_training(specification, kind())
-    task = config.make_task()
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"cannot make {folder}: {one_line(error)}") from error
     return train(
-        task,
+        config.make_task(),
         config.schedule,
         folder,
         seed=config.seed,
@@ -51,3 +57,53 @@ def train_from_file(
         hardware=hardware,
         progress=progress,
     )
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """Scores of trained weights on the validation samples of a training file."""
+
+    scores: Mapping[str, float]
+    facts: Mapping[str, Any]
+    """Weights, version, and what they were scored on, as plain values."""
+
+    def write(self, path: Path, *, overwrite: bool) -> None:
+        """Write both as JSON.
+
+        Raises:
+            OutputError: the file exists, or cannot be written.
+        """
+        text = json.dumps({"scores": self.scores, **self.facts}, indent=1)
+        with atomic_file(path, overwrite=overwrite) as part:
+            part.write_text(text + "\n", encoding="utf-8")
+
+
+def evaluate_from_file(
+    kind: type[TaskConfig], specification: Path, weights: Path, hardware: Hardware
+) -> Evaluation:
+    """Score trained weights; the training samples are not opened.
+
+    Args:
+        kind: of the task; `TASKS` has them.
+        specification: as for training; its schedule is not used, but for the size of a batch.
+        weights: what training wrote, or published weights of the same layout.
+        hardware: what computes.
+
+    Raises:
+        InputError, ConfigError, FileFormatError: the file, the samples or the weights do not fit.
+    """
+    config = read_training(specification, kind())
+    if not weights.is_file():
+        raise InputError(f"there is no weights file {weights}; texvent train writes weights.pt")
+    task, device = config.make_task(), hardware.find_device()
+    network = task.make_network()
+    task.read(network, read_mapping(weights, WHERE_FROM, extra=EXTRA), weights)
+    network.to(device).eval()
+    with require("torch", extra=EXTRA).inference_mode(), hardware.autocast(device):
+        scores = task.validate(network, device, workers=hardware.workers)
+    facts = {
+        "texvent_version": full_version(),
+        "weights": describe_file(weights),
+        "scored_on": plain(config),
+    }
+    return Evaluation(scores, facts)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -95,3 +96,11 @@ class Hardware:
         if self.device == "cuda" and not has_gpu:
             raise ConfigError("device is cuda, but torch finds no GPU here; use cpu or auto")
         return torch.device("cuda" if has_gpu and self.device != "cpu" else "cpu")
+
+    def autocast(self, device: Any) -> AbstractContextManager[Any]:
+        """What the network is computed in, to be entered."""
+        if self.precision == "float32":
+            return nullcontext()
+        torch = require("torch", extra=EXTRA)
+        context: AbstractContextManager[Any] = torch.autocast(device.type, torch.bfloat16)
+        return context

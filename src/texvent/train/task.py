@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, ClassVar, Protocol
 
 from texvent.networks.weight_files import Tensor
@@ -25,7 +26,7 @@ class TaskConfig(Protocol):
         ...
 
     def make_task(self) -> Task:
-        """The task; this imports torch, and reads what is known of the data.
+        """The task; this imports torch, and opens the validation samples.
 
         Raises:
             InputError, ConfigError, FileFormatError: it cannot be trained; the message says why.
@@ -55,7 +56,11 @@ class Task(Protocol):
         ...
 
     def batches(self, *, workers: int) -> Batches:
-        """The training samples."""
+        """The training samples, which are opened here.
+
+        Raises:
+            InputError, ConfigError, FileFormatError: they do not fit; the message says why.
+        """
         ...
 
     def loss(self, network: Any, batch: Mapping[str, Any], device: Any) -> Tensor:
@@ -68,4 +73,12 @@ class Task(Protocol):
 
     def published(self, network: Any) -> Mapping[str, Any]:
         """The trained network as a checkpoint in its published layout."""
+        ...
+
+    def read(self, network: Any, content: Mapping[str, Any], path: Path) -> None:
+        """Take over the weights of a checkpoint, `published` here or elsewhere.
+
+        Raises:
+            FileFormatError: they do not fit the network or the samples.
+        """
         ...

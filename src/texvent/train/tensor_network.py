@@ -8,11 +8,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any
 
 from texvent._require import require
+from texvent.errors import FileFormatError
 from texvent.networks.layer_shapes import Shapes
-from texvent.networks.weight_files import Tensor
+from texvent.networks.weight_files import (
+    Tensor,
+    check_finite,
+    describe_mismatch,
+    shapes_of,
+    state_tensors,
+)
 from texvent.train.schedule import EXTRA
 
 _nn: Any = require("torch.nn", extra=EXTRA)
@@ -47,6 +55,24 @@ class TensorNetwork(_Module):
     def tensors(self) -> dict[str, Tensor]:
         """Name → parameter or buffer."""
         return {name: getattr(self, _key(name)) for name in self._names}
+
+    def read(self, content: Mapping[str, Any], path: Path, where_from: str) -> None:
+        """Take over the tensors of a checkpoint.
+
+        Args:
+            content: of the file; see `state_tensors`.
+            path: of the file, for messages.
+            where_from: where to get the right file, for messages.
+
+        Raises:
+            FileFormatError: a tensor is missing, unknown, of another shape, NaN or infinite.
+        """
+        found = state_tensors(content, path, where_from, extra=EXTRA)
+        problem = describe_mismatch(shapes_of(found), shapes_of(self.tensors))
+        if problem is not None:
+            raise FileFormatError(f"{path} does not fit the network: it {problem}; {where_from}")
+        check_finite(found, path)
+        self.load_state_dict({_key(name): tensor for name, tensor in found.items()})
 
     def forward(self, *inputs: Any) -> Any:
         """The output for inputs, as `compute` gives it."""

@@ -12,15 +12,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from texvent.errors import FileFormatError, InputError
-from texvent.networks.layer_shapes import BATCH_COUNTER, Shape, batch_norm
+from texvent.networks.layer_shapes import Shape, batch_norm
 from texvent.networks.layers import EXTRA
 from texvent.networks.weight_files import (
     Tensor,
     check_finite,
     describe_mismatch,
-    named_tensors,
     read_mapping,
     shapes_of,
+    state_tensors,
 )
 
 INPUT_CHANNELS, FIRST_KERNEL = 2, 14
@@ -62,11 +62,7 @@ def read_resnet_weights(path: Path) -> ResNetWeights:
     if not path.is_file():
         raise InputError(f"there is no weights file {path}; {WHERE_FROM}")
     content = read_mapping(path, WHERE_FROM, extra=EXTRA)
-    state = content.get("state_dict", content)
-    if not isinstance(state, Mapping):
-        raise FileFormatError(f"{path}: its state_dict holds no named tensors; {WHERE_FROM}")
-    named = named_tensors(state, extra=EXTRA)
-    tensors = {name: one for name, one in named.items() if not name.endswith(BATCH_COUNTER)}
+    tensors = state_tensors(content, path, WHERE_FROM, extra=EXTRA)
     shapes = shapes_of(tensors)
     blocks = _count_blocks(shapes, path)
     _check_shapes(shapes, blocks, path)

@@ -18,7 +18,7 @@ DESCRIPTION = """Train a network on events, as a TOML or YAML file says. The sam
 where a training was stopped or killed. Needs torch: pip install 'texvent[train]'.
 
   texvent train classification digits.toml -o digits
-  texvent evaluate digits --folder REAL       score it on recordings"""
+  texvent evaluate classification real.toml digits/weights.pt"""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from texvent._require import require
 from texvent.dataset.loading.open_samples import open
 from texvent.dataset.loading.stored_samples import StoredSamples
-from texvent.errors import InputError
+from texvent.errors import FileFormatError, InputError, shown
 from texvent.events import EventStream
 from texvent.networks.weight_files import Tensor
 from texvent.represent.named import represent_window
@@ -22,7 +23,7 @@ from texvent.train.classification.small_cnn import small_cnn
 from texvent.train.schedule import EXTRA
 from texvent.train.task import Score
 
-IMAGE, CLASS = "image", "class_number"
+IMAGE, CLASS, CLASSES = "image", "class_number", "classes"
 NO_AUGMENTATION = Augmentation(shift=0)
 
 
@@ -32,24 +33,25 @@ class ClassificationTask:
     score: ClassVar[Score] = Score("accuracy", is_higher_better=True)
 
     def __init__(self, config: ClassificationConfig) -> None:
-        """Open the data set.
+        """Open the validation samples.
 
         Raises:
             InputError, ConfigError, FileFormatError: the data does not fit; the message says why.
         """
         self._config = config
-        data = config.data
-        self._train = _open(config, data.split)
-        self._validation = _open(config, data.validation_split)
-        self._channels = len(self._examples(self._train)(0, np.random.default_rng(0))[IMAGE])
+        self._validation = _open(config, config.data.validation_split)
+        self._classes = list(self._validation.labels)
+        examples = self._examples(self._validation)
+        self._channels = len(examples(0, np.random.default_rng(0))[IMAGE])
 
     def make_network(self) -> Any:
         """See `Task`."""
-        return small_cnn(self._channels, len(self._train.labels), self._config.seed)
+        return small_cnn(self._channels, len(self._classes), self._config.seed)
 
     def batches(self, *, workers: int) -> Batches:
         """See `Task`."""
-        return self._batches(self._train, self._config.augmentation, workers, shuffle=True)
+        samples = _open(self._config, self._config.data.split)
+        return self._batches(samples, self._config.augmentation, workers, shuffle=True)
 
     def loss(self, network: Any, batch: Mapping[str, Any], device: Any) -> Tensor:
         """See `Task`."""
@@ -70,7 +72,17 @@ class ClassificationTask:
     def published(self, network: Any) -> Mapping[str, Any]:
         """See `Task`."""
         tensors = {name: one.detach().cpu() for name, one in network.tensors.items()}
-        return {"state_dict": tensors, "classes": list(self._train.labels)}
+        return {"state_dict": tensors, CLASSES: self._classes}
+
+    def read(self, network: Any, content: Mapping[str, Any], path: Path) -> None:
+        """See `Task`."""
+        known = content.get(CLASSES, self._classes)
+        if known != self._classes:
+            raise FileFormatError(
+                f"{path} tells apart the classes {shown(known)}, and the samples have "
+                f"{shown(self._classes)}; they must be equal, in the same order"
+            )
+        network.read(content, path, "texvent train classification writes it as weights.pt")
 
     def _batches(
         self, samples: StoredSamples, augmentation: Augmentation, workers: int, *, shuffle: bool

@@ -1,0 +1,95 @@
+"""Scores of trained weights: equal to those of training, and refused where they do not fit."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from texvent.cli.app import main
+
+torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
+
+from .written_samples import write_bars  # noqa: E402
+
+pytestmark = pytest.mark.torch
+
+
+@pytest.fixture
+def trained(tmp_path: Path) -> Path:
+    """A folder with a training file and what it trained."""
+    write_bars(tmp_path / "bars")
+    (tmp_path / "bars.toml").write_text(
+        'data = {folder = "bars"}\n[schedule]\nepochs = 2\nbatch_size = 5\nlearning_rate = 0.01\n'
+    )
+    words = [str(tmp_path / "bars.toml"), "-o", str(tmp_path / "run"), "--device", "cpu", "-q"]
+    assert main(["train", "classification", *words]) == 0
+    return tmp_path
+
+
+def evaluate(folder: Path, *words: str, specification: str = "bars.toml") -> int:
+    paths = [str(folder / specification), str(folder / "run" / "weights.pt")]
+    return main(["evaluate", "classification", *paths, "--device", "cpu", *words])
+
+
+def test_the_scores_are_those_of_the_best_epoch(trained: Path) -> None:
+    assert evaluate(trained, "-o", str(trained / "scores.json")) == 0
+    told = json.loads((trained / "run" / "history.json").read_text())
+    best = told["epochs"][told["best_epoch"] - 1]
+    found = json.loads((trained / "scores.json").read_text())
+    assert found["scores"]["accuracy"] == best["accuracy"]
+    assert found["scores"]["validation loss"] == pytest.approx(best["validation loss"], rel=1e-6)
+    assert found["weights"]["file"] == "weights.pt"
+    assert found["scored_on"]["data"]["validation_split"] == "test"
+
+
+def test_other_samples_need_no_training_split(trained: Path) -> None:
+    (trained / "other.toml").write_text(
+        'data = {folder = "bars", split = "no such", validation_split = "train"}\n'
+    )
+    assert evaluate(trained, specification="other.toml") == 0
+
+
+def test_results_are_not_overwritten(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (trained / "scores.json").write_text("mine")
+    assert evaluate(trained, "-o", str(trained / "scores.json")) == 3
+    assert "exists" in capsys.readouterr().err
+    assert (trained / "scores.json").read_text() == "mine"
+
+
+def change_classes(path: Path) -> None:
+    content = torch.load(path, weights_only=True)
+    torch.save({**content, "classes": ["cat", "dog"]}, path)
+
+
+def change_shape(path: Path) -> None:
+    content = torch.load(path, weights_only=True)
+    content["state_dict"]["linear.weight"] = torch.zeros(7, 64)
+    torch.save(content, path)
+
+
+def make_infinite(path: Path) -> None:
+    content = torch.load(path, weights_only=True)
+    content["state_dict"]["linear.bias"][0] = float("inf")
+    torch.save(content, path)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (change_classes, "tells apart the classes ['cat', 'dog'], and the samples have"),
+        (change_shape, "it has linear.weight of shape [7, 64] instead of"),
+        (make_infinite, "linear.bias holds values that are NaN or infinite"),
+        (lambda path: path.write_bytes(b"PK\x03\x04damaged"), "weights.pt"),
+        (Path.unlink, "there is no weights file"),
+    ],
+)
+def test_weights_that_do_not_fit_are_refused_in_one_line(
+    trained: Path, capsys: pytest.CaptureFixture[str], change, message: str
+) -> None:
+    change(trained / "run" / "weights.pt")
+    assert evaluate(trained) == 2
+    error = capsys.readouterr().err
+    assert message in error
+    assert len(error.strip().splitlines()) == 1
