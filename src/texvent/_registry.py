@@ -220,6 +220,10 @@ REPRESENTATIONS = Registry(
         "binary-event-image": "texvent.represent.binary_event_image:binary_event_image",
         "histogram-2d": "texvent.represent.histogram:histogram_2d",
         "histogram-3d": "texvent.represent.histogram:histogram_3d",
+        "timestamp-image": "texvent.represent.timestamp_image:timestamp_image",
+        "event-image": "texvent.represent.timestamp_image:event_image",
+        "sorted-time-surface": "texvent.represent.timestamp_image:sorted_time_surface",
+        "dist": "texvent.represent.dist:dist",
     },
 )
 RECONSTRUCTORS = Registry(
