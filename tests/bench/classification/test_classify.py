@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from texvent.bench.classification.classify import Sample, classify, list_samples, take_slice
-from texvent.bench.classification.resnet34_weights import read_resnet_weights, tensor_shapes
+from texvent.bench.classification.resnet34_weights import read_resnet_weights
 from texvent.cli.app import main
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.events import EventStream
+from texvent.networks.resnet34 import resnet_shapes
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(64, 48)
@@ -89,7 +90,7 @@ def test_folders_that_do_not_fit_are_refused(folder, tmp_path):
 
 
 def test_resnet34_has_the_published_number_of_parameters():
-    shapes = tensor_shapes(64, (3, 4, 6, 3), 1000)
+    shapes = resnet_shapes(2, 1000)
     trained = sum(np.prod(shape) for name, shape in shapes.items() if "running" not in name)
     # torchvision's 21,797,672 with a first kernel of 14 on two channels instead of 7 on three.
     assert trained == 21_797_672 - 64 * 3 * 7 * 7 + 64 * 2 * 14 * 14
@@ -106,7 +107,7 @@ def checkpoint(torch, tmp_path):
     generator = torch.Generator().manual_seed(4)
     state = {
         name: torch.rand(shape, generator=generator) + (0.5 if "running_var" in name else -0.5)
-        for name, shape in tensor_shapes(WIDTH, BLOCKS, CLASSES).items()
+        for name, shape in resnet_shapes(2, CLASSES, width=WIDTH, blocks=BLOCKS).items()
     }
     state["bn1.num_batches_tracked"] = torch.tensor(7)
     torch.save({"epoch": 3, "state_dict": state}, tmp_path / "checkpoint.tar")

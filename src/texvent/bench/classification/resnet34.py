@@ -1,8 +1,4 @@
-"""A ResNet of basic blocks for inference: binary event images in, one score per class out.
-
-Source: K. He et al., "Deep residual learning for image recognition", CVPR 2016; the first
-convolution is N-ImageNet's (`resnet34_weights`). docs/design/libraries.md says why no library's.
-"""
+"""N-ImageNet's ResNet-34 for inference: binary event images in, one score per class out."""
 
 from __future__ import annotations
 
@@ -11,9 +7,7 @@ from numpy.typing import NDArray
 
 from texvent.bench.classification.resnet34_weights import ResNetWeights
 from texvent.networks.layers import Layers
-from texvent.networks.weight_files import Tensor
-
-FIRST_PADDING = 3
+from texvent.networks.resnet34 import resnet_scores
 
 
 class ResNetClassifier:
@@ -42,26 +36,7 @@ class ResNetClassifier:
         Returns:
             [n, classes] float32.
         """
-        layers, torch = self._layers, self._layers.torch
+        torch = self._layers.torch
         with torch.inference_mode():
-            found = torch.from_numpy(images)
-            found = layers.convolve(found, "conv1", stride=2, padding=FIRST_PADDING)
-            found = torch.relu(layers.normalise(found, "bn1"))
-            found = torch.nn.functional.max_pool2d(found, 3, stride=2, padding=1)
-            for stage, blocks in enumerate(self._weights.blocks):
-                for block in range(blocks):
-                    stride = 2 if stage and not block else 1
-                    found = self._block(found, f"layer{stage + 1}.{block}", stride)
-            scores = layers.linear(found.mean(dim=(2, 3)), "fc")
+            scores = resnet_scores(self._layers, self._weights.blocks, torch.from_numpy(images))
         return np.asarray(scores.numpy())
-
-    def _block(self, found: Tensor, at: str, stride: int) -> Tensor:
-        """Two convolutions and a shortcut."""
-        layers, relu = self._layers, self._layers.torch.relu
-        inner = layers.convolve(found, f"{at}.conv1", stride=stride)
-        inner = relu(layers.normalise(inner, f"{at}.bn1"))
-        inner = layers.normalise(layers.convolve(inner, f"{at}.conv2"), f"{at}.bn2")
-        if layers.has(f"{at}.downsample.0.weight"):
-            found = layers.convolve(found, f"{at}.downsample.0", stride=stride)
-            found = layers.normalise(found, f"{at}.downsample.1")
-        return relu(inner + found)
