@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
+import json
 from pathlib import Path
 
 from texvent._registry import suggest
+from texvent._version import full_version
+from texvent.batch.identity import digest
 from texvent.dataset.generation.clip_simulation import prepare_clip, with_seed
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.specification.clips import Clip
@@ -13,6 +17,7 @@ from texvent.dataset.specification.resolve import clip_settings, simulation_seed
 from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError, shown
 from texvent.pipeline import Simulation
+from texvent.run.settings import Settings
 
 
 class SimulatedClips:
@@ -64,22 +69,50 @@ class SimulatedClips:
             TexventError: its video cannot be read or made.
         """
         clip, seed_number = self._clip(number)
-        recipe = self.recipe
-        settings = clip_settings(
-            recipe.specification, self.variant, clip, recipe.command, is_stored=False
-        )
-        return prepare_clip(recipe, clip, with_seed(settings, simulation_seed(clip, seed_number)))
+        settings = with_seed(self._settings(clip), simulation_seed(clip, seed_number))
+        return prepare_clip(self.recipe, clip, settings)
+
+    def identity(self, number: int, *facts: object) -> str:
+        """Digest of everything that decides a sample; a changed video has another.
+
+        Args:
+            number: of the sample.
+            *facts: plain values that count as well.
+
+        Raises:
+            IndexError: there is no such sample.
+        """
+        clip, seed_number = self._clip(number)
+        options = self._settings(clip).as_tables()
+        item = dataclasses.asdict(clip.item)
+        state = _state_of(clip.item.video)
+        parts = [full_version(), options, item, state, clip.seed, seed_number, *facts]
+        return digest([json.dumps(parts, sort_keys=True)])
 
     def class_number(self, number: int) -> int:
         """Place of the class of a sample in `labels`; −1 without a class."""
         clip, _ = self._clip(number)
         return -1 if clip.item.label is None else self.labels.index(clip.item.label)
 
+    def _settings(self, clip: Clip) -> Settings:
+        recipe = self.recipe
+        return clip_settings(
+            recipe.specification, self.variant, clip, recipe.command, is_stored=False
+        )
+
     def _clip(self, number: int) -> tuple[Clip, int]:
         if not 0 <= number < len(self):
             raise IndexError(f"sample {number} does not exist; there are {len(self)}")
         place, seed_number = divmod(number, self.variant.seeds)
         return self.recipe.clips.clip(self.split, place), seed_number
+
+
+def _state_of(video: str | None) -> list[int]:
+    """Size and time of change of a file; nothing of one that is not there or not needed."""
+    if video is None or not Path(video).exists():
+        return []
+    state = Path(video).stat()
+    return [state.st_size, state.st_mtime_ns]
 
 
 def _chosen(what: str, name: str, known: tuple[str, ...]) -> str:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from texvent._require import require
 from texvent.dataset.loading.collate import collate
 from texvent.dataset.loading.order import epoch_order
+from texvent.errors import TexventError
 from texvent.train.schedule import EXTRA
 
 _data: Any = require("torch.utils.data", extra=EXTRA)
@@ -47,16 +48,19 @@ class Batches:
         if self.shuffle:
             numbers = epoch_order(np.zeros(self.count, np.int64), seed=self.seed, epoch=number)
         # Workers end with the epoch: they hold its number.
-        return iter(
-            _data.DataLoader(
-                _Epoch(self, number),
-                sampler=numbers.tolist(),
-                batch_size=self.batch_size,
-                num_workers=self.workers,
-                collate_fn=collate,
-                multiprocessing_context="spawn" if self.workers else None,
-            )
+        loader = _data.DataLoader(
+            _Epoch(self, number),
+            sampler=numbers.tolist(),
+            batch_size=self.batch_size,
+            num_workers=self.workers,
+            collate_fn=collate,
+            multiprocessing_context="spawn" if self.workers else None,
         )
+        try:
+            yield from loader
+        except TexventError as error:
+            # torch puts the worker's traceback, which ends with the message, in its place.
+            raise type(error)(str(error).rpartition(f".{type(error).__name__}: ")[2]) from error
 
 
 class _Epoch(_Dataset):

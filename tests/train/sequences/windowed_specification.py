@@ -1,0 +1,23 @@
+"""A specification of four short clips at 32×24 px, simulated in well under a second each."""
+
+from pathlib import Path
+
+TEXT = """\
+name = "tiny"
+splits = {train = 0.5, validation = 0.5}
+options = {duration = 0.125, sensor = "32x24", samples = 1, shadows = false}
+[[sources]]
+template = "a {colour} ball flies {way}"
+words.colour = ["red", "white"]
+words.way = ["left", "right"]
+[variants.paper]
+contrast_threshold = 0.2
+[variants.esim]
+simulator = "esim"
+"""
+
+
+def write_specification(folder: Path, text: str = TEXT) -> Path:
+    path = folder / "tiny.toml"
+    path.write_text(text)
+    return path

@@ -1,0 +1,28 @@
+"""Batches made by worker processes: what a worker refuses is said in one line."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import pytest
+
+torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
+
+from texvent.errors import InputError  # noqa: E402
+from texvent.train.batches import Batches  # noqa: E402
+
+pytestmark = pytest.mark.torch
+
+
+def refuse(number: int, chance: np.random.Generator) -> Mapping[str, Any]:
+    raise InputError(f"sample {number} is bad: give another")
+
+
+@pytest.mark.parametrize("workers", [0, 1])
+def test_an_error_is_the_same_from_this_process_and_from_a_worker(workers: int) -> None:
+    batches = Batches(make=refuse, count=1, batch_size=1, seed=0, workers=workers)
+    with pytest.raises(InputError) as caught:
+        next(batches.epoch(0))
+    assert str(caught.value) == "sample 0 is bad: give another"
