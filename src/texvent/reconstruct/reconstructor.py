@@ -15,6 +15,7 @@ from texvent._require import require
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.networks.layers import EXTRA
+from texvent.networks.padding import Padding
 from texvent.networks.weight_files import Tensor
 from texvent.reconstruct.checkpoint import Checkpoint, find_weights, read_checkpoint
 from texvent.reconstruct.config import Device
@@ -159,23 +160,19 @@ class Reconstructor:
     def _run(self, grid: Intensity) -> Intensity:
         """The network's output for a voxel grid, [H, W]."""
         torch = require("torch", extra=EXTRA)
-        _, height, width = grid.shape
-        below, right = -height % self._network.multiple, -width % self._network.multiple
-        # As the published programs do: zeros all around, one more above and left if odd.
-        top, left = -(-below // 2), -(-right // 2)
-        margins = (left, right - left, top, below - top)
+        padding = Padding.centred(grid.shape[1:], self._network.multiple)
         try:
             with torch.inference_mode():
                 voxel: Tensor = torch.from_numpy(grid)[None].to(self._device)
-                output = self._network.step(torch.nn.functional.pad(voxel, margins))
-                inner = output[0, 0, top : top + height, left : left + width]
-                image: Intensity = inner.cpu().numpy()
+                output = self._network.step(padding.around(voxel))
+                image: Intensity = padding.off(output)[0, 0].cpu().numpy()
         except RuntimeError as error:
             if "memory" not in str(error):
                 raise
             raise InputError(
                 f"{self.name} does not fit into the memory of device {self._device} at "
-                f"{width}x{height} px; crop or scale the events down first (texvent convert)"
+                f"{grid.shape[2]}x{grid.shape[1]} px; crop or scale the events down first (texvent "
+                "convert)"
             ) from error
         return image
 

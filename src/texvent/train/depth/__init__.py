@@ -1,0 +1,1 @@
+"""Depth from events: E2Depth trained with exact depth, and scored."""
