@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from texvent._require import require
 from texvent.io.atomic import atomic_file
 from texvent.train.schedule import EXTRA
@@ -16,6 +18,12 @@ Row = Mapping[str, float]
 """Name → value of one epoch; "epoch" counts from 1."""
 HIDDEN = ("epoch", "seconds")
 """What gets no curve of its own."""
+LOSSES = "loss"
+"""End of the names of losses, which share a plot."""
+MOST_COLUMNS, WIDTH_INCHES, HEIGHT_INCHES = 3, 4.5, 3.4
+COLOURS = ("#1f77b4", "#d95f02", "#2ca02c", "#7b3294")
+STANDARD_ERROR = " standard error"
+"""End of the names of standard errors; they are drawn around what they belong to."""
 
 
 def write_history(folder: Path, facts: Mapping[str, Any], rows: Sequence[Row]) -> None:
@@ -38,22 +46,48 @@ def write_history(folder: Path, facts: Mapping[str, Any], rows: Sequence[Row]) -
 
 
 def draw_curves(rows: Sequence[Row], *, best: int | None = None) -> Any:
-    """A matplotlib figure: one plot per score, the loss of training first.
+    """A matplotlib figure: all losses in one plot, then a plot per score.
 
     Args:
         rows: of all epochs so far, at least one.
         best: the epoch to mark.
     """
     figure_module = require("matplotlib.figure", extra=EXTRA)
-    names = [name for name in rows[0] if name not in HIDDEN]
-    figure = figure_module.Figure(figsize=(4 * len(names), 3), layout="constrained")
-    epochs = [row["epoch"] for row in rows]
-    for axes, name in zip(figure.subplots(1, len(names), squeeze=False)[0], names, strict=True):
-        axes.plot(epochs, [row[name] for row in rows], marker="o", markersize=3)
-        if best is not None:
-            axes.axvline(best, color="0.7", linewidth=1, zorder=0)
-        axes.set_title(name)
-        axes.set_xlabel("epoch")
-        axes.xaxis.get_major_locator().set_params(integer=True)
-        axes.grid(alpha=0.3)
+    plots: dict[str, list[str]] = {}
+    for name in rows[0]:
+        if name not in HIDDEN and not name.endswith(STANDARD_ERROR):
+            plots.setdefault(LOSSES if name.endswith(LOSSES) else name, []).append(name)
+    columns = min(len(plots), MOST_COLUMNS)
+    lines = -(-len(plots) // columns)
+    size = (WIDTH_INCHES * columns, HEIGHT_INCHES * lines)
+    figure = figure_module.Figure(figsize=size, layout="constrained", facecolor="white")
+    places = figure.subplots(lines, columns, squeeze=False).ravel()
+    for axes, (title, names) in zip(places, plots.items(), strict=False):
+        _draw_plot(axes, rows, names, best)
+        axes.set_title(title)
+    for axes in places[len(plots) :]:
+        axes.remove()
     return figure
+
+
+def _draw_plot(axes: Any, rows: Sequence[Row], names: Sequence[str], best: int | None) -> None:
+    """Scores over epochs, with their standard errors if they are known."""
+    epochs = [row["epoch"] for row in rows]
+    if best is not None:
+        axes.axvline(best, color="0.6", linestyle="--", linewidth=1, label=f"best epoch {best}")
+    for name, colour in zip(names, COLOURS, strict=False):
+        values = np.array([row[name] for row in rows])
+        axes.plot(epochs, values, color=colour, marker=".", label=name)
+        if name + STANDARD_ERROR in rows[0]:
+            error = np.array([row[name + STANDARD_ERROR] for row in rows])
+            axes.fill_between(
+                epochs, values - error, values + error, color=colour, alpha=0.2, linewidth=0,
+                label="± standard error",
+            )  # fmt: skip
+    axes.set_facecolor("white")
+    axes.set_xlabel("epoch")
+    axes.set_xlim(0.5, max(epochs[-1], 2) + 0.5)
+    axes.xaxis.get_major_locator().set_params(integer=True)
+    axes.grid(color="0.9")
+    axes.set_axisbelow(True)
+    axes.legend(fontsize="small", framealpha=0.8)

@@ -86,7 +86,7 @@ def _key(name: str) -> str:
     return name.replace(".", "/")
 
 
-def initial_tensors(shapes: Shapes, seed: int) -> dict[str, Tensor]:
+def initial_tensors(shapes: Shapes, seed: int, *, normal: str | None = None) -> dict[str, Tensor]:
     """Random tensors as torch's own layers begin with.
 
     Kernels and their biases are uniform within 1/√(inputs of a neuron); a normalisation begins as
@@ -95,13 +95,18 @@ def initial_tensors(shapes: Shapes, seed: int) -> dict[str, Tensor]:
     Args:
         shapes: name → shape.
         seed: of the draws, which depend on the order of names.
+        normal: kernels whose names begin so are normal with variance 2/(outputs of a neuron), as
+            those of torchvision's ResNets.
     """
     draws = _torch.Generator().manual_seed(seed)
     tensors = {}
     for name, shape in shapes.items():
         owner = name.rpartition(".")[0]
         kernel = shapes.get(f"{owner}.weight", ())
-        if len(kernel) > 1:
+        if len(shape) > 1 and normal is not None and name.startswith(normal):
+            deviation = math.sqrt(2 / (shape[0] * math.prod(shape[2:])))
+            tensors[name] = deviation * _torch.randn(shape, generator=draws)
+        elif len(kernel) > 1:
             limit = 1 / math.sqrt(math.prod(kernel[1:]))
             tensors[name] = (2 * _torch.rand(shape, generator=draws) - 1) * limit
         else:

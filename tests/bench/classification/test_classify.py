@@ -11,6 +11,8 @@ from texvent.events import EventStream
 from texvent.networks.resnet34 import resnet_shapes
 from texvent.sensor import SensorSize
 
+from .torch_resnet import torch_resnet
+
 SIZE = SensorSize(64, 48)
 WIDTH, BLOCKS, CLASSES = 4, (1, 2, 1, 1), 3
 
@@ -120,41 +122,9 @@ def test_the_network_agrees_with_layers_of_torch_put_together_by_hand(torch, che
 
     weights = read_resnet_weights(checkpoint)
     assert (weights.blocks, weights.class_count) == (BLOCKS, CLASSES)
-    tensors, nn = weights.tensors, torch.nn
-
-    def convolution(name, stride, padding):
-        out, before, side, _ = tensors[f"{name}.weight"].shape
-        layer = nn.Conv2d(before, out, side, stride=stride, padding=padding, bias=False)
-        layer.weight.data = tensors[f"{name}.weight"]
-        return layer
-
-    def norm(name):
-        layer = nn.BatchNorm2d(len(tensors[f"{name}.weight"])).eval()
-        parts = ("weight", "bias", "running_mean", "running_var")
-        layer.load_state_dict({part: tensors[f"{name}.{part}"] for part in parts}, strict=False)
-        return layer
-
-    def block(found, at, stride):
-        inner = torch.relu(norm(f"{at}.bn1")(convolution(f"{at}.conv1", stride, 1)(found)))
-        inner = norm(f"{at}.bn2")(convolution(f"{at}.conv2", 1, 1)(inner))
-        if stride == 2:
-            short = convolution(f"{at}.downsample.0", 2, 0)(found)
-            found = norm(f"{at}.downsample.1")(short)
-        return torch.relu(inner + found)
-
     images = (np.random.default_rng(1).random((2, 2, 70, 64)) < 0.2).astype(np.float32)
     with torch.no_grad():
-        found = torch.relu(norm("bn1")(convolution("conv1", 2, 3)(torch.from_numpy(images))))
-        found = nn.MaxPool2d(3, 2, 1)(found)
-        for at, stride in (
-            ("layer1.0", 1),
-            ("layer2.0", 2),
-            ("layer2.1", 1),
-            ("layer3.0", 2),
-            ("layer4.0", 2),
-        ):
-            found = block(found, at, stride)
-        expected = found.mean((2, 3)) @ tensors["fc.weight"].T + tensors["fc.bias"]
+        expected = torch_resnet(weights.tensors, BLOCKS).eval()(torch.from_numpy(images))
     scores = ResNetClassifier(weights)(images)
     np.testing.assert_allclose(scores, expected.numpy(), rtol=1e-5, atol=1e-4)
     assert np.ptp(scores) > 1e-3

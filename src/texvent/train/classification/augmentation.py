@@ -1,10 +1,11 @@
-"""Changed copies of recordings, so that a network does not learn them by heart."""
+"""Changed copies of recordings: scaled, cut, reversed, mirrored and shifted."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from texvent.events import EventStream
+from texvent.sensor import SensorSize
 from texvent.train.classification.config import Augmentation
 
 
@@ -26,3 +27,18 @@ def augment(
     x, y = x + dx, y + dy
     inside = (x >= 0) & (x < size.width) & (y >= 0) & (y < size.height)
     return EventStream(x[inside], y[inside], t[inside], p[inside], size)
+
+
+def scale_events(events: EventStream, size: SensorSize) -> EventStream:
+    """A copy with coordinates scaled to another size and rounded down, as N-ImageNet's program."""
+    x = events.x.astype(np.int64) * size.width // events.size.width
+    y = events.y.astype(np.int64) * size.height // events.size.height
+    return EventStream.from_columns(x, y, events.t, events.p, size=size)
+
+
+def take_run(events: EventStream, count: int | None, chance: np.random.Generator) -> EventStream:
+    """A random run of so many events, or all if there are no more."""
+    if count is None or len(events) <= count:
+        return events
+    first = int(chance.integers(len(events) - count + 1))
+    return events[first : first + count]

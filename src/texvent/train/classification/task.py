@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,21 +11,24 @@ from typing import Any, ClassVar
 import numpy as np
 
 from texvent._require import require
-from texvent.dataset.loading.open_samples import open
-from texvent.dataset.loading.stored_samples import StoredSamples
 from texvent.errors import FileFormatError, InputError, shown
-from texvent.events import EventStream
-from texvent.networks.weight_files import Tensor
+from texvent.networks.weight_files import Tensor, read_mapping, state_tensors
 from texvent.represent.named import represent_window
+from texvent.sensor import as_size
 from texvent.train.batches import Batches
-from texvent.train.classification.augmentation import augment
+from texvent.train.classification.augmentation import augment, scale_events, take_run
 from texvent.train.classification.config import Augmentation, ClassificationConfig
-from texvent.train.classification.small_cnn import small_cnn
+from texvent.train.classification.networks import LAST_LAYERS, NETWORKS
+from texvent.train.classification.samples import ChosenSamples, open_training, open_validation
+from texvent.train.history import STANDARD_ERROR
 from texvent.train.schedule import EXTRA
 from texvent.train.task import Score
 
 IMAGE, CLASS, CLASSES = "image", "class_number", "classes"
 NO_AUGMENTATION = Augmentation(shift=0)
+TOP = 5
+WHERE_FROM = "texvent train classification writes it as weights.pt"
+"""Of a weights file, for messages."""
 
 
 class ClassificationTask:
@@ -39,35 +43,47 @@ class ClassificationTask:
             InputError, ConfigError, FileFormatError: the data does not fit; the message says why.
         """
         self._config = config
-        self._validation = _open(config, config.data.validation_split)
+        self._validation = open_validation(config)
         self._classes = list(self._validation.labels)
         examples = self._examples(self._validation)
         self._channels = len(examples(0, np.random.default_rng(0))[IMAGE])
 
     def make_network(self) -> Any:
         """See `Task`."""
-        return small_cnn(self._channels, len(self._classes), self._config.seed)
+        wanted = self._config.network
+        network = NETWORKS[wanted.name](
+            self._channels, len(self._classes), self._config.seed, width=wanted.width
+        )
+        if self._config.start_from is not None:
+            self._begin_with(network, self._config.start_from)
+        return network
 
     def batches(self, *, workers: int) -> Batches:
         """See `Task`."""
-        samples = _open(self._config, self._config.data.split)
+        samples = open_training(self._config, self._validation)
         return self._batches(samples, self._config.augmentation, workers, shuffle=True)
 
     def loss(self, network: Any, batch: Mapping[str, Any], device: Any) -> Tensor:
         """See `Task`."""
-        functional = require("torch", extra=EXTRA).nn.functional
-        return functional.cross_entropy(network(batch[IMAGE].to(device)), batch[CLASS].to(device))
+        return _cross_entropy(network(batch[IMAGE].to(device)), batch[CLASS].to(device))
 
     def validate(self, network: Any, device: Any, *, workers: int) -> dict[str, float]:
-        """Accuracy and mean loss."""
-        right = loss = 0.0
+        """Accuracies with their standard errors, and mean loss."""
+        ranks, loss = [], 0.0
         batches = self._batches(self._validation, NO_AUGMENTATION, workers, shuffle=False)
         for batch in batches.epoch(0):
             scores, classes = network(batch[IMAGE].to(device)), batch[CLASS].to(device)
-            right += float((scores.argmax(dim=1) == classes).sum())
-            loss += float(self.loss(network, batch, device)) * len(classes)
-        count = len(self._validation)
-        return {"accuracy": right / count, "validation loss": loss / count}
+            ranks += (scores > scores.gather(1, classes[:, None])).sum(dim=1).tolist()
+            loss += float(_cross_entropy(scores, classes)) * len(classes)
+        found = {"accuracy": ranks, f"top-{TOP} accuracy": [rank // TOP for rank in ranks]}
+        if len(self._classes) <= TOP:
+            del found[f"top-{TOP} accuracy"]
+        rows = {}
+        for name, one in found.items():
+            share = one.count(0) / len(one)
+            rows[name] = share
+            rows[f"{name}{STANDARD_ERROR}"] = math.sqrt(share * (1 - share) / len(one))
+        return {**rows, "validation loss": loss / len(ranks)}
 
     def published(self, network: Any) -> Mapping[str, Any]:
         """See `Task`."""
@@ -82,10 +98,26 @@ class ClassificationTask:
                 f"{path} tells apart the classes {shown(known)}, and the samples have "
                 f"{shown(self._classes)}; they must be equal, in the same order"
             )
-        network.read(content, path, "texvent train classification writes it as weights.pt")
+        network.read(content, path, WHERE_FROM)
+
+    def _begin_with(self, network: Any, path: Path) -> None:
+        """Take over weights, but for the last layer of other classes.
+
+        Raises:
+            InputError: there is no such file.
+            FileFormatError: they are of another network.
+        """
+        if not path.is_file():
+            raise InputError(f"there is no weights file {path}; {WHERE_FROM}")
+        content = read_mapping(path, WHERE_FROM, extra=EXTRA)
+        found = state_tensors(content, path, WHERE_FROM, extra=EXTRA)
+        if content.get(CLASSES, self._classes) != self._classes:
+            own = network.tensors
+            found |= {name: own[name] for name in LAST_LAYERS if name in own}
+        network.read(found, path, WHERE_FROM)
 
     def _batches(
-        self, samples: StoredSamples, augmentation: Augmentation, workers: int, *, shuffle: bool
+        self, samples: ChosenSamples, augmentation: Augmentation, workers: int, *, shuffle: bool
     ) -> Batches:
         return Batches(
             make=self._examples(samples, augmentation),
@@ -97,7 +129,7 @@ class ClassificationTask:
         )
 
     def _examples(
-        self, samples: StoredSamples, augmentation: Augmentation = NO_AUGMENTATION
+        self, samples: ChosenSamples, augmentation: Augmentation = NO_AUGMENTATION
     ) -> ClassExamples:
         return ClassExamples(samples, self._config, augmentation)
 
@@ -106,14 +138,16 @@ class ClassificationTask:
 class ClassExamples:
     """Images and classes of samples, by number."""
 
-    samples: StoredSamples
+    samples: ChosenSamples
     config: ClassificationConfig
     augmentation: Augmentation
 
     def __call__(self, number: int, chance: np.random.Generator) -> Mapping[str, Any]:
-        """The image and the class of a sample."""
-        network, samples = self.config.network, self.samples
-        events = take_run(samples.events(number), self.config.data.slice_events, chance)
+        """The image and the class of a sample; without events, an image of zeros."""
+        network, data = self.config.network, self.config.data
+        events = take_run(self.samples.events(number), data.slice_events, chance)
+        if data.image_size is not None:
+            events = scale_events(events, as_size(data.image_size))
         events = augment(events, self.augmentation, chance)
         window = (int(events.t[0]), int(events.t[-1]) + 1) if len(events) else (0, 1)
         image = represent_window(
@@ -121,23 +155,8 @@ class ClassExamples:
         )
         image = np.asarray(image, np.float32)
         image = image.reshape(-1, *image.shape[-2:])
-        return {IMAGE: image, CLASS: samples.class_number(number)}
+        return {IMAGE: image, CLASS: int(self.samples.class_number[number])}
 
 
-def take_run(events: EventStream, count: int | None, chance: np.random.Generator) -> EventStream:
-    """A random run of so many events, or all if there are no more."""
-    if count is None or len(events) <= count:
-        return events
-    first = int(chance.integers(len(events) - count + 1))
-    return events[first : first + count]
-
-
-def _open(config: ClassificationConfig, split: str) -> StoredSamples:
-    data = config.data
-    samples = open(data.folder, variant=data.variant, split=split)
-    if not samples.labels:
-        raise InputError(f"{data.folder} has no classes; give its sources a label")
-    unlabelled = sum(samples.class_number(number) < 0 for number in range(len(samples)))
-    if unlabelled:
-        raise InputError(f"{unlabelled} samples of split {split} of {data.folder} have no class")
-    return samples
+def _cross_entropy(scores: Tensor, classes: Tensor) -> Tensor:
+    return require("torch", extra=EXTRA).nn.functional.cross_entropy(scores, classes)
