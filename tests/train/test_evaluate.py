@@ -42,6 +42,15 @@ def test_the_scores_are_those_of_the_best_epoch(trained: Path) -> None:
     assert found["scores"]["validation loss"] == pytest.approx(best["validation loss"], rel=1e-6)
     assert found["weights"]["file"] == "weights.pt"
     assert found["scored_on"]["data"]["validation_split"] == "test"
+    predictions = found["predictions"]
+    assert predictions["sample"][:2] == ["sample test000", "sample test001"]
+    assert predictions["class"] == [0, 1] * 4
+    is_right = [
+        one == two
+        for one, two in zip(*(predictions[name] for name in ("class", "predicted")), strict=True)
+    ]
+    assert is_right == [rank == 0 for rank in predictions["rank"]]
+    assert sum(is_right) / 8 == best["accuracy"]
 
 
 def test_other_samples_need_no_training_split(trained: Path) -> None:

@@ -19,7 +19,7 @@ from texvent.train.checkpoint import TrainingState
 from texvent.train.loop import train
 from texvent.train.reading import read_training
 from texvent.train.schedule import EXTRA, Hardware
-from texvent.train.task import TaskConfig
+from texvent.train.task import PredictingTask, TaskConfig
 
 WHERE_FROM = "texvent train writes it as weights.pt"
 """Of a weights file, for messages."""
@@ -65,7 +65,7 @@ class Evaluation:
 
     scores: Mapping[str, float]
     facts: Mapping[str, Any]
-    """Weights, version, and what they were scored on, as plain values."""
+    """Weights, version, what they were scored on, predictions if there are any: plain values."""
 
     def write(self, path: Path, *, overwrite: bool) -> None:
         """Write both as JSON.
@@ -100,10 +100,16 @@ def evaluate_from_file(
     task.read(network, read_mapping(weights, WHERE_FROM, extra=EXTRA), weights)
     network.to(device).eval()
     with require("torch", extra=EXTRA).inference_mode(), hardware.autocast(device):
-        scores = task.validate(network, device, workers=hardware.workers)
+        predictions = {}
+        if isinstance(task, PredictingTask):
+            predictions = task.predict(network, device, workers=hardware.workers)
+            scores = task.scores(predictions)
+        else:
+            scores = task.validate(network, device, workers=hardware.workers)
     facts = {
         "texvent_version": full_version(),
         "weights": describe_file(weights),
         "scored_on": plain(config),
+        **({"predictions": predictions} if predictions else {}),
     }
     return Evaluation(scores, facts)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar, Protocol, runtime_checkable
 
 from texvent.networks.weight_files import Tensor
 from texvent.train.batches import Batches
@@ -81,4 +81,17 @@ class Task(Protocol):
         Raises:
             FileFormatError: they do not fit the network or the samples.
         """
+        ...
+
+
+@runtime_checkable
+class PredictingTask(Task, Protocol):
+    """A task that says what it predicts for each validation sample."""
+
+    def predict(self, network: Any, device: Any, *, workers: int) -> dict[str, list[Any]]:
+        """Columns by name, a value per validation sample."""
+        ...
+
+    def scores(self, predictions: Mapping[str, Sequence[Any]]) -> dict[str, float]:
+        """What `validate` gives, from these columns."""
         ...

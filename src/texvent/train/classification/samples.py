@@ -87,11 +87,19 @@ class ChosenSamples:
             InputError: they are of another sensor than the first sample.
             TexventError: they cannot be read or made.
         """
-        source, number = self.sources[int(self.source[place])], int(self.number[place])
+        source, number = self._at(place)
         events = source.events(number)
         if self.size is not None and self.size != events.size:
             raise _other_size(source.title(number), events.size, self.size)
         return events
+
+    def title(self, place: int) -> str:
+        """What to call a sample."""
+        source, number = self._at(place)
+        return source.title(number)
+
+    def _at(self, place: int) -> tuple[LabelledSamples, int]:
+        return self.sources[int(self.source[place])], int(self.number[place])
 
 
 def open_validation(config: ClassificationConfig) -> ChosenSamples:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
@@ -68,22 +68,38 @@ class ClassificationTask:
         return _cross_entropy(network(batch[IMAGE].to(device)), batch[CLASS].to(device))
 
     def validate(self, network: Any, device: Any, *, workers: int) -> dict[str, float]:
-        """Accuracies with their standard errors, and mean loss."""
-        ranks, loss = [], 0.0
-        batches = self._batches(self._validation, NO_AUGMENTATION, workers, shuffle=False)
-        for batch in batches.epoch(0):
+        """Accuracies with their standard errors, and mean cross entropy."""
+        return self.scores(self.predict(network, device, workers=workers))
+
+    def predict(self, network: Any, device: Any, *, workers: int) -> dict[str, list[Any]]:
+        """See `PredictingTask`.
+
+        Returns:
+            `sample`; `class` and `predicted`, places in the list of classes; `rank`: how many
+            classes are not less likely than the right one; `loss`: cross entropy.
+        """
+        samples = self._validation
+        found: dict[str, list[Any]] = {"predicted": [], "rank": [], "loss": []}
+        for batch in self._batches(samples, NO_AUGMENTATION, workers, shuffle=False).epoch(0):
             scores, classes = network(batch[IMAGE].to(device)), batch[CLASS].to(device)
-            ranks += (scores > scores.gather(1, classes[:, None])).sum(dim=1).tolist()
-            loss += float(_cross_entropy(scores, classes)) * len(classes)
-        found = {"accuracy": ranks, f"top-{TOP} accuracy": [rank // TOP for rank in ranks]}
-        if len(self._classes) <= TOP:
-            del found[f"top-{TOP} accuracy"]
-        rows = {}
-        for name, one in found.items():
-            share = one.count(0) / len(one)
-            rows[name] = share
-            rows[f"{name}{STANDARD_ERROR}"] = math.sqrt(share * (1 - share) / len(one))
-        return {**rows, "validation loss": loss / len(ranks)}
+            is_less = scores < scores.gather(1, classes[:, None])
+            found["predicted"] += scores.argmax(dim=1).tolist()
+            found["rank"] += (~is_less).sum(dim=1).sub(1).tolist()
+            found["loss"] += _cross_entropy(scores, classes, reduction="none").tolist()
+        titles = [samples.title(place) for place in range(len(samples))]
+        return {"sample": titles, "class": samples.class_number.tolist(), **found}
+
+    def scores(self, predictions: Mapping[str, Sequence[Any]]) -> dict[str, float]:
+        """See `PredictingTask`."""
+        ranks = np.array(predictions["rank"])
+        shares = {"accuracy": float((ranks < 1).mean())}
+        if len(self._classes) > TOP:
+            shares[f"top-{TOP} accuracy"] = float((ranks < TOP).mean())
+        scores = {}
+        for name, share in shares.items():
+            scores[name] = share
+            scores[f"{name}{STANDARD_ERROR}"] = math.sqrt(share * (1 - share) / len(ranks))
+        return {**scores, "validation loss": float(np.mean(predictions["loss"]))}
 
     def published(self, network: Any) -> Mapping[str, Any]:
         """See `Task`."""
@@ -158,5 +174,6 @@ class ClassExamples:
         return {IMAGE: image, CLASS: int(self.samples.class_number[number])}
 
 
-def _cross_entropy(scores: Tensor, classes: Tensor) -> Tensor:
-    return require("torch", extra=EXTRA).nn.functional.cross_entropy(scores, classes)
+def _cross_entropy(scores: Tensor, classes: Tensor, *, reduction: str = "mean") -> Tensor:
+    functional = require("torch", extra=EXTRA).nn.functional
+    return functional.cross_entropy(scores, classes, reduction=reduction)
