@@ -241,6 +241,8 @@ TASKS = Registry(
     "task",
     {
         "classification": "texvent.train.classification.config:ClassificationConfig",
+        "depth": "texvent.train.depth.config:DepthConfig",
+        "flow": "texvent.train.flow.config:FlowConfig",
     },
 )
 REGISTRIES = {

@@ -25,7 +25,7 @@ from texvent.reconstruct.protocol import PublishedNetwork
 from texvent.runtime.cache_folder import cache_folder
 
 LEFT_BY_TRAINING = (
-    *("parse_config.ConfigParser", "utils.parse_config.ConfigParser"),
+    *("parse_config.ConfigParser", "utils.parse_config.ConfigParser", "logger.logger.Logger"),
     *("pathlib.PosixPath", "pathlib._local.PosixPath", "pathlib.WindowsPath"),
     *("numpy.core.multiarray.scalar", "numpy._core.multiarray.scalar", "numpy.dtype"),
 )

@@ -14,6 +14,7 @@ from texvent.errors import InputError
 from texvent.io.atomic import atomic_file
 from texvent.networks.weight_files import describe_file, read_mapping
 from texvent.options.values import plain
+from texvent.reconstruct.checkpoint import LEFT_BY_TRAINING
 from texvent.runtime.progress import NO_PROGRESS, Progress
 from texvent.train.checkpoint import TrainingState
 from texvent.train.loop import train
@@ -97,7 +98,8 @@ def evaluate_from_file(
         raise InputError(f"there is no weights file {weights}; texvent train writes weights.pt")
     task, device = config.make_task(), hardware.find_device()
     network = task.make_network()
-    task.read(network, read_mapping(weights, WHERE_FROM, extra=EXTRA), weights)
+    content = read_mapping(weights, WHERE_FROM, extra=EXTRA, stand_ins=LEFT_BY_TRAINING)
+    task.read(network, content, weights)
     network.to(device).eval()
     with require("torch", extra=EXTRA).inference_mode(), hardware.autocast(device):
         predictions = {}

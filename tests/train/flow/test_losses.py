@@ -20,7 +20,7 @@ def test_two_scales_by_hand() -> None:
     target[0, :, 1, 1] = math.nan
     fine = torch.zeros(1, 2, 2, 2)
     fine[0, :, 0, 0] = torch.tensor([3.0, 4.0])
-    coarse = torch.tensor([1.0, 0.0]).reshape(1, 2, 1, 1)
+    coarse = torch.tensor([1.0, 0.0]).reshape(1, 2, 1, 1).expand(1, 2, 2, 2)
     # Means over three valid pixels; 0.001 px where there is no error.
     softened = math.sqrt(1 + 1e-6)
     expected = (((math.sqrt(25 + 1e-6) + 2 * 0.001) / 3) + softened) / 2

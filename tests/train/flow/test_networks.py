@@ -102,10 +102,8 @@ def test_e_raft_gives_flow_of_the_size_of_its_input(size: tuple[int, int]) -> No
 
 def test_ev_flow_net_gives_flow_at_four_scales() -> None:
     network = make_ev_flow_net(5, 4, seed=0)
-    flows = network(torch.rand(2, 5, 48, 64))
-    assert [tuple(flow.shape) for flow in flows] == [
-        (2, 2, 6, 8), (2, 2, 12, 16), (2, 2, 24, 32), (2, 2, 48, 64)
-    ]  # fmt: skip
+    flows = network(torch.rand(2, 5, 45, 60))
+    assert [tuple(flow.shape) for flow in flows] == [(2, 2, 45, 60)] * 4
     sum(flow.sum() for flow in flows).backward()
     assert all(one.grad is not None for one in network.parameters())
 

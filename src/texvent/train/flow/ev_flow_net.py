@@ -6,6 +6,7 @@ from typing import Any
 
 from texvent.networks.layer_shapes import Shapes, conv_layer, residual_block
 from texvent.networks.layers import Layers
+from texvent.networks.padding import Padding
 from texvent.networks.weight_files import Tensor
 from texvent.train.tensor_network import TensorNetwork, initial_tensors
 
@@ -15,7 +16,7 @@ BLOCKS = 2
 FLOW_CHANNELS = 2
 KERNEL = 3
 MULTIPLE = 2**ENCODERS
-"""Both sides of the input must be multiples of this, px."""
+"""Both sides are padded to multiples of this, px."""
 
 
 def ev_flow_net_shapes(bins: int, width: int) -> Shapes:
@@ -43,9 +44,8 @@ def ev_flow_net_shapes(bins: int, width: int) -> Shapes:
 def make_ev_flow_net(bins: int, width: int, seed: int) -> TensorNetwork:
     """EV-FlowNet with random weights.
 
-    It takes a voxel grid, [n, bins, H, W] with sides that are multiples of 16 px, and gives the
-    displacement over the slice, (x, y) in px of the full size, at an eighth, a quarter, half and
-    the whole of the size: a tuple of [n, 2, h, w], the last one [n, 2, H, W].
+    It takes voxel grids, [n, bins, H, W], and gives the displacement over each, (x, y) in px: a
+    tuple of four [n, 2, H, W], found at an eighth, a quarter, half and the whole of the size.
 
     Args:
         bins: of the voxel grid.
@@ -62,9 +62,11 @@ def make_ev_flow_net(bins: int, width: int, seed: int) -> TensorNetwork:
     return TensorNetwork(initial_tensors(ev_flow_net_shapes(bins, width), seed), _compute)
 
 
-def _compute(network: Any, voxel: Tensor) -> tuple[Tensor, ...]:
+def _compute(network: Any, grids: Tensor) -> tuple[Tensor, ...]:
     layers = Layers(network.tensors)
-    torch, x = layers.torch, voxel
+    torch = layers.torch
+    padding = Padding.centred(grids.shape[-2:], MULTIPLE)
+    padded = x = padding.around(grids)
     skipped: list[Tensor] = []
     flows: list[Tensor] = []
     for number in range(ENCODERS):
@@ -76,4 +78,10 @@ def _compute(network: Any, voxel: Tensor) -> tuple[Tensor, ...]:
         x = torch.cat([*flows[-1:], x, skipped.pop()], 1)
         x = layers.upsample_layer(x, f"{PREFIX}.decoders.{number}")
         flows.append(layers.conv_layer(x, f"{PREFIX}.preds.{number}"))
-    return tuple(flows)
+    whole = [
+        torch.nn.functional.interpolate(
+            flow, size=padded.shape[-2:], mode="bilinear", align_corners=False
+        )
+        for flow in flows
+    ]
+    return tuple(padding.off(flow) for flow in whole)

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from texvent._require import require
 from texvent.networks.weight_files import Tensor
-from texvent.train.schedule import EXTRA
 
 SOFTNESS_PX = 1e-3
 """Distance below which the loss is quadratic, px."""
@@ -16,9 +14,8 @@ def flow_loss(predictions: Sequence[Tensor], target: Tensor) -> Tensor:
     """Mean Charbonnier distance of valid pixels, `√(|predicted − true|² + 0.001²)`, over scales.
 
     Args:
-        predictions: (x, y) displacement, px of the full size, [n, 2, h, w] of any size, which is
-            enlarged to that of the target.
-        target: the same, [n, 2, H, W]; NaN where it is not known.
+        predictions: (x, y) displacement, px, [n, 2, H, W] each.
+        target: the same; NaN where it is not known.
 
     Returns:
         A scalar, px; 0 where nothing is known.
@@ -29,15 +26,11 @@ def flow_loss(predictions: Sequence[Tensor], target: Tensor) -> Tensor:
         in place of 0.45, of the whole distance in place of each component, so that a loss is an
         end-point error; scales of equal weight.
     """
-    functional = require("torch", extra=EXTRA).nn.functional
     valid = target.isfinite().all(dim=1, keepdim=True)
     count = valid.sum().clamp(min=1)
     true = target.where(valid, 0)
     total = true.new_zeros(())
     for prediction in predictions:
-        flow = functional.interpolate(
-            prediction, size=true.shape[-2:], mode="bilinear", align_corners=False
-        )
-        squared = ((flow - true) ** 2).sum(dim=1, keepdim=True)
+        squared = ((prediction - true) ** 2).sum(dim=1, keepdim=True)
         total = total + ((squared + SOFTNESS_PX**2).sqrt() * valid).sum() / count
     return total / len(predictions)

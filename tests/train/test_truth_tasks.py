@@ -1,0 +1,127 @@
+"""Depth and flow, trained end to end: they learn, go on after a stop, are scored and refused."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from texvent.cli.app import main
+
+torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
+
+from texvent._registry import TASKS  # noqa: E402
+from texvent.runtime.progress import CallbackProgress  # noqa: E402
+from texvent.train.flow.e_raft import make_e_raft  # noqa: E402
+from texvent.train.run import train_from_file  # noqa: E402
+from texvent.train.schedule import Hardware  # noqa: E402
+
+from .sequences.windowed_specification import write_specification  # noqa: E402
+
+pytestmark = pytest.mark.torch
+TASK_NAMES = ("depth", "flow")
+SCORES = {"depth": "abs_rel", "flow": "EPE"}
+CPU = Hardware(device="cpu")
+
+
+def write_training(folder: Path, *, network: str = "width = 2", epochs: int = 3) -> Path:
+    write_specification(folder)
+    path = folder / "training.toml"
+    path.write_text(
+        'data = {specification = "tiny.toml", variant = "paper", slice_us = 20_000, length = 3, '
+        'cache = "cache"}\n'
+        f"network = {{{network}}}\n"
+        f"schedule = {{epochs = {epochs}, batch_size = 2, learning_rate = 0.003}}\n"
+    )
+    return path
+
+
+def weights(folder: Path) -> dict[str, torch.Tensor]:
+    return torch.load(folder / "weights.pt", weights_only=True)["state_dict"]
+
+
+@pytest.mark.parametrize("task", TASK_NAMES)
+def test_a_training_learns_goes_on_after_a_stop_and_its_weights_score_as_they_did(
+    task: str, tmp_path: Path
+) -> None:
+    path, kind = write_training(tmp_path), TASKS.load(task)
+    whole = train_from_file(kind, path, tmp_path / "whole", CPU)
+    losses = [row["training loss"] for row in whole.rows]
+    assert losses[-1] < losses[0]
+
+    def stop_in_the_last_epoch(done: int, total: int | None, line: str) -> None:
+        if line.startswith("epoch 3 of 3"):
+            raise KeyboardInterrupt
+
+    progress = CallbackProgress(stop_in_the_last_epoch)
+    with pytest.raises(KeyboardInterrupt):
+        train_from_file(kind, path, tmp_path / "parts", CPU, progress)
+    train_from_file(kind, path, tmp_path / "parts", CPU)
+    one, other = weights(tmp_path / "whole"), weights(tmp_path / "parts")
+    assert all(torch.equal(one[name], other[name]) for name in one)
+
+    out = tmp_path / "scores.json"
+    words = [str(path), str(tmp_path / "parts" / "weights.pt"), "-o", str(out), "--device", "cpu"]
+    assert main(["evaluate", task, *words]) == 0
+    best = whole.rows[whole.best_epoch - 1]
+    scores = json.loads(out.read_text())["scores"]
+    assert np.isfinite(scores[SCORES[task]])
+    for name, value in scores.items():
+        assert value == pytest.approx(best[name], rel=1e-4, nan_ok=True)
+
+
+def test_depth_has_the_published_layout(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = write_training(tmp_path, epochs=1)
+    train_from_file(TASKS.load("depth"), path, tmp_path / "run", CPU)
+    content = torch.load(tmp_path / "run" / "weights.pt", weights_only=True)
+    assert content["arch"] == "E2VIDRecurrent"
+    assert content["config"]["model"] == {
+        "num_bins": 5,
+        "skip_type": "sum",
+        "recurrent_block_type": "convlstm",
+        "num_encoders": 3,
+        "base_num_channels": 2,
+        "num_residual_blocks": 2,
+        "use_upsample_conv": True,
+        "norm": "none",
+    }
+    names = set(content["state_dict"])
+    assert {name.split(".")[0] for name in names} == {"unetrecurrent"}
+    assert "unetrecurrent.encoders.2.recurrent_block.Gates.weight" in names
+    wider = write_training(tmp_path, network="width = 4")
+    assert main(["evaluate", "depth", str(wider), str(tmp_path / "run" / "weights.pt")]) == 2
+    error = capsys.readouterr().err
+    assert "network.width must be that of the file" in error
+    assert len(error.strip().splitlines()) == 1
+
+
+def test_e_raft_is_scored_from_its_published_layout_and_not_trained(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = str(write_training(tmp_path, network='name = "e-raft", bins = 15'))
+    state = {f"module.{name}": one for name, one in make_e_raft(15, seed=1).tensors.items()}
+    state["module.cnet.norm1.num_batches_tracked"] = torch.tensor(7)
+    torch.save({"model": state}, tmp_path / "dsec.tar")
+    assert main(["evaluate", "flow", path, str(tmp_path / "dsec.tar"), "--device", "cpu"]) == 0
+    assert "EPE at events" in capsys.readouterr().out
+    assert main(["train", "flow", path, "-o", str(tmp_path / "run"), "-q"]) == 2
+    assert "e-raft is not trained here" in capsys.readouterr().err
+    assert not (tmp_path / "run").exists()
+
+
+@pytest.mark.parametrize("task", TASK_NAMES)
+def test_videos_have_no_truth(
+    task: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = write_training(tmp_path)
+    np.save(tmp_path / "video.npy", np.zeros((4, 24, 32), np.uint8))
+    (tmp_path / "tiny.toml").write_text(
+        'name = "videos"\nsplits = {validation = 1.0}\nfilters = {min_events = 0}\n'
+        '[options]\nfps = 24\n[[sources]]\nvideos = ["video.npy"]\n[variants.paper]\n'
+    )
+    assert main(["train", task, str(path), "-o", str(tmp_path / "run"), "-q"]) == 2
+    error = capsys.readouterr().err
+    assert f"tiny.toml simulates videos, whose {task} is not known; give prompts" in error
+    assert len(error.strip().splitlines()) == 1
