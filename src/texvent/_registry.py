@@ -243,6 +243,7 @@ TASKS = Registry(
         "classification": "texvent.train.classification.config:ClassificationConfig",
         "depth": "texvent.train.depth.config:DepthConfig",
         "flow": "texvent.train.flow.config:FlowConfig",
+        "reconstruction": "texvent.train.reconstruction.config:ReconstructionConfig",
     },
 )
 REGISTRIES = {

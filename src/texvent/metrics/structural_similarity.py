@@ -43,11 +43,16 @@ def structural_similarity(a: Float64Array, b: Float64Array, *, data_range: float
 
 def _smooth(images: Float64Array) -> Float64Array:
     """Gaussian-weighted mean around every pixel that is far enough from the border."""
-    offset = np.arange(-RADIUS_PX, RADIUS_PX + 1)
-    weights = np.exp(-(offset**2) / (2 * SIGMA_PX**2))
-    weights /= weights.sum()
+    weights = gaussian_window()
     for axis in (-1, -2):
         # The windows become the last axis; the product with the weights removes it again.
         windows = np.lib.stride_tricks.sliding_window_view(images, len(weights), axis=axis)
         images = windows @ weights
     return images
+
+
+def gaussian_window() -> Float64Array:
+    """Weights along one axis, [11], with sum 1."""
+    offset = np.arange(-RADIUS_PX, RADIUS_PX + 1)
+    weights = np.exp(-(offset**2) / (2 * SIGMA_PX**2))
+    return np.asarray(weights / weights.sum())

@@ -6,17 +6,19 @@ import numpy as np
 import pytest
 
 from texvent.bench.reconstruction.image_scores import (
-    ImageMeasure,
     ImageScores,
-    Measures,
     ScoreCollector,
-    load_measures,
-    mean_squared_error,
-    peak_signal_to_noise,
     pool_scores,
     score_images,
 )
 from texvent.errors import InputError
+from texvent.metrics.image_measures import (
+    ImageMeasure,
+    Measures,
+    load_measures,
+    mean_squared_error,
+    peak_signal_to_noise,
+)
 from texvent.video import Frame
 
 MSE = Measures(chosen=(ImageMeasure("mse", "lower", mean_squared_error),))

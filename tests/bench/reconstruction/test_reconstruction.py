@@ -9,7 +9,6 @@ import pytest
 
 from texvent.bench.fidelity.entries import Entry
 from texvent.bench.reconstruction.image_grid import ReconstructionGrid
-from texvent.bench.reconstruction.image_scores import load_measures
 from texvent.bench.reconstruction.noise_robustness import NoiseLevel, noise_curve
 from texvent.bench.reconstruction.run import (
     DEFAULT_SKIP,
@@ -23,6 +22,7 @@ from texvent.bench.reconstruction.run import (
 from texvent.bench.reconstruction.table import reconstruction_document, reconstruction_tables
 from texvent.bench.selftest.perturbations import add_background, scatter
 from texvent.errors import ConfigError
+from texvent.metrics.image_measures import load_measures
 
 from .synthetic_network import FRAMES, SIZE, STEP_US, StandInReconstructor, moving_bar
 

@@ -11,10 +11,11 @@ from texvent.bench.classification.resnet34_weights import read_resnet_weights
 from texvent.bench.paper.published_tables import IMAGE_ROWS, TABLES, OurFigures
 from texvent.bench.progress import Progress
 from texvent.bench.real.frame_recording import FrameRecording
-from texvent.bench.reconstruction.image_scores import ImageScores, load_measures, pool_scores
+from texvent.bench.reconstruction.image_scores import ImageScores, pool_scores
 from texvent.bench.reconstruction.noise_robustness import PAPER_LEVELS, noise_curve
 from texvent.bench.reconstruction.run import ReconstructionPlan, ReconstructionScorer
 from texvent.errors import InputError
+from texvent.metrics.image_measures import load_measures
 from texvent.reconstruct.reconstructor import Reconstructor
 
 

@@ -15,7 +15,7 @@ from texvent.bench.progress import Progress
 from texvent.bench.real.frame_recording import FrameRecording
 from texvent.bench.real.run import RealPlan, run_real
 from texvent.bench.real.scene import RealScene
-from texvent.bench.reconstruction.image_scores import load_measures, pool_scores
+from texvent.bench.reconstruction.image_scores import pool_scores
 from texvent.bench.reconstruction.run import (
     ReconstructionPlan,
     ReconstructionScorer,
@@ -24,6 +24,7 @@ from texvent.bench.reconstruction.run import (
 from texvent.errors import TexventError
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.metrics.compare import load_metric
+from texvent.metrics.image_measures import load_measures
 from texvent.metrics.protocol import Metric, find_missing
 from texvent.reconstruct.reconstructor import Reconstructor
 from texvent.sensor import SENSORS

@@ -18,16 +18,12 @@ from typing import Any, TypeAlias
 from texvent.bench.fidelity.entries import Entry
 from texvent.bench.progress import Progress, no_progress
 from texvent.bench.real.frame_recording import FrameRecording
-from texvent.bench.reconstruction.image_scores import (
-    ImageScores,
-    Measures,
-    ScoreCollector,
-    score_images,
-)
+from texvent.bench.reconstruction.image_scores import ImageScores, ScoreCollector, score_images
 from texvent.calibrate.rate import match_rate
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.events import EventStream
+from texvent.metrics.image_measures import Measures
 from texvent.options.fields import option_names
 from texvent.pipeline import Simulation, video_to_events
 from texvent.reconstruct.reconstructor import Intensity, Reconstructor

@@ -11,7 +11,6 @@ from texvent.bench.fidelity.entries import choose_entries
 from texvent.bench.real.frame_recording import FrameRecording, open_recording
 from texvent.bench.real.scene import locate_source
 from texvent.bench.reconstruction.image_grid import ReconstructionGrid
-from texvent.bench.reconstruction.image_scores import load_measures
 from texvent.bench.reconstruction.noise_robustness import NoiseScore, noise_curve
 from texvent.bench.reconstruction.run import (
     ReconstructionPlan,
@@ -25,6 +24,7 @@ from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError
 from texvent.io.atomic import atomic_file
+from texvent.metrics.image_measures import load_measures
 from texvent.options.fields import renamed
 from texvent.reconstruct.config import ReconstructConfig
 from texvent.reconstruct.reconstructor import load_reconstructor

@@ -1,0 +1,1 @@
+"""Networks that turn events into images, trained on simulated clips."""
