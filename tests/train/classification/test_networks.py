@@ -105,3 +105,20 @@ def test_trained_weights_are_read_by_bench_classify(
     # Both make the same images, since no file has 30,000 events to draw from.
     assert benched.startswith(f"top-1 {float(scored['accuracy']):.4f} ± ")
     assert f"± {float(scored['accuracy standard error']):.4f}" in benched
+
+
+def test_a_checkpoint_of_n_imagenets_program_is_evaluated(tmp_path: Path) -> None:
+    for label, name in enumerate(("n01", "n02")):
+        folder = tmp_path / "recorded" / "test" / name
+        folder.mkdir(parents=True)
+        bar(label, 0).save(folder / "a.npz", format="n-imagenet")
+    (tmp_path / "spec.toml").write_text(
+        'data = {recordings = "recorded", image_size = "64x48"}\n'
+        'network = {name = "resnet34", width = 2, representation = "binary-event-image"}\n'
+    )
+    # Several GPUs put "module." before every name; torch counts the batches of normalisations.
+    state = {f"module.{name}": one for name, one in resnet34(2, 2, 1, width=2).tensors.items()}
+    state["module.bn1.num_batches_tracked"] = torch.tensor(7)
+    torch.save({"epoch": 3, "state_dict": state}, tmp_path / "published.tar")
+    paths = [str(tmp_path / "spec.toml"), str(tmp_path / "published.tar")]
+    assert main(["evaluate", "classification", *paths, "--device", "cpu"]) == 0

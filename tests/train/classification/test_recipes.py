@@ -17,7 +17,8 @@ from texvent.train.classification.config import ClassificationConfig  # noqa: E4
 from texvent.train.reading import read_training  # noqa: E402
 
 pytestmark = pytest.mark.torch
-FILES = Path(__file__).parents[3] / "configs" / "training"
+ROOT = Path(__file__).parents[3]
+FILES = ROOT / "configs" / "training"
 
 
 def write_n_imagenet(folder: Path, classes: int, per_class: int) -> None:
@@ -65,3 +66,15 @@ def test_the_first_example_is_a_specification_and_a_training_of_it() -> None:
     training = read_training(FILES / "shapes-classifier.toml", ClassificationConfig())
     assert training.data.folder == FILES / specification.name
     assert {training.data.split, training.data.validation_split} <= {*specification.splits}
+
+
+def test_the_training_files_of_the_page_are_read(tmp_path: Path) -> None:
+    page = (ROOT / "docs" / "training-classification.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"```toml\n# ([\w-]+\.toml).*?\n(.*?)```", page, re.DOTALL)
+    assert [name for name, _ in blocks] == ["digits.toml", "table6.toml", "table6-extra.toml"]
+    for name, text in blocks:
+        (tmp_path / name).write_text(text)
+        if "[[sources]]" in text:
+            read_specification(tmp_path / name)
+        else:
+            read_training(tmp_path / name, ClassificationConfig())

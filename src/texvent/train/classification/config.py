@@ -15,8 +15,14 @@ from texvent.train.schedule import Schedule
 if TYPE_CHECKING:
     from texvent.train.task import Task
 
-KINDS = "folder, specification and recordings"
+SOURCE_KINDS = "folder, specification and recordings"
 """Of samples."""
+BELONGS_TO: Mapping[str, tuple[str, ...]] = {
+    "variant": ("folder", "specification"),
+    "sensor": ("recordings",),
+    "flip_polarity": ("recordings",),
+}
+"""Option → the kinds of samples that have it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,7 +50,12 @@ class Source:
     def __post_init__(self) -> None:
         check_range("per_class", self.per_class, 1)
         if len(self._given) > 1:
-            raise ConfigError(f"{' and '.join(self._given)} are given; give one of {KINDS}")
+            raise ConfigError(f"{' and '.join(self._given)} are given; give one of {SOURCE_KINDS}")
+        for name, kinds in BELONGS_TO.items():
+            if getattr(self, name) and self._given and self._given[0] not in kinds:
+                raise ConfigError(
+                    f"{name} belongs to {' or '.join(kinds)}, not to {self._given[0]}; leave it out"
+                )
         if self.sensor is not None:
             as_size(self.sensor)
 
@@ -56,7 +67,9 @@ class Source:
             ConfigError: none of them.
         """
         if not self._given:
-            raise ConfigError(f"there are no samples to train on; give one of {KINDS} in [data]")
+            raise ConfigError(
+                f"there are no samples to train on; give one of {SOURCE_KINDS} in [data]"
+            )
         return self._given[0]
 
     @property
@@ -140,6 +153,10 @@ class ClassificationConfig:
 
     def __post_init__(self) -> None:
         check_range("seed", self.seed, 0, 2**63 - 1)
+        if self.extra != Source() and not self.extra.is_given:
+            raise ConfigError(
+                f"[extra] has no samples; give one of {SOURCE_KINDS} in it, or leave it out"
+            )
 
     def make_task(self) -> Task:
         """The task; this imports torch."""
