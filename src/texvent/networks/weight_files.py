@@ -21,6 +21,8 @@ Tensor: TypeAlias = Any
 
 SAFETENSORS = ".safetensors"
 STATE = "state_dict"
+NOTES, TRAINING = "texvent", "training"
+"""Where `texvent train` notes how weights were made, and the training file in it."""
 DAMAGE = (
     *(RuntimeError, OSError, EOFError, ValueError, LookupError, AttributeError, TypeError),
     *(pickle.UnpicklingError, zipfile.BadZipFile),
@@ -122,6 +124,15 @@ def state_tensors(
         )
     named = named_tensors(state, extra=extra)
     return {name: one for name, one in named.items() if not name.endswith(BATCH_COUNTER)}
+
+
+def trained_with(content: Mapping[str, Any], table: str) -> Mapping[str, Any]:
+    """A table of the training file that weights were trained with; empty if it is not known."""
+    found = content
+    for name in (NOTES, TRAINING, table):
+        inner = found.get(name)
+        found = inner if isinstance(inner, Mapping) else {}
+    return found
 
 
 def check_finite(tensors: Mapping[str, Tensor], path: Path) -> None:

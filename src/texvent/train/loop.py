@@ -16,6 +16,7 @@ import numpy as np
 from texvent._require import require
 from texvent._version import full_version
 from texvent.errors import OutputError, TexventError, one_line
+from texvent.networks.weight_files import NOTES, TRAINING
 from texvent.runtime.progress import Progress
 from texvent.train.batches import Batches
 from texvent.train.checkpoint import WEIGHTS_FILE, TrainingState, read_state, save, write_state
@@ -165,11 +166,11 @@ def _write_results(folder: Path, state: TrainingState, task: Task, network: Any)
         "torch_version": str(torch.__version__),
         "best_epoch": state.best_epoch,
         "chosen_by": task.score.name,
-        "training": state.tables,
+        TRAINING: state.tables,
     }
     write_history(folder, facts, state.rows)
     network.load_state_dict(state.best)
-    save(folder / WEIGHTS_FILE, {**task.published(network), "texvent": facts})
+    save(folder / WEIGHTS_FILE, {**task.published(network), NOTES: facts})
     network.load_state_dict(state.network)
 
 

@@ -102,6 +102,10 @@ def test_trained_weights_are_read_by_bench_classify(
     benched = capsys.readouterr().out
     assert main(["evaluate", "classification", words[0], weights, "--device", "cpu"]) == 0
     scored = dict(line.rsplit(maxsplit=1) for line in capsys.readouterr().out.splitlines())
+    text = Path(words[0]).read_text().replace("binary-event-image", "dist")
+    (tmp_path / "other.toml").write_text(text)
+    assert main(["evaluate", "classification", str(tmp_path / "other.toml"), weights]) == 2
+    assert "with representation 'binary-event-image', and [net" in capsys.readouterr().err
     # Both make the same images, since no file has 30,000 events to draw from.
     assert benched.startswith(f"top-1 {float(scored['accuracy']):.4f} ± ")
     assert f"± {float(scored['accuracy standard error']):.4f}" in benched
@@ -122,3 +126,12 @@ def test_a_checkpoint_of_n_imagenets_program_is_evaluated(tmp_path: Path) -> Non
     torch.save({"epoch": 3, "state_dict": state}, tmp_path / "published.tar")
     paths = [str(tmp_path / "spec.toml"), str(tmp_path / "published.tar")]
     assert main(["evaluate", "classification", *paths, "--device", "cpu"]) == 0
+
+
+def test_bench_classify_refuses_a_network_that_was_shown_other_images(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    notes = {"training": {"network": {"representation": "dist"}}}
+    torch.save({"state_dict": resnet34(2, 2, 1, width=2).tensors, "texvent": notes}, tmp_path / "w")
+    assert main(["bench", "classify", str(tmp_path), "--weights", str(tmp_path / "w")]) == 2
+    assert "was trained on dist, and this benchmark shows binary" in capsys.readouterr().err

@@ -17,10 +17,10 @@ from texvent.networks.weight_files import (
     read_mapping,
     shapes_of,
     state_tensors,
+    trained_with,
 )
 
-CHANNELS = 2
-"""Of binary event images."""
+REPRESENTATION, CHANNELS = "binary-event-image", 2
 WHERE_FROM = (
     "the published classifiers are linked from the project 82magnolia/n_imagenet on GitHub; this "
     "one is ResNet34 on binary event images (reshape_then_flat_pol)"
@@ -57,6 +57,12 @@ def read_resnet_weights(path: Path) -> ResNetWeights:
     if not path.is_file():
         raise InputError(f"there is no weights file {path}; {WHERE_FROM}")
     content = read_mapping(path, WHERE_FROM, extra=EXTRA)
+    shown_to_it = trained_with(content, "network").get("representation", REPRESENTATION)
+    if shown_to_it != REPRESENTATION:
+        raise FileFormatError(
+            f"{path} was trained on {shown_to_it}, and this benchmark shows {REPRESENTATION}; use "
+            "texvent evaluate classification"
+        )
     tensors = state_tensors(content, path, WHERE_FROM, extra=EXTRA)
     shapes = shapes_of(tensors)
     blocks = _count_blocks(shapes, path)

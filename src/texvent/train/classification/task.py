@@ -12,7 +12,8 @@ import numpy as np
 
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError, shown
-from texvent.networks.weight_files import Tensor, read_mapping, state_tensors
+from texvent.networks.weight_files import Tensor, read_mapping, state_tensors, trained_with
+from texvent.options.values import plain
 from texvent.represent.named import represent_window
 from texvent.sensor import as_size
 from texvent.train.batches import Batches
@@ -114,6 +115,13 @@ class ClassificationTask:
                 f"{path} tells apart the classes {shown(known)}, and the samples have "
                 f"{shown(self._classes)}; they must be equal, in the same order"
             )
+        told, own = trained_with(content, "network"), plain(self._config.network)
+        for name in ("representation", "representation_options"):
+            if told.get(name, own[name]) != own[name]:
+                raise FileFormatError(
+                    f"{path} was trained with {name} {shown(told[name])}, and [network] has "
+                    f"{shown(own[name])}; they must be equal"
+                )
         network.read(content, path, WHERE_FROM)
 
     def _begin_with(self, network: Any, path: Path) -> None:
