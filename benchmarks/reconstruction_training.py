@@ -1,0 +1,189 @@
+"""FireNet trained on the same scenes with the events of several simulators, scored on recordings.
+
+    OMP_NUM_THREADS=1 python -m benchmarks.reconstruction_training -o FOLDER [--json FILE]
+        [--arms accurate,esim,v2e] [--seeds 2] [--recordings slider_depth,davis346]
+        [--published firenet=FILE --published firenet+=FILE]
+
+Every arm is a variant of the specification that configs/training/firenet.toml names; all arms of a
+seed begin with the same weights, and see the same scenes with the same thresholds in the same
+order. A run that was stopped goes on. The recorded events alone are scored, as by `texvent bench
+reconstruction`, beside published networks and an image that is grey all over.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from texvent._version import full_version
+from texvent.bench.document import write_document
+from texvent.bench.machine import describe_environment
+from texvent.bench.real.frame_recording import FrameRecording, open_recording
+from texvent.bench.real.scene import locate_source
+from texvent.bench.reconstruction.image_scores import ScoreCollector, true_image
+from texvent.bench.reconstruction.run import ReconstructionPlan, ReconstructionScorer
+from texvent.metrics.image_measures import Measures, load_measures
+from texvent.options.values import plain
+from texvent.reconstruct.reconstructor import load_reconstructor
+from texvent.runtime.progress import NO_PROGRESS
+from texvent.train.loop import train
+from texvent.train.reading import read_training
+from texvent.train.reconstruction.config import ReconstructionConfig
+from texvent.train.schedule import Hardware
+
+SCHEMA = "texvent-reconstruction-training-1"
+GREY = 0.5
+PLAN = ReconstructionPlan(entries=())
+
+
+def main() -> None:
+    """Train, score, print the table, and write the document with --json."""
+    arguments = _arguments()
+    config = read_training(arguments.training, ReconstructionConfig())
+    recordings = [
+        open_recording(locate_source(name)[0]) for name in arguments.recordings.split(",")
+    ]
+    measures = load_measures()
+    rows = [score_grey(recording, measures) for recording in recordings]
+    for one in arguments.published:
+        network, _, path = one.partition("=")
+        rows += score_weights(network, Path(path), recordings, measures, {"source": "published"})
+    runs = []
+    # Arm by arm within a seed: what is stopped early has as many seeds of each.
+    for seed in range(arguments.seeds):
+        for arm in arguments.arms.split(","):
+            folder = arguments.out / f"{arm}-{seed}"
+            run = replace(config, seed=seed, data=replace(config.data, variant=arm))
+            history = train_arm(run, folder)
+            facts = {"source": "trained", "arm": arm, "seed": seed}
+            runs.append({**facts, "epochs": history})
+            weights = folder / "weights.pt"
+            rows += score_weights(config.network.name, weights, recordings, measures, facts)
+            if arguments.json is not None:
+                write_document(arguments.json, document(config, rows, runs), overwrite=True)
+    print(table(rows))
+
+
+def train_arm(config: ReconstructionConfig, folder: Path) -> list[dict[str, float]]:
+    """Train on the CPU, or go on; the scores of all epochs."""
+    state = train(
+        config.make_task(),
+        config.schedule,
+        folder,
+        seed=config.seed,
+        tables=plain(config),
+        hardware=Hardware(device="cpu"),
+        progress=NO_PROGRESS,
+    )
+    return state.rows
+
+
+def score_weights(
+    network: str,
+    weights: Path,
+    recordings: list[FrameRecording],
+    measures: Measures,
+    facts: dict[str, Any],
+) -> list[dict[str, Any]]:
+    """Means over the images of each recording."""
+    reconstructor = load_reconstructor(network, weights, device="cpu")
+    scorer = ReconstructionScorer(reconstructor=reconstructor, measures=measures, plan=PLAN)
+    rows = []
+    for recording in recordings:
+        scores = scorer.score(recording, recording.events).scores
+        rows.append(
+            {
+                **facts,
+                "network": network,
+                "recording": recording.name,
+                "images": len(scores.t_us),
+                "mean": {name: scores.mean(name) for name in scores.values},
+            }
+        )
+    return rows
+
+
+def score_grey(recording: FrameRecording, measures: Measures) -> dict[str, Any]:
+    """The same for an image that shows nothing."""
+    span_us, skip = PLAN.scored_part(recording)
+    collector = ScoreCollector(measures, span_us=span_us, skip=skip)
+    frames = iter(recording.frames)
+    next(frames)  # no image belongs to the first frame
+    for frame in frames:
+        true = true_image(frame)
+        collector.add(frame.t_us, np.full_like(true, GREY), true)
+    scores = collector.scores()
+    return {
+        "source": "grey",
+        "network": "",
+        "recording": recording.name,
+        "images": len(scores.t_us),
+        "mean": {name: scores.mean(name) for name in scores.values},
+    }
+
+
+def document(
+    config: ReconstructionConfig, rows: list[dict[str, Any]], runs: list[dict[str, Any]]
+) -> dict[str, Any]:
+    """Everything found so far, ready for JSON."""
+    return {
+        "schema": SCHEMA,
+        "environment": {**describe_environment(), "full_version": full_version()},
+        "training": plain(config),
+        "rows": rows,
+        "runs": runs,
+    }
+
+
+def table(rows: list[dict[str, Any]]) -> str:
+    """Mean of each arm over seeds, and the smallest and largest seed."""
+    return "\n".join(_lines(rows))
+
+
+def _lines(rows: list[dict[str, Any]]) -> Iterator[str]:
+    names = list(rows[0]["mean"])
+    yield "| recording | events of training | " + " | ".join(names) + " |"
+    yield "|---" * (2 + len(names)) + "|"
+    keys = dict.fromkeys((row["recording"], label(row)) for row in rows)
+    for recording, name in keys:
+        chosen = [row for row in rows if (row["recording"], label(row)) == (recording, name)]
+        cells = []
+        for measure in names:
+            values = [row["mean"][measure] for row in chosen]
+            spread = f" ({min(values):.3f}–{max(values):.3f})" if len(values) > 1 else ""
+            cells.append(f"{np.mean(values):.3f}{spread}")
+        yield f"| {recording} | {name} | " + " | ".join(cells) + " |"
+
+
+def label(row: dict[str, Any]) -> str:
+    """What a row is called in the table."""
+    if row["source"] == "trained":
+        return str(row["arm"])
+    return f"{row['source']} {row['network']}".strip()
+
+
+def _arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        description="Train FireNet on simulators, score on recordings."
+    )
+    parser.add_argument("-o", "--out", type=Path, required=True, help="folder of the trainings")
+    parser.add_argument(
+        "--training", type=Path, default=Path("configs/training/firenet.toml"), help="TOML"
+    )
+    parser.add_argument("--arms", default="accurate,esim,v2e")
+    parser.add_argument("--seeds", type=int, default=2)
+    parser.add_argument("--recordings", default="slider_depth,davis346")
+    parser.add_argument(
+        "--published", action="append", default=[], help="NETWORK=FILE, scored beside"
+    )
+    parser.add_argument("--json", type=Path, help="keep the result")
+    return parser.parse_args()
+
+
+if __name__ == "__main__":
+    main()
