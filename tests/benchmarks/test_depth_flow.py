@@ -1,0 +1,60 @@
+"""What the benchmark of depth and flow computes by itself: ranks, sharpness, trivial predictors."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+
+pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
+
+from benchmarks.depth_flow import (
+    rank_correlation,
+    sharpness,
+    trivial_depth,
+    trivial_flow,
+)
+
+from ..train.sequences.windowed_specification import write_specification
+
+pytestmark = pytest.mark.torch
+
+
+def test_ranks_by_hand() -> None:
+    rising = np.array([1.0, 2, 3, 4])
+    assert rank_correlation(rising, rising**3) == pytest.approx(1)
+    assert rank_correlation(rising, -rising) == pytest.approx(-1)
+    # Ranks 1, 2.5, 2.5, 4 of the second: covariance 4.5, variances 5 and 4.5.
+    found = rank_correlation(rising, np.array([0.0, 7, 7, 9]))
+    assert found == pytest.approx(4.5 / np.sqrt(5 * 4.5))
+
+
+def test_a_moving_edge_is_sharp_along_its_own_flow() -> None:
+    # A column of 8 px that moves by 10 px in 10 ms, an event per px and ms.
+    steps = np.repeat(np.arange(10), 8)
+    rows = np.tile(np.arange(8), 10)
+    events = EventStream(5 + steps, rows, steps * 1000, steps % 2, SensorSize(24, 8))
+    flow = np.zeros((2, 8, 24))
+    assert sharpness(events, flow) == pytest.approx(1)
+    flow[0] = 1000
+    # One column of 10 events per px, in place of ten columns of 1.
+    assert sharpness(events, flow) > 9
+    flow[0] = -1000
+    # Ten columns again, two pixels apart.
+    assert sharpness(events, flow) == pytest.approx(1)
+
+
+def test_trivial_predictors_are_scored_as_networks_are(tmp_path: Path) -> None:
+    write_specification(tmp_path)
+    path = tmp_path / "training.toml"
+    path.write_text(
+        'data = {specification = "tiny.toml", variant = "paper", slice_us = 40_000, length = 3, '
+        'cache = "cache"}\n'
+    )
+    flow, depth = trivial_flow(path), trivial_depth(path)
+    assert flow["zero flow"]["EPE"] > 0
+    assert depth["median depth image"]["abs_rel"] <= depth["median depth"]["abs_rel"] + 0.5
