@@ -57,7 +57,7 @@ class Accuracy:
     @property
     def standard_errors(self) -> tuple[float, float]:
         """Of both shares, from the number of streams."""
-        return _binomial_error(self.top1, self.count), _binomial_error(self.top5, self.count)
+        return binomial_error(self.top1, self.count), binomial_error(self.top5, self.count)
 
 
 def list_samples(folder: Path, class_count: int, *, classes: Path | None = None) -> list[Sample]:
@@ -160,5 +160,6 @@ def _read_classes(path: Path) -> list[str]:
     return [line[0] for line in words if line]
 
 
-def _binomial_error(share: float, count: int) -> float:
+def binomial_error(share: float, count: int) -> float:
+    """Standard error of a share of so many samples."""
     return math.sqrt(share * (1 - share) / count)

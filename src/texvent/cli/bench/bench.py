@@ -11,6 +11,7 @@ from texvent.errors import ConfigError, shown
 
 BENCHMARKS: Mapping[str, str] = {
     "classify": "how many streams does N-ImageNet's classifier recognise?",
+    "digits": "who trains on simulated events reads recorded ones how well?",
     "fidelity": "which simulator comes closest to true events of exact scenes?",
     "page": "a result of fidelity or real as a page with tables and plots",
     "paper": "the paper's tables, ablations E1-E12, or a folder of configs",

@@ -1,4 +1,4 @@
-"""`texvent bench page`: a result of `bench fidelity` or `real` as a page with plots."""
+"""`texvent bench page`: a result of `bench fidelity`, `real` or `digits` as a page with plots."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
+from texvent.bench.digits.report import page as digits_page
+from texvent.bench.digits.report import results as digits_results
 from texvent.bench.document import read_document, result_name
 from texvent.bench.fidelity.page import page_files
 from texvent.bench.fidelity.results import read_report
@@ -25,10 +27,10 @@ class PageOptions:
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o"}
 
     result: Path = REQUIRED
-    """JSON file that `texvent bench fidelity --out` or `texvent bench real --out` wrote, as it
-    is or compressed (.json.gz)."""
+    """JSON file that --out of `texvent bench fidelity`, `real` or `digits` wrote, as it is or
+    compressed (.json.gz)."""
     baseline: str = BASELINE
-    """Row that the others are compared with, pair by pair."""
+    """Row that the others are compared with, pair by pair; of fidelity and real."""
     out: Path | None = None
     """Folder of the page and its charts; default: that of the result."""
     charts: bool = True
@@ -43,18 +45,27 @@ def run(arguments: Sequence[str]) -> None:
         arguments,
         {"options": PageOptions()},
         prog="texvent bench page",
-        description="A result of bench fidelity or bench real as a Markdown page with bars, level "
-        "matrices, time-error histograms and event images, named after the result.",
+        description="A result of bench fidelity, real or digits as a Markdown page with its tables "
+        "and charts, named after the result.",
     )
     folder = options.out or options.result.parent
     name = result_name(options.result.name)
     check_output(folder / f"{name}.md", overwrite=options.overwrite)
-    report = read_report(read_document(options.result))
-    check_baseline(options.baseline, [score.entry for score in report.scores])
-    files = page_files(
-        report, options.result.name, baseline=options.baseline, has_charts=options.charts
-    )
+    files = _page_files(options)
     for file, content in files.items():
         with atomic_file(folder / file, overwrite=options.overwrite) as part:
             part.write_bytes(content)
     write_out("".join(f"{folder / file}\n" for file in files))
+
+
+def _page_files(options: PageOptions) -> dict[str, bytes]:
+    document = read_document(options.result)
+    if document.get("schema") == digits_results.SCHEMA:
+        return digits_page.page_files(
+            digits_results.read_report(document), options.result.name, has_charts=options.charts
+        )
+    report = read_report(document)
+    check_baseline(options.baseline, [score.entry for score in report.scores])
+    return page_files(
+        report, options.result.name, baseline=options.baseline, has_charts=options.charts
+    )

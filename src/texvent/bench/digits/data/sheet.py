@@ -1,0 +1,180 @@
+"""Many digits side by side, moving as N-MNIST's did, as one stream that shows any instant.
+
+In every pixel model a pixel knows nothing of its neighbours, so a digit gets the events on a sheet
+that it gets alone, in a small part of the time. Between frames, optical flow is estimated; the
+margins keep digits apart for it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.bench.digits.data.saccades import DURATION_US, digit_corner
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+from texvent.video import MICROSECONDS, Frame, frame_time_us
+
+TILE = 34
+"""Width and height that a digit has on the sensor, px: N-MNIST's."""
+MARGIN = 3
+"""Pixels around a tile that show its background, and what leaves it."""
+PITCH = TILE + 2 * MARGIN
+FPS = Fraction(60)
+"""Of the display."""
+FRAMES = math.ceil(DURATION_US * FPS / MICROSECONDS) + 1
+WHITE = 255.0
+AMPLITUDE, SPEED, SHIFT = 0.2, 0.1, 1.0
+"""Movements differ by ± 20 %, their speed by ± 10 %, their start by ± 1 px."""
+BLACK = (0.05, 0.2)
+"""Share of white that the display shows as black."""
+
+
+@dataclass(frozen=True, eq=False)
+class Digits:
+    """Digits, and how each is shown and moved."""
+
+    images: NDArray[np.uint8]
+    """[n, 28, 28]."""
+    amplitude: NDArray[np.float64]
+    """[n], 1 is the measured one."""
+    speed: NDArray[np.float64]
+    """[n], 1 is the measured one."""
+    shift: NDArray[np.float64]
+    """[n, 2] px along x and y."""
+    black: NDArray[np.float64]
+    """[n] level 0..255 of the background."""
+
+    @classmethod
+    def draw(cls, images: NDArray[np.uint8], numbers: NDArray[np.int64], seed: int) -> Digits:
+        """Draw motion and contrast; they depend on (seed, number of the image) alone.
+
+        Args:
+            images: [n, 28, 28].
+            numbers: [n] of the images in their file.
+            seed: of all.
+        """
+        chances = np.stack([np.random.default_rng((seed, int(one))).random(5) for one in numbers])
+        signed = 2 * chances - 1
+        low, high = BLACK
+        return cls(
+            images=images,
+            amplitude=1 + AMPLITUDE * signed[:, 0],
+            speed=1 + SPEED * signed[:, 1],
+            shift=SHIFT * signed[:, 2:4],
+            black=WHITE * (low + (high - low) * chances[:, 4]),
+        )
+
+    @classmethod
+    def as_measured(cls, images: NDArray[np.uint8]) -> Digits:
+        """With the measured motion and the middle contrast."""
+        count = len(images)
+        return cls(
+            images=images,
+            amplitude=np.ones(count),
+            speed=np.ones(count),
+            shift=np.zeros((count, 2)),
+            black=np.full(count, WHITE * sum(BLACK) / 2),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class DigitSheet:
+    """A `RenderableStream`: 60 frames per second, and any instant between them."""
+
+    digits: Digits
+    fps: Fraction = FPS
+    frame_count: int = FRAMES
+    is_live: bool = False
+
+    @property
+    def metadata(self) -> Mapping[str, Any]:
+        """Nothing: the benchmark stores what it draws from."""
+        return {}
+
+    @property
+    def size(self) -> SensorSize:
+        """Of the sheet, px."""
+        rows = math.ceil(len(self.digits.images) / self._columns)
+        return SensorSize(PITCH * self._columns, PITCH * rows)
+
+    def __iter__(self) -> Iterator[Frame]:
+        for index in range(self.frame_count):
+            t_us = frame_time_us(index, self.fps)
+            yield Frame(self._render(t_us), t_us)
+
+    def at(self, t_us: int) -> Frame:
+        """The frame at any instant."""
+        return Frame(self._render(t_us), t_us, is_source=False)
+
+    def cut(self, images: NDArray[Any]) -> NDArray[Any]:
+        """What lies on each digit's part of the sensor.
+
+        Args:
+            images: [..., H, W] of the sheet.
+
+        Returns:
+            [n, ..., 34, 34].
+        """
+        rows = images.shape[-2] // PITCH
+        tiles = images.reshape(*images.shape[:-2], rows, PITCH, self._columns, PITCH)
+        tiles = np.moveaxis(tiles, (-4, -2), (0, 1)).reshape(-1, *images.shape[:-2], PITCH, PITCH)
+        inside = slice(MARGIN, MARGIN + TILE)
+        return tiles[: len(self.digits.images), ..., inside, inside]
+
+    def lay_out(self, recordings: Sequence[EventStream]) -> EventStream:
+        """Recordings of 34×34 px, one per digit, as one recording of the sheet."""
+        numbers = np.repeat(np.arange(len(recordings)), [len(one) for one in recordings])
+        x, y, t, p = (np.concatenate([getattr(one, name) for one in recordings]) for name in "xytp")
+        x = (x + numbers % self._columns * PITCH + MARGIN).astype(np.uint16)
+        y = (y + numbers // self._columns * PITCH + MARGIN).astype(np.uint16)
+        order = np.argsort(t, kind="stable")
+        return EventStream(x[order], y[order], t[order], p[order], self.size)
+
+    def inside(self, events: EventStream) -> EventStream:
+        """The events of a sheet that lie on a digit's part of the sensor."""
+        x, y = events.x % PITCH, events.y % PITCH
+        last = MARGIN + TILE
+        return events[(x >= MARGIN) & (x < last) & (y >= MARGIN) & (y < last)]
+
+    @property
+    def _columns(self) -> int:
+        return math.ceil(math.sqrt(len(self.digits.images)))
+
+    @cached_property
+    def _padded(self) -> NDArray[np.float32]:
+        """[n, 28 + 2 PITCH, 28 + 2 PITCH]: each digit, 0..1, amid more background than it needs."""
+        around = (PITCH, PITCH)
+        return np.pad(self.digits.images.astype(np.float32) / WHITE, ((0, 0), around, around))
+
+    def _render(self, t_us: int) -> NDArray[np.float32]:
+        """[H, W] levels; a pixel has the mean over its area of a digit of square pixels."""
+        digits = self.digits
+        corner = MARGIN + digits.shift + digit_corner(t_us, digits.speed, digits.amplitude)
+        first = np.floor(corner).astype(np.int64)
+        part = (corner - first).astype(np.float32)
+        reach = np.arange(PITCH - 1, 2 * PITCH)
+        x, y = (reach - first[:, axis, None] for axis in (0, 1))
+        number = np.arange(len(x))[:, None, None]
+        cells = self._padded[number, y[:, :, None], x[:, None, :]]
+        part_x, part_y = part[:, 0, None, None], part[:, 1, None, None]
+        rows = cells[:, 1:] * (1 - part_y) + cells[:, :-1] * part_y
+        cover = rows[:, :, 1:] * (1 - part_x) + rows[:, :, :-1] * part_x
+        black = digits.black.astype(np.float32)[:, None, None]
+        return self._tile(black + (np.float32(WHITE) - black) * cover)
+
+    def _tile(self, tiles: NDArray[np.float32]) -> NDArray[np.float32]:
+        """[n, PITCH, PITCH] side by side, row by row; what is left over is black."""
+        width, height = self.size
+        rows = height // PITCH
+        whole = np.zeros((rows * self._columns, PITCH, PITCH), np.float32)
+        whole[: len(tiles)] = tiles
+        grid = whole.reshape(rows, self._columns, PITCH, PITCH).swapaxes(1, 2)
+        return grid.reshape(height, width)

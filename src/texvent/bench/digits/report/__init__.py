@@ -1,0 +1,1 @@
+"""What a run found: scores, tests, tables, charts, a page."""
