@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from texvent._require import require
 from texvent.bench.digits.data.idx import CLASSES
 from texvent.dataset.loading.order import epoch_order
-from texvent.train.classification.small_cnn import small_cnn
+from texvent.train.classification.networks import small_cnn
 from texvent.train.schedule import EXTRA, Schedule
 
 Precision: TypeAlias = Literal["float32", "bfloat16"]
