@@ -59,9 +59,12 @@ def test_with_more_than_five_classes_the_right_one_may_be_among_the_five_likelie
     assert found["top-5 accuracy standard error"] == pytest.approx(math.sqrt(10 / 49 / 7))
 
 
-def test_scores_that_are_no_numbers_or_all_equal_recognise_nothing(tmp_path: Path) -> None:
-    table = np.array([[np.nan, np.nan], [2, 2], [3, 0], [5, 0], [0, 1]])
+def test_of_equal_scores_the_first_class_is_predicted_and_no_number_recognises_nothing(
+    tmp_path: Path,
+) -> None:
+    table = np.array([[2, 2], [np.nan, np.nan], [3, 0], [2, 2], [0, 1]])
     predictions = task(tmp_path, (3, 2)).predict(scores_of(table), torch.device("cpu"), workers=0)
-    assert predictions["rank"] == [1, 1, 0, 1, 0]
     assert predictions["class"] == [0, 0, 0, 1, 1]
+    assert predictions["rank"] == [0, 2, 0, 1, 0]
+    assert predictions["predicted"][0] == predictions["predicted"][3] == 0
     assert predictions["sample"][3].endswith("class1/0.npz")

@@ -77,15 +77,14 @@ class ClassificationTask:
 
         Returns:
             `sample`; `class` and `predicted`, places in the list of classes; `rank`: how many
-            classes are not less likely than the right one; `loss`: cross entropy.
+            classes are likelier than the right one; `loss`: cross entropy.
         """
         samples = self._validation
         found: dict[str, list[Any]] = {"predicted": [], "rank": [], "loss": []}
         for batch in self._batches(samples, NO_AUGMENTATION, workers, shuffle=False).epoch(0):
             scores, classes = network(batch[IMAGE].to(device)), batch[CLASS].to(device)
-            is_less = scores < scores.gather(1, classes[:, None])
             found["predicted"] += scores.argmax(dim=1).tolist()
-            found["rank"] += (~is_less).sum(dim=1).sub(1).tolist()
+            found["rank"] += _ranks(scores, classes).tolist()
             found["loss"] += _cross_entropy(scores, classes, reduction="none").tolist()
         titles = [samples.title(place) for place in range(len(samples))]
         return {"sample": titles, "class": samples.class_number.tolist(), **found}
@@ -185,3 +184,13 @@ class ClassExamples:
 def _cross_entropy(scores: Tensor, classes: Tensor, *, reduction: str = "mean") -> Tensor:
     functional = require("torch", extra=EXTRA).nn.functional
     return functional.cross_entropy(scores, classes, reduction=reduction)
+
+
+def _ranks(scores: Tensor, classes: Tensor) -> Tensor:
+    """How many classes come before the right one, [n]; of equal scores, the first class does."""
+    torch = require("torch", extra=EXTRA)
+    right = scores.gather(1, classes[:, None])
+    is_first = torch.arange(scores.shape[1], device=scores.device) < classes[:, None]
+    # A network that gives no numbers recognises nothing.
+    is_before = (scores > right) | ((scores == right) & is_first) | right.isnan()
+    return is_before.sum(dim=1)
