@@ -267,6 +267,10 @@ def test_another_size_later_on_is_named(tmp_path, capsys) -> None:
         (f'{RECORDED}, variant = "esim"', "variant belongs to folder or specification, not to rec"),
         ('folder = "made", flip_polarity = true', "flip_polarity belongs to recordings, not to f"),
         (f"{RECORDED}}}\nextra = {{per_class = 3", "[extra] has no samples; give one of folder"),
+        (
+            'recordings = "rec", validation_split = "few", classes = 2',
+            "holds no sample of ['ape', ",
+        ),
         (f"{RECORDED}, classes = 5", "classes is 5; "),
         (f"{RECORDED}, per_class = 0", "per_class is 0; it must be at least 1"),
         (f'{RECORDED}, sensor = "big"', "'big'"),
@@ -282,6 +286,9 @@ def test_samples_that_do_not_fit_are_refused_in_one_line(
     (tmp_path / "rec" / "none").mkdir()
     (tmp_path / "rec" / "one" / "bus").mkdir(parents=True)
     bar(0, 1).save(tmp_path / "rec" / "one" / "bus" / "a.npz")
+    for name in ("ape", "bee", "bus"):
+        (tmp_path / "rec" / "few" / name).mkdir(parents=True)
+    bar(0, 1).save(tmp_path / "rec" / "few" / "bus" / "a.npz")
     write_bars(tmp_path / "made")
     assert message in error_of(write(tmp_path / "spec.toml", data), capsys)
     assert not (tmp_path / "spec").exists()
