@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, Literal, TypeAlias, get_args
 
 from texvent._registry import suggest
@@ -38,10 +39,24 @@ class Arm:
     options: Mapping[str, Any]
     ways: tuple[Way, ...] = ("exact", "flow")
     choices: tuple[Choice, ...] = CHOICES
+    is_fitted: bool = False
+    """Whether options are fitted to the pairs; see `pair_fit`."""
 
-    def settings(self, way: Way, *, threshold: float | None = None) -> Settings:
-        """Options of a run, with a threshold of its own, log units, or the preset's (None)."""
-        settings = resolve("simulate", {**self.options, **WAY_OPTIONS[way]})
+    def settings(
+        self,
+        way: Way,
+        *,
+        threshold: float | None = None,
+        fitted: Mapping[str, float] = MappingProxyType({}),
+    ) -> Settings:
+        """Options of a run.
+
+        Args:
+            way: what the model is given.
+            threshold: contrast threshold, log units; None leaves the one of the options.
+            fitted: options that replace the arm's.
+        """
+        settings = resolve("simulate", {**self.options, **WAY_OPTIONS[way], **fitted})
         if threshold is None:
             return settings
         simulate = with_contrast_threshold(settings.simulate, threshold)
@@ -58,6 +73,13 @@ ARMS: tuple[Arm, ...] = (
     Arm("v2e noisy", {"simulator": "v2e", "preset": "noisy"}),
     Arm("voltmeter", {"simulator": "voltmeter"}),
     Arm("senpi", {"simulator": "senpi"}),
+    Arm(
+        "physical fitted",
+        {"simulator": "physical"},
+        ways=("exact",),
+        choices=("matched",),
+        is_fitted=True,
+    ),
     Arm("E1: no balance", {**_PAPER, "balance": 0.001}, choices=("matched",)),
     Arm("E4: no cache", {**_PAPER, "cache": "none"}, choices=("matched",)),
     Arm("E12: random times", {**_PAPER, "timestamp_rule": "random"}, choices=("matched",)),

@@ -1,4 +1,4 @@
-"""The physical model fitted to pairs of a recording and its digit: what simulators do not know.
+"""The physical model fitted to pairs of a recording and its digit.
 
 Thresholds follow from the counts of ON and OFF events; the other options are searched one at a
 time with steps that shrink, for the least distance between simulated and recorded events.
@@ -21,16 +21,15 @@ from texvent.run.prepare import prepare_video
 from texvent.run.settings import Settings
 
 COORDINATES: Mapping[str, tuple[float, ...]] = {
-    "refractory_period_us": (100, 300, 1000, 1500, 2000, 2500, 3000, 4000),
-    "cutoff_hz": (30, 60, 120, 250, 500, 1000, 0),
-    "balance": (1, 3, 10, 20, 40),
-    "threshold_sigma": (0.0, 0.03, 0.06, 0.1, 0.15, 0.2),
-    "noise_scale": (0.0, 0.3, 1.0, 3.0, 10.0),
-    "leak_rate_hz": (0.0, 0.01, 0.05, 0.1, 0.3),
+    "refractory_period_us": (100, 1000, 2000),
+    "cutoff_hz": (60, 120, 500, 0),
+    "balance": (3, 20, 40, 80),
+    "threshold_sigma": (0.0, 0.06, 0.1),
+    "noise_scale": (0.0, 0.3, 3.0),
+    "leak_rate_hz": (0.0, 0.05, 0.1, 0.3),
 }
-"""Options that are searched, in this order, and their values."""
-ROUNDS = 2
-COUNT_ROUNDS = 4
+"""Options that are searched, in this order, and the values that are tried beside the first."""
+COUNT_ROUNDS = 5
 """Simulations that may be spent on the thresholds of one candidate."""
 COUNT_TOLERANCE = 0.03
 """Logarithm of a count ratio at which thresholds are good enough."""
@@ -62,15 +61,12 @@ def fit_to_pairs(
         return _match_counts(sheet, truth, dataclasses.replace(settings, simulate=config))
 
     start = best = measure(settings.simulate)
-    for _ in range(ROUNDS):
-        for name, values in COORDINATES.items():
-            for value in values:
-                if value == getattr(best[0], name):
-                    continue
-                trial = measure(dataclasses.replace(best[0], **{name: value}))
-                report(f"{name} {value:g}: distance {trial[1]}")
-                if trial[1].total < best[1].total:
-                    best = trial
+    for name, values in COORDINATES.items():
+        for value in values:
+            trial = measure(dataclasses.replace(best[0], **{name: value}))
+            report(f"{name} {value:g}: distance {trial[1]}")
+            if trial[1].total < best[1].total:
+                best = trial
     names = ("contrast_threshold", "on_off_ratio", *COORDINATES)
     return {name: getattr(best[0], name) for name in names}, start[1], best[1]
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from texvent._registry import suggest
 from texvent.bench.digits.arms import CHOICES, WAYS, Arm, Cell, Choice, Way, find_arm
 from texvent.bench.digits.data.inputs import REPRESENTATIONS, InputSet
+from texvent.bench.digits.pair_fit import COORDINATES
 from texvent.bench.digits.store import Step
 from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError, shown
@@ -193,8 +194,23 @@ class Run:
     """Digest of the images and labels."""
     recorded: str
     """Digest of the recordings that are tested on."""
+    pairs: str
+    """Digest of the recordings that are fitted to."""
     target: float
     """Events that the pair in the middle has."""
+    polarity: float
+    """See `polarity_agreement`, of the pairs."""
+
+    def settings(self, cell: Cell, *, threshold: float | None = None) -> Settings:
+        """Options of a simulation of an arm; see `Arm.settings`."""
+        arm = find_arm(cell.arm)
+        fitted = self.pair_fit_step().read()["options"] if arm.is_fitted else {}
+        return arm.settings(cell.way, threshold=threshold, fitted=fitted)
+
+    def pair_fit_step(self) -> Step:
+        """Options of the physical model that are fitted to the pairs."""
+        config = {"searched": COORDINATES, "pairs": self.pairs, "mnist": self.mnist}
+        return Step(self.plan.work, "pair_fits", config)
 
     def recordings(self) -> InputSet:
         """Recordings that are tested on."""
@@ -202,7 +218,7 @@ class Run:
 
     def fit_step(self, cell: Cell) -> Step:
         """The threshold at which an arm has as many events as the pairs."""
-        settings = find_arm(cell.arm).settings(cell.way)
+        settings = self.settings(cell)
         config = {
             "settings": settings_tables(settings),
             "pairs": self.plan.pairs,
@@ -218,7 +234,7 @@ class Run:
     def set_step(self, cell: Cell) -> Step:
         """The simulated recordings of a set."""
         plan = self.plan
-        settings = find_arm(cell.arm).settings(cell.way, threshold=self.threshold(cell))
+        settings = self.settings(cell, threshold=self.threshold(cell))
         config = {
             "settings": settings_tables(settings),
             "is_random": cell.choice == "random",

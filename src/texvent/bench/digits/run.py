@@ -7,10 +7,11 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from texvent._require import require
+from texvent.bench.digits.arms import find_arm
 from texvent.bench.digits.networks import train_one
 from texvent.bench.digits.plan import DigitsPlan, Run, list_trainings
 from texvent.bench.digits.report.results import Collector, DigitsReport
-from texvent.bench.digits.simulation import fit_cell, open_run, simulate_cell
+from texvent.bench.digits.simulation import fit_cell, fit_physical, open_run, simulate_cell
 from texvent.bench.digits.store import Step
 from texvent.bench.jobs import run_jobs
 from texvent.bench.progress import Progress, no_progress
@@ -46,6 +47,8 @@ def run_digits(
         for number, line in enumerate(done, start=1):
             progress(f"{number} of {len(missing)}  {line}")
 
+    is_fitted = [name for name in plan.arms if find_arm(name).is_fitted]
+    make(fit_physical, lambda _: run.pair_fit_step(), is_fitted[:1])
     fits = {run.fit_step(cell).digest: cell for cell in plan.cells if cell.choice == "matched"}
     make(fit_cell, run.fit_step, list(fits.values()))
     make(simulate_cell, run.set_step, plan.cells)

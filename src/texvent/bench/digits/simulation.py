@@ -12,8 +12,10 @@ from numpy.typing import NDArray
 from texvent.bench.digits.arms import Cell, find_arm
 from texvent.bench.digits.data.idx import Mnist, read_mnist
 from texvent.bench.digits.data.inputs import InputSet, join_inputs, represent_all
+from texvent.bench.digits.data.polarity import polarity_agreement
 from texvent.bench.digits.data.recordings import FIRST_TEST, Recording, read_recordings
 from texvent.bench.digits.data.sheet import Digits, DigitSheet
+from texvent.bench.digits.pair_fit import fit_to_pairs
 from texvent.bench.digits.plan import DigitsPlan, Run, recorded_step
 from texvent.bench.digits.store import digest_of
 from texvent.calibrate.rate import UNREACHED
@@ -26,6 +28,9 @@ from texvent.simulate.thresholds import contrast_threshold_of
 
 SHEET, RANDOM_SHEET = 100, 25
 """Digits per sheet; and where each sheet has a threshold of its own."""
+LEAST_AGREEMENT = 0.6
+"""Share of events with the right sign below which recordings are refused; see
+`polarity_agreement`."""
 DRAWING_SEED = 0
 """Of motion and contrast."""
 
@@ -43,10 +48,17 @@ def open_run(plan: DigitsPlan) -> Run:
         )
     pairs = read_recordings(plan.nmnist, range(FIRST_TEST + 1, FIRST_TEST + 1 + plan.pairs))
     labels = [one.label for one in pairs]
+    sheet = DigitSheet(Digits.as_measured(mnist.images[: plan.pairs]))
     if labels != mnist.labels[: plan.pairs].tolist():
         raise FileFormatError(
             f"recordings {FIRST_TEST + 1} and up in {plan.nmnist} have other labels than the "
             f"images in {plan.mnist}; they must show MNIST's test images in their order"
+        )
+    polarity = polarity_agreement(sheet, [one.events for one in pairs])
+    if polarity < LEAST_AGREEMENT:
+        raise FileFormatError(
+            f"{polarity:.0%} of the events in {plan.nmnist} have the sign of their digit's change "
+            "of brightness; N-MNIST's files as published have 1 where it falls, so do not flip it"
         )
     recorded = read_recordings(plan.nmnist, range(1, plan.recorded + 1))
     digest = digest_of(*(_bytes(one) for one in recorded))
@@ -59,7 +71,9 @@ def open_run(plan: DigitsPlan) -> Run:
         plan=plan,
         mnist=digest_of(mnist.images.tobytes(), mnist.labels.tobytes()),
         recorded=digest,
+        pairs=digest_of(*(_bytes(one) for one in pairs)),
         target=represent_recordings(pairs).median_count,
+        polarity=polarity,
     )
 
 
@@ -110,6 +124,20 @@ def simulate_sheet(sheet: DigitSheet, labels: NDArray[Any], settings: Settings) 
     )
 
 
+def fit_physical(run: Run, arm: str) -> str:
+    """Fit the options of an arm to the pairs; returns a line for progress."""
+    plan = run.plan
+    images = read_mnist(plan.mnist).images[: plan.pairs]
+    pairs = read_recordings(plan.nmnist, range(FIRST_TEST + 1, FIRST_TEST + 1 + plan.pairs))
+    options, start, found = fit_to_pairs(
+        DigitSheet(Digits.as_measured(images)),
+        [one.events for one in pairs],
+        find_arm(arm).settings("exact"),
+    )
+    run.pair_fit_step().write({"options": options, "start": str(start), "fitted": str(found)})
+    return f"{arm}: distance to the pairs {start.total:.3f} to {found.total:.3f}"
+
+
 def fit_cell(run: Run, cell: Cell) -> str:
     """Fit the threshold of an arm to the pairs; returns a line for progress.
 
@@ -117,13 +145,12 @@ def fit_cell(run: Run, cell: Cell) -> str:
     """
     step = run.fit_step(cell)
     mnist, numbers = read_mnist(run.plan.mnist), 1 + np.arange(run.plan.pairs)
-    arm = find_arm(cell.arm)
 
     def count(threshold: float | None) -> float:
-        settings = arm.settings(cell.way, threshold=threshold)
+        settings = run.settings(cell, threshold=threshold)
         return simulate_digits(mnist, numbers, settings).median_count
 
-    start = contrast_threshold_of(arm.settings(cell.way).simulate)
+    start = contrast_threshold_of(run.settings(cell).simulate)
     match = find_threshold(count, run.target, start=start)
     is_matched = abs(match.ratio - 1) <= UNREACHED
     threshold = match.threshold if is_matched else start
@@ -135,7 +162,7 @@ def simulate_cell(run: Run, cell: Cell) -> str:
     """Simulate the recordings of a set; returns a line for progress."""
     step, plan, start = run.set_step(cell), run.plan, time.perf_counter()
     mnist = read_mnist(plan.mnist)
-    settings = find_arm(cell.arm).settings(cell.way, threshold=run.threshold(cell))
+    settings = run.settings(cell, threshold=run.threshold(cell))
     is_random = cell.choice == "random"
     found = join_inputs(
         [

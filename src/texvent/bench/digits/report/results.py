@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.bench.digits.arms import Cell, find_arm
+from texvent.bench.digits.arms import Cell
 from texvent.bench.digits.networks import first_of_each
 from texvent.bench.digits.plan import (
     SHOT_REPRESENTATION,
@@ -135,7 +135,7 @@ class Collector:
         """All results of the run."""
         plan = self._plan
         settings = {
-            f"{cell.arm}, {cell.way}": settings_tables(find_arm(cell.arm).settings(cell.way))
+            f"{cell.arm}, {cell.way}": settings_tables(self._run.settings(cell))
             for cell in plan.cells
         }
         return DigitsReport(
@@ -254,6 +254,7 @@ def _protocol(run: Run) -> dict[str, Any]:
         "recordings": plan.recorded,
         "pairs for fitting": plan.pairs,
         "events of the pair in the middle": run.target,
+        "share of events with the right sign": run.polarity,
         "steps of training": plan.steps,
         "batch size": plan.schedule.batch_size,
         "learning rate": f"{plan.schedule.learning_rate}, falling to 0",
