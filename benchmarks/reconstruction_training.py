@@ -13,7 +13,7 @@ reconstruction`, beside published networks and an image that is grey all over.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -25,7 +25,7 @@ from texvent.bench.document import write_document
 from texvent.bench.machine import describe_environment
 from texvent.bench.real.frame_recording import FrameRecording, open_recording
 from texvent.bench.real.scene import locate_source
-from texvent.bench.reconstruction.image_scores import ScoreCollector, true_image
+from texvent.bench.reconstruction.image_scores import ImageScores, ScoreCollector, true_image
 from texvent.bench.reconstruction.run import ReconstructionPlan, ReconstructionScorer
 from texvent.metrics.image_measures import Measures, load_measures
 from texvent.options.values import plain
@@ -45,11 +45,11 @@ def main() -> None:
     """Train, score, print the table, and write the document with --json."""
     arguments = _arguments()
     config = read_training(arguments.training, ReconstructionConfig())
-    recordings = [
-        open_recording(locate_source(name)[0]) for name in arguments.recordings.split(",")
-    ]
+    recordings = {
+        name: open_recording(locate_source(name)[0]) for name in arguments.recordings.split(",")
+    }
     measures = load_measures()
-    rows = [score_grey(recording, measures) for recording in recordings]
+    rows = [score_grey(name, one, measures) for name, one in recordings.items()]
     for one in arguments.published:
         network, _, path = one.partition("=")
         rows += score_weights(network, Path(path), recordings, measures, {"source": "published"})
@@ -86,7 +86,7 @@ def train_arm(config: ReconstructionConfig, folder: Path) -> list[dict[str, floa
 def score_weights(
     network: str,
     weights: Path,
-    recordings: list[FrameRecording],
+    recordings: Mapping[str, FrameRecording],
     measures: Measures,
     facts: dict[str, Any],
 ) -> list[dict[str, Any]]:
@@ -94,21 +94,20 @@ def score_weights(
     reconstructor = load_reconstructor(network, weights, device="cpu")
     scorer = ReconstructionScorer(reconstructor=reconstructor, measures=measures, plan=PLAN)
     rows = []
-    for recording in recordings:
+    for name, recording in recordings.items():
         scores = scorer.score(recording, recording.events).scores
         rows.append(
             {
                 **facts,
                 "network": network,
-                "recording": recording.name,
-                "images": len(scores.t_us),
-                "mean": {name: scores.mean(name) for name in scores.values},
+                "recording": name,
+                **means_of(scores),
             }
         )
     return rows
 
 
-def score_grey(recording: FrameRecording, measures: Measures) -> dict[str, Any]:
+def score_grey(name: str, recording: FrameRecording, measures: Measures) -> dict[str, Any]:
     """The same for an image that shows nothing."""
     span_us, skip = PLAN.scored_part(recording)
     collector = ScoreCollector(measures, span_us=span_us, skip=skip)
@@ -121,10 +120,15 @@ def score_grey(recording: FrameRecording, measures: Measures) -> dict[str, Any]:
     return {
         "source": "grey",
         "network": "",
-        "recording": recording.name,
-        "images": len(scores.t_us),
-        "mean": {name: scores.mean(name) for name in scores.values},
+        "recording": name,
+        **means_of(scores),
     }
+
+
+def means_of(scores: ImageScores) -> dict[str, Any]:
+    """Number of images, and means over them."""
+    mean = {measure: scores.mean(measure) for measure in scores.values}
+    return {"images": len(scores.t_us), "mean": mean}
 
 
 def document(

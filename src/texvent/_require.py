@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import sys
 from types import ModuleType
 
 from texvent.errors import MissingDependencyError, one_line
@@ -21,6 +22,9 @@ def require(module: str, *, extra: str | None = None) -> ModuleType:
     Raises:
         MissingDependencyError: the module is not installed.
     """
+    known = sys.modules.get(module)
+    if known is not None:  # torch.compile follows this, but no import
+        return known
     try:
         return importlib.import_module(module)
     except ImportError as error:

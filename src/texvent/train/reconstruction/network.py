@@ -11,6 +11,8 @@ from texvent.reconstruct.protocol import PublishedNetwork
 from texvent.train.schedule import EXTRA
 from texvent.train.tensor_network import TensorNetwork, initial_tensors
 
+_torch: Any = require("torch", extra=EXTRA)
+
 
 def new_network(published: PublishedNetwork, seed: int) -> TensorNetwork:
     """A network of the published names and shapes, with initial weights.
@@ -22,7 +24,8 @@ def new_network(published: PublishedNetwork, seed: int) -> TensorNetwork:
     return TensorNetwork(tensors, functools.partial(_see_sequence, published))
 
 
+# A window is compiled, not the whole sequence, which would take as many times longer.
+@_torch.compiler.disable(recursive=False)  # type: ignore[untyped-decorator]
 def _see_sequence(published: PublishedNetwork, network: Any, voxels: Tensor) -> Tensor:
-    torch = require("torch", extra=EXTRA)
     recurrent = published.network(network.tensors, {})
-    return torch.stack([recurrent.step(one) for one in voxels.unbind(dim=1)], dim=1)
+    return _torch.stack([recurrent.step(one) for one in voxels.unbind(dim=1)], dim=1)

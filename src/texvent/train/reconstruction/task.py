@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar, TypeAlias
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -16,7 +16,6 @@ from texvent.dataset.targets import Target
 from texvent.errors import ConfigError
 from texvent.metrics.image_measures import load_measures
 from texvent.metrics.lpips.weights import find_lpips_weights, read_lpips_weights
-from texvent.metrics.structural_similarity import RADIUS_PX
 from texvent.networks.weight_files import STATE, Tensor
 from texvent.reconstruct.checkpoint import Checkpoint
 from texvent.reconstruct.protocol import PublishedNetwork
@@ -25,20 +24,15 @@ from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.train.batches import Batches
 from texvent.train.reconstruction.augmentation import add_hot_pixels, add_noise, draw_pauses
 from texvent.train.reconstruction.config import ReconstructionAugmentation, ReconstructionConfig
-from texvent.train.reconstruction.image_losses import dissimilarity, inconsistency, l1
-from texvent.train.reconstruction.lpips import LpipsLoss
 from texvent.train.reconstruction.network import new_network
+from texvent.train.reconstruction.sequence_loss import SequenceLoss
 from texvent.train.schedule import EXTRA
 from texvent.train.sequences.clips import WindowedClips
 from texvent.train.sequences.views import FLOW, crop_randomly, flip_randomly
 from texvent.train.task import Score
 
-Comparison: TypeAlias = Callable[[Tensor, Tensor], Tensor]
-"""Images and true images, [n, 1, H, W], to [n]."""
 VOXELS, IMAGES = "voxels", "images"
 WHITE = np.float32(255)
-LEAST_SIDE = 2 * RADIUS_PX + 1
-"""Of images that SSIM compares, px."""
 
 
 class ReconstructionTask:
@@ -62,11 +56,12 @@ class ReconstructionTask:
         self._validation = WindowedClips.open(config.data, config.data.validation_split, ["frame"])
 
     @functools.cached_property
-    def _lpips(self) -> LpipsLoss | None:
+    def _loss(self) -> SequenceLoss:
         options = self._config.loss
-        if not options.lpips:
-            return None
-        return LpipsLoss(read_lpips_weights(find_lpips_weights(options.lpips_net)))
+        weights = None
+        if options.lpips:
+            weights = read_lpips_weights(find_lpips_weights(options.lpips_net))
+        return SequenceLoss(options, weights)
 
     def make_network(self) -> Any:
         """See `Task`."""
@@ -93,9 +88,7 @@ class ReconstructionTask:
         """Refuse a crop that the network or its loss cannot take."""
         crop = clips.data.crop
         sides = tuple(clips.size) if crop is None else (crop, crop)
-        least_side = LEAST_SIDE if self._config.loss.ssim else 1
-        if self._lpips is not None:
-            least_side = max(least_side, self._lpips.least_side)
+        least_side = self._loss.least_side
         if min(sides) < least_side or any(side % multiple for side in sides):
             raise ConfigError(
                 f"{self._published.name} would be trained on {sides[0]}x{sides[1]} px; give a crop "
@@ -105,31 +98,9 @@ class ReconstructionTask:
 
     def loss(self, network: Any, batch: Mapping[str, Any], device: Any) -> Tensor:
         """See `Task`."""
-        options = self._config.loss
-        true, images = batch[IMAGES].to(device), network(batch[VOXELS].to(device)).float()
-        loss: Tensor = 0
-        for weight, compare in self._comparisons(device):
-            loss = loss + weight * compare(images.flatten(0, 1), true.flatten(0, 1)).mean()
-        if FLOW not in batch:
-            return loss
-        first = options.consistency_from
-        later, before = slice(first, None), slice(first - 1, -1)
-        pairs = [
-            (one[:, before].flatten(0, 1), one[:, later].flatten(0, 1)) for one in (images, true)
-        ]
-        flow = batch[FLOW][:, later].to(device).flatten(0, 1)
-        change = inconsistency(pairs[0], pairs[1], flow, alpha=options.consistency_alpha)
-        return loss + options.consistency * change.sum() / len(true.flatten(0, 1))
-
-    def _comparisons(self, device: Any) -> Iterator[tuple[float, Comparison]]:
-        """Weight and loss of what compares single images."""
-        options = self._config.loss
-        if self._lpips is not None:
-            yield options.lpips, self._lpips.to(device)
-        if options.l1:
-            yield options.l1, l1
-        if options.ssim:
-            yield options.ssim, dissimilarity
+        images = network(batch[VOXELS].to(device)).float()
+        flow = batch[FLOW].to(device) if FLOW in batch else None
+        return self._loss.to(device)(images, batch[IMAGES].to(device), flow)
 
     def validate(self, network: Any, device: Any, *, workers: int) -> dict[str, float]:
         """Means over all windows of whole clips, by the path that `texvent reconstruct` takes."""
