@@ -1,7 +1,7 @@
 """What trained networks of depth and flow are worth: beside trivial predictors, and on a recording.
 
-    python -m benchmarks.depth_flow scenes flow.toml depth.toml [--json FILE]
-    python -m benchmarks.depth_flow slider FOLDER flow/weights.pt depth/weights.pt [--json FILE]
+    python -m benchmarks.depth_flow [--json FILE] scenes flow.toml depth.toml
+    python -m benchmarks.depth_flow [--json FILE] slider FOLDER flow/weights.pt depth/weights.pt
 
 FOLDER holds `events.txt` of a camera that slides sideways before a still scene, such as
 slider_depth of the Event-Camera Dataset (240x180 px). There, flow is compared with the velocity

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -14,6 +16,7 @@ torch = pytest.importorskip("torch", reason="make test-torch runs the tests that
 
 from texvent._registry import TASKS  # noqa: E402
 from texvent.runtime.progress import CallbackProgress  # noqa: E402
+from texvent.train.depth.e2depth import make_e2depth, settings_of  # noqa: E402
 from texvent.train.flow.e_raft import make_e_raft  # noqa: E402
 from texvent.train.run import train_from_file  # noqa: E402
 from texvent.train.schedule import Hardware  # noqa: E402
@@ -95,6 +98,30 @@ def test_depth_has_the_published_layout(tmp_path: Path, capsys: pytest.CaptureFi
     error = capsys.readouterr().err
     assert "network.width must be that of the file" in error
     assert len(error.strip().splitlines()) == 1
+
+
+def test_a_checkpoint_as_the_program_of_e2depth_leaves_it_is_scored(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    # Its training stores an object of its own beside the weights.
+    module = ModuleType("logger.logger")
+    module.Logger = type("Logger", (), {"__module__": "logger.logger"})
+    monkeypatch.setitem(sys.modules, "logger", ModuleType("logger"))
+    monkeypatch.setitem(sys.modules, "logger.logger", module)
+    content = {
+        "arch": "E2VIDRecurrent",
+        "epoch": 300,
+        "logger": module.Logger(),
+        "state_dict": make_e2depth(2, seed=1).tensors,
+        "optimizer": {"state": {}},
+        "monitor_best": 0.01,
+        "config": {"model": settings_of(2)},
+    }
+    torch.save(content, tmp_path / "E2DEPTH_si_grad_loss_mixed.pth.tar")
+    monkeypatch.undo()
+    words = [str(write_training(tmp_path)), str(tmp_path / "E2DEPTH_si_grad_loss_mixed.pth.tar")]
+    assert main(["evaluate", "depth", *words, "--device", "cpu"]) == 0
+    assert "abs_rel at events" in capsys.readouterr().out
 
 
 def test_e_raft_is_scored_from_its_published_layout_and_not_trained(
