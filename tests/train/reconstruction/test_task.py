@@ -11,6 +11,7 @@ import pytest
 
 from texvent._registry import RECONSTRUCTORS
 from texvent.cli.app import main
+from texvent.metrics.image_measures import mean_squared_error
 from texvent.metrics.lpips.layout import ALEX
 from texvent.metrics.lpips.weights import weights_file_name, write_lpips_weights
 from texvent.metrics.structural_similarity import structural_similarity
@@ -22,7 +23,9 @@ from ..sequences.windowed_specification import TEXT, write_specification
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
-from texvent.reconstruct.reconstructor import load_reconstructor  # noqa: E402
+from texvent.reconstruct.checkpoint import Checkpoint  # noqa: E402
+from texvent.reconstruct.networks import FIRENET  # noqa: E402
+from texvent.reconstruct.reconstructor import Reconstructor, load_reconstructor  # noqa: E402
 from texvent.train.reading import read_training  # noqa: E402
 from texvent.train.reconstruction.config import (  # noqa: E402
     ReconstructionAugmentation,
@@ -194,6 +197,23 @@ def test_scores_are_those_of_the_reconstructor(folder: Path, tmp_path: Path) -> 
             image = reconstructor.reconstruct(events).astype(np.float64)
             values.append(structural_similarity(image, frame.astype(np.float64) / 255))
     assert found["ssim"] == pytest.approx(np.mean(values), rel=1e-9)
+
+
+def test_some_windows_are_scored_and_all_are_seen(folder: Path) -> None:
+    every, third = (ReconstructionTask(config_of(folder, score_every=number)) for number in (1, 3))
+    clips, network = every._validation, every.make_network()
+    reconstructor = Reconstructor(FIRENET, Checkpoint(network.tensors, {}, ""))
+    values = []
+    for number in range(len(clips)):
+        reconstructor.reset()
+        windows = clips.read(number)
+        images = [reconstructor.reconstruct(events) for events in windows.events]
+        for place in (2, 5):
+            true = windows.targets["frame"][place].astype(np.float64) / 255
+            values.append(mean_squared_error(images[place].astype(np.float64), true))
+    with torch.inference_mode():
+        assert third.validate(network, DEVICE, workers=0)["mse"] == pytest.approx(np.mean(values))
+        assert every.validate(network, DEVICE, workers=0)["mse"] != np.mean(values)
 
 
 def test_trained_weights_reconstruct_on_the_command_line(folder: Path, tmp_path: Path) -> None:

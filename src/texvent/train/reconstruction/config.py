@@ -94,12 +94,16 @@ class ReconstructionConfig:
     network: ReconstructionNetwork = field(default_factory=ReconstructionNetwork)
     loss: ReconstructionLoss = field(default_factory=ReconstructionLoss)
     augmentation: ReconstructionAugmentation = field(default_factory=ReconstructionAugmentation)
+    score_every: int = 1
+    """After every epoch, all windows of the validation clips are reconstructed, and one of so many
+    is scored: scores are computed on the CPU."""
     schedule: Schedule = field(
         default_factory=lambda: Schedule(epochs=200, batch_size=2, learning_rate=1e-4, amsgrad=True)
     )
 
     def __post_init__(self) -> None:
         check_range("seed", self.seed, 0, 2**63 - 1)
+        check_range("score_every", self.score_every, 1, 1_000_000)
 
     def make_task(self) -> Task:
         """The task; this imports torch."""

@@ -9,17 +9,18 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent._registry import RECONSTRUCTORS
 from texvent._require import require
 from texvent.dataset.targets import Target
 from texvent.errors import ConfigError
-from texvent.metrics.image_measures import load_measures
+from texvent.metrics.image_measures import Float64Array, load_measures
 from texvent.metrics.lpips.weights import find_lpips_weights, read_lpips_weights
 from texvent.networks.weight_files import STATE, Tensor
 from texvent.reconstruct.checkpoint import Checkpoint
 from texvent.reconstruct.protocol import PublishedNetwork
-from texvent.reconstruct.reconstructor import Reconstructor
+from texvent.reconstruct.reconstructor import Intensity, Reconstructor
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.train.batches import Batches
 from texvent.train.reconstruction.augmentation import add_hot_pixels, add_noise, draw_pauses
@@ -103,7 +104,7 @@ class ReconstructionTask:
         return self._loss.to(device)(images, batch[IMAGES].to(device), flow)
 
     def validate(self, network: Any, device: Any, *, workers: int) -> dict[str, float]:
-        """Means over all windows of whole clips, by the path that `texvent reconstruct` takes."""
+        """Means over windows of whole clips, by the path that `texvent reconstruct` takes."""
         del workers
         torch, measures = require("torch", extra=EXTRA), load_measures().chosen
         checkpoint = Checkpoint(self._tensors(network), {}, sha256="")
@@ -113,11 +114,12 @@ class ReconstructionTask:
             for number in range(len(self._validation)):
                 windows = self._validation.read(number)
                 reconstructor.reset()
-                for events, frame in zip(windows.events, windows.targets["frame"], strict=True):
-                    image = reconstructor.reconstruct(events).astype(np.float64)
-                    true = np.clip(frame.astype(np.float64) / WHITE, 0.0, 1.0)
-                    for one in measures:
-                        values[one.name].append(one.compare(image, true))
+                pairs = zip(windows.events, windows.targets["frame"], strict=True)
+                for place, (events, frame) in enumerate(pairs):
+                    image = reconstructor.reconstruct(events)
+                    if (place + 1) % self._config.score_every == 0:
+                        for one in measures:
+                            values[one.name].append(one.compare(*_as_scored(image, frame)))
         # Small images have no LPIPS.
         defined = {name: [x for x in values[name] if not np.isnan(x)] for name in values}
         return {name: float(np.mean(numbers)) for name, numbers in defined.items() if numbers}
@@ -132,6 +134,11 @@ class ReconstructionTask:
 
     def _tensors(self, network: Any) -> dict[str, Tensor]:
         return {name: one.detach() for name, one in network.tensors.items()}
+
+
+def _as_scored(image: Intensity, frame: NDArray[np.float32]) -> tuple[Float64Array, Float64Array]:
+    """An image, 0..1, and the true one, 0..255, as measures compare them."""
+    return image.astype(np.float64), np.clip(frame.astype(np.float64) / WHITE, 0.0, 1.0)
 
 
 @dataclass(frozen=True)
