@@ -3,6 +3,7 @@
     OMP_NUM_THREADS=1 python -m benchmarks.reconstruction_training -o FOLDER [--json FILE]
         [--arms accurate,esim,v2e] [--seeds 2] [--recordings slider_depth,davis346]
         [--published firenet=FILE --published firenet+=FILE]
+    python -m benchmarks.reconstruction_training --show FILE [--figure FILE]
 
 Every arm is a variant of the specification that configs/training/firenet.toml names; all arms of a
 seed begin with the same weights, and see the same scenes with the same thresholds in the same
@@ -20,8 +21,9 @@ from typing import Any
 
 import numpy as np
 
+from texvent._require import require
 from texvent._version import full_version
-from texvent.bench.document import write_document
+from texvent.bench.document import read_document, write_document
 from texvent.bench.machine import describe_environment
 from texvent.bench.real.frame_recording import FrameRecording, open_recording
 from texvent.bench.real.scene import locate_source
@@ -31,19 +33,26 @@ from texvent.metrics.image_measures import Measures, load_measures
 from texvent.options.values import plain
 from texvent.reconstruct.reconstructor import load_reconstructor
 from texvent.runtime.progress import NO_PROGRESS
-from texvent.train.loop import train
+from texvent.train.loop import LOSS, train
 from texvent.train.reading import read_training
 from texvent.train.reconstruction.config import ReconstructionConfig
-from texvent.train.schedule import Hardware
+from texvent.train.schedule import EXTRA, Hardware
 
 SCHEMA = "texvent-reconstruction-training-1"
 GREY = 0.5
+CURVES = (LOSS, "ssim", "lpips", "mse")
 PLAN = ReconstructionPlan(entries=())
 
 
 def main() -> None:
     """Train, score, print the table, and write the document with --json."""
     arguments = _arguments()
+    if arguments.show is not None:
+        shown = read_document(arguments.show)
+        print(table(shown["rows"]))
+        if arguments.figure is not None:
+            draw_curves(shown["runs"]).savefig(arguments.figure, dpi=90)
+        return
     config = read_training(arguments.training, ReconstructionConfig())
     recordings = {
         name: open_recording(locate_source(name)[0]) for name in arguments.recordings.split(",")
@@ -164,6 +173,28 @@ def _lines(rows: list[dict[str, Any]]) -> Iterator[str]:
         yield f"| {recording} | {name} | " + " | ".join(cells) + " |"
 
 
+def draw_curves(runs: list[dict[str, Any]]) -> Any:
+    """A matplotlib figure: scores on the arm's own validation clips by epoch, a line per run."""
+    names = [name for name in CURVES if name in runs[0]["epochs"][0]]
+    figure = require("matplotlib.figure", extra=EXTRA).Figure(
+        figsize=(4 * len(names), 3), layout="constrained"
+    )
+    arms = list(dict.fromkeys(run["arm"] for run in runs))
+    for axes, name in zip(figure.subplots(1, len(names), squeeze=False)[0], names, strict=True):
+        for run in runs:
+            epochs = run["epochs"]
+            axes.plot(
+                [row["epoch"] for row in epochs],
+                [row[name] for row in epochs],
+                color=f"C{arms.index(run['arm'])}",
+                label=run["arm"] if run["seed"] == 0 else None,
+            )
+        axes.set(title=name, xlabel="epoch")
+        axes.grid(alpha=0.3)
+    axes.legend()
+    return figure
+
+
 def label(row: dict[str, Any]) -> str:
     """What a row is called in the table."""
     if row["source"] == "trained":
@@ -175,7 +206,9 @@ def _arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         description="Train FireNet on simulators, score on recordings."
     )
-    parser.add_argument("-o", "--out", type=Path, required=True, help="folder of the trainings")
+    parser.add_argument(
+        "-o", "--out", type=Path, default=Path("reconstruction-training"), help="of the trainings"
+    )
     parser.add_argument(
         "--training", type=Path, default=Path("configs/training/firenet.toml"), help="TOML"
     )
@@ -186,6 +219,8 @@ def _arguments() -> argparse.Namespace:
         "--published", action="append", default=[], help="NETWORK=FILE, scored beside"
     )
     parser.add_argument("--json", type=Path, help="keep the result")
+    parser.add_argument("--show", type=Path, help="a result that was kept; nothing is trained")
+    parser.add_argument("--figure", type=Path, help="learning curves of that result, PNG")
     return parser.parse_args()
 
 
