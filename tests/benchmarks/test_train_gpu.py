@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks import train_gpu
+torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
+
+from benchmarks import train_gpu  # noqa: E402
 
 pytestmark = pytest.mark.torch
-torch = pytest.importorskip("torch")
 
 
 def test_every_case_is_measured_and_stored(
