@@ -11,9 +11,9 @@ from texvent.errors import ConfigError, shown
 
 BENCHMARKS: Mapping[str, str] = {
     "classify": "how many streams does N-ImageNet's classifier recognise?",
-    "digits": "who trains on simulated events reads recorded ones how well?",
+    "digits": "do networks trained on simulated events read recorded ones?",
     "fidelity": "which simulator comes closest to true events of exact scenes?",
-    "page": "a result of fidelity or real as a page with tables and plots",
+    "page": "a result of fidelity, real or digits as a page with its charts",
     "paper": "the paper's tables, ablations E1-E12, or a folder of configs",
     "real": "which simulator comes closest to a real sensor?",
     "reconstruction": "whose events give a network the best images?",

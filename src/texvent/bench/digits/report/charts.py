@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from texvent.bench.digits.report.results import RECORDINGS, DigitsReport, SetScore, ShotScore
@@ -12,9 +12,11 @@ from texvent.bench.svg import placed, svg_document, svg_text
 from texvent.metrics.summary import summarise
 
 COLOURS = ("#4c78a8", "#f58518", "#59a14f", "#b279a2", "#8c8c96", "#e45756", "#72b7b2")
-LABEL_PX, PLOT_PX, ROW_PX, HEAD_PX, FOOT_PX, RIGHT_PX = 150, 300, 18, 58, 30, 24
+LABEL_PX, PLOT_PX, ROW_PX, HEAD_PX, FOOT_PX, RIGHT_PX = 150, 300, 18, 40, 42, 24
 CURVE_WIDTH, CURVE_HEIGHT, CURVE_LEFT, CURVE_TOP, LEGEND_PX = 420, 240, 50, 30, 170
 WAY_COLOURS = dict(zip(WAY_TITLES, COLOURS, strict=False))
+WAY_SHIFT = {"exact": -3, "flow": 3, "frames": 0}
+"""px, so that an arm's ways do not hide each other."""
 GRID = "stroke='#d8d8de'"
 SMALL = "font-size='9'"
 BOLD = "font-weight='bold'"
@@ -43,9 +45,10 @@ class Axis(NamedTuple):
     last_px: float
 
     @classmethod
-    def above(cls, lowest: float, first_px: float, last_px: float) -> Axis:
-        """From the tenth below the lowest accuracy."""
-        return cls(math.floor(lowest * 10) / 10, first_px, last_px)
+    def above(cls, points: Iterable[Point], first_px: float, last_px: float) -> Axis:
+        """From the tenth below the lowest end of an error bar."""
+        lowest = min(one.mean - one.error for one in points)
+        return cls(max(math.floor(lowest * 10), 0) / 10, first_px, last_px)
 
     def place(self, value: float) -> float:
         """Pixel of an accuracy."""
@@ -66,6 +69,7 @@ def accuracy_chart(report: DigitsReport) -> str:
     height = HEAD_PX + len(_arms(report)) * ROW_PX + FOOT_PX
     width = LABEL_PX + PLOT_PX + RIGHT_PX
     parts = [placed(panel, number * width, 0) for number, panel in enumerate(panels)]
+    parts += _legend(report.scores, height - 6)
     return svg_document(width * len(panels), height, parts)
 
 
@@ -74,11 +78,11 @@ def _panel(report: DigitsReport, representation: str) -> str:
     scores = [
         one for one in report.scores if (one.representation, one.choice) == (representation, choice)
     ]
-    lowest = min(Point.of(one.accuracy).mean for one in scores)
-    axis = Axis.above(lowest, LABEL_PX, LABEL_PX + PLOT_PX)
+    points = [Point.of(one.accuracy) for one in scores]
+    axis = Axis.above(points, LABEL_PX, LABEL_PX + PLOT_PX)
     bottom = HEAD_PX + len(arms) * ROW_PX
     title = f"{REPRESENTATION_TITLES[representation]}, δ {choice}"
-    parts = [svg_text(title, LABEL_PX, 16, BOLD), *_legend(scores)]
+    parts = [svg_text(title, LABEL_PX, 16, BOLD)]
     for value in axis.tenths:
         x = axis.place(value)
         parts.append(_line(x, HEAD_PX, x, bottom, GRID))
@@ -93,17 +97,17 @@ def _panel(report: DigitsReport, representation: str) -> str:
         for one in scores:
             if one.arm == arm:
                 point, colour = Point.of(one.accuracy), WAY_COLOURS[one.way]
-                ends = (axis.place(point.mean + sign * point.error) for sign in (-1, 1))
-                left, right = ends
-                parts.append(_line(left, y, right, y, f"stroke='{colour}' stroke-width='2'"))
-                parts.append(_dot(axis.place(point.mean), y, colour))
+                left, right = (axis.place(point.mean + sign * point.error) for sign in (-1, 1))
+                at = y + WAY_SHIFT[one.way]
+                parts.append(_line(left, at, right, at, f"stroke='{colour}' stroke-width='2'"))
+                parts.append(_dot(axis.place(point.mean), at, colour))
     return "".join(parts)
 
 
-def _legend(scores: Sequence[SetScore]) -> list[str]:
+def _legend(scores: Sequence[SetScore], y: float) -> list[str]:
     parts, x = [], float(LABEL_PX)
     for way in dict.fromkeys(one.way for one in scores):
-        parts += [_dot(x + 4, 30, WAY_COLOURS[way]), svg_text(WAY_TITLES[way], x + 12, 33, SMALL)]
+        parts += [_dot(x + 4, y - 3, WAY_COLOURS[way]), svg_text(WAY_TITLES[way], x + 12, y, SMALL)]
         x += 24 + 4.6 * len(WAY_TITLES[way])
     return parts
 
@@ -111,9 +115,8 @@ def _legend(scores: Sequence[SetScore]) -> list[str]:
 def few_shot_chart(report: DigitsReport) -> str:
     """Accuracy by recordings per class, a line per arm whose simulated events are added."""
     shots = sorted({one.shots for one in report.few_shot})
-    lowest = min(Point.of(one.accuracy).mean for one in report.few_shot)
     bottom = CURVE_TOP + CURVE_HEIGHT
-    axis = Axis.above(lowest, bottom, CURVE_TOP)
+    axis = Axis.above((Point.of(one.accuracy) for one in report.few_shot), bottom, CURVE_TOP)
     steps = CURVE_WIDTH / max(len(shots) - 1, 1)
     columns = {shot: CURVE_LEFT + steps * number for number, shot in enumerate(shots)}
     right = CURVE_LEFT + CURVE_WIDTH
