@@ -39,8 +39,9 @@ THRESHOLDS: Mapping[str, Range] = {
     "stoffregen": Range(0.1, 1.5),
     "v2v": Range(0.05, 2.0),
 }
-"""Contrast threshold by recipe, log units. Stoffregen's range is not checked against the
-text of the publication; only the ratio below is, against public code."""
+"""Contrast threshold by recipe, log units. Stoffregen's range is that of the authors' simulator
+configurations, which the project ercanburak/HyperE2VID on GitHub carries: 0.100 to 1.500 in steps
+of 0.005."""
 RATIO_SIGMA = 0.1
 """Stoffregen et al.: one threshold is the other times a normal number of mean 1 and this sd."""
 RATIO_LIMIT = 1.5

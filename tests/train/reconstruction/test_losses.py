@@ -77,6 +77,14 @@ def test_ssim_equals_the_metric():
     )
 
 
+def test_mixed_precision_changes_no_similarity_and_hardly_lpips():
+    a, b, lpips = torch.from_numpy(images()), torch.from_numpy(images(seed=1)), narrow_weights()
+    with torch.autocast("cpu", torch.bfloat16):
+        mixed, mixed_lpips = ssim(a, b), LpipsLoss(lpips)(a, b)
+    torch.testing.assert_close(mixed, ssim(a, b), rtol=0, atol=0)
+    torch.testing.assert_close(mixed_lpips, LpipsLoss(lpips)(a, b), rtol=0.02, atol=0)
+
+
 def test_l1_is_the_mean_absolute_difference():
     a = torch.tensor([[[[0.0, 1.0]]], [[[0.5, 0.5]]]])
     assert l1(a, torch.zeros_like(a)).tolist() == [0.5, 0.5]

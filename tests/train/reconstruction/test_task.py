@@ -137,6 +137,13 @@ def test_training_lowers_the_loss_on_a_fixed_set(folder: Path, tmp_path: Path) -
     assert state.rows[-1]["mse"] < state.rows[0]["mse"]
 
 
+def test_mixed_precision_trains_weights_of_full_precision(folder: Path, tmp_path: Path) -> None:
+    mixed = replace(CPU, precision="bfloat16")
+    state = train_from_file(ReconstructionConfig, folder / "training.toml", tmp_path / "run", mixed)
+    assert np.isfinite(state.rows[-1]["training loss"])
+    assert {one.dtype for one in weights(tmp_path / "run").values()} == {torch.float32}
+
+
 class StopAfterFirstEpoch(Progress):
     """Ends the program once the state of an epoch is stored, as Ctrl-C would."""
 

@@ -47,8 +47,10 @@ def _smooth(images: list[Tensor]) -> list[Tensor]:
     torch = require("torch", extra=EXTRA)
     weights = torch.as_tensor(gaussian_window().astype(np.float32), device=images[0].device)
     joined = torch.cat(images)
-    for kernel in (weights[None, None, None], weights[None, None, :, None]):
-        joined = torch.nn.functional.conv2d(joined, kernel.to(joined.dtype))
+    # Variances are small differences of squares: never in the narrow numbers of mixed precision.
+    with torch.autocast(joined.device.type, enabled=False):
+        for kernel in (weights[None, None, None], weights[None, None, :, None]):
+            joined = torch.nn.functional.conv2d(joined, kernel.to(joined.dtype))
     return list(joined.chunk(len(images)))
 
 
