@@ -1,9 +1,13 @@
-"""Depth and flow, trained end to end: they learn, go on after a stop, are scored and refused."""
+"""Depth and flow, trained end to end: they learn, go on after a kill, are scored and refused."""
 
 from __future__ import annotations
 
 import json
+import os
+import signal
+import subprocess
 import sys
+import time
 from pathlib import Path
 from types import ModuleType
 
@@ -15,13 +19,12 @@ from texvent.cli.app import main
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
 from texvent._registry import TASKS  # noqa: E402
-from texvent.runtime.progress import CallbackProgress  # noqa: E402
 from texvent.train.depth.e2depth import make_e2depth, settings_of  # noqa: E402
 from texvent.train.flow.e_raft import make_e_raft  # noqa: E402
 from texvent.train.run import train_from_file  # noqa: E402
 from texvent.train.schedule import Hardware  # noqa: E402
 
-from .sequences.windowed_specification import write_specification  # noqa: E402
+from .sequences.windowed_specification import TEXT, write_specification  # noqa: E402
 
 pytestmark = pytest.mark.torch
 TASK_NAMES = ("depth", "flow")
@@ -45,30 +48,36 @@ def weights(folder: Path) -> dict[str, torch.Tensor]:
     return torch.load(folder / "weights.pt", weights_only=True)["state_dict"]
 
 
+def kill_after_an_epoch(words: list[str], folder: Path) -> None:
+    process = subprocess.Popen([sys.executable, "-m", "texvent.cli.app", *words])
+    state, deadline = folder / "checkpoint.pt", time.monotonic() + 120
+    while not state.exists() and process.poll() is None and time.monotonic() < deadline:
+        time.sleep(0.001)
+    os.kill(process.pid, signal.SIGKILL)
+    assert process.wait() == -signal.SIGKILL
+
+
 @pytest.mark.parametrize("task", TASK_NAMES)
-def test_a_training_learns_goes_on_after_a_stop_and_its_weights_score_as_they_did(
+def test_a_training_learns_goes_on_after_a_kill_and_its_weights_score_as_they_did(
     task: str, tmp_path: Path
 ) -> None:
-    path, kind = write_training(tmp_path), TASKS.load(task)
-    whole = train_from_file(kind, path, tmp_path / "whole", CPU)
-    losses = [row["training loss"] for row in whole.rows]
-    assert losses[-1] < losses[0]
+    words = ["train", task, str(write_training(tmp_path, epochs=4)), "--device", "cpu", "-q"]
+    whole, killed = tmp_path / "whole", tmp_path / "killed"
+    assert main([*words, "-o", str(whole)]) == 0
+    history = json.loads((whole / "history.json").read_text())
+    rows = history["epochs"]
+    assert rows[-1]["training loss"] < rows[0]["training loss"]
 
-    def stop_in_the_last_epoch(done: int, total: int | None, line: str) -> None:
-        if line.startswith("epoch 3 of 3"):
-            raise KeyboardInterrupt
-
-    progress = CallbackProgress(stop_in_the_last_epoch)
-    with pytest.raises(KeyboardInterrupt):
-        train_from_file(kind, path, tmp_path / "parts", CPU, progress)
-    train_from_file(kind, path, tmp_path / "parts", CPU)
-    one, other = weights(tmp_path / "whole"), weights(tmp_path / "parts")
+    kill_after_an_epoch([*words, "-o", str(killed)], killed)
+    assert len(json.loads((killed / "history.json").read_text())["epochs"]) < 4
+    assert main([*words, "-o", str(killed)]) == 0
+    one, other = weights(whole), weights(killed)
     assert all(torch.equal(one[name], other[name]) for name in one)
 
     out = tmp_path / "scores.json"
-    words = [str(path), str(tmp_path / "parts" / "weights.pt"), "-o", str(out), "--device", "cpu"]
-    assert main(["evaluate", task, *words]) == 0
-    best = whole.rows[whole.best_epoch - 1]
+    words = [str(tmp_path / "training.toml"), str(killed / "weights.pt"), "--device", "cpu"]
+    assert main(["evaluate", task, *words, "-o", str(out)]) == 0
+    best = rows[history["best_epoch"] - 1]
     scores = json.loads(out.read_text())["scores"]
     assert np.isfinite(scores[SCORES[task]])
     for name, value in scores.items():
@@ -151,4 +160,32 @@ def test_videos_have_no_truth(
     assert main(["train", task, str(path), "-o", str(tmp_path / "run"), "-q"]) == 2
     error = capsys.readouterr().err
     assert f"tiny.toml simulates videos, whose {task} is not known; give prompts" in error
+    assert len(error.strip().splitlines()) == 1
+
+
+@pytest.mark.parametrize("split", ["train", "validation"])
+@pytest.mark.parametrize("task", TASK_NAMES)
+def test_an_empty_split_is_refused(
+    task: str, split: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = write_training(tmp_path)
+    shares = {"train": 1.0, "validation": 1.0, split: 0.0}
+    table = ", ".join(f"{name} = {share}" for name, share in shares.items())
+    write_specification(tmp_path, TEXT.replace("train = 0.5, validation = 0.5", table))
+    assert main(["train", task, str(path), "-o", str(tmp_path / "run"), "-q"]) == 2
+    error = capsys.readouterr().err
+    assert f"split {split} of {tmp_path / 'tiny.toml'} has no clips; give it a larger" in error
+    assert len(error.strip().splitlines()) == 1
+    assert not (tmp_path / "run").exists()
+
+
+def test_a_training_that_diverges_ends_with_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = write_training(tmp_path)
+    path.write_text(path.read_text().replace("learning_rate = 0.003", "learning_rate = 1000"))
+    words = ["train", "flow", str(path), "-o", str(tmp_path / "run"), "--device", "cpu", "-q"]
+    assert main(words) == 1
+    error = capsys.readouterr().err
+    assert "in epoch 2, batch 1; give a smaller learning_rate, or clip_gradient = 1" in error
     assert len(error.strip().splitlines()) == 1

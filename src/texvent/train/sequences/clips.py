@@ -40,13 +40,19 @@ class WindowedClips:
             targets: what else each window comes with. Videos know only `frame`.
 
         Raises:
-            InputError, ConfigError: the specification, split or variant does not exist, the first
-                clip cannot be simulated or is too short, or the crop is larger than the sensor.
+            InputError, ConfigError: the specification, split or variant does not exist, the split
+                is empty, the first clip cannot be simulated or is too short, or the crop is larger
+                than the sensor.
             OutputError: the cache folder cannot be made.
         """
         clips = cls(data, split, tuple(targets))
         if clips.simulated.recipe.items.are_videos:
             clips = replace(clips, targets=tuple(one for one in targets if one == "frame"))
+        if not len(clips):
+            raise InputError(
+                f"split {split} of {data.specification} has no clips; give it a larger share in "
+                "splits, or the specification more clips"
+            )
         make_folder(clips.folder)
         clips.read(0, 0, data.length)
         size = clips.size
