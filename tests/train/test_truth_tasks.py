@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import signal
 import subprocess
@@ -19,8 +20,11 @@ from texvent.cli.app import main
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
 from texvent._registry import TASKS  # noqa: E402
+from texvent.train.depth.config import DepthConfig  # noqa: E402
 from texvent.train.depth.e2depth import make_e2depth, settings_of  # noqa: E402
+from texvent.train.depth.log_depth import encode_depth  # noqa: E402
 from texvent.train.flow.e_raft import make_e_raft  # noqa: E402
+from texvent.train.reading import read_training  # noqa: E402
 from texvent.train.run import train_from_file  # noqa: E402
 from texvent.train.schedule import Hardware  # noqa: E402
 
@@ -82,6 +86,25 @@ def test_a_training_learns_goes_on_after_a_kill_and_its_weights_score_as_they_di
     assert np.isfinite(scores[SCORES[task]])
     for name, value in scores.items():
         assert value == pytest.approx(best[name], rel=1e-4, nan_ok=True)
+
+
+@pytest.mark.parametrize("sky", ["true", "false"])
+def test_the_sky_is_learned_as_80_m_or_not_at_all(sky: str, tmp_path: Path) -> None:
+    path = write_training(tmp_path)
+    path.write_text(path.read_text() + f"loss = {{shift_weight = 0, sky = {sky}}}\n")
+    task = read_training(path, DepthConfig()).make_task()
+    depth = torch.full((1, 1, 1, 16, 16), 20.0)
+    depth[..., :4, :] = torch.tensor([math.inf, 90.0, 80.0, 500.0]).repeat(4)
+    right = encode_depth(depth)
+    wrong = right.clone()
+    wrong[..., :4, :] = 0
+    batch = {"grids": depth, "depth": depth}
+    of_right, of_wrong = (float(task.loss(lambda _, x=x: x, batch, "cpu")) for x in (right, wrong))
+    assert of_right == 0
+    if sky == "true":
+        assert of_wrong > 0.25
+    else:
+        assert of_wrong == 0
 
 
 def test_depth_has_the_published_layout(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

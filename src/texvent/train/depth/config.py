@@ -33,6 +33,9 @@ class DepthLoss:
     learns metres like any other error."""
     gradient_weight: float = 0.25
     """Of the differences between edges."""
+    sky: bool = True
+    """Whether the sky and what is beyond 80 m are learned as 80 m; else nothing is learned there,
+    just as nothing is scored there."""
 
     def __post_init__(self) -> None:
         check_range("shift_weight", self.shift_weight, 0.0, 1.0)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, ClassVar, Final
 
-from texvent.metrics.pixelwise.depth_error import DepthError
+from texvent.metrics.pixelwise.depth_error import FARTHEST_M, DepthError
 from texvent.networks.weight_files import STATE, Tensor
 from texvent.train.batches import Batches
 from texvent.train.depth.config import DepthConfig
@@ -55,7 +56,10 @@ class DepthTask:
     def loss(self, network: Any, batch: Mapping[str, Any], device: Any) -> Tensor:
         """Mean over windows, each with all its images together, as in the program of E2Depth."""
         weights = self._config.loss
-        target = encode_depth(batch[DEPTH].to(device))
+        depth = batch[DEPTH].to(device)
+        if not weights.sky:
+            depth = depth.where(depth < FARTHEST_M, math.nan)
+        target = encode_depth(depth)
         found = network(batch[GRIDS].to(device))
         total = found.new_zeros(())
         for one, true in zip(found.unbind(1), target.unbind(1), strict=True):
