@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import itertools
-import multiprocessing
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from typing import Any
+
+from texvent.batch.processes import interruptible, processes
 
 
 def run_jobs(
@@ -14,21 +14,22 @@ def run_jobs(
 ) -> Iterator[Any]:
     """Results in the order of the arguments.
 
+    Processes end with the iterator, whatever they are at.
+
     Args:
         function: called once per tuple of arguments; with several processes it, they and its
             results are pickled.
         arguments: one tuple per call.
-        jobs: processes to use; 1 stays in this one.
+        jobs: processes to use, which share the cores; 1 stays in this one.
     """
     if jobs == 1:
         yield from itertools.starmap(function, arguments)
         return
-    # Spawned, because compiled kernels and OpenCV keep threads that a fork would break.
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(jobs, mp_context=context) as pool:
-        futures = [pool.submit(function, *one) for one in arguments]
-        try:
-            for future in futures:
-                yield future.result()
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)
+    with processes(jobs) as pool:
+        for future in [pool.submit(_call, function, one) for one in arguments]:
+            yield future.result()
+
+
+def _call(function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
+    with interruptible():
+        return function(*arguments)
