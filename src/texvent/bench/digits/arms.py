@@ -82,6 +82,13 @@ ARMS: tuple[Arm, ...] = (
     ),
     Arm("E1: no balance", {**_PAPER, "balance": 0.001}, choices=("matched",)),
     Arm("E4: no cache", {**_PAPER, "cache": "none"}, choices=("matched",)),
+    Arm("E9: no noise", {**_PAPER, "noise": "none"}, choices=("matched",)),
+    Arm(
+        "physical, no noise",
+        {"simulator": "physical", "noise_scale": 0.0, "leak_rate_hz": 0.0},
+        ways=("exact",),
+        choices=("matched",),
+    ),
     Arm("E12: random times", {**_PAPER, "timestamp_rule": "random"}, choices=("matched",)),
     Arm("E6: no interpolation", _PAPER, ways=("frames",), choices=("matched",)),
     Arm(

@@ -25,6 +25,17 @@ ALL_DIGITS = 10_000
 SCHEDULE = Schedule(epochs=12, batch_size=64, learning_rate=1e-2)
 SHOT_REPRESENTATION = "histogram"
 """Of the networks that see a few recordings."""
+SHOT_ARMS = (
+    "texvent",
+    "texvent accurate",
+    "physical",
+    "esim",
+    "v2e",
+    "v2e noisy",
+    "voltmeter",
+    "senpi",
+    "frame difference",
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,7 +73,7 @@ class DigitsPlan:
     """Of the networks that are trained on recordings."""
     shots: tuple[int, ...] = (1, 3, 10, 30)
     """Recordings per class that are added to simulated ones; none: that part is left out."""
-    shot_arms: tuple[str, ...] = ("texvent", "v2e noisy", "frame difference")
+    shot_arms: tuple[str, ...] = SHOT_ARMS
     """Arms whose sets they are added to, those that are in `arms`."""
     schedule: Schedule = SCHEDULE
     """Its learning rate falls to 0 in a straight line."""
