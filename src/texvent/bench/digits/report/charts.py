@@ -11,7 +11,10 @@ from texvent.bench.digits.report.tables import REPRESENTATION_TITLES, WAY_TITLES
 from texvent.bench.svg import placed, svg_document, svg_text
 from texvent.metrics.summary import summarise
 
-COLOURS = ("#4c78a8", "#f58518", "#59a14f", "#b279a2", "#8c8c96", "#e45756", "#72b7b2")
+COLOURS = (
+    *("#4c78a8", "#f58518", "#59a14f", "#b279a2", "#8c8c96"),
+    *("#e45756", "#72b7b2", "#9c755f", "#d4a600", "#26262e"),
+)
 LABEL_PX, PLOT_PX, ROW_PX, HEAD_PX, FOOT_PX, RIGHT_PX = 150, 300, 18, 40, 42, 24
 CURVE_WIDTH, CURVE_HEIGHT, CURVE_LEFT, CURVE_TOP, LEGEND_PX = 420, 240, 50, 30, 170
 WAY_COLOURS = dict(zip(WAY_TITLES, COLOURS, strict=False))
