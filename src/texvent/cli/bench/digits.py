@@ -32,9 +32,9 @@ QUICK: Mapping[str, Any] = {
     "arms": ("texvent", "texvent accurate", "physical", "esim", "v2e noisy", "frame difference"),
     "ways": ("exact",),
     "choices": ("matched",),
-    "digits": 1500,
+    "digits": 2000,
     "held_out": 200,
-    "seeds": 1,
+    "seeds": 3,
     "other_seeds": 1,
     "folds": 5,
     "shots": (),
@@ -56,7 +56,7 @@ class DigitsOptions:
     nmnist: Path = REQUIRED
     """N-MNIST's folder, or a folder or .zip file with NUMBER.bin files and labels.csv."""
     quick: bool = False
-    """Six arms and one network each: minutes on two cores."""
+    """Six arms and three networks each: minutes on two cores."""
     arms: str | None = None
     """Names of arms, separated by commas; default: all."""
     choices: str = "matched,default,random"
