@@ -1,12 +1,13 @@
 """What trained networks of depth and flow are worth: beside trivial predictors, and on a recording.
 
-    python -m benchmarks.depth_flow [--json FILE] scenes flow.toml depth.toml
-    python -m benchmarks.depth_flow [--json FILE] slider FOLDER flow/weights.pt depth/weights.pt
+    python -m benchmarks.depth_flow [--json FILE] scenes flow.toml flow depth.toml depth
+    python -m benchmarks.depth_flow [--json FILE] slider FOLDER flow depth
 
-FOLDER holds `events.txt` of a camera that slides sideways before a still scene, such as
-slider_depth of the Event-Camera Dataset (240x180 px). There, flow is compared with the velocity
-along which the events of each patch are sharpest, and depth with the inverse of that velocity: up
-to a factor, both are the same. It needs torch: pip install 'texvent[train]'.
+flow and depth are folders of trainings. FILE keeps what the other command wrote. FOLDER holds
+`events.txt` of a camera that slides sideways before a still scene, such as slider_depth of the
+Event-Camera Dataset (240x180 px). There, flow is compared with the velocity along which the events
+of each patch are sharpest, and depth with the inverse of that velocity: up to a factor, both are
+the same. It needs torch: pip install 'texvent[train]'.
 """
 
 from __future__ import annotations
@@ -22,6 +23,8 @@ from numpy.typing import NDArray
 
 import texvent
 from texvent._require import require
+from texvent._version import full_version
+from texvent.bench.machine import describe_environment
 from texvent.events import EventStream
 from texvent.metrics.motion.contrast_maximisation import (
     estimate_patch_flow,
@@ -30,6 +33,7 @@ from texvent.metrics.motion.contrast_maximisation import (
 )
 from texvent.represent.event_frame import count_events
 from texvent.represent.voxel_grid import voxel_e2vid
+from texvent.train.checkpoint import WEIGHTS_FILE
 from texvent.train.depth.config import DepthConfig
 from texvent.train.depth.e2depth import make_e2depth
 from texvent.train.depth.log_depth import decode_depth, encode_depth
@@ -37,6 +41,7 @@ from texvent.train.depth.task import DepthTask
 from texvent.train.flow.config import FlowConfig
 from texvent.train.flow.ev_flow_net import PREFIX, make_ev_flow_net
 from texvent.train.flow.task import FlowTask
+from texvent.train.history import HISTORY_FILE
 from texvent.train.reading import read_training
 from texvent.train.sequences.truth import TruthExamples
 from texvent.video import MICROSECONDS
@@ -61,22 +66,36 @@ def main() -> None:
     parser.add_argument("--json", type=Path)
     commands = parser.add_subparsers(dest="command", required=True)
     scenes = commands.add_parser("scenes")
-    scenes.add_argument("flow", type=Path, help="training file")
-    scenes.add_argument("depth", type=Path, help="training file")
     slider = commands.add_parser("slider")
-    slider.add_argument("folder", type=Path)
-    slider.add_argument("flow", type=Path, help="weights")
-    slider.add_argument("depth", type=Path, help="weights")
+    slider.add_argument("recording", type=Path, help="folder of the recording")
+    for name in ("flow", "depth"):
+        scenes.add_argument(f"{name}_file", type=Path, help="training file")
+        for command in (scenes, slider):
+            command.add_argument(name, type=Path, help="folder of the training")
     options = parser.parse_args()
     with torch.inference_mode():
         if options.command == "scenes":
-            found = {**trivial_flow(options.flow), **trivial_depth(options.depth)}
+            found: Any = {
+                "flow": {**trained(options.flow), **trivial_flow(options.flow_file)},
+                "depth": {**trained(options.depth), **trivial_depth(options.depth_file)},
+            }
         else:
-            found = score_slider(options.folder, options.flow, options.depth)
-    text = json.dumps(found, indent=1)
-    print(text)
+            weights = (folder / WEIGHTS_FILE for folder in (options.flow, options.depth))
+            found = score_slider(options.recording, *weights)
+    print(json.dumps(found, indent=1))
     if options.json:
-        options.json.write_text(text + "\n", encoding="utf-8")
+        known = json.loads(options.json.read_text("utf-8")) if options.json.exists() else {}
+        environment = {**describe_environment(), "full_version": full_version()}
+        document = {**known, "environment": environment, options.command: found}
+        options.json.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+
+
+def trained(folder: Path) -> dict[str, Any]:
+    """What a training was, and the scores of its best epoch."""
+    history = json.loads((folder / HISTORY_FILE).read_text(encoding="utf-8"))
+    rows = history.pop("epochs")
+    curve = [round(row[history["chosen_by"]], 4) for row in rows]
+    return {**history, "curve": curve, "network": rows[history["best_epoch"] - 1]}
 
 
 def trivial_flow(path: Path) -> dict[str, Any]:
@@ -161,19 +180,24 @@ def _score_window(
         "zero flow": np.zeros_like(true),
     }
     constant = np.broadcast_to(one[:, None, None], found.shape)
-    speed = np.hypot(*true)
+    speed, found_speed = np.hypot(*true), np.hypot(*guesses["network"])
+    turns = np.abs(np.angle(np.exp(1j * (angle(guesses["network"]) - angle(true)))))
     return {
         "patches": float(known.sum()),
         "reference px/s": float(np.median(speed)),
+        "network px/s": float(np.median(found_speed)),
+        "median angle to reference, degrees": float(np.degrees(np.median(turns))),
         **{
             f"EPE of {name}, px in 40 ms": float(np.hypot(*(guess - true)).mean() * seconds)
             for name, guess in guesses.items()
         },
-        "rank correlation of speed": rank_correlation(np.hypot(*guesses["network"]), speed),
+        "rank correlation of speed": rank_correlation(found_speed, speed),
         "rank correlation of depth": rank_correlation(patches["depth"][0, known], 1 / speed),
         "rank correlation of height in the image": rank_correlation(
             -np.nonzero(known)[0], 1 / speed
         ),
+        "depth up to a factor, off by %": spread(patches["depth"][0, known] * speed),
+        "one depth, off by %": spread(speed),
         "sharpness, network": sharpness(window, found),
         "sharpness, one velocity": sharpness(window, constant),
     }
@@ -208,6 +232,17 @@ def rank_correlation(one: Array, other: Array) -> float:
         for values in (one, other)
     ]
     return float(np.corrcoef(*ranks)[0, 1])
+
+
+def angle(vectors: Array) -> Array:
+    """Direction of (x, y), radians, [n] of [2, n]."""
+    return np.arctan2(vectors[1], vectors[0])
+
+
+def spread(ratios: Array) -> float:
+    """Mean distance from the median, % (of logarithms, so that twice and half are as far)."""
+    logs = np.log(ratios)
+    return float(100 * np.expm1(np.abs(logs - np.median(logs)).mean()))
 
 
 def _in_patches(maps: Array, seen: Array) -> Array:

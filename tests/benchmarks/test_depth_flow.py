@@ -13,8 +13,10 @@ from texvent.sensor import SensorSize
 pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
 from benchmarks.depth_flow import (
+    angle,
     rank_correlation,
     sharpness,
+    spread,
     trivial_depth,
     trivial_flow,
 )
@@ -46,6 +48,14 @@ def test_a_moving_edge_is_sharp_along_its_own_flow() -> None:
     flow[0] = -1000
     # Ten columns again, two pixels apart.
     assert sharpness(events, flow) == pytest.approx(1)
+
+
+def test_directions_and_spreads_by_hand() -> None:
+    found = np.degrees(angle(np.array([[1.0, 0, -2], [0.0, 3, 0]])))
+    assert found.tolist() == pytest.approx([0, 90, 180])
+    # Of 1, 2, 4 the median is 2; the logarithms are log 2, 0 and log 2 away from it.
+    assert spread(np.array([1.0, 2, 4])) == pytest.approx(100 * (2 ** (2 / 3) - 1))
+    assert spread(np.full(3, 7.0)) == 0
 
 
 def test_trivial_predictors_are_scored_as_networks_are(tmp_path: Path) -> None:
