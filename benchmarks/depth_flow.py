@@ -145,7 +145,7 @@ def score_slider(folder: Path, flow: Path, depth: Path) -> dict[str, Any]:
     events = texvent.open(folder / "events.txt", size=SENSOR).collect()
     first, last = int(events.t[0]), int(events.t[-1])
     starts = np.linspace(first + 10 * SLICE_US, last - WINDOW_US, WINDOWS).astype(int)
-    flows, depths = _load_flow(flow), _all_depths(_load_depth(depth), events)
+    flows, depths = load_flow(flow), _all_depths(load_depth(depth), events)
     rows: dict[str, list[float]] = {}
     for start in starts.tolist():
         for name, value in _score_window(events, start, flows, depths).items():
@@ -235,7 +235,7 @@ def rank_correlation(one: Array, other: Array) -> float:
 
 
 def angle(vectors: Array) -> Array:
-    """Direction of (x, y), radians, [n] of [2, n]."""
+    """Direction of (x, y), radians, [...] of [2, ...]."""
     return np.arctan2(vectors[1], vectors[0])
 
 
@@ -271,7 +271,8 @@ def _all_depths(network: Any, events: EventStream) -> dict[int, Array]:
     return {start + SLICE_US: depth for start, depth in zip(edges, found, strict=True)}
 
 
-def _load_flow(path: Path) -> Any:
+def load_flow(path: Path) -> Any:
+    """EV-FlowNet of a weights file."""
     content = torch.load(path, weights_only=True)
     wide, bins = content["state_dict"][f"{PREFIX}.encoders.0.conv2d.weight"].shape[:2]
     network = make_ev_flow_net(bins, wide // 2, seed=0)
@@ -279,7 +280,8 @@ def _load_flow(path: Path) -> Any:
     return network
 
 
-def _load_depth(path: Path) -> Any:
+def load_depth(path: Path) -> Any:
+    """E2Depth of a weights file."""
     content = torch.load(path, weights_only=True)
     network = make_e2depth(content["config"]["model"]["base_num_channels"], seed=0)
     network.read(content, path, "")
