@@ -15,6 +15,7 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -66,6 +67,7 @@ def main() -> None:
     parser.add_argument("--json", type=Path)
     commands = parser.add_subparsers(dest="command", required=True)
     scenes = commands.add_parser("scenes")
+    scenes.add_argument("--split", default="test", help="scored; default: %(default)s")
     slider = commands.add_parser("slider")
     slider.add_argument("recording", type=Path, help="folder of the recording")
     for name in ("flow", "depth"):
@@ -76,8 +78,8 @@ def main() -> None:
     with torch.inference_mode():
         if options.command == "scenes":
             found: Any = {
-                "flow": {**trained(options.flow), **trivial_flow(options.flow_file)},
-                "depth": {**trained(options.depth), **trivial_depth(options.depth_file)},
+                "flow": score_flow(options.flow_file, options.flow, options.split),
+                "depth": score_depth(options.depth_file, options.depth, options.split),
             }
         else:
             weights = (folder / WEIGHTS_FILE for folder in (options.flow, options.depth))
@@ -90,36 +92,55 @@ def main() -> None:
         options.json.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
 
 
-def trained(folder: Path) -> dict[str, Any]:
-    """What a training was, and the scores of its best epoch."""
-    history = json.loads((folder / HISTORY_FILE).read_text(encoding="utf-8"))
-    rows = history.pop("epochs")
-    curve = [round(row[history["chosen_by"]], 4) for row in rows]
-    return {**history, "curve": curve, "network": rows[history["best_epoch"] - 1]}
-
-
-def trivial_flow(path: Path) -> dict[str, Any]:
-    """Scores of no motion, and of the mean flow of the training split, pixel by pixel."""
-    config = read_training(path, FlowConfig())
+def score_flow(path: Path, folder: Path, split: str) -> dict[str, Any]:
+    """Scores of a trained network, and of no motion and the training split's mean flow."""
+    config = _with_split(read_training(path, FlowConfig()), split)
     task, truth = FlowTask(config), _truths(config, "flow")
     mean = np.nanmean(truth, axis=0)
     predictors = {"zero flow": np.zeros_like(mean), "mean flow": mean}
-    return {name: _scores(task, (torch.from_numpy(one)[None],)) for name, one in predictors.items()}
+    return {
+        "training": trained(folder),
+        "split": split,
+        "network": _scores(task, load_flow(folder / WEIGHTS_FILE)),
+        **{name: _scores(task, _always(one[None])) for name, one in predictors.items()},
+    }
 
 
-def trivial_depth(path: Path) -> dict[str, Any]:
-    """Scores of the median depth of the training split: of all pixels, and pixel by pixel."""
-    config = read_training(path, DepthConfig())
+def score_depth(path: Path, folder: Path, split: str) -> dict[str, Any]:
+    """Scores of a trained network, and of the training split's median depth.
+
+    That is the median of all pixels, and pixel by pixel.
+    """
+    config = _with_split(read_training(path, DepthConfig()), split)
     task, truth = DepthTask(config), _truths(config, "depth")
     truth[~np.isfinite(truth)] = np.nan
     constant = np.full_like(truth[0], np.nanmedian(truth))
     image = _median(np.moveaxis(truth, 0, -1))
     image[np.isnan(image)] = constant[0, 0, 0]
-    predictors = {"median depth": constant, "median depth image": image}
-    return {
-        name: _scores(task, encode_depth(torch.from_numpy(one))[None, None])
-        for name, one in predictors.items()
+    codes = {
+        name: encode_depth(torch.from_numpy(one)).numpy()
+        for name, one in {"median depth": constant, "median depth image": image}.items()
     }
+    return {
+        "training": trained(folder),
+        "split": split,
+        "network": _scores(task, load_depth(folder / WEIGHTS_FILE)),
+        **{name: _scores(task, _always(one[None, None])) for name, one in codes.items()},
+    }
+
+
+def trained(folder: Path) -> dict[str, Any]:
+    """What a training was, and the validation score of every epoch, of which the best is kept."""
+    history = json.loads((folder / HISTORY_FILE).read_text(encoding="utf-8"))
+    history["training"]["data"].pop("cache", None)
+    rows = history.pop("epochs")
+    seconds = round(sum(row["seconds"] for row in rows))
+    curve = [round(row[history["chosen_by"]], 4) for row in rows]
+    return {**history, "seconds": seconds, "curve": curve}
+
+
+def _with_split(config: Any, split: str) -> Any:
+    return replace(config, data=replace(config.data, validation_split=split))
 
 
 def _truths(config: FlowConfig | DepthConfig, target: Any) -> Array:
@@ -129,15 +150,20 @@ def _truths(config: FlowConfig | DepthConfig, target: Any) -> Array:
     return np.concatenate([examples(number, chance)[target] for number in range(len(examples))])
 
 
-def _scores(task: FlowTask | DepthTask, output: Any) -> dict[str, float]:
-    """Scores of a network that always gives the same; the tasks ask for another number each."""
+def _scores(task: FlowTask | DepthTask, network: Any) -> dict[str, float]:
+    return {name: round(one, 4) for name, one in task.validate(network, CPU, workers=0).items()}
+
+
+def _always(output: Array) -> Any:
+    """A network that gives the same for all windows: flow [1, 2, H, W], depth [1, 1, 1, H, W]."""
+    one = torch.from_numpy(output)
 
     def network(grids: Any) -> Any:
-        if isinstance(output, tuple):
-            return tuple(one.expand(len(grids), -1, -1, -1) for one in output)
-        return output.expand(1, grids.shape[1], -1, -1, -1)
+        if one.ndim == 4:
+            return (one.expand(len(grids), -1, -1, -1),)
+        return one.expand(1, grids.shape[1], -1, -1, -1)
 
-    return {name: round(one, 4) for name, one in task.validate(network, CPU, workers=0).items()}
+    return network
 
 
 def score_slider(folder: Path, flow: Path, depth: Path) -> dict[str, Any]:

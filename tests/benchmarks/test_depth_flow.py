@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -14,12 +16,15 @@ pytest.importorskip("torch", reason="make test-torch runs the tests that need to
 
 from benchmarks.depth_flow import (
     angle,
+    main,
     rank_correlation,
     sharpness,
     spread,
-    trivial_depth,
-    trivial_flow,
 )
+
+from texvent._registry import TASKS
+from texvent.train.run import train_from_file
+from texvent.train.schedule import Hardware
 
 from ..train.sequences.windowed_specification import write_specification
 
@@ -58,13 +63,26 @@ def test_directions_and_spreads_by_hand() -> None:
     assert spread(np.full(3, 7.0)) == 0
 
 
-def test_trivial_predictors_are_scored_as_networks_are(tmp_path: Path) -> None:
+def test_networks_are_scored_beside_trivial_predictors(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     write_specification(tmp_path)
-    path = tmp_path / "training.toml"
+    path, out = tmp_path / "training.toml", tmp_path / "found.json"
     path.write_text(
-        'data = {specification = "tiny.toml", variant = "paper", slice_us = 40_000, length = 3, '
-        'cache = "cache"}\n'
+        'data = {specification = "tiny.toml", variant = "paper", slice_us = 40_000, length = 2, '
+        'cache = "cache"}\nnetwork = {width = 2}\nschedule = {epochs = 1, batch_size = 2}\n'
     )
-    flow, depth = trivial_flow(path), trivial_depth(path)
+    words = ["depth_flow", "--json", str(out), "scenes", "--split", "validation"]
+    for task in ("flow", "depth"):
+        state = train_from_file(TASKS.load(task), path, tmp_path / task, Hardware(device="cpu"))
+        words += [str(path), str(tmp_path / task)]
+        assert state.rows[0]
+    monkeypatch.setattr(sys, "argv", words)
+    main()
+    found = json.loads(out.read_text())
+    assert found["environment"]["commit"]
+    flow, depth = found["scenes"]["flow"], found["scenes"]["depth"]
+    assert flow["network"]["EPE"] == pytest.approx(flow["training"]["curve"][0], abs=2e-4)
+    assert depth["network"]["abs_rel"] == pytest.approx(depth["training"]["curve"][0], abs=2e-4)
     assert flow["zero flow"]["EPE"] > 0
     assert depth["median depth image"]["abs_rel"] <= depth["median depth"]["abs_rel"] + 0.5
