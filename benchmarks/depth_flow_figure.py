@@ -25,8 +25,8 @@ from texvent.train.flow.config import FlowConfig
 from texvent.train.reading import read_training
 from texvent.train.sequences.truth import GRIDS, TruthExamples
 
-CLIPS, WINDOW = (1, 4, 5, 15), 12
-"""Of the validation split, and the window of each that is drawn."""
+SPLIT, CLIPS, WINDOW = "test", (1, 2, 3, 15), 12
+"""Which scenes, and the window of each that is drawn."""
 FASTEST_PX, NEAREST_M = 5.0, 1.0
 TITLES = ("events", "true flow", "flow found", "true depth", "depth found")
 
@@ -43,13 +43,13 @@ def main() -> None:
 
 
 def draw(flow_file: Path, flow: Path, depth_file: Path, depth: Path) -> Figure:
-    """A row per clip; hue is direction, brightness speed."""
-    figure = Figure(figsize=(11, 1.72 * len(CLIPS) + 0.55), layout="constrained")
+    """A row per clip; hue is direction, saturation speed."""
+    figure = Figure(figsize=(11, 1.5 * len(CLIPS) + 0.3), layout="constrained")
     axes = figure.subplots(len(CLIPS), len(TITLES), squeeze=False)
     flow_data = read_training(flow_file, FlowConfig()).data
-    flows = TruthExamples.open(flow_data, flow_data.validation_split, "flow", 5, is_whole=True)
+    flows = TruthExamples.open(flow_data, SPLIT, "flow", 5, is_whole=True)
     depth_data = read_training(depth_file, DepthConfig()).data
-    depths = TruthExamples.open(depth_data, depth_data.validation_split, "depth", 5, is_whole=True)
+    depths = TruthExamples.open(depth_data, SPLIT, "depth", 5, is_whole=True)
     networks = load_flow(flow / WEIGHTS_FILE), load_depth(depth / WEIGHTS_FILE)
     chance = np.random.default_rng(0)
     image = None
@@ -74,7 +74,7 @@ def draw(flow_file: Path, flow: Path, depth_file: Path, depth: Path) -> Figure:
 
 
 def flow_colours(flow: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
-    """Red right, green down-left, blue up-left; white is still. [H, W, 3] of [2, H, W]."""
+    """Red is right, lime down, cyan left, violet up, white still. [H, W, 3] of [2, H, W]."""
     known = np.nan_to_num(flow)
     hue = (angle(known) / (2 * np.pi)) % 1
     speed = np.clip(np.hypot(*known) / FASTEST_PX, 0, 1)
