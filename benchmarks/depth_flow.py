@@ -262,7 +262,7 @@ def rank_correlation(one: Array, other: Array) -> float:
 
 def angle(vectors: Array) -> Array:
     """Direction of (x, y), radians, [...] of [2, ...]."""
-    return np.arctan2(vectors[1], vectors[0])
+    return np.asarray(np.arctan2(vectors[1], vectors[0]))
 
 
 def spread(ratios: Array) -> float:

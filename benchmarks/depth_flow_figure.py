@@ -12,11 +12,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib.colors import LogNorm, hsv_to_rgb
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from benchmarks.depth_flow import angle, load_depth, load_flow, torch
+from texvent._require import require
 from texvent.metrics.pixelwise.depth_error import FARTHEST_M
 from texvent.train.checkpoint import WEIGHTS_FILE
 from texvent.train.depth.config import DepthConfig
@@ -25,6 +24,8 @@ from texvent.train.flow.config import FlowConfig
 from texvent.train.reading import read_training
 from texvent.train.sequences.truth import GRIDS, TruthExamples
 
+colours: Any = require("matplotlib.colors", extra="train")
+Figure: Any = require("matplotlib.figure", extra="train").Figure
 SPLIT, CLIPS, WINDOW = "test", (1, 2, 3, 15), 12
 """Which scenes, and the window of each that is drawn."""
 FASTEST_PX, NEAREST_M = 5.0, 1.0
@@ -42,7 +43,7 @@ def main() -> None:
     figure.savefig(options.figure, dpi=80)
 
 
-def draw(flow_file: Path, flow: Path, depth_file: Path, depth: Path) -> Figure:
+def draw(flow_file: Path, flow: Path, depth_file: Path, depth: Path) -> Any:
     """A row per clip; hue is direction, saturation speed."""
     figure = Figure(figsize=(11, 1.5 * len(CLIPS) + 0.3), layout="constrained")
     axes = figure.subplots(len(CLIPS), len(TITLES), squeeze=False)
@@ -63,7 +64,9 @@ def draw(flow_file: Path, flow: Path, depth_file: Path, depth: Path) -> Figure:
             axis.imshow(flow_colours(one))
         for axis, one in zip(row[3:], (far["depth"][WINDOW, 0], found_depth.numpy()), strict=True):
             shown = np.where(one < FARTHEST_M, one, np.nan)
-            image = axis.imshow(shown, cmap="viridis_r", norm=LogNorm(NEAREST_M, FARTHEST_M))
+            image = axis.imshow(
+                shown, cmap="viridis_r", norm=colours.LogNorm(NEAREST_M, FARTHEST_M)
+            )
     for axis, title in zip(axes[0], TITLES, strict=True):
         axis.set_title(title)
     for axis in axes.flat:
@@ -78,7 +81,7 @@ def flow_colours(flow: NDArray[np.floating[Any]]) -> NDArray[np.float64]:
     known = np.nan_to_num(flow)
     hue = (angle(known) / (2 * np.pi)) % 1
     speed = np.clip(np.hypot(*known) / FASTEST_PX, 0, 1)
-    return np.asarray(hsv_to_rgb(np.stack([hue, speed, np.ones_like(hue)], axis=-1)))
+    return np.asarray(colours.hsv_to_rgb(np.stack([hue, speed, np.ones_like(hue)], axis=-1)))
 
 
 if __name__ == "__main__":
