@@ -71,6 +71,8 @@ class DigitsOptions:
     """Networks per set with matched thresholds."""
     other_seeds: int = 2
     """Networks per set with other thresholds, and per fold of recordings."""
+    few_shot: bool = True
+    """Also train on 1, 3, 10 and 30 recordings per class, with simulated ones and without."""
     precision: Literal["float32", "bfloat16"] = "float32"
     """Number type of the networks' computation; bfloat16 is faster on processors that have it."""
     work: Path | None = None
@@ -89,6 +91,7 @@ class DigitsOptions:
             "digits": self.digits,
             "seeds": self.seeds,
             "other_seeds": self.other_seeds,
+            **({} if self.few_shot else {"shots": ()}),
         }
 
 
