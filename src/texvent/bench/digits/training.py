@@ -1,4 +1,8 @@
-"""A small network that tells digits apart, trained on images that were made before."""
+"""A small network that tells digits apart, trained on images that were made before.
+
+`texvent.train.loop` validates, keeps checkpoints and counts epochs. A training here takes seconds,
+keeps its last network, and counts steps, so that few samples are trained on for as long as many.
+"""
 
 from __future__ import annotations
 
