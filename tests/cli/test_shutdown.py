@@ -11,19 +11,20 @@ import pytest
 
 COMPILE_FOR_LONG = """
 import sys, threading, types
-from texvent.cli.shutdown import end_process
+from texvent.cli import shutdown
 from texvent.runtime import background_jit
 module = types.ModuleType("slow_kernel")
 module.warm_up = lambda: threading.Event().wait({seconds})
 sys.modules["slow_kernel"] = module
 background_jit.is_ready("slow_kernel")
 sys.stdout.write("done")
-sys.exit(end_process({code}))
+shutdown.LOADING_S = {announced_after}
+sys.exit(shutdown.end_process({code}))
 """
 
 
-def start(seconds, code):
-    program = COMPILE_FOR_LONG.format(seconds=seconds, code=code)
+def start(seconds, code, announced_after=0.1):
+    program = COMPILE_FOR_LONG.format(seconds=seconds, code=code, announced_after=announced_after)
     return subprocess.Popen(
         [sys.executable, "-c", program],
         stdout=subprocess.PIPE,
@@ -50,6 +51,6 @@ def test_a_good_run_says_that_it_compiles_and_ctrl_c_ends_that_without_an_error(
 
 
 def test_kernels_that_are_soon_ready_are_waited_for_without_a_word():
-    process = start(0, 0)
+    process = start(0, 0, announced_after=60)
     assert process.communicate(timeout=30) == ("done", "")
     assert process.returncode == 0
