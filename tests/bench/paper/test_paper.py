@@ -182,8 +182,8 @@ def test_a_table_that_the_paper_lacks_is_refused(capsys):
 @pytest.mark.torch
 def test_accuracy_is_measured_for_the_columns_that_have_a_folder(tmp_path):
     torch = pytest.importorskip("torch")
-    from texvent.bench.classification.resnet34_weights import tensor_shapes
     from texvent.events import EventStream
+    from texvent.networks.resnet34 import resnet_shapes
     from texvent.sensor import SensorSize
 
     for name in ("n01", "n02"):
@@ -193,7 +193,8 @@ def test_accuracy_is_measured_for_the_columns_that_have_a_folder(tmp_path):
         EventStream(t % 8, t % 6, t, t % 2, SensorSize(8, 6)).save(
             place / "a.npz", format="n-imagenet"
         )
-    state = {name: torch.ones(shape) for name, shape in tensor_shapes(4, (1, 1, 1, 1), 2).items()}
+    shapes = resnet_shapes(2, 2, width=4, blocks=(1, 1, 1, 1))
+    state = {name: torch.ones(shape) for name, shape in shapes.items()}
     torch.save({"state_dict": state}, tmp_path / "weights.tar")
     weights = tmp_path / "weights.tar"
     found = accuracy_figures(tmp_path / "streams", weights, classes=None, progress=silent)
