@@ -73,7 +73,7 @@ def test_the_page_of_counts_opens_without_a_script(
     cars: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     page = tmp_path / "stats.html"
-    assert main(["dataset", "stats", str(cars), "--page", str(page)]) == 0
+    assert main(["dataset", "stats", str(cars), "-o", str(page)]) == 0
     capsys.readouterr()
     text = page.read_text("utf-8")
     tags = Tags(text).names

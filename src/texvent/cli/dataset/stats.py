@@ -26,7 +26,7 @@ DESCRIPTION = """Count what a data set holds: samples, events, rates, durations,
 samples are not there. The records beside the shards are read, not the samples.
 
   texvent dataset stats cars
-  texvent dataset stats cars --page cars/stats.html     with plots"""
+  texvent dataset stats cars -o cars/stats.html     with plots"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,12 +34,13 @@ class StatsOptions:
     """What to count."""
 
     positional: ClassVar[tuple[str, ...]] = ("folder",)
-    outputs: ClassVar[tuple[str, ...]] = ("folder", "page")
+    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o"}
+    outputs: ClassVar[tuple[str, ...]] = ("folder", "out")
 
     folder: Path = REQUIRED
     """Folder of the data set."""
-    page: Path | None = None
-    """An HTML file to write the plots to."""
+    out: Path | None = None
+    """A page (HTML) with plots."""
     json: bool = False
     """Print JSON."""
     overwrite: bool = False
@@ -56,10 +57,10 @@ def run(arguments: Sequence[str]) -> int:
     )
     made = MadeSet.open(options.folder)
     statistics = SetStatistics.of(made)
-    if options.page is not None:
+    if options.out is not None:
         from texvent.dataset.looking.statistics_page import write_statistics_page
 
-        write_statistics_page(made, statistics, options.page, overwrite=options.overwrite)
+        write_statistics_page(made, statistics, options.out, overwrite=options.overwrite)
     if options.json:
         write_out(json.dumps(statistics.tables, indent=1, ensure_ascii=False) + "\n")
     else:

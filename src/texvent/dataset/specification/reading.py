@@ -165,7 +165,7 @@ def _words(value: Any, folder: Path, where: str) -> tuple[str, ...]:
 def _texts(value: Any, where: str) -> tuple[str, ...]:
     values = (value,) if isinstance(value, str) else value
     if not isinstance(values, Sequence) or not values:
-        raise ConfigError(f"{where} is {shown(value)}; it must be a list of texts")
+        raise ConfigError(f"{where} is {shown(value)}; it must be a list of at least one text")
     return tuple(_text(one, where) for one in values)
 
 
