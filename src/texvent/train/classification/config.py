@@ -39,7 +39,7 @@ class Source:
     split: str = "train"
     """Trained on."""
     variant: str | None = None
-    """Of a data set; None: the only one."""
+    """Of a data set; None: all of a folder, the only one of a specification."""
     sensor: str | None = None
     """Of recordings whose files do not say it, such as "34x34"."""
     flip_polarity: bool = False
