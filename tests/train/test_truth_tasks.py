@@ -4,11 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-import os
-import signal
-import subprocess
 import sys
-import time
 from pathlib import Path
 from types import ModuleType
 
@@ -28,6 +24,7 @@ from texvent.train.reading import read_training  # noqa: E402
 from texvent.train.run import train_from_file  # noqa: E402
 from texvent.train.schedule import Hardware  # noqa: E402
 
+from .killed_training import kill_after_an_epoch  # noqa: E402
 from .sequences.windowed_specification import TEXT, write_specification  # noqa: E402
 
 pytestmark = pytest.mark.torch
@@ -50,15 +47,6 @@ def write_training(folder: Path, *, network: str = "width = 2", epochs: int = 3)
 
 def weights(folder: Path) -> dict[str, torch.Tensor]:
     return torch.load(folder / "weights.pt", weights_only=True)["state_dict"]
-
-
-def kill_after_an_epoch(words: list[str], folder: Path) -> None:
-    process = subprocess.Popen([sys.executable, "-m", "texvent.cli.app", *words])
-    state, deadline = folder / "checkpoint.pt", time.monotonic() + 120
-    while not state.exists() and process.poll() is None and time.monotonic() < deadline:
-        time.sleep(0.001)
-    os.kill(process.pid, signal.SIGKILL)
-    assert process.wait() == -signal.SIGKILL
 
 
 @pytest.mark.parametrize("task", TASK_NAMES)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -16,9 +17,9 @@ from texvent.metrics.lpips.layout import ALEX
 from texvent.metrics.lpips.weights import weights_file_name, write_lpips_weights
 from texvent.metrics.structural_similarity import structural_similarity
 from texvent.represent.voxel_grid import voxel_e2vid
-from texvent.runtime.progress import Progress
 
 from ...metrics.lpips.lpips_files import narrow_weights
+from ..killed_training import kill_after_an_epoch
 from ..sequences.windowed_specification import TEXT, write_specification
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
@@ -144,21 +145,16 @@ def test_mixed_precision_trains_weights_of_full_precision(folder: Path, tmp_path
     assert {one.dtype for one in weights(tmp_path / "run").values()} == {torch.float32}
 
 
-class StopAfterFirstEpoch(Progress):
-    """Ends the program once the state of an epoch is stored, as Ctrl-C would."""
-
-    def announce(self, text: str) -> None:
-        raise KeyboardInterrupt(text)
-
-
-def test_an_interrupted_training_ends_with_equal_weights(folder: Path, tmp_path: Path) -> None:
-    path = folder / "training.toml"
+def test_a_killed_training_ends_with_equal_weights(folder: Path, tmp_path: Path) -> None:
+    path = write(folder, TRAINING.replace("epochs = 2", "epochs = 6"), "six-epochs.toml")
     train_from_file(ReconstructionConfig, path, tmp_path / "whole", CPU)
-    with pytest.raises(KeyboardInterrupt, match="epoch 1 of 2"):
-        train_from_file(ReconstructionConfig, path, tmp_path / "parts", CPU, StopAfterFirstEpoch())
-    train_from_file(ReconstructionConfig, path, tmp_path / "parts", CPU)
-    whole, parts = weights(tmp_path / "whole"), weights(tmp_path / "parts")
-    assert all(torch.equal(whole[name], parts[name]) for name in whole)
+    words = ["train", "reconstruction", str(path), "-o", str(tmp_path / "killed")]
+    words += ["--device", "cpu", "-q"]
+    kill_after_an_epoch(words, tmp_path / "killed")
+    assert len(json.loads((tmp_path / "killed" / "history.json").read_text())["epochs"]) < 6
+    assert main(words) == 0
+    whole, killed = weights(tmp_path / "whole"), weights(tmp_path / "killed")
+    assert all(torch.equal(whole[name], killed[name]) for name in whole)
 
 
 @pytest.mark.parametrize("name", ["firenet", "firenet+", "e2vid", "e2vid+"])
