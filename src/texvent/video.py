@@ -51,6 +51,24 @@ def frame_time_us(index: int, fps: Fraction, start_us: int = 0) -> int:
     return start_us + round(index * MICROSECONDS / fps)
 
 
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """Where the pixels of a source frame go, known instead of estimated: a renderer's output.
+
+    A vector is the displacement of the piece of surface seen at a pixel's centre, in pixels of
+    its frame, x to the right and y down. NaN where it is not known.
+    """
+
+    forward: NDArray[np.float32] | None = None
+    """[H, W, 2] from this frame to the next one; None for the last frame."""
+    backward: NDArray[np.float32] | None = None
+    """[H, W, 2] from this frame to the one before it; None for the first frame."""
+    depth: NDArray[np.float32] | None = None
+    """[H, W] distance along the optical axis, m; inf where there is no surface."""
+    instance: NDArray[np.int32] | None = None
+    """[H, W] id of the object seen; 0 is the background."""
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Frame:
     """One image and its time.
@@ -66,6 +84,8 @@ class Frame:
     """Time, µs."""
     is_source: bool = True
     """False for a frame made by interpolation."""
+    motion: Motion | None = None
+    """Motion vectors and depth, where the source gives them with its frames."""
 
     def __post_init__(self) -> None:
         shape, dtype = self.pixels.shape, self.pixels.dtype
