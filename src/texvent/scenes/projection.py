@@ -1,4 +1,4 @@
-"""Pixel ↔ world: the rays of a pinhole camera, and the projection that undoes them.
+"""Pixel ↔ world: the rays of a camera, and the projection that undoes them.
 
 Image coordinates are pixels with (0, 0) at the image's top left corner, so the centre of
 pixel [row, column] is (column + 0.5, row + 0.5).
@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from texvent.scenes.lens import distort, normalised
 from texvent.scenes.scene import Camera, Float64Array
 from texvent.sensor import SensorSize
 
@@ -17,7 +18,9 @@ from texvent.sensor import SensorSize
 class Rays(NamedTuple):
     """The ray through image point (x, y): `origin + depth · (corner + x · right + y · down)`.
 
-    The direction's component along the optical axis is 1, so the ray parameter is depth in metres.
+    With a lens that distorts, (x, y) is where the ray meets the image that the same camera would
+    have without distortion. The direction's component along the optical axis is 1, so the ray
+    parameter is depth in metres.
     """
 
     origin: Float64Array
@@ -31,12 +34,28 @@ class Rays(NamedTuple):
 
 
 def camera_rays(camera: Camera, size: SensorSize) -> Rays:
-    """The rays of a camera whose image has `size` pixels."""
+    """The rays of a camera whose image has `size` pixels; without its distortion."""
     right_axis, down_axis, forward = np.asarray(camera.rotation, dtype=np.float64)
+    lens = camera.lens
+    if lens is not None:
+        right, down = right_axis / lens.fx, down_axis / lens.fy
+        corner = forward - lens.cx * right - lens.cy * down
+        return Rays(np.array(camera.position, dtype=np.float64), corner, right, down)
     step = 1.0 / (camera.focal * size.width)
     right, down = right_axis * step, down_axis * step
     corner = forward - 0.5 * size.width * right - 0.5 * size.height * down
     return Rays(np.array(camera.position, dtype=np.float64), corner, right, down)
+
+
+def ray_directions(camera: Camera, size: SensorSize, points: Float64Array) -> Float64Array:
+    """Directions [n, 3] through image points [n, 2]; their component along the axis is 1."""
+    lens = camera.lens
+    if lens is not None and lens.distortion != "none":
+        plane = normalised(lens, points)
+        right_axis, down_axis, forward = np.asarray(camera.rotation, dtype=np.float64)
+        return np.asarray(forward + plane[:, :1] * right_axis + plane[:, 1:] * down_axis)
+    rays = camera_rays(camera, size)
+    return np.asarray(rays.corner + points[:, :1] * rays.right + points[:, 1:] * rays.down)
 
 
 def project(camera: Camera, size: SensorSize, points: Float64Array) -> Float64Array:
@@ -49,10 +68,16 @@ def project(camera: Camera, size: SensorSize, points: Float64Array) -> Float64Ar
 
     Returns:
         [..., 3]: x and y in pixels, and depth along the optical axis in metres. A point beside or
-        behind the camera (depth <= 0) has no place in the image; its x and y mean nothing.
+        behind the camera (depth <= 0) has no place in the image; its x and y mean nothing. Where
+        the lens does not reach, x and y are NaN.
     """
     seen = (points - camera.position) @ camera.rotation.T
     depth = seen[..., 2]
+    lens = camera.lens
+    if lens is not None:
+        plane = seen[..., :2] / np.where(depth == 0.0, np.inf, depth)[..., None]
+        place = distort(lens, plane) * [lens.fx, lens.fy] + [lens.cx, lens.cy]
+        return np.concatenate([place, depth[..., None]], axis=-1)
     scale = camera.focal * size.width / np.where(depth == 0.0, np.inf, depth)
     x = seen[..., 0] * scale + 0.5 * size.width
     y = seen[..., 1] * scale + 0.5 * size.height

@@ -14,6 +14,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.scenes.lens import Lens
+
 Float64Array = NDArray[np.float64]
 Float32Array = NDArray[np.float32]
 Colour = tuple[float, float, float]
@@ -75,14 +77,16 @@ class Primitives:
 
 @dataclass(frozen=True)
 class Camera:
-    """A pinhole camera at one instant."""
+    """A camera at one instant: a pinhole, or one with a calibrated lens."""
 
     position: Float64Array
     """[3] metres."""
     rotation: Float64Array
     """[3, 3]; rows are the camera's right, down and forward axes in the world."""
     focal: float
-    """Focal length divided by image width: 1.0 is about 53° across."""
+    """Focal length divided by image width: 1.0 is about 53° across. Not read where `lens` is."""
+    lens: Lens | None = None
+    """Calibrated projection and distortion; None: a pinhole whose axis meets the image's middle."""
 
 
 class Ground(IntEnum):

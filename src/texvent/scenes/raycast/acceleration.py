@@ -6,16 +6,19 @@ grid facing the sun (for shadow rays). A ray then only tests the shapes listed w
 
 from __future__ import annotations
 
-from typing import NamedTuple
+import math
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.scenes.lens import Lens, lens_reach
 from texvent.scenes.projection import Rays
 from texvent.scenes.raycast.records import (
     INSTANT_RECORD,
     SHAPE_RECORD,
     World,
+    describe_lens,
     describe_materials,
     describe_rays,
     describe_surroundings,
@@ -148,6 +151,7 @@ def build_world(
     *,
     shadows: bool,
     samples: int,
+    lens: Lens | None = None,
 ) -> World:
     """Everything the kernels need to draw one instant.
 
@@ -158,25 +162,33 @@ def build_world(
         size: image size, pixels.
         shadows: False turns shadows off.
         samples: probes per pixel side.
+        lens: the camera's lens, whose distortion `rays` leave out.
+
+    Raises:
+        ConfigError: the lens folds within the image or looks too wide.
     """
     instant = np.zeros(1, dtype=INSTANT_RECORD)
+    plane_size, coarseness = size, (1.0, 1.0)
+    if lens is not None and lens.distortion != "none":
+        plane_size, coarseness = _describe_distortion(instant[0], lens, size)
     shapes = np.zeros(len(primitives.shape), dtype=SHAPE_RECORD)
     describe_rays(instant[0], rays)
     describe_surroundings(instant[0], environment, shadows)
     describe_materials(shapes, primitives)
     inverse, exists = invert_maps(np.asarray(primitives.to_world, dtype=np.float64))
-    bounds, depth = screen_bounds(primitives, rays, size)
+    bounds, depth = screen_bounds(primitives, rays, plane_size)
     shapes["kind"] = primitives.shape
     shapes["inverse"] = inverse
     shapes["eye"] = inverse[:, :, :3] @ rays.origin + inverse[:, :, 3]
     shapes["sun"] = inverse[:, :, :3] @ instant["sun"][0]
     shapes["depth"] = depth
-    shapes["window"] = bounds + WINDOW_MARGIN_PX * np.array([-1.0, 1.0, -1.0, 1.0])
-    wanted = _wanted_widths(primitives, rays, THIN_PROBES / samples)
+    shapes["window"] = bounds + coarseness[1] * WINDOW_MARGIN_PX * np.array([-1.0, 1.0, -1.0, 1.0])
+    wanted = _wanted_widths(primitives, rays, coarseness[0] * THIN_PROBES / samples)
     half = np.linalg.norm(primitives.to_world[:, :, :3], axis=1)
     shapes["shrink"] = np.minimum(half / wanted[:, None], 1.0)
     shapes["is_thin"] = (shapes["shrink"] < 1.0).any(axis=1)
-    tiles = _tile_lists(shapes["window"], depth, exists, size)
+    corner = instant["plane_corner"][0][[0, 0, 1, 1]]
+    tiles = _tile_lists(shapes["window"] - corner, depth, exists, plane_size)
     sun = instant["sun"][0]
     plane = _sun_plane(sun)
     margin = np.where(shapes["is_thin"], 2.0 * wanted, 0.0)
@@ -188,6 +200,22 @@ def build_world(
     instant["sun_cells"] = len(tiles.start)
     lamps = np.ascontiguousarray(np.asarray(environment.lamps, dtype=np.float64).reshape(-1, 7))
     return World(instant, shapes, _join_lists(tiles, sun_cells), lamps)
+
+
+def _describe_distortion(
+    instant: NDArray[Any], lens: Lens, size: SensorSize
+) -> tuple[SensorSize, tuple[float, float]]:
+    """Write the lens into the record.
+
+    Returns:
+        Size of the image without distortion that holds all rays, and how much coarser its
+        pixels may be: in angle, and in pixels of that image.
+    """
+    reach = lens_reach(lens, size)
+    left, top = (math.floor(edge) - 1 for edge in reach.plane[:2])
+    right, bottom = (math.ceil(edge) + 1 for edge in reach.plane[2:])
+    describe_lens(instant, lens, (left, top))
+    return SensorSize(right - left, bottom - top), (reach.coarsest_angle, reach.coarsest_step)
 
 
 def _join_lists(first: Bins, second: Bins) -> NDArray[np.int32]:

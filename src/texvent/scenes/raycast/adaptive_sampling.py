@@ -302,21 +302,25 @@ def _any_thin(probes: NDArray[np.int64], top: int, left: int, samples: int) -> b
 
 
 @jit(error_model="numpy")
-def render_tile_row(
-    owner: World, tile_row: int, samples: int, pattern: Float64Array, image: Float64Array
+def render_rows(
+    owner: World,
+    rows: tuple[int, int],
+    samples: int,
+    pattern: Float64Array,
+    image: Float64Array,
 ) -> None:
-    """Fill one row of tiles of an image.
+    """Fill some rows of an image.
 
     Args:
         owner: the scene.
-        tile_row: which row of tiles.
+        rows: first row and one past the last one; at most `TILE` rows.
         samples: probes per pixel side.
         pattern: [k, 2] sample positions in [0, 1)² for pixels with something thin.
-        image: [H, W, 3] linear light, 0..1; this row of tiles is written.
+        image: [H, W, 3] linear light, 0..1; these rows are written.
     """
     world = uncounted_world(owner)
-    height, width = image.shape[0], image.shape[1]
-    top, bottom = tile_row * TILE, min((tile_row + 1) * TILE, height)
+    width = image.shape[1]
+    top, bottom = rows
     probes = np.empty((TILE * samples + 1, TILE * samples + 1), dtype=np.int64)
     shares = np.empty((_MAX_SURFACES, 4), dtype=np.float64)
     around = np.empty((samples + 1, samples + 1), dtype=np.int64)

@@ -11,12 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.scenes.projection import camera_rays, project, project_direction
+from texvent.scenes.projection import project, project_direction, ray_directions
 from texvent.scenes.raycast.records import World
 from texvent.scenes.raycast.render import world_at
 from texvent.scenes.raycast.trace import SKY
 from texvent.scenes.raycast.visibility import cast_points, count_unoccluded
-from texvent.scenes.scene import Camera, Float32Array, Float64Array, Scene
+from texvent.scenes.scene import Float32Array, Float64Array, Scene
 from texvent.sensor import SensorSize
 
 _DEPTH_TOLERANCE = 1e-6
@@ -58,7 +58,8 @@ class GroundTruth:
     """[H, W] id of the object seen; 0 is ground, sky and scenery without an id."""
     flow: Float32Array
     """[H, W, 2] displacement (x to the right, y down) in pixels from t0 to t1 of the piece of
-    surface seen at t0; NaN where it is not in front of the camera at t1."""
+    surface seen at t0; NaN where it is not in front of the camera at t1, or its lens does not
+    reach."""
     occluded: NDArray[np.bool_]
     """[H, W] true where that piece of surface cannot be seen at t1: something stands before it,
     or it is outside the image or behind the camera."""
@@ -134,7 +135,7 @@ def _move_to(
 ) -> Float64Array:
     """Image point and depth at t1 of the surface seen through each pixel centre at t0."""
     before, after = scene.camera(times_s[0]), scene.camera(times_s[1])
-    direction = _directions(before, size, seen.points)
+    direction = ray_directions(before, size, seen.points)
     far = seen.number == SKY
     depth = np.where(far, 1.0, seen.depth)
     world_points = before.position + depth[:, None] * direction
@@ -150,11 +151,6 @@ def _move_to(
     place[far] = project_direction(after, size, direction[far])
     place[far, 2] = np.where(place[far, 2] > 0.0, np.inf, -np.inf)
     return place
-
-
-def _directions(camera: Camera, size: SensorSize, points: Float64Array) -> Float64Array:
-    rays = camera_rays(camera, size)
-    return np.asarray(rays.corner + points[:, :1] * rays.right + points[:, 1:] * rays.down)
 
 
 def _hidden(world: World, place: Float64Array, size: SensorSize) -> NDArray[np.bool_]:

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.scenes.lens import Lens
 from texvent.scenes.projection import Rays
 from texvent.scenes.scene import Environment, Float64Array, Primitives
 
@@ -28,6 +29,12 @@ INSTANT_RECORD = np.dtype(
         ("right", "f8", 3),
         ("down", "f8", 3),
         ("step", "f8"),
+        # Lens: number of its distortion, see lens.DISTORTIONS; fx, fy, cx, cy; coefficients. Places
+        # of shapes, and `corner`, `right` and `down`, are in the image without distortion.
+        ("distortion", "i8"),
+        ("lens", "f8", 4),
+        ("coefficients", "f8", 4),
+        ("plane_corner", "f8", 2),  # where the screen tiles begin in that image, pixels
         # Lists of shapes: screen tile c owns lists[lists[c] : lists[c + 1]], front to back; the sun
         # grid's cells follow from `sun_cells` on; its last cell lists the big shapes.
         # `sun_plane`: two axes facing the sun; `sun_grid`: corner of the grid along them (metres),
@@ -99,6 +106,13 @@ class World(NamedTuple):
     """Shape numbers by screen tile and by sun cell; see `INSTANT_RECORD`."""
     lamps: Float64Array
     """[m, 7] as in `Environment.lamps`."""
+
+
+def describe_lens(instant: NDArray[Any], lens: Lens, corner: tuple[float, float]) -> None:
+    """Write a lens into the record, and where the screen tiles begin."""
+    instant["distortion"] = lens.number
+    instant["lens"] = (lens.fx, lens.fy, lens.cx, lens.cy)
+    instant["coefficients"], instant["plane_corner"] = lens.coefficients, corner
 
 
 def describe_rays(instant: NDArray[Any], rays: Rays) -> None:

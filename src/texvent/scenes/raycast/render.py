@@ -12,7 +12,7 @@ from texvent.errors import InputError
 from texvent.runtime.threads import run_parts
 from texvent.scenes.projection import camera_rays
 from texvent.scenes.raycast.acceleration import TILE, build_world
-from texvent.scenes.raycast.adaptive_sampling import render_tile_row
+from texvent.scenes.raycast.adaptive_sampling import render_rows
 from texvent.scenes.raycast.records import World
 from texvent.scenes.scene import Float32Array, Float64Array, Scene
 from texvent.sensor import SensorSize
@@ -22,7 +22,8 @@ def world_at(
     scene: Scene, time_s: float, size: SensorSize, *, shadows: bool = True, samples: int = 2
 ) -> World:
     """What the kernels read about one instant of a scene."""
-    rays = camera_rays(scene.camera(time_s), size)
+    camera = scene.camera(time_s)
+    rays = camera_rays(camera, size)
     return build_world(
         scene.primitives(time_s),
         scene.environment(time_s),
@@ -30,6 +31,7 @@ def world_at(
         size,
         shadows=shadows,
         samples=samples,
+        lens=camera.lens,
     )
 
 
@@ -58,18 +60,46 @@ def render(
     Raises:
         InputError: samples is below 1.
     """
+    return encode_srgb(render_light(scene, time_s, size, samples=samples, shadows=shadows))
+
+
+def render_light(
+    scene: Scene,
+    time_s: float,
+    size: SensorSize,
+    *,
+    samples: int = 2,
+    shadows: bool = True,
+    rows: tuple[int, int] | None = None,
+) -> Float64Array:
+    """The light that `render` gamma-codes.
+
+    Args:
+        scene: what to draw.
+        time_s: the instant, s.
+        size: image size, pixels.
+        samples: as for `render`.
+        shadows: as for `render`.
+        rows: first row and one past the last row that are wanted; None: all.
+
+    Returns:
+        [rows, W, 3] linear RGB, 0..1, float64: 1 is the brightest that a frame can show.
+
+    Raises:
+        InputError: samples is below 1.
+    """
     if samples < 1:
         raise InputError(f"samples is {samples}; it must be at least 1")
     world = world_at(scene, time_s, size, shadows=shadows, samples=samples)
-    rows = -(-size.height // TILE)
-    image = np.empty((size.height, size.width, 3), dtype=np.float64)
+    first, last = rows or (0, size.height)
+    image = np.empty((last, size.width, 3), dtype=np.float64)
     pattern = sample_pattern((4 * samples) ** 2)
 
-    def draw(tile_row: int) -> None:
-        render_tile_row(world, tile_row, samples, pattern, image)
+    def draw(top: int) -> None:
+        render_rows(world, (top, min(top + TILE, last)), samples, pattern, image)
 
-    run_parts(draw, range(rows))
-    return encode_srgb(image)
+    run_parts(draw, range(first, last, TILE))
+    return image[first:]
 
 
 def sample_pattern(count: int) -> Float64Array:

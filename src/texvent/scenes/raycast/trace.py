@@ -7,6 +7,7 @@ import math
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import NEAR_M, SUN_CELLS, TILE
 from texvent.scenes.raycast.intersect import hit_shape, local_normal
+from texvent.scenes.raycast.lens_kernel import plane_point
 from texvent.scenes.raycast.records import Record, World
 from texvent.scenes.raycast.vectors import (
     Vector,
@@ -33,6 +34,13 @@ _SHADOW_BIAS_M = 2e-3
 @jit(error_model="numpy")
 def ray_direction(rays: Record, x: float, y: float) -> Vector:
     """Direction through image point (x, y); its component along the optical axis is 1."""
+    u, v = plane_point(rays, x, y)
+    return plane_direction(rays, u, v)
+
+
+@jit(error_model="numpy")
+def plane_direction(rays: Record, x: float, y: float) -> Vector:
+    """Direction through a point of the image without distortion."""
     return (
         rays.corner[0] + x * rays.right[0] + y * rays.down[0],
         rays.corner[1] + x * rays.right[1] + y * rays.down[1],
@@ -63,6 +71,15 @@ def _widened_hit(shape: Record, o: Vector, d: Vector, near: float) -> float:
 
 
 @jit(error_model="numpy")
+def tile_at(instant: Record, x: float, y: float) -> int:
+    """The screen tile at a point of the image without distortion."""
+    corner = instant.plane_corner
+    column = min(max(int(x - corner[0]) // TILE, 0), instant.tile_columns - 1)
+    row = min(max(int(y - corner[1]) // TILE, 0), instant.tile_rows - 1)
+    return int(row * instant.tile_columns + column)
+
+
+@jit(error_model="numpy")
 def first_hit(world: World, x: float, y: float) -> tuple[float, int, int, bool]:
     """What the ray through image point (x, y) meets first.
 
@@ -70,10 +87,9 @@ def first_hit(world: World, x: float, y: float) -> tuple[float, int, int, bool]:
         (depth in metres, shape number or GROUND / SKY / ROOM, face, whether a thin shape is near).
     """
     instant, lists = world.instant[0], world.lists
-    direction = ray_direction(instant, x, y)
-    column = min(max(int(x) // TILE, 0), instant.tile_columns - 1)
-    row = min(max(int(y) // TILE, 0), instant.tile_rows - 1)
-    cell = row * instant.tile_columns + column
+    x, y = plane_point(instant, x, y)
+    direction = plane_direction(instant, x, y)
+    cell = tile_at(instant, x, y)
     best, found, best_face = background_hit(instant, direction)
     thin = math.inf
     for index in range(lists[cell], lists[cell + 1]):

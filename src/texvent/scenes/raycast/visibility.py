@@ -6,13 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.scenes.raycast.acceleration import TILE
+from texvent.scenes.raycast.lens_kernel import plane_point
 from texvent.scenes.raycast.records import World
 from texvent.scenes.raycast.trace import (
     background_hit,
     first_hit,
     hit_again,
-    ray_direction,
+    plane_direction,
+    tile_at,
 )
 from texvent.scenes.raycast.uncounted import uncounted_world
 from texvent.scenes.scene import Float64Array
@@ -51,13 +52,14 @@ def count_unoccluded(
     """
     world = uncounted_world(owner)
     instant = world.instant[0]
-    lists, columns = world.lists, instant.tile_columns
+    lists = world.lists
     last = np.full(len(counts), -1, dtype=np.int64)
     for row in range(height):
         for column in range(width):
-            cell = (row // TILE) * columns + column // TILE
+            u, v = plane_point(instant, column + 0.5, row + 0.5)
+            cell = tile_at(instant, u, v)
             pixel = row * width + column
-            direction = ray_direction(instant, column + 0.5, row + 0.5)
+            direction = plane_direction(instant, u, v)
             behind = background_hit(instant, direction)[0]
             for index in range(lists[cell], lists[cell + 1]):
                 one = instance[lists[index]]

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 
 from texvent.runtime.jit import jit
+from texvent.scenes.raycast.lens_kernel import NO_DISTORTION, pixel_steps
 from texvent.scenes.raycast.records import Record, World
 from texvent.scenes.raycast.shading.ground import ground_colour, wall_colour
 from texvent.scenes.raycast.shading.sky import mix, sky_colour
@@ -89,13 +90,14 @@ def _shape_light(
     hit: tuple[float, int, int],
     point: Colour,
     direction: Colour,
+    steps: tuple[Colour, Colour],
     is_lit: bool,
 ) -> Colour:
     """Light from a shape: texture, reflection, a soft highlight, its own glow."""
     instant = world.instant[0]
     depth, number, face = hit
     normal = surface_normal(world, number, face, point)
-    patch = surface_patch(instant, direction, depth, normal)
+    patch = surface_patch(steps, direction, depth, normal)
     colour = surface_colour(world, number, face, point, patch)
     view = unit(direction)
     light = _reflected(world, colour, point, normal, patch_extent(patch)[2], is_lit)
@@ -108,12 +110,17 @@ def _shape_light(
 
 @jit(error_model="numpy")
 def _ground_light(
-    world: World, depth: float, point: Colour, direction: Colour, is_lit: bool
+    world: World,
+    depth: float,
+    point: Colour,
+    direction: Colour,
+    steps: tuple[Colour, Colour],
+    is_lit: bool,
 ) -> Colour:
     """Light from the ground or the sea, which fade into the horizon."""
     instant = world.instant[0]
     up = (0.0, 0.0, 1.0)
-    footprint = patch_extent(surface_patch(instant, direction, depth, up))
+    footprint = patch_extent(surface_patch(steps, direction, depth, up))
     if instant.ground == _SEA:
         light = sea_light(instant, point, unit(direction), footprint)
     else:
@@ -140,17 +147,20 @@ def shade_hit(
     instant = world.instant[0]
     depth, number, face = hit
     direction = ray_direction(instant, x, y)
+    steps, step = pixel_steps(instant, x, y), instant.step
+    if instant.distortion != NO_DISTORTION:
+        step = math.sqrt(dot(steps[0], steps[0]))
     if number == SKY:
-        return _sky_light(instant, unit(direction), instant.step)
+        return _sky_light(instant, unit(direction), step)
     point = along(triple(instant.origin), direction, depth)
     distance = depth * math.sqrt(direction[0] ** 2 + direction[1] ** 2 + direction[2] ** 2)
     if number == GROUND:
-        light = _ground_light(world, depth, point, direction, is_lit)
+        light = _ground_light(world, depth, point, direction, steps, is_lit)
     elif number == ROOM:
-        footprint = depth * instant.step
+        footprint = depth * step
         colour = wall_colour(instant, point, face, footprint)
         normal = surface_normal(world, ROOM, face, point)
         light = _reflected(world, colour, point, normal, footprint, False)
     else:
-        light = _shape_light(world, hit, point, direction, is_lit)
+        light = _shape_light(world, hit, point, direction, steps, is_lit)
     return _add_fog(instant, light, distance)

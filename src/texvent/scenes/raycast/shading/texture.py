@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from texvent.runtime.jit import jit
-from texvent.scenes.raycast.records import Record, World
+from texvent.scenes.raycast.records import World
 from texvent.scenes.raycast.shading.sky import mix
 from texvent.scenes.raycast.shading.value_noise import detail_fade, noise_3d, smooth, square_wave
 from texvent.scenes.raycast.vectors import Vector, along, dot, mapped, scaled, triple, turned
@@ -17,17 +17,17 @@ _STEEPEST = 0.04
 
 @jit(error_model="numpy")
 def surface_patch(
-    instant: Record, direction: Vector, depth: float, normal: Vector
+    steps: tuple[Vector, Vector], direction: Vector, depth: float, normal: Vector
 ) -> tuple[Vector, Vector]:
     """Metres of surface from one pixel to the next, to the right and down, as world vectors.
 
     Args:
-        instant: the camera.
+        steps: change of direction per pixel, from `pixel_steps`.
         direction: of the ray, as `ray_direction`.
         depth: of the surface, metres.
         normal: unit normal of the surface.
     """
-    right, down = triple(instant.right), triple(instant.down)
+    right, down = steps
     facing = min(dot(direction, normal), -_STEEPEST)
     return (
         scaled(along(right, direction, -(dot(right, normal) / facing)), depth),

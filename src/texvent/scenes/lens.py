@@ -1,0 +1,210 @@
+"""Lenses: where on the image a direction lands, and back, with distortion.
+
+Normalised coordinates are x and y of a direction whose component along the optical axis is 1.
+Image coordinates are pixels with (0, 0) at the image's top left *corner*. Calibration files
+(OpenCV, Kalibr, ROS) count from the *centre* of the top left pixel: their principal point is half
+a pixel less in x and y.
+
+    radtan       x_d = x (1 + k1 r² + k2 r⁴) + 2 p1 x y + p2 (r² + 2 x²), y_d likewise
+    equidistant  θ_d = θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶ + k4 θ⁸), θ = atan r
+
+Source: OpenCV's camera model (radtan: its first four coefficients) and fisheye model, which
+Kalibr calls radtan and equidistant; Brown 1966; Kannala and Brandt, PAMI 2006.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.errors import ConfigError
+from texvent.sensor import SensorSize
+
+Float64Array = NDArray[np.float64]
+Distortion = Literal["none", "radtan", "equidistant"]
+DISTORTIONS: tuple[Distortion, ...] = ("none", "radtan", "equidistant")
+"""Models by name; the position is the number by which kernels know them."""
+WIDEST = math.radians(85.0)
+"""No pixel may look further from the optical axis than this."""
+ITERATIONS = 30
+"""Newton steps at most; a lens that does not fold needs four to six."""
+CONVERGED = 1e-12
+"""Distance in normalised coordinates at which Newton's steps end."""
+
+
+@dataclass(frozen=True)
+class Lens:
+    """What a calibration says of one camera: pinhole projection and distortion."""
+
+    fx: float
+    """Focal length in pixel widths."""
+    fy: float
+    """Focal length in pixel heights."""
+    cx: float
+    """Where the optical axis meets the image, pixels from its left edge."""
+    cy: float
+    """Where the optical axis meets the image, pixels from its top edge."""
+    distortion: Distortion = "none"
+    coefficients: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    """k1, k2, p1, p2 of radtan, or k1, k2, k3, k4 of equidistant."""
+
+    @property
+    def number(self) -> int:
+        """The distortion as kernels know it: its place in `DISTORTIONS`."""
+        return DISTORTIONS.index(self.distortion)
+
+
+class LensReach(NamedTuple):
+    """What a lens does over a whole image."""
+
+    plane: tuple[float, float, float, float]
+    """Left, top, right, bottom of all pixels in the image that the same pinhole camera without
+    distortion has, pixels."""
+    coarsest_angle: float
+    """Largest angle between neighbouring pixels, over that on the optical axis."""
+    coarsest_step: float
+    """Largest step between neighbouring pixels in the image without distortion, pixels."""
+
+
+def distort(lens: Lens, points: Float64Array) -> Float64Array:
+    """Normalised coordinates [..., 2] → those where the lens puts them; NaN where it folds."""
+    x, y = points[..., 0], points[..., 1]
+    first, second, third, fourth = lens.coefficients
+    if lens.distortion == "none":
+        return np.asarray(points, dtype=np.float64)
+    square = x * x + y * y
+    if lens.distortion == "radtan":
+        radial = 1.0 + square * (first + square * second)
+        placed = (
+            x * radial + 2.0 * third * x * y + fourth * (square + 2.0 * x * x),
+            y * radial + 2.0 * fourth * x * y + third * (square + 2.0 * y * y),
+        )
+    else:
+        radius = np.sqrt(square)
+        angle = np.arctan(radius)
+        a = angle * angle
+        scale = angle * (1.0 + a * (first + a * (second + a * (third + a * fourth))))
+        ratio = np.where(radius > 0.0, scale / np.where(radius > 0.0, radius, 1.0), 1.0)
+        placed = (x * ratio, y * ratio)
+    inside = square <= _fold_radius(lens) ** 2
+    return np.where(inside[..., None], np.stack(placed, axis=-1), np.nan)
+
+
+def undistort(lens: Lens, points: Float64Array) -> Float64Array:
+    """The inverse of `distort`, by Newton's method; NaN where it does not converge.
+
+    This is the definition that the kernel `raycast.lens_kernel.undistorted` is tested against.
+    """
+    target = np.asarray(points, dtype=np.float64)
+    if lens.distortion == "none":
+        return target
+    found = np.array(target)
+    if lens.distortion == "equidistant":
+        radius = np.linalg.norm(target, axis=-1)
+        angle = _equidistant_angle(lens, radius)
+        ratio = np.where(radius > 0.0, np.tan(angle) / np.where(radius > 0.0, radius, 1.0), 1.0)
+        return np.asarray(target * ratio[..., None])
+    k1, k2, p1, p2 = lens.coefficients
+    for _ in range(ITERATIONS):
+        x, y = found[..., 0], found[..., 1]
+        square = x * x + y * y
+        radial, slope = 1.0 + square * (k1 + square * k2), 2.0 * (k1 + 2.0 * k2 * square)
+        miss_x = x * radial + 2.0 * p1 * x * y + p2 * (square + 2.0 * x * x) - target[..., 0]
+        miss_y = y * radial + 2.0 * p2 * x * y + p1 * (square + 2.0 * y * y) - target[..., 1]
+        xx = radial + slope * x * x + 2.0 * p1 * y + 6.0 * p2 * x
+        xy = slope * x * y + 2.0 * p1 * x + 2.0 * p2 * y
+        yy = radial + slope * y * y + 2.0 * p2 * x + 6.0 * p1 * y
+        determinant = xx * yy - xy * xy
+        determinant = np.where(determinant == 0.0, np.nan, determinant)
+        step = np.stack(
+            [
+                (yy * miss_x - xy * miss_y) / determinant,
+                (xx * miss_y - xy * miss_x) / determinant,
+            ],
+            axis=-1,
+        )
+        found = found - step
+        if not np.any(np.abs(step) > CONVERGED):
+            break
+    return found
+
+
+def _equidistant_angle(lens: Lens, distorted: Float64Array) -> Float64Array:
+    """θ of θ_d, radians; NaN beyond `WIDEST`."""
+    k1, k2, k3, k4 = lens.coefficients
+    angle = np.array(distorted)
+    for _ in range(ITERATIONS):
+        a = angle * angle
+        miss = angle * (1.0 + a * (k1 + a * (k2 + a * (k3 + a * k4)))) - distorted
+        slope = 1.0 + a * (3.0 * k1 + a * (5.0 * k2 + a * (7.0 * k3 + a * 9.0 * k4)))
+        step = miss / np.where(slope == 0.0, np.nan, slope)
+        angle = angle - step
+        if not np.any(np.abs(step) > CONVERGED):
+            break
+    return np.where((angle >= 0.0) & (angle <= WIDEST), angle, np.nan)
+
+
+@functools.lru_cache(maxsize=64)
+def _fold_radius(lens: Lens) -> float:
+    """Normalised radius up to which points further out land further out."""
+    angle = np.linspace(0.0, WIDEST, 20_001)
+    a, radius = angle * angle, np.tan(angle)
+    k1, k2, k3, k4 = lens.coefficients
+    if lens.distortion == "radtan":
+        square = radius * radius
+        slope = 1.0 + square * (3.0 * k1 + square * 5.0 * k2)
+    else:
+        slope = 1.0 + a * (3.0 * k1 + a * (5.0 * k2 + a * (7.0 * k3 + a * 9.0 * k4)))
+    folded = np.flatnonzero(slope <= 0.0)
+    return float(radius[folded[0] - 1] if len(folded) else radius[-1])
+
+
+def normalised(lens: Lens, points: Float64Array) -> Float64Array:
+    """Normalised coordinates [..., 2] of the rays through image points [..., 2], pixels."""
+    return undistort(lens, (points - [lens.cx, lens.cy]) / [lens.fx, lens.fy])
+
+
+@functools.lru_cache(maxsize=64)
+def lens_reach(lens: Lens, size: SensorSize) -> LensReach:
+    """What a lens does over an image of that size.
+
+    Raises:
+        ConfigError: its focal lengths are not above 0, it folds within the image, or a pixel
+            looks further than 85° from the optical axis.
+    """
+    if not (lens.fx > 0.0 and lens.fy > 0.0 and math.isfinite(lens.fx + lens.fy)):
+        raise ConfigError(
+            f"the focal lengths are {lens.fx:g} and {lens.fy:g} pixels; they must be above 0"
+        )
+    across = np.linspace(0.0, size.width, max(2, min(size.width // 4, 200)))
+    down = np.linspace(0.0, size.height, max(2, min(size.height // 4, 200)))
+    x, y = (one.ravel() for one in np.meshgrid(across, down))
+    points = np.stack([x, y], axis=-1)
+    found = normalised(lens, points)
+    back = distort(lens, found) * [lens.fx, lens.fy] + [lens.cx, lens.cy]
+    wrong = ~(np.abs(back - points).max(axis=-1) < 1e-6)  # NaN is wrong too
+    wrong |= ~(np.hypot(found[:, 0], found[:, 1]) <= math.tan(WIDEST))
+    if wrong.any():
+        first = points[np.flatnonzero(wrong)[0]]
+        raise ConfigError(
+            f"no ray reaches image point ({first[0]:g}, {first[1]:g}) of {size} through this lens "
+            f"({lens.distortion} {list(lens.coefficients)}): it folds there or looks further than "
+            "85° from its axis; check its intrinsics and coefficients against the resolution"
+        )
+    focal = np.array([lens.fx, lens.fy])
+    plane = found * focal + [lens.cx, lens.cy]
+    low, high = plane.min(axis=0), plane.max(axis=0)
+    half = 0.5 * np.eye(2)[:, None]
+    steps = np.nan_to_num(normalised(lens, points + half) - normalised(lens, points - half))
+    length = np.sqrt(1.0 + (found**2).sum(axis=-1))
+    angles = np.linalg.norm(steps, axis=-1) / length * max(lens.fx, lens.fy)
+    return LensReach(
+        (float(low[0]), float(low[1]), float(high[0]), float(high[1])),
+        max(1.0, float(angles.max())),
+        max(1.0, float(np.abs(steps * focal).max())),
+    )

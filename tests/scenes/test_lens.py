@@ -1,0 +1,162 @@
+"""Lenses: beside OpenCV's models, and the images and truth that they give."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import cv2
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from tests.scenes.hand_scenes import HandScene, MovingShape, day, look_at, still
+
+from texvent.errors import ConfigError
+from texvent.scenes.lens import Lens, distort, lens_reach, normalised, undistort
+from texvent.scenes.projection import project, ray_directions
+from texvent.scenes.raycast.ground_truth import ground_truth
+from texvent.scenes.raycast.render import render, world_at
+from texvent.scenes.raycast.trace import ray_direction
+from texvent.scenes.scene import Camera, Environment, Ground, Shape
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(160, 120)
+RADTAN = Lens(110.0, 112.0, 78.0, 61.5, "radtan", (-0.28, 0.07, 2e-3, -1e-3))
+FISHEYE = Lens(70.0, 71.0, 81.0, 59.0, "equidistant", (0.02, -0.01, 3e-3, -5e-4))
+BOTH = pytest.mark.parametrize("lens", [RADTAN, FISHEYE], ids=["radtan", "equidistant"])
+VELOCITY = np.array([0.5, 0.3, 0.0])
+CENTRE = 0.5
+"""OpenCV's (0, 0) is the middle of the first pixel, ours its corner."""
+
+
+def opencv_points(lens: Lens, points: np.ndarray) -> np.ndarray:
+    """Where OpenCV puts points [n, 3] in camera coordinates, in our pixels."""
+    matrix = np.array([[lens.fx, 0, lens.cx - CENTRE], [0, lens.fy, lens.cy - CENTRE], [0, 0, 1.0]])
+    none, coefficients = np.zeros(3), np.array(lens.coefficients)
+    if lens.distortion == "equidistant":
+        placed, _ = cv2.fisheye.projectPoints(points[:, None], none, none, matrix, coefficients)
+    else:
+        placed, _ = cv2.projectPoints(points[:, None], none, none, matrix, coefficients)
+    return placed[:, 0] + CENTRE
+
+
+def camera_with(lens: Lens | None) -> Camera:
+    camera = look_at((0.0, -8.0, 1.7), (0.0, 0.0, 1.0))
+    return Camera(camera.position, camera.rotation, 1.0, lens)
+
+
+@BOTH
+def test_projection_agrees_with_opencv(lens: Lens) -> None:
+    camera = camera_with(lens)
+    seen = np.random.default_rng(1).uniform((-4, -3, 4), (4, 3, 9), (500, 3))
+    ours = project(camera, SIZE, seen @ camera.rotation + camera.position)
+    inside = np.isfinite(ours[:, 0])
+    assert inside.mean() > 0.9
+    np.testing.assert_allclose(
+        ours[inside, :2], opencv_points(lens, seen)[inside], atol=1e-7, rtol=0
+    )
+    np.testing.assert_allclose(ours[:, 2], seen[:, 2])
+
+
+@BOTH
+@given(x=st.floats(0.0, 160.0), y=st.floats(0.0, 120.0))
+def test_the_ray_through_a_point_leads_back_to_it(lens: Lens, x: float, y: float) -> None:
+    point = np.array([[x, y]])
+    plane = normalised(lens, point)
+    back = distort(lens, plane) * [lens.fx, lens.fy] + [lens.cx, lens.cy]
+    np.testing.assert_allclose(back, point, atol=1e-8)
+
+
+@BOTH
+def test_kernel_and_reference_give_the_same_rays(lens: Lens) -> None:
+    scene = HandScene(camera_at=lambda time: camera_with(lens))
+    instant = world_at(scene, 0.0, SIZE).instant[0]
+    points = np.random.default_rng(2).uniform((0, 0), SIZE, (300, 2))
+    kernel = [ray_direction(instant, x, y) for x, y in points]
+    reference = ray_directions(camera_with(lens), SIZE, points)
+    np.testing.assert_allclose(kernel, reference, atol=1e-10)
+
+
+@BOTH
+def test_rendered_dots_are_where_opencv_projects_them(lens: Lens) -> None:
+    """Centroids of small bright balls, all over the image, within 0.01 px."""
+    camera = camera_with(lens)
+    places = [(x, y) for y in (15.0, 40.0, 75.0, 105.0) for x in (15.0, 50.0, 85.0, 120.0, 145.0)]
+    seen = np.append(normalised(lens, np.array(places)), np.ones((len(places), 1)), axis=1) * 6.0
+    balls = tuple(
+        MovingShape(
+            Shape.ELLIPSOID, (0.04, 0.04, 0.04), still(*ball), colour=(1, 1, 1), emission=0.5
+        )
+        for ball in seen @ camera.rotation + camera.position
+    )
+    scene = HandScene(balls, lambda time: camera, empty_space())
+    empty = HandScene((), lambda time: camera, empty_space())
+    bright, dark = (linear(render(one, 0.0, SIZE, samples=4)[..., 1]) for one in (scene, empty))
+    light = bright - dark
+    expected = opencv_points(lens, seen)
+    rows, columns = np.indices(light.shape) + 0.5
+    for x, y in expected:
+        near = light * (np.hypot(columns - x, rows - y) < 6.0)
+        centroid = (near * columns).sum() / near.sum(), (near * rows).sum() / near.sum()
+        np.testing.assert_allclose(centroid, (x, y), atol=0.01)
+
+
+def empty_space() -> Environment:
+    """An even grey sky without stars, no ground, no direct light."""
+    grey, black = np.full(3, 0.1, dtype=np.float32), np.zeros(3, dtype=np.float32)
+    return replace(
+        day(Ground.NONE), sky_top=grey, sky_horizon=grey, ambient=black, sun_colour=black
+    )
+
+
+def linear(coded: np.ndarray) -> np.ndarray:
+    share = coded.astype(np.float64) / 255.0
+    return np.where(share <= 0.04045, share / 12.92, ((share + 0.055) / 1.055) ** 2.4)
+
+
+@BOTH
+def test_flow_and_depth_agree_with_the_projection(lens: Lens) -> None:
+    """A still ground under a moving camera: flow is the difference of projections."""
+
+    def camera_at(time_s: float) -> Camera:
+        camera = camera_with(lens)
+        return Camera(camera.position + time_s * VELOCITY, camera.rotation, 1.0, lens)
+
+    scene = HandScene(camera_at=camera_at)
+    truth = ground_truth(scene, 0.0, 0.1, SIZE)
+    row, column = 100, 30
+    direction = ray_directions(camera_at(0.0), SIZE, np.array([[column + 0.5, row + 0.5]]))[0]
+    depth = -camera_at(0.0).position[2] / direction[2]
+    assert truth.depth[row, column] == pytest.approx(depth, rel=1e-6)
+    point = camera_at(0.0).position + depth * direction
+    after = project(camera_at(0.1), SIZE, point)
+    expected = after[:2] - [column + 0.5, row + 0.5]
+    np.testing.assert_allclose(truth.flow[row, column], expected, atol=1e-5)
+
+
+def test_a_lens_without_distortion_is_the_pinhole() -> None:
+    plain = Lens(160.0, 160.0, 80.0, 60.0)
+    weak = Lens(160.0, 160.0, 80.0, 60.0, "radtan", (1e-9, 0.0, 0.0, 0.0))
+    scenes = [
+        HandScene((), lambda time, lens=lens: camera_with(lens)) for lens in (None, plain, weak)
+    ]
+    pinhole, calibrated, distorted = (render(scene, 0.0, SIZE) for scene in scenes)
+    np.testing.assert_allclose(calibrated, pinhole, atol=1e-3)
+    np.testing.assert_allclose(distorted, pinhole, atol=0.6)  # edges are placed to 1/128 pixel
+
+
+def test_undistort_leaves_the_axis_alone() -> None:
+    assert undistort(FISHEYE, np.zeros((1, 2))).tolist() == [[0.0, 0.0]]
+
+
+@pytest.mark.parametrize(
+    ("lens", "words"),
+    [
+        (Lens(110.0, 110.0, 80.0, 60.0, "radtan", (-2.0, 0.0, 0.0, 0.0)), "folds"),
+        (Lens(40.0, 40.0, 80.0, 60.0, "equidistant"), "85°"),
+        (Lens(0.0, 110.0, 80.0, 60.0), "focal lengths are 0 and 110"),
+    ],
+)
+def test_a_lens_that_cannot_fill_the_image_is_refused(lens: Lens, words: str) -> None:
+    with pytest.raises(ConfigError, match=words):
+        lens_reach(lens, SIZE)
