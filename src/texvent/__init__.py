@@ -41,8 +41,11 @@ if TYPE_CHECKING:
         sensors,
         simulators,
     )
+    from texvent.run.truth import TruthFolder
     from texvent.sensor import SENSORS, Sensor, SensorSize
     from texvent.simulate.check_simulator import check_simulator
+    from texvent.truth.loading import load_truth
+    from texvent.truth.saving import save_truth
     from texvent.video import Frame, FrameStream, Video
 
 _HOMES = {
@@ -67,7 +70,10 @@ _HOMES = {
         "sensors",
         "simulators",
     ),
+    "run.truth": ("TruthFolder",),
     "simulate.check_simulator": ("check_simulator",),
+    "truth.loading": ("load_truth",),
+    "truth.saving": ("save_truth",),
     "sensor": ("SENSORS", "Sensor", "SensorSize"),
     "video": ("Frame", "FrameStream", "Video"),
 }
@@ -88,6 +94,7 @@ __all__ = [
     "SensorSize",
     "TexventError",
     "TexventWarning",
+    "TruthFolder",
     "Video",
     "__version__",
     "check_simulator",
@@ -98,10 +105,12 @@ __all__ = [
     "generators",
     "interpolators",
     "load",
+    "load_truth",
     "open",
     "pixel_models",
     "presets",
     "representations",
+    "save_truth",
     "sensors",
     "simulate",
     "simulators",

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, Unpack, overload
 
 from numpy.typing import NDArray
 
-from texvent.errors import InputError, shown, warn
+from texvent.errors import ConfigError, InputError, shown, warn
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.generate.prompts.upsample_config import UpsampleConfig
@@ -22,8 +22,10 @@ from texvent.options.values import with_options
 from texvent.pipeline import NO_EVENTS, Simulation
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source
 from texvent.run.settings import Settings, resolve
+from texvent.run.truth import TruthFolder, run_with_truth
 from texvent.runtime.progress import ProgressOption, open_progress
 from texvent.sensor import SizeLike
+from texvent.truth.parts import check_generator
 from texvent.video import FrameStream
 
 if TYPE_CHECKING:
@@ -42,6 +44,7 @@ def generate(
     as_packets: Literal[False] = False,
     config: str | Path | None = None,
     progress: ProgressOption = None,
+    truth_folder: str | Path | TruthFolder | None = None,
     **options: Unpack[GenerateOptions],
 ) -> EventStream: ...
 @overload
@@ -51,6 +54,7 @@ def generate(
     as_packets: Literal[True],
     config: str | Path | None = None,
     progress: ProgressOption = None,
+    truth_folder: str | Path | TruthFolder | None = None,
     **options: Unpack[GenerateOptions],
 ) -> EventPackets: ...
 @overload
@@ -60,6 +64,7 @@ def generate(
     as_packets: bool,
     config: str | Path | None = None,
     progress: ProgressOption = None,
+    truth_folder: str | Path | TruthFolder | None = None,
     **options: Unpack[GenerateOptions],
 ) -> EventStream | EventPackets: ...
 def generate(
@@ -68,6 +73,7 @@ def generate(
     as_packets: bool = False,
     config: str | Path | None = None,
     progress: ProgressOption = None,
+    truth_folder: str | Path | TruthFolder | None = None,
     **options: Unpack[GenerateOptions],
 ) -> EventStream | EventPackets:
     """Events of the scene that a prompt describes.
@@ -78,6 +84,8 @@ def generate(
         config: a TOML or YAML file with options.
         progress: a bar (True), none (False), or a function that takes steps done, steps in all or
             None, and what is done; default: a bar in a terminal or notebook.
+        truth_folder: a new folder for all that is true of the scene, such as "car.truth", which
+            `load_truth` reads; a `TruthFolder` names parts and may replace one.
         **options: those of `texvent generate --help`, such as `seed=3`, `sensor="davis346"`,
             `duration=2.0`, `interpolate="exact"`, `simulator="esim"`, `noise="none"`.
 
@@ -92,8 +100,13 @@ def generate(
         ConfigError: an unknown option, or a value out of range.
     """
     settings, upsample = _generation(options, config)
+    output = _truth_output(truth_folder, as_packets=as_packets)
+    if output is not None:
+        check_generator(str(settings.generator))
     with open_progress(progress) as shown:
         run = prepare_prompt(prompt, settings, upsample=upsample, progress=shown)
+        if output is not None:
+            return run_with_truth(run, output, shown)
     return run.packets if as_packets else _collected(run, progress)
 
 
@@ -106,6 +119,7 @@ def simulate(
     as_packets: Literal[False] = False,
     config: str | Path | None = None,
     progress: ProgressOption = None,
+    truth_folder: str | Path | TruthFolder | None = None,
     **options: Unpack[SimulateOptions],
 ) -> EventStream: ...
 @overload
@@ -117,6 +131,7 @@ def simulate(
     as_packets: Literal[True],
     config: str | Path | None = None,
     progress: ProgressOption = None,
+    truth_folder: str | Path | TruthFolder | None = None,
     **options: Unpack[SimulateOptions],
 ) -> EventPackets: ...
 @overload
@@ -128,6 +143,7 @@ def simulate(
     as_packets: bool,
     config: str | Path | None = None,
     progress: ProgressOption = None,
+    truth_folder: str | Path | TruthFolder | None = None,
     **options: Unpack[SimulateOptions],
 ) -> EventStream | EventPackets: ...
 def simulate(
@@ -138,6 +154,7 @@ def simulate(
     as_packets: bool = False,
     config: str | Path | None = None,
     progress: ProgressOption = None,
+    truth_folder: str | Path | TruthFolder | None = None,
     **options: Unpack[SimulateOptions],
 ) -> EventStream | EventPackets:
     """Events that an event camera would have recorded of a video.
@@ -150,6 +167,8 @@ def simulate(
         as_packets: give packets one by one, with flat memory, instead of one stream.
         config: a TOML or YAML file with options.
         progress: as `generate`.
+        truth_folder: as `generate`, for a FrameStream that knows its scene, or whose frames bring
+            motion vectors along.
         **options: those of `texvent simulate --help`, such as `fps="30000/1001"`,
             `interpolate="flow"`, `sensor="davis346"`, `contrast_threshold=0.2`, `noise="none"`.
 
@@ -164,8 +183,11 @@ def simulate(
         ConfigError: an unknown option, or a value out of range.
     """
     settings = resolve("simulate", dict(options), config=config)
+    output = _truth_output(truth_folder, as_packets=as_packets)
     with open_progress(progress) as shown:
         run = prepare_source(source, settings, t_us=t_us, prompt=prompt, progress=shown)
+        if output is not None:
+            return run_with_truth(run, output, shown)
     return run.packets if as_packets else _collected(run, progress)
 
 
@@ -260,6 +282,22 @@ def compare(
     from texvent.metrics.compare import compare as compare_streams
 
     return compare_streams(_stream(events), _stream(reference), metrics, span_us=span_us)
+
+
+def _truth_output(
+    folder: str | Path | TruthFolder | None, *, as_packets: bool
+) -> TruthFolder | None:
+    """What a run writes of its truth, checked; None: nothing."""
+    if folder is None:
+        return None
+    if as_packets:
+        raise ConfigError(
+            "truth_folder is given with as_packets=True, whose events are not made yet; leave one "
+            "of them out"
+        )
+    output = folder if isinstance(folder, TruthFolder) else TruthFolder(folder)
+    output.check()
+    return output
 
 
 def _collected(run: Simulation, progress: ProgressOption) -> EventStream:

@@ -51,6 +51,11 @@ class PreparedFrames(FrameSource):
         self._check_scale = check_scale and config.white_level is None
 
     @property
+    def source(self) -> FrameStream:
+        """The frames as they come."""
+        return self._source
+
+    @property
     def metadata(self) -> Mapping[str, Any]:
         """The source's, and the size it had if frames were fitted to another."""
         if self.size == self._source.size:

@@ -158,7 +158,7 @@ class _Scratch:
     def __init__(self, simulation: Simulation, files: RunFiles, folder: Path) -> None:
         self._simulation = simulation
         events = [folder / f"{number}{path.suffix}" for number, path in enumerate(files.events)]
-        self._files = replace(files, events=events, overwrite=True, keep_partial=False)
+        self._files = replace(files, events=events, truth=(), overwrite=True, keep_partial=False)
         self.no_sizes = {path.suffix: 0 for path in self._files.paths}
 
     def run(self, frames: Iterator[Frame]) -> Trial:

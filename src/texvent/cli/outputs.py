@@ -14,6 +14,8 @@ from texvent.io.atomic import check_outputs
 from texvent.io.files import codec_for, extension_of
 from texvent.options.fields import renamed
 from texvent.run.files import RunFiles
+from texvent.truth.layout import check_truth_folder
+from texvent.truth.parts import parse_parts
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,6 +41,9 @@ class OutputOptions:
     """Write the event file only: no video, image or page."""
     palette: str = "paper"
     """Colours of events in video, image and page."""
+    truth: str = ""
+    """Write what is true of the scene beside the events (out.h5: out.truth/): flow, depth, ids,
+    boxes, poses, events, overlay, with commas between, or all. See docs/truth.md."""
     overwrite: bool = False
     """Replace files that exist already."""
     config: Path | None = None
@@ -61,6 +66,15 @@ class OutputOptions:
         wanted = {"mp4": self.video, "png": self.still, "html": self.page}
         return tuple(kind for kind, is_wanted in wanted.items() if is_wanted)
 
+    @property
+    def truth_parts(self) -> tuple[str, ...]:
+        """Parts of ground truth to write.
+
+        Raises:
+            ConfigError: an unknown part.
+        """
+        return parse_parts(self.truth)
+
     def files(self, subject: str) -> RunFiles:
         """The files to write, checked; without a name, one is made from a prompt or a file's name.
 
@@ -80,12 +94,15 @@ class OutputOptions:
             formats=self.format,
             previews=self.previews,
             palette=self.palette,
+            truth=self.truth_parts,
             overwrite=self.overwrite,
             keep_partial=self.keep_partial,
         )
         for path, format in itertools.zip_longest(events, self.format):
             codec_for(path, format)
         check_outputs(files.paths, overwrite=self.overwrite)
+        if files.truth_folder is not None:
+            check_truth_folder(files.truth_folder, overwrite=self.overwrite)
         return files
 
 

@@ -113,7 +113,7 @@ def execute(simulation: Simulation, options: OutputOptions, files: RunFiles) -> 
         tally.add(frame, packet)
         progress.advance("frames", tally.source_frames, total)
 
-    with progress, _saying_what_is_complete(files.paths):
+    with progress, _saying_what_is_complete(files.outputs):
         early = write_run(simulation, files, on_step=count, on_scene_change=tally.add_scene_change)
     progress.announce(_summary(tally, time.perf_counter() - started))
     if tally.events == 0 and tally.source_frames > 1:
@@ -123,7 +123,7 @@ def execute(simulation: Simulation, options: OutputOptions, files: RunFiles) -> 
             f"stopped  at {early.t_us / MICROSECONDS:.3f} s; the files end there (complete = false)"
         )
     if not options.quiet:
-        for written in files.paths:
+        for written in files.outputs:
             write_out(f"{written}\n")
     if early is None:
         return 0

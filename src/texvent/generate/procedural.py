@@ -13,6 +13,9 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
+import numpy as np
+from numpy.typing import NDArray
+
 from texvent._version import __version__
 from texvent.config import FPS_RANGE, check_range
 from texvent.errors import ConfigError, few, warn
@@ -23,7 +26,7 @@ from texvent.video import MICROSECONDS, Frame, describe_stream, frame_time_us
 if TYPE_CHECKING:
     from texvent.runtime.progress import Progress
     from texvent.scenes.raycast.ground_truth import GroundTruth
-    from texvent.scenes.scene import Scene
+    from texvent.scenes.scene import Camera, Scene
 
 DEFAULT_SIZE = SENSORS["davis346"].size
 """Image size when none is given."""
@@ -110,6 +113,23 @@ class ProceduralVideo:
 
         return ground_truth(self.scene, t0_us / MICROSECONDS, t1_us / MICROSECONDS, self.size)
 
+    def instances_at(
+        self, t_us: int, points: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+        """Depth in metres and instance id, [k], at the image points [k, 2] (x, y), pixels."""
+        from texvent.scenes.raycast.ground_truth import visible_instances
+
+        return visible_instances(self.scene, t_us / MICROSECONDS, self.size, points)
+
+    def camera_at(self, t_us: int) -> Camera:
+        """The camera at `t_us`."""
+        return self.scene.camera(t_us / MICROSECONDS)
+
+    @property
+    def class_names(self) -> Mapping[int, str]:
+        """Instance id → noun, such as {1: "car"}."""
+        return self.scene.class_names
+
     def _frame(self, t_us: int, *, is_source: bool) -> Frame:
         from texvent.scenes.raycast.render import render
 
@@ -128,6 +148,7 @@ class ProceduralGenerator:
 
     config_type: ClassVar[type] = ProceduralConfig
     default_interpolate: ClassVar[str] = "exact"
+    has_ground_truth: ClassVar[bool] = True
 
     def __init__(
         self, config: ProceduralConfig, *, seed: int = 0, size: SensorSize | None = None

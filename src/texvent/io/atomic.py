@@ -121,7 +121,11 @@ def atomic_file(path: str | Path, *, overwrite: bool) -> Iterator[Path]:
 
 
 def check_output_folder(
-    path: str | Path, *, overwrite: bool, is_own: Callable[[Path], bool]
+    path: str | Path,
+    *,
+    overwrite: bool,
+    is_own: Callable[[Path], bool],
+    is_nested: bool = False,
 ) -> Path:
     """The path, if a folder of files can be put there.
 
@@ -130,6 +134,7 @@ def check_output_folder(
         overwrite: whether a folder of the same kind may be replaced.
         is_own: tells from its path whether a file is of this kind; a folder with any other file
             is never replaced.
+        is_nested: whether such files may lie in folders inside it.
 
     Raises:
         OutputError: it exists already, holds other files, or its parent folder is missing or not
@@ -138,7 +143,9 @@ def check_output_folder(
     target = _resolved(path)
     refuse_inputs(path, target)
     if target.is_dir():
-        foreign = [one.name for one in target.iterdir() if not (one.is_file() and is_own(one))]
+        found = target.rglob("*") if is_nested else target.iterdir()
+        entries = (one for one in found if not (is_nested and _is_real_folder(one)))
+        foreign = [one.name for one in entries if not (one.is_file() and is_own(one))]
         if foreign:
             raise OutputError(
                 f"cannot write {path}: the folder holds other files ({sorted(foreign)[0]!r}), "
@@ -155,7 +162,11 @@ def check_output_folder(
 
 @contextmanager
 def atomic_folder(
-    path: str | Path, *, overwrite: bool, is_own: Callable[[Path], bool]
+    path: str | Path,
+    *,
+    overwrite: bool,
+    is_own: Callable[[Path], bool],
+    is_nested: bool = False,
 ) -> Iterator[Path]:
     """A folder to write into, which becomes `path` if the `with` block ends without an exception.
 
@@ -165,19 +176,23 @@ def atomic_folder(
     Raises:
         OutputError: see `check_output_folder`; or the disk became full inside the block.
     """
-    target = check_output_folder(path, overwrite=overwrite, is_own=is_own)
+    target = check_output_folder(path, overwrite=overwrite, is_own=is_own, is_nested=is_nested)
     with _refusals(path, target), hidden_folder(target.parent) as part:
         yield part
-        for file in part.iterdir():
+        for file in part.rglob("*"):
             _flush_to_disk(file)
         _flush_to_disk(part)
-        check_output_folder(path, overwrite=overwrite, is_own=is_own)
+        check_output_folder(path, overwrite=overwrite, is_own=is_own, is_nested=is_nested)
         if target.is_dir():
             _replace_folder(target, part)
         else:
             os.replace(part, target)
         _note(target)
     _flush_to_disk(target.parent)
+
+
+def _is_real_folder(path: Path) -> bool:
+    return path.is_dir() and not path.is_symlink()
 
 
 def _replace_folder(target: Path, part: Path) -> None:

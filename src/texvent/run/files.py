@@ -18,6 +18,7 @@ from texvent.pairs.frame_pair import OnSceneChange
 from texvent.pipeline import Simulation
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.interrupts import StopRequest, stop_on_interrupt
+from texvent.truth.layout import truth_folder
 from texvent.video import Frame
 from texvent.view.drawing.palettes import DEFAULT_PALETTE
 
@@ -41,6 +42,8 @@ class RunFiles:
     """Colours of the previews."""
     overwrite: bool = False
     """Whether existing files may be replaced."""
+    truth: tuple[str, ...] = ()
+    """Parts of ground truth to write; see `texvent.truth.parts`."""
     keep_partial: bool = False
     """Whether a run that is stopped, or whose input ends in damage, keeps what it has made."""
 
@@ -52,8 +55,18 @@ class RunFiles:
         return path.with_name(f"{name}{PREVIEW_SUFFIX}")
 
     @property
+    def truth_folder(self) -> Path | None:
+        """Folder of ground truth, such as `clip.truth` for `clip.h5`; None where none is wanted."""
+        return truth_folder(self.events[0]) if self.truth else None
+
+    @property
+    def outputs(self) -> tuple[Path, ...]:
+        """All files and folders."""
+        return self.paths if self.truth_folder is None else (*self.paths, self.truth_folder)
+
+    @property
     def paths(self) -> tuple[Path, ...]:
-        """All files."""
+        """All files but the truth."""
         stem = self.preview_stem
         previews = (stem.with_name(f"{stem.name}.{kind}") for kind in self.previews)
         return (*self.events, *previews)
@@ -112,6 +125,9 @@ def write_run(
         sinks: list[Callable[[Frame, EventStream], None]] = []
         if preview is not None:
             sinks.append(outputs.enter_context(BackgroundWriter(preview)).append)
+        truth = _open_truth(outputs, simulation, files, facts)
+        if truth is not None:
+            sinks.append(outputs.enter_context(BackgroundWriter(truth)).append)
         writers = [
             outputs.enter_context(_open_events(path, format, simulation, files, facts))
             for path, format in itertools.zip_longest(files.events, files.formats)
@@ -123,8 +139,9 @@ def write_run(
             simulation.steps(on_scene_change), [*sinks, on_step], stop, files.keep_partial
         )
         if early is not None:
-            for output in (*writers, *([preview] if preview is not None else [])):
-                output.add_metadata(early.facts)
+            for output in (*writers, preview, truth):
+                if output is not None:
+                    output.add_metadata(early.facts)
     return early
 
 
@@ -194,3 +211,23 @@ def _open_previews(
         metadata=facts,
     )
     return outputs.enter_context(preview)
+
+
+def _open_truth(
+    outputs: ExitStack, simulation: Simulation, files: RunFiles, facts: Mapping[str, Any]
+) -> Any:
+    """The folder of truth, open; None where none is wanted."""
+    if files.truth_folder is None:
+        return None
+    # Imported here: it brings the ray caster and OpenCV.
+    from texvent.truth.writer import TruthWriter
+
+    writer = TruthWriter(
+        files.truth_folder,
+        simulation.video,
+        files.truth,
+        metadata=facts,
+        overwrite=files.overwrite,
+        is_continuous=simulation.settings.run.engine == "continuous",
+    )
+    return outputs.enter_context(writer)

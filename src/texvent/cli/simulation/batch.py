@@ -29,6 +29,7 @@ from texvent.run.files import RunFiles
 from texvent.run.prepare import check_run, prepare_prompt, prepare_source
 from texvent.run.settings import Settings
 from texvent.runtime.console_progress import ConsoleProgress
+from texvent.truth.parts import check_generator
 
 DESCRIPTION = """Events for many prompts or videos. A list is a .txt (one prompt per line, # begins
 a comment), .csv or .jsonl (prompt or video, and perhaps name and seed). Each sample has a seed of
@@ -125,11 +126,14 @@ def _plan(settings: Settings, own: BatchOptions, output: OutputOptions) -> Batch
     format = output.format[0] if output.format else None
     extension = extension_of(format) if format else ".h5"
     codec_for(f"events{extension}", format)
+    if output.truth_parts and isinstance(own, PromptBatchOptions):
+        check_generator(own.generator)
     files = RunFiles(
         events=(),
         formats=output.format,
         previews=output.previews,
         palette=output.palette,
+        truth=output.truth_parts,
         overwrite=output.overwrite,
     )
     upsample = own if own.upsample is not None else None
@@ -138,7 +142,9 @@ def _plan(settings: Settings, own: BatchOptions, output: OutputOptions) -> Batch
 
 def _options(plan: BatchPlan, is_of_videos: bool) -> Mapping[str, Any]:
     """What must be the same when the batch goes on."""
+    truth = {"truth": list(plan.files.truth)} if plan.files.truth else {}
     return {
+        **truth,
         "texvent_version": full_version(),
         "samples": "videos" if is_of_videos else "prompts",
         "settings": plan.settings.as_tables(),

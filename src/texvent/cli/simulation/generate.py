@@ -22,6 +22,7 @@ from texvent.options.fields import option_names
 from texvent.run.prepare import check_run, make_video, prepare_prompt
 from texvent.run.settings import Settings, default_settings
 from texvent.runtime.console_progress import ConsoleProgress
+from texvent.truth.parts import check_generator
 
 DESCRIPTION = """Turn a sentence into the events that an event camera would record. The embedded
 generator renders simple 3-D shapes, without weights or download; `texvent generators` lists learned
@@ -81,6 +82,8 @@ def run(arguments: Sequence[str]) -> int:
         return _write_video(own, settings, output)
     check_run(settings)
     files = output.files(own.prompt)
+    if files.truth:
+        check_generator(own.generator)
     if output.dry_run and (plan := _plan(own.prompt, settings)) is not None:
         write_out(f"{plan}\n")
         return 0

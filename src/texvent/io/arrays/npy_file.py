@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from texvent.errors import FileFormatError, shown
 from texvent.io.input_checks import reporting_damage
 
-HEADER_BYTES = 128
+HEADER_BYTES, RECORD_HEADER_BYTES = 128, 512
 """The header's text is padded to this, so that the number of rows fits in whatever it is."""
 NPY_DAMAGE = (
     *(OSError, ValueError, TypeError, EOFError, SyntaxError, OverflowError, MemoryError),
@@ -30,13 +30,13 @@ _MAGIC = b"\x93NUMPY\x01\x00"
 
 @contextmanager
 def growing_array(
-    path: Path, *, dtype: str, columns: int | None = None
+    path: Path, *, dtype: str | np.dtype[np.void], columns: int | None = None
 ) -> Iterator[Callable[[NDArray[np.generic]], None]]:
     """A .npy file to which the function given appends rows, [n] or [n, columns].
 
     Args:
         path: the file.
-        dtype: type of the values.
+        dtype: type of the values; those of records have names.
         columns: values per row; None: the array has one dimension.
     """
     kind = np.dtype(dtype)
@@ -45,8 +45,13 @@ def growing_array(
 
         def write_header() -> None:
             shape = (row_count,) if columns is None else (row_count, columns)
-            facts = {"descr": kind.str, "fortran_order": False, "shape": shape}
-            length = HEADER_BYTES - len(_MAGIC) - 2
+            facts = {
+                "descr": npy_format.dtype_to_descr(kind),
+                "fortran_order": False,
+                "shape": shape,
+            }
+            space = HEADER_BYTES if kind.names is None else RECORD_HEADER_BYTES
+            length = space - len(_MAGIC) - 2
             text = f"{facts}".ljust(length - 1) + "\n"
             file.write(_MAGIC + length.to_bytes(2, "little") + text.encode("ascii"))
 

@@ -111,6 +111,24 @@ def ground_truth(scene: Scene, t0_s: float, t1_s: float, size: SensorSize) -> Gr
     )
 
 
+def visible_instances(
+    scene: Scene, time_s: float, size: SensorSize, points: Float64Array
+) -> tuple[Float64Array, NDArray[np.int32]]:
+    """What is seen through image points at one instant.
+
+    Args:
+        scene: the scene.
+        time_s: the instant, s.
+        size: image size, pixels.
+        points: [k, 2] x and y, pixels from the image's top left corner, inside the image.
+
+    Returns:
+        [k] depth along the optical axis, m, inf for the sky; and [k] instance ids.
+    """
+    depth, number = _cast(world_at(scene, time_s, size), np.ascontiguousarray(points, np.float64))
+    return depth, _instances(scene, time_s, number)
+
+
 def _cast_centres(world: World, size: SensorSize) -> _Seen:
     row, column = np.indices(size.shape)
     points = np.stack([column.ravel() + 0.5, row.ravel() + 0.5], axis=1)

@@ -66,11 +66,11 @@ def annotations_at(video: GroundTruthStream, t_us: int, overlay: Overlay) -> Ann
     truth = video.ground_truth(t_us, t_us + ARROW_US)
     return Annotations(
         boxes=truth.boxes if overlay in ("boxes", "both") else (),
-        arrows=_arrows(truth.flow) if overlay in ("flow", "both") else None,
+        arrows=flow_arrows(truth.flow) if overlay in ("flow", "both") else None,
     )
 
 
-def _arrows(flow: NDArray[np.float32]) -> NDArray[np.float32]:
+def flow_arrows(flow: NDArray[np.float32]) -> NDArray[np.float32]:
     """Flow on a regular grid, where it is known and long enough to see."""
     height, width = flow.shape[:2]
     step = max(4, width // ARROWS_ACROSS)

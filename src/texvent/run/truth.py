@@ -1,0 +1,104 @@
+"""A run in memory whose ground truth is written to a folder."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from texvent.errors import ConfigError, warn
+from texvent.events import EventStream
+from texvent.pipeline import NO_EVENTS, Simulation
+from texvent.runtime.background_writer import BackgroundWriter
+from texvent.runtime.progress import Progress
+from texvent.truth.layout import check_truth_folder
+from texvent.truth.parts import ALL, PARTS, parse_parts
+
+if TYPE_CHECKING:
+    from texvent.truth.writer import TruthWriter
+
+
+@dataclass(frozen=True)
+class TruthFolder:
+    """Which truth a run writes, and where.
+
+    Example:
+        >>> TruthFolder("car.truth", "flow,boxes").names
+        ('flow', 'boxes')
+    """
+
+    path: str | Path
+    """The folder."""
+    parts: str | Iterable[str] = ALL
+    """flow, depth, ids, boxes, poses, events, overlay, with commas between, or "all"."""
+    overwrite: bool = False
+    """Whether a folder of truth may be replaced."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The parts by name.
+
+        Raises:
+            ConfigError: an unknown part, or none.
+        """
+        names = parse_parts(self.parts)
+        if not names:
+            raise ConfigError(f"no part of truth is named; give some of {', '.join(PARTS)}, or all")
+        return names
+
+    def check(self) -> None:
+        """Refuse what cannot be written, before any work.
+
+        Raises:
+            ConfigError: an unknown part, or none.
+            OutputError: the folder exists already, or cannot be made.
+        """
+        self.names  # noqa: B018
+        check_truth_folder(Path(self.path), overwrite=self.overwrite)
+
+
+def run_with_truth(run: Simulation, folder: TruthFolder, progress: Progress) -> EventStream:
+    """The events of a run, in memory; its truth is written meanwhile.
+
+    Args:
+        run: the run.
+        folder: which truth, and where.
+        progress: told of each source frame.
+
+    Raises:
+        ConfigError, InputError: the video does not know its truth.
+        OutputError: the folder cannot be written.
+
+    Warns:
+        TexventWarning: there is no event.
+    """
+    packets = [EventStream.empty(run.video.size)]
+    done = 0
+    with ExitStack() as stack:
+        writer = stack.enter_context(_truth_writer(run, folder))
+        background = stack.enter_context(BackgroundWriter(writer))
+        for frame, packet in run.steps():
+            background.append(frame, packet)
+            packets.append(packet)
+            done += frame.is_source
+            progress.advance("simulate", done, run.video.frame_count)
+    events = EventStream.concat(packets)
+    if not len(events):
+        warn(NO_EVENTS)
+    return events.with_metadata(run.provenance)
+
+
+def _truth_writer(run: Simulation, folder: TruthFolder) -> TruthWriter:
+    # Imported here: it brings the ray caster and OpenCV.
+    from texvent.truth.writer import TruthWriter
+
+    return TruthWriter(
+        folder.path,
+        run.video,
+        folder.names,
+        metadata=run.provenance,
+        overwrite=folder.overwrite,
+        is_continuous=run.settings.run.engine == "continuous",
+    )

@@ -1,0 +1,1 @@
+"""Ground truth on disk, beside the events: optical flow, depth, ids, boxes, poses."""

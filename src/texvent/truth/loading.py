@@ -1,0 +1,221 @@
+"""Read a folder of ground truth back."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.errors import FileFormatError, InputError, one_line
+from texvent.io.arrays.npz import read_arrays
+from texvent.io.input_checks import existing_folder
+from texvent.sensor import SensorSize, checked_size
+from texvent.truth.flow_png import decode_flow
+from texvent.truth.layout import FACTS, FORMAT, TIMES
+from texvent.truth.poses import rotation_matrix
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Truth:
+    """Ground truth of a clip; images are read when they are asked for.
+
+    Frames are numbered from 0. A part that was not written raises InputError.
+    """
+
+    folder: Path
+    """Where it lies."""
+    facts: Mapping[str, Any]
+    """What truth.json says."""
+    times_us: NDArray[np.int64]
+    """[N] times of the frames, µs, on the clock of the events."""
+
+    def __repr__(self) -> str:
+        return f"Truth({len(self)} frames, {self.size}, {', '.join(self.parts)})"
+
+    def __len__(self) -> int:
+        """Number of frames."""
+        return len(self.times_us)
+
+    @property
+    def size(self) -> SensorSize:
+        """Width and height, pixels."""
+        return checked_size(int(self.facts["width"]), int(self.facts["height"]))
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """Names of the parts that were written."""
+        return tuple(self.facts["parts"])
+
+    @property
+    def classes(self) -> dict[int, str]:
+        """Class id → name, of the objects of the clip; 0, the background, is not among them."""
+        return {int(number): name for number, name in self.facts["classes"].items()}
+
+    @property
+    def instances(self) -> dict[int, str]:
+        """Instance id → class name, of the objects of the clip."""
+        named = self.facts["instances"].items()
+        return {int(number): one["class"] for number, one in named}
+
+    @property
+    def metadata(self) -> Mapping[str, Any]:
+        """What made the run: prompt, seed, options, version."""
+        run: Mapping[str, Any] = self.facts["run"]
+        return run
+
+    def flow(self, index: int) -> NDArray[np.float32]:
+        """[H, W, 2] px from frame `index` to the next; NaN where it is not known."""
+        flow: NDArray[np.float32] = self._flow(index)["flow"]
+        return flow
+
+    def occluded(self, index: int) -> NDArray[np.bool_]:
+        """[H, W] whether what frame `index` shows is hidden at the next.
+
+        Raises:
+            InputError: the source of the frames does not tell.
+        """
+        arrays = self._flow(index)
+        if "occluded" not in arrays:
+            raise InputError(f"{self.folder} does not say what is occluded: its source did not")
+        occluded: NDArray[np.bool_] = arrays["occluded"]
+        return occluded
+
+    def depth(self, index: int) -> NDArray[np.float32]:
+        """[H, W] m along the optical axis; inf for the sky."""
+        self._need("depth", index)
+        depth: NDArray[np.float32] = self._array(f"depth/{index:06d}.npz", "depth")
+        return depth
+
+    def instance(self, index: int) -> NDArray[np.int32]:
+        """[H, W] instance ids; 0 is the background."""
+        self._need("ids", index)
+        return self._image(f"instance/{index:06d}.png").astype(np.int32)
+
+    def class_id(self, index: int) -> NDArray[np.int32]:
+        """[H, W] class ids; 0 is the background."""
+        self._need("ids", index)
+        return self._image(f"class/{index:06d}.png").astype(np.int32)
+
+    @cached_property
+    def boxes(self) -> NDArray[Any]:
+        """[n] records t (µs), x, y, w, h (px), class_id, track_id (the instance), confidence 1."""
+        self._need("boxes")
+        try:
+            boxes: NDArray[Any] = np.load(self.folder / "boxes/bbox.npy", allow_pickle=False)
+        except (OSError, ValueError) as error:
+            raise self._damaged("boxes/bbox.npy", error) from error
+        return boxes
+
+    def boxes_at(self, index: int) -> NDArray[Any]:
+        """The boxes of one frame."""
+        self._need("boxes", index)
+        boxes: NDArray[Any] = self.boxes[self.boxes["t"] == self.times_us[index]]
+        return boxes
+
+    @cached_property
+    def poses(self) -> NDArray[np.float64]:
+        """[N, 4, 4] camera-to-world, m; camera axes x right, y down, z forward."""
+        self._need("poses")
+        rows = self._table("poses.txt", 8)
+        poses = np.tile(np.eye(4), (len(rows), 1, 1))
+        poses[:, :3, 3] = rows[:, 1:4]
+        poses[:, :3, :3] = [rotation_matrix(row[4:]) for row in rows]
+        return poses
+
+    @cached_property
+    def camera_matrices(self) -> NDArray[np.float64]:
+        """[N, 3, 3] intrinsics, px; pixel centres have whole coordinates."""
+        self._need("poses")
+        rows = self._table("intrinsics.txt", 5)
+        matrices = np.tile(np.eye(3), (len(rows), 1, 1))
+        matrices[:, 0, 0], matrices[:, 1, 1] = rows[:, 1], rows[:, 2]
+        matrices[:, 0, 2], matrices[:, 1, 2] = rows[:, 3], rows[:, 4]
+        return matrices
+
+    @cached_property
+    def event_instance(self) -> NDArray[np.uint16]:
+        """[n] instance of each event, in the order of the event file."""
+        self._need("events")
+        ids: NDArray[np.uint16] = self._array("events.npz", "instance")
+        return ids
+
+    @cached_property
+    def event_class_id(self) -> NDArray[np.uint16]:
+        """[n] class of each event, in the order of the event file."""
+        self._need("events")
+        ids: NDArray[np.uint16] = self._array("events.npz", "class_id")
+        return ids
+
+    def flow_png(self, index: int) -> NDArray[np.float32]:
+        """As `flow`, from the 16-bit PNG: steps of 1/128 px."""
+        self._need("flow", index, last=-1)
+        return decode_flow(self._image(f"flow/forward/{index:06d}.png"))
+
+    def _flow(self, index: int) -> dict[str, Any]:
+        self._need("flow", index, last=-1)
+        name = f"flow/forward_npz/{index:06d}.npz"
+        self._array(name, "flow")
+        return read_arrays(self.folder / name)
+
+    def _need(self, part: str, index: int = 0, *, last: int = 0) -> None:
+        """Refuse a part that was not written, and a frame that there is not."""
+        if part not in self.parts:
+            raise InputError(
+                f"{self.folder} holds no {part}: it was written with --truth "
+                f"{','.join(self.parts)}; write it again with {part}"
+            )
+        count = len(self) + last
+        if not 0 <= index < count:
+            raise InputError(f"frame {index} has no {part}; there are those of 0..{count - 1}")
+
+    def _array(self, name: str, key: str) -> Any:
+        arrays = read_arrays(self.folder / name)
+        if key not in arrays:
+            raise FileFormatError(f"{self.folder / name} holds no array {key!r}")
+        return arrays[key]
+
+    def _image(self, name: str) -> NDArray[np.uint16]:
+        import cv2
+
+        pixels = cv2.imread(str(self.folder / name), cv2.IMREAD_UNCHANGED)
+        if pixels is None or pixels.dtype != np.uint16:
+            raise FileFormatError(f"{self.folder / name} is missing, or no 16-bit PNG")
+        return np.asarray(pixels if pixels.ndim == 2 else pixels[..., ::-1])
+
+    def _table(self, name: str, columns: int) -> NDArray[np.float64]:
+        try:
+            return np.loadtxt(self.folder / name, dtype=np.float64).reshape(-1, columns)
+        except (OSError, ValueError) as error:
+            raise self._damaged(name, error) from error
+
+    def _damaged(self, name: str, error: BaseException) -> FileFormatError:
+        return FileFormatError(f"{self.folder / name} cannot be read ({one_line(error)})")
+
+
+def load_truth(folder: str | Path) -> Truth:
+    """Ground truth that `texvent generate --truth` or `texvent.save_truth` wrote.
+
+    Args:
+        folder: such as "out.truth".
+
+    Raises:
+        InputError: there is no such folder.
+        FileFormatError: it holds no truth, or is damaged.
+    """
+    path = existing_folder(folder)
+    if not (path / FACTS).is_file():
+        raise FileFormatError(f"{path} holds no {FACTS}; give a folder that --truth wrote")
+    try:
+        facts = json.loads((path / FACTS).read_text(encoding="utf-8"))
+        times = np.loadtxt(path / TIMES, dtype=np.int64, ndmin=1)
+    except (OSError, ValueError, RecursionError) as error:
+        raise FileFormatError(f"{path} is damaged ({one_line(error)})") from error
+    if not isinstance(facts, dict) or facts.get("format") != FORMAT:
+        raise FileFormatError(f"{path / FACTS} is not of the format {FORMAT!r}")
+    return Truth(path, facts, times)

@@ -1,0 +1,59 @@
+"""The parts of ground truth that can be written, by name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
+
+from texvent._registry import GENERATORS, suggest
+from texvent.errors import ConfigError, shown
+
+PARTS: Mapping[str, str] = MappingProxyType(
+    {
+        "flow": "optical flow to the next frame, and what gets hidden",
+        "depth": "depth in metres",
+        "ids": "instance and class of each pixel",
+        "boxes": "2-D boxes: COCO JSON, and Prophesee's .npy",
+        "poses": "camera intrinsics and poses",
+        "events": "instance and class of each event",
+        "overlay": "a video with all of it drawn over the frames",
+    }
+)
+"""Name → what it is."""
+ALL = "all"
+
+
+def parse_parts(wanted: str | Iterable[str] | None) -> tuple[str, ...]:
+    """Names of parts, in the order of `PARTS`.
+
+    Args:
+        wanted: "flow,depth", several names, "all"; None or an empty text: none.
+
+    Raises:
+        ConfigError: an unknown name.
+
+    Example:
+        >>> parse_parts("depth, flow"), parse_parts("")
+        (('flow', 'depth'), ())
+    """
+    words = [wanted] if isinstance(wanted, str) else list(wanted or ())
+    if not all(isinstance(word, str) for word in words):
+        raise ConfigError(f"truth is {shown(wanted)}; give names such as 'flow,depth', or 'all'")
+    names = [name for word in words for name in word.replace(" ", "").split(",") if name]
+    for name in names:
+        if name not in PARTS and name != ALL:
+            raise ConfigError(f"no part {shown(name)} of truth; {suggest(name, (*PARTS, ALL))}")
+    return tuple(name for name in PARTS if name in names or ALL in names)
+
+
+def check_generator(name: str) -> None:
+    """Refuse truth of videos that a generator makes without knowing their scene.
+
+    Raises:
+        ConfigError: it does not know it.
+    """
+    if not getattr(GENERATORS.load(name), "has_ground_truth", False):
+        raise ConfigError(
+            f"truth is asked for, but generator {shown(name)} does not know the scene of its "
+            "videos; leave it out, or take generator procedural"
+        )

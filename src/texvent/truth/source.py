@@ -1,0 +1,210 @@
+"""What is true of the frames of a stream, wherever it comes from.
+
+* A stream with a method `ground_truth(t0_us, t1_us)`, such as a scene of the embedded generator,
+  is asked at any instant. With `camera_at(t_us)` it has poses, with `instances_at(t_us, points)`
+  the ids of events are exact, with `class_names` objects have names.
+* Frames with `Frame.motion` bring vectors, depth and ids along; they are passed on as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Protocol, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.capture.prepare import PreparedFrames
+from texvent.errors import ConfigError, InputError
+from texvent.scenes.models.class_ids import BACKGROUND, class_ids_of
+from texvent.scenes.raycast.ground_truth import Box
+from texvent.scenes.scene import Camera
+from texvent.sensor import SensorSize
+from texvent.truth.parts import PARTS
+from texvent.video import Frame, FrameStream
+from texvent.view.drawing.annotations import GroundTruthStream
+
+MOST_INSTANCES = 2**16
+"""Ids are stored in 16 bits."""
+WHO_KNOWS = (
+    "truth is known of scenes of the embedded generator (texvent generate --generator "
+    "procedural), and of frames that come with motion vectors, depth or ids"
+)
+
+
+@runtime_checkable
+class CameraStream(Protocol):
+    """Frames whose camera is known."""
+
+    def camera_at(self, t_us: int) -> Camera:
+        """The camera at `t_us`."""
+        ...
+
+
+@runtime_checkable
+class InstancesStream(Protocol):
+    """Frames of a scene that can be asked what a point of the image shows, at any instant."""
+
+    def instances_at(
+        self, t_us: int, points: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+        """Depth in metres and instance id, [k], at the image points [k, 2], pixels."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class Snapshot:
+    """What is true at a frame; None where it is not known."""
+
+    t_us: int
+    next_us: int | None = None
+    """Time that flow leads to; None at the last frame."""
+    flow: NDArray[np.float32] | None = None
+    """[H, W, 2] px; NaN where it is not known."""
+    occluded: NDArray[np.bool_] | None = None
+    """[H, W] what is seen here is hidden at the next frame."""
+    depth: NDArray[np.float32] | None = None
+    """[H, W] m; inf where there is no surface."""
+    instance: NDArray[np.int32] | None = None
+    """[H, W] ids; 0 is the background."""
+    boxes: tuple[Box, ...] = ()
+    camera: Camera | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class TruthSource:
+    """Ground truth of a stream, frame by frame.
+
+    Raises:
+        ConfigError: the stream does not know one of the parts.
+    """
+
+    video: FrameStream
+    parts: Sequence[str]
+    """Parts that are wanted."""
+    class_ids: Mapping[str, int] = field(init=False)
+    """Class name → id, of all objects that have a name."""
+    class_names: Mapping[int, str] = field(init=False)
+    """Instance id → class name."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "video", without_preparation(self.video))
+        names = dict(getattr(self.video, "class_names", {}))
+        object.__setattr__(self, "class_names", names)
+        object.__setattr__(self, "class_ids", class_ids_of(names.values()))
+        if "poses" in self.parts and not isinstance(self.video, CameraStream):
+            raise ConfigError(
+                f"truth 'poses' needs a known camera, which {type(self.video).__name__} does not "
+                f"have; leave it out, or ask for the others: {','.join(PARTS.keys() - {'poses'})}"
+            )
+        if max(names, default=0) >= MOST_INSTANCES:
+            raise ConfigError(
+                f"instance id {max(names)} is too large; at most {MOST_INSTANCES - 1}"
+            )
+
+    @property
+    def size(self) -> SensorSize:
+        """Width and height, pixels."""
+        return self.video.size
+
+    def class_of(self, instance: NDArray[Any]) -> NDArray[np.uint16]:
+        """Class ids of instance ids, of any shape."""
+        table = np.full(int(max(instance.max(initial=0), *self.class_names, 0)) + 1, BACKGROUND)
+        for one, name in self.class_names.items():
+            table[one] = self.class_ids[name]
+        return np.asarray(table[instance], dtype=np.uint16)
+
+    def at(self, frame: Frame, next_us: int | None) -> Snapshot:
+        """What is true at a source frame.
+
+        Args:
+            frame: the frame.
+            next_us: time of the next source frame, µs; None: it is the last.
+
+        Raises:
+            InputError: the frame does not bring what is wanted.
+        """
+        if isinstance(self.video, GroundTruthStream):
+            return self._of_scene(self.video, frame.t_us, next_us)
+        return self._of_frame(frame, next_us)
+
+    def _camera(self, t_us: int) -> Camera | None:
+        return self.video.camera_at(t_us) if isinstance(self.video, CameraStream) else None
+
+    def _of_scene(self, video: GroundTruthStream, t_us: int, next_us: int | None) -> Snapshot:
+        truth = video.ground_truth(t_us, t_us if next_us is None else next_us)
+        is_last = next_us is None
+        return Snapshot(
+            t_us,
+            next_us,
+            flow=None if is_last else truth.flow,
+            occluded=None if is_last else truth.occluded,
+            depth=truth.depth,
+            instance=truth.instance,
+            boxes=truth.boxes,
+            camera=self._camera(t_us),
+        )
+
+    def _of_frame(self, frame: Frame, next_us: int | None) -> Snapshot:
+        motion = frame.motion
+        flow = None if motion is None or next_us is None else motion.forward
+        depth = None if motion is None else motion.depth
+        instance = None if motion is None else motion.instance
+        missing = {
+            "flow": flow is None and next_us is not None,
+            "depth": depth is None,
+            **dict.fromkeys(("ids", "boxes", "events"), instance is None),
+            "overlay": motion is None,
+        }
+        lacking = [part for part in self.parts if missing.get(part)]
+        if lacking:
+            raise InputError(
+                f"truth {lacking[0]!r} is not known of the frame at {frame.t_us} µs: {WHO_KNOWS}"
+            )
+        boxes = () if instance is None else boxes_of(instance, self.class_names)
+        return Snapshot(
+            frame.t_us,
+            next_us,
+            flow=flow,
+            depth=depth,
+            instance=instance,
+            boxes=boxes,
+            camera=self._camera(frame.t_us),
+        )
+
+
+def without_preparation(video: FrameStream) -> FrameStream:
+    """The stream that was cut in time, if its frames have their size still: it knows the truth.
+
+    Raises:
+        ConfigError: its frames were fitted to another size.
+    """
+    if not isinstance(video, PreparedFrames) or not isinstance(video.source, GroundTruthStream):
+        return video
+    if video.source.size != video.size:
+        raise ConfigError(
+            f"truth is known of frames of {video.source.size}, and these were fitted to "
+            f"{video.size}; leave --sensor out, or give a generator this size"
+        )
+    return video.source
+
+
+def boxes_of(instance: NDArray[np.int32], class_names: Mapping[int, str]) -> tuple[Box, ...]:
+    """Boxes around the visible pixels of each id but 0; how much is hidden is not known (NaN).
+
+    Args:
+        instance: [H, W] ids.
+        class_names: instance id → class name.
+
+    Example:
+        >>> boxes_of(np.array([[0, 0], [0, 7]], dtype=np.int32), {7: "car"})[0].x0
+        1
+    """
+    found = []
+    for one in np.unique(instance[instance > 0]):
+        rows, columns = np.nonzero(instance == one)
+        name = class_names.get(int(one), "")
+        x0, y0, x1, y1 = columns.min(), rows.min(), columns.max() + 1, rows.max() + 1
+        found.append(Box(int(one), name, int(x0), int(y0), int(x1), int(y1), float("nan")))
+    return tuple(found)

@@ -1,0 +1,271 @@
+"""Ground truth written while a run goes on; `texvent.truth.layout` says what lies where."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.errors import InputError, OutputError
+from texvent.events import EventStream
+from texvent.io.atomic import atomic_folder
+from texvent.options.values import plain
+from texvent.truth.boxes import labelled, open_boxes
+from texvent.truth.event_ids import (
+    SLOT_US,
+    Interval,
+    ids_of_frames,
+    ids_of_scene,
+    open_event_ids,
+)
+from texvent.truth.flow_png import encode_flow
+from texvent.truth.layout import FACTS, FORMAT, TIMES, check_truth_folder, is_own_file
+from texvent.truth.overlay import OverlayVideo
+from texvent.truth.poses import (
+    INTRINSICS_HEADER,
+    POSE_HEADER,
+    camera_facts,
+    intrinsics_row,
+    pose_row,
+)
+from texvent.truth.source import MOST_INSTANCES, InstancesStream, Snapshot, TruthSource
+from texvent.video import Frame, FrameStream
+from texvent.view.atomic_output import AtomicOutput
+
+_FOLDERS = {
+    "flow": ("flow/forward", "flow/forward_npz"),
+    "depth": ("depth",),
+    "ids": ("instance", "class"),
+    "boxes": ("boxes",),
+}
+
+
+class TruthWriter(AtomicOutput):
+    """Writes a folder of truth; it appears when the `with` block ends without error.
+
+    Memory holds the events between two source frames, so it does not grow with the clip.
+
+    Args:
+        path: the folder.
+        video: the frames, whose truth is known.
+        parts: what is written; see `texvent.truth.parts.PARTS`.
+        metadata: what made the run, stored with the truth.
+        overwrite: whether a folder of truth may be replaced.
+        is_continuous: whether events have times of their own; see `texvent.truth.event_ids`.
+
+    Raises:
+        ConfigError: the video does not know one of the parts.
+        OutputError: the folder exists already, or cannot be written.
+    """
+
+    def __init__(
+        self,
+        path: str | Path,
+        video: FrameStream,
+        parts: Sequence[str],
+        *,
+        metadata: Mapping[str, Any] | None = None,
+        overwrite: bool = False,
+        is_continuous: bool = False,
+    ) -> None:
+        super().__init__()
+        self._path = Path(path)
+        check_truth_folder(self._path, overwrite=overwrite)
+        self._source = TruthSource(video, parts)
+        self._fps = video.fps
+        self._parts = parts
+        self._metadata = dict(metadata or {})
+        self._overwrite = overwrite
+        self._is_continuous = is_continuous
+        self._last_us: int | None = None
+        self._intervals: list[Interval] = []
+        self._pending: tuple[Frame, list[Interval]] | None = None
+        self._before: Snapshot | None = None
+        self._index = 0
+
+    def add_metadata(self, facts: Mapping[str, Any]) -> None:
+        """Store more facts of the run, known only now."""
+        self._metadata.update(facts)
+
+    def append(self, frame: Frame, packet: EventStream) -> None:
+        """Take a dense frame and the events before it; truth is written of source frames.
+
+        Raises:
+            InputError: the frame does not bring the truth that is wanted.
+        """
+        if len(packet):
+            start_us = int(packet.t[0]) if self._last_us is None else self._last_us
+            self._intervals.append(Interval(start_us, frame.t_us, packet))
+        self._last_us = frame.t_us
+        if not frame.is_source:
+            return
+        if self._pending is not None:
+            self._write(*self._pending, frame.t_us)
+        self._pending = frame, self._taken_intervals()
+
+    def _open(self, stack: ExitStack) -> None:
+        is_own = is_own_file(self._path)
+        self._part = stack.enter_context(
+            atomic_folder(self._path, overwrite=self._overwrite, is_own=is_own, is_nested=True)
+        )
+        for part in self._parts:
+            for name in _FOLDERS.get(part, ()):
+                (self._part / name).mkdir(parents=True)
+        self._files = stack.enter_context(ExitStack())
+        self._boxes = self._add_ids = self._overlay = None
+        self._texts = {TIMES: self._text(TIMES)}
+        if "flow" in self._parts:
+            name = "flow/forward_timestamps.txt"
+            self._texts["flow"] = self._text(name, "# from_timestamp_us, to_timestamp_us\n")
+        if "poses" in self._parts:
+            self._texts["poses"] = self._text("poses.txt", POSE_HEADER)
+            self._texts["intrinsics"] = self._text("intrinsics.txt", INTRINSICS_HEADER)
+        if "boxes" in self._parts:
+            context = open_boxes(
+                self._part / "boxes",
+                size=self._source.size,
+                classes=self._classes,
+                info={"description": str(self._metadata.get("prompt") or "")},
+            )
+            self._boxes = self._files.enter_context(context)
+        if "events" in self._parts:
+            ids = open_event_ids(self._part, self._source)
+            self._add_ids = self._files.enter_context(ids)
+        if "overlay" in self._parts:
+            video = OverlayVideo(self._part / "overlay.mp4", size=self._source.size, fps=self._fps)
+            self._overlay = self._files.enter_context(video)
+
+    def _complete(self) -> None:
+        if self._pending is None:
+            raise InputError("no frame was given, so there is no truth to write")
+        self._write(*self._pending, None)
+        if self._before is not None:
+            self._ids_of(self._before, self._taken_intervals())
+        self._files.close()
+        facts = {
+            "format": FORMAT,
+            "parts": list(self._parts),
+            "frames": self._index,
+            "width": self._source.size.width,
+            "height": self._source.size.height,
+            "time_unit": "us, on the clock of the events",
+            "classes": {str(number): name for number, name in self._classes.items()},
+            "instances": {
+                str(one): {"class_id": self._source.class_ids[name], "class": name}
+                for one, name in self._source.class_names.items()
+            },
+            "run": plain(self._metadata),
+        }
+        text = json.dumps(facts, indent=1) + "\n"
+        (self._part / FACTS).write_text(text, encoding="ascii")
+
+    @property
+    def _classes(self) -> Mapping[int, str]:
+        named = sorted((number, name) for name, number in self._source.class_ids.items())
+        return dict(named)
+
+    def _text(self, name: str, header: str = "") -> Any:
+        file = self._files.enter_context((self._part / name).open("w", encoding="ascii"))
+        file.write(header)
+        return file
+
+    def _taken_intervals(self) -> list[Interval]:
+        """The events gathered, which are gathered anew from here."""
+        taken, self._intervals = self._intervals, []
+        return taken
+
+    def _write(self, frame: Frame, intervals: list[Interval], next_us: int | None) -> None:
+        """Write what is true at a frame, and of the events before it."""
+        truth = self._source.at(frame, next_us)
+        index, self._index = self._index, self._index + 1
+        self._texts[TIMES].write(f"{truth.t_us}\n")
+        self._write_maps(truth, f"{index:06d}")
+        if truth.camera is not None and "poses" in self._parts:
+            self._write_camera(truth, index)
+        if self._boxes is not None and truth.instance is not None:
+            boxes = labelled(truth.boxes, truth.instance, self._source.class_ids)
+            self._boxes.add(index, truth.t_us, boxes)
+        ids = self._ids_of(truth, intervals)
+        if self._overlay is not None:
+            nothing = EventStream.empty(self._source.size)
+            events = EventStream.concat([nothing, *(one.events for one in intervals)])
+            self._overlay.show(frame, truth, events, ids)
+        self._before = truth
+
+    def _ids_of(self, truth: Snapshot, intervals: list[Interval]) -> NDArray[np.int32]:
+        """The instances of the events before a frame, written where they are asked for."""
+        found = [np.zeros(0, dtype=np.int32)]
+        if self._add_ids is not None or self._overlay is not None:
+            for interval in intervals:
+                slots = interval.slots(SLOT_US) if self._is_continuous else (interval,)
+                found += [self._ids_in(truth, slot) for slot in slots]
+        ids = np.concatenate(found)
+        if self._add_ids is not None:
+            check_instances(ids)
+            self._add_ids(ids)
+        return ids
+
+    def _ids_in(self, truth: Snapshot, interval: Interval) -> NDArray[np.int32]:
+        scene = self._source.video
+        if isinstance(scene, InstancesStream):
+            return ids_of_scene(scene, interval)
+        return ids_of_frames(self._before or truth, truth, interval)
+
+    def _write_maps(self, truth: Snapshot, name: str) -> None:
+        """Flow, depth and ids of a frame."""
+        part = self._part
+        if "flow" in self._parts and truth.flow is not None:
+            write_png(part / f"flow/forward/{name}.png", encode_flow(truth.flow))
+            masks: dict[str, Any] = {}
+            if truth.occluded is not None:
+                masks = {"occluded": truth.occluded}
+            np.savez_compressed(part / f"flow/forward_npz/{name}.npz", flow=truth.flow, **masks)
+            self._texts["flow"].write(f"{truth.t_us}, {truth.next_us}\n")
+        if "depth" in self._parts and truth.depth is not None:
+            np.savez_compressed(part / f"depth/{name}.npz", depth=truth.depth)
+        if "ids" in self._parts and truth.instance is not None:
+            check_instances(truth.instance)
+            write_png(part / f"instance/{name}.png", truth.instance.astype(np.uint16))
+            write_png(part / f"class/{name}.png", self._source.class_of(truth.instance))
+
+    def _write_camera(self, truth: Snapshot, index: int) -> None:
+        camera, size = truth.camera, self._source.size
+        if camera is None:
+            return
+        if index == 0:
+            facts = json.dumps(camera_facts(camera, size), indent=1) + "\n"
+            (self._part / "camera.json").write_text(facts, encoding="ascii")
+        self._texts["poses"].write(pose_row(truth.t_us, camera))
+        self._texts["intrinsics"].write(intrinsics_row(truth.t_us, camera, size))
+
+
+def check_instances(instance: NDArray[np.int32]) -> None:
+    """Refuse ids that 16 bits do not hold.
+
+    Raises:
+        InputError: there is one.
+    """
+    if instance.size and not 0 <= int(instance.min()) <= int(instance.max()) < MOST_INSTANCES:
+        raise InputError(
+            f"instance ids run from {int(instance.min())} to {int(instance.max())}; files hold "
+            f"0..{MOST_INSTANCES - 1}"
+        )
+
+
+def write_png(path: Path, pixels: NDArray[np.uint16]) -> None:
+    """Write 16-bit pixels, [H, W] or [H, W, 3] RGB.
+
+    Raises:
+        OutputError: OpenCV refuses them.
+    """
+    import cv2
+
+    done, data = cv2.imencode(".png", pixels if pixels.ndim == 2 else pixels[..., ::-1])
+    if not done:
+        raise OutputError(f"pixels of shape {pixels.shape} cannot be written as PNG")
+    path.write_bytes(data.tobytes())

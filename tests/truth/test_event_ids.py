@@ -1,0 +1,78 @@
+"""Which object an event shows: by hand, pixel by pixel."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+from texvent.truth.event_ids import Interval, ids_of_frames, ids_of_scene, moved_ids
+from texvent.truth.source import Snapshot
+
+from .hand_video import SIZE, board_video
+
+SMALL = SensorSize(8, 1)
+
+
+def events_at(columns, row=0, size=SMALL, t=0):
+    zeros = np.zeros(len(columns), int)
+    return EventStream.from_columns(columns, zeros + row, zeros + t, zeros, size=size)
+
+
+def snapshot(t_us, ids, depth=None, flow_x=None):
+    flow = None if flow_x is None else np.stack([[flow_x], np.zeros((1, 8))], axis=2)
+    return Snapshot(
+        t_us,
+        flow=None if flow is None else flow.astype(np.float32),
+        depth=None if depth is None else np.array([depth], np.float32),
+        instance=np.array([ids], np.int32),
+    )
+
+
+def test_an_event_of_a_scene_is_what_its_pixel_touches_at_either_instant():
+    video = board_video()
+    # At 0 the board's front covers columns 40 - 80 · 2 / 7.5 = 18.67 to 40; at 40 ms 1.28 px more.
+    every_column = Interval(0, 40_000, events_at(range(80), 25, SIZE))
+    found = ids_of_scene(video, every_column)
+    assert np.flatnonzero(found == 3).tolist() == list(range(18, 42))
+    assert set(found) == {0, 3}
+
+
+def test_the_nearer_object_wins_wherever_a_pixel_sees_two():
+    before = snapshot(0, [0, 1, 1, 2, 2, 0, 0, 0], [9, 5, 5, 3, 3, 9, 9, 9], np.zeros(8))
+    after = snapshot(1000, [0, 1, 2, 2, 1, 0, 0, 0], [9, 5, 3, 3, 5, 9, 9, 9])
+    found = ids_of_frames(before, after, Interval(0, 1000, events_at(range(8))))
+    # Moved by nothing, the ids stay until the later frame: there the earlier ones are still seen.
+    assert found.tolist() == [0, 1, 1, 2, 2, 0, 0, 0]
+
+
+def test_ids_move_along_their_vectors_and_near_ones_cover_far_ones():
+    before = snapshot(
+        0, [1, 1, 0, 0, 0, 0, 2, 2], [2, 2, 9, 9, 9, 9, 5, 5], [4, 4, 0, 0, 0, 0, -4, -4]
+    )
+    after = snapshot(1000, [0, 0, 2, 2, 1, 1, 0, 0], [9, 9, 5, 5, 2, 2, 9, 9])
+    half, depth = moved_ids(before, after, 0.5)
+    assert half.tolist() == [[0, 0, 1, 1, 2, 2, 0, 0]]
+    assert depth[0, 2:6].tolist() == [2, 2, 5, 5]
+    met, _ = moved_ids(before, after, 0.75)
+    assert met.tolist() == [[0, 0, 0, 1, 1, 0, 0, 0]]
+
+
+def test_without_vectors_the_closer_frame_counts():
+    before, after = snapshot(0, [1] * 8), snapshot(1000, [2] * 8)
+    early = ids_of_frames(before, after, Interval(0, 400, events_at([3])))
+    late = ids_of_frames(before, after, Interval(600, 1000, events_at([3])))
+    assert (early.tolist(), late.tolist()) == ([1], [2])
+
+
+def test_slots_hold_each_event_once_in_order():
+    t = np.array([5, 900, 1004, 1005, 4999])
+    zeros = np.zeros(5, int)
+    events = EventStream.from_columns(zeros, zeros, t, zeros, size=SMALL)
+    slots = list(Interval(5, 5000, events).slots(1000))
+    assert [(slot.start_us, slot.stop_us) for slot in slots] == [
+        (5, 1005),
+        (1005, 2005),
+        (4005, 5005),
+    ]
+    assert [slot.events.t.tolist() for slot in slots] == [[5, 900, 1004], [1005], [4999]]

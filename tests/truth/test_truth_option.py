@@ -1,0 +1,87 @@
+"""`--truth` on the command line."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import texvent
+from texvent.cli.app import main
+
+QUICK = (
+    *("--sensor", "48x36", "--duration", "0.1", "--samples", "1", "--seed", "3"),
+    *("--events-only", "--interpolate", "none"),
+)
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def run(*words: object) -> int:
+    return main([str(word) for word in words])
+
+
+def test_all_of_it_beside_the_events(folder, capsys):
+    assert run("generate", "a red ball bounces", "-o", "b.raw", "--truth", "all", *QUICK) == 0
+    assert capsys.readouterr().out.split() == ["b.raw", "b.truth"]
+    truth = texvent.load_truth("b.truth")
+    assert len(truth.event_instance) == len(texvent.load("b.raw"))
+    assert set(np.unique(truth.event_instance)) <= {0, *truth.instances}
+    assert (truth.metadata["prompt"], truth.metadata["seed"]) == ("a red ball bounces", 3)
+    assert (folder / "b.truth" / "overlay.mp4").stat().st_size > 1000
+
+
+def test_truth_changes_no_event(capsys):
+    assert run("generate", "a red ball bounces", "-o", "a.csv", *QUICK) == 0
+    assert (
+        run("generate", "a red ball bounces", "-o", "b.csv", "--truth", "flow,events", *QUICK) == 0
+    )
+    assert texvent.load("a.csv").equals(texvent.load("b.csv"))
+
+
+def test_nothing_is_replaced_without_overwrite(folder, capsys):
+    words = ("generate", "a red ball bounces", "-o", "b.h5", "--truth", "boxes", *QUICK)
+    assert run(*words) == 0
+    (folder / "b.h5").unlink()
+    assert run(*words) != 0
+    assert "b.truth exists already" in capsys.readouterr().err
+    assert run(*words, "--overwrite") == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--truth", "flwo"), "no part 'flwo' of truth"),
+        (("--truth", "flow", "--generator", "wan-1.3b"), "does not know the scene"),
+    ],
+)
+def test_what_cannot_be_is_one_line_before_any_work(folder, capsys, words, message):
+    assert run("generate", "a ball", "-o", "b.h5", *words) != 0
+    written = capsys.readouterr()
+    assert message in written.err
+    assert len(written.err.splitlines()) == 1
+    assert not list(folder.iterdir())
+
+
+def test_a_recorded_video_knows_no_truth(folder, capsys):
+    assert run("generate", "a red ball bounces", "--video-only", "-o", "v.avi", *QUICK[:-3]) == 0
+    assert run("simulate", "v.avi", "-o", "v.h5", "--truth", "flow", "--interpolate", "none") != 0
+    assert "truth 'flow' is not known of the frame at 0 µs" in capsys.readouterr().err
+    assert [path.name for path in folder.iterdir()] == ["v.avi"]
+
+
+def test_each_sample_of_a_batch_has_its_truth(folder, capsys):
+    (folder / "p.txt").write_text("a red ball bounces\na dog runs\n")
+    words = ("batch", "p.txt", "-o", "out", "--truth", "boxes,events", *QUICK)
+    assert run(*words) == 0
+    folders = sorted((folder / "out").glob("*.truth"))
+    assert len(folders) == 2
+    for one in folders:
+        events = texvent.load(one.with_suffix(".h5"))
+        assert len(texvent.load_truth(one).event_instance) == len(events)
+    assert run(*words) == 0
+    assert run("batch", "p.txt", "-o", "out", *QUICK) != 0
+    assert "was made with other options" in capsys.readouterr().err

@@ -1,0 +1,244 @@
+"""A folder of truth: its content by hand, by other readers, and what is refused."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+import cv2
+import numpy as np
+import pytest
+
+import texvent
+from texvent.errors import ConfigError, InputError, OutputError
+from texvent.scenes.models.class_ids import CLASS_IDS
+from texvent.scenes.models.nouns import NOUNS
+from texvent.scenes.scene import Camera
+from texvent.sensor import SensorSize
+from texvent.video import Frame, Motion, Video
+
+from .hand_video import DEPTH_M, SPEED_PX_PER_FRAME, board_video, level
+
+BOX = CLASS_IDS["box"]
+SMALL = SensorSize(40, 30)
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    """Folder, truth read back, and the events of the board."""
+    folder = tmp_path_factory.mktemp("truth") / "board.truth"
+    events = texvent.simulate(board_video(), interpolate="exact", noise="none", truth_folder=folder)
+    return folder, texvent.load_truth(folder), events
+
+
+def test_flow_and_depth_of_the_board_are_the_closed_form(written):
+    _, truth, _ = written
+    assert truth.times_us.tolist() == [0, 40_000, 80_000, 120_000, 160_000, 200_000]
+    on_board = truth.instance(1) == 3
+    assert on_board.sum() > 300
+    np.testing.assert_allclose(truth.depth(1)[on_board], DEPTH_M, rtol=1e-6)
+    np.testing.assert_allclose(
+        truth.flow(1)[on_board], [[SPEED_PX_PER_FRAME, 0.0]] * on_board.sum(), atol=1e-4
+    )
+    np.testing.assert_allclose(truth.flow_png(1)[on_board][:, 0], SPEED_PX_PER_FRAME, atol=1 / 128)
+    assert np.abs(truth.flow(1)[~on_board]).max() < 1e-9
+
+
+def test_ground_that_the_board_will_hide_is_occluded(written):
+    _, truth, _ = written
+    hidden = truth.occluded(1) & (truth.instance(1) == 0)
+    expected = (truth.instance(2) == 3) & (truth.instance(1) == 0)
+    assert hidden.any()
+    np.testing.assert_array_equal(hidden, expected)
+
+
+def test_class_images_follow_from_instances(written):
+    _, truth, _ = written
+    np.testing.assert_array_equal(truth.class_id(2), np.where(truth.instance(2) == 3, BOX, 0))
+    assert truth.classes == {BOX: "box"}
+    assert truth.instances == {3: "box"}
+
+
+def test_other_readers_find_the_files(written):
+    folder, truth, _ = written
+    rows = np.loadtxt(folder / "flow/forward_timestamps.txt", delimiter=",", dtype="int64")
+    assert rows.tolist() == [[t, t + 40_000] for t in range(0, 200_000, 40_000)]
+    assert len(list((folder / "flow/forward").glob("*.png"))) == len(rows)
+    ids = cv2.imread(str(folder / "instance/000003.png"), cv2.IMREAD_UNCHANGED)
+    assert ids.dtype == np.uint16
+    np.testing.assert_array_equal(ids, truth.instance(3))
+    poses = np.loadtxt(folder / "poses.txt")
+    assert poses.shape == (6, 8)
+    np.testing.assert_allclose(poses[:, 1:4], [[0.0, -8.0, 1.5]] * 6)
+    np.testing.assert_allclose(truth.poses[0, :3, 2], [0.0, 1.0, 0.0], atol=1e-8)
+    np.testing.assert_allclose(truth.camera_matrices[0], [[80, 0, 39.5], [0, 80, 29.5], [0, 0, 1]])
+    assert json.loads((folder / "camera.json").read_text())["intrinsics"] == [
+        80.0,
+        80.0,
+        39.5,
+        29.5,
+    ]
+
+
+def test_coco_and_prophesee_boxes_agree_with_the_instance_map(written):
+    folder, truth, _ = written
+    coco = json.loads((folder / "boxes/coco.json").read_text())
+    assert {"info", "images", "annotations", "categories"} == set(coco)
+    assert coco["categories"] == [{"id": BOX, "name": "box", "supercategory": "object"}]
+    assert [one["t_us"] for one in coco["images"]] == truth.times_us.tolist()
+    assert [one["id"] for one in coco["annotations"]] == list(range(1, 7))
+    records = np.load(folder / "boxes/bbox.npy")
+    for index, (one, record) in enumerate(zip(coco["annotations"], records, strict=True)):
+        rows, columns = np.nonzero(truth.instance(index) == 3)
+        width, height = np.ptp(columns) + 1, np.ptp(rows) + 1
+        assert one["image_id"] == index
+        assert one["category_id"] == BOX
+        assert one["bbox"] == [columns.min(), rows.min(), width, height]
+        assert one["area"] == len(rows)
+        assert one["iscrowd"] == 0
+        assert record.tolist() == (
+            truth.times_us[index], columns.min(), rows.min(), width, height, BOX, 3, 1.0
+        )  # fmt: skip
+    assert truth.boxes_at(2)["t"].tolist() == [80_000]
+
+
+def test_each_event_of_a_moving_board_is_the_boards(written):
+    _, truth, events = written
+    assert len(events) > 100
+    assert truth.event_instance.tolist() == [3] * len(events)
+    assert truth.event_class_id.tolist() == [BOX] * len(events)
+
+
+def test_what_made_the_run_is_stored(written):
+    _, truth, events = written
+    assert truth.metadata["seed"] == 0
+    assert truth.metadata["settings"]["run"]["simulator"] == "texvent"
+    assert truth.metadata["texvent_version"] == events.metadata["texvent_version"]
+
+
+def test_truth_changes_no_event(written):
+    _, _, events = written
+    assert texvent.simulate(board_video(), interpolate="exact", noise="none").equals(events)
+
+
+def test_a_zoom_is_in_the_intrinsics(tmp_path):
+    def zooming(time_s: float) -> Camera:
+        return replace(level(time_s), focal=1.0 + time_s)
+
+    texvent.save_truth(board_video(zooming), tmp_path / "z.truth", "poses")
+    focal = texvent.load_truth(tmp_path / "z.truth").camera_matrices[:, 0, 0]
+    np.testing.assert_allclose(focal, 80.0 * (1.0 + np.arange(6) / 25.0))
+
+
+@dataclass(frozen=True)
+class MotionFrames:
+    """A dark square, id 5, that moves 4 px to the right per frame over bright ground."""
+
+    size: SensorSize = SMALL
+    fps: Fraction = Fraction(25)
+    frame_count: int = 5
+    is_live: bool = False
+    has_ids: bool = True
+
+    @property
+    def metadata(self):
+        return {}
+
+    def ids(self, index: int):
+        ids = np.zeros(self.size.shape, np.int32)
+        ids[10:20, 4 + 4 * index : 12 + 4 * index] = 5
+        return ids
+
+    def __iter__(self):
+        for index in range(self.frame_count):
+            ids = self.ids(index)
+            flow = np.zeros((*self.size.shape, 2), np.float32)
+            flow[ids == 5, 0] = 4.0
+            flow[0, 0] = np.nan
+            pixels = np.where(ids == 5, 40, 200).astype(np.uint8)
+            depth = np.where(ids == 5, 2.0, 9.0).astype(np.float32)
+            motion = Motion(flow, depth=depth, instance=ids if self.has_ids else None)
+            yield Frame(pixels, index * 40_000, motion=motion)
+
+
+def test_truth_that_comes_with_frames_passes_through_unchanged(tmp_path):
+    frames = MotionFrames()
+    parts = texvent.TruthFolder(tmp_path / "m.truth", "flow,depth,ids,boxes,events,overlay")
+    events = texvent.simulate(frames, interpolate="none", noise="none", truth_folder=parts)
+    truth = texvent.load_truth(tmp_path / "m.truth")
+    for index, frame in enumerate(frames):
+        np.testing.assert_array_equal(truth.instance(index), frame.motion.instance)
+        np.testing.assert_array_equal(truth.depth(index), frame.motion.depth)
+        if index < 4:
+            np.testing.assert_array_equal(truth.flow(index), frame.motion.forward)
+    assert len(events)
+    assert truth.event_instance.tolist() == [5] * len(events)
+    with pytest.raises(InputError, match="does not say what is occluded"):
+        truth.occluded(0)
+
+
+def test_frames_in_between_move_the_ids_along(tmp_path):
+    parts = texvent.TruthFolder(tmp_path / "m.truth", "events")
+    options = {"interpolate": "flow", "count": "fixed", "fixed_count": 3, "noise": "none"}
+    events = texvent.simulate(MotionFrames(), truth_folder=parts, **options)
+    ids = texvent.load_truth(tmp_path / "m.truth").event_instance
+    swept = MotionFrames().ids(0)
+    swept[10:20, 4:28] = 5
+    inside = swept[events.y, events.x] == 5
+    assert inside.mean() > 0.9
+    assert (ids[inside] == 5).mean() > 0.95
+
+
+def test_truth_that_nobody_knows_is_refused(tmp_path):
+    video = Video(np.zeros((3, 30, 40), np.uint8), [0, 40_000, 80_000])
+    with pytest.raises(InputError, match="truth 'flow' is not known of the frame at 0"):
+        texvent.simulate(video, truth_folder=texvent.TruthFolder(tmp_path / "a.truth", "flow"))
+    with pytest.raises(InputError, match="truth 'ids' is not known"):
+        texvent.save_truth(MotionFrames(has_ids=False), tmp_path / "a.truth", "ids")
+    with pytest.raises(ConfigError, match="truth 'poses' needs a known camera"):
+        texvent.save_truth(MotionFrames(), tmp_path / "a.truth", "poses")
+    with pytest.raises(ConfigError, match="fitted to"):
+        texvent.simulate(board_video(), sensor="40x30", truth_folder=tmp_path / "a.truth")
+    with pytest.raises(ConfigError, match="no part 'flwo' of truth; allowed: flow, depth"):
+        texvent.save_truth(board_video(), tmp_path / "a.truth", "flwo")
+    with pytest.raises(ConfigError, match="as_packets"):
+        texvent.generate("a ball", as_packets=True, truth_folder=tmp_path / "a.truth")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_clip_cut_in_time_keeps_its_truth(tmp_path):
+    texvent.simulate(
+        board_video(), interpolate="none", start=0.05, truth_folder=tmp_path / "cut.truth"
+    )
+    assert texvent.load_truth(tmp_path / "cut.truth").times_us.tolist() == [
+        80_000,
+        120_000,
+        160_000,
+        200_000,
+    ]
+
+
+def test_only_folders_of_truth_are_replaced(tmp_path):
+    folder = texvent.save_truth(board_video(), tmp_path / "a.truth", "ids")
+    with pytest.raises(OutputError, match="exists already"):
+        texvent.save_truth(board_video(), folder, "depth")
+    texvent.save_truth(board_video(), folder, "depth", overwrite=True)
+    assert texvent.load_truth(folder).parts == ("depth",)
+    (folder / "depth" / "notes.txt").write_text("mine")
+    with pytest.raises(OutputError, match="holds other files"):
+        texvent.save_truth(board_video(), folder, "depth", overwrite=True)
+    assert (folder / "depth" / "notes.txt").exists()
+
+
+def test_parts_that_were_not_written_are_named(tmp_path):
+    truth = texvent.load_truth(texvent.save_truth(board_video(), tmp_path / "a.truth", "ids"))
+    with pytest.raises(InputError, match="holds no flow: it was written with --truth ids"):
+        truth.flow(0)
+    with pytest.raises(InputError, match=r"frame 6 has no ids; there are those of 0\.\.5"):
+        truth.instance(6)
+
+
+def test_every_noun_has_a_class_id_that_stays():
+    assert set(CLASS_IDS) == set(NOUNS)
+    assert [CLASS_IDS[name] for name in ("airplane", "car", "man", "zebra")] == [1, 24, 67, 117]
