@@ -170,22 +170,29 @@ def simulate(
         truth_folder: as `generate`, for a FrameStream that knows its scene, or whose frames bring
             motion vectors along.
         **options: those of `texvent simulate --help`, such as `fps="30000/1001"`,
-            `interpolate="flow"`, `sensor="davis346"`, `contrast_threshold=0.2`, `noise="none"`.
+            `interpolate="flow"`, `sensor="davis346"`, `contrast_threshold=0.2`, `noise="none"`;
+            of what a renderer knows, `flow` and `flow_back` are motion vectors from each frame to
+            the next and to the previous one, [N, H, W, 2] or one less, px, x right and y down
+            (`motion_convention` says where they are otherwise), `depth` is in m, [N, H, W], and
+            `instances` are ids of objects: arrays, lists of arrays, or paths.
 
     Returns:
         The events, with their provenance in `metadata`.
 
     Warns:
-        TexventWarning: there is no event.
+        TexventWarning: there is no event, or the motion vectors explain little.
 
     Raises:
-        InputError: the source cannot be read, or holds NaN, negative or infinite intensities.
+        InputError: the source cannot be read, or holds NaN, negative or infinite intensities; or
+            the motion vectors do not fit it.
         ConfigError: an unknown option, or a value out of range.
     """
-    settings = resolve("simulate", dict(options), config=config)
+    settings, arrays = _simulation(source, options, config)
     output = _truth_output(truth_folder, as_packets=as_packets)
     with open_progress(progress) as shown:
-        run = prepare_source(source, settings, t_us=t_us, prompt=prompt, progress=shown)
+        run = prepare_source(
+            source, settings, t_us=t_us, motion=arrays, prompt=prompt, progress=shown
+        )
         if output is not None:
             return run_with_truth(run, output, shown)
     return run.packets if as_packets else _collected(run, progress)
@@ -298,6 +305,42 @@ def _truth_output(
     output = folder if isinstance(folder, TruthFolder) else TruthFolder(folder)
     output.check()
     return output
+
+
+def _simulation(
+    source: Source, options: SimulateOptions, config: str | Path | None
+) -> tuple[Settings, dict[str, Any]]:
+    """Settings of a run from frames, and its fields of motion that are in memory.
+
+    Args:
+        source: the frames, which may bring motion along.
+        options: as given; `flow` and `flow_back` stand for `motion` and `motion_back`.
+        config: a file with options.
+
+    Raises:
+        InputError: the same is given by two names.
+    """
+    from texvent.capture.motion_vectors.attach import own_motion  # brings the readers of frames
+
+    given: dict[str, Any] = dict(options)
+    for name, other in (("motion", "flow"), ("motion_back", "flow_back")):
+        field = given.pop(other, None)
+        if field is not None and given.get(name) is not None:
+            raise InputError(f"{other} and {name} are the same; give one")
+        given[name] = given.get(name) if field is None else field
+    arrays = {
+        name: given.pop(name)
+        for name in ("motion", "motion_back", "depth", "instances")
+        if not isinstance(given.get(name), str | Path | None)
+    }
+    is_moving = bool({"motion", "motion_back"} & arrays.keys())
+    has_motion = is_moving or getattr(source, "has_motion", False)
+    settings = resolve("simulate", given, config=config, has_motion=has_motion)
+    if not has_motion and settings.source.motion is None:
+        found = own_motion(source)
+        if found is not None:
+            settings = resolve("simulate", {**given, "motion": found}, config=config)
+    return settings, arrays
 
 
 def _collected(run: Simulation, progress: ProgressOption) -> EventStream:

@@ -129,12 +129,32 @@ class CaptureConfig:
     refused."""
     fit: Literal["cover", "contain", "stretch"] = "cover"
     """How frames are fitted to the sensor's size: cut the excess, add black bars, or distort."""
+    motion: Path | None = None
+    """Motion vectors of a renderer, instead of optical flow: a folder (.exr, .flo, .png, .npy,
+    .npz), a pattern such as 'out/flow_*.npy', or one file (.npy, .npz, .h5). Depth and ids in the
+    same files are used too."""
+    motion_back: Path | None = None
+    """Vectors to the previous frame, where they are in files of their own."""
+    motion_convention: str | None = None
+    """What the vectors mean: blender, carla, unreal, isaac, kitti or dsec, or words such as
+    backward,ndc,y-up (see docs/renderers.md). Without it, pixels to the next frame, x right, y
+    down; OpenEXR passes say it themselves."""
+    check_motion: bool = True
+    """Compare warped with real frames, and refuse vectors that fit clearly better if they are
+    meant otherwise."""
+    depth: Path | None = None
+    """Depth along the optical axis, m, in files as --motion; says what is in front."""
+    depth_scale: float | None = None
+    """Metres per stored step of depth: 0.001 for mm. Needed for PNG."""
+    instances: Path | None = None
+    """Ids of objects, in files as --motion."""
 
     def __post_init__(self) -> None:
         check_range("start", self.start, 0.0)
         check_range("stop", self.stop, 0.0)
         check_range("white_level", self.white_level, 1e-9, 1e9)
         check_range("fps", self.fps, *FPS_RANGE)
+        check_range("depth_scale", self.depth_scale, 1e-9, 1e9)
         if self.stop is not None and not self.stop > self.start:
             raise ConfigError(f"stop is {self.stop:g} s; it must be after start ({self.start:g} s)")
 

@@ -3,8 +3,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.capture.fit_to_sensor import fit_pixels
+from texvent.capture.fit_to_sensor import fit_motion, fit_pixels
 from texvent.sensor import SensorSize
+from texvent.video import Motion
 
 sides = st.integers(1, 40)
 
@@ -62,3 +63,47 @@ def test_any_size_fits_any_size_and_stays_within_the_range(height, width, tall, 
     low = 0 if fit == "contain" else 20
     assert fitted.min() >= low - 1e-3
     assert fitted.max() <= 200 + 1e-3
+
+
+def motion_of(height, width):
+    """Every pixel's vector, depth and id say where the pixel is."""
+    row, column = np.mgrid[:height, :width]
+    vectors = np.stack([column, row], axis=-1).astype(np.float32)
+    return Motion(vectors, -vectors, (row + 1).astype(np.float32), column.astype(np.int32))
+
+
+def test_motion_is_cut_and_scaled_as_the_pixels_are():
+    # 8x4 fitted to 2x2 is the middle 4x4, at half its resolution: columns 2..5 become 0 and 1.
+    fitted = fit_motion(motion_of(4, 8), SensorSize(2, 2), "cover")
+    assert fitted.instance.tolist() == [[3, 5], [3, 5]]
+    assert fitted.depth.tolist() == [[2, 2], [4, 4]]
+    assert fitted.forward[0, 1].tolist() == [2.5, 0.5]  # the vector (5, 1) in pixels twice as large
+    assert np.array_equal(fitted.backward, -fitted.forward)
+
+
+def test_bars_stand_still_far_away():
+    fitted = fit_motion(motion_of(2, 4), SensorSize(4, 4), "contain")
+    assert fitted.instance[[0, 3]].tolist() == [[0] * 4] * 2
+    assert np.isinf(fitted.depth[[0, 3]]).all()
+    assert not fitted.forward[[0, 3]].any()
+    assert np.array_equal(fitted.forward[1:3], motion_of(2, 4).forward)
+
+
+def test_stretching_scales_each_axis_by_itself():
+    fitted = fit_motion(motion_of(4, 4), SensorSize(8, 2), "stretch")
+    assert fitted.forward[1, 7].tolist() == [6.0, 1.5]
+    assert fitted.instance[0].tolist() == [0, 0, 1, 1, 2, 2, 3, 3]
+
+
+@given(sides, sides, sides, sides, st.sampled_from(["cover", "contain", "stretch"]))
+def test_motion_fits_wherever_pixels_do(width, height, new_width, new_height, fit):
+    size = SensorSize(new_width, new_height)
+    motion = motion_of(height, width)
+    fitted = fit_motion(motion, size, fit)
+    assert fitted.forward.shape == (*size.shape, 2)
+    assert (fitted.depth.shape, fitted.instance.shape) == (size.shape, size.shape)
+    # The id is the old column: what a pixel shows lies within a pixel of where its own id says.
+    shown = fit_pixels(motion.instance.astype(np.float32), size, fit)
+    inside = np.isfinite(fitted.depth)
+    widest = max(1.0, width / new_width, height / new_height)
+    assert np.abs(shown - fitted.instance)[inside].max(initial=0) <= widest

@@ -31,9 +31,12 @@ each option means; so does `--help all`. None means "not given".
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
-from typing import Literal, TypeAlias, TypedDict
+from typing import Any, Literal, TypeAlias, TypedDict
+
+from numpy.typing import NDArray
 
 from texvent.sensor import Sensor
 
@@ -41,7 +44,11 @@ Rate: TypeAlias = int | float | str | Fraction
 """24, 29.97 or "30000/1001"."""
 SensorName: TypeAlias = str | Path | Sensor | tuple[int, int]
 """A name such as "davis346", (width, height), or a file that `texvent calibrate` wrote."""
+Field: TypeAlias = str | Path | NDArray[Any] | Sequence[NDArray[Any]]
+"""Files, or an array [N, H, W] or [N, H, W, 2], or N arrays."""
 '''
+FIELDS = ("motion", "motion_back", "depth", "instances")
+"""Options that Python takes as arrays too."""
 SCALARS = {bool: "bool", int: "int", float: "float", str: "str", Path: "str | Path"}
 
 
@@ -85,6 +92,8 @@ def text() -> str:
         lines = [f"class {name}({bases}, total=False):", f'    """{about}"""', ""]
         if name == "GeneratorOptions":
             lines.append("    generator: str | None")
+        if name == "SimulateOptions":
+            lines += ["    flow: Field | None", "    flow_back: Field | None"]
         lines += [f"    {option}: {kind}" for option, kind in fields(configs).items()]
         parts.append("\n".join(lines).rstrip() + "\n")
     return "\n\n".join(parts)
@@ -105,6 +114,8 @@ def kinds_of(name: str, hint: Any) -> list[str]:
     """The types of a field as text, without None."""
     if name == "sensor":
         return ["SensorName"]
+    if name in FIELDS:
+        return ["Field"]
     origin, arguments = typing.get_origin(hint), typing.get_args(hint)
     if origin is Literal:
         return [f"Literal[{', '.join(map(repr, arguments))}]"]

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.capture.intensity_scale import float_levels
 from texvent.sensor import SensorSize
-from texvent.video import PixelArray
+from texvent.video import Motion, PixelArray
 
 
 def fit_pixels(pixels: PixelArray, size: SensorSize, fit: str) -> PixelArray:
@@ -35,14 +37,73 @@ def fit_pixels(pixels: PixelArray, size: SensorSize, fit: str) -> PixelArray:
     return _pad(_resample(levels, _inside(SensorSize(width, height), size)), size)
 
 
+def fit_motion(motion: Motion, size: SensorSize, fit: str) -> Motion:
+    """Motion of a frame that `fit_pixels` fits: arguments as there.
+
+    Returns:
+        Vectors in pixels of the fitted frame. Each of its pixels takes the vector, depth and id at
+        its centre, without mixing surfaces; black bars stand still, infinitely far, with id 0.
+    """
+    fields = (motion.forward, motion.backward, motion.depth, motion.instance)
+    old = next((SensorSize(one.shape[1], one.shape[0]) for one in fields if one is not None), size)
+    if old == size:
+        return motion
+    scale = _scale(old, size, fit)
+
+    def fitted(field: NDArray[Any] | None, bar: float) -> Any:
+        return None if field is None else _fit_nearest(field, old, size, fit, bar)
+
+    def moved(field: NDArray[np.float32] | None) -> NDArray[np.float32] | None:
+        return None if field is None else np.asarray(fitted(field, 0.0) * scale, dtype=np.float32)
+
+    return Motion(
+        moved(motion.forward),
+        moved(motion.backward),
+        fitted(motion.depth, np.inf),
+        fitted(motion.instance, 0),
+    )
+
+
+def _scale(old: SensorSize, size: SensorSize, fit: str) -> NDArray[np.float32]:
+    """Pixels of the fitted frame per pixel of the old one, (x, y)."""
+    before, after = old, size
+    if fit == "cover":
+        _, _, before = _cover_window(old, size)
+    elif fit == "contain":
+        after = _inside(old, size)
+    return np.array([after.width / before.width, after.height / before.height], np.float32)
+
+
+def _fit_nearest(
+    field: NDArray[Any], old: SensorSize, size: SensorSize, fit: str, bar: float
+) -> NDArray[Any]:
+    """As `fit_pixels`, but every new pixel takes the old one at its centre."""
+    left, top, before = _cover_window(old, size) if fit == "cover" else (0, 0, old)
+    after = _inside(old, size) if fit == "contain" else size
+    columns = left + ((np.arange(after.width) + 0.5) * before.width / after.width).astype(np.intp)
+    rows = top + ((np.arange(after.height) + 0.5) * before.height / after.height).astype(np.intp)
+    inner = field[rows[:, None], columns]
+    if after == size:
+        return inner
+    left, top = (size.width - after.width) // 2, (size.height - after.height) // 2
+    result = np.full((*size.shape, *field.shape[2:]), bar, field.dtype)
+    result[top : top + after.height, left : left + after.width] = inner
+    return result
+
+
+def _cover_window(old: SensorSize, size: SensorSize) -> tuple[int, int, SensorSize]:
+    """Left, top and size of the largest centred part with the aspect of `size`, whole pixels."""
+    scale = min(old.width / size.width, old.height / size.height)
+    width = min(old.width, max(1, round(size.width * scale)))
+    height = min(old.height, max(1, round(size.height * scale)))
+    return (old.width - width) // 2, (old.height - height) // 2, SensorSize(width, height)
+
+
 def _crop(pixels: NDArray[np.float32], size: SensorSize) -> NDArray[np.float32]:
     """The largest centred part with the aspect of `size`, to the nearest pixel."""
     height, width = pixels.shape[:2]
-    scale = min(width / size.width, height / size.height)
-    cut_width = min(width, max(1, round(size.width * scale)))
-    cut_height = min(height, max(1, round(size.height * scale)))
-    left, top = (width - cut_width) // 2, (height - cut_height) // 2
-    return pixels[top : top + cut_height, left : left + cut_width]
+    left, top, part = _cover_window(SensorSize(width, height), size)
+    return pixels[top : top + part.height, left : left + part.width]
 
 
 def _inside(old: SensorSize, size: SensorSize) -> SensorSize:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -11,8 +10,9 @@ import numpy as np
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes, Timestamps, read_timestamps
 from texvent.capture.intensity_scale import usable_pixels
+from texvent.capture.motion_vectors.exr_image import EXR, exr_frame
 from texvent.errors import FileFormatError, InputError, shown
-from texvent.runtime.file_names import IMAGE_EXTENSIONS, usable_path
+from texvent.runtime.file_names import IMAGE_EXTENSIONS, natural_key, usable_path
 from texvent.sensor import checked_size
 from texvent.video import Frame, PixelArray
 
@@ -74,12 +74,15 @@ class ImageFolder(FrameSource):
 
 
 def read_image(path: Path) -> PixelArray:
-    """An image at its own precision: [H, W] or [H, W, 3] RGB.
+    """An image at its own precision, [H, W] or [H, W, 3] RGB; OpenEXR as `exr_frame`.
 
     Raises:
         InputError: it holds a pixel type that frames cannot have.
         FileFormatError: it cannot be decoded.
+        MissingDependencyError: it is OpenEXR, whose reader is not installed.
     """
+    if path.suffix.lower() == EXR:
+        return exr_frame(path)
     import cv2  # only image folders need it here
 
     data = np.fromfile(path, dtype=np.uint8)
@@ -116,7 +119,7 @@ def find_images_folder(folder: Path) -> Path:
 
 def list_images(folder: Path) -> list[Path]:
     """Images of a folder in natural order: frame2 comes before frame10."""
-    return sorted((path for path in folder.iterdir() if _is_image(path)), key=_natural_key)
+    return sorted((path for path in folder.iterdir() if _is_image(path)), key=natural_key)
 
 
 def find_timestamps(folder: Path) -> Path | None:
@@ -129,12 +132,6 @@ def _is_image(path: Path) -> bool:
     return (
         path.suffix.lower() in IMAGE_EXTENSIONS and not path.name.startswith(".") and path.is_file()
     )
-
-
-def _natural_key(path: Path) -> tuple[tuple[tuple[int, int | str], ...], str]:
-    """Digits compare as numbers; the name itself settles ties such as 1 and 01."""
-    parts = re.split(r"(\d+)", path.name.lower())
-    return tuple((0, int(part)) if part.isdigit() else (1, part) for part in parts), path.name
 
 
 def _named_images(listing: Timestamps, file: Path, folder: Path) -> list[Path]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import stat
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -15,6 +15,7 @@ from texvent.capture.dsec_frames import DsecFrames, is_dsec
 from texvent.capture.evreal_frames import EvrealFrames, is_evreal
 from texvent.capture.frame_times import FrameTimes, listed_times, read_timestamps
 from texvent.capture.image_folder import ImageFolder
+from texvent.capture.motion_vectors.attach import attach_motion
 from texvent.capture.prepare import PreparedFrames
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, FileFormatError, InputError
@@ -26,7 +27,12 @@ from texvent.video import FrameStream
 
 
 def open_frames(
-    source: Any, config: CaptureConfig, *, size: SensorSize | None = None, t_us: Any = None
+    source: Any,
+    config: CaptureConfig,
+    *,
+    size: SensorSize | None = None,
+    t_us: Any = None,
+    motion: Mapping[str, Any] | None = None,
 ) -> FrameStream:
     """Frames of a video file, an image folder, an array, a camera or a network stream.
 
@@ -38,6 +44,7 @@ def open_frames(
         config: frame rate, times, start, stop, fit and white level.
         size: sensor size to fit the frames to, or None to keep theirs.
         t_us: [N] frame times, integer µs.
+        motion: fields of motion in memory, as `attach_motion` takes them.
 
     Returns:
         A checked stream: one size, strictly increasing times, at least two frames, no NaN.
@@ -46,14 +53,15 @@ def open_frames(
         InputError: there is no such source, or it cannot be used; some faults show only while
             iterating.
         FileFormatError: a file is damaged or holds no video.
-        ConfigError: frame times are given in two ways at once.
+        ConfigError: frame times are given in two ways at once, or the motion's convention is
+            unknown.
     """
     given = _given_times(config, t_us)
     stream: FrameStream
     if isinstance(source, (str, Path)):
         stream = _open_address(str(source), config, given)
     elif isinstance(source, FrameStream):
-        return _adapt_stream(source, config, size, given)
+        return _adapt_stream(attach_motion(source, config, motion), config, size, given)
     elif isinstance(source, Iterable) or hasattr(source, "__array__"):
         stream = _open_array(source, config, given)
     else:
@@ -63,6 +71,7 @@ def open_frames(
         )
     # An array that can be read twice was looked through as a whole already.
     check_scale = stream.is_live or not isinstance(stream, ArrayFrames)
+    stream = attach_motion(stream, config, motion)
     return PreparedFrames(stream, config, size=size, check_scale=check_scale)
 
 

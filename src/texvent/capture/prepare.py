@@ -83,16 +83,17 @@ class PreparedFrames(FrameSource):
             raise InputError(_too_few(count, self._config, offset_us))
 
     def _prepared(self, frame: Frame, checker: StreamChecker) -> Frame:
-        pixels = frame.pixels
+        pixels, motion = frame.pixels, frame.motion
         if pixels.dtype.kind == "f" and self._check_scale:
             self._decide_scale(pixels, frame.t_us)
         if self._config.white_level is not None:
             pixels = scale_to_levels(pixels, self._config.white_level)
         if self._is_fitted:
-            from texvent.capture.fit_to_sensor import fit_pixels  # brings OpenCV
+            from texvent.capture.fit_to_sensor import fit_motion, fit_pixels  # brings OpenCV
 
             pixels = fit_pixels(pixels, self.size, self._config.fit)
-        return checker.check(Frame(pixels, frame.t_us, frame.is_source))
+            motion = motion and fit_motion(motion, self.size, self._config.fit)
+        return checker.check(Frame(pixels, frame.t_us, frame.is_source, motion))
 
     def _decide_scale(self, pixels: PixelArray, t_us: int) -> None:
         """Look at float frames until one is not black; then the scale is known."""

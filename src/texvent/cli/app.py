@@ -88,6 +88,10 @@ COMMANDS = {
         "Recordings and clips to try things on: list them, fetch them.",
     ),
     "weights": ("texvent.cli.setup.weights", "Published network weights: list them, fetch them."),
+    "blender": (
+        "texvent.cli.setup.blender",
+        "Where the script is with which Blender renders passes.",
+    ),
     "generators": (
         "texvent.cli.setup.generators",
         "Text-to-video generators: which there are, which are ready.",

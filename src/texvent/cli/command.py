@@ -49,7 +49,7 @@ def resolve_command(
         ConfigError: an unknown flag or name, or a value that does not fit.
         SystemExit: `--help` was asked for and shown.
     """
-    deciding = peek_options(arguments, (*DECIDING, "config"))
+    deciding: dict[str, Any] = peek_options(arguments, (*DECIDING, "config"))
     if command == "simulate":
         deciding.pop("generator")
     defaults = base_settings(command, **deciding)

@@ -6,9 +6,12 @@ each option means; so does `--help all`. None means "not given".
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
-from typing import Literal, TypeAlias, TypedDict
+from typing import Any, Literal, TypeAlias, TypedDict
+
+from numpy.typing import NDArray
 
 from texvent.sensor import Sensor
 
@@ -16,6 +19,8 @@ Rate: TypeAlias = int | float | str | Fraction
 """24, 29.97 or "30000/1001"."""
 SensorName: TypeAlias = str | Path | Sensor | tuple[int, int]
 """A name such as "davis346", (width, height), or a file that `texvent calibrate` wrote."""
+Field: TypeAlias = str | Path | NDArray[Any] | Sequence[NDArray[Any]]
+"""Files, or an array [N, H, W] or [N, H, W, 2], or N arrays."""
 
 
 class RunOptions(TypedDict, total=False):
@@ -130,6 +135,13 @@ class CaptureOptions(TypedDict, total=False):
     stop: float | None
     white_level: float | None
     fit: Literal["cover", "contain", "stretch"] | None
+    motion: Field | None
+    motion_back: Field | None
+    motion_convention: str | None
+    check_motion: bool | None
+    depth: Field | None
+    depth_scale: float | None
+    instances: Field | None
 
 
 class GeneratorOptions(TypedDict, total=False):
@@ -171,6 +183,9 @@ class SimulateOptions(
     RunOptions, CaptureOptions, InterpolateOptions, SimulatorOptions, total=False
 ):
     """Options of `texvent.simulate`."""
+
+    flow: Field | None
+    flow_back: Field | None
 
 
 class GenerateOptions(

@@ -97,4 +97,4 @@ def _scaled(frame: Frame, log_factor: float) -> Frame:
     if frame.pixels.dtype == np.uint16:
         factor /= UINT16_PER_LEVEL
     pixels = np.asarray(frame.pixels * np.float64(factor), dtype=np.float32)
-    return Frame(pixels, frame.t_us, is_source=frame.is_source)
+    return Frame(pixels, frame.t_us, frame.is_source, frame.motion)

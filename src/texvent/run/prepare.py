@@ -5,6 +5,7 @@ The Python API, the command line, the web page, training samples and benchmarks 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -79,6 +80,7 @@ def prepare_source(
     settings: Settings,
     *,
     t_us: Any = None,
+    motion: Mapping[str, Any] | None = None,
     prompt: str | None = None,
     progress: Progress | None = None,
 ) -> Simulation:
@@ -88,6 +90,7 @@ def prepare_source(
         source: as `texvent.capture.open.open_frames` takes it.
         settings: all options.
         t_us: frame times of an array, µs.
+        motion: motion vectors, depth and ids in memory, as `attach_motion` takes them.
         prompt: what the video shows; stored with the events. A video that texvent generated and
             wrote brings the facts of its generation along.
         progress: told how the search for the target rate gets on.
@@ -99,9 +102,10 @@ def prepare_source(
     from texvent.capture.open import open_frames  # brings readers that a prompt does not need
 
     check_run(settings)
-    if prompt is not None and settings.source.fps is None and t_us is None:
+    is_plain = motion is None and t_us is None and getattr(settings.source, "motion", None) is None
+    if prompt is not None and is_plain and settings.source.fps is None:
         source = _stored_video(source) or source
-    video = open_frames(source, settings.source, size=settings.size, t_us=t_us)
+    video = open_frames(source, settings.source, size=settings.size, t_us=t_us, motion=motion)
     return prepare_video(video, settings, prompt=prompt, progress=progress)
 
 

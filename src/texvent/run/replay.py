@@ -101,6 +101,10 @@ def prepare_replay(
             simulation = prepare_video(text_to_video(detailed, of_video), settings)
         return replace(simulation, prompt=prompt)
     settings = resolve("simulate", options)
+    if facts.get("motion") is not None and settings.source.motion is None:
+        raise InputError(
+            "its motion vectors came from memory, so only the program that gave them can"
+        )
     return prepare_source(source or _find_source(facts, folder), settings, prompt=prompt)
 
 
@@ -156,12 +160,12 @@ def describe_differences(stored: Mapping[str, Any], now: Mapping[str, Any]) -> l
         if before == today:
             continue
         if isinstance(before, Mapping) and isinstance(today, Mapping):
-            ignored = ("source", "size_before_fit") if name == "source" else ()
+            ignored = ("source", "size_before_fit", "motion") if name == "source" else ()
             for key in dict.fromkeys((*before, *today)):
                 if key in ignored or before.get(key) == today.get(key):
                     continue
-                if key == "fingerprint":
-                    lines.append("its source was changed")
+                if key in FINGERPRINTS:
+                    lines.append(FINGERPRINTS[key])
                 else:
                     was, is_now = (shown(one.get(key)) for one in (before, today))
                     lines.append(f"{what}, {key}: was {was}, is {is_now}")
@@ -170,6 +174,11 @@ def describe_differences(stored: Mapping[str, Any], now: Mapping[str, Any]) -> l
     return lines
 
 
+FINGERPRINTS = {
+    "fingerprint": "its source was changed",
+    "motion_fingerprint": "its motion vectors were changed",
+}
+"""Digest in the facts of a source → what a difference means."""
 COMPARED = {
     "texvent_version": "version",
     "weights": "weights",

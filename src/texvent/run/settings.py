@@ -70,8 +70,16 @@ def default_settings(
     generator: str | None = None,
     simulator: str | None = None,
     preset: str | None = None,
+    has_motion: bool = False,
 ) -> Settings:
     """Settings before any single option: the defaults of the named parts and preset.
+
+    Args:
+        command: "generate" (from a prompt) or "simulate" (from frames).
+        generator: name of the generator, or None for the default.
+        simulator: name of the simulator, or None for the default.
+        preset: name of the preset, or None for the simulator's first.
+        has_motion: whether the frames come with motion vectors.
 
     Raises:
         ConfigError: a part or preset of that name does not exist.
@@ -90,7 +98,7 @@ def default_settings(
         return Settings(
             run=run,
             source=CaptureConfig(),
-            interpolate=_interpolation(simulator_class),
+            interpolate=_interpolation(simulator_class, has_motion=has_motion),
             simulate=presets[preset_name],
         )
     generator_name = generator or next(iter(GENERATORS.builtin))
@@ -106,27 +114,36 @@ def default_settings(
     )
 
 
-def _interpolation(*parts: Any) -> InterpolateConfig:
-    """Interpolation as the first of the parts that has a wish wants it."""
+def _interpolation(*parts: Any, has_motion: bool = False) -> InterpolateConfig:
+    """Interpolation as the first of the parts that has a wish wants it, else as the frames do."""
     for part in parts:
         wish = getattr(part, "default_interpolate", None)
         if wish is not None:
             return InterpolateConfig(interpolate=wish)
+    if has_motion and ALONG_MOTION in INTERPOLATORS.names():
+        return InterpolateConfig(interpolate=ALONG_MOTION)
     return InterpolateConfig()
 
 
-DECIDING = ("generator", "simulator", "preset", "sensor")
+ALONG_MOTION = "motion"
+"""The interpolator of frames that come with motion vectors."""
+DECIDING = ("generator", "simulator", "preset", "sensor", "motion", "motion_back")
 """Options that decide which other options there are, or their defaults."""
 
 
 def base_settings(
-    command: Command, *, config: str | Path | None = None, **deciding: str | None
+    command: Command,
+    *,
+    config: str | Path | None = None,
+    has_motion: bool = False,
+    **deciding: Any,
 ) -> Settings:
     """Settings before single options: defaults, preset, sensor file, config file.
 
     Args:
         command: "generate" (from a prompt) or "simulate" (from frames).
         config: a TOML or YAML file with options, or an event file with those of its run.
+        has_motion: whether the frames come with motion vectors that no option names.
         **deciding: those of `DECIDING` that were given. A sensor may be a preset file, such as
             `texvent calibrate` writes; a sensor whose constants the simulator knows chooses the
             preset of that name, unless a preset is given.
@@ -150,7 +167,10 @@ def base_settings(
     if parts["preset"] is None:
         parts["preset"] = sensor_preset(parts["simulator"], chosen.get("sensor"))
     where = f"config file {config}" if config is not None else "options"
-    return apply_options(default_settings(command, **parts), chosen, where=where)
+    named = chosen.get("motion"), chosen.get("motion_back")
+    has_motion = has_motion or any(one is not None for one in named)
+    defaults = default_settings(command, **parts, has_motion=has_motion)
+    return apply_options(defaults, chosen, where=where)
 
 
 def sensor_preset(simulator: str | None, sensor: str | None) -> str | None:
@@ -181,7 +201,11 @@ def unmeasured_sensor(run: RunConfig) -> str | None:
 
 
 def resolve(
-    command: Command, options: Mapping[str, Any], *, config: str | Path | None = None
+    command: Command,
+    options: Mapping[str, Any],
+    *,
+    config: str | Path | None = None,
+    has_motion: bool = False,
 ) -> Settings:
     """Settings of a run from a config file and single options.
 
@@ -191,6 +215,7 @@ def resolve(
             underscores.
         config: a TOML or YAML file with options, flat or in the tables `run`, `generate`,
             `capture`, `interpolate`, `simulate`; or an event file, whose run is repeated.
+        has_motion: whether the frames come with motion vectors that no option names.
 
     Raises:
         ConfigError: an unknown name, a wrong type, a value out of range, an unreadable file.
@@ -199,7 +224,8 @@ def resolve(
     if "sensor" in single:
         single["sensor"] = _sensor_text(single["sensor"])
     deciding = {name: single.pop(name) for name in DECIDING if name in single}
-    return apply_options(base_settings(command, config=config, **deciding), single, where="options")
+    base = base_settings(command, config=config, has_motion=has_motion, **deciding)
+    return apply_options(base, single, where="options")
 
 
 def _sensor_text(sensor: Any) -> Any:

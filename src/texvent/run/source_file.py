@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import glob
 import hashlib
 from collections.abc import Mapping
 from pathlib import Path
@@ -16,14 +17,19 @@ def describe_source(metadata: Mapping[str, Any]) -> dict[str, Any]:
     """Metadata of a video with a fingerprint of its file or folder, under "fingerprint".
 
     Args:
-        metadata: of a video; `source` names what it was read from.
+        metadata: of a video; `source` names what it was read from, `motion` the files of its
+            motion vectors, which get theirs under "motion_fingerprint".
     """
-    found = fingerprint(metadata.get("source"))
-    return {**metadata, "fingerprint": found} if found is not None else dict(metadata)
+    found = {"fingerprint": fingerprint(metadata.get("source"))}
+    motion = metadata.get("motion")
+    if isinstance(motion, Mapping):
+        prints = [one for one in map(fingerprint, motion.values()) if one is not None]
+        found["motion_fingerprint"] = "-".join(prints) or None
+    return {**metadata, **{name: text for name, text in found.items() if text is not None}}
 
 
 def fingerprint(source: Any) -> str | None:
-    """A digest of a file, or of the names and sizes in a folder; None for anything else.
+    """A digest of a file, or of the names and sizes in a folder or of a pattern; else None.
 
     Of a file, the size and the first and last `END_BYTES` count.
     """
@@ -31,8 +37,10 @@ def fingerprint(source: Any) -> str | None:
         return None
     try:
         path = Path(source)
-        if path.is_dir():
-            listing = sorted((one.name, one.stat().st_size) for one in path.iterdir())
+        files = sorted(map(Path, glob.glob(source))) if glob.has_magic(source) else []
+        if path.is_dir() or files:
+            inside = files or path.iterdir()
+            listing = sorted((one.name, one.stat().st_size) for one in inside)
             return hashlib.sha256(repr(listing).encode()).hexdigest()
         if not path.is_file():
             return None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 from texvent.errors import InputError, shown
@@ -12,7 +13,10 @@ MAX_NAME_BYTES, MAX_PATH_BYTES = 255, 4095
 
 
 IMAGE_EXTENSIONS = frozenset(
-    (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".webp", ".pgm", ".ppm", ".pnm", ".jp2")
+    (
+        *(".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".webp", ".jp2"),
+        *(".pgm", ".ppm", ".pnm", ".exr"),
+    )
 )
 """Files of these names are the frames of an image folder."""
 CLIPS = (".avi", ".gif", ".m4v", ".mkv", ".mov", ".mp4", ".mpeg", ".mpg", ".webm", ".wmv")
@@ -41,3 +45,12 @@ def usable_path(path: str | Path) -> Path:
             f"{shown(str(path))} is no file name: it is longer than {MAX_NAME_BYTES} bytes"
         )
     return Path(path)
+
+
+def natural_key(path: Path) -> tuple[tuple[tuple[int, int | str], ...], str]:
+    """Key that sorts names as people do: frame2 before frame10.
+
+    Digits compare as numbers; the name itself settles ties such as 1 and 01.
+    """
+    parts = re.split(r"(\d+)", path.name.lower())
+    return tuple((0, int(part)) if part.isdigit() else (1, part) for part in parts), path.name

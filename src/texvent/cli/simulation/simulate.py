@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
+from texvent.capture.motion_vectors.attach import own_motion
 from texvent.cli.command import resolve_command
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.run import print_settings, run_source
@@ -25,7 +26,7 @@ class VideoOptions:
     positional: ClassVar[tuple[str, ...]] = ("source",)
     main_options: ClassVar[tuple[str, ...]] = (
         "out", "sensor", "simulator", "preset", "contrast_threshold", "noise", "interpolate",
-        "fps", "start", "stop", "seed", "events_only", "config", "dry_run", "overwrite",
+        "fps", "motion", "start", "stop", "seed", "events_only", "config", "dry_run", "overwrite",
     )  # fmt: skip
 
     source: str = REQUIRED
@@ -39,6 +40,14 @@ def run(arguments: Sequence[str]) -> int:
     settings, own, output = resolve_command(
         "simulate", arguments, VideoOptions(), description=DESCRIPTION
     )
+    found = None if settings.source.motion else own_motion(own.source)
+    if found is not None:  # it decides the defaults of other options
+        settings, own, output = resolve_command(
+            "simulate",
+            [*arguments, "--motion", str(found)],
+            VideoOptions(),
+            description=DESCRIPTION,
+        )
     if output.print_config:
         return print_settings(settings)
     subject = "standard input" if own.source == "-" else Path(own.source).stem

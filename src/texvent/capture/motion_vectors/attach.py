@@ -1,0 +1,76 @@
+"""Frames with the motion vectors, depth and ids that their renderer gave."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from texvent.capture.image_folder import INNER_FOLDERS
+from texvent.capture.motion_vectors.conventions import named_convention
+from texvent.capture.motion_vectors.fields import ROLE_KIND, open_fields, written_by
+from texvent.capture.motion_vectors.frames import MotionFrames
+from texvent.config import CaptureConfig
+from texvent.errors import InputError
+from texvent.video import FrameStream
+
+OWN_FOLDER = "motion"
+"""Folder of passes beside the folder of frames, as the script for Blender makes it."""
+
+
+def attach_motion(
+    stream: FrameStream, config: CaptureConfig, given: Mapping[str, Any] | None = None
+) -> FrameStream:
+    """The stream with what the options name, and what is given in memory, in `Frame.motion`.
+
+    Args:
+        stream: frames as they come, not cut or fitted yet.
+        config: its options motion, motion_back, depth, instances, motion_convention, depth_scale
+            and check_motion.
+        given: the same by name, as arrays or paths; they replace those of `config`.
+
+    Returns:
+        `stream` itself where nothing is named.
+
+    Raises:
+        InputError: there is no such file, its size or number does not fit the frames, the stream
+            is live, or another convention fits the frames clearly better.
+        FileFormatError: a file is damaged.
+        ConfigError: the convention is unknown.
+    """
+    sources = {role: getattr(config, role) for role in ROLE_KIND}
+    sources.update({role: one for role, one in (given or {}).items() if one is not None})
+    sources = {role: one for role, one in sources.items() if one is not None}
+    if not sources:
+        return stream
+    if stream.is_live:
+        raise InputError("motion vectors need frames that can be read twice, not a live stream")
+    name = named_convention(config.motion_convention)
+    stacks = {role: open_fields(one, role, name) for role, one in sources.items()}
+    motion = MotionFrames(stream, stacks, config)
+    if config.check_motion:
+        motion.check()
+    return motion
+
+
+def own_motion(source: Any) -> Path | None:
+    """The passes that a folder of frames brings along, or None.
+
+    They are in a folder `motion` beside its folder of images, or in its OpenEXR files themselves.
+    """
+    if not isinstance(source, str | Path):
+        return None
+    folder = Path(source).expanduser()
+    try:
+        if not folder.is_dir():
+            return None
+        if (folder / OWN_FOLDER).is_dir() and any(
+            (folder / name).is_dir() for name in INNER_FOLDERS
+        ):
+            return folder / OWN_FOLDER
+        images = sorted(folder.glob("*.exr"))
+    except (OSError, ValueError):
+        return None
+    if not images:
+        return None
+    return folder if written_by(images[0]) else None

@@ -1,0 +1,299 @@
+"""The frames of a stream with motion beside them, and the check that it fits."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import islice
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.intensity_scale import scale_to_levels
+from texvent.capture.motion_vectors.check import Neighbours, Verdict, judge
+from texvent.capture.motion_vectors.conventions import (
+    CONVENTIONS,
+    Convention,
+    Direction,
+    changes,
+    named_convention,
+    parse_convention,
+    to_pixels,
+    with_words,
+)
+from texvent.capture.motion_vectors.fields import FieldStack, Role
+from texvent.capture.motion_vectors.values import (
+    check_vectors,
+    instance_ids,
+    metric_depth,
+    warn_of_unit,
+    wrong_size,
+)
+from texvent.config import CaptureConfig
+from texvent.errors import InputError, warn
+from texvent.video import MICROSECONDS, Frame, FrameStream, Motion
+
+CHECKED_FRAMES = 4
+"""Frames whose vectors are compared with the images around them."""
+FRAMES_LOOKED_AT = 12
+"""Frames read for that: those at the start may stand still."""
+
+
+@dataclass(frozen=True)
+class _Field:
+    """One kind of vectors: in which stack, under which name, and where they lead."""
+
+    role: Role
+    kind: str
+    direction: Direction
+
+
+class MotionFrames(FrameSource):
+    """The frames of a stream with motion, read beside them one by one.
+
+    There is one field per frame, or, of vectors, one per pair of frames: then the backward ones
+    begin with the second frame. What only one direction is given of stays None in the other.
+
+    Args:
+        stream: the frames.
+        stacks: role → fields.
+        config: convention and scale of depth.
+
+    Raises:
+        InputError: another number of fields than of frames.
+    """
+
+    def __init__(
+        self, stream: FrameStream, stacks: Mapping[Role, FieldStack], config: CaptureConfig
+    ) -> None:
+        self._stream, self._stacks, self._config = stream, stacks, config
+        self._convention, self._text = _convention(stacks, config)
+        self._vectors = _vector_fields(stacks, self._convention)
+        self._is_counted = stream.metadata.get("kind") != "video file"
+        for role, stack in stacks.items():
+            self._check_count(stack, role)
+        self._warned: set[str] = set()
+        metadata = {
+            **stream.metadata,
+            "motion": {role: stack.name for role, stack in stacks.items()},
+            "motion_convention": self._text,
+        }
+        self._facts = SourceFacts(stream.size, stream.fps, stream.frame_count, metadata)
+
+    def __iter__(self) -> Iterator[Frame]:
+        """Frames in time order.
+
+        Raises:
+            InputError: a field of another size, of wrong values, or missing.
+        """
+        previous: Frame | None = None
+        for index, (frame, following) in enumerate(_with_next(self._stream)):
+            yield replace(frame, motion=self._motion(index, previous, frame, following))
+            previous = frame
+
+    def check(self) -> None:
+        """Compare warped frames with real ones near the start.
+
+        Raises:
+            InputError: another convention fits clearly better.
+
+        Warns:
+            TexventWarning: the vectors hardly explain what changes.
+        """
+        frames = list(islice(self._stream, FRAMES_LOOKED_AT))
+        for field in self._vectors:
+            verdict = judge(self._neighbours(frames, field), self._convention, field.direction)
+            if verdict is not None:
+                self._report(verdict, field)
+
+    def _report(self, verdict: Verdict, field: _Field) -> None:
+        what = f"{self._stacks[field.role].name}: {field.direction} motion vectors"
+        if verdict.better is not None:
+            given = replace(self._convention, direction=field.direction)
+            words = changes(given, verdict.better, field.direction)
+            advice = f"as --motion-convention {with_words(self._text, words)}; give that"
+            is_named = field.kind != "vectors" or len(self._vectors) > 1
+            if is_named and verdict.better.direction != field.direction:
+                words = tuple(word for word in words if word not in ("forward", "backward"))
+                advice = f"{verdict.better.direction}; exchange the two"
+                if words:
+                    advice += f" and give --motion-convention {with_words(self._text, words)}"
+            raise InputError(
+                f"{what} do not fit the frames: warped by them, frames differ by "
+                f"{verdict.error:.1f} grey levels, and by {verdict.better_error:.1f} if the "
+                f"vectors are meant {advice}, or --no-check-motion if they are right"
+            )
+        if verdict.is_high:
+            warn(
+                f"{what} explain little: warped by them, frames differ by {verdict.error:.1f} grey "
+                f"levels, and by {verdict.still_error:.1f} as they are; check that the vectors "
+                "belong to these frames"
+            )
+
+    def _neighbours(self, frames: Sequence[Frame], field: _Field) -> list[Neighbours]:
+        """The frames near the start that move most, with what is stored for them."""
+        found: list[tuple[float, Neighbours]] = []
+        for index in range(len(frames)):
+            luma = {"here": self._levels(frames[index])}
+            seconds: dict[str, float] = {}
+            stored: dict[Direction, NDArray[Any]] = {}
+            places: tuple[tuple[Direction, int], ...] = (
+                ("forward", index + 1),
+                ("backward", index - 1),
+            )
+            for direction, place in places:
+                at = self._place(field, direction, index)
+                if 0 <= place < len(frames) and at is not None:
+                    luma[direction] = self._levels(frames[place])
+                    stored[direction] = self._stacks[field.role].read(at)[field.kind]
+                    seconds[direction] = _seconds(frames[index], frames[place])
+            if stored:
+                values = next(iter(stored.values()))
+                self._check_field(values, field, index)
+                size = float(np.nanmean(np.abs(values[..., :2] - self._convention.offset)))
+                found.append((size, Neighbours(luma, stored, seconds)))
+        found.sort(key=lambda one: -one[0])
+        return [one for _, one in found[:CHECKED_FRAMES]]
+
+    def _levels(self, frame: Frame) -> NDArray[np.float32]:
+        white = self._config.white_level
+        luma = frame.luma if white is None else scale_to_levels(frame.luma, white)
+        return np.asarray(luma, dtype=np.float32)
+
+    def _motion(
+        self, index: int, previous: Frame | None, frame: Frame, following: Frame | None
+    ) -> Motion:
+        others = {"forward": following, "backward": previous}
+        vectors: dict[str, NDArray[np.float32]] = {}
+        for field in self._vectors:
+            other = others[field.direction]
+            at = self._place(field, field.direction, index)
+            if other is None:
+                continue
+            if at is None:
+                raise InputError(self._missing(field.role, index))
+            stored = self._stacks[field.role].read(at)[field.kind]
+            self._check_field(stored, field, index)
+            vectors[field.direction] = to_pixels(
+                stored, self._convention, field.direction, frame.size, _seconds(frame, other)
+            )
+        return Motion(
+            vectors.get("forward"),
+            vectors.get("backward"),
+            self._depth(index, frame),
+            self._instance(index, frame),
+        )
+
+    def _check_field(self, stored: NDArray[Any], field: _Field, index: int) -> None:
+        where = f"{self._stacks[field.role].name}, frame {index}: the {field.direction} field"
+        unknown = check_vectors(stored, where)
+        width, height = self._stream.size
+        factor = width // stored.shape[1]
+        if factor < 1 or (stored.shape[1] * factor, stored.shape[0] * factor) != (width, height):
+            raise InputError(wrong_size(where, stored.shape, self._stream.size))
+        stack = self._stacks[field.role]
+        if unknown and not stack.marks_unknown and stack.name not in self._warned:
+            self._warned.add(stack.name)
+            warn(f"{where} is NaN in {unknown:.2%} of its pixels; they count as not known")
+
+    def _depth(self, index: int, frame: Frame) -> NDArray[np.float32] | None:
+        stored, where = self._plane("depth", index)
+        if stored is None:
+            return None
+        depth = metric_depth(stored, self._config.depth_scale, frame.size, where)
+        if index == 0 and "depth" not in self._warned:
+            self._warned.add("depth")
+            warn_of_unit(depth, where)
+        return depth
+
+    def _instance(self, index: int, frame: Frame) -> NDArray[np.int32] | None:
+        stored, where = self._plane("instances", index)
+        return None if stored is None else instance_ids(stored, frame.size, where)
+
+    def _plane(self, kind: str, index: int) -> tuple[NDArray[Any] | None, str]:
+        """Depth or ids of a frame: from their own option, or from the files of the vectors."""
+        for role in (kind, "motion"):
+            stack = self._stacks.get(role)
+            if stack is not None and kind in stack.found and index < stack.count:
+                return stack.read(index)[kind], f"{stack.name}, frame {index}: {kind}"
+        return None, ""
+
+    def _place(self, field: _Field, direction: Direction, index: int) -> int | None:
+        """Where the field of a frame is in its stack; None if it has none."""
+        count, frames = self._stacks[field.role].count, self._stream.frame_count
+        is_per_pair = frames is not None and count == frames - 1
+        place = index - (direction == "backward" and is_per_pair)
+        return place if 0 <= place < count else None
+
+    def _check_count(self, stack: FieldStack, role: Role) -> None:
+        frames = self._stream.frame_count
+        has_vectors = role in ("motion", "motion_back")
+        if frames is None or not self._is_counted:
+            return
+        if stack.count != frames and not (has_vectors and stack.count == frames - 1):
+            pairs = f", or {frames - 1}: one per pair" if has_vectors else ""
+            raise InputError(
+                f"{stack.name} has fields of {stack.count} frames, and there are {frames} frames; "
+                f"give {frames}: one per frame{pairs}"
+            )
+
+    def _missing(self, role: Role, index: int) -> str:
+        stack = self._stacks[role]
+        return (
+            f"{stack.name} has fields of {stack.count} frames, but there is a frame {index}; give "
+            "one per frame, or one per pair"
+        )
+
+
+def _convention(stacks: Mapping[Role, FieldStack], config: CaptureConfig) -> tuple[Convention, str]:
+    """What the vectors mean, and the same as the option says it."""
+    said = next((stack.convention for stack in stacks.values() if stack.convention), None)
+    text = config.motion_convention
+    if text is None:
+        text = said or ""
+    elif said is not None and named_convention(text) is None:
+        text = f"{said},{text}"
+    return (parse_convention(text) if text else CONVENTIONS["standard"]), text
+
+
+def _vector_fields(stacks: Mapping[Role, FieldStack], convention: Convention) -> tuple[_Field, ...]:
+    """The fields of vectors; each direction once.
+
+    Raises:
+        InputError: a direction is given twice.
+    """
+    fields: dict[Direction, _Field] = {}
+    for role in ("motion", "motion_back"):
+        stack = stacks.get(role)
+        if stack is None:
+            continue
+        for kind in sorted(stack.found & {"vectors", "forward", "backward"}):
+            direction = convention.direction if kind == "vectors" else _direction(kind)
+            if direction in fields:
+                raise InputError(
+                    f"{direction} vectors are given twice, by {fields[direction].role} "
+                    f"({fields[direction].kind}) and {role} ({kind}); leave one out"
+                )
+            fields[direction] = _Field(role, kind, direction)
+    return tuple(fields.values())
+
+
+def _direction(kind: str) -> Direction:
+    return "forward" if kind == "forward" else "backward"
+
+
+def _with_next(frames: FrameStream) -> Iterator[tuple[Frame, Frame | None]]:
+    """Each frame with the one after it."""
+    current: Frame | None = None
+    for frame in frames:
+        if current is not None:
+            yield current, frame
+        current = frame
+    if current is not None:
+        yield current, None
+
+
+def _seconds(frame: Frame, other: Frame) -> float:
+    return abs(other.t_us - frame.t_us) / MICROSECONDS

@@ -1,0 +1,139 @@
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.capture.motion_vectors import moving_scene as scene
+
+import texvent
+from texvent.capture.motion_vectors.attach import own_motion
+from texvent.capture.motion_vectors.exr_image import exr_frame, gamma_coded
+from texvent.capture.open import open_frames
+from texvent.cli.app import main
+from texvent.config import CaptureConfig
+from texvent.errors import FileFormatError, InputError
+
+OpenEXR = pytest.importorskip("OpenEXR")
+BLENDER = Path(__file__).parent / "blender_sample"
+"""Three frames of benchmarks/blender/scene.py, rendered by Blender 5.0 at 48x36."""
+
+
+def write(path, channels, **header):
+    planes = {name: np.ascontiguousarray(plane, np.float32) for name, plane in channels.items()}
+    facts = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage, **header}
+    OpenEXR.File(facts, planes).write(str(path))
+    return path
+
+
+def colour(plane):
+    return {"R": plane, "G": plane, "B": plane}
+
+
+def test_the_curve_is_that_of_srgb_and_goes_on_above_white():
+    # IEC 61966-2-1: 0.5 is coded as 187.5 of 255, 0.001 as 3.3 on the line, 4 by the same power.
+    coded = gamma_coded(np.array([0.0, 0.001, 0.5, 1.0, 4.0, -0.2]))
+    assert coded == pytest.approx([0.0, 3.2946, 187.516, 255.0, 465.323, 0.0], abs=0.01)
+
+
+def test_light_is_neither_clipped_nor_rounded(tmp_path):
+    light = np.linspace(0, 20, 12).reshape(3, 4)
+    pixels = exr_frame(write(tmp_path / "a.exr", colour(light)))
+    assert pixels.shape == (3, 4, 3)
+    assert pixels.dtype == np.float32
+    assert np.array_equal(pixels[..., 1], gamma_coded(light))
+    assert pixels.max() > 800
+    grey = exr_frame(write(tmp_path / "y.exr", {"Y": light}))
+    assert np.array_equal(grey, gamma_coded(light))
+
+
+@pytest.mark.parametrize(
+    ("header", "message"),
+    [
+        ({"colorInteropID": "pq_rec2020_display"}, r"coded \('pq_rec2020_display'\); only linear"),
+        ({"colorInteropID": "hlg_rec2020_display"}, "convert it to a linear space"),
+        ({"colorInteropID": "srgb_rec709_display"}, "only linear light is read"),
+        (
+            {"chromaticities": (0.708, 0.292, 0.17, 0.797, 0.131, 0.046, 0.3127, 0.329)},
+            "other primaries than Rec. 709",
+        ),
+    ],
+)
+def test_what_is_not_linear_rec_709_is_refused(tmp_path, header, message):
+    path = write(tmp_path / "a.exr", colour(np.ones((2, 2))), **header)
+    with pytest.raises(InputError, match=message):
+        exr_frame(path)
+
+
+def test_linear_light_is_said_to_be_so(tmp_path):
+    path = write(tmp_path / "a.exr", colour(np.ones((2, 2))), colorInteropID="lin_rec709_scene")
+    assert exr_frame(path).max() == pytest.approx(255.0)
+
+
+def test_damage_and_missing_colour_are_one_line(tmp_path):
+    whole = write(tmp_path / "a.exr", colour(np.ones((8, 8)))).read_bytes()
+    (tmp_path / "cut.exr").write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(FileFormatError, match=r"cut\.exr is damaged or not OpenEXR"):
+        exr_frame(tmp_path / "cut.exr")
+    with pytest.raises(InputError, match=r"has no colour \(R, G, B or Y\); its channels: Depth\.Z"):
+        exr_frame(write(tmp_path / "z.exr", {"Depth.Z": np.ones((2, 2))}))
+
+
+def test_passes_of_blender_in_files_of_their_own(tmp_path):
+    for index in range(scene.FRAMES):
+        motion = scene.forward(index)
+        passes = {
+            **{f"ViewLayer.Vector.{one}": -motion[..., k] for k, one in enumerate("XY")},
+            "ViewLayer.Vector.Z": -motion[..., 0],
+            "ViewLayer.Vector.W": motion[..., 1],
+            "ViewLayer.Depth.Z": scene.depth(index),
+            "ViewLayer.IndexOB.X": scene.instances(index),  # its name before Blender 5
+        }
+        passes["ViewLayer.Vector.Y"] = motion[..., 1]
+        write(tmp_path / f"{index:04}.exr", passes)
+    film = scene.stack(scene.frame)
+    config = CaptureConfig(fps=25, motion=tmp_path)
+    frames = list(open_frames(film, config))
+    assert frames[1].motion.forward == pytest.approx(scene.forward(1))
+    assert frames[1].motion.backward == pytest.approx(scene.backward(1))
+    assert np.array_equal(frames[1].motion.depth, scene.depth(1))
+    assert np.array_equal(frames[1].motion.instance, scene.instances(1))
+    assert open_frames(film, config).metadata["motion_convention"] == "blender"
+
+
+def test_channels_that_are_not_known_are_listed(tmp_path):
+    for index in range(scene.FRAMES):
+        write(tmp_path / f"{index}.exr", {"u": np.ones((4, 4)), "v": np.ones((4, 4))})
+    with pytest.raises(InputError, match=r"no pass that is known .* its channels: u, v"):
+        open_frames(scene.stack(scene.frame), CaptureConfig(fps=25, motion=tmp_path))
+
+
+def test_a_real_render_of_blender():
+    assert own_motion(BLENDER) == BLENDER / "motion"
+    config = CaptureConfig(motion=BLENDER / "motion")  # checked: warped against real frames
+    frames = list(open_frames(BLENDER, config))
+    assert [frame.t_us for frame in frames] == [0, 41_667, 83_333]
+    middle = frames[1].motion
+    assert np.abs(middle.forward + middle.backward).max() < 2.0  # nearly even motion
+    assert np.hypot(*middle.forward.T).max() > 3.0  # the ball
+    assert 3.0 < middle.depth.min() < middle.depth.max() < 30.0
+    assert len(np.unique(middle.instance)) >= 5
+    with pytest.raises(InputError, match="--motion-convention blender; give that"):
+        open_frames(
+            BLENDER, CaptureConfig(motion=BLENDER / "motion", motion_convention="blender,y-down")
+        )
+
+
+def test_simulate_takes_the_folder_that_the_script_makes(tmp_path, capsys):
+    out = tmp_path / "out.h5"
+    assert main(["simulate", str(BLENDER), "-o", str(out), "--events-only", "--noise", "none"]) == 0
+    source = texvent.open(out).metadata["source"]
+    assert source["motion"] == {"motion": str(BLENDER / "motion")}
+    assert source["motion_convention"] == "blender"
+    assert len(source["motion_fingerprint"]) == 64
+    assert len(texvent.load(out)) == len(texvent.simulate(BLENDER, noise="none"))
+    assert main(["replay", str(out), "-o", str(tmp_path / "again.h5")]) == 0
+
+
+def test_the_script_can_be_found_and_belongs_to_blender(capsys):
+    assert main(["blender"]) == 0
+    path = Path(capsys.readouterr().out.strip())
+    assert "texvent" not in path.read_text().split('"""', 2)[2]  # it imports nothing of ours

@@ -1,0 +1,313 @@
+from fractions import Fraction
+from pathlib import Path
+
+import cv2
+import h5py
+import numpy as np
+import pytest
+from tests.capture.motion_vectors import moving_scene as scene
+
+import texvent
+from texvent.capture.motion_vectors.attach import own_motion
+from texvent.capture.open import open_frames
+from texvent.config import CaptureConfig
+from texvent.errors import ConfigError, InputError, TexventWarning
+from texvent.sensor import SensorSize
+
+FILM = scene.stack(scene.frame)
+FORWARD, BACKWARD = scene.stack(scene.forward), scene.stack(scene.backward)
+DEPTH, INSTANCES = scene.stack(scene.depth), scene.stack(scene.instances)
+
+
+def opened(motion=None, size=None, film=FILM, **options):
+    config = CaptureConfig(fps=Fraction(25), **options)
+    return open_frames(film, config, size=size, motion=motion)
+
+
+def write_flo(path, flow):
+    with path.open("wb") as file:
+        file.write(b"PIEH" + np.int32([flow.shape[1], flow.shape[0]]).tobytes())
+        file.write(flow.astype("<f4").tobytes())
+
+
+def write_png(path, flow, steps, valid=None):
+    pixels = np.ones((*flow.shape[:2], 3), np.uint16)
+    pixels[..., :2] = np.round(flow * steps + 2**15)
+    if valid is not None:
+        pixels[..., 2] = valid
+    cv2.imwrite(str(path), pixels[..., ::-1])
+
+
+def check_exact(stream, forward=True, backward=True):
+    motions = [frame.motion for frame in stream]
+    for index, motion in enumerate(motions):
+        is_first, is_last = index == 0, index == len(motions) - 1
+        assert (motion.forward is None) == (is_last or not forward)
+        assert (motion.backward is None) == (is_first or not backward)
+        if motion.forward is not None:
+            assert motion.forward == pytest.approx(FORWARD[index], abs=0.01)
+        if motion.backward is not None:
+            assert motion.backward == pytest.approx(BACKWARD[index], abs=0.01)
+    return motions
+
+
+def test_arrays_of_one_field_per_frame():
+    given = {
+        "motion": FORWARD, "motion_back": BACKWARD, "depth": DEPTH, "instances": INSTANCES,
+    }  # fmt: skip
+    motions = check_exact(opened(given))
+    assert np.array_equal(motions[2].depth, DEPTH[2])
+    assert np.array_equal(motions[2].instance, INSTANCES[2])
+    assert (motions[2].depth.dtype, motions[2].instance.dtype) == (np.float32, np.int32)
+
+
+def test_arrays_of_one_field_per_pair():
+    check_exact(opened({"motion": FORWARD[:-1], "motion_back": BACKWARD[1:]}))
+
+
+def test_one_direction_is_enough():
+    check_exact(opened({"motion": FORWARD}), backward=False)
+    check_exact(opened({"motion": BACKWARD}, motion_convention="backward"), forward=False)
+    check_exact(opened({"motion_back": BACKWARD}), forward=False)
+
+
+def test_half_resolution():
+    film = FILM.repeat(2, axis=1).repeat(2, axis=2)
+    motions = [frame.motion for frame in opened({"motion": FORWARD}, film=film)]
+    assert motions[0].forward == pytest.approx(2 * FORWARD[0].repeat(2, 0).repeat(2, 1))
+
+
+def test_units_per_second():
+    stream = opened({"motion": FORWARD * np.float32(25)}, motion_convention="px/s")
+    check_exact(stream, backward=False)
+
+
+@pytest.mark.parametrize("name", ["flo", "npy", "npz", "kitti", "dsec"])
+def test_folders_with_a_file_per_frame(tmp_path, name):
+    for index, flow in enumerate(FORWARD):
+        if name == "flo":
+            write_flo(tmp_path / f"flow{index}.flo", flow)
+        elif name == "npy":
+            np.save(tmp_path / f"flow{index}.npy", flow)
+        elif name == "npz":
+            np.savez(tmp_path / f"f{index}.npz", forward=flow, backward=BACKWARD[index])
+        else:
+            write_png(tmp_path / f"{index}.png", flow, {"kitti": 64, "dsec": 128}[name])
+    convention = name if name in ("kitti", "dsec") else None
+    config = CaptureConfig(fps=Fraction(25), motion=tmp_path, motion_convention=convention)
+    stream = open_frames(FILM, config)
+    check_exact(stream, backward=name == "npz")
+
+
+def test_one_file_for_all_frames(tmp_path):
+    np.save(tmp_path / "flow.npy", FORWARD)
+    np.savez(tmp_path / "all.npz", flow=FORWARD, flow_back=BACKWARD, depth=DEPTH, ids=INSTANCES)
+    with h5py.File(tmp_path / "all.h5", "w") as file:
+        file["motion/forward"], file["motion/backward"] = FORWARD[:-1], BACKWARD[:-1]
+        file["motion/backward"][...] = BACKWARD[1:]
+    for name, has_backward in (("flow.npy", False), ("all.npz", True), ("all.h5", True)):
+        config = CaptureConfig(fps=Fraction(25), motion=tmp_path / name)
+        motions = check_exact(open_frames(FILM, config), backward=has_backward)
+        assert (motions[0].depth is not None) == (name == "all.npz")
+
+
+def test_a_pattern_names_files_among_others(tmp_path):
+    for index, flow in enumerate(BACKWARD):
+        np.save(tmp_path / f"motion_vectors_{index:04}.npy", flow)
+        np.save(tmp_path / f"distance_to_image_plane_{index:04}.npy", DEPTH[index])
+    config = CaptureConfig(
+        fps=Fraction(25),
+        motion=tmp_path / "motion_vectors_*.npy",
+        depth=tmp_path / "distance_*.npy",
+        motion_convention="isaac",
+    )
+    motions = check_exact(open_frames(FILM, config), forward=False)
+    assert np.array_equal(motions[1].depth, DEPTH[1])
+
+
+def test_what_is_not_valid_in_a_png_is_not_known(tmp_path):
+    valid = scene.is_square(0)
+    for index, flow in enumerate(FORWARD):
+        write_png(tmp_path / f"{index}.png", flow, 64, valid)
+    config = CaptureConfig(fps=Fraction(25), motion=tmp_path, motion_convention="kitti")
+    with pytest.raises(InputError, match=r"is NaN in 8\d% of its pixels"):
+        open_frames(FILM, config)
+
+
+def test_a_png_of_flow_is_never_guessed(tmp_path):
+    for index, flow in enumerate(FORWARD):
+        write_png(tmp_path / f"{index}.png", flow, 64)
+    with pytest.raises(InputError, match=r"KITTI and DSEC count .* --motion-convention kitti"):
+        open_frames(FILM, CaptureConfig(fps=Fraction(25), motion=tmp_path))
+    wrong = CaptureConfig(fps=Fraction(25), motion=tmp_path, motion_convention="dsec")
+    with pytest.raises(InputError, match=r"--motion-convention dsec,scale=2; give that"):
+        open_frames(FILM, wrong)
+
+
+@pytest.mark.parametrize(
+    ("flow", "option"),
+    [
+        (-FORWARD, "(from|backward)"),
+        (FORWARD * np.float32([1, -1]), "y-up"),
+        (FORWARD[..., ::-1], "yx"),
+        (FORWARD / 2, "scale=2"),
+        (FORWARD / np.float32([scene.WIDTH, scene.HEIGHT]), "fraction"),
+        (FORWARD / np.float32([scene.WIDTH / 2, scene.HEIGHT / 2]), "ndc"),
+    ],
+)
+def test_vectors_of_another_convention_are_refused_with_the_option_to_give(flow, option):
+    told = rf"differ by \d+\.\d grey levels, and by [0-3]\.\d .*--motion-convention {option}; give"
+    with pytest.raises(InputError, match=told):
+        opened({"motion": flow})
+    option = option.strip("()").split("|")[0]
+    check_exact(opened({"motion": flow}, motion_convention=option), backward=False)
+    list(opened({"motion": flow}, check_motion=False))
+
+
+def test_exchanged_directions_are_named():
+    uneven = scene.stack(lambda index: scene.frame(index * index), 4)
+    first = np.stack([scene.forward(i * i) * (2 * i + 1) for i in range(4)])
+    second = np.stack([scene.backward(i * i) * (2 * i - 1) for i in range(4)])
+    with pytest.raises(InputError, match=r"meant (forward|backward); exchange the two"):
+        opened({"motion": second, "motion_back": first}, film=uneven)
+
+
+def test_vectors_of_another_film_are_warned_of():
+    rng = np.random.default_rng(0)
+    noise = rng.integers(0, 256, FILM.shape, dtype=np.uint8)
+    with pytest.warns(TexventWarning, match=r"explain little: .* check that the vectors belong"):
+        opened({"motion": FORWARD}, film=noise)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        (
+            {"motion": FORWARD[:-2]},
+            r"motion has fields of 4 frames, and there are 6 frames; give 6",
+        ),
+        ({"motion": FORWARD, "depth": DEPTH[:-1]}, r"depth has fields of 5 frames"),
+        ({"motion": FORWARD[:, :-1]}, r"forward field is 64x47, the frames are 64x48"),
+        ({"motion": FORWARD[:, ::3, ::3]}, r"is 22x16, the frames are 64x48; it must have"),
+        ({"motion": np.full_like(FORWARD, np.nan)}, r"is NaN in 100% of its pixels"),
+        ({"motion": np.full_like(FORWARD, np.inf)}, r"has 3072 infinite vector"),
+        ({"motion": FORWARD.transpose(0, 3, 1, 2)}, r"components come last: \.transpose"),
+        ({"motion": 3}, r"motion: 3 is no field of motion; give a path"),
+        (
+            {"motion": FORWARD, "depth": np.full_like(DEPTH, np.nan)},
+            r"3072 value\(s\) that are NaN",
+        ),
+        ({"motion": FORWARD, "depth": DEPTH.astype(np.uint16)}, r"give --depth-scale: metres per"),
+        ({"motion": FORWARD, "instances": DEPTH + 0.5}, r"no whole numbers"),
+    ],
+)
+def test_bad_fields_are_one_clear_line(given, message):
+    with pytest.raises(InputError, match=message) as error:
+        list(opened(given))
+    assert "\n" not in str(error.value)
+
+
+def test_files_that_are_not_there(tmp_path):
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "both").mkdir()
+    np.save(tmp_path / "both" / "a.npy", FORWARD[0])
+    write_flo(tmp_path / "both" / "a.flo", FORWARD[0])
+    (tmp_path / "cut.flo").write_bytes(b"PIEH" + np.int32([64, 48]).tobytes())
+    (tmp_path / "flow.txt").write_text("0 0")
+    np.savez(tmp_path / "odd.npz", u=FORWARD, v=FORWARD)
+    for name, message in {
+        "missing": "no file or folder",
+        "empty": "holds no file of motion vectors",
+        "both": r"holds \.flo and \.npy files; name those",
+        "flow.txt": "is no file of motion vectors; known",
+        "cut.flo": "is the field of one frame",
+        "odd.npz": "holds u, v; arrays must be called flow",
+    }.items():
+        with pytest.raises(InputError, match=message):
+            open_frames(FILM, CaptureConfig(fps=Fraction(25), motion=tmp_path / name))
+
+
+def test_a_cut_file_is_named_when_it_is_read(tmp_path):
+    for index, flow in enumerate(FORWARD):
+        write_flo(tmp_path / f"{index}.flo", flow)
+    (tmp_path / "4.flo").write_bytes((tmp_path / "4.flo").read_bytes()[:-8])
+    config = CaptureConfig(fps=Fraction(25), motion=tmp_path, check_motion=False)
+    with pytest.raises(InputError, match=r"4\.flo was cut off"):
+        list(open_frames(FILM, config))
+
+
+def test_some_nan_count_as_not_known_with_a_warning():
+    flow = FORWARD.copy()
+    flow[:, 0, 0] = np.nan
+    with pytest.warns(TexventWarning, match=r"is NaN in 0\.03% of its pixels"):
+        motions = [frame.motion for frame in opened({"motion": flow})]
+    assert np.isnan(motions[0].forward[0, 0]).all()
+
+
+def test_depth_in_millimetres():
+    millimetres = (DEPTH * 1000).astype(np.float32)
+    with pytest.warns(TexventWarning, match=r"median of 9000 m, so it is probably in mm"):
+        list(opened({"motion": FORWARD, "depth": millimetres}))
+    stream = opened({"motion": FORWARD, "depth": millimetres.astype(np.uint16)}, depth_scale=1e-3)
+    assert next(iter(stream)).motion.depth == pytest.approx(DEPTH[0])
+
+
+def test_no_surface_is_infinitely_far():
+    depth = DEPTH.copy()
+    depth[:, 0, 0], depth[:, 0, 1] = 0.0, 1e10  # KITTI's and Isaac's mark, and Blender's
+    found = next(iter(opened({"motion": FORWARD, "depth": depth}))).motion.depth
+    assert np.isinf(found[0, :2]).all()
+    assert np.isfinite(found).sum() == found.size - 2
+
+
+def test_start_stop_and_fit_change_motion_as_pixels():
+    given = {"motion": FORWARD, "depth": DEPTH, "instances": INSTANCES}
+    stream = opened(given, SensorSize(32, 24), start=0.08, stop=0.2)
+    frames = list(stream)
+    assert [frame.t_us for frame in frames] == [80_000, 120_000, 160_000]
+    for frame, index in zip(frames, (2, 3, 4), strict=True):
+        inside = frame.motion.instance == 7
+        assert np.array_equal(inside, scene.is_square(index)[1::2, 1::2])
+        assert frame.motion.forward[inside] == pytest.approx(
+            np.tile(np.float32(scene.SQUARE_PX) / 2, (inside.sum(), 1))
+        )
+        assert set(frame.motion.depth[inside]) == {scene.NEAR_M}
+
+
+def test_a_live_source_is_refused():
+    frames = (image for image in FILM)
+    with pytest.raises(InputError, match="read twice, not a live stream"):
+        open_frames(frames, CaptureConfig(fps=Fraction(25)), motion={"motion": FORWARD})
+
+
+def test_the_metadata_says_what_the_vectors_mean():
+    facts = opened({"motion": BACKWARD}, motion_convention="isaac").metadata
+    assert facts["motion"] == {"motion": "motion"}
+    assert facts["motion_convention"] == "isaac"
+
+
+def test_a_folder_with_passes_beside_its_frames_is_found(tmp_path):
+    assert own_motion(tmp_path) is None
+    assert own_motion("rtsp://nowhere") is None
+    (tmp_path / "frames").mkdir()
+    (tmp_path / "motion").mkdir()
+    assert own_motion(tmp_path) == tmp_path / "motion"
+
+
+def test_simulate_takes_arrays_and_files(tmp_path):
+    np.save(tmp_path / "flow.npy", FORWARD)
+    np.save(tmp_path / "depth.npy", DEPTH)
+    options = {"fps": 25, "noise": "none", "contrast_threshold": 0.15}
+    events = texvent.simulate(FILM, flow=FORWARD, depth=DEPTH, **options)
+    assert len(events)
+    assert events.metadata["source"]["motion"] == {"motion": "motion", "depth": "depth"}
+    by_file = texvent.simulate(
+        FILM, flow=tmp_path / "flow.npy", depth=str(tmp_path / "depth.npy"), **options
+    )
+    assert np.array_equal(events.t, by_file.t)
+    assert by_file.metadata["settings"]["capture"]["motion"] == str(tmp_path / "flow.npy")
+    assert len(by_file.metadata["source"]["motion_fingerprint"].split("-")) == 2
+    with pytest.raises(InputError, match="flow and motion are the same"):
+        texvent.simulate(FILM, flow=FORWARD, motion=Path("x"), **options)
+    with pytest.raises(ConfigError, match="motion_convention has 'blendr'"):
+        texvent.simulate(FILM, flow=FORWARD, motion_convention="blendr", **options)
