@@ -79,6 +79,21 @@ def test_labels_survive_cutting_concatenation_and_masks():
     assert events.without_label().label is None
 
 
+def test_ids_of_objects_survive_cutting_concatenation_and_masks():
+    events = stream([1, 2, 3]).with_ids(np.array([7, 0, 7]), np.array([2, 0, 2]))
+    assert {name: column.dtype.str[1:] for name, column in events.columns().items()} == {
+        **{"x": "u2", "y": "u2", "t": "i8", "p": "u1"},
+        **{"instance": "u2", "class_id": "u2"},
+    }
+    assert events[events.instance == 7].t.tolist() == [1, 3]
+    assert EventStream.concat([events[:1], events[1:]]).equals(events)
+    assert EventStream.concat([events, stream([9])]).instance is None
+    assert events.without_label().class_id.tolist() == [2, 0, 2]
+    assert not events.equals(events.with_ids(None, None))
+    with pytest.raises(InputError, match=r"instance runs up to 65536; it must be 0\.\.65535"):
+        events.with_ids(np.array([0, 1, 65536]), None)
+
+
 def test_a_missing_label_in_one_packet_leaves_the_whole_unlabelled():
     mixed = EventStream.concat([stream([1], label=[0]), stream([2])])
     assert mixed.label is None

@@ -13,7 +13,7 @@ What always holds:
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -33,7 +33,13 @@ COLUMN_TYPES: dict[str, type[np.generic]] = {
     "t": np.int64,
     "p": np.uint8,
     "label": np.uint8,
+    "instance": np.uint16,
+    "class_id": np.uint16,
 }
+ID_COLUMNS = ("instance", "class_id")
+MAX_ID = 2**16 - 1
+OPTIONAL_COLUMNS = ("label", *ID_COLUMNS)
+"""Columns that only some streams have."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -65,13 +71,19 @@ class EventStream:
     """How the events were made (JSON-serialisable): prompt, config, seed, version."""
     label: NDArray[np.uint8] | None = field(default=None, repr=False)
     """Where each event comes from, [n] uint8: `SIGNAL` or `NOISE`; None where it is not known."""
+    instance: NDArray[np.uint16] | None = field(default=None, repr=False)
+    """The object that each event shows, [n] uint16, 0 = none; None where it is not known."""
+    class_id: NDArray[np.uint16] | None = field(default=None, repr=False)
+    """The class of that object, [n] uint16, 0 = none; None where it is not known."""
 
     def __post_init__(self) -> None:
         size = as_size(self.size)
         columns = {name: np.asarray(getattr(self, name)) for name in "xytp"}
         _check_columns(columns, size)
-        if self.label is not None:
-            columns["label"] = _checked_label(np.asarray(self.label), len(columns["t"]))
+        for name in OPTIONAL_COLUMNS:
+            if getattr(self, name) is not None:
+                values = np.asarray(getattr(self, name))
+                columns[name] = _checked_optional(name, values, len(columns["t"]))
         for name in columns:
             dtype = COLUMN_TYPES[name]
             view = columns[name].astype(dtype, copy=False).view()
@@ -117,19 +129,18 @@ class EventStream:
         for packet in packets:
             if packet.size != size:
                 raise InputError(f"cannot concatenate sensors of {size} and {packet.size}")
-        # Packets without events need not have labels; where there are no others, one is enough.
-        labels = [packet.label for packet in packets if len(packet)]
-        labels = labels or [packet.label for packet in packets if packet.label is not None]
-        known = [label for label in labels if label is not None]
-        return cls(
-            np.concatenate([packet.x for packet in packets]),
-            np.concatenate([packet.y for packet in packets]),
-            np.concatenate([packet.t for packet in packets]),
-            np.concatenate([packet.p for packet in packets]),
-            size,
-            packets[0].metadata,
-            np.concatenate(known) if known and len(known) == len(labels) else None,
-        )
+        whole = {
+            name: np.concatenate([getattr(packet, name) for packet in packets]) for name in "xytp"
+        }
+        for name in OPTIONAL_COLUMNS:
+            # Packets without events need not have them; where there are no others, one is enough.
+            found = [getattr(packet, name) for packet in packets if len(packet)]
+            found = found or [
+                one for packet in packets if (one := getattr(packet, name)) is not None
+            ]
+            if found and all(one is not None for one in found):
+                whole[name] = np.concatenate(found)
+        return cls(**whole, size=size, metadata=packets[0].metadata)
 
     @classmethod
     def unchecked(
@@ -168,9 +179,9 @@ class EventStream:
         return EventStream(**chosen, size=self.size, metadata=self.metadata)
 
     def columns(self) -> dict[str, NDArray[Any]]:
-        """Name → array: x, y, t, p, and label where it is known."""
-        names = ("x", "y", "t", "p") if self.label is None else tuple(COLUMN_TYPES)
-        return {name: getattr(self, name) for name in names}
+        """Name → array: x, y, t, p, and label, instance, class_id where they are known."""
+        named = {name: getattr(self, name) for name in COLUMN_TYPES}
+        return {name: column for name, column in named.items() if column is not None}
 
     @property
     def polarity(self) -> NDArray[np.int8]:
@@ -217,7 +228,11 @@ class EventStream:
 
     def without_label(self) -> EventStream:
         """The same events without the signal/noise column."""
-        return EventStream(self.x, self.y, self.t, self.p, self.size, self.metadata)
+        return replace(self, label=None)
+
+    def with_ids(self, instance: NDArray[Any] | None, class_id: NDArray[Any] | None) -> EventStream:
+        """The same events with other ids of their objects, [n] each; None: without."""
+        return replace(self, instance=instance, class_id=class_id)
 
     # What lies above this module is imported when it is called: a convenience for users.
     def represent(self, name: str, *, device: str | None = None, **options: Any) -> Any:
@@ -284,14 +299,21 @@ class EventStream:
         return show(self, path, overwrite=overwrite)
 
 
-def _checked_label(label: NDArray[Any], count: int) -> NDArray[Any]:
-    if label.shape != (count,) or label.dtype.kind not in "iub":
+def _checked_optional(name: str, values: NDArray[Any], count: int) -> NDArray[Any]:
+    """A column that only some streams have.
+
+    Raises:
+        InputError: it has another length or type, or a value out of range.
+    """
+    if values.shape != (count,) or values.dtype.kind not in "iub":
         raise InputError(
-            f"label must hold {count} integers; got {label.dtype} of shape {label.shape}"
+            f"{name} must hold {count} integers; got {values.dtype} of shape {values.shape}"
         )
-    if count and not 0 <= int(label.min()) <= int(label.max()) <= 1:
-        raise InputError(f"label runs up to {int(label.max())}; it must be 0 (signal) or 1 (noise)")
-    return label
+    highest = NOISE if name == "label" else MAX_ID
+    if count and not 0 <= int(values.min()) <= int(values.max()) <= highest:
+        allowed = "0 (signal) or 1 (noise)" if name == "label" else f"0..{highest}"
+        raise InputError(f"{name} runs up to {int(values.max())}; it must be {allowed}")
+    return values
 
 
 def _check_columns(columns: Mapping[str, NDArray[Any]], size: SensorSize) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import h5py
 import numpy as np
 import pytest
 
@@ -40,6 +41,34 @@ def test_truth_changes_no_event(capsys):
         run("generate", "a red ball bounces", "-o", "b.csv", "--truth", "flow,events", *QUICK) == 0
     )
     assert texvent.load("a.csv").equals(texvent.load("b.csv"))
+
+
+@pytest.mark.parametrize("extension", ["h5", "npz"])
+def test_event_files_with_a_place_for_ids_hold_them(folder, capsys, extension):
+    name = f"b.{extension}"
+    words = ("-o", name, "-o", "b.csv", "--truth", "events")
+    assert run("generate", "a red ball bounces", *words, *QUICK) == 0
+    assert "left out" not in capsys.readouterr().err
+    truth, events = texvent.load_truth("b.truth"), texvent.load(name)
+    assert truth.event_instance.max() == 1
+    np.testing.assert_array_equal(events.instance, truth.event_instance)
+    np.testing.assert_array_equal(events.class_id, truth.event_class_id)
+    assert events.with_ids(None, None).equals(texvent.load("b.csv"))
+    if extension == "h5":
+        with h5py.File(name) as file:
+            assert file["events/instance"].dtype == file["events/class_id"].dtype == np.uint16
+            np.testing.assert_array_equal(file["events/instance"][:], truth.event_instance)
+
+
+def test_ids_go_with_their_events_and_what_cannot_hold_them_says_so(folder, capsys):
+    assert run("generate", "a red ball bounces", "-o", "b.h5", "--truth", "events", *QUICK) == 0
+    whole = texvent.load("b.h5")
+    assert run("convert", "b.h5", "cut.npz", "--crop", "10,0,30,36") == 0
+    inside = (whole.x >= 10) & (whole.x < 40)
+    np.testing.assert_array_equal(texvent.load("cut.npz").instance, whole.instance[inside])
+    assert run("convert", "b.h5", "b.raw") == 0
+    assert "no place for the instance and class of events" in capsys.readouterr().err
+    assert texvent.load("b.raw").instance is None
 
 
 def test_nothing_is_replaced_without_overwrite(folder, capsys):

@@ -108,6 +108,8 @@ def test_each_event_of_a_moving_board_is_the_boards(written):
     assert len(events) > 100
     assert truth.event_instance.tolist() == [3] * len(events)
     assert truth.event_class_id.tolist() == [BOX] * len(events)
+    assert events.instance.tolist() == [3] * len(events)
+    assert events.class_id.tolist() == [BOX] * len(events)
 
 
 def test_what_made_the_run_is_stored(written):
@@ -119,7 +121,9 @@ def test_what_made_the_run_is_stored(written):
 
 def test_truth_changes_no_event(written):
     _, _, events = written
-    assert texvent.simulate(board_video(), interpolate="exact", noise="none").equals(events)
+    again = texvent.simulate(board_video(), interpolate="exact", noise="none")
+    assert again.instance is None
+    assert again.equals(events.with_ids(None, None))
 
 
 def test_a_zoom_is_in_the_intrinsics(tmp_path):

@@ -14,10 +14,10 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self, TypeAlias
 
-from texvent.errors import InputError, OutputError
+from texvent.errors import InputError, OutputError, warn
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, atomic_folder, check_output, check_output_folder
-from texvent.io.limits import FormatLimits
+from texvent.io.limits import LABELLED, FormatLimits
 from texvent.io.metadata import metadata_to_json, sidecar_path, sidecar_text
 from texvent.io.protocol import Columns
 from texvent.sensor import SensorSize
@@ -99,7 +99,7 @@ class BlockWriter:
         self._pending_events = 0
         self._first_us = 0
         self._last_us: int | None = None
-        self._has_label = False
+        self._has_label = self._has_ids = self._has_left_ids = False
 
     def __enter__(self) -> Self:
         target = self._target
@@ -126,6 +126,9 @@ class BlockWriter:
             raise InputError(f"the packet is {packet.size}, the file is {self._target.size}")
         if len(packet) == 0:
             return
+        if packet.instance is not None and not self._limits.keeps_ids:
+            self._warn_of_ids()
+            packet = packet.with_ids(None, None)
         self._check(packet)
         self._last_us = int(packet.t[-1])
         self._pending.append(packet)
@@ -176,10 +179,25 @@ class BlockWriter:
             return atomic_file(path, overwrite=overwrite)
         return atomic_folder(path, overwrite=overwrite, is_own=self._is_own)
 
+    @property
+    def keeps_ids(self) -> bool:
+        """Whether the file holds the instance and class of events."""
+        return self._limits.keeps_ids
+
+    def _warn_of_ids(self) -> None:
+        """Say once that ids are left out."""
+        if not self._has_left_ids:
+            warn(
+                f"{self._target.path}: {self._limits.name} has no place for the instance and class "
+                f"of events, which are left out; {LABELLED} hold them"
+            )
+        self._has_left_ids = True
+
     def _check(self, packet: EventStream) -> None:
         first_us, has_label = int(packet.t[0]), packet.label is not None
         if self._last_us is None:
             self._first_us, self._has_label = first_us, has_label
+            self._has_ids = packet.instance is not None
         self._limits.check_packet(self._target.path, packet, self._first_us)
         if self._last_us is not None and first_us < self._last_us:
             raise InputError(
@@ -189,6 +207,10 @@ class BlockWriter:
         if self._limits.label == "kept" and has_label != self._has_label:
             raise InputError(
                 "some packets have a signal/noise label and some do not; give all or none one"
+            )
+        if (packet.instance is not None) != self._has_ids:
+            raise InputError(
+                "some packets have the instances of their events and some do not; give all or none"
             )
 
     def _write_pending(self, write: WriteBlock, *, final: bool) -> None:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, InputError, MissingDependencyError, one_line, shown
-from texvent.events import EventStream
+from texvent.events import COLUMN_TYPES, ID_COLUMNS, OPTIONAL_COLUMNS, EventStream
 from texvent.io.wrong_kind import refuse_missing
 from texvent.runtime.file_names import usable_path
 from texvent.sensor import SensorSize, checked_size
@@ -157,10 +157,23 @@ def binary_polarity(p: NDArray[Any]) -> NDArray[np.uint8]:
     return (p > 0).astype(np.uint8)
 
 
+def optional_columns(stored: Mapping[str, Any]) -> tuple[str, ...]:
+    """Names of the columns besides x, y, t, p that a file has.
+
+    Arrays of other programs may have the name of our ids: they count only if they have their type.
+    """
+    has_ids = all(
+        name in stored and getattr(stored[name], "dtype", None) == COLUMN_TYPES[name]
+        for name in ID_COLUMNS
+    )
+    label = ("label",) if "label" in stored else ()
+    return (*label, *(ID_COLUMNS if has_ids else ()))
+
+
 def stream_from_file(
     path: Path, columns: Mapping[str, NDArray[Any]], size: SensorSize, metadata: Mapping[str, Any]
 ) -> EventStream:
-    """Columns x, y, t, p (and label) of a file as a stream; what is wrong is the file's fault.
+    """Columns x, y, t, p of a file, and others it has, as a stream; what is wrong is its fault.
 
     Raises:
         FileFormatError: lengths, order, coordinates or polarities are wrong.
@@ -173,7 +186,7 @@ def stream_from_file(
             binary_polarity(columns["p"]),
             size,
             metadata,
-            columns.get("label"),
+            *(columns.get(name) for name in OPTIONAL_COLUMNS),
         )
     except (InputError, OverflowError) as error:
         raise FileFormatError(f"{path} holds wrong events: {error}") from error

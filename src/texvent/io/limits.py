@@ -34,6 +34,8 @@ class FormatLimits:
     """Events lie at this time or later, µs."""
     label: Literal["kept", "refused", "left out"] = "refused"
     """What becomes of the signal/noise label."""
+    keeps_ids: bool = False
+    """Whether it holds the instance and class of events; else they are left out."""
 
     def check_size(self, path: Path, size: SensorSize) -> None:
         """Refuse a sensor that is too large.

@@ -26,6 +26,8 @@ TENSOR_TYPES: Mapping[str, type[np.generic]] = {
     "t": np.int64,
     "p": np.int8,
     "label": np.int8,
+    "instance": np.int32,
+    "class_id": np.int32,
 }
 """torch computes with few unsigned types, and takes uint8 in an index for a mask."""
 

@@ -26,6 +26,7 @@ PREVIEW_SUFFIX = ".events"
 """Stands before the extension of previews, so that none takes the name of a source video."""
 
 OnStep = Callable[[Frame, EventStream], None]
+Append = Callable[[EventStream], None]
 
 
 @dataclass(frozen=True)
@@ -125,15 +126,17 @@ def write_run(
         sinks: list[Callable[[Frame, EventStream], None]] = []
         if preview is not None:
             sinks.append(outputs.enter_context(BackgroundWriter(preview)).append)
-        truth = _open_truth(outputs, simulation, files, facts)
-        if truth is not None:
-            sinks.append(outputs.enter_context(BackgroundWriter(truth)).append)
         writers = [
             outputs.enter_context(_open_events(path, format, simulation, files, facts))
             for path, format in itertools.zip_longest(files.events, files.formats)
         ]
-        for writer in writers:
-            sinks.append(_takes_packets(outputs.enter_context(BackgroundWriter(writer))))
+        appends = [outputs.enter_context(BackgroundWriter(writer)).append for writer in writers]
+        # The truth ends before the event files do, for it may give them their events.
+        truth = _open_truth(outputs, simulation, files, facts, _labelled(writers, appends))
+        if truth is not None:
+            sinks.append(outputs.enter_context(BackgroundWriter(truth)).append)
+        if "events" not in files.truth:
+            sinks += [_takes_packets(append) for append in appends]
         stop = outputs.enter_context(stop_on_interrupt()) if files.keep_partial else StopRequest()
         early = _run_steps(
             simulation.steps(on_scene_change), [*sinks, on_step], stop, files.keep_partial
@@ -184,12 +187,28 @@ def _open_events(
     )
 
 
-def _takes_packets(writer: BackgroundWriter) -> OnStep:
-    def append(frame: Frame, packet: EventStream) -> None:
+def _takes_packets(append: Append) -> OnStep:
+    def append_packet(frame: Frame, packet: EventStream) -> None:
         del frame
-        writer.append(packet)
+        append(packet)
 
-    return append
+    return append_packet
+
+
+def _labelled(
+    writers: Sequence[EventWriter], appends: Sequence[Append]
+) -> Callable[[EventStream], None]:
+    """Gives events with the ids of their objects to all writers, without where there is no place.
+
+    These files have them in the folder of truth.
+    """
+
+    def append_packet(packet: EventStream) -> None:
+        plain = packet.with_ids(None, None)
+        for writer, append in zip(writers, appends, strict=True):
+            append(packet if getattr(writer, "keeps_ids", False) else plain)
+
+    return append_packet
 
 
 def _open_previews(
@@ -214,7 +233,11 @@ def _open_previews(
 
 
 def _open_truth(
-    outputs: ExitStack, simulation: Simulation, files: RunFiles, facts: Mapping[str, Any]
+    outputs: ExitStack,
+    simulation: Simulation,
+    files: RunFiles,
+    facts: Mapping[str, Any],
+    on_events: Append,
 ) -> Any:
     """The folder of truth, open; None where none is wanted."""
     if files.truth_folder is None:
@@ -229,5 +252,6 @@ def _open_truth(
         metadata=facts,
         overwrite=files.overwrite,
         is_continuous=simulation.settings.run.engine == "continuous",
+        on_events=on_events,
     )
     return outputs.enter_context(writer)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
@@ -62,6 +62,8 @@ class TruthFolder:
 def run_with_truth(run: Simulation, folder: TruthFolder, progress: Progress) -> EventStream:
     """The events of a run, in memory; its truth is written meanwhile.
 
+    Where the ids of events are among the truth, the events have them too.
+
     Args:
         run: the run.
         folder: which truth, and where.
@@ -75,13 +77,14 @@ def run_with_truth(run: Simulation, folder: TruthFolder, progress: Progress) -> 
         TexventWarning: there is no event.
     """
     packets = [EventStream.empty(run.video.size)]
-    done = 0
+    has_ids, done = "events" in folder.names, 0
     with ExitStack() as stack:
-        writer = stack.enter_context(_truth_writer(run, folder))
+        writer = stack.enter_context(_truth_writer(run, folder, packets.append))
         background = stack.enter_context(BackgroundWriter(writer))
         for frame, packet in run.steps():
             background.append(frame, packet)
-            packets.append(packet)
+            if not has_ids:
+                packets.append(packet)
             done += frame.is_source
             progress.advance("simulate", done, run.video.frame_count)
     events = EventStream.concat(packets)
@@ -90,7 +93,9 @@ def run_with_truth(run: Simulation, folder: TruthFolder, progress: Progress) -> 
     return events.with_metadata(run.provenance)
 
 
-def _truth_writer(run: Simulation, folder: TruthFolder) -> TruthWriter:
+def _truth_writer(
+    run: Simulation, folder: TruthFolder, on_events: Callable[[EventStream], None]
+) -> TruthWriter:
     # Imported here: it brings the ray caster and OpenCV.
     from texvent.truth.writer import TruthWriter
 
@@ -101,4 +106,5 @@ def _truth_writer(run: Simulation, folder: TruthFolder) -> TruthWriter:
         metadata=run.provenance,
         overwrite=folder.overwrite,
         is_continuous=run.settings.run.engine == "continuous",
+        on_events=on_events,
     )

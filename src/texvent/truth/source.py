@@ -25,6 +25,8 @@ from texvent.truth.parts import PARTS
 from texvent.video import Frame, FrameStream
 from texvent.view.drawing.annotations import GroundTruthStream
 
+ON_FRAMES = {"flow", "depth", "ids", "boxes", "overlay"}
+"""Parts that take an image of the truth."""
 MOST_INSTANCES = 2**16
 """Ids are stored in 16 bits."""
 WHO_KNOWS = (
@@ -133,6 +135,9 @@ class TruthSource:
         return self.video.camera_at(t_us) if isinstance(self.video, CameraStream) else None
 
     def _of_scene(self, video: GroundTruthStream, t_us: int, next_us: int | None) -> Snapshot:
+        needed = ON_FRAMES if isinstance(video, InstancesStream) else {*ON_FRAMES, "events"}
+        if not needed & set(self.parts):
+            return Snapshot(t_us, next_us, camera=self._camera(t_us))
         truth = video.ground_truth(t_us, t_us if next_us is None else next_us)
         is_last = next_us is None
         return Snapshot(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
@@ -57,6 +57,8 @@ class TruthWriter(AtomicOutput):
         metadata: what made the run, stored with the truth.
         overwrite: whether a folder of truth may be replaced.
         is_continuous: whether events have times of their own; see `texvent.truth.event_ids`.
+        on_events: given all events in order, with the ids of their objects, where "events" is among
+            the parts; a few frames late.
 
     Raises:
         ConfigError: the video does not know one of the parts.
@@ -72,6 +74,7 @@ class TruthWriter(AtomicOutput):
         metadata: Mapping[str, Any] | None = None,
         overwrite: bool = False,
         is_continuous: bool = False,
+        on_events: Callable[[EventStream], None] | None = None,
     ) -> None:
         super().__init__()
         self._path = Path(path)
@@ -82,6 +85,7 @@ class TruthWriter(AtomicOutput):
         self._metadata = dict(metadata or {})
         self._overwrite = overwrite
         self._is_continuous = is_continuous
+        self._on_events = on_events
         self._last_us: int | None = None
         self._intervals: list[Interval] = []
         self._pending: tuple[Frame, list[Interval]] | None = None
@@ -203,12 +207,18 @@ class TruthWriter(AtomicOutput):
         if self._add_ids is not None or self._overlay is not None:
             for interval in intervals:
                 slots = interval.slots(SLOT_US) if self._is_continuous else (interval,)
-                found += [self._ids_in(truth, slot) for slot in slots]
-        ids = np.concatenate(found)
-        if self._add_ids is not None:
-            check_instances(ids)
-            self._add_ids(ids)
-        return ids
+                ids = np.concatenate([self._ids_in(truth, slot) for slot in slots])
+                self._store_ids(interval.events, ids)
+                found.append(ids)
+        return np.concatenate(found)
+
+    def _store_ids(self, events: EventStream, ids: NDArray[np.int32]) -> None:
+        if self._add_ids is None:
+            return
+        check_instances(ids)
+        self._add_ids(ids)
+        if self._on_events is not None:
+            self._on_events(events.with_ids(ids.astype(np.uint16), self._source.class_of(ids)))
 
     def _ids_in(self, truth: Snapshot, interval: Interval) -> NDArray[np.int32]:
         scene = self._source.video

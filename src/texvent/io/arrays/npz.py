@@ -1,7 +1,7 @@
 """NumPy archives: x, y, t, p and width, height, timestamp_scale_ms; read by eventcv and evutils.
 
-Two more arrays hold what those do not look for: `texvent`, all metadata as JSON, and `label`
-(1 = noise) where the run was told to store it.
+More arrays hold what those do not look for: `texvent`, all metadata as JSON, and `label`
+(1 = noise), `instance` and `class_id` where the run was told to store them.
 
 The format holds each column as one array, so writer and reader need the whole recording in
 memory (13 bytes per event). Use HDF5 for long recordings.
@@ -31,6 +31,7 @@ from texvent.io.input_checks import (
     begins_with,
     check_time_unit,
     check_zip,
+    optional_columns,
     reporting_damage,
 )
 from texvent.io.limits import FormatLimits
@@ -56,7 +57,7 @@ class NpzCodec(BlockCodec):
     has_checksums: ClassVar[bool] = True
     extensions: ClassVar[tuple[str, ...]] = (".npz",)
     limits: ClassVar[FormatLimits] = FormatLimits(
-        "NumPy archive", 1 << 16, 1 << 63, start_us=-(1 << 63), label="kept"
+        "NumPy archive", 1 << 16, 1 << 63, start_us=-(1 << 63), label="kept", keeps_ids=True
     )
 
     def inspect(self, path: Path) -> FileContents:
@@ -138,7 +139,7 @@ def stored_contents(
 
 
 def _find_events(path: Path, arrays: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
-    """Columns x, y, t, p, and label if known: arrays of their own, or fields of the only records.
+    """Columns x, y, t, p, and others if known: arrays of their own, or fields of the only records.
 
     Raises:
         FileFormatError: a column is missing.
@@ -150,7 +151,7 @@ def _find_events(path: Path, arrays: Mapping[str, Any]) -> dict[str, NDArray[Any
         return {name: table[field] for name, field in found.items()}
     found = find_columns(path, arrays, kind="array")
     columns = {name: arrays[array] for name, array in found.items()}
-    return columns | ({"label": arrays["label"]} if "label" in arrays else {})
+    return columns | {name: arrays[name] for name in optional_columns(arrays)}
 
 
 def _one_block(columns: Columns) -> Iterator[Columns]:

@@ -5,7 +5,7 @@
 
 A file spans at most 2^32 µs (71.6 min). gzip is read by plain h5py; blosc, as DSEC's files
 have it, is written and read several times faster with hdf5plugin. Size, metadata and the
-noise label are stored as in universal HDF5, where DSEC's readers do not look.
+further columns are stored as in universal HDF5, where DSEC's readers do not look.
 
 Source: Gehrig et al., DSEC: A Stereo Event Camera Dataset for Driving Scenarios, RA-L 2021.
 """
@@ -47,7 +47,7 @@ class DsecCodec(Hdf5Codec):
     has_checksums: ClassVar[bool] = True
     extensions: ClassVar[tuple[str, ...]] = ()
     limits: ClassVar[OffsetLimits] = OffsetLimits(
-        "DSEC HDF5", 1 << 16, 1 << 63, 2**32 - 1, label="kept", max_absolute_us=0
+        "DSEC HDF5", 1 << 16, 1 << 63, 2**32 - 1, label="kept", keeps_ids=True, max_absolute_us=0
     )
     sink: ClassVar[type[Hdf5Sink]] = DsecSink
 

@@ -2,6 +2,7 @@
 
     events/x  u2   events/y  u2   events/t  i8, µs   events/p  u1, 1 = ON
     events/label u1, 1 = noise, where the run was told to store it
+    events/instance u2, events/class_id u2: the object of each event, with --truth events
     ms_to_idx u8   ms_to_idx[m] = index of the first event with t >= 1000 m (n if there is none)
     t_offset  i8   added to events/t; 0
     root attributes: width, height, timestamp_scale_ms = 0.001, t_offset again (checksummed),
@@ -31,12 +32,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, shown
+from texvent.events import COLUMN_TYPES, OPTIONAL_COLUMNS
 from texvent.io.block_codec import FileContents, TimeSeek
 from texvent.io.block_writer import FileTarget
 from texvent.io.hdf5.chunks import append_chunks
 from texvent.io.hdf5.damage import check_claims, check_filters, open_hdf5
 from texvent.io.hdf5.writer import Hdf5BlockCodec, Hdf5Sink
-from texvent.io.input_checks import TIMESTAMP_SCALE_MS, check_time_unit
+from texvent.io.input_checks import TIMESTAMP_SCALE_MS, check_time_unit, optional_columns
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.protocol import Columns
@@ -104,8 +106,10 @@ class NativeSink(Hdf5Sink):
         """As `Hdf5Sink.store`."""
         if self.written == 0:
             self._offset_us = self._limits.origin_us(int(columns["t"][0]))
-            if "label" in columns:
-                self._create_column("events/label", "|u1", CHUNK_EVENTS)
+            for name in OPTIONAL_COLUMNS:
+                if name in columns:
+                    dtype = np.dtype(COLUMN_TYPES[name]).newbyteorder("<").str
+                    self._create_column(f"events/{name}", dtype, CHUNK_EVENTS)
         times = columns["t"] - self._offset_us
         self._index(times)
         for name, values in columns.items():
@@ -138,7 +142,7 @@ class Hdf5Codec(Hdf5BlockCodec):
     name: ClassVar[str] = "hdf5"
     has_checksums: ClassVar[bool] = True
     limits: ClassVar[OffsetLimits] = OffsetLimits(
-        "HDF5", 1 << 16, 1 << 63, MAX_SPAN_US, label="kept"
+        "HDF5", 1 << 16, 1 << 63, MAX_SPAN_US, label="kept", keeps_ids=True
     )
     sink: ClassVar[type[Hdf5Sink]] = NativeSink
 
@@ -185,14 +189,14 @@ def _time_range(path: Path) -> tuple[int, int] | None:
 
 
 def _checked_columns(file: Any, path: Path) -> dict[str, Any]:
-    """The four or five datasets, if the file has this layout."""
+    """The datasets of events, if the file has this layout."""
     missing = [name for name in COLUMN_FORMATS if f"events/{name}" not in file]
     if missing:
         raise FileFormatError(
             f"{path} is HDF5 but has no events/{missing[0]}; texvent reads the DSEC and universal "
             "layout: events/x, events/y, events/t, events/p"
         )
-    names = [*COLUMN_FORMATS, "label"] if "events/label" in file else [*COLUMN_FORMATS]
+    names = [*COLUMN_FORMATS, *optional_columns(file["events"])]
     columns = {name: file[f"events/{name}"] for name in names}
     shapes = {name: column.shape for name, column in columns.items()}
     if any(len(shape) != 1 for shape in shapes.values()) or len(set(shapes.values())) != 1:
