@@ -71,6 +71,13 @@ def test_ids_go_with_their_events_and_what_cannot_hold_them_says_so(folder, caps
     assert texvent.load("b.raw").instance is None
 
 
+def test_a_dry_run_counts_the_truth_in(folder, capsys):
+    words = ("-o", "b.h5", "--truth", "all", "--dry-run")
+    assert run("generate", "a red ball bounces", *words, *QUICK) == 0
+    assert ".truth" in capsys.readouterr().out
+    assert not list(folder.iterdir())
+
+
 def test_nothing_is_replaced_without_overwrite(folder, capsys):
     words = ("generate", "a red ball bounces", "-o", "b.h5", "--truth", "boxes", *QUICK)
     assert run(*words) == 0

@@ -178,8 +178,31 @@ def test_truth_that_comes_with_frames_passes_through_unchanged(tmp_path):
             np.testing.assert_array_equal(truth.flow(index), frame.motion.forward)
     assert len(events)
     assert truth.event_instance.tolist() == [5] * len(events)
+    assert truth.classes == {1000: "object"}
+    coco = json.loads((tmp_path / "m.truth/boxes/coco.json").read_text())
+    assert coco["categories"] == [{"id": 1000, "name": "object", "supercategory": "object"}]
+    assert {one["category_id"] for one in coco["annotations"]} == {1000}
     with pytest.raises(InputError, match="does not say what is occluded"):
         truth.occluded(0)
+
+
+def test_arrays_of_a_renderer_pass_through_too(tmp_path):
+    frames = list(MotionFrames())
+    texvent.simulate(
+        np.stack([frame.pixels for frame in frames]),
+        fps=25,
+        flow=np.stack([np.nan_to_num(frame.motion.forward) for frame in frames]),
+        depth=np.stack([frame.motion.depth for frame in frames]),
+        instances=np.stack([frame.motion.instance for frame in frames]),
+        truth_folder=texvent.TruthFolder(tmp_path / "a.truth", "flow,depth,ids,boxes,events"),
+        noise="none",
+    )
+    truth = texvent.load_truth(tmp_path / "a.truth")
+    for index, frame in enumerate(frames):
+        np.testing.assert_array_equal(truth.instance(index), frame.motion.instance)
+        np.testing.assert_array_equal(truth.depth(index), frame.motion.depth)
+    np.testing.assert_array_equal(truth.flow(2), np.nan_to_num(frames[2].motion.forward))
+    assert (truth.event_instance == 5).mean() > 0.98
 
 
 def test_frames_in_between_move_the_ids_along(tmp_path):

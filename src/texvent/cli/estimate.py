@@ -158,8 +158,8 @@ class _Scratch:
     def __init__(self, simulation: Simulation, files: RunFiles, folder: Path) -> None:
         self._simulation = simulation
         events = [folder / f"{number}{path.suffix}" for number, path in enumerate(files.events)]
-        self._files = replace(files, events=events, truth=(), overwrite=True, keep_partial=False)
-        self.no_sizes = {path.suffix: 0 for path in self._files.paths}
+        self._files = replace(files, events=events, overwrite=True, keep_partial=False)
+        self.no_sizes = {path.suffix: 0 for path in self._files.outputs}
 
     def run(self, frames: Iterator[Frame]) -> Trial:
         """Run an excerpt; one without a frame takes nothing."""
@@ -177,7 +177,7 @@ class _Scratch:
         write_run(replace(self._simulation, video=video), self._files, on_step=count)
         seconds = time.perf_counter() - started
         sizes = dict(self.no_sizes)
-        for path in self._files.paths:
+        for path in self._files.outputs:
             sizes[path.suffix] += _size(path)
         return Trial(pairs, events, seconds, sizes)
 
@@ -185,8 +185,8 @@ class _Scratch:
 def _size(path: Path) -> int:
     """Bytes of a file with what lies beside it, or of a folder."""
     beside = path.with_name(f"{path.name}.json")
-    found = [*path.iterdir()] if path.is_dir() else [one for one in (path, beside) if one.is_file()]
-    return sum(one.stat().st_size for one in found)
+    found = path.rglob("*") if path.is_dir() else (path, beside)
+    return sum(one.stat().st_size for one in found if one.is_file())
 
 
 @dataclass(frozen=True, eq=False)
@@ -228,7 +228,30 @@ class _RenderableExcerpt(_Excerpt):
         return frame
 
 
+@dataclass(frozen=True, eq=False)
+class _SceneExcerpt(_RenderableExcerpt):
+    """The same of a scene that knows its truth."""
+
+    @property
+    def class_names(self) -> Mapping[int, str]:
+        return getattr(self.whole, "class_names", {})
+
+    def ground_truth(self, t0_us: int, t1_us: int) -> Any:
+        whole: Any = self.whole
+        return whole.ground_truth(t0_us, t1_us)
+
+    def camera_at(self, t_us: int) -> Any:
+        whole: Any = self.whole
+        return whole.camera_at(t_us)
+
+    def instances_at(self, t_us: int, points: Any) -> Any:
+        whole: Any = self.whole
+        return whole.instances_at(t_us, points)
+
+
 def _excerpt(whole: FrameStream, frames: Iterator[Frame]) -> FrameStream:
+    if all(hasattr(whole, name) for name in ("ground_truth", "camera_at", "instances_at")):
+        return _SceneExcerpt(whole, frames)
     kind = _RenderableExcerpt if isinstance(whole, RenderableStream) else _Excerpt
     return kind(whole, frames)
 

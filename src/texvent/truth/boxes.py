@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from itertools import count
@@ -89,7 +89,7 @@ def open_boxes(
     Args:
         folder: an empty folder.
         size: of the images, pixels.
-        classes: class id → name, of all objects.
+        classes: class id → name, of all objects; read at the end.
         info: facts of the run; COCO's "info".
     """
     parts = [folder / "images.part", folder / "annotations.part"]
@@ -114,18 +114,22 @@ def open_boxes(
 
 
 def labelled(
-    boxes: Iterable[Box], instance: NDArray[np.int32], class_ids: Mapping[str, int]
+    boxes: Sequence[Box],
+    instance: NDArray[np.int32],
+    class_of: Callable[[NDArray[np.int32]], NDArray[np.uint16]],
 ) -> list[LabelledBox]:
     """The boxes with class and visible area.
 
     Args:
         boxes: of an instant.
         instance: [H, W] ids at the same instant.
-        class_ids: class name → id.
+        class_of: instance ids → class ids.
     """
     area = np.bincount(instance.ravel())
+    classes = class_of(np.array([box.instance for box in boxes], dtype=np.int32))
     return [
-        LabelledBox(box, class_ids.get(box.class_name, 0), int(area[box.instance])) for box in boxes
+        LabelledBox(box, int(number), int(area[box.instance]))
+        for box, number in zip(boxes, classes, strict=True)
     ]
 
 

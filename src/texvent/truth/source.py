@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from texvent.capture.prepare import PreparedFrames
 from texvent.errors import ConfigError, InputError
-from texvent.scenes.models.class_ids import BACKGROUND, class_ids_of
+from texvent.scenes.models.class_ids import BACKGROUND, UNNAMED, class_ids_of
 from texvent.scenes.raycast.ground_truth import Box
 from texvent.scenes.scene import Camera
 from texvent.sensor import SensorSize
@@ -27,6 +27,7 @@ from texvent.view.drawing.annotations import GroundTruthStream
 
 ON_FRAMES = {"flow", "depth", "ids", "boxes", "overlay"}
 """Parts that take an image of the truth."""
+UNNAMED_OBJECT = "object"
 MOST_INSTANCES = 2**16
 """Ids are stored in 16 bits."""
 WHO_KNOWS = (
@@ -89,12 +90,17 @@ class TruthSource:
     """Class name → id, of all objects that have a name."""
     class_names: Mapping[int, str] = field(init=False)
     """Instance id → class name."""
+    classes: dict[int, str] = field(init=False)
+    """Class id → name; objects without a name join when one is seen."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "video", without_preparation(self.video))
         names = dict(getattr(self.video, "class_names", {}))
         object.__setattr__(self, "class_names", names)
-        object.__setattr__(self, "class_ids", class_ids_of(names.values()))
+        ids = class_ids_of(names.values())
+        object.__setattr__(self, "class_ids", ids)
+        named = sorted((number, name) for name, number in ids.items())
+        object.__setattr__(self, "classes", dict(named))
         if "poses" in self.parts and not isinstance(self.video, CameraStream):
             raise ConfigError(
                 f"truth 'poses' needs a known camera, which {type(self.video).__name__} does not "
@@ -112,10 +118,14 @@ class TruthSource:
 
     def class_of(self, instance: NDArray[Any]) -> NDArray[np.uint16]:
         """Class ids of instance ids, of any shape."""
-        table = np.full(int(max(instance.max(initial=0), *self.class_names, 0)) + 1, BACKGROUND)
+        table = np.full(max(int(instance.max(initial=0)), *self.class_names, 0) + 1, UNNAMED)
+        table[0] = BACKGROUND
         for one, name in self.class_names.items():
             table[one] = self.class_ids[name]
-        return np.asarray(table[instance], dtype=np.uint16)
+        found = np.asarray(table[instance], dtype=np.uint16)
+        if (found == UNNAMED).any():
+            self.classes[UNNAMED] = UNNAMED_OBJECT
+        return found
 
     def at(self, frame: Frame, next_us: int | None) -> Snapshot:
         """What is true at a source frame.

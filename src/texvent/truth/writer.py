@@ -133,7 +133,7 @@ class TruthWriter(AtomicOutput):
             context = open_boxes(
                 self._part / "boxes",
                 size=self._source.size,
-                classes=self._classes,
+                classes=self._source.classes,
                 info={"description": str(self._metadata.get("prompt") or "")},
             )
             self._boxes = self._files.enter_context(context)
@@ -158,7 +158,7 @@ class TruthWriter(AtomicOutput):
             "width": self._source.size.width,
             "height": self._source.size.height,
             "time_unit": "us, on the clock of the events",
-            "classes": {str(number): name for number, name in self._classes.items()},
+            "classes": {str(number): name for number, name in self._source.classes.items()},
             "instances": {
                 str(one): {"class_id": self._source.class_ids[name], "class": name}
                 for one, name in self._source.class_names.items()
@@ -167,11 +167,6 @@ class TruthWriter(AtomicOutput):
         }
         text = json.dumps(facts, indent=1) + "\n"
         (self._part / FACTS).write_text(text, encoding="ascii")
-
-    @property
-    def _classes(self) -> Mapping[int, str]:
-        named = sorted((number, name) for name, number in self._source.class_ids.items())
-        return dict(named)
 
     def _text(self, name: str, header: str = "") -> Any:
         file = self._files.enter_context((self._part / name).open("w", encoding="ascii"))
@@ -192,7 +187,7 @@ class TruthWriter(AtomicOutput):
         if truth.camera is not None and "poses" in self._parts:
             self._write_camera(truth, index)
         if self._boxes is not None and truth.instance is not None:
-            boxes = labelled(truth.boxes, truth.instance, self._source.class_ids)
+            boxes = labelled(truth.boxes, truth.instance, self._source.class_of)
             self._boxes.add(index, truth.t_us, boxes)
         ids = self._ids_of(truth, intervals)
         if self._overlay is not None:

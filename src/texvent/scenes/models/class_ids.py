@@ -10,6 +10,8 @@ from types import MappingProxyType
 
 BACKGROUND = 0
 """Class of what is no object: ground, sky, walls, scenery without an id."""
+UNNAMED = 1000
+"""Class of an object whose name is not known."""
 FIRST_OTHER = 1001
 """Numbers of names that are no nouns of the embedded generator begin here."""
 _NOUNS: tuple[str, ...] = (
