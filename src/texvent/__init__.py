@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 from texvent._version import __version__
 
 if TYPE_CHECKING:
-    from texvent import dataset, pixel_models
+    from texvent import dataset, pixel_models, rig
     from texvent.api import compare, generate, load, open, simulate, video
     from texvent.errors import (
         ConfigError,
@@ -110,6 +110,7 @@ __all__ = [
     "pixel_models",
     "presets",
     "representations",
+    "rig",
     "save_truth",
     "sensors",
     "simulate",
@@ -135,7 +136,7 @@ sys.modules[__name__].__class__ = _Package
 
 def __getattr__(name: str) -> Any:
     """Load a public name on first use (PEP 562)."""
-    if name in ("dataset", "pixel_models"):
+    if name in ("dataset", "pixel_models", "rig"):
         return importlib.import_module(f"texvent.{name}")
     if name not in _HOME_OF:
         raise AttributeError(f"module 'texvent' has no attribute {name!r}")

@@ -36,6 +36,7 @@ PUBLIC = {
     "pixel_models",
     "presets",
     "representations",
+    "rig",
     "save_truth",
     "sensors",
     "simulate",

@@ -38,6 +38,10 @@ COMMANDS = {
         "texvent.cli.simulation.simulate",
         "Events from a video, an image folder or a camera.",
     ),
+    "rig": (
+        "texvent.cli.simulation.rig",
+        "Several cameras with lenses, frames and an IMU, from a prompt.",
+    ),
     "render": ("texvent.cli.event_files.render", "A video, image or page of an event file."),
     "view": (
         "texvent.cli.event_files.view",

@@ -30,8 +30,8 @@ def resolve_command(
     *,
     description: str,
     prog: str | None = None,
-    output: OutputOptions | None = None,
-) -> tuple[Settings, Any, OutputOptions]:
+    output: Any = None,
+) -> tuple[Settings, Any, Any]:
     """Settings, the command's own options and the output options from a command line.
 
     The deciding options are read first, so that `--help` lists the flags of the simulator and
@@ -43,7 +43,7 @@ def resolve_command(
         subject: the command's own config, such as its prompt.
         description: first lines of its help.
         prog: how it is called, where that is not "texvent" and the command.
-        output: the output options, where their help differs.
+        output: the output options, where they are not `OutputOptions`.
 
     Raises:
         ConfigError: an unknown flag or name, or a value that does not fit.

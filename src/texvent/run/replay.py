@@ -36,6 +36,8 @@ def render_again(metadata: Mapping[str, Any]) -> FrameStream | None:
         return None
     if metadata.get("texvent_version") != full_version() or metadata.get("edits"):
         return None
+    if "rig" in metadata:  # seen from another place, through another lens
+        return None
     if name not in GENERATORS.builtin:
         return None
     generator_class = GENERATORS.load(name)
@@ -71,6 +73,11 @@ def prepare_replay(
     tables, facts, folder = metadata.get("settings"), metadata.get("source"), path.parent
     if not (isinstance(tables, Mapping) and isinstance(facts, Mapping)):
         raise InputError("the file does not say how it was made, so it cannot be made again")
+    if "rig" in metadata:
+        raise InputError(
+            "the file is of one camera of a rig, which is recorded as a whole; texvent rig does it "
+            'again, with the options under "rig" and "settings" of texvent info FILE'
+        )
     if metadata.get("edits"):
         raise InputError(
             "the file was edited after its run (see texvent info), so its run makes another one: "

@@ -109,7 +109,7 @@ class Rosbag1Codec(BagCodec):
     @contextmanager
     def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
         """Open a bag for writing: rosbags makes the file, so it begins in a folder of its own."""
-        types = _types(1)
+        types = message_types(1)
         text = sidecar_text(target.size, target.metadata).encode("utf-8")
         message = struct.pack("<I", len(text)) + text
 
@@ -146,7 +146,7 @@ class McapCodec(BagCodec):
     def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
         """Open a bag for writing: rosbags writes a folder, of which the .mcap is kept."""
         rosbag2 = require(ROSBAG2, extra=EXTRA)
-        types = _types(2)
+        types = message_types(2)
         text = sidecar_text(target.size, target.metadata).encode("utf-8")
         message = b"\0\1\0\0" + struct.pack("<I", len(text) + 1) + text + b"\0"
         encoder = Evt3Codec().make_encoder()
@@ -195,7 +195,7 @@ def _write_messages(
         start(0)
 
 
-def _types(version: int) -> Any:
+def message_types(version: int) -> Any:
     """The message types of ROS 1 or 2, with those that hold events."""
     typesys = require("rosbags.typesys", extra=EXTRA)
     if version == 2:

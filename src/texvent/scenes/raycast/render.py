@@ -70,7 +70,6 @@ def render_light(
     *,
     samples: int = 2,
     shadows: bool = True,
-    rows: tuple[int, int] | None = None,
 ) -> Float64Array:
     """The light that `render` gamma-codes.
 
@@ -80,10 +79,9 @@ def render_light(
         size: image size, pixels.
         samples: as for `render`.
         shadows: as for `render`.
-        rows: first row and one past the last row that are wanted; None: all.
 
     Returns:
-        [rows, W, 3] linear RGB, 0..1, float64: 1 is the brightest that a frame can show.
+        [H, W, 3] linear RGB, 0..1, float64: 1 is the brightest that a frame can show.
 
     Raises:
         InputError: samples is below 1.
@@ -91,7 +89,21 @@ def render_light(
     if samples < 1:
         raise InputError(f"samples is {samples}; it must be at least 1")
     world = world_at(scene, time_s, size, shadows=shadows, samples=samples)
-    first, last = rows or (0, size.height)
+    return light_of_rows(world, (0, size.height), size, samples=samples)
+
+
+def light_of_rows(
+    world: World, rows: tuple[int, int], size: SensorSize, *, samples: int = 2
+) -> Float64Array:
+    """Some rows of what `render_light` gives.
+
+    Args:
+        world: of `world_at`, with the same size and samples.
+        rows: first row and one past the last row.
+        size: image size, pixels.
+        samples: as for `render`.
+    """
+    first, last = rows
     image = np.empty((last, size.width, 3), dtype=np.float64)
     pattern = sample_pattern((4 * samples) ** 2)
 

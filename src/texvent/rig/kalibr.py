@@ -1,0 +1,359 @@
+"""Rig files: cameras as Kalibr's camchain.yaml has them, read and written.
+
+    cam0:
+      resolution: [346, 260]
+      camera_model: pinhole
+      intrinsics: [fu, fv, pu, pv]            or  field_of_view: 65   (degrees across)
+      distortion_model: radtan                or equidistant, none
+      distortion_coeffs: [k1, k2, p1, p2]
+      T_cam_imu: 4x4                          coordinates in the IMU → in the camera
+    cam1:
+      T_cn_cnm1: 4x4                          coordinates in the camera before → in this one
+                                              or  baseline: 0.12  and  rotation: [0, 5, 0]
+      ...
+    imu0:                                     as in imu.yaml; may be left out
+      gyroscope_noise_density: 1.7e-4         ...
+
+A calibration that Kalibr wrote is such a file; short forms are for files written by hand:
+`baseline` is the camera's place in the camera before, m (one number: to its right), `rotation` how
+it is turned about that camera's x, then y, then z axis, degrees. TOML holds the same names.
+
+Kalibr's pixels count from the middle of the first one: its principal point is half a pixel less
+than `Lens`'s.
+
+Source: Kalibr's documentation, "YAML formats".
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import yaml
+
+from texvent._registry import suggest
+from texvent.errors import ConfigError, shown, warn
+from texvent.rig.description import NOISE_NAMES, Float64Array, ImuNoise, Rig, RigCamera
+from texvent.run.settings import read_document
+from texvent.scenes.lens import Distortion, Lens, lens_reach
+from texvent.sensor import SensorSize, checked_size
+
+HALF_PIXEL = 0.5
+MOST_CAMERAS = 16
+_DISTORTIONS: dict[str, Distortion] = {
+    "radtan": "radtan",
+    "plumb_bob": "radtan",
+    "equidistant": "equidistant",
+    "equi": "equidistant",
+    "none": "none",
+}
+_IGNORED = ("rostopic", "cam_overlaps", "timeshift_cam_imu", "time_offset", "model")
+_CAMERA_KEYS = (
+    "camera_model", "intrinsics", "field_of_view", "distortion_model", "distortion_coeffs",
+    "resolution", "T_cn_cnm1", "T_cam_imu", "baseline", "rotation",
+)  # fmt: skip
+_IMU = re.compile(r"imu\d*")
+_NOT_RIGID = 1e-3
+"""Most that a rotation's entries may be off, as rounding in a file is."""
+
+
+def read_rig(path: Path, size: SensorSize) -> tuple[Rig, ImuNoise | None]:
+    """The rig of a file.
+
+    Args:
+        path: YAML or TOML, as Kalibr writes it or by hand.
+        size: of cameras whose resolution the file does not state, pixels.
+
+    Returns:
+        The rig, and the noise of its IMU where the file states it.
+
+    Raises:
+        InputError: the file cannot be read.
+        ConfigError: it is not such a file, or a value does not fit; names camera and key.
+    """
+    document = read_document(path)
+    names = [str(name) for name in document if not _IMU.fullmatch(str(name))]
+    if not names or len(names) > MOST_CAMERAS:
+        raise ConfigError(
+            f"{path} describes {len(names)} cameras; give 1 to {MOST_CAMERAS}, as cam0: ..., "
+            "cam1: ..."
+        )
+    cameras: list[RigCamera] = []
+    from_imu: Float64Array | None = None
+    for name in names:
+        where = f"{path}, {shown(name)}"
+        entry = _entry(document[name], name, where)
+        from_first = _from_first(entry, cameras, from_imu, where)
+        own = _map(entry["T_cam_imu"], f"{where}: T_cam_imu") if "T_cam_imu" in entry else None
+        if not cameras:
+            from_imu = own
+        resolution = _resolution(entry, size, where)
+        cameras.append(RigCamera(name, resolution, _lens(entry, resolution, where), from_first))
+    rig = Rig(tuple(cameras), np.eye(4) if from_imu is None else from_imu)
+    entries = [document[name] for name in document if _IMU.fullmatch(str(name))]
+    return rig, read_noise(entries[0], str(path)) if entries else None
+
+
+def read_noise(entry: Any, where: str) -> ImuNoise:
+    """Densities of a Kalibr imu.yaml.
+
+    Raises:
+        ConfigError: one is missing, or not a number of at least 0.
+    """
+    if not isinstance(entry, Mapping):
+        raise ConfigError(f"{where}: the IMU is {shown(entry)}; it must hold densities by name")
+    values = []
+    for name in NOISE_NAMES:
+        if name not in entry:
+            raise ConfigError(
+                f"{where}: the IMU has no {name}; give all of {', '.join(NOISE_NAMES)}"
+            )
+        value = _numbers([entry[name]], 1, f"{where}: {name}")[0]
+        if value < 0.0:
+            raise ConfigError(f"{where}: {name} is {value:g}; it must be at least 0")
+        values.append(value)
+    return ImuNoise(*values)
+
+
+def stereo_rig(size: SensorSize, baseline_m: float) -> Rig:
+    """Two like cameras that look the same way, the second `baseline_m` to the right."""
+    first_in_second = np.eye(4)
+    first_in_second[0, 3] = -baseline_m
+    return Rig((RigCamera("cam0", size, None), RigCamera("cam1", size, None, first_in_second)))
+
+
+def camera_entries(
+    rig: Rig, topics: Mapping[str, str], *, has_imu: bool
+) -> dict[str, dict[str, Any]]:
+    """The rig's cameras by the names of Kalibr's camchain.yaml; arguments as `camchain`."""
+    document: dict[str, dict[str, Any]] = {}
+    before = np.eye(4)
+    for number, camera in enumerate(rig.cameras):
+        entry: dict[str, Any] = {}
+        if has_imu:
+            entry["T_cam_imu"] = (camera.from_first @ rig.first_from_imu).tolist()
+        if number:
+            entry["T_cn_cnm1"] = (camera.from_first @ np.linalg.inv(before)).tolist()
+        entry["cam_overlaps"] = [one for one in range(len(rig.cameras)) if one != number]
+        entry["camera_model"] = "pinhole"
+        entry |= _intrinsics(camera)
+        entry["resolution"] = list(camera.size)
+        if camera.name in topics:
+            entry["rostopic"] = topics[camera.name]
+        if has_imu:
+            entry["timeshift_cam_imu"] = 0.0
+        document[f"cam{number}"] = entry
+        before = camera.from_first
+    return document
+
+
+def camchain(rig: Rig, topics: Mapping[str, str], *, has_imu: bool) -> str:
+    """The rig as Kalibr's camchain.yaml, or camchain-imucam.yaml with an IMU.
+
+    Args:
+        rig: cameras with lenses.
+        topics: camera → topic of its frames.
+        has_imu: whether the IMU's place is told.
+    """
+    document = camera_entries(rig, topics, has_imu=has_imu)
+    return yaml.safe_dump(document, default_flow_style=None, sort_keys=False, width=200)
+
+
+def _intrinsics(camera: RigCamera) -> dict[str, Any]:
+    lens = camera.lens
+    if lens is None:
+        return {}
+    return {
+        "distortion_coeffs": list(lens.coefficients),
+        # Kalibr's readers expect four coefficients; radtan with zeros is no distortion.
+        "distortion_model": "radtan" if lens.distortion == "none" else lens.distortion,
+        "intrinsics": [lens.fx, lens.fy, lens.cx - HALF_PIXEL, lens.cy - HALF_PIXEL],
+    }
+
+
+def imu_yaml(noise: ImuNoise, rate_hz: float, topic: str) -> str:
+    """The noise as Kalibr's imu.yaml."""
+    entry = {name: getattr(noise, name) for name in NOISE_NAMES}
+    return yaml.safe_dump({**entry, "rostopic": topic, "update_rate": rate_hz}, sort_keys=False)
+
+
+def _entry(value: Any, name: str, where: str) -> Mapping[str, Any]:
+    """One camera's table, its names known."""
+    if not re.fullmatch(r"[A-Za-z0-9_-]{1,32}", name):
+        raise ConfigError(f"{where}: a camera's name must be 1..32 letters, digits, _ or -")
+    if not isinstance(value, Mapping):
+        raise ConfigError(
+            f"{where} is {shown(value)}; it must hold values by name (see docs/rigs.md)"
+        )
+    for key in value:
+        if key not in (*_CAMERA_KEYS, *_IGNORED):
+            raise ConfigError(
+                f"{where}: unknown name {shown(key)}; {suggest(str(key), _CAMERA_KEYS)}"
+            )
+    shift = value.get("timeshift_cam_imu", 0.0)
+    if shift:
+        warn(
+            f"{where}: timeshift_cam_imu is {shown(shift)} s; a simulated rig has one clock, so it "
+            "is 0 here"
+        )
+    if value.get("camera_model", "pinhole") != "pinhole":
+        raise ConfigError(
+            f"{where}: camera_model is {shown(value['camera_model'])}; only pinhole is known, with "
+            "distortion radtan or equidistant"
+        )
+    return value
+
+
+def _resolution(entry: Mapping[str, Any], size: SensorSize, where: str) -> SensorSize:
+    if "resolution" not in entry:
+        return size
+    width, height = _numbers(entry["resolution"], 2, f"{where}: resolution")
+    if width != int(width) or height != int(height):
+        raise ConfigError(f"{where}: resolution is {width:g} x {height:g}; give whole numbers")
+    return checked_size(int(width), int(height))
+
+
+def _lens(entry: Mapping[str, Any], size: SensorSize, where: str) -> Lens | None:
+    model = entry.get("distortion_model", "none")
+    if model not in _DISTORTIONS:
+        raise ConfigError(
+            f"{where}: distortion_model is {shown(model)}; it must be radtan, equidistant or none"
+        )
+    given = entry.get("distortion_coeffs") or [0.0] * 4
+    coefficients = _numbers(
+        given, len(given) if isinstance(given, Sequence) else 4, f"{where}: distortion_coeffs"
+    )
+    if len(coefficients) == 5 and coefficients[4] == 0.0:
+        coefficients = coefficients[:4]
+    if len(coefficients) != 4:
+        raise ConfigError(
+            f"{where}: distortion_coeffs has {len(coefficients)} numbers; {model} takes 4"
+        )
+    distortion = _DISTORTIONS[model]
+    if distortion == "none" and any(coefficients):
+        raise ConfigError(
+            f"{where}: distortion_coeffs without distortion_model; say radtan or equidistant"
+        )
+    if "intrinsics" in entry:
+        fx, fy, cx, cy = _numbers(entry["intrinsics"], 4, f"{where}: intrinsics")
+        cx, cy = cx + HALF_PIXEL, cy + HALF_PIXEL
+    elif "field_of_view" in entry:
+        fx = fy = _focal(entry["field_of_view"], size, distortion, where)
+        cx, cy = 0.5 * size.width, 0.5 * size.height
+    elif any(coefficients) or distortion == "equidistant":
+        raise ConfigError(
+            f"{where}: distortion needs intrinsics, [fu, fv, pu, pv] in pixels, or field_of_view"
+        )
+    else:
+        return None
+    lens = Lens(
+        fx,
+        fy,
+        cx,
+        cy,
+        distortion,
+        (coefficients[0], coefficients[1], coefficients[2], coefficients[3]),
+    )
+    try:
+        lens_reach(lens, size)
+    except ConfigError as error:
+        raise ConfigError(f"{where}: {error}") from error
+    return lens
+
+
+def _focal(value: Any, size: SensorSize, distortion: Distortion, where: str) -> float:
+    """Focal length in pixels of a field of view across the image, before coefficients count."""
+    degrees = _numbers([value], 1, f"{where}: field_of_view")[0]
+    if not 1.0 <= degrees <= 170.0:
+        raise ConfigError(
+            f"{where}: field_of_view is {degrees:g}°; it must be 1..170, across the image"
+        )
+    half = math.radians(0.5 * degrees)
+    return 0.5 * size.width / (half if distortion == "equidistant" else math.tan(half))
+
+
+def _from_first(
+    entry: Mapping[str, Any],
+    cameras: Sequence[RigCamera],
+    first_from_imu: Float64Array | None,
+    where: str,
+) -> Float64Array:
+    """[4, 4] coordinates in the first camera → in this one."""
+    ways = [name for name in ("T_cn_cnm1", "baseline", "rotation") if name in entry]
+    if not cameras:
+        if ways:
+            raise ConfigError(
+                f"{where}: {ways[0]} tells the place in the camera before; the first has none"
+            )
+        return np.eye(4)
+    before = cameras[-1].from_first
+    if "T_cn_cnm1" in entry:
+        if len(ways) > 1:
+            raise ConfigError(f"{where}: T_cn_cnm1 and {ways[1]} both tell its place; give one")
+        return _map(entry["T_cn_cnm1"], f"{where}: T_cn_cnm1") @ before
+    if ways:
+        return _placed(entry, where) @ before
+    if first_from_imu is not None and "T_cam_imu" in entry:
+        return _map(entry["T_cam_imu"], f"{where}: T_cam_imu") @ np.linalg.inv(first_from_imu)
+    raise ConfigError(
+        f"{where} does not say where it is; give T_cn_cnm1, or baseline: 0.12 (m to the right)"
+    )
+
+
+def _placed(entry: Mapping[str, Any], where: str) -> Float64Array:
+    """[4, 4] coordinates in the camera before → in this one, of `baseline` and `rotation`."""
+    given = entry.get("baseline", 0.0)
+    place = _numbers(
+        [given, 0.0, 0.0] if isinstance(given, int | float) else given, 3, f"{where}: baseline"
+    )
+    angles = np.radians(_numbers(entry.get("rotation", [0.0] * 3), 3, f"{where}: rotation"))
+    (ca, cb, cc), (sa, sb, sc) = np.cos(angles), np.sin(angles)
+    about_x = np.array([[1, 0, 0], [0, ca, -sa], [0, sa, ca]])
+    about_y = np.array([[cb, 0, sb], [0, 1, 0], [-sb, 0, cb]])
+    about_z = np.array([[cc, -sc, 0], [sc, cc, 0], [0, 0, 1]])
+    in_before = np.eye(4)
+    in_before[:3, :3], in_before[:3, 3] = about_z @ about_y @ about_x, place
+    return np.asarray(np.linalg.inv(in_before), dtype=np.float64)
+
+
+def _map(value: Any, where: str) -> Float64Array:
+    """A [4, 4] rigid map; rounding in its rotation is mended."""
+    rows = value if isinstance(value, Sequence) and not isinstance(value, str) else []
+    if len(rows) != 4:
+        raise ConfigError(f"{where} is {shown(value)}; it must be four rows of four numbers")
+    matrix = np.array([_numbers(row, 4, where) for row in rows])
+    left, stretch, right = np.linalg.svd(matrix[:3, :3])
+    turn = left @ right
+    is_rigid = np.abs(stretch - 1.0).max() < _NOT_RIGID and np.linalg.det(turn) > 0.0
+    if not is_rigid or np.abs(matrix[3] - [0.0, 0.0, 0.0, 1.0]).max() > 1e-9:
+        raise ConfigError(
+            f"{where} is no rigid motion: its 3x3 part must be a rotation, its last row 0 0 0 1"
+        )
+    matrix[:3, :3] = turn
+    return matrix
+
+
+def _numbers(value: Any, count: int, where: str) -> list[float]:
+    """A list of finite numbers."""
+    is_list = isinstance(value, Sequence) and not isinstance(value, str)
+    if not is_list or len(value) != count:
+        raise ConfigError(f"{where} is {shown(value)}; it must be {count} numbers")
+    numbers = [_number(one) for one in value]
+    for one, number in zip(value, numbers, strict=True):
+        if not math.isfinite(number):
+            raise ConfigError(f"{where} holds {shown(one)}; it must be {count} finite numbers")
+    return numbers
+
+
+def _number(value: Any) -> float:
+    """The number; NaN where it is none. YAML reads 2e-3 as text."""
+    if isinstance(value, bool) or not isinstance(value, int | float | str):
+        return math.nan
+    try:
+        return float(value)
+    except (ValueError, OverflowError):
+        return math.nan

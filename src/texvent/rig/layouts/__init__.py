@@ -1,0 +1,1 @@
+"""How a rig's recording is laid out in its folder."""

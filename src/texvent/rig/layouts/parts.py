@@ -1,0 +1,161 @@
+"""What several layouts write: events, frames, poses, the IMU, calibrations."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.events import EventStream
+from texvent.io.files import open_writer
+from texvent.options.values import plain
+from texvent.pipeline import Simulation
+from texvent.rig.description import Rig, RigCamera
+from texvent.rig.imu import ImuSamples
+from texvent.rig.kalibr import camchain, camera_entries, imu_yaml
+from texvent.rig.recording import Recording
+from texvent.rig.shutter import ExposedFrame
+from texvent.runtime.background_writer import BackgroundWriter
+from texvent.runtime.progress import Progress
+from texvent.truth.parts import parse_parts
+from texvent.truth.poses import POSE_HEADER, quaternion, seconds_text
+from texvent.truth.writer import TruthWriter
+from texvent.video import Frame
+
+CALIBRATION, IMU_NOISE, FACTS = "calib.yaml", "imu.yaml", "rig.json"
+IMU_TOPIC = "/imu0"
+
+
+@dataclass
+class Tally:
+    """What was written, counted."""
+
+    events: dict[str, int] = field(default_factory=dict)
+    """Camera → events."""
+    frames: dict[str, int] = field(default_factory=dict)
+    """Camera → frames."""
+
+
+def image_topic(camera: RigCamera) -> str:
+    """Topic of a camera's frames, as Kalibr names it."""
+    return f"/{camera.name}/image_raw"
+
+
+def intrinsic_values(camera: RigCamera) -> tuple[str, list[float], list[float]]:
+    """Distortion model, coefficients and fx, fy, cx, cy as calibration files have them."""
+    entry = camera_entries(Rig((camera,)), {}, has_imu=False)["cam0"]
+    return entry["distortion_model"], entry["distortion_coeffs"], entry["intrinsics"]
+
+
+def steps_of(
+    simulation: Simulation, camera: RigCamera, tally: Tally, progress: Progress
+) -> Iterator[tuple[Frame, EventStream]]:
+    """Every dense frame of a camera with the packet that ends at it, counted."""
+    done, count = 0, 0
+    for frame, packet in simulation.steps():
+        done += frame.is_source
+        count += len(packet)
+        progress.advance(f"events of {camera.name}", done, simulation.video.frame_count)
+        yield frame, packet
+    tally.events[camera.name] = count
+
+
+def write_events(
+    recording: Recording,
+    camera: RigCamera,
+    path: Path,
+    *,
+    format: str | None,
+    tally: Tally,
+    progress: Progress,
+) -> None:
+    """Simulate a camera into an event file, which tells how; truth goes into `truth` beside it."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    simulation = recording.simulation(camera, progress)
+    facts = {**simulation.provenance, "rig": recording.facts(camera)}
+    parts = parse_parts(recording.config.truth)
+    with ExitStack() as outputs:
+        writer = open_writer(path, size=camera.size, metadata=facts, format=format, overwrite=False)
+        sink = outputs.enter_context(BackgroundWriter(outputs.enter_context(writer)))
+        truth = None
+        if parts:
+            truth = outputs.enter_context(
+                TruthWriter(path.parent / "truth", simulation.video, parts, metadata=facts)
+            )
+        for frame, packet in steps_of(simulation, camera, tally, progress):
+            sink.append(packet)
+            if truth is not None:
+                truth.append(frame, packet)
+
+
+def counted_frames(
+    recording: Recording, camera: RigCamera, tally: Tally, progress: Progress
+) -> Iterator[ExposedFrame]:
+    """The frames of a camera, counted."""
+    tally.frames[camera.name] = 0
+    for frame in recording.frames(camera, progress):
+        yield frame
+        tally.frames[camera.name] += 1
+
+
+def write_calibration(recording: Recording, folder: Path) -> None:
+    """`calib.yaml` of the cameras, `imu.yaml` of the IMU, as Kalibr writes and reads them."""
+    topics = {camera.name: image_topic(camera) for camera in recording.rig.cameras}
+    rate = recording.config.imu
+    text = camchain(recording.rig, topics, has_imu=rate is not None)
+    (folder / CALIBRATION).write_text(text, encoding="utf-8")
+    if rate is not None:
+        text = imu_yaml(recording.noise, rate, IMU_TOPIC)
+        (folder / IMU_NOISE).write_text(text, encoding="utf-8")
+
+
+def write_facts(recording: Recording, folder: Path, tally: Tally) -> None:
+    """`rig.json`: what made the recording, and which files belong to it."""
+    files = sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file())
+    first = recording.rig.cameras[0]
+    facts = {
+        **recording.provenance(),
+        "rig": recording.facts(),
+        "pixel_seeds": {one.name: recording.seed_of(one.name) for one in recording.rig.cameras},
+        "events": tally.events,
+        "frames": tally.frames,
+        "clock": "all times count from the first frame of the simulation, t = 0",
+        "axes": f"world: x right, y away, z up; cameras: x right, y down, z forward; the IMU's "
+        f"place is T_cam_imu of {first.name} in calib.yaml (identity without one)",
+        "files": [*files, FACTS],
+    }
+    (folder / FACTS).write_text(json.dumps(plain(facts), indent=1) + "\n", encoding="utf-8")
+
+
+def write_tum(path: Path, t_us: NDArray[np.int64], poses: tuple[Any, Any]) -> None:
+    """Poses to the world as rows `timestamp tx ty tz qx qy qz qw`, s and m (TUM's format)."""
+    place, turn = poses
+    rows = np.concatenate([place, quaternions(turn)], axis=1)
+    with path.open("w", encoding="utf-8") as file:
+        file.write(POSE_HEADER)
+        file.writelines(
+            f"{seconds_text(int(time))} {' '.join(f'{one:.9f}' for one in row)}\n"
+            for time, row in zip(t_us, rows, strict=True)
+        )
+
+
+def quaternions(rotations: NDArray[Any]) -> NDArray[Any]:
+    """[n, 4] unit quaternions x y z w of rotations [n, 3, 3]."""
+    return np.array([quaternion(one) for one in rotations]).reshape(-1, 4)
+
+
+def write_euroc_imu(path: Path, imu: ImuSamples) -> None:
+    """The IMU as rows `timestamp [ns], angular velocity, specific force` (EuRoC's data.csv)."""
+    axes = [f"{kind}_RS_S_{axis} [{unit}]" for kind, unit in (("w", "rad s^-1"), ("a", "m s^-2"))
+            for axis in "xyz"]  # fmt: skip
+    with path.open("w", encoding="utf-8") as file:
+        file.write("#timestamp [ns]," + ",".join(axes) + "\n")
+        for time, rate, force in zip(imu.t_us, imu.rate, imu.acceleration, strict=True):
+            values = ",".join(f"{one:.9g}" for one in (*rate, *force))
+            file.write(f"{int(time) * 1000},{values}\n")

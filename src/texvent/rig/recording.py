@@ -1,0 +1,215 @@
+"""One recording of a rig, not made yet: what its cameras and its IMU will see and when."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.batch.identity import derived_seed
+from texvent.errors import ConfigError, shown
+from texvent.generate.procedural import ProceduralVideo
+from texvent.options.values import plain
+from texvent.pipeline import Simulation, text_to_video
+from texvent.rig.config import RigConfig
+from texvent.rig.description import IMU_NOISES, ImuNoise, Rig, RigCamera
+from texvent.rig.imu import (
+    ImuSamples,
+    sample_times_us,
+    true_samples,
+    warn_of_corners,
+    with_noise,
+)
+from texvent.rig.kalibr import camera_entries, read_noise, read_rig, stereo_rig
+from texvent.rig.mount import MountedScene, body_poses, path_lens
+from texvent.rig.shutter import ExposedFrame, Shutter, expose_frames, frame_times_us, make_shutter
+from texvent.run.prepare import check_run, prepare_video
+from texvent.run.provenance import describe_run
+from texvent.run.settings import Settings, read_document
+from texvent.runtime.progress import Progress
+from texvent.scenes.lens import lens_reach
+from texvent.scenes.scene import Scene
+from texvent.sensor import SensorSize
+from texvent.video import MICROSECONDS, frame_time_us
+
+POSE_RATE_HZ = 200.0
+"""Of the true poses where there is no IMU."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Recording:
+    """A rig in a scene; nothing is rendered before it is asked for."""
+
+    prompt: str
+    settings: Settings
+    config: RigConfig
+    rig: Rig
+    """Every camera has a lens."""
+    noise: ImuNoise
+    video: ProceduralVideo
+    """The scene as its own camera sees it."""
+
+    @property
+    def stop_us(self) -> int:
+        """Time of the last event at most, µs; the first is at 0."""
+        return frame_time_us(self.video.frame_count - 1, self.video.fps)
+
+    def scene_of(self, camera: RigCamera) -> Scene:
+        """The scene as a camera sees it."""
+        return MountedScene(self.video.scene, camera)
+
+    def seed_of(self, part: str) -> int:
+        """Seed of a camera's pixels, by its name, or of the IMU's noise ("imu")."""
+        return derived_seed("rig", self.settings.run.seed, part)
+
+    def simulation(self, camera: RigCamera, progress: Progress) -> Simulation:
+        """The events of a camera, not simulated yet."""
+        run = replace(self.settings.run, seed=self.seed_of(camera.name), sensor=str(camera.size))
+        metadata = {**self.video.metadata, "camera": camera.name}
+        video = replace(
+            self.video, scene=self.scene_of(camera), size=camera.size, metadata=metadata
+        )
+        settings = replace(self.settings, run=run)
+        return prepare_video(video, settings, prompt=self.prompt, progress=progress)
+
+    def facts(self, camera: RigCamera | None = None) -> dict[str, Any]:
+        """What files say of the rig, under "rig"."""
+        return {
+            "camera": camera.name if camera is not None else None,
+            "options": plain(self.config),
+            "seed": self.settings.run.seed,
+            "cameras": camera_entries(self.rig, {}, has_imu=self.config.imu is not None),
+            "imu_noise": plain(self.noise) if self.config.imu is not None else None,
+        }
+
+    def provenance(self) -> dict[str, Any]:
+        """What made the recording as a whole."""
+        return describe_run(self.settings, prompt=self.prompt, source=self.video.metadata)
+
+    def shutter_of(self, camera: RigCamera) -> Shutter:
+        """When the rows of a camera's frames see light."""
+        return make_shutter(self.config, camera.size)
+
+    def frame_times(self, camera: RigCamera) -> list[int]:
+        """Times of a camera's frames, µs; none where no frames are wanted."""
+        if self.config.frames is None:
+            return []
+        return frame_times_us(self.config.frames, self.shutter_of(camera), self.stop_us)
+
+    def frames(self, camera: RigCamera, progress: Progress) -> Iterator[ExposedFrame]:
+        """The frames of a camera."""
+        times = self.frame_times(camera)
+        options = self.video.config
+        made = expose_frames(
+            self.scene_of(camera),
+            camera.size,
+            self.shutter_of(camera),
+            times,
+            samples=options.samples,
+            shadows=options.shadows,
+        )
+        for number, frame in enumerate(made, 1):
+            yield frame
+            progress.advance(f"frames of {camera.name}", number, len(times))
+
+    @property
+    def pose_times(self) -> NDArray[np.int64]:
+        """[n] times of the true poses, µs: those of the IMU's samples."""
+        return sample_times_us(self.config.imu or POSE_RATE_HZ, self.stop_us)
+
+    def poses(self, camera: RigCamera | None = None) -> tuple[NDArray[Any], NDArray[Any]]:
+        """[n, 3] true places, m, and [n, 3, 3] rotations to the world, of the IMU or a camera."""
+        in_first = self.rig.first_from_imu
+        if camera is not None:
+            in_first = np.asarray(np.linalg.inv(camera.from_first), dtype=np.float64)
+        return body_poses(self.video.scene, in_first, self.pose_times / MICROSECONDS)
+
+    @cached_property
+    def imu(self) -> ImuSamples | None:
+        """What the IMU measures; None without one.
+
+        Warns:
+            TexventWarning: the camera's path has corners.
+        """
+        rate = self.config.imu
+        if rate is None:
+            return None
+        scene, first_from_imu = self.video.scene, self.rig.first_from_imu
+        warn_of_corners(scene, first_from_imu, self.stop_us / MICROSECONDS)
+        exact = true_samples(scene, first_from_imu, self.pose_times)
+        return with_noise(exact, self.noise, rate, self.seed_of("imu"))
+
+
+def prepare_recording(
+    prompt: str, settings: Settings, config: RigConfig, *, progress: Progress
+) -> Recording:
+    """A recording with everything about it checked.
+
+    Args:
+        prompt: what to show.
+        settings: of the simulation, as those of `texvent generate`.
+        config: what is recorded.
+        progress: told how the generator gets on.
+
+    Raises:
+        ConfigError: the generator is not the embedded one, the camera zooms, a lens does not fit
+            its resolution, or the rig file is wrong.
+        InputError: the prompt is not understood, or a file cannot be read.
+    """
+    if settings.generator != "procedural":
+        raise ConfigError(
+            f"a rig needs a scene that can be seen from several places; generator "
+            f"{settings.generator} makes videos, so use the embedded one (procedural)"
+        )
+    check_run(settings)
+    rig, noise = _read(config, settings.size or SensorSize(346, 260))
+    first = settings if rig.cameras[0].size == settings.size else _sized(settings, rig)
+    video = text_to_video(prompt, first, progress=progress)
+    if not isinstance(video, ProceduralVideo):
+        raise ConfigError("the embedded generator was replaced by another one; a rig needs it")
+    duration_s = float((video.frame_count - 1) / video.fps)
+    cameras = []
+    for camera in rig.cameras:
+        lens = path_lens(video.scene, camera, duration_s)
+        lens_reach(lens, camera.size)
+        cameras.append(replace(camera, lens=lens))
+    return Recording(
+        prompt=prompt,
+        settings=settings,
+        config=config,
+        rig=replace(rig, cameras=tuple(cameras)),
+        noise=noise,
+        video=video,
+    )
+
+
+def _sized(settings: Settings, rig: Rig) -> Settings:
+    """Settings of a scene that is composed for the first camera's image."""
+    return replace(settings, run=replace(settings.run, sensor=str(rig.cameras[0].size)))
+
+
+def _read(config: RigConfig, size: SensorSize) -> tuple[Rig, ImuNoise]:
+    """The rig and its IMU's noise that a config names."""
+    stated = None
+    if config.rig is not None:
+        rig, stated = read_rig(config.rig, size)
+    elif config.stereo is not None:
+        rig = stereo_rig(size, config.stereo)
+    else:
+        rig = Rig((RigCamera("cam0", size, None),))
+    if config.imu_noise in IMU_NOISES:
+        is_default = config.imu_noise == RigConfig.imu_noise
+        return rig, stated if stated is not None and is_default else IMU_NOISES[config.imu_noise]
+    if not config.imu_noise.lower().endswith((".yaml", ".yml", ".toml")):
+        raise ConfigError(
+            f"imu_noise is {shown(config.imu_noise)}; it must be {', '.join(IMU_NOISES)}, or a "
+            "file that ends in .yaml, .yml or .toml"
+        )
+    document: Mapping[str, Any] = read_document(Path(config.imu_noise))
+    inner = document.get("imu0", document)
+    return rig, read_noise(inner, config.imu_noise)

@@ -1,0 +1,206 @@
+"""Rig files: as Kalibr writes them, and by hand; what is wrong in them is named."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+from texvent.errors import ConfigError, TexventWarning
+from texvent.rig.description import IMU_NOISES, ImuNoise, Rig, RigCamera
+from texvent.rig.kalibr import camchain, imu_yaml, read_noise, read_rig, stereo_rig
+from texvent.scenes.lens import Lens
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(346, 260)
+KALIBR = """
+cam0:
+  T_cam_imu:
+  - [0.0, -1.0, 0.0, 0.01]
+  - [1.0, 0.0, 0.0, 0.02]
+  - [0.0, 0.0, 1.0, 0.03]
+  - [0.0, 0.0, 0.0, 1.0]
+  cam_overlaps: [1]
+  camera_model: pinhole
+  distortion_coeffs: [-0.28, 0.07, 0.0002, 1.0e-05]
+  distortion_model: radtan
+  intrinsics: [458.654, 457.296, 367.215, 248.375]
+  resolution: [752, 480]
+  rostopic: /cam0/image_raw
+  timeshift_cam_imu: 0.0
+cam1:
+  T_cn_cnm1:
+  - [0.9999, -0.0023, -0.0139, -0.1100]
+  - [0.0023, 0.9999, -0.0009, 0.0004]
+  - [0.0139, 0.0009, 0.9999, -0.0008]
+  - [0.0, 0.0, 0.0, 1.0]
+  cam_overlaps: [0]
+  camera_model: pinhole
+  distortion_coeffs: [-0.28, 0.07, 0.0001, -3.5e-05]
+  distortion_model: equidistant
+  intrinsics: [457.587, 456.134, 379.999, 255.238]
+  resolution: [752, 480]
+  rostopic: /cam1/image_raw
+  timeshift_cam_imu: 0.0
+"""
+
+
+def write(folder: Path, text: str, name: str = "rig.yaml") -> Path:
+    path = folder / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_a_file_of_kalibr_is_read(tmp_path: Path) -> None:
+    rig, noise = read_rig(write(tmp_path, KALIBR), SIZE)
+    first, second = rig.cameras
+    assert noise is None
+    assert (first.name, first.size) == ("cam0", SensorSize(752, 480))
+    assert first.lens == Lens(
+        458.654, 457.296, 367.715, 248.875, "radtan", (-0.28, 0.07, 0.0002, 1e-5)
+    )
+    assert second.lens is not None
+    assert second.lens.distortion == "equidistant"
+    assert second.from_first[0, 3] == -0.11
+    turn = second.from_first[:3, :3]
+    np.testing.assert_allclose(turn @ turn.T, np.eye(3), atol=1e-12)
+    assert rig.first_from_imu[:3, 3].tolist() == [0.01, 0.02, 0.03]
+
+
+def test_what_is_written_reads_back_the_same(tmp_path: Path) -> None:
+    rig, _ = read_rig(write(tmp_path, KALIBR), SIZE)
+    topics = {camera.name: f"/{camera.name}/image_raw" for camera in rig.cameras}
+    text = camchain(rig, topics, has_imu=True)
+    again, _ = read_rig(write(tmp_path, text, "again.yaml"), SIZE)
+    for one, other in zip(rig.cameras, again.cameras, strict=True):
+        assert (one.size, one.lens) == (other.size, other.lens)
+        np.testing.assert_allclose(one.from_first, other.from_first, atol=1e-15)
+    np.testing.assert_allclose(again.first_from_imu, rig.first_from_imu, atol=1e-15)
+
+
+def test_names_of_the_fields_are_kalibrs(tmp_path: Path) -> None:
+    rig, _ = read_rig(write(tmp_path, KALIBR), SIZE)
+    written = yaml.safe_load(camchain(rig, {"cam0": "/a", "cam1": "/b"}, has_imu=True))
+    given = yaml.safe_load(KALIBR)
+    assert written["cam0"].keys() == given["cam0"].keys()
+    assert written["cam1"].keys() == given["cam1"].keys() | {"T_cam_imu"}
+    assert written["cam0"]["intrinsics"] == given["cam0"]["intrinsics"]
+    alone = yaml.safe_load(camchain(rig, {}, has_imu=False))
+    assert "T_cam_imu" not in alone["cam0"]
+
+
+def test_imu_yaml_has_kalibrs_fields() -> None:
+    noise = IMU_NOISES["adis16448"]
+    written = yaml.safe_load(imu_yaml(noise, 200.0, "/imu0"))
+    assert written == {
+        "accelerometer_noise_density": 2.0e-3,
+        "accelerometer_random_walk": 3.0e-3,
+        "gyroscope_noise_density": 1.6968e-4,
+        "gyroscope_random_walk": 1.9393e-5,
+        "rostopic": "/imu0",
+        "update_rate": 200.0,
+    }
+    assert read_noise(written, "imu.yaml") == noise
+
+
+def test_without_distortion_radtan_with_zeros_is_written() -> None:
+    rig = Rig((RigCamera("cam0", SIZE, Lens(300.0, 300.0, 173.0, 130.0)),))
+    entry = yaml.safe_load(camchain(rig, {}, has_imu=False))["cam0"]
+    assert (entry["distortion_model"], entry["distortion_coeffs"]) == ("radtan", [0.0] * 4)
+    assert entry["intrinsics"] == [300.0, 300.0, 172.5, 129.5]
+
+
+def test_short_forms_of_a_file_by_hand(tmp_path: Path) -> None:
+    """90° across 346 px: f = 173. The second camera is to the right and looks to the right."""
+    text = """
+    [cam0]
+    field_of_view = 90
+    [cam1]
+    baseline = 0.12
+    rotation = [0, 10, 0]
+    resolution = [640, 480]
+    [imu0]
+    accelerometer_noise_density = 2e-3
+    accelerometer_random_walk = 0
+    gyroscope_noise_density = 1e-4
+    gyroscope_random_walk = 0
+    """
+    rig, noise = read_rig(write(tmp_path, text, "rig.toml"), SIZE)
+    first, second = rig.cameras
+    assert first.lens is not None
+    assert first.lens.fx == pytest.approx(173.0)
+    assert (first.size, second.size, second.lens) == (SIZE, SensorSize(640, 480), None)
+    assert noise == ImuNoise(2e-3, 0.0, 1e-4, 0.0)
+    in_first = np.linalg.inv(second.from_first)
+    np.testing.assert_allclose(in_first[:3, 3], [0.12, 0, 0], atol=1e-12)
+    forward = in_first[:3, 2]
+    assert np.degrees(np.arctan2(forward[0], forward[2])) == pytest.approx(10.0)
+
+
+def test_numbers_that_yaml_reads_as_text_are_numbers(tmp_path: Path) -> None:
+    text = KALIBR.replace("1.0e-05]", "1e-05]")
+    assert read_rig(write(tmp_path, text), SIZE)[0].cameras[0].lens is not None
+
+
+def test_places_by_the_imu_alone(tmp_path: Path) -> None:
+    chain = yaml.safe_load(KALIBR)
+    chain["cam1"]["T_cam_imu"] = chain["cam0"]["T_cam_imu"]
+    del chain["cam1"]["T_cn_cnm1"]
+    rig, _ = read_rig(write(tmp_path, yaml.safe_dump(chain)), SIZE)
+    np.testing.assert_allclose(rig.cameras[1].from_first, np.eye(4), atol=1e-15)
+
+
+def test_stereo_puts_the_second_camera_to_the_right() -> None:
+    second = stereo_rig(SIZE, 0.12).cameras[1]
+    assert np.linalg.inv(second.from_first)[:3, 3].tolist() == [0.12, 0.0, 0.0]
+
+
+def test_a_time_shift_is_named(tmp_path: Path) -> None:
+    text = KALIBR.replace("timeshift_cam_imu: 0.0", "timeshift_cam_imu: 0.004", 1)
+    with pytest.warns(TexventWarning, match="one clock"):
+        read_rig(write(tmp_path, text), SIZE)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ("pinhole", "omni", "camera_model is 'omni'; only pinhole"),
+        ("radtan", "fov", "distortion_model is 'fov'; it must be"),
+        ("intrinsics: [458.654, 457.296,", "intrinsics: [458.654,", "must be 4 numbers"),
+        ("458.654", "-458.654", "focal lengths are -458"),
+        ("458.654", ".nan", "must be 4 finite numbers"),
+        ("[-0.28, 0.07", "[-1.28, 0.07", "no ray reaches"),
+        ("[752, 480]", "[752.5, 480]", "whole numbers"),
+        ("[752, 480]", "[0, 480]", r"each side must be 1\.\."),
+        ("rostopic", "rostopik", "unknown name 'rostopik'"),
+        ("[-0.28, 0.07, 0.0002, 1.0e-05]", "[1, 2]", "has 2 numbers; radtan takes 4"),
+        ("[0.9999, -0.0023", "[0.5, -0.0023", "no rigid motion"),
+        ("  T_cn_cnm1:\n", "  baseline: 0.1\n  T_cn_cnm1:\n", "both tell its place"),
+        ("[0.0, -1.0, 0.0, 0.01]", "[0.0, -1.0, 0.0]", "must be 4 numbers"),
+        ("cam0:", "cam/0:", "a camera's name must be"),
+    ],
+)
+def test_what_is_wrong_is_named(tmp_path: Path, old: str, new: str, words: str) -> None:
+    assert old in KALIBR
+    with pytest.raises(ConfigError, match=words):
+        read_rig(write(tmp_path, KALIBR.replace(old, new, 1)), SIZE)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("cam0: {}\ncam1: {}", "does not say where it is"),
+        ("cam0: {baseline: 0.1}", "the first has none"),
+        ("cam0: 3", "must hold values by name"),
+        ("cam0: {distortion_model: equidistant}", "needs intrinsics"),
+        ("cam0: {distortion_coeffs: [0.1, 0, 0, 0]}", "without distortion_model"),
+        ("cam0: {field_of_view: 190}", r"must be 1\.\.170"),
+        ("imu0: {}", "describes 0 cameras"),
+        ("cam0: {}\nimu0: {}", "has no accelerometer_noise_density"),
+    ],
+)
+def test_files_that_say_too_little_are_named(tmp_path: Path, text: str, words: str) -> None:
+    with pytest.raises(ConfigError, match=words):
+        read_rig(write(tmp_path, text), SIZE)

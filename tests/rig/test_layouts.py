@@ -1,0 +1,285 @@
+"""Recordings in every layout, read back by what people load them with."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import cv2
+import h5py
+import numpy as np
+import pytest
+import yaml
+from rosbags.highlevel import AnyReader
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+import texvent
+from texvent import rig
+from texvent.capture.open import open_frames
+from texvent.cli.app import main
+from texvent.config import CaptureConfig
+from texvent.errors import ConfigError, InputError, OutputError
+from texvent.io.ros.messages import (
+    EVENT_ARRAY,
+    EVENT_ARRAY_TEXT,
+    EVENT_PACKET,
+    EVENT_PACKET_TEXT,
+    EVENT_TEXT,
+    open_event_packet,
+)
+
+PROMPT = "a red ball rolls left past a tree, handheld camera"
+OPTIONS = {
+    "stereo": 0.1,
+    "sensor": "64x48",
+    "duration": 0.25,
+    "imu": 100.0,
+    "frames": 20,
+    "exposure": 0.002,
+    "samples": 1,
+    "progress": False,
+}
+
+
+@pytest.fixture(scope="module")
+def native(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    out = tmp_path_factory.mktemp("native") / "out"
+    return rig.record(PROMPT, out, truth="poses,depth", **OPTIONS)
+
+
+def assert_same_events(one: texvent.EventStream, other: texvent.EventStream) -> None:
+    assert one.size == other.size
+    for name in "txyp":
+        np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
+
+
+def facts_of(folder: Path) -> dict:
+    return json.loads((folder / "rig.json").read_text())
+
+
+def test_native_folder_holds_all_and_says_how_it_was_made(native: Path) -> None:
+    facts = facts_of(native)
+    found = sorted(str(one.relative_to(native)) for one in native.rglob("*") if one.is_file())
+    assert found == sorted(facts["files"])
+    assert facts["prompt"] == PROMPT
+    assert facts["frames"] == {"cam0": 4, "cam1": 4}
+    for name in ("cam0", "cam1"):
+        events = texvent.load(native / name / "events.h5")
+        assert len(events) == facts["events"][name] > 50
+        assert events.metadata["rig"]["camera"] == name
+        assert events.metadata["seed"] == facts["pixel_seeds"][name]
+        with (native / name / "frames.csv").open() as file:
+            rows = list(csv.DictReader(file))
+        assert [int(row["t_us"]) for row in rows] == [50_000, 100_000, 150_000, 200_000]
+        assert float(rows[0]["first_row_start_us"]) == pytest.approx(49_000)
+        assert cv2.imread(str(native / name / rows[0]["file"])).shape == (48, 64, 3)
+        assert (native / name / "truth" / "camera.json").is_file()
+    assert len(set(facts["pixel_seeds"].values())) == 2
+
+
+def test_native_imu_and_poses_are_rows_of_their_formats(native: Path) -> None:
+    imu = np.loadtxt(native / "imu.csv", delimiter=",", comments="#")
+    poses = np.loadtxt(native / "poses.txt")
+    assert imu.shape == (26, 7)
+    assert imu[:, 0].tolist() == [number * 10_000_000 for number in range(26)]
+    assert np.linalg.norm(imu[:, 4:], axis=1) == pytest.approx(9.8, abs=0.5)
+    assert poses.shape == (26, 8)
+    np.testing.assert_allclose(np.linalg.norm(poses[:, 4:], axis=1), 1.0, atol=1e-8)
+    truth = np.loadtxt(native / "cam0" / "truth" / "poses.txt")
+    np.testing.assert_allclose(truth[0, 1:], poses[0, 1:], atol=1e-8)
+    right = np.loadtxt(native / "cam1" / "truth" / "poses.txt")
+    assert np.linalg.norm(right[0, 1:4] - truth[0, 1:4]) == pytest.approx(0.1, abs=1e-8)
+
+
+def test_the_same_seed_gives_the_same_recording(native: Path, tmp_path: Path) -> None:
+    again = rig.record(PROMPT, tmp_path / "again", truth="poses,depth", **OPTIONS)
+    for name in ("imu.csv", "poses.txt", "calib.yaml", "imu.yaml", "cam1/frames/000002.png"):
+        assert (again / name).read_bytes() == (native / name).read_bytes()
+    for name in ("cam0", "cam1"):
+        one, other = (texvent.load(folder / name / "events.h5") for folder in (native, again))
+        assert_same_events(one, other)
+
+
+def test_one_camera_of_a_rig_is_not_replayed_alone(
+    native: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["replay", str(native / "cam1" / "events.h5")]) == 2
+    assert "one camera of a rig" in capsys.readouterr().err
+    assert main(["validate", str(native / "cam1" / "events.h5")]) == 0
+
+
+def test_only_a_recording_is_replaced(native: Path, tmp_path: Path) -> None:
+    small = {**OPTIONS, "frames": None, "exposure": 0.0, "stereo": None, "duration": 0.1}
+    out = rig.record(PROMPT, tmp_path / "one", **small)
+    with pytest.raises(OutputError, match="exists already"):
+        rig.record(PROMPT, out, **small)
+    rig.record(PROMPT, out, overwrite=True, **{**small, "imu": None})
+    assert not (out / "imu.csv").exists()
+    (out / "notes.txt").write_text("mine")
+    with pytest.raises(OutputError, match="other files"):
+        rig.record(PROMPT, out, overwrite=True, **small)
+
+
+def test_a_recording_that_fails_leaves_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*arguments: object) -> None:
+        raise InputError("stop")
+
+    monkeypatch.setattr("texvent.rig.recorder.write_facts", fail)
+    with pytest.raises(InputError, match="stop"):
+        rig.record(PROMPT, tmp_path / "out", sensor="32x24", duration=0.1, progress=False)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_ecd_text_is_read_as_the_data_set_is(tmp_path: Path) -> None:
+    out = rig.record(PROMPT, tmp_path / "ecd", layout="ecd", **OPTIONS)
+    own = out / "cam1"
+    assert len(texvent.load(own / "events.txt")) == facts_of(out)["events"]["cam1"]
+    images = [line.split() for line in (own / "images.txt").read_text().splitlines()]
+    assert images[0] == ["0.050000", "images/frame_00000000.png"]
+    assert cv2.imread(str(own / images[0][1]), cv2.IMREAD_UNCHANGED).shape == (48, 64)
+    assert np.loadtxt(own / "imu.txt").shape == (26, 7)
+    assert np.loadtxt(own / "groundtruth.txt").shape == (26, 8)
+    calibration = np.loadtxt(own / "calib.txt")
+    assert calibration.shape == (9,)
+    assert calibration[2:4].tolist() == [31.5, 23.5]
+    stored = open_frames(own, CaptureConfig(), size=None)
+    assert [frame.t_us for frame in stored][:2] == [50_000, 100_000]
+
+
+def test_dsec_frames_return_to_the_raw_pixels(tmp_path: Path, native: Path) -> None:
+    """Through rectification and back, frames differ from the raw ones by interpolation only."""
+    lenses = """
+    cam0: {intrinsics: [70, 70, 31, 24], distortion_model: radtan,
+           distortion_coeffs: [-0.1, 0.02, 0, 0]}
+    cam1: {intrinsics: [60, 60, 32, 23], distortion_model: equidistant,
+           distortion_coeffs: [0.01, 0, 0, 0], baseline: 0.1, rotation: [0, -2, 1]}
+    """
+    path = tmp_path / "lenses.yaml"
+    path.write_text(lenses)
+    options = {**OPTIONS, "rig": path, "stereo": None}
+    out = rig.record(PROMPT, tmp_path / "dsec", layout="dsec", **options)
+    raw = rig.record(PROMPT, tmp_path / "raw", **{**options, "imu": None})
+    for side, name in (("left", "cam0"), ("right", "cam1")):
+        events = texvent.load(out / "events" / side / "events.h5")
+        assert_same_events(events, texvent.load(raw / name / "events.h5"))
+    with h5py.File(out / "events/right/rectify_map.h5") as file:
+        assert file["rectify_map"].shape == (48, 64, 2)
+    there = [frame for frame in open_frames(out, CaptureConfig(), size=None)]
+    assert [frame.t_us for frame in there] == [50_000, 100_000, 150_000, 200_000]
+    own = cv2.imread(str(raw / "cam0/frames/000001.png"))[..., ::-1].astype(np.float32)
+    back = np.asarray(there[1].pixels, dtype=np.float32)
+
+    def difference(x: float, y: float) -> float:
+        shift = np.array([[1.0, 0.0, x], [0.0, 1.0, y]])
+        moved = cv2.warpAffine(own, shift, (64, 48))
+        return float(np.abs(moved - back)[8:40, 10:54].mean())
+
+    assert difference(0.0, 0.0) < 5.0
+    assert all(difference(*way) > 5.0 for way in ((0.5, 0), (-0.5, 0), (0, 0.5), (0, -0.5)))
+    chain = yaml.safe_load((out / "calibration/cam_to_cam.yaml").read_text())
+    assert sorted(chain) == ["disparity_to_depth", "extrinsics", "intrinsics"]
+    depth = np.array(chain["disparity_to_depth"]["cams_03"])
+    assert 1.0 / depth[3, 2] == pytest.approx(0.1)
+    disparity = cv2.imread(str(out / "disparity/event/000001.png"), cv2.IMREAD_UNCHANGED)
+    assert disparity.dtype == np.uint16
+    lines = (out / "images/left/exposure_timestamps.txt").read_text().splitlines()
+    assert lines[1] == "49000, 51000"
+
+
+@pytest.mark.parametrize("layout", ["rosbag1", "mcap"])
+def test_bags_are_read_back_by_rosbags(layout: str, tmp_path: Path, native: Path) -> None:
+    pytest.importorskip("rosbags")
+    out = rig.record(PROMPT, tmp_path / "bag", layout=layout, **OPTIONS)
+    path = out / ("rig.bag" if layout == "rosbag1" else "rig.mcap")
+    counts: dict[str, int] = {}
+    events, images, forces, times = 0, [], [], []
+    with AnyReader([path], default_typestore=types_with_events()) as reader:
+        for connection, time_ns, data in reader.messages():
+            counts[connection.topic] = counts.get(connection.topic, 0) + 1
+            times.append(time_ns)
+            message = reader.deserialize(data, connection.msgtype)
+            if connection.topic == "/cam0/events":
+                if layout == "rosbag1":
+                    events += len(message.events)
+                else:
+                    assert message.encoding == "evt3"
+                    assert open_event_packet(data).size == (64, 48)
+            elif connection.topic == "/cam0/image_raw":
+                images.append(message.data.reshape(message.height, message.width, 3))
+            elif connection.topic == "/imu0":
+                forces.append([message.linear_acceleration.x, message.angular_velocity.z])
+            elif connection.topic == "/cam1/camera_info":
+                fields = {one.lower(): getattr(message, one) for one in dir(message)}
+                assert fields["k"][2] == 31.5
+                assert fields["distortion_model"] == "plumb_bob"
+    assert times == sorted(times)
+    assert counts["/imu0"] == counts["/groundtruth"] == 26
+    assert counts["/cam0/image_raw"] == counts["/cam1/camera_info"] == 4
+    assert counts["/texvent"] == 1
+    stored = cv2.imread(str(native / "cam0/frames/000003.png"))[..., ::-1]
+    np.testing.assert_array_equal(images[3], stored)
+    imu = np.loadtxt(native / "imu.csv", delimiter=",", comments="#")
+    np.testing.assert_allclose(forces, imu[:, [4, 3]], rtol=1e-7)
+    if layout == "rosbag1":
+        assert events == facts_of(out)["events"]["cam0"]
+    # texvent reads the first camera of a bag as any other.
+    assert_same_events(texvent.load(path), texvent.load(native / "cam0/events.h5"))
+
+
+def types_with_events():  # type: ignore[no-untyped-def]
+    types = get_typestore(Stores.ROS1_NOETIC)
+    types.register(get_types_from_msg(EVENT_TEXT, "dvs_msgs/msg/Event"))
+    types.register(get_types_from_msg(EVENT_ARRAY_TEXT, EVENT_ARRAY))
+    types.register(get_types_from_msg(EVENT_PACKET_TEXT, EVENT_PACKET))
+    return types
+
+
+@pytest.mark.parametrize(
+    ("words", "complaint"),
+    [
+        (["--layout", "dsec"], "layout dsec is for two cameras"),
+        (["--layout", "ecd", "--truth", "flow"], "truth is written beside layout hdf5"),
+        (["--stereo", "-1"], "stereo is -1"),
+        (["--stereo", "0.1", "--rig", "x.yaml"], "rig and stereo both"),
+        (["--rig", "nothing.yaml"], "cannot read config file nothing.yaml"),
+        (["--rig", "x.yaml", "--sensor", "64x48"], "both say how large"),
+        (["--imu", "100", "--imu-noise", "bosch"], "imu_noise is 'bosch'; it must be"),
+        (["--shutter", "sideways"], "shutter"),
+        (["--truth", "colour", "--frames", "10"], "no part 'colour' of truth"),
+    ],
+)
+def test_bad_input_is_one_clear_line(
+    words: list[str], complaint: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out"
+    code = main(["rig", "a ball", "-o", str(out), "--sensor", "32x24", *words])
+    if "--sensor" not in words and "--rig" in words and "both" not in complaint:
+        code = main(["rig", "a ball", "-o", str(out), *words])
+    said = capsys.readouterr().err.strip().splitlines()
+    assert code == 2
+    assert complaint in said[-1]
+    assert not out.exists()
+
+
+def test_a_zooming_camera_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(ConfigError, match="the camera zooms"):
+        rig.record("a car, the camera zooms in", tmp_path / "out", progress=False)
+
+
+def test_a_lens_of_an_equidistant_camera_is_refused_by_ecd(tmp_path: Path) -> None:
+    path = tmp_path / "fisheye.yaml"
+    path.write_text("cam0: {field_of_view: 120, distortion_model: equidistant}")
+    with pytest.raises(ConfigError, match=r"calib\.txt knows radtan only"):
+        rig.record("a ball", tmp_path / "out", rig=path, layout="ecd", sensor="64x48")
+
+
+def test_the_command_says_what_it_made(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "made"
+    code = main(["rig", "a ball", "-o", str(out), "--sensor", "32x24", "--duration", "0.1"])
+    captured = capsys.readouterr()
+    assert code == 0
+    assert captured.out.strip() == str(out)
+    assert "cam0" in captured.err
