@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -12,6 +13,9 @@ import pytest
 
 import texvent
 from texvent.errors import ConfigError, InputError, OutputError
+from texvent.pipeline import video_to_events
+from texvent.run.files import RunFiles, write_run
+from texvent.run.settings import resolve
 from texvent.scenes.models.class_ids import CLASS_IDS
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.scene import Camera
@@ -264,6 +268,62 @@ def test_parts_that_were_not_written_are_named(tmp_path):
         truth.flow(0)
     with pytest.raises(InputError, match=r"frame 6 has no ids; there are those of 0\.\.5"):
         truth.instance(6)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "message"),
+    [
+        ("truth.json", "{", "is damaged"),
+        ("truth.json", "[]", "is not of the format"),
+        ("truth.json", '{"format": "texvent truth 1", "frames": 6}', "width is None"),
+        ("timestamps.txt", "0\n1\n", "counts 6 frames, timestamps.txt 2"),
+        ("depth/000000.npz", "PK", "NumPy archive"),
+        ("depth/000000.npz", None, "no such file"),
+        ("instance/000000.png", "no", "no 16-bit PNG"),
+        ("poses.txt", "1 2 3\n", "poses.txt cannot be read"),
+        ("boxes/bbox.npy", "x", "bbox.npy cannot be read"),
+    ],
+)
+def test_damage_is_named(tmp_path, name, text, message):
+    folder = texvent.save_truth(board_video(), tmp_path / "a.truth", "depth,ids,poses,boxes")
+    if text is None:
+        (folder / name).unlink()
+    else:
+        (folder / name).write_text(text)
+    with pytest.raises(InputError, match=message):
+        read_all(folder)
+
+
+def read_all(folder):
+    truth = texvent.load_truth(folder)
+    return truth.depth(0), truth.instance(0), truth.poses, truth.boxes
+
+
+class Damaged(MotionFrames):
+    """Ends in an error after three frames."""
+
+    def __iter__(self):
+        yield from itertools.islice(super().__iter__(), 3)
+        raise InputError("the video ends in damage")
+
+
+@pytest.mark.parametrize("keeps", [True, False])
+def test_a_run_that_ends_early_keeps_its_truth_only_if_asked(tmp_path, keeps):
+    run = video_to_events(Damaged(), resolve("simulate", {"interpolate": "none"}))
+    files = RunFiles(
+        [tmp_path / "d.h5"], truth=("ids", "flow", "depth", "events"), keep_partial=keeps
+    )
+    if not keeps:
+        with pytest.raises(InputError, match="ends in damage"):
+            write_run(run, files, on_step=lambda frame, packet: None)
+        assert not list(tmp_path.iterdir())
+        return
+    assert write_run(run, files, on_step=lambda frame, packet: None).t_us == 80_000
+    truth, events = texvent.load_truth(tmp_path / "d.truth"), texvent.load(tmp_path / "d.h5")
+    assert len(truth) == 3
+    assert truth.metadata["complete"] is False
+    assert len(events)
+    np.testing.assert_array_equal(truth.event_instance, events.instance)
 
 
 def test_every_noun_has_a_class_id_that_stays():

@@ -12,13 +12,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError, InputError, one_line
+from texvent.errors import FileFormatError, InputError, one_line, shown
 from texvent.io.arrays.npz import read_arrays
-from texvent.io.input_checks import existing_folder
+from texvent.io.input_checks import existing_file, existing_folder
 from texvent.sensor import SensorSize, checked_size
 from texvent.truth.flow_png import decode_flow
 from texvent.truth.layout import FACTS, FORMAT, TIMES
 from texvent.truth.poses import rotation_matrix
+
+_FACT_TYPES = {
+    **dict.fromkeys(("frames", "width", "height"), int),
+    **{"parts": list, "classes": dict, "instances": dict, "run": dict},
+}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -160,8 +165,10 @@ class Truth:
     def _flow(self, index: int) -> dict[str, Any]:
         self._need("flow", index, last=-1)
         name = f"flow/forward_npz/{index:06d}.npz"
-        self._array(name, "flow")
-        return read_arrays(self.folder / name)
+        arrays = self._arrays(name)
+        if "flow" not in arrays:
+            raise FileFormatError(f"{self.folder / name} holds no array 'flow'")
+        return arrays
 
     def _need(self, part: str, index: int = 0, *, last: int = 0) -> None:
         """Refuse a part that was not written, and a frame that there is not."""
@@ -175,10 +182,13 @@ class Truth:
             raise InputError(f"frame {index} has no {part}; there are those of 0..{count - 1}")
 
     def _array(self, name: str, key: str) -> Any:
-        arrays = read_arrays(self.folder / name)
+        arrays = self._arrays(name)
         if key not in arrays:
             raise FileFormatError(f"{self.folder / name} holds no array {key!r}")
         return arrays[key]
+
+    def _arrays(self, name: str) -> dict[str, Any]:
+        return read_arrays(existing_file(self.folder / name))
 
     def _image(self, name: str) -> NDArray[np.uint16]:
         import cv2
@@ -218,4 +228,11 @@ def load_truth(folder: str | Path) -> Truth:
         raise FileFormatError(f"{path} is damaged ({one_line(error)})") from error
     if not isinstance(facts, dict) or facts.get("format") != FORMAT:
         raise FileFormatError(f"{path / FACTS} is not of the format {FORMAT!r}")
+    for name, kind in _FACT_TYPES.items():
+        if not isinstance(facts.get(name), kind):
+            raise FileFormatError(f"{path / FACTS} is damaged: {name} is {shown(facts.get(name))}")
+    if len(times) != facts["frames"]:
+        raise FileFormatError(
+            f"{path} is damaged: {FACTS} counts {facts['frames']} frames, {TIMES} {len(times)}"
+        )
     return Truth(path, facts, times)
