@@ -8,10 +8,11 @@ import pytest
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError
+from texvent.interpolate.blend import BlendInterpolator
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.densify import densify
 from texvent.interpolate.dis_flow.pair_flow import PairFlow
-from texvent.video import Frame, Video
+from texvent.video import Frame, Motion, Video
 
 
 @pytest.fixture
@@ -120,3 +121,15 @@ def test_motion_is_that_of_the_fastest_thousandth(moving_texture):
     assert still == 0
     fast = PairFlow().motion_px(Frame(moving_texture(0), 0), Frame(moving_texture(5.2), 1))
     assert fast in (6, 7)
+
+
+def test_known_motion_counts_where_it_is_followed(policy, pair, stream):
+    first, second = pair(*[np.full((4, 4), 100, np.uint8)] * 2, interval_us=40_000)
+    forward = np.zeros((4, 4, 2), np.float32)
+    forward[1, 2], forward[0, 0] = (6.0, -8.0), np.nan
+    moving = [Frame(one.pixels, one.t_us, motion=Motion(forward)) for one in (first, second)]
+    blend = BlendInterpolator(InterpolateConfig(), stream)
+    assert policy(blend, interpolate="motion").count(*moving) == 10
+    assert policy(blend, interpolate="motion", max_intermediate=3).count(*moving) == 3
+    assert policy(blend, interpolate="motion").count(first, second) == 0
+    assert policy().count(*moving) == 0

@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from texvent.config import InterpolateConfig
-from texvent.interpolate.count import count_for_flicker, count_intermediate
+from texvent.interpolate.count import count_for_flicker, count_for_vectors, count_intermediate
 from texvent.interpolate.protocol import Interpolator
 from texvent.video import MICROSECONDS, FlickeringStream, Frame, FrameStream
 
@@ -16,7 +16,10 @@ if TYPE_CHECKING:
 
 
 class CountPolicy:
-    """Eq. 4 or a fixed count, raised by motion and by flickering light, lowered by a budget."""
+    """Eq. 4 or a fixed count, raised by motion and by flickering light, lowered by a budget.
+
+    Motion that is known (`Frame.motion`) always counts where it is followed.
+    """
 
     def __init__(
         self,
@@ -69,10 +72,14 @@ class CountPolicy:
             cap=cap,
         )
         count = max(count, count_for_flicker(first.t_us, second.t_us, self._flicker_hz, cap=cap))
-        if self._pair_flow is None or count == cap:
+        if count == cap:
             return count
-        motion = self._pair_flow.motion_px(first, second)
-        return min(max(count, motion), cap)
+        if config.interpolate == "motion":
+            # Frames follow the vectors exactly, so what they skip is all that is lost.
+            count = max(count, count_for_vectors(first.motion, second.motion))
+        if self._pair_flow is not None:
+            count = max(count, self._pair_flow.motion_px(first, second))
+        return min(count, cap)
 
     def _budget(self, first: Frame, second: Frame) -> int:
         """Most intermediate frames at the rate allowed; the second source frame counts too."""

@@ -1,0 +1,162 @@
+"""Compare events of few frames with motion vectors with events of many frames.
+
+    python benchmarks/blender/scene.py scene.blend                          with Blender's Python
+    python "$(texvent blender)" scene.blend film24                          the same
+    python "$(texvent blender)" scene.blend film480 --fps 480 --colour-only
+    python -m benchmarks.blender film24 film480 --json OUT.json --picture OUT.png
+
+The reference are events of the dense film, whose frames are mixed: between two of 480 per second
+hardly anything moves by more than a pixel. How sure it is shows the row of every second one.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import texvent
+from texvent._registry import INTERPOLATORS
+from texvent._require import require
+from texvent._version import full_version
+from texvent.capture.image_folder import find_images_folder, list_images
+from texvent.capture.motion_vectors.attach import own_motion
+from texvent.capture.open import open_frames
+from texvent.config import CaptureConfig
+from texvent.events import EventStream
+from texvent.io.atomic import atomic_file
+from texvent.represent.event_frame import count_events
+from texvent.video import Frame
+from texvent.view.drawing.canvas import Image, blank, draw_text, enlarge, png_bytes, tile
+from texvent.view.drawing.event_image import count_ceiling, draw_events
+from texvent.view.drawing.palettes import get_palette
+
+RUN: Mapping[str, Any] = {"simulator": "esim"}
+"""A pixel that forgets nothing at source frames, whose number differs here."""
+METRICS = ("stpp", "nearest", "voxel", "count_ratio")
+INTERPOLATED = ("none", "blend", "flow", "motion")
+"""Interpolations of the sparse film; the last follows the motion vectors."""
+ENLARGED, TEXT_PX, WINDOW_US = 2, 9, 20_000
+
+
+def main() -> None:
+    """Run the comparison, print its rows, store them and the picture."""
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("film", type=Path, help="folder of the script for Blender, with passes")
+    parser.add_argument("dense", type=Path, help="folder of the same scene with many frames")
+    parser.add_argument("--json", type=Path)
+    parser.add_argument("--picture", type=Path)
+    options = parser.parse_args()
+    results, streams = compare(options.film, options.dense)
+    for name, row in results["rows"].items():
+        print(name.ljust(24), "  ".join(f"{metric} {value:.4g}" for metric, value in row.items()))
+    if options.json:
+        text = json.dumps(results, indent=1) + "\n"
+        with atomic_file(options.json, overwrite=True) as part:
+            part.write_text(text, encoding="utf-8")
+    if options.picture:
+        with atomic_file(options.picture, overwrite=True) as part:
+            part.write_bytes(png_bytes(draw(options.film, streams)))
+
+
+def compare(film: Path, dense: Path) -> tuple[dict[str, Any], dict[str, EventStream]]:
+    """Every way of simulating the sparse film against the dense one.
+
+    Args:
+        film: frames at the low rate with passes.
+        dense: frames of the same times at the high rate.
+
+    Returns:
+        Results, ready for JSON, and the events by the name of their row.
+    """
+    frames = list(open_frames(dense, CaptureConfig()))
+    span_us = (frames[0].t_us, frames[-1].t_us)
+    streams = {"dense": simulate(frames, "blend"), "dense, halved": simulate(frames[::2], "blend")}
+    rows: dict[str, dict[str, float]] = {}
+    reference = streams["dense"]
+    rows["dense"] = {"events": len(reference), "frames": len(frames)}
+    rows["dense, halved"] = score(streams["dense, halved"], reference, span_us)
+    for name in INTERPOLATED:
+        if name not in INTERPOLATORS.names():
+            continue
+        begin = time.perf_counter()
+        motion = own_motion(film) if name == "motion" else None
+        streams[name] = texvent.simulate(film, motion=motion, interpolate=name, **RUN)
+        seconds = time.perf_counter() - begin
+        rows[name] = {**score(streams[name], reference, span_us), "seconds": round(seconds, 2)}
+    results = {
+        "texvent_version": full_version(),
+        "options": dict(RUN),
+        "film": describe(film),
+        "dense": describe(dense),
+        "rows": rows,
+    }
+    return results, streams
+
+
+def simulate(frames: list[Frame], interpolate: str) -> EventStream:
+    """Events of frames in memory."""
+    times = [frame.t_us for frame in frames]
+    pixels = [frame.luma for frame in frames]
+    events: EventStream = texvent.simulate(pixels, t_us=times, interpolate=interpolate, **RUN)
+    return events
+
+
+def score(
+    events: EventStream, reference: EventStream, span_us: tuple[int, int]
+) -> dict[str, float]:
+    """Metrics of one row, within the times that both films cover."""
+    found = texvent.compare(events, reference, METRICS, span_us=span_us)
+    return {"events": len(events), **{name: round(value, 5) for name, value in found.items()}}
+
+
+def describe(folder: Path) -> dict[str, Any]:
+    """Frames of a film, their size, and how long Blender rendered them, s."""
+    images = list_images(find_images_folder(folder))
+    library = require("OpenEXR", extra="exr")
+    seconds, size = 0.0, [0, 0]
+    for path in images:
+        with library.File(str(path), header_only=True) as file:
+            header = dict(file.header())
+        minutes, rest = str(header.get("RenderTime", "0:0")).split(":")[-2:]
+        seconds += 60.0 * float(minutes) + float(rest)
+        size = (np.asarray(header["dataWindow"][1]) + 1).tolist()
+    return {"frames": len(images), "size": size, "render_seconds": round(seconds, 1)}
+
+
+def draw(film: Path, streams: Mapping[str, EventStream]) -> Image:
+    """The frame in which most happens, and the events after it, by every row."""
+    reference = streams["dense"]
+    frames = list(open_frames(film, CaptureConfig()))
+    counts = [
+        np.count_nonzero((reference.t >= one.t_us) & (reference.t < one.t_us + WINDOW_US))
+        for one in frames
+    ]
+    frame = frames[int(np.argmax(counts))]
+    pixels = np.clip(frame.pixels, 0, 255).astype(np.uint8)
+    panels = [_titled("Blender", enlarge(pixels, ENLARGED, how="smooth"))]
+    palette, ceiling = get_palette("paper"), None
+    titles = {"dense": "480 fps", "motion": "24 fps + vectors", "flow": "24 fps, optical flow"}
+    for name, title in (titles | {"blend": "24 fps, mixed"}).items():
+        if name not in streams:
+            continue
+        shown = count_events(streams[name].between(frame.t_us, frame.t_us + WINDOW_US))
+        ceiling = ceiling or count_ceiling(shown)
+        image = enlarge(draw_events(shown, palette, ceiling=ceiling), ENLARGED, how="blocks")
+        panels.append(_titled(title, image))
+    return tile(panels, 3, (255, 255, 255), gap=4)
+
+
+def _titled(title: str, image: Image) -> Image:
+    head = blank(image.shape[1], 2 * TEXT_PX, (255, 255, 255))
+    draw_text(head, title, 2, TEXT_PX + 5, height=TEXT_PX, colour=(20, 22, 26))
+    return np.concatenate([head, image])
+
+
+if __name__ == "__main__":
+    main()
