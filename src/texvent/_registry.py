@@ -128,6 +128,7 @@ INTERPOLATORS = Registry(
         "blend": "texvent.interpolate.blend:BlendInterpolator",
         "flow": "texvent.interpolate.flow:FlowInterpolator",
         "exact": "texvent.interpolate.exact:ExactInterpolator",
+        "motion": "texvent.interpolate.motion.interpolator:MotionInterpolator",
         "rife": "texvent.interpolate.rife.interpolator:RifeInterpolator",
         "super-slomo": "texvent.interpolate.super_slomo.interpolator:SuperSlomoInterpolator",
     },

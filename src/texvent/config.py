@@ -164,10 +164,10 @@ class InterpolateConfig:
     """How many intermediate frames there are, and what they show."""
 
     interpolate: str = "flow"
-    """What fills the time between frames: none, blend, flow, rife, super-slomo or exact.
-    Blend mixes both; flow compensates motion by DIS optical flow; rife (the paper's choice) and
-    super-slomo (its ablation E8) are trained networks; with exact the generator renders the instant
-    itself."""
+    """What fills the time between frames: none, blend, flow, rife, super-slomo, motion or
+    exact. Blend mixes both; flow compensates motion by DIS optical flow; rife (the paper's choice)
+    and super-slomo (its ablation E8) are trained networks; motion follows vectors that come with
+    the frames; with exact the generator renders the instant itself."""
     count: Literal["brightness", "fixed"] = "brightness"
     """How many intermediate frames: as many as the brightness change needs (Eq. 4), or a fixed
     number."""

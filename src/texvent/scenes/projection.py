@@ -71,7 +71,11 @@ def project(camera: Camera, size: SensorSize, points: Float64Array) -> Float64Ar
         behind the camera (depth <= 0) has no place in the image; its x and y mean nothing. Where
         the lens does not reach, x and y are NaN.
     """
-    seen = (points - camera.position) @ camera.rotation.T
+    return place_in_image(camera, size, (points - camera.position) @ camera.rotation.T)
+
+
+def place_in_image(camera: Camera, size: SensorSize, seen: Float64Array) -> Float64Array:
+    """As `project`, for points [..., 3] along the camera's own axes, m."""
     depth = seen[..., 2]
     lens = camera.lens
     if lens is not None:

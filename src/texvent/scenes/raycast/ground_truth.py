@@ -11,11 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.scenes.projection import project, project_direction, ray_directions
 from texvent.scenes.raycast.records import World
 from texvent.scenes.raycast.render import world_at
-from texvent.scenes.raycast.trace import SKY
-from texvent.scenes.raycast.visibility import cast_points, count_unoccluded
+from texvent.scenes.raycast.surface_motion import cast, cast_centres, move_to
+from texvent.scenes.raycast.visibility import count_unoccluded
 from texvent.scenes.scene import Float32Array, Float64Array, Scene
 from texvent.sensor import SensorSize
 
@@ -67,18 +66,6 @@ class GroundTruth:
     """Boxes at t0 of all objects with an id and at least one visible pixel, by id."""
 
 
-@dataclass(frozen=True, eq=False)
-class _Seen:
-    """What the pixel centres show at t0."""
-
-    points: Float64Array
-    """[H · W, 2] image points, pixels."""
-    depth: Float64Array
-    """[H · W] metres."""
-    number: NDArray[np.int32]
-    """[H · W] shape number, GROUND, SKY or ROOM."""
-
-
 def ground_truth(scene: Scene, t0_s: float, t1_s: float, size: SensorSize) -> GroundTruth:
     """Ground truth at t0 and motion from t0 to t1.
 
@@ -93,9 +80,9 @@ def ground_truth(scene: Scene, t0_s: float, t1_s: float, size: SensorSize) -> Gr
         size: image size, pixels.
     """
     world = world_at(scene, t0_s, size)
-    seen = _cast_centres(world, size)
+    seen = cast_centres(world, size)
     instances = _instances(scene, t0_s, seen.number)
-    place = _move_to(scene, (t0_s, t1_s), size, seen)
+    place = move_to(scene, (t0_s, t1_s), size, seen)
     in_front = place[:, 2] > 0.0
     flow = np.where(in_front[:, None], place[:, :2] - seen.points, np.nan)
     hidden = _hidden(world_at(scene, t1_s, size), place, size)
@@ -125,21 +112,8 @@ def visible_instances(
     Returns:
         [k] depth along the optical axis, m, inf for the sky; and [k] instance ids.
     """
-    depth, number = _cast(world_at(scene, time_s, size), np.ascontiguousarray(points, np.float64))
+    depth, number = cast(world_at(scene, time_s, size), np.ascontiguousarray(points, np.float64))
     return depth, _instances(scene, time_s, number)
-
-
-def _cast_centres(world: World, size: SensorSize) -> _Seen:
-    row, column = np.indices(size.shape)
-    points = np.stack([column.ravel() + 0.5, row.ravel() + 0.5], axis=1)
-    return _Seen(points, *_cast(world, points))
-
-
-def _cast(world: World, points: Float64Array) -> tuple[Float64Array, NDArray[np.int32]]:
-    depth = np.empty(len(points), dtype=np.float64)
-    number = np.empty(len(points), dtype=np.int32)
-    cast_points(world, points, depth, number)
-    return depth, number
 
 
 def _instances(scene: Scene, time_s: float, number: NDArray[np.int32]) -> NDArray[np.int32]:
@@ -148,36 +122,13 @@ def _instances(scene: Scene, time_s: float, number: NDArray[np.int32]) -> NDArra
     return np.asarray(owner[np.where(number >= 0, number, -1)], dtype=np.int32)
 
 
-def _move_to(
-    scene: Scene, times_s: tuple[float, float], size: SensorSize, seen: _Seen
-) -> Float64Array:
-    """Image point and depth at t1 of the surface seen through each pixel centre at t0."""
-    before, after = scene.camera(times_s[0]), scene.camera(times_s[1])
-    direction = ray_directions(before, size, seen.points)
-    far = seen.number == SKY
-    depth = np.where(far, 1.0, seen.depth)
-    world_points = before.position + depth[:, None] * direction
-    on_shape = np.flatnonzero(seen.number >= 0)
-    if len(on_shape):
-        number = seen.number[on_shape]
-        start = scene.primitives(times_s[0]).to_world[number]
-        stop = scene.primitives(times_s[1]).to_world[number]
-        offset = (world_points[on_shape] - start[:, :, 3])[..., None]
-        local = np.linalg.solve(start[:, :, :3], offset)
-        world_points[on_shape] = (stop[:, :, :3] @ local)[..., 0] + stop[:, :, 3]
-    place = project(after, size, world_points)
-    place[far] = project_direction(after, size, direction[far])
-    place[far, 2] = np.where(place[far, 2] > 0.0, np.inf, -np.inf)
-    return place
-
-
 def _hidden(world: World, place: Float64Array, size: SensorSize) -> NDArray[np.bool_]:
     """Whether something stands before the points, or they are out of the image."""
     x, y, depth = place.T
     inside = (depth > 0) & (x >= 0) & (x < size.width) & (y >= 0) & (y < size.height)
     hidden = ~inside
     index = np.flatnonzero(inside)
-    first, _ = _cast(world, np.ascontiguousarray(place[index, :2]))
+    first, _ = cast(world, np.ascontiguousarray(place[index, :2]))
     hidden[index] = first < depth[index] * (1.0 - _DEPTH_TOLERANCE)
     return np.asarray(hidden, dtype=np.bool_)
 

@@ -1,0 +1,277 @@
+"""Draw an instant between two frames whose motion is known, compiled by Numba.
+
+1. Every piece of surface is put where its path leads (`splat_cpu.py`).
+2. Brightness and coverage are read from the source frames where the pieces came from: by a cubic
+   spline inside a layer, so that texture stays sharp, bilinearly at contours.
+3. The nearer layer covers the farther one by its share of the pixel, in linear light. Where both
+   frames see a layer, they are mixed by time.
+
+`motion_reference.py` defines the same readably.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.interpolate.motion.layers_cpu import (
+    Floats,
+    Layers,
+    Numbers,
+    gamma_coded,
+    linear,
+)
+from texvent.interpolate.motion.splat_cpu import (
+    PLACE,
+    SAME_LAYER,
+    Behind,
+    find_meeting_pieces,
+    make_room,
+    number_meetings,
+    splat,
+    splat_meetings,
+)
+from texvent.runtime.jit import jit
+
+SIMILAR, DIFFERENT = np.float32(0.25), np.float32(0.75)
+"""Two frames whose coverage differs by less agree; by more, one of them cannot see the layer."""
+CHANGED = np.float32(0.04)
+"""A surface whose level differs by a larger share between its two frames was lit differently."""
+DARK = np.float32(5.0)
+"""Added to levels before they are compared."""
+FOLLOWED, MIXED = 0, 1
+"""What `draw` says of a pixel: within one layer and equally bright in both frames, or not."""
+
+
+class Side(NamedTuple):
+    """One frame of a pair and the way from it to the other."""
+
+    layers: Layers
+    pieces: Floats
+    """[n, PIECE]; see `paths_cpu.list_pieces`."""
+
+
+@jit(error_model="numpy")
+def draw(
+    first: Side, second: Side, position: np.float32, image: Floats, kind: NDArray[np.uint8]
+) -> None:
+    """Draw the instant at τ = `position` into `image`, and what was met where into `kind`."""
+    height, width = image.shape
+    rest = np.float32(1.0) - position
+    room = make_room(height, width)
+    splat(first.pieces, position, 0, room)
+    splat(second.pieces, rest, PLACE, room)
+    meetings = number_meetings(room)
+    behind = Behind(
+        np.zeros((len(meetings), 2 * PLACE), np.float32),
+        np.full(len(meetings), np.inf, np.float32),
+    )
+    if len(meetings) > 1:
+        chosen = find_meeting_pieces(first.pieces, position, room.number)
+        others = find_meeting_pieces(second.pieces, rest, room.number)
+        for is_far in (False, True):
+            splat_meetings(first.pieces, chosen, position, 0, room, behind, is_far)
+            splat_meetings(second.pieces, others, rest, PLACE, room, behind, is_far)
+    pixels = np.arange(height * width).astype(np.int32)
+    near = (
+        _gather(first.layers, room.places, 0, pixels),
+        _gather(second.layers, room.places, PLACE, pixels),
+    )
+    far = (
+        _gather(first.layers, behind.places, 0, meetings),
+        _gather(second.layers, behind.places, PLACE, meetings),
+    )
+    _compose(position, room.number, near, far, image, kind)
+    _hold(first.layers.value, second.layers.value, position, image)
+
+
+@jit(error_model="numpy")
+def _compose(
+    position: np.float32,
+    number: Numbers,
+    near: tuple[Floats, Floats],
+    far: tuple[Floats, Floats],
+    image: Floats,
+    kind: NDArray[np.uint8],
+) -> None:
+    """Mix what both frames know of each pixel, and cover the farther layer by the nearer one."""
+    height, width = image.shape
+    near_1, near_2 = near
+    far_1, far_2 = far
+    for y in range(height):
+        for x in range(width):
+            k, meeting = y * width + x, number[y, x]
+            share_1, value_1 = near_1[k, 0], near_1[k, 1]
+            share_2, value_2 = near_2[k, 0], near_2[k, 1]
+            level = _mix(share_1, value_1, share_2, value_2, position)
+            kind[y, x] = MIXED
+            if meeting == 0:
+                is_same = share_1 == 0 or share_2 == 0 or _is_alike(value_1, value_2)
+                if is_same and near_1[k, 2] > 0 and near_2[k, 2] > 0:
+                    kind[y, x] = FOLLOWED
+            else:
+                farther = _mix(
+                    far_1[meeting, 0],
+                    far_1[meeting, 1],
+                    far_2[meeting, 0],
+                    far_2[meeting, 1],
+                    position,
+                )
+                share = _covered(share_1, share_2, position)
+                if level < 0:
+                    level = farther
+                elif farther >= 0 and share < 1:
+                    light = share * linear(float(level)) + (1.0 - share) * linear(float(farther))
+                    level = np.float32(gamma_coded(float(light)))
+            image[y, x] = level
+
+
+@jit(error_model="numpy")
+def _hold(first: Floats, second: Floats, position: np.float32, image: Floats) -> None:
+    """Where no path leads, both frames are mixed in place."""
+    height, width = image.shape
+    for y in range(height):
+        for x in range(width):
+            if image[y, x] < 0:
+                image[y, x] = first[y, x] + position * (second[y, x] - first[y, x])
+
+
+@jit(error_model="numpy")
+def _is_alike(one: np.float32, two: np.float32) -> bool:
+    """Whether two levels differ by less than `CHANGED`."""
+    high, low = max(one, two) + DARK, min(one, two) + DARK
+    return bool(high < (np.float32(1.0) + CHANGED) * low)
+
+
+@jit(error_model="numpy")
+def _covered(share_1: np.float32, share_2: np.float32, position: np.float32) -> np.float32:
+    """How much of a pixel the nearer layer covers.
+
+    Mixed by time, unless one frame cannot see the layer: then the other one tells.
+    """
+    mixed = share_1 + position * (share_2 - share_1)
+    apart = (abs(share_1 - share_2) - SIMILAR) / (DIFFERENT - SIMILAR)
+    doubt = min(max(apart, np.float32(0.0)), np.float32(1.0))
+    return min(mixed + doubt * (max(share_1, share_2) - mixed), np.float32(1.0))
+
+
+@jit(error_model="numpy")
+def _mix(
+    share_1: np.float32,
+    value_1: np.float32,
+    share_2: np.float32,
+    value_2: np.float32,
+    position: np.float32,
+) -> np.float32:
+    """Level of a layer by its share and level in both frames; -1 where neither sees it."""
+    weight_1, weight_2 = share_1 * (np.float32(1.0) - position), share_2 * position
+    total = weight_1 + weight_2
+    if total <= 0:
+        return np.float32(-1.0)
+    return (weight_1 * value_1 + weight_2 * value_2) / total
+
+
+@jit(error_model="numpy")
+def _gather(layers: Layers, places: Floats, index: int, pixels: Numbers) -> Floats:
+    """Share and level of a layer in a frame, and whether the place lies within the layer.
+
+    Args:
+        layers: the frame.
+        places: [n, 2 · PLACE] where from.
+        index: first column of this frame.
+        pixels: [n] flat index of the pixel that each row belongs to.
+
+    Returns:
+        [n, 3] float32.
+    """
+    height, width = layers.order.shape
+    order, spline, is_plain = layers.order, layers.spline, layers.is_plain
+    found = np.zeros((len(places), 3), np.float32)
+    half = np.float32(0.5)
+    for k in range(len(places)):
+        weight = places[k, index]
+        if weight <= 0:
+            found[k, 2] = 1.0
+            continue
+        shift_x, shift_y = places[k, index + 1] / weight, places[k, index + 2] / weight
+        depth, limit = places[k, index + 3] / weight, places[k, index + 4] / weight
+        y, x = pixels[k] // width, pixels[k] % width
+        from_x = min(max(x + shift_x, np.float32(0.0)), np.float32(width - 1))
+        from_y = min(max(y + shift_y, np.float32(0.0)), np.float32(height - 1))
+        column, row = int(from_x), int(from_y)
+        u, v = from_x - np.float32(column), from_y - np.float32(row)
+        away = order[int(from_y + half), int(from_x + half)] - depth
+        if is_plain[row, column] and abs(away) <= 3 * limit:
+            found[k, 0] = found[k, 2] = 1.0
+            if u == 0 and v == 0:
+                found[k, 1] = layers.value[row, column]
+            else:
+                found[k, 1] = _spline(spline, column, row, u, v)
+        else:
+            share, level = _at_contour(layers, column, row, u, v, depth, SAME_LAYER * limit)
+            found[k, 0], found[k, 1] = share, level
+            found[k, 2] = shift_x == 0 and shift_y == 0 and share >= 1
+    return found
+
+
+@jit(error_model="numpy")
+def _at_contour(
+    layers: Layers,
+    column: int,
+    row: int,
+    u: np.float32,
+    v: np.float32,
+    depth: np.float32,
+    limit: np.float32,
+) -> tuple[np.float32, np.float32]:
+    """Share and level of the layer at `depth`, bilinear between four pixels."""
+    height, width = layers.order.shape
+    share, light = np.float32(0.0), np.float32(0.0)
+    for corner in range(4):
+        i, j = corner % 2, corner // 2
+        part = (u if i else np.float32(1.0) - u) * (v if j else np.float32(1.0) - v)
+        if part <= 0:
+            continue
+        x, y = min(column + i, width - 1), min(row + j, height - 1)
+        if abs(layers.order[y, x] - depth) <= limit:
+            part *= layers.share[y, x]
+            light += part * layers.value[y, x]
+        elif abs(layers.other_order[y, x] - depth) <= limit:
+            part *= layers.other_share[y, x]
+            light += part * layers.other_value[y, x]
+        else:
+            continue
+        share += part
+    if share <= np.float32(1e-4):
+        return np.float32(0.0), np.float32(0.0)
+    return share, light / share
+
+
+@jit(error_model="numpy")
+def _spline(spline: Floats, column: int, row: int, u: np.float32, v: np.float32) -> np.float32:
+    """The cubic B-spline at (column + u, row + v), inside the image; not below 0."""
+    a0, a1, a2, a3 = _weights(u)
+    b0, b1, b2, b3 = _weights(v)
+    total = np.float32(0.0)
+    for j in range(4):
+        at = row - 1 + j
+        line = (
+            a0 * spline[at, column - 1]
+            + a1 * spline[at, column]
+            + a2 * spline[at, column + 1]
+            + a3 * spline[at, column + 2]
+        )
+        total += line * (b0 if j == 0 else b1 if j == 1 else b2 if j == 2 else b3)
+    return max(total, np.float32(0.0))
+
+
+@jit(error_model="numpy")
+def _weights(u: np.float32) -> tuple[np.float32, np.float32, np.float32, np.float32]:
+    one, sixth = np.float32(1.0), np.float32(1.0 / 6.0)
+    rest, u2 = one - u, u * u
+    u3 = u2 * u
+    first, last = sixth * rest * rest * rest, sixth * u3
+    second = np.float32(2.0 / 3.0) - u2 + np.float32(0.5) * u3
+    return first, second, one - first - second - last, last

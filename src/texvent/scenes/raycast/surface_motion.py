@@ -1,0 +1,111 @@
+"""Where the surfaces seen at one instant are at another: motion vectors, exact."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.runtime.threads import count_threads, run_parts, split
+from texvent.scenes.projection import place_in_image
+from texvent.scenes.raycast.records import World
+from texvent.scenes.raycast.render import world_at
+from texvent.scenes.raycast.trace import SKY
+from texvent.scenes.raycast.visibility import cast_points, see_from
+from texvent.scenes.scene import Float64Array, Scene
+from texvent.sensor import SensorSize
+from texvent.video import Motion
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """What the pixel centres show at one instant."""
+
+    world: World
+    """The scene at that instant."""
+    points: Float64Array
+    """[H · W, 2] image points, pixels."""
+    depth: Float64Array
+    """[H · W] metres."""
+    number: NDArray[np.int32]
+    """[H · W] shape number, GROUND, SKY or ROOM."""
+
+
+def frame_motion(
+    scene: Scene, time_s: float, before_s: float | None, after_s: float | None, size: SensorSize
+) -> Motion:
+    """Motion of every pixel to the frames before and after, and depth.
+
+    Args:
+        scene: the scene.
+        time_s: time of the frame, s.
+        before_s: time of the frame before it, s, if there is one.
+        after_s: time of the frame after it, s, if there is one.
+        size: image size, pixels.
+
+    Returns:
+        Vectors to both, exact; NaN where the surface is not in front of the camera then.
+    """
+    seen = cast_centres(world_at(scene, time_s, size), size)
+
+    def vectors(to_s: float | None) -> NDArray[np.float32] | None:
+        if to_s is None:
+            return None
+        place = move_to(scene, (time_s, to_s), size, seen)
+        moved = np.where(place[:, 2:] > 0.0, place[:, :2] - seen.points, np.nan)
+        return moved.astype(np.float32).reshape(*size.shape, 2)
+
+    return Motion(
+        forward=vectors(after_s),
+        backward=vectors(before_s),
+        depth=seen.depth.astype(np.float32).reshape(size.shape),
+    )
+
+
+def cast_centres(world: World, size: SensorSize) -> Seen:
+    """What the pixel centres show."""
+    row, column = np.indices(size.shape)
+    points = np.stack([column.ravel() + 0.5, row.ravel() + 0.5], axis=1)
+    return Seen(world, points, *cast(world, points))
+
+
+def cast(world: World, points: Float64Array) -> tuple[Float64Array, NDArray[np.int32]]:
+    """Depth, m, and shape number of the first surface behind [k, 2] image points."""
+    depth = np.empty(len(points), dtype=np.float64)
+    number = np.empty(len(points), dtype=np.int32)
+    parts = split(len(points), count_threads())
+    run_parts(lambda one: cast_points(world, points[one], depth[one], number[one]), parts)
+    return depth, number
+
+
+def move_to(
+    scene: Scene, times_s: tuple[float, float], size: SensorSize, seen: Seen
+) -> Float64Array:
+    """Image point and depth at t1 of the surface seen through each pixel centre at t0, [H · W, 3].
+
+    Its depth is not positive where it is beside or behind the camera, and ± inf for the sky.
+    """
+    start = scene.primitives(times_s[0]).to_world
+    stop = scene.primitives(times_s[1]).to_world
+    # What takes the surface of each shape from t0 to t1: one matrix and one shift.
+    turn = stop[:, :, :3] @ np.linalg.inv(start[:, :, :3])
+    shift = stop[:, :, 3] - (turn @ start[:, :, 3:])[..., 0]
+    rests = (start == stop).all(axis=(1, 2))
+    turn[rests], shift[rests] = np.eye(3), 0.0
+    after = scene.camera(times_s[1])
+    pose = (
+        np.ascontiguousarray(after.rotation, dtype=np.float64),
+        np.ascontiguousarray(after.position, dtype=np.float64),
+    )
+    place = np.empty((len(seen.points), 3), dtype=np.float64)
+
+    def work(one: slice) -> None:
+        arrays = seen.points[one], seen.depth[one], seen.number[one]
+        see_from(seen.world, *arrays, (turn, shift), pose, place[one])
+
+    run_parts(work, split(len(place), count_threads()))
+    place = place_in_image(after, size, place)
+    far = seen.number == SKY
+    place[far, 2] = np.where(place[far, 2] > 0.0, np.inf, -np.inf)
+    return place
