@@ -209,6 +209,27 @@ def test_arrays_of_a_renderer_pass_through_too(tmp_path):
     assert (truth.event_instance == 5).mean() > 0.98
 
 
+def test_a_folder_of_truth_is_motion_that_simulate_reads(written, tmp_path):
+    folder, truth, _ = written
+    frames = np.stack([frame.pixels for frame in board_video()])
+    texvent.simulate(
+        frames,
+        t_us=truth.times_us.tolist(),
+        motion=str(folder / "flow/forward_npz"),
+        depth=str(folder / "depth"),
+        instances=str(folder / "instance"),
+        truth_folder=texvent.TruthFolder(tmp_path / "b.truth", "flow,depth,ids,boxes"),
+    )
+    again = texvent.load_truth(tmp_path / "b.truth")
+    for index in range(len(truth)):
+        np.testing.assert_array_equal(again.instance(index), truth.instance(index))
+        np.testing.assert_array_equal(again.depth(index), truth.depth(index))
+        if index < len(truth) - 1:
+            np.testing.assert_array_equal(again.flow(index), truth.flow(index))
+    for name in ("t", "x", "y", "w", "h", "track_id"):
+        np.testing.assert_array_equal(again.boxes[name], truth.boxes[name])
+
+
 def test_frames_in_between_move_the_ids_along(tmp_path):
     parts = texvent.TruthFolder(tmp_path / "m.truth", "events")
     options = {"interpolate": "flow", "count": "fixed", "fixed_count": 3, "noise": "none"}

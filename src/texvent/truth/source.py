@@ -102,14 +102,14 @@ class TruthSource:
         named = sorted((number, name) for name, number in ids.items())
         object.__setattr__(self, "classes", dict(named))
         if "poses" in self.parts and not isinstance(self.video, CameraStream):
+            others = ",".join(part for part in PARTS if part != "poses")
             raise ConfigError(
-                f"truth 'poses' needs a known camera, which {type(self.video).__name__} does not "
-                f"have; leave it out, or ask for the others: {','.join(PARTS.keys() - {'poses'})}"
+                "truth 'poses' needs a known camera, which these frames do not have; ask for some "
+                f"of the others: {others}"
             )
-        if max(names, default=0) >= MOST_INSTANCES:
-            raise ConfigError(
-                f"instance id {max(names)} is too large; at most {MOST_INSTANCES - 1}"
-            )
+        highest = max(names, default=0)
+        if highest >= MOST_INSTANCES:
+            raise ConfigError(f"instance id {highest} is too large; at most {MOST_INSTANCES - 1}")
 
     @property
     def size(self) -> SensorSize:
