@@ -41,8 +41,8 @@ class PromptOptions(UpsampleConfig):
     positional: ClassVar[tuple[str, ...]] = ("prompt",)
     main_options: ClassVar[tuple[str, ...]] = (
         "out", "generator", "duration", "fps", "sensor", "simulator", "preset",
-        "contrast_threshold", "noise", "interpolate", "seed", "truth", "events_only", "config",
-        "dry_run", "overwrite",
+        "contrast_threshold", "noise", "interpolate", "seed", "events_only", "config", "dry_run",
+        "overwrite",
     )  # fmt: skip
 
     prompt: str = REQUIRED
