@@ -45,7 +45,7 @@ OPTIONS = {
 @pytest.fixture(scope="module")
 def native(tmp_path_factory: pytest.TempPathFactory) -> Path:
     out = tmp_path_factory.mktemp("native") / "out"
-    return rig.record(PROMPT, out, truth="poses,depth", **OPTIONS)
+    return rig.record(PROMPT, out, truth="poses,depth,events", **OPTIONS)
 
 
 def assert_same_events(one: texvent.EventStream, other: texvent.EventStream) -> None:
@@ -74,7 +74,9 @@ def test_native_folder_holds_all_and_says_how_it_was_made(native: Path) -> None:
         assert [int(row["t_us"]) for row in rows] == [50_000, 100_000, 150_000, 200_000]
         assert float(rows[0]["first_row_start_us"]) == pytest.approx(49_000)
         assert cv2.imread(str(native / name / rows[0]["file"])).shape == (48, 64, 3)
-        assert (native / name / "truth" / "camera.json").is_file()
+        truth = texvent.load_truth(native / name / "truth")
+        np.testing.assert_array_equal(events.instance, truth.event_instance)
+        assert set(truth.instances.values()) == {"ball", "tree"}
     assert len(set(facts["pixel_seeds"].values())) == 2
 
 
@@ -93,7 +95,7 @@ def test_native_imu_and_poses_are_rows_of_their_formats(native: Path) -> None:
 
 
 def test_the_same_seed_gives_the_same_recording(native: Path, tmp_path: Path) -> None:
-    again = rig.record(PROMPT, tmp_path / "again", truth="poses,depth", **OPTIONS)
+    again = rig.record(PROMPT, tmp_path / "again", truth="poses,depth,events", **OPTIONS)
     for name in ("imu.csv", "poses.txt", "calib.yaml", "imu.yaml", "cam1/frames/000002.png"):
         assert (again / name).read_bytes() == (native / name).read_bytes()
     for name in ("cam0", "cam1"):

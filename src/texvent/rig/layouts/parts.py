@@ -83,13 +83,22 @@ def write_events(
     with ExitStack() as outputs:
         writer = open_writer(path, size=camera.size, metadata=facts, format=format, overwrite=False)
         sink = outputs.enter_context(BackgroundWriter(outputs.enter_context(writer)))
+        # With the ids of their objects, events come from the truth.
+        has_ids = "events" in parts and getattr(writer, "keeps_ids", False)
         truth = None
         if parts:
-            truth = outputs.enter_context(
-                TruthWriter(path.parent / "truth", simulation.video, parts, metadata=facts)
+            truth = TruthWriter(
+                path.parent / "truth",
+                simulation.video,
+                parts,
+                metadata=facts,
+                is_continuous=simulation.settings.run.engine == "continuous",
+                on_events=sink.append if has_ids else None,
             )
+            outputs.enter_context(truth)
         for frame, packet in steps_of(simulation, camera, tally, progress):
-            sink.append(packet)
+            if not has_ids:
+                sink.append(packet)
             if truth is not None:
                 truth.append(frame, packet)
 
