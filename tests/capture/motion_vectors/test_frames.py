@@ -246,7 +246,10 @@ def test_some_nan_count_as_not_known_with_a_warning():
 
 def test_depth_in_millimetres():
     millimetres = (DEPTH * 1000).astype(np.float32)
-    with pytest.warns(TexventWarning, match=r"median of 9000 m, so it is probably in mm"):
+    with pytest.warns(
+        TexventWarning,
+        match=r"median of 9000 m, so it is probably in another unit; give --depth-scale: 0.001",
+    ):
         list(opened({"motion": FORWARD, "depth": millimetres}))
     stream = opened({"motion": FORWARD, "depth": millimetres.astype(np.uint16)}, depth_scale=1e-3)
     assert next(iter(stream)).motion.depth == pytest.approx(DEPTH[0])

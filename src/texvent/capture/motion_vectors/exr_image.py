@@ -43,14 +43,20 @@ class ExrImage:
     """Attributes of each part."""
 
     def find(self, *endings: str) -> dict[str, NDArray[np.float32]]:
-        """The channels that end so, behind a dot or as a whole, under these endings; or none.
+        """The channels that are called so, under these names; or none.
+
+        A name with a dot may follow that of a layer: `ViewLayer.Vector.X` is `Vector.X`.
 
         Raises:
             FileFormatError: two layers have them.
         """
         found: dict[str, NDArray[np.float32]] = {}
         for ending in endings:
-            names = [one for one in self.channels if one == ending or one.endswith(f".{ending}")]
+            names = [
+                one
+                for one in self.channels
+                if one == ending or ("." in ending and one.endswith(f".{ending}"))
+            ]
             if len(names) > 1:
                 raise FileFormatError(
                     f"{self.path} has several channels {ending} ({few(names)}); write one view "

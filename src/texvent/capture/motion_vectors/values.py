@@ -96,8 +96,9 @@ def warn_of_unit(depth: NDArray[np.float32], where: str) -> None:
     middle = float(np.median(near)) if near.size else 0.0
     if middle > FAR_M:
         warn(
-            f"{where} has a median of {middle:.0f} m, so it is probably in mm; give --depth-scale "
-            "0.001 (events do not change: depth says which surface is in front)"
+            f"{where} has a median of {middle:.0f} m, so it is probably in another unit; give "
+            "--depth-scale: 0.001 for mm, 0.01 for Unreal's cm (events do not change: depth says "
+            "which surface is in front)"
         )
 
 
