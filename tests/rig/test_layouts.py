@@ -250,6 +250,7 @@ def types_with_events():  # type: ignore[no-untyped-def]
         (["--rig", "x.yaml", "--sensor", "64x48"], "both say how large"),
         (["--imu", "100", "--imu-noise", "bosch"], "imu_noise is 'bosch'; it must be"),
         (["--shutter", "sideways"], "shutter"),
+        (["--frames", "2", "--exposure", "0.4", "--duration", "0.3"], "no frame at 2 per second"),
         (["--truth", "colour", "--frames", "10"], "no part 'colour' of truth"),
     ],
 )

@@ -153,10 +153,38 @@ def test_undistort_leaves_the_axis_alone() -> None:
     ("lens", "words"),
     [
         (Lens(110.0, 110.0, 80.0, 60.0, "radtan", (-2.0, 0.0, 0.0, 0.0)), "folds"),
-        (Lens(40.0, 40.0, 80.0, 60.0, "equidistant"), "85°"),
+        (Lens(8.0, 8.0, 80.0, 60.0), "85°"),
+        (Lens(40.0, 40.0, 400.0, 60.0, "equidistant"), "no ray reaches"),
         (Lens(0.0, 110.0, 80.0, 60.0), "focal lengths are 0 and 110"),
     ],
 )
 def test_a_lens_that_cannot_fill_the_image_is_refused(lens: Lens, words: str) -> None:
     with pytest.raises(ConfigError, match=words):
         lens_reach(lens, SIZE)
+
+
+def test_a_fisheye_that_looks_behind_has_a_dark_rim() -> None:
+    """40 px per radian: 85° is 59.3 px from the axis; what is further is black and not moving."""
+    wide = Lens(40.0, 40.0, 80.0, 60.0, "equidistant")
+    assert lens_reach(wide, SIZE).dark == pytest.approx(1.0 - np.pi * 59.3**2 / 19_200, abs=0.05)
+    scene = HandScene(
+        (MovingShape(Shape.BOX, (30.0, 0.1, 30.0), still(0.0, 3.0, 0.0)),),
+        lambda time: camera_with(wide),
+    )
+    image = render(scene, 0.0, SIZE)
+    rows, columns = np.indices(SIZE.shape) + 0.5
+    radius = np.hypot(columns - 80.0, rows - 60.0)
+    limit = 40.0 * np.radians(85.0)
+    assert np.isfinite(image).all()
+    assert (image[radius > limit + 1.0] == 0.0).all()
+    assert (image[radius < limit - 1.0].max(axis=1) > 20.0).all()
+    truth = ground_truth(scene, 0.0, 0.1, SIZE)
+    dark = radius > limit
+    assert np.isnan(truth.flow[dark]).all()
+    assert np.isinf(truth.depth[dark]).all()
+    assert np.isfinite(truth.flow[radius < limit - 1.0]).all()
+    near_rim = (radius < limit - 0.5) & (radius > limit - 2.0)
+    points = np.stack([columns[near_rim], rows[near_rim]], axis=1)
+    instant = world_at(scene, 0.0, SIZE).instant[0]
+    kernel = [ray_direction(instant, x, y) for x, y in points]
+    np.testing.assert_allclose(kernel, ray_directions(camera_with(wide), SIZE, points), rtol=1e-9)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.batch.identity import derived_seed
-from texvent.errors import ConfigError, shown
+from texvent.errors import ConfigError, shown, warn
 from texvent.generate.procedural import ProceduralVideo
 from texvent.options.values import plain
 from texvent.pipeline import Simulation, text_to_video
@@ -176,9 +176,14 @@ def prepare_recording(
     cameras = []
     for camera in rig.cameras:
         lens = path_lens(video.scene, camera, duration_s)
-        lens_reach(lens, camera.size)
+        dark = lens_reach(lens, camera.size).dark
+        if dark > 0.0:
+            warn(
+                f"{camera.name}: {dark:.0%} of its pixels look further than 85° from the optical "
+                "axis; they stay black"
+            )
         cameras.append(replace(camera, lens=lens))
-    return Recording(
+    recording = Recording(
         prompt=prompt,
         settings=settings,
         config=config,
@@ -186,6 +191,12 @@ def prepare_recording(
         noise=noise,
         video=video,
     )
+    if config.frames is not None and not all(map(recording.frame_times, recording.rig.cameras)):
+        raise ConfigError(
+            f"no frame at {float(config.frames):g} per second has its whole exposure within the "
+            f"{duration_s:g} s of the recording; take a longer duration or a shorter exposure"
+        )
+    return recording
 
 
 def _sized(settings: Settings, rig: Rig) -> Settings:

@@ -30,7 +30,7 @@ Distortion = Literal["none", "radtan", "equidistant"]
 DISTORTIONS: tuple[Distortion, ...] = ("none", "radtan", "equidistant")
 """Models by name; the position is the number by which kernels know them."""
 WIDEST = math.radians(85.0)
-"""No pixel may look further from the optical axis than this."""
+"""Nothing further from the optical axis is seen: a fisheye's image ends in a circle there."""
 ITERATIONS = 30
 """Newton steps at most; a lens that does not fold needs four to six."""
 CONVERGED = 1e-12
@@ -69,6 +69,8 @@ class LensReach(NamedTuple):
     """Largest angle between neighbouring pixels, over that on the optical axis."""
     coarsest_step: float
     """Largest step between neighbouring pixels in the image without distortion, pixels."""
+    dark: float
+    """Share of the image that no ray reaches: outside an equidistant lens's circle of 85°."""
 
 
 def distort(lens: Lens, points: Float64Array) -> Float64Array:
@@ -174,8 +176,9 @@ def lens_reach(lens: Lens, size: SensorSize) -> LensReach:
     """What a lens does over an image of that size.
 
     Raises:
-        ConfigError: its focal lengths are not above 0, it folds within the image, or a pixel
-            looks further than 85° from the optical axis.
+        ConfigError: its focal lengths are not above 0, it folds within the image, a pixel of a
+            lens that is not equidistant looks further than 85° from the optical axis, or the
+            image's middle sees nothing.
     """
     if not (lens.fx > 0.0 and lens.fy > 0.0 and math.isfinite(lens.fx + lens.fy)):
         raise ConfigError(
@@ -188,8 +191,12 @@ def lens_reach(lens: Lens, size: SensorSize) -> LensReach:
     found = normalised(lens, points)
     back = distort(lens, found) * [lens.fx, lens.fy] + [lens.cx, lens.cy]
     wrong = ~(np.abs(back - points).max(axis=-1) < 1e-6)  # NaN is wrong too
-    wrong |= ~(np.hypot(found[:, 0], found[:, 1]) <= math.tan(WIDEST))
-    if wrong.any():
+    wrong |= ~(np.hypot(found[:, 0], found[:, 1]) <= math.tan(WIDEST) * (1.0 + 1e-9))
+    dark = np.isnan(found[:, 0]) & (lens.distortion == "equidistant")
+    wrong &= ~dark
+    middle = normalised(lens, np.array([[0.5 * size.width, 0.5 * size.height]]))
+    if wrong.any() or np.isnan(middle).any():
+        wrong |= dark
         first = points[np.flatnonzero(wrong)[0]]
         raise ConfigError(
             f"no ray reaches image point ({first[0]:g}, {first[1]:g}) of {size} through this lens "
@@ -198,13 +205,19 @@ def lens_reach(lens: Lens, size: SensorSize) -> LensReach:
         )
     focal = np.array([lens.fx, lens.fy])
     plane = found * focal + [lens.cx, lens.cy]
-    low, high = plane.min(axis=0), plane.max(axis=0)
+    low, high = np.nanmin(plane, axis=0), np.nanmax(plane, axis=0)
+    if dark.any():
+        centre, radius = np.array([lens.cx, lens.cy]), focal * math.tan(WIDEST)
+        low, high = centre - radius, centre + radius
     half = 0.5 * np.eye(2)[:, None]
     steps = np.nan_to_num(normalised(lens, points + half) - normalised(lens, points - half))
-    length = np.sqrt(1.0 + (found**2).sum(axis=-1))
-    angles = np.linalg.norm(steps, axis=-1) / length * max(lens.fx, lens.fy)
+    # |step × direction| / |direction|², with direction (x, y, 1) and step (sx, sy, 0).
+    (x, y), (sx, sy) = np.nan_to_num(found).T, np.moveaxis(steps, -1, 0)
+    across = np.sqrt(sx * sx + sy * sy + (sx * y - sy * x) ** 2)
+    angles = across / (1.0 + x * x + y * y) * max(lens.fx, lens.fy)
     return LensReach(
         (float(low[0]), float(low[1]), float(high[0]), float(high[1])),
         max(1.0, float(angles.max())),
         max(1.0, float(np.abs(steps * focal).max())),
+        float(dark.mean()),
     )

@@ -52,7 +52,7 @@ class GroundTruth:
     t1_s: float
     """Second instant, s; before or after the first."""
     depth: Float32Array
-    """[H, W] metres along the optical axis; inf for the sky."""
+    """[H, W] metres along the optical axis; inf for the sky, and where a lens sees nothing."""
     instance: NDArray[np.int32]
     """[H, W] id of the object seen; 0 is ground, sky and scenery without an id."""
     flow: Float32Array

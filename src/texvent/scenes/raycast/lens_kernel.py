@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from texvent.runtime.jit import jit
-from texvent.scenes.lens import CONVERGED, ITERATIONS
+from texvent.scenes.lens import CONVERGED, ITERATIONS, WIDEST
 from texvent.scenes.raycast.records import Record
 from texvent.scenes.raycast.vectors import Vector, along, scaled, triple
 
@@ -47,13 +47,18 @@ def _undistorted_equidistant(k: Record, tx: float, ty: float) -> tuple[float, fl
         angle -= step
         if abs(step) <= CONVERGED:
             break
+    if not 0.0 <= angle <= WIDEST:
+        return math.nan, math.nan
     ratio = math.tan(angle) / distorted
     return tx * ratio, ty * ratio
 
 
 @jit(error_model="numpy")
 def plane_point(instant: Record, x: float, y: float) -> tuple[float, float]:
-    """Where the ray through image point (x, y) meets the image without distortion, pixels."""
+    """Where the ray through image point (x, y) meets the image without distortion, pixels.
+
+    NaN where the lens lets nothing through.
+    """
     if instant.distortion == NO_DISTORTION:
         return x, y
     lens, k = instant.lens, instant.coefficients
@@ -73,6 +78,8 @@ def pixel_steps(instant: Record, x: float, y: float) -> tuple[Vector, Vector]:
         return right, down
     left, west = plane_point(instant, x - 0.5, y), plane_point(instant, x, y - 0.5)
     near, low = plane_point(instant, x + 0.5, y), plane_point(instant, x, y + 0.5)
+    if math.isnan(left[0] + west[0] + near[0] + low[0]):
+        return right, down  # on the rim of what the lens lets through
     return (
         along(scaled(right, near[0] - left[0]), down, near[1] - left[1]),
         along(scaled(right, low[0] - west[0]), down, low[1] - west[1]),

@@ -24,7 +24,8 @@ from texvent.scenes.raycast.vectors import (
 GROUND = -1
 SKY = -2
 ROOM = -3
-"""What a ray may meet besides shape number 0, 1, ...."""
+NOTHING = -4
+"""What a ray may meet besides shape number 0, 1, ...; NOTHING: the lens lets no ray through."""
 _NO_GROUND = 10
 _FLOOR = 6
 _SHADOW_BIAS_M = 2e-3
@@ -84,10 +85,13 @@ def first_hit(world: World, x: float, y: float) -> tuple[float, int, int, bool]:
     """What the ray through image point (x, y) meets first.
 
     Returns:
-        (depth in metres, shape number or GROUND / SKY / ROOM, face, whether a thin shape is near).
+        (depth in metres, shape number or GROUND / SKY / ROOM / NOTHING, face, whether a thin
+        shape is near).
     """
     instant, lists = world.instant[0], world.lists
     x, y = plane_point(instant, x, y)
+    if math.isnan(x):
+        return math.inf, NOTHING, 0, False
     direction = plane_direction(instant, x, y)
     cell = tile_at(instant, x, y)
     best, found, best_face = background_hit(instant, direction)
@@ -173,7 +177,7 @@ def sun_blocked(world: World, point: Vector) -> tuple[bool, bool]:
 @jit(error_model="numpy")
 def surface_normal(world: World, number: int, face: int, point: Vector) -> Vector:
     """Unit normal of what was hit at `point`, metres."""
-    if number == GROUND:
+    if number in (GROUND, NOTHING):
         return (0.0, 0.0, 1.0)
     if number == ROOM:
         return on_axis(face, -1.0 if face == 2 or point[face] > 0.0 else 1.0)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -30,7 +32,7 @@ def cast_points(
         owner: the scene.
         points: [k, 2] x and y, pixels, inside the image.
         depth: [k] metres along the optical axis is written; inf for the sky.
-        number: [k] shape number, or GROUND, SKY or ROOM, is written.
+        number: [k] shape number, or GROUND, SKY, ROOM or NOTHING, is written.
     """
     world = uncounted_world(owner)
     for index in range(len(points)):
@@ -101,6 +103,8 @@ def count_unoccluded(
     for row in range(height):
         for column in range(width):
             u, v = plane_point(instant, column + 0.5, row + 0.5)
+            if math.isnan(u):
+                continue
             cell = tile_at(instant, u, v)
             pixel = row * width + column
             direction = plane_direction(instant, u, v)

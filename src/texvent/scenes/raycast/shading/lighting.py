@@ -132,6 +132,13 @@ def _ground_light(
 
 
 @jit(error_model="numpy")
+def _angle_of_step(direction: Colour, step: Colour) -> float:
+    """Angle by which a small step turns a direction, radians: |step × direction| / |direction|²."""
+    square, along_it = dot(direction, direction), dot(direction, step)
+    return math.sqrt(max(dot(step, step) * square - along_it * along_it, 0.0)) / square
+
+
+@jit(error_model="numpy")
 def shade_hit(
     world: World, x: float, y: float, hit: tuple[float, int, int], is_lit: bool
 ) -> Colour:
@@ -147,9 +154,11 @@ def shade_hit(
     instant = world.instant[0]
     depth, number, face = hit
     direction = ray_direction(instant, x, y)
+    if math.isnan(direction[0]):  # the lens lets nothing through
+        return 0.0, 0.0, 0.0
     steps, step = pixel_steps(instant, x, y), instant.step
     if instant.distortion != NO_DISTORTION:
-        step = math.sqrt(dot(steps[0], steps[0]))
+        step = _angle_of_step(direction, steps[0])
     if number == SKY:
         return _sky_light(instant, unit(direction), step)
     point = along(triple(instant.origin), direction, depth)
@@ -157,7 +166,7 @@ def shade_hit(
     if number == GROUND:
         light = _ground_light(world, depth, point, direction, steps, is_lit)
     elif number == ROOM:
-        footprint = depth * step
+        footprint = (depth if instant.distortion == NO_DISTORTION else distance) * step
         colour = wall_colour(instant, point, face, footprint)
         normal = surface_normal(world, ROOM, face, point)
         light = _reflected(world, colour, point, normal, footprint, False)
