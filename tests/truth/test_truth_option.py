@@ -27,7 +27,9 @@ def run(*words: object) -> int:
 
 def test_all_of_it_beside_the_events(folder, capsys):
     assert run("generate", "a red ball bounces", "-o", "b.raw", "--truth", "all", *QUICK) == 0
-    assert capsys.readouterr().out.split() == ["b.raw", "b.truth"]
+    written = capsys.readouterr()
+    assert written.out.split() == ["b.raw", "b.truth"]
+    assert "\\u000a" not in written.err
     truth = texvent.load_truth("b.truth")
     assert len(truth.event_instance) == len(texvent.load("b.raw"))
     assert set(np.unique(truth.event_instance)) <= {0, *truth.instances}

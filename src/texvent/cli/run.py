@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -105,8 +105,7 @@ def execute(simulation: Simulation, options: OutputOptions, files: RunFiles) -> 
         write_out(describe_estimate(estimate_run(simulation, files)) + "\n")
         return 0
     progress = ConsoleProgress(is_quiet=options.quiet)
-    for line in _notes(simulation):
-        progress.announce(line)
+    _announce(progress, _notes(simulation))
     tally, started, total = Tally(), time.perf_counter(), simulation.video.frame_count
 
     def count(frame: Frame, packet: EventStream) -> None:
@@ -115,7 +114,7 @@ def execute(simulation: Simulation, options: OutputOptions, files: RunFiles) -> 
 
     with progress, _saying_what_is_complete(files.outputs):
         early = write_run(simulation, files, on_step=count, on_scene_change=tally.add_scene_change)
-    progress.announce(_summary(tally, time.perf_counter() - started))
+    _announce(progress, _summary(tally, time.perf_counter() - started))
     if tally.events == 0 and tally.source_frames > 1:
         warn(NO_EVENTS.replace("contrast_threshold", "--contrast-threshold"))
     if early is not None:
@@ -130,6 +129,11 @@ def execute(simulation: Simulation, options: OutputOptions, files: RunFiles) -> 
     if early.error is not None:
         raise early.error
     return SIGNALLED + (early.signal or 0)
+
+
+def _announce(progress: ConsoleProgress, lines: Iterable[str]) -> None:
+    for line in lines:
+        progress.announce(line)
 
 
 @contextmanager
@@ -168,7 +172,7 @@ def _duration(video: FrameStream) -> float | None:
     return float((video.frame_count - 1) / video.fps)
 
 
-def _summary(tally: Tally, seconds: float) -> str:
+def _summary(tally: Tally, seconds: float) -> list[str]:
     """What a run made in `seconds` of work, in a few lines."""
     rate = tally.events / tally.seconds if tally.seconds else 0.0
     share = f", {tally.on_events / tally.events:.0%} ON" if tally.events else ""
@@ -183,4 +187,4 @@ def _summary(tally: Tally, seconds: float) -> str:
         lines.append(f"note     not smeared over the interval: {shown}")
     if tally.source_frames == 1:
         lines.append("note     one frame only, so nothing could change")
-    return "\n".join(lines)
+    return lines
