@@ -37,6 +37,8 @@ from texvent.video import MICROSECONDS, Frame, FrameStream, Motion
 
 CHECKED_FRAMES = 4
 """Frames whose vectors are compared with the images around them."""
+SPARSE = 4
+"""Every so many rows and columns tell how much a frame moves."""
 FRAMES_LOOKED_AT = 12
 """Frames read for that: those at the start may stand still."""
 
@@ -134,9 +136,10 @@ class MotionFrames(FrameSource):
 
     def _neighbours(self, frames: Sequence[Frame], field: _Field) -> list[Neighbours]:
         """The frames near the start that move most, with what is stored for them."""
+        levels = [self._levels(frame) for frame in frames]
         found: list[tuple[float, Neighbours]] = []
         for index in range(len(frames)):
-            luma = {"here": self._levels(frames[index])}
+            luma = {"here": levels[index]}
             seconds: dict[str, float] = {}
             stored: dict[Direction, NDArray[Any]] = {}
             places: tuple[tuple[Direction, int], ...] = (
@@ -146,13 +149,14 @@ class MotionFrames(FrameSource):
             for direction, place in places:
                 at = self._place(field, direction, index)
                 if 0 <= place < len(frames) and at is not None:
-                    luma[direction] = self._levels(frames[place])
+                    luma[direction] = levels[place]
                     stored[direction] = self._stacks[field.role].read(at)[field.kind]
                     seconds[direction] = _seconds(frames[index], frames[place])
             if stored:
                 values = next(iter(stored.values()))
                 self._check_field(values, field, index)
-                size = float(np.nanmean(np.abs(values[..., :2] - self._convention.offset)))
+                some = values[::SPARSE, ::SPARSE, :2] - self._convention.offset
+                size = float(np.nan_to_num(np.abs(some)).mean())
                 found.append((size, Neighbours(luma, stored, seconds)))
         found.sort(key=lambda one: -one[0])
         return [one for _, one in found[:CHECKED_FRAMES]]

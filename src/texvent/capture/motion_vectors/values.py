@@ -43,7 +43,7 @@ def check_vectors(stored: NDArray[Any], where: str) -> float:
             f"[H, W, 2]{hint}"
         )
     vectors = stored[..., :2]
-    if vectors.dtype.kind != "f":
+    if vectors.dtype.kind != "f" or np.isfinite(vectors).all():
         return 0.0
     infinite = int(np.isinf(vectors).any(-1).sum())
     if infinite:
