@@ -160,10 +160,13 @@ def count_instants(speed_px_s: float, exposure_s: float) -> int:
 
 def fastest_px_s(scene: Scene, size: SensorSize, time_s: float) -> float:
     """Speed that `FASTEST_SHARE` of the pixels do not exceed, px/s."""
-    from texvent.scenes.raycast.ground_truth import ground_truth
+    from texvent.scenes.raycast.render import world_at
+    from texvent.scenes.raycast.surface_motion import cast_centres, move_to
 
-    flow = ground_truth(scene, time_s, time_s + _LOOK_S, size).flow.astype(np.float64)
-    speed = np.hypot(flow[..., 0], flow[..., 1]) / _LOOK_S
+    seen = cast_centres(world_at(scene, time_s, size), size)
+    place = move_to(scene, (time_s, time_s + _LOOK_S), size, seen)
+    moved = (place[:, :2] - seen.points)[place[:, 2] > 0.0]
+    speed = np.hypot(moved[:, 0], moved[:, 1]) / _LOOK_S
     known = speed[np.isfinite(speed)]
     return float(np.quantile(known, FASTEST_SHARE)) if known.size else 0.0
 
