@@ -19,7 +19,7 @@ from texvent import rig
 from texvent.capture.open import open_frames
 from texvent.cli.app import main
 from texvent.config import CaptureConfig
-from texvent.errors import ConfigError, InputError, OutputError
+from texvent.errors import ConfigError, FileFormatError, InputError, OutputError
 from texvent.io.ros.messages import (
     EVENT_ARRAY,
     EVENT_ARRAY_TEXT,
@@ -109,6 +109,36 @@ def test_one_camera_of_a_rig_is_not_replayed_alone(
     assert main(["replay", str(native / "cam1" / "events.h5")]) == 2
     assert "one camera of a rig" in capsys.readouterr().err
     assert main(["validate", str(native / "cam1" / "events.h5")]) == 0
+
+
+def test_a_recording_is_loaded(native: Path) -> None:
+    made = rig.load(native)
+    left, right = made.cameras
+    assert len(right.events.collect()) == made.facts["events"]["cam1"]
+    assert left.frame(1).shape == (48, 64, 3)
+    assert right.frame_t_us.tolist() == [50_000, 100_000, 150_000, 200_000]
+    assert made.imu_t_us[:2].tolist() == [0, 10_000]
+    assert np.linalg.norm(made.imu_acceleration, axis=1) == pytest.approx(9.8, abs=0.5)
+    assert np.abs(made.imu_rate).max() < 1.0
+    assert made.poses.shape == (26, 8)
+    assert left.matrix[0, 2] == 31.5
+    assert left.coefficients.tolist() == [0.0] * 4
+    assert np.linalg.inv(right.mount.from_first)[0, 3] == pytest.approx(0.1)
+    with pytest.raises(InputError, match="4 frames; there is no 4"):
+        left.frame(4)
+
+
+def test_a_folder_that_is_no_recording_is_named(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="no recorded rig"):
+        rig.load(tmp_path)
+    (tmp_path / "rig.json").write_text("{")
+    with pytest.raises(FileFormatError, match="damaged"):
+        rig.load(tmp_path)
+    (tmp_path / "rig.json").write_text(
+        '{"rig": {"options": {"layout": "ecd"}}, "pixel_seeds": {"cam0": 1}}'
+    )
+    with pytest.raises(InputError, match="layout 'ecd'"):
+        rig.load(tmp_path)
 
 
 def test_only_a_recording_is_replaced(native: Path, tmp_path: Path) -> None:

@@ -1,8 +1,10 @@
 """Rigs: several cameras on one body, with frames and an IMU, in the embedded scenes.
 
-from texvent import rig
+Such as:
+    from texvent import rig
 
-rig.record("a red car drives left, handheld", "car", stereo=0.12, imu=1000, frames=30)
+    rig.record("a red car drives left, handheld", "car", stereo=0.12, imu=1000, frames=30)
+    left, right = rig.load("car").cameras
 """
 
 from __future__ import annotations
@@ -11,12 +13,14 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from texvent.rig.loading import load
     from texvent.rig.recorder import record
 
-__all__ = ["record"]
+__all__ = ["load", "record"]
+_HOMES = {"load": "loading", "record": "recorder"}
 
 
 def __getattr__(name: str) -> Any:
-    if name in __all__:
-        return getattr(importlib.import_module("texvent.rig.recorder"), name)
+    if name in _HOMES:
+        return getattr(importlib.import_module(f"texvent.rig.{_HOMES[name]}"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
