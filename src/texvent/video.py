@@ -161,6 +161,23 @@ class RenderableStream(FrameStream, Protocol):
 
 
 @runtime_checkable
+class MovingStream(RenderableStream, Protocol):
+    """A renderable stream that also knows how everything in it moves.
+
+    Its source frames carry motion if `with_motion` is true.
+    """
+
+    @property
+    def with_motion(self) -> bool:
+        """Whether source frames carry `Frame.motion`."""
+        ...
+
+    def luma_of(self, t_us: int, wanted: NDArray[np.bool_]) -> NDArray[np.float32]:
+        """Luma of some pixels of the frame at `t_us`: [k] for the k true ones of [H, W]."""
+        ...
+
+
+@runtime_checkable
 class FlickeringStream(RenderableStream, Protocol):
     """A renderable stream that knows how fast its light beats.
 

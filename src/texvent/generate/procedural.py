@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -17,11 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent._version import __version__
+from texvent.brightness import luma_bt601
 from texvent.config import FPS_RANGE, check_range
 from texvent.errors import ConfigError, few, warn
 from texvent.options.values import plain
 from texvent.sensor import SENSORS, SensorSize
-from texvent.video import MICROSECONDS, Frame, describe_stream, frame_time_us
+from texvent.video import MICROSECONDS, Frame, Motion, describe_stream, frame_time_us
 
 if TYPE_CHECKING:
     from texvent.runtime.progress import Progress
@@ -78,6 +79,8 @@ class ProceduralVideo:
     """What the generator made of the prompt (JSON-serialisable)."""
     flicker_hz: float | None = None
     """Flicker frequency of all light, Hz, or None where it is steady."""
+    with_motion: bool = False
+    """Whether frames carry exact motion vectors and depth."""
 
     def __repr__(self) -> str:
         return describe_stream(self)
@@ -100,7 +103,8 @@ class ProceduralVideo:
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order, each rendered on demand."""
         for index in range(self.frame_count):
-            yield self._frame(frame_time_us(index, self.fps), is_source=True)
+            frame = self._frame(frame_time_us(index, self.fps), is_source=True)
+            yield replace(frame, motion=self._motion(index)) if self.with_motion else frame
 
     def at(self, t_us: int) -> Frame:
         """The frame at `t_us`, [H, W, 3] float32 RGB on the 0..255 scale, `is_source` False."""
@@ -129,6 +133,33 @@ class ProceduralVideo:
     def class_names(self) -> Mapping[int, str]:
         """Instance id → noun, such as {1: "car"}."""
         return self.scene.class_names
+
+    def luma_of(self, t_us: int, wanted: NDArray[np.bool_]) -> NDArray[np.float32]:
+        """Luma of the pixels of [H, W] `wanted` at `t_us`, [k] float32, 0..255 scale."""
+        from texvent.scenes.raycast.render import render_pixels
+
+        config = self.config
+        pixels = render_pixels(
+            self.scene,
+            t_us / MICROSECONDS,
+            self.size,
+            wanted,
+            samples=config.samples,
+            shadows=config.shadows,
+        )
+        return np.asarray(luma_bt601(pixels), dtype=np.float32)
+
+    def _motion(self, index: int) -> Motion:
+        """Motion from a frame to its neighbours."""
+        from texvent.scenes.raycast.surface_motion import frame_motion
+
+        before, now, after = (
+            frame_time_us(index + step, self.fps) / MICROSECONDS for step in (-1, 0, 1)
+        )
+        last = self.frame_count - 1
+        return frame_motion(
+            self.scene, now, before if index else None, after if index < last else None, self.size
+        )
 
     def _frame(self, t_us: int, *, is_source: bool) -> Frame:
         from texvent.scenes.raycast.render import render

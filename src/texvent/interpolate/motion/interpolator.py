@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from texvent.config import InterpolateConfig
 from texvent.errors import InputError
-from texvent.interpolate.motion.draw_cpu import Side, draw
+from texvent.interpolate.motion.draw_cpu import MIXED, Side, draw
 from texvent.interpolate.motion.layers_cpu import FURTHEST, SPEED_ORDER, Floats, make_layers
 from texvent.interpolate.motion.paths_cpu import (
     bend_of,
@@ -20,7 +20,7 @@ from texvent.interpolate.motion.paths_cpu import (
 )
 from texvent.pairs.instants import check_between, float_luma, position
 from texvent.runtime.threads import count_threads, run_parts
-from texvent.video import Frame, FrameStream, Motion
+from texvent.video import Frame, FrameStream, Motion, MovingStream
 
 NEAREST_M = 1e-3
 """Smaller depths count as this, m."""
@@ -40,7 +40,8 @@ class MotionInterpolator:
     bytes_per_pixel: ClassVar[int] = 600
 
     def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
-        del config, stream  # the arguments of every interpolator; not used here
+        del config  # an argument of every interpolator; not used here
+        self._stream = stream if isinstance(stream, MovingStream) else None
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
         """Frames at `times_us`, every surface where its path leads.
@@ -63,7 +64,10 @@ class MotionInterpolator:
         for start in range(0, len(times_us), step):
             chosen = times_us[start : start + step]
             images = run_parts(lambda t_us: draw_at(sides, position(first, second, t_us)), chosen)
-            for (image, _), t_us in zip(images, chosen, strict=True):
+            for (image, kind), t_us in zip(images, chosen, strict=True):
+                if self._stream is not None:
+                    wanted = kind == MIXED
+                    image[wanted] = self._stream.luma_of(t_us, wanted)
                 yield Frame(image, t_us, is_source=False)
 
 

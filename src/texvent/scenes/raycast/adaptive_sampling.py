@@ -34,6 +34,8 @@ from texvent.scenes.scene import Colour, Float64Array
 
 _THIN = -(1 << 40)
 """Probe value that agrees with nothing: something thin is near."""
+_NOT_PROBED = -(1 << 41)
+"""Probe value of lattice points that no wanted pixel needs."""
 _BISECTIONS = 6
 """Steps that place an edge between two probes: to 1/128 pixel with two probes per pixel side."""
 _MAX_EDGES = 4
@@ -244,17 +246,35 @@ def _split_pixel(
 
 
 @jit(error_model="numpy")
+def _is_needed(wanted: NDArray[np.bool_], j: int, i: int, samples: int) -> bool:
+    """Whether a wanted pixel lies at lattice point (j, i) of a tile."""
+    height, width = wanted.shape
+    for row in range(max((j - 1) // samples, 0), min(j // samples + 1, height)):
+        for column in range(max((i - 1) // samples, 0), min(i // samples + 1, width)):
+            if wanted[row, column]:
+                return True
+    return False
+
+
+@jit(error_model="numpy")
 def _probe_tile(
-    world: World, edges: tuple[int, int, int, int], samples: int, probes: NDArray[np.int64]
+    world: World,
+    corner: tuple[int, int],
+    wanted: NDArray[np.bool_],
+    samples: int,
+    probes: NDArray[np.int64],
 ) -> None:
-    """Probe a tile, given its left, right, top and bottom edges in pixels, on a lattice.
+    """Probe the wanted pixels of a tile, given its left and top edges in pixels, on a lattice.
 
     Shadow is looked for at every other lattice point; the points between take it over from their
     left neighbour on the same surface, which saves half of the shadow rays.
     """
-    left, right, top, bottom = edges
-    for j in range((bottom - top) * samples + 1):
-        for i in range((right - left) * samples + 1):
+    left, top = corner
+    for j in range(wanted.shape[0] * samples + 1):
+        for i in range(wanted.shape[1] * samples + 1):
+            if not _is_needed(wanted, j, i, samples):
+                probes[j, i] = _NOT_PROBED
+                continue
             x, y = left + i / samples, top + j / samples
             depth, number, face, thin = first_hit(world, x, y)
             probe = (number * 8 + face) * 2
@@ -307,15 +327,17 @@ def render_rows(
     rows: tuple[int, int],
     samples: int,
     pattern: Float64Array,
+    wanted: NDArray[np.bool_],
     image: Float64Array,
 ) -> None:
-    """Fill some rows of an image.
+    """Fill the wanted pixels in some rows of an image.
 
     Args:
         owner: the scene.
         rows: first row and one past the last one; at most `TILE` rows.
         samples: probes per pixel side.
         pattern: [k, 2] sample positions in [0, 1)² for pixels with something thin.
+        wanted: [H, W] which pixels to fill.
         image: [H, W, 3] linear light, 0..1; these rows are written.
     """
     world = uncounted_world(owner)
@@ -326,9 +348,14 @@ def render_rows(
     around = np.empty((samples + 1, samples + 1), dtype=np.int64)
     for left in range(0, width, TILE):
         right = min(left + TILE, width)
-        _probe_tile(world, (left, right, top, bottom), samples, probes)
+        in_tile = wanted[top:bottom, left:right]
+        if not in_tile.any():
+            continue
+        _probe_tile(world, (left, top), in_tile, samples, probes)
         for row in range(top, bottom):
             for column in range(left, right):
+                if not wanted[row, column]:
+                    continue
                 j, i = (row - top) * samples, (column - left) * samples
                 if _any_thin(probes, j, i, samples):
                     light = _sample_pixel(world, column, row, pattern, shares)

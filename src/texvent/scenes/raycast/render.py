@@ -7,6 +7,7 @@ with any number of threads, and a scene that stands still gives identical images
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.errors import InputError
 from texvent.runtime.threads import run_parts
@@ -63,6 +64,33 @@ def render(
     return encode_srgb(render_light(scene, time_s, size, samples=samples, shadows=shadows))
 
 
+def render_pixels(
+    scene: Scene,
+    time_s: float,
+    size: SensorSize,
+    wanted: NDArray[np.bool_],
+    *,
+    samples: int = 2,
+    shadows: bool = True,
+) -> Float32Array:
+    """Some pixels of what `render` draws.
+
+    Args:
+        scene: what to draw.
+        time_s: the instant, s.
+        size: image size, pixels.
+        wanted: [H, W] which pixels.
+        samples: as for `render`.
+        shadows: as for `render`.
+
+    Returns:
+        [k, 3] RGB of the wanted pixels, row by row.
+    """
+    world = world_at(scene, time_s, size, shadows=shadows, samples=samples)
+    light = light_of_rows(world, (0, size.height), size, samples=samples, wanted=wanted)
+    return encode_srgb(light[wanted])
+
+
 def render_light(
     scene: Scene,
     time_s: float,
@@ -93,7 +121,12 @@ def render_light(
 
 
 def light_of_rows(
-    world: World, rows: tuple[int, int], size: SensorSize, *, samples: int = 2
+    world: World,
+    rows: tuple[int, int],
+    size: SensorSize,
+    *,
+    samples: int = 2,
+    wanted: NDArray[np.bool_] | None = None,
 ) -> Float64Array:
     """Some rows of what `render_light` gives.
 
@@ -102,13 +135,15 @@ def light_of_rows(
         rows: first row and one past the last row.
         size: image size, pixels.
         samples: as for `render`.
+        wanted: [H, W] which pixels to draw, the others have any value; None: all.
     """
     first, last = rows
     image = np.empty((last, size.width, 3), dtype=np.float64)
+    chosen = np.ones((last, size.width), dtype=np.bool_) if wanted is None else wanted
     pattern = sample_pattern((4 * samples) ** 2)
 
     def draw(top: int) -> None:
-        render_rows(world, (top, min(top + TILE, last)), samples, pattern, image)
+        render_rows(world, (top, min(top + TILE, last)), samples, pattern, chosen, image)
 
     run_parts(draw, range(first, last, TILE))
     return image[first:]
