@@ -12,6 +12,7 @@ from texvent.capture.motion_vectors.attach import own_motion
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, TexventWarning
+from texvent.run.replay import prepare_replay
 from texvent.sensor import SensorSize
 
 FILM = scene.stack(scene.frame)
@@ -304,6 +305,7 @@ def test_simulate_takes_arrays_and_files(tmp_path):
     events = texvent.simulate(FILM, flow=FORWARD, depth=DEPTH, **options)
     assert len(events)
     assert events.metadata["source"]["motion"] == {"motion": "motion", "depth": "depth"}
+    assert events.metadata["settings"]["interpolate"]["interpolate"] == "motion"
     by_file = texvent.simulate(
         FILM, flow=tmp_path / "flow.npy", depth=str(tmp_path / "depth.npy"), **options
     )
@@ -314,3 +316,25 @@ def test_simulate_takes_arrays_and_files(tmp_path):
         texvent.simulate(FILM, flow=FORWARD, motion=Path("x"), **options)
     with pytest.raises(ConfigError, match="motion_convention has 'blendr'"):
         texvent.simulate(FILM, flow=FORWARD, motion_convention="blendr", **options)
+
+
+def test_following_the_vectors_is_the_default_unless_told_otherwise(tmp_path):
+    (tmp_path / "run.toml").write_text('interpolate = "blend"\n')
+    options = {"fps": 25, "stop": 0.12, "simulator": "esim"}
+
+    def interpolation(**more):
+        events = texvent.simulate(FILM, **options, **more)
+        return events.metadata["settings"]["interpolate"]["interpolate"]
+
+    assert interpolation() == "flow"
+    assert interpolation(flow=FORWARD) == "motion"
+    assert interpolation(flow_back=BACKWARD) == "motion"
+    assert interpolation(depth=DEPTH) == "flow"
+    assert interpolation(flow=FORWARD, interpolate="none") == "none"
+    assert interpolation(flow=FORWARD, config=tmp_path / "run.toml") == "blend"
+
+
+def test_events_of_arrays_cannot_be_replayed_without_them(tmp_path):
+    events = texvent.simulate(FILM, flow=FORWARD, fps=25, stop=0.12, simulator="esim")
+    with pytest.raises(InputError, match="came from memory"):
+        prepare_replay(events.metadata, path=tmp_path / "a.h5")
