@@ -275,6 +275,8 @@ def types_with_events():  # type: ignore[no-untyped-def]
         (["--layout", "dsec"], "layout dsec is for two cameras"),
         (["--layout", "ecd", "--truth", "flow"], "truth is written beside layout hdf5"),
         (["--stereo", "-1"], "stereo is -1"),
+        (["--generator", "wan-1.3b"], "generator 'wan-1.3b' makes videos"),
+        (["--generator", "procedure"], "procedural"),
         (["--stereo", "0.1", "--rig", "x.yaml"], "rig and stereo both"),
         (["--rig", "nothing.yaml"], "cannot read config file nothing.yaml"),
         (["--rig", "x.yaml", "--sensor", "64x48"], "both say how large"),

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Literal
 
 from texvent.config import FPS_RANGE, check_range
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, shown
 from texvent.truth.parts import parse_parts
 
 MOST_BASELINE_M = 100.0
@@ -68,3 +68,16 @@ class RigConfig:
                     f"{name} is {value:g} s, longer than the {float(1 / self.frames):.4g} s from "
                     f"frame to frame at {float(self.frames):g} per second"
                 )
+
+
+def check_generator(name: str | None) -> None:
+    """Refuse generators whose videos are seen from one place only.
+
+    Raises:
+        ConfigError: it is not the embedded one.
+    """
+    if name != "procedural":
+        raise ConfigError(
+            "a rig needs a scene that can be seen from several places; generator "
+            f"{shown(name)} makes videos, so use the embedded one (procedural)"
+        )

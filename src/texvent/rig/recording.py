@@ -16,7 +16,7 @@ from texvent.errors import ConfigError, shown, warn
 from texvent.generate.procedural import ProceduralVideo
 from texvent.options.values import plain
 from texvent.pipeline import Simulation, text_to_video
-from texvent.rig.config import RigConfig
+from texvent.rig.config import RigConfig, check_generator
 from texvent.rig.description import IMU_NOISES, ImuNoise, Rig, RigCamera
 from texvent.rig.imu import (
     ImuSamples,
@@ -161,11 +161,7 @@ def prepare_recording(
             its resolution, or the rig file is wrong.
         InputError: the prompt is not understood, or a file cannot be read.
     """
-    if settings.generator != "procedural":
-        raise ConfigError(
-            f"a rig needs a scene that can be seen from several places; generator "
-            f"{settings.generator} makes videos, so use the embedded one (procedural)"
-        )
+    check_generator(settings.generator)
     check_run(settings)
     rig, noise = _read(config, settings.size or SensorSize(346, 260))
     first = settings if rig.cameras[0].size == settings.size else _sized(settings, rig)

@@ -10,13 +10,14 @@ from typing import Any, ClassVar
 from texvent.cli.command import resolve_command
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import peek_options
 from texvent.cli.outputs import default_event_file
 from texvent.cli.run import print_settings
 from texvent.errors import ConfigError
 from texvent.options.fields import option_names
 from texvent.options.values import plain
-from texvent.rig.config import RigConfig
-from texvent.run.settings import Settings
+from texvent.rig.config import RigConfig, check_generator
+from texvent.run.settings import Settings, base_settings
 from texvent.runtime.console_progress import ConsoleProgress
 
 DESCRIPTION = """Record an embedded scene with a rig: event cameras with lenses, frames beside their
@@ -66,6 +67,7 @@ class RigOutputOptions:
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
+    _refuse_generator(arguments)
     settings, own, output = resolve_command(
         "generate",
         arguments,
@@ -90,6 +92,17 @@ def run(arguments: Sequence[str]) -> int:
     if not output.quiet:
         write_out(f"{out}\n")
     return 0
+
+
+def _refuse_generator(arguments: Sequence[str]) -> None:
+    """Refuse generators whose videos are seen from one place only.
+
+    Raises:
+        ConfigError: a flag or the config file names one.
+    """
+    named = peek_options(arguments, ("generator", "config"))
+    settings = base_settings("generate", config=named["config"], generator=named["generator"])
+    check_generator(settings.generator)
 
 
 def _refuse_sensor(settings: Settings, own: RigOptions, arguments: Sequence[str]) -> None:
