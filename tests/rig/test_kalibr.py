@@ -139,6 +139,13 @@ def test_short_forms_of_a_file_by_hand(tmp_path: Path) -> None:
     assert np.degrees(np.arctan2(forward[0], forward[2])) == pytest.approx(10.0)
 
 
+def test_a_sensor_by_name_has_its_size(tmp_path: Path) -> None:
+    text = "cam0: {sensor: davis240c}\ncam1: {sensor: evk4, baseline: 0.1}"
+    first, second = read_rig(write(tmp_path, text), SIZE)[0].cameras
+    assert (first.size, first.sensor) == (SensorSize(240, 180), "davis240c")
+    assert (second.size, second.sensor) == (SensorSize(1280, 720), "evk4")
+
+
 def test_numbers_that_yaml_reads_as_text_are_numbers(tmp_path: Path) -> None:
     text = KALIBR.replace("1.0e-05]", "1e-05]")
     assert read_rig(write(tmp_path, text), SIZE)[0].cameras[0].lens is not None
@@ -193,6 +200,8 @@ def test_what_is_wrong_is_named(tmp_path: Path, old: str, new: str, words: str) 
     [
         ("cam0: {}\ncam1: {}", "does not say where it is"),
         ("cam0: {baseline: 0.1}", "the first has none"),
+        ("cam0: {sensor: davis999}", "no sensor 'davis999'"),
+        ("cam0: {sensor: evk4, resolution: [64, 48]}", "but sensor evk4 has 1280x720"),
         ("cam0: 3", "must hold values by name"),
         ("cam0: {distortion_model: equidistant}", "needs intrinsics"),
         ("cam0: {distortion_coeffs: [0.1, 0, 0, 0]}", "without distortion_model"),

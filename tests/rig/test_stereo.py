@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from tests.scenes.hand_scenes import HandScene, MovingShape, day, still
 
+from texvent._registry import SIMULATORS
 from texvent.errors import ConfigError
 from texvent.generate.procedural import ProceduralConfig, ProceduralVideo
 from texvent.rig.config import RigConfig
@@ -187,3 +188,22 @@ def test_a_pair_with_the_second_camera_on_the_left_is_refused() -> None:
     first, second = RIGS["parallel"].cameras
     with pytest.raises(ConfigError, match="cam0 must stand to the right of cam1"):
         rectify(second, first)
+
+
+def test_each_camera_has_the_constants_of_its_sensor_and_the_options_given() -> None:
+    davis, plain = "davis240c", RigCamera("cam1", SIZE, PLAIN, PARALLEL)
+    rig = Rig((RigCamera("cam0", SIZE, PLAIN, sensor=davis), plain))
+    options = {"simulator": "physical", "sensor": "davis346", "hot_pixel_fraction": 0.125}
+    options["sensor_seed"] = 7
+    recording = replace(record(rig), settings=resolve("generate", options))
+    first, second = (
+        recording.simulation(camera, NO_PROGRESS).settings for camera in recording.rig.cameras
+    )
+    assert (first.run.preset, second.run.preset) == ("davis240c", "davis346")
+    assert (first.run.sensor, second.run.sensor) == ("davis240c", "128x76")
+    assert first.simulate.hot_pixel_fraction == second.simulate.hot_pixel_fraction == 0.125
+    presets = SIMULATORS.load("physical").presets
+    own = first.simulate.sensor_seed
+    expected = replace(presets["davis240c"], hot_pixel_fraction=0.125, sensor_seed=own)
+    assert first.simulate == expected
+    assert len({own, second.simulate.sensor_seed, 7}) == 3

@@ -35,6 +35,9 @@ class RigCamera:
     """Intrinsics and distortion; None: the pinhole that the scene's own camera is."""
     from_first: Float64Array = field(default_factory=no_motion)
     """[4, 4] coordinates in the first camera → coordinates in this one."""
+    sensor: str | None = None
+    """Name of its sensor, whose measured constants its pixels have where the simulator knows them;
+    None: they are as the run's."""
 
 
 @dataclass(frozen=True)

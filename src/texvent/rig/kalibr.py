@@ -1,7 +1,7 @@
 """Rig files: cameras as Kalibr's camchain.yaml has them, read and written.
 
     cam0:
-      resolution: [346, 260]
+      resolution: [346, 260]                  or  sensor: davis346
       camera_model: pinhole
       intrinsics: [fu, fv, pu, pv]            or  field_of_view: 65   (degrees across)
       distortion_model: radtan                or equidistant, none
@@ -40,7 +40,7 @@ from texvent.errors import ConfigError, shown, warn
 from texvent.rig.description import NOISE_NAMES, Float64Array, ImuNoise, Rig, RigCamera
 from texvent.run.settings import read_document
 from texvent.scenes.lens import Distortion, Lens, lens_reach
-from texvent.sensor import SensorSize, checked_size
+from texvent.sensor import SENSORS, SensorSize, checked_size
 
 HALF_PIXEL = 0.5
 MOST_CAMERAS = 16
@@ -54,7 +54,7 @@ _DISTORTIONS: dict[str, Distortion] = {
 _IGNORED = ("rostopic", "cam_overlaps", "timeshift_cam_imu", "time_offset", "model")
 _CAMERA_KEYS = (
     "camera_model", "intrinsics", "field_of_view", "distortion_model", "distortion_coeffs",
-    "resolution", "T_cn_cnm1", "T_cam_imu", "baseline", "rotation",
+    "resolution", "sensor", "T_cn_cnm1", "T_cam_imu", "baseline", "rotation",
 )  # fmt: skip
 _IMU = re.compile(r"imu\d*")
 _NOT_RIGID = 1e-3
@@ -92,7 +92,8 @@ def read_rig(path: Path, size: SensorSize) -> tuple[Rig, ImuNoise | None]:
         if not cameras:
             from_imu = own
         resolution = _resolution(entry, size, where)
-        cameras.append(RigCamera(name, resolution, _lens(entry, resolution, where), from_first))
+        lens = _lens(entry, resolution, where)
+        cameras.append(RigCamera(name, resolution, lens, from_first, entry.get("sensor")))
     rig = Rig(tuple(cameras), np.eye(4) if from_imu is None else from_imu)
     entries = [document[name] for name in document if _IMU.fullmatch(str(name))]
     return rig, read_noise(entries[0], str(path)) if entries else None
@@ -209,12 +210,22 @@ def _entry(value: Any, name: str, where: str) -> Mapping[str, Any]:
 
 
 def _resolution(entry: Mapping[str, Any], size: SensorSize, where: str) -> SensorSize:
+    sensor = entry.get("sensor")
+    if sensor is not None:
+        if not isinstance(sensor, str) or sensor not in SENSORS:
+            raise ConfigError(
+                f"{where}: no sensor {shown(sensor)}; {suggest(str(sensor), tuple(SENSORS))}"
+            )
+        size = SENSORS[sensor].size
     if "resolution" not in entry:
         return size
     width, height = _numbers(entry["resolution"], 2, f"{where}: resolution")
     if width != int(width) or height != int(height):
         raise ConfigError(f"{where}: resolution is {width:g} x {height:g}; give whole numbers")
-    return checked_size(int(width), int(height))
+    stated = checked_size(int(width), int(height))
+    if sensor is not None and stated != size:
+        raise ConfigError(f"{where}: resolution is {stated}, but sensor {sensor} has {size}")
+    return stated
 
 
 def _lens(entry: Mapping[str, Any], size: SensorSize, where: str) -> Lens | None:

@@ -11,9 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent._registry import SIMULATORS
 from texvent.batch.identity import derived_seed
 from texvent.errors import ConfigError, shown, warn
 from texvent.generate.procedural import ProceduralVideo
+from texvent.options.fields import option_names
 from texvent.options.values import plain
 from texvent.pipeline import Simulation, text_to_video
 from texvent.rig.config import RigConfig, check_generator
@@ -30,7 +32,7 @@ from texvent.rig.mount import MountedScene, body_poses, path_lens
 from texvent.rig.shutter import ExposedFrame, Shutter, expose_frames, frame_times_us, make_shutter
 from texvent.run.prepare import check_run, prepare_video
 from texvent.run.provenance import describe_run
-from texvent.run.settings import Settings, read_document
+from texvent.run.settings import Settings, read_document, sensor_preset
 from texvent.runtime.progress import Progress
 from texvent.scenes.lens import lens_reach
 from texvent.scenes.scene import Scene
@@ -69,13 +71,19 @@ class Recording:
 
     def simulation(self, camera: RigCamera, progress: Progress) -> Simulation:
         """The events of a camera, not simulated yet."""
-        run = replace(self.settings.run, seed=self.seed_of(camera.name), sensor=str(camera.size))
+        settings = _with_constants_of(camera.sensor, self.settings)
+        run = replace(
+            settings.run,
+            seed=self.seed_of(camera.name),
+            sensor=camera.sensor or str(camera.size),
+        )
         metadata = {**self.video.metadata, "camera": camera.name}
         video = replace(
             self.video, scene=self.scene_of(camera), size=camera.size, metadata=metadata
         )
-        settings = replace(self.settings, run=run)
-        return prepare_video(video, settings, prompt=self.prompt, progress=progress)
+        return prepare_video(
+            video, replace(settings, run=run), prompt=self.prompt, progress=progress
+        )
 
     def facts(self, camera: RigCamera | None = None) -> dict[str, Any]:
         """What files say of the rig, under "rig"."""
@@ -193,6 +201,22 @@ def prepare_recording(
             f"{duration_s:g} s of the recording; take a longer duration or a shorter exposure"
         )
     return recording
+
+
+def _with_constants_of(sensor: str | None, settings: Settings) -> Settings:
+    """Settings with the preset of a sensor, if the simulator has one, and the options given."""
+    preset = sensor_preset(settings.run.simulator, sensor)
+    if preset is None or preset == settings.run.preset:
+        return settings
+    presets = SIMULATORS.load(settings.run.simulator).presets
+    before = presets[settings.run.preset]
+    given = {
+        name: getattr(settings.simulate, name)
+        for name in option_names(type(before))
+        if getattr(settings.simulate, name) != getattr(before, name)
+    }
+    run = replace(settings.run, preset=preset)
+    return replace(settings, run=run, simulate=replace(presets[preset], **given))
 
 
 def _sized(settings: Settings, rig: Rig) -> Settings:
