@@ -21,7 +21,6 @@ from typing import Any
 import numpy as np
 
 import texvent
-from texvent._registry import INTERPOLATORS
 from texvent._require import require
 from texvent._version import full_version
 from texvent.capture.image_folder import find_images_folder, list_images
@@ -39,8 +38,6 @@ from texvent.view.drawing.palettes import get_palette
 RUN: Mapping[str, Any] = {"simulator": "esim"}
 """A pixel that forgets nothing at source frames, whose number differs here."""
 METRICS = ("stpp", "nearest", "voxel", "count_ratio")
-INTERPOLATED = ("none", "blend", "flow", "motion")
-"""Interpolations of the sparse film; the last follows the motion vectors."""
 ENLARGED, TEXT_PX, WINDOW_US = 2, 9, 20_000
 
 
@@ -81,12 +78,9 @@ def compare(film: Path, dense: Path) -> tuple[dict[str, Any], dict[str, EventStr
     reference = streams["dense"]
     rows["dense"] = {"events": len(reference), "frames": len(frames)}
     rows["dense, halved"] = score(streams["dense, halved"], reference, span_us)
-    for name in INTERPOLATED:
-        if name not in INTERPOLATORS.names():
-            continue
+    for name, given in variants(film).items():
         begin = time.perf_counter()
-        motion = own_motion(film) if name == "motion" else None
-        streams[name] = texvent.simulate(film, motion=motion, interpolate=name, **RUN)
+        streams[name] = texvent.simulate(film, **given, **RUN)
         seconds = time.perf_counter() - begin
         rows[name] = {**score(streams[name], reference, span_us), "seconds": round(seconds, 2)}
     results = {
@@ -97,6 +91,24 @@ def compare(film: Path, dense: Path) -> tuple[dict[str, Any], dict[str, EventStr
         "rows": rows,
     }
     return results, streams
+
+
+def variants(film: Path) -> dict[str, dict[str, Any]]:
+    """Name of a row → what is given with the sparse film."""
+    passes = own_motion(film)
+    frames = list(open_frames(film, CaptureConfig(motion=passes)))
+    motions = [frame.motion for frame in frames if frame.motion is not None]
+    backward = [one.backward for one in motions if one.backward is not None]
+    depth = [one.depth for one in motions]
+    return {
+        "none": {"interpolate": "none"},
+        "blend": {"interpolate": "blend"},
+        "flow": {"interpolate": "flow"},
+        "flow, motion floor": {"interpolate": "flow", "motion_floor": True},
+        "motion": {"motion": passes},
+        "motion, backward only": {"flow_back": backward, "depth": depth},
+        "motion, backward, no depth": {"flow_back": backward},
+    }
 
 
 def simulate(frames: list[Frame], interpolate: str) -> EventStream:
@@ -142,14 +154,12 @@ def draw(film: Path, streams: Mapping[str, EventStream]) -> Image:
     panels = [_titled("Blender", enlarge(pixels, ENLARGED, how="smooth"))]
     palette, ceiling = get_palette("paper"), None
     titles = {"dense": "480 fps", "motion": "24 fps + vectors", "flow": "24 fps, optical flow"}
-    for name, title in (titles | {"blend": "24 fps, mixed"}).items():
-        if name not in streams:
-            continue
+    for name, title in titles.items():
         shown = count_events(streams[name].between(frame.t_us, frame.t_us + WINDOW_US))
         ceiling = ceiling or count_ceiling(shown)
         image = enlarge(draw_events(shown, palette, ceiling=ceiling), ENLARGED, how="blocks")
         panels.append(_titled(title, image))
-    return tile(panels, 3, (255, 255, 255), gap=4)
+    return tile(panels, 2, (255, 255, 255), gap=4)
 
 
 def _titled(title: str, image: Image) -> Image:

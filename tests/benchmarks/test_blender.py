@@ -24,5 +24,5 @@ def test_a_film_against_itself(tmp_path, monkeypatch, capsys):
     assert results["film"]["render_seconds"] > 0
     assert results["rows"]["blend"]["stpp"] == 1.0
     assert results["rows"]["blend"]["events"] == results["rows"]["dense"]["events"] > 0
-    assert cv2.imread(str(tmp_path / "a.png")).shape[1] == 3 * 2 * 48 + 2 * 4
+    assert cv2.imread(str(tmp_path / "a.png")).shape[1] == 2 * 2 * 48 + 4
     assert "stpp" in capsys.readouterr().out
