@@ -81,9 +81,12 @@ class Recording:
         video = replace(
             self.video, scene=self.scene_of(camera), size=camera.size, metadata=metadata
         )
-        return prepare_video(
-            video, replace(settings, run=run), prompt=self.prompt, progress=progress
-        )
+        settings = replace(settings, run=run)
+        fixed = getattr(settings.simulate, "sensor_seed", None)
+        if fixed is not None:  # a pattern that stays from run to run, and differs between cameras
+            own = replace(settings.simulate, sensor_seed=derived_seed("rig", fixed, camera.name))
+            settings = replace(settings, simulate=own)
+        return prepare_video(video, settings, prompt=self.prompt, progress=progress)
 
     def facts(self, camera: RigCamera | None = None) -> dict[str, Any]:
         """What files say of the rig, under "rig"."""
