@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 from tests.scenes.hand_scenes import HandScene, MovingShape, day, still
@@ -14,6 +16,7 @@ from texvent.errors import ConfigError
 from texvent.generate.procedural import ProceduralConfig, ProceduralVideo
 from texvent.rig.config import RigConfig
 from texvent.rig.description import ImuNoise, Rig, RigCamera
+from texvent.rig.layouts.dsec import write_disparity
 from texvent.rig.recording import Recording
 from texvent.rig.rectify import raw_points, rectified_points, rectify
 from texvent.run.settings import resolve
@@ -170,6 +173,20 @@ def test_rectified_points_of_a_world_point_lie_in_one_row_at_its_disparity() -> 
     turn = pair.turns[0] @ recording.scene_of(rig.cameras[0]).camera(0.05).rotation
     depth = float((turn @ point)[2])
     assert x0 - x1 == pytest.approx(pair.lens.fx * pair.baseline_m / depth, abs=0.02)
+
+
+def test_disparity_images_hold_the_true_depth(tmp_path: Path) -> None:
+    """In 1/256 px; the plates move out of the middle, so the first image shows them shifted."""
+    recording = record(RIGS["parallel"])
+    pair = rectify(*recording.rig.cameras)
+    write_disparity(recording, pair, tmp_path)
+    assert (tmp_path / "timestamps.txt").read_text() == "0\n100000\n"
+    image = cv2.imread(str(tmp_path / "event" / "000000.png"), cv2.IMREAD_UNCHANGED)
+    for number, depth in enumerate(DEPTHS):
+        row = round(38.0 - (1.5 - number) * 0.15 * 120.0)
+        column = round(64.0 + 120.0 * 0.05 * SPEED_M_S / depth)
+        assert image[row, column] / 256.0 == pytest.approx(120.0 * BASELINE / depth, abs=0.01)
+    assert image[0, 0] == 0
 
 
 def test_raw_points_undo_rectified_points() -> None:

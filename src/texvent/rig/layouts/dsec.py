@@ -82,7 +82,7 @@ def write(recording: Recording, folder: Path, tally: Tally, progress: Progress) 
         if recording.config.frames is not None:
             images = folder / "images" / side
             _write_images(recording, (pair, number), images, tally, progress)
-    _write_disparity(recording, pair, folder / "disparity")
+    write_disparity(recording, pair, folder / "disparity")
     calibration = folder / "calibration"
     calibration.mkdir()
     text = yaml.safe_dump(_cam_to_cam(first, second, pair), default_flow_style=None, width=120)
@@ -128,7 +128,7 @@ def _write_images(
     (folder.parent / "timestamps.txt").write_text("".join(times), encoding="utf-8")
 
 
-def _write_disparity(recording: Recording, pair: Rectified, folder: Path) -> None:
+def write_disparity(recording: Recording, pair: Rectified, folder: Path) -> None:
     """Disparity from the scene's depth in the rectified left camera."""
     import cv2
 
