@@ -7,7 +7,7 @@ import numpy as np
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.truth.event_ids import Interval, ids_of_frames, ids_of_scene, moved_ids
-from texvent.truth.source import Snapshot
+from texvent.truth.source import Flow, Snapshot
 
 from .hand_video import SIZE, board_video
 
@@ -23,7 +23,7 @@ def snapshot(t_us, ids, depth=None, flow_x=None):
     flow = None if flow_x is None else np.stack([[flow_x], np.zeros((1, 8))], axis=2)
     return Snapshot(
         t_us,
-        flow=None if flow is None else flow.astype(np.float32),
+        flow=None if flow is None else Flow(flow.astype(np.float32), t_us + 1000),
         depth=None if depth is None else np.array([depth], np.float32),
         instance=np.array([ids], np.int32),
     )

@@ -57,6 +57,20 @@ def test_ground_that_the_board_will_hide_is_occluded(written):
     np.testing.assert_array_equal(hidden, expected)
 
 
+def test_the_way_back_is_the_way_there_where_nothing_is_hidden(written):
+    folder, truth, _ = written
+    on_board = truth.instance(2) == 3
+    np.testing.assert_allclose(
+        truth.flow_back(2)[on_board], [[-SPEED_PX_PER_FRAME, 0.0]] * on_board.sum(), atol=1e-4
+    )
+    hidden = truth.occluded(2, "flow-back") & (truth.instance(2) == 0)
+    np.testing.assert_array_equal(hidden, (truth.instance(1) == 3) & (truth.instance(2) == 0))
+    rows = np.loadtxt(folder / "flow/backward_timestamps.txt", delimiter=",", dtype="int64")
+    assert rows.tolist() == [[t, t - 40_000] for t in range(40_000, 240_000, 40_000)]
+    with pytest.raises(InputError, match=r"frame 0 has no flow-back; there are those of 1\.\.5"):
+        truth.flow_back(0)
+
+
 def test_class_images_follow_from_instances(written):
     _, truth, _ = written
     np.testing.assert_array_equal(truth.class_id(2), np.where(truth.instance(2) == 3, BOX, 0))
@@ -163,16 +177,18 @@ class MotionFrames:
             ids = self.ids(index)
             flow = np.zeros((*self.size.shape, 2), np.float32)
             flow[ids == 5, 0] = 4.0
+            back = -flow
             flow[0, 0] = np.nan
             pixels = np.where(ids == 5, 40, 200).astype(np.uint8)
             depth = np.where(ids == 5, 2.0, 9.0).astype(np.float32)
-            motion = Motion(flow, depth=depth, instance=ids if self.has_ids else None)
+            motion = Motion(flow, back, depth=depth, instance=ids if self.has_ids else None)
             yield Frame(pixels, index * 40_000, motion=motion)
 
 
 def test_truth_that_comes_with_frames_passes_through_unchanged(tmp_path):
     frames = MotionFrames()
-    parts = texvent.TruthFolder(tmp_path / "m.truth", "flow,depth,ids,boxes,events,overlay")
+    names = "flow,flow-back,depth,ids,boxes,events,overlay"
+    parts = texvent.TruthFolder(tmp_path / "m.truth", names)
     events = texvent.simulate(frames, interpolate="none", noise="none", truth_folder=parts)
     truth = texvent.load_truth(tmp_path / "m.truth")
     for index, frame in enumerate(frames):
@@ -180,6 +196,8 @@ def test_truth_that_comes_with_frames_passes_through_unchanged(tmp_path):
         np.testing.assert_array_equal(truth.depth(index), frame.motion.depth)
         if index < 4:
             np.testing.assert_array_equal(truth.flow(index), frame.motion.forward)
+        if index > 0:
+            np.testing.assert_array_equal(truth.flow_back(index), frame.motion.backward)
     assert len(events)
     assert truth.event_instance.tolist() == [5] * len(events)
     assert truth.classes == {1000: "object"}
@@ -218,9 +236,10 @@ def test_a_folder_of_truth_is_motion_that_simulate_reads(written, tmp_path):
         frames,
         t_us=truth.times_us.tolist(),
         motion=str(folder / "flow/forward_npz"),
+        motion_back=str(folder / "flow/backward_npz"),
         depth=str(folder / "depth"),
         instances=str(folder / "instance"),
-        truth_folder=texvent.TruthFolder(tmp_path / "b.truth", "flow,depth,ids,boxes"),
+        truth_folder=texvent.TruthFolder(tmp_path / "b.truth", "flow,flow-back,depth,ids,boxes"),
     )
     again = texvent.load_truth(tmp_path / "b.truth")
     for index in range(len(truth)):
@@ -228,6 +247,8 @@ def test_a_folder_of_truth_is_motion_that_simulate_reads(written, tmp_path):
         np.testing.assert_array_equal(again.depth(index), truth.depth(index))
         if index < len(truth) - 1:
             np.testing.assert_array_equal(again.flow(index), truth.flow(index))
+        if index > 0:
+            np.testing.assert_array_equal(again.flow_back(index), truth.flow_back(index))
     for name in ("t", "x", "y", "w", "h", "track_id"):
         np.testing.assert_array_equal(again.boxes[name], truth.boxes[name])
 
@@ -254,7 +275,9 @@ def test_truth_that_nobody_knows_is_refused(tmp_path):
         texvent.save_truth(MotionFrames(), tmp_path / "a.truth", "poses")
     with pytest.raises(ConfigError, match="fitted to"):
         texvent.simulate(board_video(), sensor="40x30", truth_folder=tmp_path / "a.truth")
-    with pytest.raises(ConfigError, match="no part 'flwo' of truth; allowed: flow, depth"):
+    with pytest.raises(
+        ConfigError, match="no part 'flwo' of truth; allowed: flow, flow-back, depth"
+    ):
         texvent.save_truth(board_video(), tmp_path / "a.truth", "flwo")
     with pytest.raises(ConfigError, match="as_packets"):
         texvent.generate("a ball", as_packets=True, truth_folder=tmp_path / "a.truth")

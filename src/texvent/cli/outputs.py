@@ -42,8 +42,8 @@ class OutputOptions:
     palette: str = "paper"
     """Colours of events in video, image and page."""
     truth: str = ""
-    """Write what is true of the scene beside the events (out.h5: out.truth/): flow, depth, ids,
-    boxes, poses, events, overlay, with commas between, or all. See docs/truth.md."""
+    """Write what is true of the scene beside the events (out.h5: out.truth/): flow, flow-back,
+    depth, ids, boxes, poses, events, overlay, with commas between, or all. See docs/truth.md."""
     overwrite: bool = False
     """Replace files that exist already."""
     config: Path | None = None

@@ -32,7 +32,8 @@ class TruthFolder:
     path: str | Path
     """The folder."""
     parts: str | Iterable[str] = ALL
-    """flow, depth, ids, boxes, poses, events, overlay, with commas between, or "all"."""
+    """flow, flow-back, depth, ids, boxes, poses, events, overlay, with commas between, or
+    "all"."""
     overwrite: bool = False
     """Whether a folder of truth may be replaced."""
 

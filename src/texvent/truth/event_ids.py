@@ -109,17 +109,18 @@ def moved_ids(before: Snapshot, after: Snapshot, share: float) -> tuple[Ids, Flo
     """
     ids, depth = _with_depth(before)
     later, later_depth = _with_depth(after)
-    if before.flow is None:
+    vectors = None if before.flow is None else before.flow.vectors
+    if vectors is None:
         return (later, later_depth) if share >= 0.5 else (ids, depth)
     height, width = later.shape
     grid: NDArray[np.int64] = np.indices(later.shape, dtype=np.int64)
     row, column = grid[0], grid[1]
-    is_known = np.isfinite(before.flow).all(axis=2)
+    is_known = np.isfinite(vectors).all(axis=2)
     # Far ones first: what is written later, over them, is nearer.
     order = np.argsort(-depth[is_known], kind="stable")
     source = np.flatnonzero(is_known)[order]
-    x = (column[is_known] + share * before.flow[is_known][:, 0])[order]
-    y = (row[is_known] + share * before.flow[is_known][:, 1])[order]
+    x = (column[is_known] + share * vectors[is_known][:, 0])[order]
+    y = (row[is_known] + share * vectors[is_known][:, 1])[order]
     columns, rows = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
     # All pixels that the moved one overlaps; pixel by pixel, so that far to near holds.
     across = np.stack([columns, columns + (x > columns)], axis=1)[:, [0, 1, 0, 1]].ravel()

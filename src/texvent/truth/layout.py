@@ -5,6 +5,7 @@ timestamps.txt                time of each frame, µs, on the clock of the event
 flow/forward/000000.png       optical flow to the next frame, DSEC's 16-bit PNG
 flow/forward_timestamps.txt   from and to, µs
 flow/forward_npz/000000.npz   the same as float32, and what gets hidden
+flow/backward...              optical flow to the frame before, likewise
 depth/000000.npz              metres along the optical axis, inf for the sky
 instance/000000.png           instance of each pixel, 16 bits; class/ its class
 boxes/coco.json, bbox.npy     2-D boxes
@@ -23,8 +24,11 @@ from texvent.io.atomic import check_output_folder
 
 FACTS, TIMES = "truth.json", "timestamps.txt"
 FORMAT = "texvent truth 1"
+DIRECTIONS = {"flow": "forward", "flow-back": "backward"}
+"""Part → how its files are named."""
 _OWN = re.compile(
-    r"truth\.json|timestamps\.txt|flow/forward(_npz)?/\d+\.(png|npz)|flow/forward_timestamps\.txt|"
+    r"truth\.json|timestamps\.txt|flow/(for|back)ward(_npz)?/\d+\.(png|npz)|"
+    r"flow/(for|back)ward_timestamps\.txt|"
     r"depth/\d+\.npz|(instance|class)/\d+\.png|boxes/(coco\.json|bbox\.npy)|camera\.json|"
     r"poses\.txt|intrinsics\.txt|events\.npz|overlay\.mp4"
 )

@@ -17,7 +17,7 @@ from texvent.io.arrays.npz import read_arrays
 from texvent.io.input_checks import existing_file, existing_folder
 from texvent.sensor import SensorSize, checked_size
 from texvent.truth.flow_png import decode_flow
-from texvent.truth.layout import FACTS, FORMAT, TIMES
+from texvent.truth.layout import DIRECTIONS, FACTS, FORMAT, TIMES
 from texvent.truth.poses import rotation_matrix
 
 _FACT_TYPES = {
@@ -76,16 +76,25 @@ class Truth:
 
     def flow(self, index: int) -> NDArray[np.float32]:
         """[H, W, 2] px from frame `index` to the next; NaN where it is not known."""
-        flow: NDArray[np.float32] = self._flow(index)["flow"]
+        flow: NDArray[np.float32] = self._flow("flow", index)["flow"]
         return flow
 
-    def occluded(self, index: int) -> NDArray[np.bool_]:
+    def flow_back(self, index: int) -> NDArray[np.float32]:
+        """[H, W, 2] px from frame `index` to the one before; NaN where it is not known."""
+        flow: NDArray[np.float32] = self._flow("flow-back", index)["flow"]
+        return flow
+
+    def occluded(self, index: int, part: str = "flow") -> NDArray[np.bool_]:
         """[H, W] whether what frame `index` shows is hidden at the next.
+
+        Args:
+            index: number of the frame.
+            part: "flow-back": hidden at the frame before.
 
         Raises:
             InputError: the source of the frames does not tell.
         """
-        arrays = self._flow(index)
+        arrays = self._flow(part, index)
         if "occluded" not in arrays:
             raise InputError(f"{self.folder} does not say what is occluded: its source did not")
         occluded: NDArray[np.bool_] = arrays["occluded"]
@@ -162,24 +171,27 @@ class Truth:
         self._need("flow", index, last=-1)
         return decode_flow(self._image(f"flow/forward/{index:06d}.png"))
 
-    def _flow(self, index: int) -> dict[str, Any]:
-        self._need("flow", index, last=-1)
-        name = f"flow/forward_npz/{index:06d}.npz"
+    def _flow(self, part: str, index: int) -> dict[str, Any]:
+        if part not in DIRECTIONS:
+            raise InputError(f"part is {shown(part)}; it must be one of {', '.join(DIRECTIONS)}")
+        is_back = part == "flow-back"
+        self._need(part, index, first=int(is_back), last=int(is_back) - 1)
+        name = f"flow/{DIRECTIONS[part]}_npz/{index:06d}.npz"
         arrays = self._arrays(name)
         if "flow" not in arrays:
             raise FileFormatError(f"{self.folder / name} holds no array 'flow'")
         return arrays
 
-    def _need(self, part: str, index: int = 0, *, last: int = 0) -> None:
+    def _need(self, part: str, index: int | None = None, *, first: int = 0, last: int = 0) -> None:
         """Refuse a part that was not written, and a frame that there is not."""
         if part not in self.parts:
             raise InputError(
                 f"{self.folder} holds no {part}: it was written with --truth "
                 f"{','.join(self.parts)}; write it again with {part}"
             )
-        count = len(self) + last
-        if not 0 <= index < count:
-            raise InputError(f"frame {index} has no {part}; there are those of 0..{count - 1}")
+        highest = len(self) - 1 + last
+        if index is not None and not first <= index <= highest:
+            raise InputError(f"frame {index} has no {part}; there are those of {first}..{highest}")
 
     def _array(self, name: str, key: str) -> Any:
         arrays = self._arrays(name)

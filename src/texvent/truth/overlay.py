@@ -90,7 +90,7 @@ def compose(
     size = frame.size
     photo = enlarge(frame_image(frame), factor, how="smooth")
     Annotations(truth.boxes, _arrows(truth)).draw(photo, factor)
-    flow = flow_image(truth.flow) if truth.flow is not None else blank(*size, UNKNOWN)
+    flow = flow_image(truth.flow.vectors) if truth.flow is not None else blank(*size, UNKNOWN)
     depth = depth_image(truth.depth) if truth.depth is not None else blank(*size, UNKNOWN)
     maps = [flow, depth, events_image(truth.instance, events, ids)]
     panels = [photo, *(enlarge(one, factor, how="blocks") for one in maps)]
@@ -159,7 +159,7 @@ def _coloured(hue: NDArray[Any], saturation: NDArray[Any]) -> Image:
 
 
 def _arrows(truth: Snapshot) -> NDArray[np.float32] | None:
-    if truth.flow is None or truth.next_us is None:
+    if truth.flow is None:
         return None
-    share = ARROW_US / max(truth.next_us - truth.t_us, 1)
-    return flow_arrows(truth.flow * np.float32(share))
+    share = ARROW_US / max(truth.flow.to_us - truth.t_us, 1)
+    return flow_arrows(truth.flow.vectors * np.float32(share))

@@ -11,6 +11,7 @@ from texvent.errors import ConfigError, shown
 PARTS: Mapping[str, str] = MappingProxyType(
     {
         "flow": "optical flow to the next frame, and what gets hidden",
+        "flow-back": "optical flow to the frame before, and what was hidden there",
         "depth": "depth in metres",
         "ids": "instance and class of each pixel",
         "boxes": "2-D boxes: COCO JSON, and Prophesee's .npy",

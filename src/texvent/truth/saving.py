@@ -28,7 +28,8 @@ def save_truth(
         video: frames whose truth is known: those of `texvent.video(prompt)`, or a stream of yours
             with `ground_truth(t0_us, t1_us)`, or with `Frame.motion`.
         folder: where to, such as "out.truth".
-        parts: flow, depth, ids, boxes, poses, overlay, with commas between; default: all of them.
+        parts: flow, flow-back, depth, ids, boxes, poses, overlay, with commas between; default:
+            all of them.
         overwrite: whether a folder of truth may be replaced.
 
     Returns:

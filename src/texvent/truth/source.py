@@ -22,10 +22,10 @@ from texvent.scenes.raycast.ground_truth import Box
 from texvent.scenes.scene import Camera
 from texvent.sensor import SensorSize
 from texvent.truth.parts import PARTS
-from texvent.video import Frame, FrameStream
+from texvent.video import Frame, FrameStream, Motion
 from texvent.view.drawing.annotations import GroundTruthStream
 
-ON_FRAMES = {"flow", "depth", "ids", "boxes", "overlay"}
+ON_FRAMES = {"flow", "flow-back", "depth", "ids", "boxes", "overlay"}
 """Parts that take an image of the truth."""
 UNNAMED_OBJECT = "object"
 MOST_INSTANCES = 2**16
@@ -57,16 +57,26 @@ class InstancesStream(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
+class Flow:
+    """Where the pixels of a frame are at another."""
+
+    vectors: NDArray[np.float32]
+    """[H, W, 2] px; NaN where it is not known."""
+    to_us: int
+    """Time of the other frame, µs."""
+    occluded: NDArray[np.bool_] | None = None
+    """[H, W] what is seen here is hidden there; None where that is not known."""
+
+
+@dataclass(frozen=True, eq=False)
 class Snapshot:
     """What is true at a frame; None where it is not known."""
 
     t_us: int
-    next_us: int | None = None
-    """Time that flow leads to; None at the last frame."""
-    flow: NDArray[np.float32] | None = None
-    """[H, W, 2] px; NaN where it is not known."""
-    occluded: NDArray[np.bool_] | None = None
-    """[H, W] what is seen here is hidden at the next frame."""
+    flow: Flow | None = None
+    """To the next frame; None at the last."""
+    flow_back: Flow | None = None
+    """To the frame before; None at the first."""
     depth: NDArray[np.float32] | None = None
     """[H, W] m; inf where there is no surface."""
     instance: NDArray[np.int32] | None = None
@@ -127,66 +137,73 @@ class TruthSource:
             self.classes[UNNAMED] = UNNAMED_OBJECT
         return found
 
-    def at(self, frame: Frame, next_us: int | None) -> Snapshot:
+    def at(self, frame: Frame, previous_us: int | None, next_us: int | None) -> Snapshot:
         """What is true at a source frame.
 
         Args:
             frame: the frame.
+            previous_us: time of the source frame before, µs; None: it is the first.
             next_us: time of the next source frame, µs; None: it is the last.
 
         Raises:
             InputError: the frame does not bring what is wanted.
         """
         if isinstance(self.video, GroundTruthStream):
-            return self._of_scene(self.video, frame.t_us, next_us)
-        return self._of_frame(frame, next_us)
+            return self._of_scene(self.video, frame.t_us, previous_us, next_us)
+        return self._of_frame(frame, previous_us, next_us)
 
     def _camera(self, t_us: int) -> Camera | None:
         return self.video.camera_at(t_us) if isinstance(self.video, CameraStream) else None
 
-    def _of_scene(self, video: GroundTruthStream, t_us: int, next_us: int | None) -> Snapshot:
+    def _of_scene(
+        self, video: GroundTruthStream, t_us: int, previous_us: int | None, next_us: int | None
+    ) -> Snapshot:
         needed = ON_FRAMES if isinstance(video, InstancesStream) else {*ON_FRAMES, "events"}
         if not needed & set(self.parts):
-            return Snapshot(t_us, next_us, camera=self._camera(t_us))
+            return Snapshot(t_us, camera=self._camera(t_us))
         truth = video.ground_truth(t_us, t_us if next_us is None else next_us)
-        is_last = next_us is None
+        back = None
+        if "flow-back" in self.parts and previous_us is not None:
+            past = video.ground_truth(t_us, previous_us)
+            back = Flow(past.flow, previous_us, past.occluded)
         return Snapshot(
             t_us,
-            next_us,
-            flow=None if is_last else truth.flow,
-            occluded=None if is_last else truth.occluded,
+            flow=None if next_us is None else Flow(truth.flow, next_us, truth.occluded),
+            flow_back=back,
             depth=truth.depth,
             instance=truth.instance,
             boxes=truth.boxes,
             camera=self._camera(t_us),
         )
 
-    def _of_frame(self, frame: Frame, next_us: int | None) -> Snapshot:
-        motion = frame.motion
-        flow = None if motion is None or next_us is None else motion.forward
-        depth = None if motion is None else motion.depth
-        instance = None if motion is None else motion.instance
+    def _of_frame(self, frame: Frame, previous_us: int | None, next_us: int | None) -> Snapshot:
+        motion = frame.motion if frame.motion is not None else Motion()
         missing = {
-            "flow": flow is None and next_us is not None,
-            "depth": depth is None,
-            **dict.fromkeys(("ids", "boxes", "events"), instance is None),
-            "overlay": motion is None,
+            "flow": motion.forward is None and next_us is not None,
+            "flow-back": motion.backward is None and previous_us is not None,
+            "depth": motion.depth is None,
+            **dict.fromkeys(("ids", "boxes", "events"), motion.instance is None),
+            "overlay": frame.motion is None,
         }
         lacking = [part for part in self.parts if missing.get(part)]
         if lacking:
             raise InputError(
                 f"truth {lacking[0]!r} is not known of the frame at {frame.t_us} µs: {WHO_KNOWS}"
             )
-        boxes = () if instance is None else boxes_of(instance, self.class_names)
+        instance = motion.instance
         return Snapshot(
             frame.t_us,
-            next_us,
-            flow=flow,
-            depth=depth,
+            flow=_flow(motion.forward, next_us),
+            flow_back=_flow(motion.backward, previous_us),
+            depth=motion.depth,
             instance=instance,
-            boxes=boxes,
+            boxes=() if instance is None else boxes_of(instance, self.class_names),
             camera=self._camera(frame.t_us),
         )
+
+
+def _flow(vectors: NDArray[np.float32] | None, to_us: int | None) -> Flow | None:
+    return None if vectors is None or to_us is None else Flow(vectors, to_us)
 
 
 def without_preparation(video: FrameStream) -> FrameStream:

@@ -24,7 +24,7 @@ from texvent.truth.event_ids import (
     open_event_ids,
 )
 from texvent.truth.flow_png import encode_flow
-from texvent.truth.layout import FACTS, FORMAT, TIMES, check_truth_folder, is_own_file
+from texvent.truth.layout import DIRECTIONS, FACTS, FORMAT, TIMES, check_truth_folder, is_own_file
 from texvent.truth.overlay import OverlayVideo
 from texvent.truth.poses import (
     INTRINSICS_HEADER,
@@ -33,12 +33,19 @@ from texvent.truth.poses import (
     intrinsics_row,
     pose_row,
 )
-from texvent.truth.source import MOST_INSTANCES, InstancesStream, Snapshot, TruthSource
+from texvent.truth.source import (
+    MOST_INSTANCES,
+    Flow,
+    InstancesStream,
+    Snapshot,
+    TruthSource,
+)
 from texvent.video import Frame, FrameStream
 from texvent.view.atomic_output import AtomicOutput
 
 _FOLDERS = {
     "flow": ("flow/forward", "flow/forward_npz"),
+    "flow-back": ("flow/backward", "flow/backward_npz"),
     "depth": ("depth",),
     "ids": ("instance", "class"),
     "boxes": ("boxes",),
@@ -119,13 +126,14 @@ class TruthWriter(AtomicOutput):
         )
         for part in self._parts:
             for name in _FOLDERS.get(part, ()):
-                (self._part / name).mkdir(parents=True)
+                (self._part / name).mkdir(parents=True, exist_ok=True)
         self._files = stack.enter_context(ExitStack())
         self._boxes = self._add_ids = self._overlay = None
         self._texts = {TIMES: self._text(TIMES)}
-        if "flow" in self._parts:
-            name = "flow/forward_timestamps.txt"
-            self._texts["flow"] = self._text(name, "# from_timestamp_us, to_timestamp_us\n")
+        for part, direction in DIRECTIONS.items():
+            if part in self._parts:
+                name = f"flow/{direction}_timestamps.txt"
+                self._texts[part] = self._text(name, "# from_timestamp_us, to_timestamp_us\n")
         if "poses" in self._parts:
             self._texts["poses"] = self._text("poses.txt", POSE_HEADER)
             self._texts["intrinsics"] = self._text("intrinsics.txt", INTRINSICS_HEADER)
@@ -180,7 +188,8 @@ class TruthWriter(AtomicOutput):
 
     def _write(self, frame: Frame, intervals: list[Interval], next_us: int | None) -> None:
         """Write what is true at a frame, and of the events before it."""
-        truth = self._source.at(frame, next_us)
+        previous_us = None if self._before is None else self._before.t_us
+        truth = self._source.at(frame, previous_us, next_us)
         index, self._index = self._index, self._index + 1
         self._texts[TIMES].write(f"{truth.t_us}\n")
         self._write_maps(truth, f"{index:06d}")
@@ -224,19 +233,25 @@ class TruthWriter(AtomicOutput):
     def _write_maps(self, truth: Snapshot, name: str) -> None:
         """Flow, depth and ids of a frame."""
         part = self._part
-        if "flow" in self._parts and truth.flow is not None:
-            write_png(part / f"flow/forward/{name}.png", encode_flow(truth.flow))
-            masks: dict[str, Any] = {}
-            if truth.occluded is not None:
-                masks = {"occluded": truth.occluded}
-            np.savez_compressed(part / f"flow/forward_npz/{name}.npz", flow=truth.flow, **masks)
-            self._texts["flow"].write(f"{truth.t_us}, {truth.next_us}\n")
+        for one, flow in (("flow", truth.flow), ("flow-back", truth.flow_back)):
+            if one in self._parts and flow is not None:
+                self._write_flow(one, flow, name)
+                self._texts[one].write(f"{truth.t_us}, {flow.to_us}\n")
         if "depth" in self._parts and truth.depth is not None:
             np.savez_compressed(part / f"depth/{name}.npz", depth=truth.depth)
         if "ids" in self._parts and truth.instance is not None:
             check_instances(truth.instance)
             write_png(part / f"instance/{name}.png", truth.instance.astype(np.uint16))
             write_png(part / f"class/{name}.png", self._source.class_of(truth.instance))
+
+    def _write_flow(self, part: str, flow: Flow, name: str) -> None:
+        folder = self._part / "flow"
+        write_png(folder / DIRECTIONS[part] / f"{name}.png", encode_flow(flow.vectors))
+        masks: dict[str, Any] = {}
+        if flow.occluded is not None:
+            masks = {"occluded": flow.occluded}
+        path = folder / f"{DIRECTIONS[part]}_npz" / f"{name}.npz"
+        np.savez_compressed(path, flow=flow.vectors, **masks)
 
     def _write_camera(self, truth: Snapshot, index: int) -> None:
         camera, size = truth.camera, self._source.size
