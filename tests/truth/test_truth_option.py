@@ -73,6 +73,19 @@ def test_ids_go_with_their_events_and_what_cannot_hold_them_says_so(folder, caps
     assert texvent.load("b.raw").instance is None
 
 
+def test_a_video_alone_has_its_truth_too(folder, capsys):
+    video = ("generate", "a red ball bounces", "--video-only", "-o", "v.avi", *QUICK[:-3])
+    assert run(*video, "--truth", "flow,events") != 0
+    assert "--video-only makes none" in capsys.readouterr().err
+    assert not list(folder.iterdir())
+    assert run(*video, "--truth", "all") == 0
+    assert capsys.readouterr().out.split() == ["v.avi", "v.truth"]
+    truth = texvent.load_truth("v.truth")
+    assert "events" not in truth.parts
+    assert truth.metadata["source"]["prompt"] == "a red ball bounces"
+    assert run(*video, "--truth", "all") != 0
+
+
 def test_a_dry_run_counts_the_truth_in(folder, capsys):
     words = ("-o", "b.h5", "--truth", "all", "--dry-run")
     assert run("generate", "a red ball bounces", *words, *QUICK) == 0

@@ -21,8 +21,10 @@ from texvent.io.atomic import check_output
 from texvent.options.fields import option_names
 from texvent.run.prepare import check_run, make_video, prepare_prompt
 from texvent.run.settings import Settings, default_settings
+from texvent.run.truth import TruthFolder
 from texvent.runtime.console_progress import ConsoleProgress
-from texvent.truth.parts import check_generator
+from texvent.truth.layout import truth_folder
+from texvent.truth.parts import ALL, check_generator
 
 DESCRIPTION = """Turn a sentence into the events that an event camera would record. The embedded
 generator renders simple 3-D shapes, without weights or download; `texvent generators` lists learned
@@ -145,9 +147,35 @@ def _write_video(own: PromptOptions, settings: Settings, output: OutputOptions) 
             f"{path} is to hold a lossless video; its name must end in {VIDEO_EXTENSION}"
         )
     check_output(path, overwrite=output.overwrite)
+    truth = _truth_of_video(path, own, output)
     with ConsoleProgress(is_quiet=output.quiet) as progress:
         video = make_video(own.prompt, settings, upsample=own, progress=progress)
         write_stream(video, path, overwrite=output.overwrite)
+        if truth is not None:
+            from texvent.truth.saving import save_truth  # brings the ray caster
+
+            save_truth(video, truth.path, truth.names, overwrite=truth.overwrite)
     if not output.quiet:
-        write_out(f"{path}\n")
+        write_out(f"{path}\n" if truth is None else f"{path}\n{truth.path}\n")
     return 0
+
+
+def _truth_of_video(path: Path, own: PromptOptions, output: OutputOptions) -> TruthFolder | None:
+    """The truth to write beside a video, checked; None where none is asked for.
+
+    Raises:
+        ConfigError: the generator does not know it, or ids of events are asked for.
+        OutputError: the folder exists already, or cannot be made.
+    """
+    parts = output.truth_parts
+    if not parts:
+        return None
+    check_generator(own.generator)
+    if "events" in parts and output.truth.strip() != ALL:
+        raise ConfigError(
+            "truth 'events' is asked for, but --video-only makes none; leave one of them out"
+        )
+    names = tuple(part for part in parts if part != "events")
+    truth = TruthFolder(truth_folder(path), names, overwrite=output.overwrite)
+    truth.check()
+    return truth
