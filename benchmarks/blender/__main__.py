@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 
 import texvent
+from benchmarks.blender.fast_object import is_passed, passed_pixels
 from texvent._require import require
 from texvent._version import full_version
 from texvent.capture.image_folder import find_images_folder, list_images
@@ -38,6 +39,8 @@ from texvent.view.drawing.palettes import get_palette
 RUN: Mapping[str, Any] = {"simulator": "esim"}
 """A pixel that forgets nothing at source frames, whose number differs here."""
 METRICS = ("stpp", "nearest", "voxel", "count_ratio")
+COMPARED_BY_PLACE = ("dense", "dense, halved", "flow", "motion")
+"""Rows that are also given for the fastest object and the rest; the first is the reference."""
 ENLARGED, TEXT_PX, WINDOW_US = 2, 9, 20_000
 
 
@@ -83,6 +86,7 @@ def compare(film: Path, dense: Path) -> tuple[dict[str, Any], dict[str, EventStr
         streams[name] = texvent.simulate(film, **given, **RUN)
         seconds = time.perf_counter() - begin
         rows[name] = {**score(streams[name], reference, span_us), "seconds": round(seconds, 2)}
+    rows |= by_place(film, streams, span_us)
     results = {
         "texvent_version": full_version(),
         "options": dict(RUN),
@@ -91,6 +95,23 @@ def compare(film: Path, dense: Path) -> tuple[dict[str, Any], dict[str, EventStr
         "rows": rows,
     }
     return results, streams
+
+
+def by_place(
+    film: Path, streams: Mapping[str, EventStream], span_us: tuple[int, int]
+) -> dict[str, dict[str, float]]:
+    """Rows of the events where the fastest object passes, and of all others."""
+    frames = list(open_frames(film, CaptureConfig(motion=own_motion(film))))
+    passed = passed_pixels(frames)
+    rows = {}
+    at_object = {name: is_passed(streams[name], frames, passed) for name in COMPARED_BY_PLACE}
+    for name in COMPARED_BY_PLACE[1:]:
+        for place, is_wanted in (("at the fast object", True), ("elsewhere", False)):
+            kept, reference = (
+                streams[one][at_object[one] == is_wanted] for one in (name, COMPARED_BY_PLACE[0])
+            )
+            rows[f"{name}, {place}"] = score(kept, reference, span_us)
+    return rows
 
 
 def variants(film: Path) -> dict[str, dict[str, Any]]:

@@ -7,6 +7,7 @@ import functools
 from .document_readers import document_readers
 from .event_readers import event_readers
 from .frame_readers import frame_readers
+from .motion_readers import motion_readers
 from .reader import Reader
 from .text_readers import text_readers
 
@@ -14,5 +15,6 @@ from .text_readers import text_readers
 @functools.cache
 def readers() -> dict[str, Reader]:
     """Name → reader, in the table's order."""
-    found = [*event_readers(), *frame_readers(), *text_readers(), *document_readers()]
+    pictures = [*frame_readers(), *motion_readers()]
+    found = [*event_readers(), *pictures, *text_readers(), *document_readers()]
     return {reader.name: reader for reader in found}

@@ -86,6 +86,21 @@ class FieldStack:
     marks_unknown: bool = False
     """Whether the format has a way to say that a vector is not known."""
 
+    def field(self, kind: str, index: int) -> NDArray[Any]:
+        """One field of one frame.
+
+        Raises:
+            InputError: the file of this frame lacks what the first one has.
+            FileFormatError: it is damaged.
+        """
+        fields = self.read(index)
+        if kind not in fields:
+            raise InputError(
+                f"{self.name}: the fields of frame {index} lack {kind}, which those of the first "
+                "frame have; write all files alike"
+            )
+        return fields[kind]
+
 
 def open_fields(given: Any, role: Role, convention: str | None) -> FieldStack:
     """Fields of a folder, a file, a pattern such as `out/flow_*.npy`, or of arrays.
@@ -147,7 +162,8 @@ def read_file(path: Path, role: Role, convention: str | None) -> Fields:
     elif extension == ".png":
         fields = _read_png(path, role, convention)
     elif extension == ".npy":
-        fields = {ROLE_KIND[role]: StoredArray(path).rows(0, len(StoredArray(path)))}
+        stored = StoredArray(path)
+        fields = {ROLE_KIND[role]: stored.rows(0, _count(stored.shape, str(path)))}
     elif extension == ".npz":
         fields = _read_npz(path, role)
     else:
@@ -226,7 +242,10 @@ def _read_npz(path: Path, role: Role) -> dict[str, NDArray[Any]]:
     ):
         check_zip(path, archive.zip)
         names = _named(list(archive.files), role, path)
-        return {kind: archive[name] for kind, name in names.items()}
+        arrays = {kind: archive[name] for kind, name in names.items()}
+    if not all(isinstance(one, np.ndarray) for one in arrays.values()):
+        raise FileFormatError(f"{path} is damaged: it holds entries that are no arrays")
+    return arrays
 
 
 def _named(names: Sequence[str], role: Role, path: Path) -> dict[str, str]:
@@ -255,7 +274,7 @@ def _stack_of_file(path: Path, role: Role, convention: str | None) -> FieldStack
         kind = ROLE_KIND[role]
         return FieldStack(
             str(path),
-            len(stored),
+            _count(stored.shape, str(path)),
             lambda index: {kind: stored.rows(index, index + 1)[0]},
             frozenset([kind]),
         )
@@ -317,13 +336,20 @@ def _stack_of_arrays(given: Any, role: Role) -> FieldStack:
 
 
 def _stack_of_mapping(arrays: Fields, name: str) -> FieldStack:
-    count = _one_count({kind: len(array) for kind, array in arrays.items()}, name)
+    count = _one_count({kind: _count(one.shape, name) for kind, one in arrays.items()}, name)
     return FieldStack(
         name,
         count,
         lambda index: {kind: array[index] for kind, array in arrays.items()},
         frozenset(arrays),
     )
+
+
+def _count(shape: tuple[int, ...], name: str) -> int:
+    """The length of the first axis."""
+    if not shape:
+        raise InputError(f"{name} holds a single number; fields are arrays [N, H, W, ...]")
+    return shape[0]
 
 
 def _one_count(counts: Mapping[str, int], name: str) -> int:

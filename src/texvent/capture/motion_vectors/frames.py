@@ -150,7 +150,7 @@ class MotionFrames(FrameSource):
                 at = self._place(field, direction, index)
                 if 0 <= place < len(frames) and at is not None:
                     luma[direction] = levels[place]
-                    stored[direction] = self._stacks[field.role].read(at)[field.kind]
+                    stored[direction] = self._stacks[field.role].field(field.kind, at)
                     seconds[direction] = _seconds(frames[index], frames[place])
             if stored:
                 values = next(iter(stored.values()))
@@ -178,7 +178,7 @@ class MotionFrames(FrameSource):
                 continue
             if at is None:
                 raise InputError(self._missing(field.role, index))
-            stored = self._stacks[field.role].read(at)[field.kind]
+            stored = self._stacks[field.role].field(field.kind, at)
             self._check_field(stored, field, index)
             vectors[field.direction] = to_pixels(
                 stored, self._convention, field.direction, frame.size, _seconds(frame, other)
@@ -221,7 +221,7 @@ class MotionFrames(FrameSource):
         for role in (kind, "motion"):
             stack = self._stacks.get(role)
             if stack is not None and kind in stack.found and index < stack.count:
-                return stack.read(index)[kind], f"{stack.name}, frame {index}: {kind}"
+                return stack.field(kind, index), f"{stack.name}, frame {index}: {kind}"
         return None, ""
 
     def _place(self, field: _Field, direction: Direction, index: int) -> int | None:

@@ -14,6 +14,8 @@ NO_SURFACE_M = 1e8
 """Depth from here on means that there is no surface: Blender writes 1e10."""
 FAR_M = 500.0
 """A median depth beyond this is hardly in metres."""
+LONGEST = 1e6
+"""Largest number of a vector, in any unit."""
 MOST_COMPONENTS = 4
 """Numbers per vector: renderers add unused ones."""
 MOST_UNKNOWN = 0.5
@@ -43,12 +45,13 @@ def check_vectors(stored: NDArray[Any], where: str) -> float:
             f"[H, W, 2]{hint}"
         )
     vectors = stored[..., :2]
-    if vectors.dtype.kind != "f" or np.isfinite(vectors).all():
+    if bool(vectors.min() >= -LONGEST and vectors.max() <= LONGEST):
         return 0.0
-    infinite = int(np.isinf(vectors).any(-1).sum())
-    if infinite:
+    absurd = int((np.abs(vectors.astype(np.float64)) > LONGEST).any(-1).sum())
+    if absurd:
         raise InputError(
-            f"{where} has {infinite} infinite vector(s); write NaN where none is known"
+            f"{where} has {absurd} infinite vector(s), or of more than {LONGEST:g}; write NaN "
+            "where none is known"
         )
     unknown = float(np.isnan(vectors).any(-1).mean())
     if unknown > MOST_UNKNOWN:
