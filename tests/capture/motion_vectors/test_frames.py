@@ -14,6 +14,7 @@ from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, TexventWarning
 from texvent.run.replay import prepare_replay
 from texvent.sensor import SensorSize
+from texvent.video import Frame, Motion, Video
 
 FILM = scene.stack(scene.frame)
 FORWARD, BACKWARD = scene.stack(scene.forward), scene.stack(scene.backward)
@@ -338,3 +339,19 @@ def test_events_of_arrays_cannot_be_replayed_without_them(tmp_path):
     events = texvent.simulate(FILM, flow=FORWARD, fps=25, stop=0.12, simulator="esim")
     with pytest.raises(InputError, match="came from memory"):
         prepare_replay(events.metadata, path=tmp_path / "a.h5")
+
+
+def test_a_stream_of_frames_that_carry_motion():
+    class Rendered(Video):
+        has_motion = True
+
+        def __getitem__(self, index):
+            motion = Motion(FORWARD[index], BACKWARD[index], DEPTH[index])
+            return Frame(self.pixels[index], self.times_us[index], motion=motion)
+
+    stream = Rendered(FILM, [40_000 * index for index in range(len(FILM))])
+    options = {"simulator": "esim"}
+    events = texvent.simulate(stream, **options)
+    assert events.metadata["settings"]["interpolate"]["interpolate"] == "motion"
+    given = texvent.simulate(FILM, fps=25, flow=FORWARD, flow_back=BACKWARD, depth=DEPTH, **options)
+    assert np.array_equal(events.t, given.t)
