@@ -98,8 +98,10 @@ def judge(
     best = _best(
         [
             (other, theirs)
-            for other, own, theirs, _ in candidates
-            if theirs < CLEARLY_BETTER * own and own - theirs >= LEAST_GAIN
+            for other, own, theirs, still in candidates
+            if theirs < CLEARLY_BETTER * own
+            and own - theirs >= LEAST_GAIN
+            and theirs < LITTLE_BETTER * still  # not only because it hardly moves anything
         ],
         given,
         direction,
