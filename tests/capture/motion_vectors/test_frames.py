@@ -296,6 +296,9 @@ def test_a_folder_with_passes_beside_its_frames_is_found(tmp_path):
     assert own_motion("rtsp://nowhere") is None
     (tmp_path / "frames").mkdir()
     (tmp_path / "motion").mkdir()
+    (tmp_path / "motion" / "0.png").touch()  # which could be anything
+    assert own_motion(tmp_path) is None
+    (tmp_path / "motion" / "0.exr").touch()
     assert own_motion(tmp_path) == tmp_path / "motion"
 
 

@@ -56,20 +56,20 @@ def attach_motion(
 def own_motion(source: Any) -> Path | None:
     """The passes that a folder of frames brings along, or None.
 
-    They are in a folder `motion` beside its folder of images, or in its OpenEXR files themselves.
+    They are OpenEXR files in a folder `motion` beside its folder of images, or its own OpenEXR
+    files: these say what they hold, so nothing is guessed.
     """
     if not isinstance(source, str | Path):
         return None
-    folder = Path(source).expanduser()
     try:
+        folder = Path(source).expanduser()
         if not folder.is_dir():
             return None
-        if (folder / OWN_FOLDER).is_dir() and any(
-            (folder / name).is_dir() for name in INNER_FOLDERS
-        ):
+        has_images = any((folder / name).is_dir() for name in INNER_FOLDERS)
+        if has_images and any((folder / OWN_FOLDER).glob("*.exr")):
             return folder / OWN_FOLDER
         images = sorted(folder.glob("*.exr"))
-    except (OSError, ValueError):
+    except (OSError, ValueError, RuntimeError):  # no path, or the home of nobody
         return None
     if not images:
         return None
