@@ -6,7 +6,8 @@
     python -m benchmarks.blender film24 film480 --json OUT.json --picture OUT.png
 
 The reference are events of the dense film, whose frames are mixed: between two of 480 per second
-hardly anything moves by more than a pixel. How sure it is shows the row of every second one.
+hardly anything moves by more than a pixel. How sure it is show the rows of the same frames followed
+by optical flow, and of every second one.
 """
 
 from __future__ import annotations
@@ -76,11 +77,16 @@ def compare(film: Path, dense: Path) -> tuple[dict[str, Any], dict[str, EventStr
     """
     frames = list(open_frames(dense, CaptureConfig()))
     span_us = (frames[0].t_us, frames[-1].t_us)
-    streams = {"dense": simulate(frames, "blend"), "dense, halved": simulate(frames[::2], "blend")}
+    streams = {
+        "dense": simulate(frames, "blend"),
+        "dense, followed": simulate(frames, "flow"),
+        "dense, halved": simulate(frames[::2], "blend"),
+    }
     rows: dict[str, dict[str, float]] = {}
     reference = streams["dense"]
     rows["dense"] = {"events": len(reference), "frames": len(frames)}
-    rows["dense, halved"] = score(streams["dense, halved"], reference, span_us)
+    for name in ("dense, followed", "dense, halved"):
+        rows[name] = score(streams[name], reference, span_us)
     for name, given in variants(film).items():
         begin = time.perf_counter()
         streams[name] = texvent.simulate(film, **given, **RUN)

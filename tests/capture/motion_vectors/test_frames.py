@@ -358,3 +358,40 @@ def test_a_stream_of_frames_that_carry_motion():
     assert events.metadata["settings"]["interpolate"]["interpolate"] == "motion"
     given = texvent.simulate(FILM, fps=25, flow=FORWARD, flow_back=BACKWARD, depth=DEPTH, **options)
     assert np.array_equal(events.t, given.t)
+
+
+@pytest.mark.parametrize(("missing", "is_refused"), [(2, True), (5, False)])
+def test_a_missing_file_is_not_taken_for_one_field_per_pair(tmp_path, missing, is_refused):
+    for index in set(range(6)) - {missing}:
+        np.save(tmp_path / f"flow_{index:04}.npy", FORWARD[index])
+    config = CaptureConfig(fps=Fraction(25), motion=tmp_path)
+    if is_refused:
+        with pytest.raises(InputError, match=r"between flow_0001\.npy and flow_0003\.npy"):
+            open_frames(FILM, config)
+    else:
+        check_exact(open_frames(FILM, config), backward=False)
+
+
+def test_files_named_after_times_have_no_gap(tmp_path):
+    for index, time in enumerate((0, 41_667, 83_333, 125_000, 166_667)):
+        np.save(tmp_path / f"{time}.npy", FORWARD[index])
+    check_exact(open_frames(FILM, CaptureConfig(fps=Fraction(24), motion=tmp_path)), backward=False)
+
+
+def test_unreal_s_vectors_and_ids_in_images(tmp_path):
+    (tmp_path / "ids").mkdir()
+    (tmp_path / "flow").mkdir()
+    for index, flow in enumerate(BACKWARD):
+        ndc = flow * np.float32([-2 / scene.WIDTH, 2 / scene.HEIGHT])
+        pixels = np.zeros((*flow.shape[:2], 3), np.uint16)
+        pixels[..., 2:0:-1] = np.round((ndc / 4 + 0.5) * 65535)  # OpenCV writes blue first
+        cv2.imwrite(str(tmp_path / "flow" / f"{index}.png"), pixels)
+        cv2.imwrite(str(tmp_path / "ids" / f"{index}.png"), INSTANCES[index].astype(np.uint8))
+    config = CaptureConfig(
+        fps=Fraction(25),
+        motion=tmp_path / "flow",
+        instances=tmp_path / "ids",
+        motion_convention="unreal",
+    )
+    motions = check_exact(open_frames(FILM, config), forward=False)
+    assert np.array_equal(motions[2].instance, INSTANCES[2])

@@ -8,8 +8,9 @@ from typing import Any
 
 from texvent.capture.image_folder import INNER_FOLDERS
 from texvent.capture.motion_vectors.conventions import named_convention
-from texvent.capture.motion_vectors.fields import ROLE_KIND, open_fields, written_by
+from texvent.capture.motion_vectors.fields import open_fields, written_by
 from texvent.capture.motion_vectors.frames import MotionFrames
+from texvent.capture.motion_vectors.stack import ROLE_KIND
 from texvent.config import CaptureConfig
 from texvent.errors import InputError
 from texvent.video import FrameStream

@@ -4,15 +4,22 @@ from __future__ import annotations
 
 import functools
 import glob
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass, replace
+import itertools
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.capture.motion_vectors.array_files import (
+    HDF5_EXTENSIONS,
+    of_role,
+    read_npz,
+    stack_of_hdf5,
+)
 from texvent.capture.motion_vectors.exr_image import EXR, read_exr
 from texvent.capture.motion_vectors.flow_files import (
     read_depth_png,
@@ -20,32 +27,19 @@ from texvent.capture.motion_vectors.flow_files import (
     read_flow_png,
     read_png,
 )
-from texvent.errors import FileFormatError, InputError, few, shown
+from texvent.capture.motion_vectors.stack import (
+    ROLE_KIND,
+    Fields,
+    FieldStack,
+    Role,
+    count_of,
+    stack_of_arrays,
+    stack_of_mapping,
+)
+from texvent.errors import FileFormatError, InputError, few
 from texvent.io.arrays.npy_file import StoredArray
-from texvent.io.arrays.npz import NPZ_DAMAGE
-from texvent.io.input_checks import begins_with, check_zip, reporting_damage
 from texvent.runtime.file_names import natural_key, usable_path
 
-Role: TypeAlias = str
-"""Which option named the file (a key of `ROLE_KIND`): what an array without a name holds."""
-Fields: TypeAlias = Mapping[str, NDArray[Any]]
-"""Kind → array of one frame: "vectors" (the convention says in which direction), "forward",
-"backward" ([h, w, 2 or more]), "depth" and "instances" ([h, w])."""
-
-ROLE_KIND: Mapping[str, str] = {
-    "motion": "vectors",
-    "motion_back": "backward",
-    "depth": "depth",
-    "instances": "instances",
-}
-NAMES: Mapping[str, tuple[str, ...]] = {
-    "vectors": ("flow", "vectors", "motion_vectors", "optical_flow"),
-    "forward": ("forward", "flow_forward", "forward_flow"),
-    "backward": ("backward", "flow_back", "flow_backward", "backward_flow"),
-    "depth": ("depth", "distance_to_image_plane"),
-    "instances": ("instances", "instance", "ids", "instance_id"),
-}
-"""Kind → names of arrays in .npz files and of datasets in HDF5 files."""
 EXR_CHANNELS: Mapping[str, tuple[tuple[str, ...], ...]] = {
     "blender": (("Vector.X", "Vector.Y", "Vector.Z", "Vector.W"),),
     "unreal": (
@@ -64,42 +58,9 @@ EXR_CHANNELS: Mapping[str, tuple[tuple[str, ...], ...]] = {
     "instances": (("Object Index.X",), ("IndexOB.X",)),
 }
 """What is in an EXR file → the channels that hold it, the first that are there."""
-HDF5_EXTENSIONS = (".h5", ".hdf5")
 CACHED_FRAMES = 3
 """Frames whose fields are kept: they are read once for vectors, depth and ids."""
 FRAME_EXTENSIONS = (EXR, ".flo", ".png", ".npz", ".npy", *HDF5_EXTENSIONS)
-
-
-@dataclass(frozen=True, eq=False)
-class FieldStack:
-    """The fields of all frames, read one by one."""
-
-    name: str
-    """What to call it in messages."""
-    count: int
-    """Frames, or pairs of frames, that it has fields of."""
-    read: Callable[[int], Fields]
-    found: frozenset[str]
-    """Kinds of fields that it holds."""
-    convention: str | None = None
-    """The renderer that wrote it, where the file says so."""
-    marks_unknown: bool = False
-    """Whether the format has a way to say that a vector is not known."""
-
-    def field(self, kind: str, index: int) -> NDArray[Any]:
-        """One field of one frame.
-
-        Raises:
-            InputError: the file of this frame lacks what the first one has.
-            FileFormatError: it is damaged.
-        """
-        fields = self.read(index)
-        if kind not in fields:
-            raise InputError(
-                f"{self.name}: the fields of frame {index} lack {kind}, which those of the first "
-                "frame have; write all files alike"
-            )
-        return fields[kind]
 
 
 def open_fields(given: Any, role: Role, convention: str | None) -> FieldStack:
@@ -115,7 +76,7 @@ def open_fields(given: Any, role: Role, convention: str | None) -> FieldStack:
         FileFormatError: a file is damaged.
     """
     if not isinstance(given, str | Path):
-        return _stack_of_arrays(given, role)
+        return stack_of_arrays(given, role)
     stack = _open_path(given, role, convention)
     # One file may hold all kinds of fields of a frame, which are asked for one by one.
     return replace(stack, read=functools.lru_cache(maxsize=CACHED_FRAMES)(stack.read))
@@ -143,7 +104,22 @@ def _open_path(given: str | Path, role: Role, convention: str | None) -> FieldSt
         frozenset(first),
         written_by(files[0]),
         files[0].suffix.lower() in (".flo", ".png"),
+        _gap(files),
     )
+
+
+def _gap(files: Sequence[Path]) -> str | None:
+    """Between which numbered files one is missing: all steps are equal, but a few are longer."""
+    numbers = [int(found[-1]) for one in files if (found := re.findall(r"\d+", one.stem))]
+    if len(numbers) != len(files):
+        return None
+    steps = [second - first for first, second in itertools.pairwise(numbers)]
+    usual = min(steps)
+    longer = [index for index, step in enumerate(steps) if step != usual]
+    is_gap = usual > 0 and all(steps[index] % usual == 0 for index in longer)
+    if not longer or not is_gap or len(longer) > len(steps) // 4 + 1:
+        return None
+    return f"{files[longer[0]].name} and {files[longer[0] + 1].name}"
 
 
 def read_file(path: Path, role: Role, convention: str | None) -> Fields:
@@ -163,30 +139,13 @@ def read_file(path: Path, role: Role, convention: str | None) -> Fields:
         fields = _read_png(path, role, convention)
     elif extension == ".npy":
         stored = StoredArray(path)
-        fields = {ROLE_KIND[role]: stored.rows(0, _count(stored.shape, str(path)))}
+        fields = {ROLE_KIND[role]: stored.rows(0, count_of(stored.shape, str(path)))}
     elif extension == ".npz":
-        fields = _read_npz(path, role)
+        fields = read_npz(path, role)
     else:
-        stack = _stack_of_hdf5(path, role)
+        stack = stack_of_hdf5(path, role)
         fields = stack.read(0)
-    return _of_role(fields, role, path)
-
-
-def _of_role(fields: Fields, role: Role, path: Path) -> Fields:
-    """What the option asks for: everything for motion, one kind for the others."""
-    if role == "motion":
-        found = dict(fields)
-        has_motion = {"vectors", "forward", "backward"} & found.keys()
-    elif role == "motion_back":
-        has_motion = {"vectors", "backward"} & fields.keys()
-        found = {"backward": fields[next(iter(has_motion))]} if has_motion else {}
-    else:
-        found = {role: fields[role]} if role in fields else {}
-        has_motion = set(found)
-    if not has_motion:
-        others = ", ".join(fields) or "nothing else"
-        raise InputError(f"{path} has no {role.replace('_', ' ')}; it holds {others}")
-    return found
+    return of_role(fields, role, path)
 
 
 def _read_exr(path: Path) -> dict[str, NDArray[Any]]:
@@ -235,128 +194,29 @@ def _read_png(path: Path, role: Role, convention: str | None) -> dict[str, NDArr
     return {ROLE_KIND[role]: read_flow_png(path, convention)}
 
 
-def _read_npz(path: Path, role: Role) -> dict[str, NDArray[Any]]:
-    with (
-        reporting_damage(path, "a NumPy archive", NPZ_DAMAGE),
-        np.load(path, allow_pickle=False) as archive,
-    ):
-        check_zip(path, archive.zip)
-        names = _named(list(archive.files), role, path)
-        arrays = {kind: archive[name] for kind, name in names.items()}
-    if not all(isinstance(one, np.ndarray) for one in arrays.values()):
-        raise FileFormatError(f"{path} is damaged: it holds entries that are no arrays")
-    return arrays
-
-
-def _named(names: Sequence[str], role: Role, path: Path) -> dict[str, str]:
-    """Kind → name of the array that holds it; a single array holds what the option says."""
-    found = {
-        kind: name
-        for kind, known in NAMES.items()
-        for name in names
-        if name.rsplit("/")[-1] in known
-    }
-    if not found and len(names) == 1:
-        return {ROLE_KIND[role]: names[0]}
-    if not found:
-        known = ", ".join(known[0] for known in NAMES.values())
-        raise InputError(f"{path} holds {few(names)}; arrays must be called {known}")
-    return found
-
-
 def _stack_of_file(path: Path, role: Role, convention: str | None) -> FieldStack:
     """All frames in one file."""
     extension = path.suffix.lower()
     if extension in HDF5_EXTENSIONS:
-        return _stack_of_hdf5(path, role)
+        return stack_of_hdf5(path, role)
     if extension == ".npy":
         stored = StoredArray(path)
         kind = ROLE_KIND[role]
         return FieldStack(
             str(path),
-            _count(stored.shape, str(path)),
+            count_of(stored.shape, str(path)),
             lambda index: {kind: stored.rows(index, index + 1)[0]},
             frozenset([kind]),
         )
     if extension == ".npz":
-        whole = _of_role(_read_npz(path, role), role, path)
-        return _stack_of_mapping(whole, str(path))
+        whole = of_role(read_npz(path, role), role, path)
+        return stack_of_mapping(whole, str(path))
     if extension not in FRAME_EXTENSIONS:
         raise InputError(
             f"{path} is no file of motion vectors; known: {', '.join(FRAME_EXTENSIONS)}, or a "
             "folder of them"
         )
     raise InputError(f"{path} is the field of one frame; give a folder of them, or a pattern")
-
-
-@contextmanager
-def _hdf5(path: Path) -> Iterator[Any]:
-    from texvent.io.hdf5.damage import open_hdf5  # brings h5py
-
-    if not begins_with(path, b"\x89HDF"):
-        raise FileFormatError(f"{path} is no HDF5 file")
-    with open_hdf5(path) as file:
-        yield file
-
-
-def _stack_of_hdf5(path: Path, role: Role) -> FieldStack:
-    from texvent.io.hdf5.damage import check_claims, check_filters
-
-    names: list[str] = []
-    with _hdf5(path) as file:
-        file.visititems(
-            lambda name, item: names.append(name) if getattr(item, "ndim", 0) >= 2 else None
-        )
-        found = _named(names, role, path)
-        for name in found.values():
-            check_claims(file[name], path)
-            check_filters(file[name], path)
-        counts = {name: len(file[name]) for name in found.values()}
-    wanted = _of_role(dict.fromkeys(found, np.empty(0)), role, path)
-    sources = {kind: found.get(kind, found.get("vectors", "")) for kind in wanted}
-
-    def read(index: int) -> Fields:
-        with _hdf5(path) as file:
-            return {kind: np.asarray(file[name][index]) for kind, name in sources.items()}
-
-    count = _one_count({name: counts[name] for name in sources.values()}, str(path))
-    return FieldStack(str(path), count, read, frozenset(sources))
-
-
-def _stack_of_arrays(given: Any, role: Role) -> FieldStack:
-    if not hasattr(given, "__len__") or isinstance(given, Mapping):
-        raise InputError(
-            f"{role}: {shown(given)} is no field of motion; give a path, an array [N, H, W, 2] or "
-            "a list of N arrays"
-        )
-    kind = ROLE_KIND[role]
-    return FieldStack(
-        role, len(given), lambda index: {kind: np.asarray(given[index])}, frozenset([kind])
-    )
-
-
-def _stack_of_mapping(arrays: Fields, name: str) -> FieldStack:
-    count = _one_count({kind: _count(one.shape, name) for kind, one in arrays.items()}, name)
-    return FieldStack(
-        name,
-        count,
-        lambda index: {kind: array[index] for kind, array in arrays.items()},
-        frozenset(arrays),
-    )
-
-
-def _count(shape: tuple[int, ...], name: str) -> int:
-    """The length of the first axis."""
-    if not shape:
-        raise InputError(f"{name} holds a single number; fields are arrays [N, H, W, ...]")
-    return shape[0]
-
-
-def _one_count(counts: Mapping[str, int], name: str) -> int:
-    if len(set(counts.values())) > 1:
-        said = ", ".join(f"{kind} {count}" for kind, count in counts.items())
-        raise InputError(f"{name} holds fields of different numbers of frames ({said})")
-    return next(iter(counts.values()))
 
 
 def _files_of_folder(folder: Path) -> list[Path]:

@@ -23,7 +23,7 @@ from texvent.capture.motion_vectors.conventions import (
     to_pixels,
     with_words,
 )
-from texvent.capture.motion_vectors.fields import FieldStack, Role
+from texvent.capture.motion_vectors.stack import FieldStack, Role
 from texvent.capture.motion_vectors.values import (
     check_vectors,
     instance_ids,
@@ -236,6 +236,11 @@ class MotionFrames(FrameSource):
         has_vectors = role in ("motion", "motion_back")
         if frames is None or not self._is_counted:
             return
+        if stack.count == frames - 1 and stack.gap is not None:
+            raise InputError(
+                f"{stack.name} lacks a file between {stack.gap}, so which frame has which vectors "
+                "is not clear; render it again"
+            )
         if stack.count != frames and not (has_vectors and stack.count == frames - 1):
             pairs = f", or {frames - 1}: one per pair" if has_vectors else ""
             raise InputError(
