@@ -77,6 +77,8 @@ isaac: motion_vectors of Isaac Lab and Replicator: positive where the movement w
 kitti, dsec: 16-bit PNG, which the reader decodes.
 """
 
+SHORTER: Mapping[str, str] = {"kitti,scale=0.5": "dsec", "dsec,scale=2": "kitti"}
+"""Words → the name that means the same."""
 _OVERRIDES: Mapping[str, Mapping[str, Any]] = {
     "forward": {"direction": "forward"},
     "backward": {"direction": "backward"},
@@ -159,7 +161,8 @@ def with_words(text: str, words: Sequence[str]) -> str:
         kept = kept[:1] + [
             one for one in kept[1:] if parse_convention(f"{kept[0]},{one}") != default
         ]
-    return ",".join(kept)
+    said = ",".join(kept)
+    return SHORTER.get(said, said)
 
 
 def _sets(word: str) -> frozenset[str]:
