@@ -162,14 +162,10 @@ class RenderableStream(FrameStream, Protocol):
 
 @runtime_checkable
 class MovingStream(RenderableStream, Protocol):
-    """A renderable stream that also knows how everything in it moves.
+    """A renderable stream that also knows how everything in it moves."""
 
-    Its source frames carry motion if `with_motion` is true.
-    """
-
-    @property
-    def with_motion(self) -> bool:
-        """Whether source frames carry `Frame.motion`."""
+    def with_motion(self) -> MovingStream:
+        """The same stream, whose source frames carry `Frame.motion`."""
         ...
 
     def luma_of(self, t_us: int, wanted: NDArray[np.bool_]) -> NDArray[np.float32]:

@@ -38,8 +38,8 @@ class ProceduralConfig:
     """How the embedded generator renders a scene."""
 
     fps: Fraction = Fraction(24)
-    """Frame rate of the video, as 24, 29.97 or 30000/1001. Frames in between are rendered as
-    exactly as these, so the rate decides little but where frames fall."""
+    """Frame rate of the video, as 24, 29.97 or 30000/1001. In between, surfaces are followed along
+    their exact motion, and what that does not tell is rendered: the rate decides little."""
     duration: float = 2.0
     """Length of the video, in seconds, cut to whole frame intervals: 0.4 s at 24 fps are nine of
     them, 0.375 s."""
@@ -79,7 +79,7 @@ class ProceduralVideo:
     """What the generator made of the prompt (JSON-serialisable)."""
     flicker_hz: float | None = None
     """Flicker frequency of all light, Hz, or None where it is steady."""
-    with_motion: bool = False
+    has_motion: bool = False
     """Whether frames carry exact motion vectors and depth."""
 
     def __repr__(self) -> str:
@@ -104,7 +104,7 @@ class ProceduralVideo:
         """Frames in time order, each rendered on demand."""
         for index in range(self.frame_count):
             frame = self._frame(frame_time_us(index, self.fps), is_source=True)
-            yield replace(frame, motion=self._motion(index)) if self.with_motion else frame
+            yield replace(frame, motion=self._motion(index)) if self.has_motion else frame
 
     def at(self, t_us: int) -> Frame:
         """The frame at `t_us`, [H, W, 3] float32 RGB on the 0..255 scale, `is_source` False."""
@@ -133,6 +133,10 @@ class ProceduralVideo:
     def class_names(self) -> Mapping[int, str]:
         """Instance id → noun, such as {1: "car"}."""
         return self.scene.class_names
+
+    def with_motion(self) -> ProceduralVideo:
+        """The same video, whose frames carry exact motion vectors and depth."""
+        return replace(self, has_motion=True)
 
     def luma_of(self, t_us: int, wanted: NDArray[np.bool_]) -> NDArray[np.float32]:
         """Luma of the pixels of [H, W] `wanted` at `t_us`, [k] float32, 0..255 scale."""
@@ -178,7 +182,7 @@ class ProceduralGenerator:
     """Prompts become scenes built from simple shapes. No weights, no downloads."""
 
     config_type: ClassVar[type] = ProceduralConfig
-    default_interpolate: ClassVar[str] = "exact"
+    default_interpolate: ClassVar[str] = "motion"
     has_ground_truth: ClassVar[bool] = True
 
     def __init__(

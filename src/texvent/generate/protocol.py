@@ -19,7 +19,8 @@ class Generator(Protocol):
     config_type: ClassVar[Callable[[], Any]]
     """Frozen dataclass with the generator's options, or a function that gives its defaults."""
     default_interpolate: ClassVar[str]
-    """Interpolator that suits its videos: "exact" if they can be rendered at any instant."""
+    """Interpolator that suits its videos: "motion" or "exact" if they can be rendered at any
+    instant."""
 
     def generate(self, prompt: str, *, progress: Progress | None = None) -> FrameStream:
         """The video for `prompt`.
@@ -36,3 +37,8 @@ class Generator(Protocol):
             InputError: the prompt is empty.
         """
         ...
+
+
+def renders_instants(generator_class: type) -> bool:
+    """Whether the videos of a generator can be rendered at any instant, and so again."""
+    return getattr(generator_class, "default_interpolate", None) in ("exact", "motion")

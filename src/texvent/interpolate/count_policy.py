@@ -91,7 +91,7 @@ class CountPolicy:
 
 def _flicker_hz(stream: FrameStream, config: InterpolateConfig) -> float | None:
     """The beat that intermediate frames must show; only rendered frames can."""
-    is_seen = config.interpolate == "exact" and config.count == "brightness"
+    is_seen = config.interpolate in ("exact", "motion") and config.count == "brightness"
     return stream.flicker_hz if is_seen and isinstance(stream, FlickeringStream) else None
 
 

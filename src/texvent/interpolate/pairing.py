@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack, closing
+from dataclasses import replace
 
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
@@ -15,7 +16,7 @@ from texvent.pairs.instants import intermediate_times_us
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
 from texvent.runtime.allocator import release_freed_memory
 from texvent.runtime.prefetch import prefetch
-from texvent.video import Frame, FrameStream, StreamChecker
+from texvent.video import Frame, FrameStream, MovingStream, StreamChecker
 
 FRAMES_AHEAD = 2
 PAIRS_AHEAD = 1
@@ -51,6 +52,9 @@ def plan_pairs(
         ConfigError: there is no such interpolator.
         InputError: as `pair_frames`, while iterating.
     """
+    if config.interpolate == "motion" and isinstance(video, MovingStream):
+        # Every instant of such a stream is known: nothing can be cut, and nothing flickers unseen.
+        video, config = video.with_motion(), replace(config, detect_cuts=False, deflicker=False)
     interpolator = INTERPOLATORS.load(config.interpolate)(config, video)
     policy = CountPolicy(
         config, video, interpolator, balance=balance, contrast_threshold=contrast_threshold

@@ -11,6 +11,7 @@ from typing import Any
 from texvent._registry import GENERATORS
 from texvent._version import full_version
 from texvent.errors import MAX_SHOWN, InputError, shown
+from texvent.generate.protocol import renders_instants
 from texvent.pipeline import Simulation, fit_to_sensor, text_to_video
 from texvent.run.prepare import prepare_prompt, prepare_source, prepare_video
 from texvent.run.settings import Settings, flatten_tables, resolve
@@ -41,7 +42,7 @@ def render_again(metadata: Mapping[str, Any]) -> FrameStream | None:
     if name not in GENERATORS.builtin:
         return None
     generator_class = GENERATORS.load(name)
-    if generator_class.default_interpolate != "exact":
+    if not renders_instants(generator_class):
         return None
     options = {**tables.get("run", {}), **tables.get("generate", {})}
     try:

@@ -120,7 +120,7 @@ def _interpolation(*parts: Any, has_motion: bool = False) -> InterpolateConfig:
         wish = getattr(part, "default_interpolate", None)
         if wish is not None:
             return InterpolateConfig(interpolate=wish)
-    if has_motion and ALONG_MOTION in INTERPOLATORS.names():
+    if has_motion:
         return InterpolateConfig(interpolate=ALONG_MOTION)
     return InterpolateConfig()
 

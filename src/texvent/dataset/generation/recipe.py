@@ -20,6 +20,7 @@ from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.specification.resolve import check_options
 from texvent.dataset.specification.specification import Specification, Variant
 from texvent.errors import ConfigError, FileFormatError, InputError, OutputError, one_line
+from texvent.generate.protocol import renders_instants
 from texvent.io.atomic import atomic_file
 from texvent.io.hidden_parts import is_hidden_part
 from texvent.run.settings import Command
@@ -100,7 +101,7 @@ class Recipe:
         if self.specification.store_videos is not None:
             return self.specification.store_videos
         name = self.specification.options.get("generator", next(iter(GENERATORS.builtin)))
-        return bool(GENERATORS.load(name).default_interpolate != "exact")
+        return not renders_instants(GENERATORS.load(name))
 
     @property
     def variants(self) -> Mapping[str, Variant]:

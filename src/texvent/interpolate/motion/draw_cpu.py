@@ -37,9 +37,11 @@ from texvent.runtime.jit import jit
 
 SIMILAR, DIFFERENT = np.float32(0.25), np.float32(0.75)
 """Two frames whose coverage differs by less agree; by more, one of them cannot see the layer."""
-CHANGED = np.float32(0.04)
+CHANGED = np.float32(0.02)
 """A surface whose level differs by a larger share between its two frames was lit differently."""
-DARK = np.float32(5.0)
+UNSURE = np.float32(0.015)
+"""Share of a level by which the spline and straight lines may differ where it is known well."""
+DARK = np.float32(2.0)
 """Added to levels before they are compared."""
 FOLLOWED, MIXED = 0, 1
 """What `draw` says of a pixel: within one layer and equally bright in both frames, or not."""
@@ -120,6 +122,8 @@ def _compose(
                     position,
                 )
                 share = _covered(share_1, share_2, position)
+                if level >= 0 and farther >= 0 and _is_alike(level, farther):
+                    kind[y, x] = FOLLOWED
                 if level < 0:
                     level = farther
                 elif farther >= 0 and share < 1:
@@ -187,7 +191,8 @@ def _gather(layers: Layers, places: Floats, index: int, pixels: Numbers) -> Floa
         [n, 3] float32.
     """
     height, width = layers.order.shape
-    order, spline, is_plain = layers.order, layers.spline, layers.is_plain
+    order, is_plain, value = layers.order, layers.is_plain, layers.value
+    spline, lowest, highest = layers.spline, layers.lowest, layers.highest
     found = np.zeros((len(places), 3), np.float32)
     half = np.float32(0.5)
     for k in range(len(places)):
@@ -204,16 +209,30 @@ def _gather(layers: Layers, places: Floats, index: int, pixels: Numbers) -> Floa
         u, v = from_x - np.float32(column), from_y - np.float32(row)
         away = order[int(from_y + half), int(from_x + half)] - depth
         if is_plain[row, column] and abs(away) <= 3 * limit:
-            found[k, 0] = found[k, 2] = 1.0
+            level = _spline(spline, column, row, u, v)
+            level = min(max(level, lowest[row, column]), highest[row, column])
+            straight = _straight(value, column, row, u, v)
             if u == 0 and v == 0:
-                found[k, 1] = layers.value[row, column]
-            else:
-                found[k, 1] = _spline(spline, column, row, u, v)
+                level = straight
+            found[k, 0], found[k, 1] = 1.0, level
+            # A sharp edge between four pixels is not known well.
+            found[k, 2] = abs(level - straight) < UNSURE * (straight + DARK)
         else:
-            share, level = _at_contour(layers, column, row, u, v, depth, SAME_LAYER * limit)
+            arguments = column, row, u, v, depth, SAME_LAYER * limit
+            share, level, spread = _at_contour(layers, *arguments)
             found[k, 0], found[k, 1] = share, level
-            found[k, 2] = shift_x == 0 and shift_y == 0 and share >= 1
+            is_known = shift_x == 0 and shift_y == 0
+            is_known = is_known or spread < np.float32(2.0) * UNSURE * (level + DARK)
+            found[k, 2] = is_known and share > np.float32(0.999)
     return found
+
+
+@jit(error_model="numpy")
+def _straight(value: Floats, column: int, row: int, u: np.float32, v: np.float32) -> np.float32:
+    """Bilinear level at (column + u, row + v)."""
+    upper = value[row, column] + u * (value[row, column + 1] - value[row, column])
+    lower = value[row + 1, column] + u * (value[row + 1, column + 1] - value[row + 1, column])
+    return np.float32(upper + v * (lower - upper))
 
 
 @jit(error_model="numpy")
@@ -225,10 +244,11 @@ def _at_contour(
     v: np.float32,
     depth: np.float32,
     limit: np.float32,
-) -> tuple[np.float32, np.float32]:
-    """Share and level of the layer at `depth`, bilinear between four pixels."""
+) -> tuple[np.float32, np.float32, np.float32]:
+    """Share and level of the layer at `depth`, bilinear between four pixels; and their spread."""
     height, width = layers.order.shape
     share, light = np.float32(0.0), np.float32(0.0)
+    low, high = np.float32(np.inf), np.float32(0.0)
     for corner in range(4):
         i, j = corner % 2, corner // 2
         part = (u if i else np.float32(1.0) - u) * (v if j else np.float32(1.0) - v)
@@ -237,21 +257,23 @@ def _at_contour(
         x, y = min(column + i, width - 1), min(row + j, height - 1)
         if abs(layers.order[y, x] - depth) <= limit:
             part *= layers.share[y, x]
-            light += part * layers.value[y, x]
+            value = layers.value[y, x]
         elif abs(layers.other_order[y, x] - depth) <= limit:
             part *= layers.other_share[y, x]
-            light += part * layers.other_value[y, x]
+            value = layers.other_value[y, x]
         else:
             continue
         share += part
+        light += part * value
+        low, high = min(low, value), max(high, value)
     if share <= np.float32(1e-4):
-        return np.float32(0.0), np.float32(0.0)
-    return share, light / share
+        return np.float32(0.0), np.float32(0.0), np.float32(0.0)
+    return share, light / share, high - low
 
 
 @jit(error_model="numpy")
 def _spline(spline: Floats, column: int, row: int, u: np.float32, v: np.float32) -> np.float32:
-    """The cubic B-spline at (column + u, row + v), inside the image; not below 0."""
+    """The cubic B-spline at (column + u, row + v), inside the image."""
     a0, a1, a2, a3 = _weights(u)
     b0, b1, b2, b3 = _weights(v)
     total = np.float32(0.0)
@@ -264,7 +286,7 @@ def _spline(spline: Floats, column: int, row: int, u: np.float32, v: np.float32)
             + a3 * spline[at, column + 2]
         )
         total += line * (b0 if j == 0 else b1 if j == 1 else b2 if j == 2 else b3)
-    return max(total, np.float32(0.0))
+    return total
 
 
 @jit(error_model="numpy")

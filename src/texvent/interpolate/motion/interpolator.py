@@ -9,21 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.config import InterpolateConfig
-from texvent.errors import InputError
-from texvent.interpolate.motion.draw_cpu import MIXED, Side, draw
-from texvent.interpolate.motion.layers_cpu import FURTHEST, SPEED_ORDER, Floats, make_layers
-from texvent.interpolate.motion.paths_cpu import (
-    bend_of,
-    list_pieces,
-    make_paths,
-    reverse_vectors,
-)
+from texvent.interpolate.motion.draw_cpu import MIXED
+from texvent.interpolate.motion.pair import MotionPair
 from texvent.pairs.instants import check_between, float_luma, position
 from texvent.runtime.threads import count_threads, run_parts
-from texvent.video import Frame, FrameStream, Motion, MovingStream
+from texvent.video import FlickeringStream, Frame, FrameStream, MovingStream
 
-NEAREST_M = 1e-3
-"""Smaller depths count as this, m."""
+MOST_RENDERED = 0.15
+"""Share of the pixels that motion does not tell; above it, frames are rendered whole where they
+can be."""
 
 
 class MotionInterpolator:
@@ -42,6 +36,7 @@ class MotionInterpolator:
     def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
         del config  # an argument of every interpolator; not used here
         self._stream = stream if isinstance(stream, MovingStream) else None
+        self._beats = isinstance(stream, FlickeringStream) and stream.flicker_hz is not None
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
         """Frames at `times_us`, every surface where its path leads.
@@ -59,65 +54,35 @@ class MotionInterpolator:
                 has vectors to the other.
         """
         check_between(first, second, times_us)
-        sides = make_sides(first, second)
+        if self._beats and self._stream is not None:
+            yield from _rendered(self._stream, times_us)
+            return
+        pair = MotionPair.of(first, second)
         step = max(1, count_threads())
         for start in range(0, len(times_us), step):
             chosen = times_us[start : start + step]
-            images = run_parts(lambda t_us: draw_at(sides, position(first, second, t_us)), chosen)
-            for (image, kind), t_us in zip(images, chosen, strict=True):
+            drawn = run_parts(lambda t_us: pair.draw(position(first, second, t_us)), chosen)
+            if self._stream is not None and np.mean(drawn[0][1] == MIXED) > MOST_RENDERED:
+                yield from _rendered(self._stream, times_us[start:])
+                return
+            for (image, kind), t_us in zip(drawn, chosen, strict=True):
                 if self._stream is not None:
-                    wanted = kind == MIXED
+                    wanted = _grown(kind == MIXED)
                     image[wanted] = self._stream.luma_of(t_us, wanted)
                 yield Frame(image, t_us, is_source=False)
 
 
-def make_sides(first: Frame, second: Frame) -> tuple[Side, Side]:
-    """Both frames of a pair as the kernels read them.
-
-    Raises:
-        InputError: neither frame has vectors to the other.
-    """
-    start, stop = first.motion or Motion(), second.motion or Motion()
-    forward, backward = start.forward, stop.backward
-    if forward is None and backward is None:
-        raise InputError(
-            f"interpolate is 'motion', but the frames at {first.t_us} µs and {second.t_us} µs have "
-            "no motion vectors to each other; give vectors for every frame, or use interpolate flow"
-        )
-    orders = _order(start, first, forward), _order(stop, second, backward)
-    if forward is None:
-        forward = reverse_vectors(_floats(backward), orders[1])
-    if backward is None:
-        backward = reverse_vectors(_floats(forward), orders[0])
-    bends = bend_of(start.forward, start.backward), bend_of(stop.forward, stop.backward)
-    sides = []
-    for frame, vectors, own, other in ((first, forward, 0, 1), (second, backward, 1, 0)):
-        vectors = _floats(vectors)
-        layers = make_layers(float_luma(frame), orders[own], vectors)
-        arrays = bends[own], bends[other], orders[own], orders[other], layers.tolerance
-        sides.append(Side(layers, list_pieces(layers, make_paths(vectors, *arrays))))
-    return sides[0], sides[1]
+def _grown(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """A mask with the four neighbours of its pixels."""
+    grown = mask.copy()
+    grown[1:] |= mask[:-1]
+    grown[:-1] |= mask[1:]
+    grown[:, 1:] |= mask[:, :-1]
+    grown[:, :-1] |= mask[:, 1:]
+    return grown
 
 
-def draw_at(sides: tuple[Side, Side], place: float) -> tuple[Floats, NDArray[np.uint8]]:
-    """The image at τ = `place`, [H, W], and for each pixel `FOLLOWED` or `MIXED`."""
-    shape = sides[0].layers.order.shape
-    image, kind = np.empty(shape, np.float32), np.empty(shape, np.uint8)
-    draw(*sides, np.float32(place), image, kind)
-    return image, kind
-
-
-def _order(motion: Motion, frame: Frame, vectors: NDArray[np.float32] | None) -> Floats:
-    """Ln depth; without depth, what moves faster is nearer."""
-    if motion.depth is not None:
-        depth = np.where(np.isnan(motion.depth), np.inf, motion.depth)
-        with np.errstate(divide="ignore"):
-            return _floats(np.minimum(np.log(np.maximum(depth, NEAREST_M)), FURTHEST))
-    if vectors is None:
-        return np.zeros(frame.size.shape, np.float32)
-    speed = np.nan_to_num(np.hypot(vectors[..., 0], vectors[..., 1]))
-    return _floats(-SPEED_ORDER * speed)
-
-
-def _floats(array: NDArray[np.float32] | None) -> Floats:
-    return np.ascontiguousarray(array, dtype=np.float32)
+def _rendered(stream: MovingStream, times_us: Sequence[int]) -> Iterator[Frame]:
+    """Frames of which so much would have to be rendered that they are rendered whole."""
+    for t_us in times_us:
+        yield Frame(float_luma(stream.at(t_us)), t_us, is_source=False)

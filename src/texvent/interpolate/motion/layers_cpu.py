@@ -60,6 +60,11 @@ class Layers(NamedTuple):
     """[H, W] flat index of the neighbour that shows it, whose path it takes; -1 for none."""
     spline: Floats
     """[H, W] coefficients of the cubic B-spline through the levels."""
+    lowest: Floats
+    """[H, W] lowest level of the 4x4 pixels around the square from here to (x + 1, y + 1): beside a
+    contour, the spline would swing beyond."""
+    highest: Floats
+    """[H, W] highest level of them."""
     is_plain: NDArray[np.bool_]
     """[H, W] whether the 4x4 pixels around the square from here to (x + 1, y + 1) are one layer."""
 
@@ -108,6 +113,7 @@ def make_layers(image: Floats, order: Floats, vectors: Floats) -> Layers:
     """
     shape = image.shape
     tolerance = find_tolerance(order)
+    lowest, highest = window_extremes(image)
     layers = Layers(
         image.copy(),
         np.ones(shape, np.float32),
@@ -118,6 +124,8 @@ def make_layers(image: Floats, order: Floats, vectors: Floats) -> Layers:
         np.full(shape, NOTHING, np.float32),
         np.full(shape, -1, np.int32),
         fit_spline(image),
+        lowest,
+        highest,
         _find_plain(order, tolerance),
     )
     for y in range(shape[0]):
@@ -196,16 +204,35 @@ def _inner_light(
 
 
 @jit
+def window_extremes(image: Floats) -> tuple[Floats, Floats]:
+    """Lowest and highest of the 4x4 pixels around the square from (x, y) to (x + 1, y + 1).
+
+    Pixels outside the image are left out.
+    """
+    height, width = image.shape
+    low, high = image.copy(), image.copy()
+    for y in range(height):
+        for x in range(width):
+            for column in range(max(x - 1, 0), min(x + 3, width)):
+                low[y, x] = min(low[y, x], image[y, column])
+                high[y, x] = max(high[y, x], image[y, column])
+    lowest, highest = low.copy(), high.copy()
+    for y in range(height):
+        for row in range(max(y - 1, 0), min(y + 3, height)):
+            for x in range(width):
+                lowest[y, x] = min(lowest[y, x], low[row, x])
+                highest[y, x] = max(highest[y, x], high[row, x])
+    return lowest, highest
+
+
+@jit
 def _find_plain(order: Floats, tolerance: Floats) -> NDArray[np.bool_]:
     height, width = order.shape
+    low, high = window_extremes(order)
     plain = np.zeros((height, width), np.bool_)
     for y in range(1, height - 2):
         for x in range(1, width - 2):
-            low = high = order[y, x]
-            for row in range(y - 1, y + 3):
-                for column in range(x - 1, x + 3):
-                    low, high = min(low, order[row, column]), max(high, order[row, column])
-            plain[y, x] = high - low <= 4 * tolerance[y, x]
+            plain[y, x] = high[y, x] - low[y, x] <= np.float32(4.0) * tolerance[y, x]
     return plain
 
 

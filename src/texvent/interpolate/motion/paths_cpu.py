@@ -14,6 +14,8 @@ CURVE_LIMIT = np.float32(0.6)
 """Without the other frame's word, a path bends by at most this share of its length."""
 AGREEMENT = np.float32(2.0)
 """The two frames' accelerations may differ by this factor; the larger is reduced to it."""
+LEAST_MOTION_PX = np.float32(1e-3)
+"""Shorter vectors are none."""
 LEAST_BEND_PX = np.float32(0.01)
 """Paths that bend by less are straight."""
 SAME_DEPTH = np.float32(0.1)
@@ -60,6 +62,7 @@ def make_paths(
         [H, W, PATH] float32; the first number is NaN where the vector is unknown.
     """
     height, width = order.shape
+    vectors = _without_noise(vectors)
     paths = np.zeros((height, width, PATH), np.float32)
     for y in range(height):
         for x in range(width):
@@ -85,6 +88,17 @@ def make_paths(
                 along_x, along_y = _stretch(vectors, order, tolerance[y, x], x, y, axis)
                 paths[y, x, 7 + axis], paths[y, x, 9 + axis] = along_x, along_y
     return paths
+
+
+@jit
+def _without_noise(vectors: Floats) -> Floats:
+    """The vectors, with those shorter than `LEAST_MOTION_PX` set to 0."""
+    result = vectors.copy()
+    for y in range(len(result)):
+        for x in range(result.shape[1]):
+            if max(abs(result[y, x, 0]), abs(result[y, x, 1])) < LEAST_MOTION_PX:
+                result[y, x] = 0.0
+    return result
 
 
 @jit

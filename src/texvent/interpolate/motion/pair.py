@@ -1,0 +1,131 @@
+"""Two source frames with motion vectors, ready to be drawn at any instant between them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.errors import InputError
+from texvent.interpolate.motion.draw_cpu import CHANGED, DARK, FOLLOWED, MIXED, Side, draw
+from texvent.interpolate.motion.layers_cpu import FURTHEST, SPEED_ORDER, Floats, make_layers
+from texvent.interpolate.motion.paths_cpu import (
+    LEAST_MOTION_PX,
+    bend_of,
+    list_pieces,
+    make_paths,
+    reverse_vectors,
+)
+from texvent.pairs.instants import float_luma
+from texvent.video import Frame, Motion
+
+NEAREST_M = 1e-3
+"""Smaller depths count as this, m."""
+MARGIN_PX = 3
+"""How far around what moves pixels may change."""
+
+
+@dataclass(frozen=True, eq=False)
+class MotionPair:
+    """What lies between two frames: surfaces on their paths where anything moves."""
+
+    first: Floats
+    """[H, W] levels of the earlier frame."""
+    second: Floats
+    """[H, W] levels of the later frame."""
+    part: tuple[slice, slice]
+    """Rows and columns in which something moves; the frames are mixed in place elsewhere."""
+    sides: tuple[Side, Side]
+    """Both frames in that part."""
+
+    @classmethod
+    def of(cls, first: Frame, second: Frame) -> MotionPair:
+        """The pair of two frames with motion.
+
+        Raises:
+            InputError: neither frame has vectors to the other.
+        """
+        start, stop = first.motion or Motion(), second.motion or Motion()
+        if start.forward is None and stop.backward is None:
+            raise InputError(
+                f"interpolate is 'motion', but the frames at {first.t_us} and {second.t_us} µs "
+                "have no motion vectors to each other; give --motion, or use interpolate flow"
+            )
+        levels = float_luma(first), float_luma(second)
+        orders = _order(start, start.forward, first), _order(stop, stop.backward, second)
+        forward, backward = start.forward, stop.backward
+        if forward is None:
+            forward = reverse_vectors(_floats(backward), orders[1])
+        if backward is None:
+            backward = reverse_vectors(_floats(forward), orders[0])
+        part = moving_part(forward, backward)
+        cut = [
+            np.ascontiguousarray(one[part])
+            for one in (
+                *levels,
+                *orders,
+                _floats(forward),
+                _floats(backward),
+                bend_of(start.forward, start.backward),
+                bend_of(stop.forward, stop.backward),
+            )
+        ]
+        return cls(*levels, part, (_side(cut[0::2], cut[1::2]), _side(cut[1::2], cut[0::2])))
+
+    def draw(self, place: float) -> tuple[Floats, NDArray[np.uint8]]:
+        """The image at τ = `place`, [H, W], and for each pixel `FOLLOWED` or `MIXED`."""
+        position = np.float32(place)
+        image = self.first + position * (self.second - self.first)
+        darker = np.minimum(self.first, self.second) + DARK
+        changed = np.abs(self.second - self.first) >= CHANGED * darker
+        kind = np.where(changed, MIXED, FOLLOWED).astype(np.uint8)
+        if image[self.part].size:
+            inside = np.empty_like(image[self.part]), np.empty_like(kind[self.part])
+            draw(*self.sides, position, *inside)
+            image[self.part], kind[self.part] = inside
+        return image, kind
+
+
+def moving_part(forward: Floats, backward: Floats) -> tuple[slice, slice]:
+    """Rows and columns that hold everything that moves between two frames, with a margin."""
+    height, width = forward.shape[:2]
+    size = np.array([height, width])
+    low, high = size, np.zeros(2, int)
+    for vectors in (forward, backward):
+        known = np.asarray(np.isfinite(vectors).all(axis=2))
+        with np.errstate(invalid="ignore"):
+            moves: NDArray[np.bool_] = ~(np.abs(vectors).max(axis=2) < LEAST_MOTION_PX)
+        where = np.argwhere(moves)
+        if not len(where):
+            continue
+        there = where[known[moves]] + vectors[moves & known][:, ::-1]
+        places = np.concatenate([where, there])
+        low = np.minimum(low, np.floor(places.min(axis=0)).astype(int) - MARGIN_PX)
+        high = np.maximum(high, np.ceil(places.max(axis=0)).astype(int) + 1 + MARGIN_PX)
+    low = np.clip(low, 0, size)
+    high = np.clip(high, low, size)
+    return slice(int(low[0]), int(high[0])), slice(int(low[1]), int(high[1]))
+
+
+def _side(own: list[Floats], other: list[Floats]) -> Side:
+    """One frame by its levels, order, vectors and bends, and those of the other frame."""
+    image, order, vectors, bend = own
+    layers = make_layers(image, order, vectors)
+    paths = make_paths(vectors, bend, other[3], order, other[1], layers.tolerance)
+    return Side(layers, list_pieces(layers, paths))
+
+
+def _order(motion: Motion, vectors: NDArray[np.float32] | None, frame: Frame) -> Floats:
+    """The ln of depth; without depth, what moves faster is nearer."""
+    if motion.depth is not None:
+        depth = np.where(np.isnan(motion.depth), np.inf, motion.depth)
+        return _floats(np.minimum(np.log(np.maximum(depth, NEAREST_M)), FURTHEST))
+    if vectors is None:
+        return np.zeros(frame.size.shape, np.float32)
+    speed = np.nan_to_num(np.hypot(vectors[..., 0], vectors[..., 1]))
+    return _floats(-SPEED_ORDER * speed)
+
+
+def _floats(array: NDArray[np.float32] | None) -> Floats:
+    return np.ascontiguousarray(array, dtype=np.float32)
