@@ -2,7 +2,7 @@
 
 1. Every piece of surface is put where its path leads (`splat_cpu.py`).
 2. Brightness and coverage are read from the source frames where the pieces came from: by a cubic
-   spline inside a layer, so that texture stays sharp, bilinearly at contours.
+   spline inside a layer, so that texture stays sharp; by area at contours, so that edges do too.
 3. The nearer layer covers the farther one by its share of the pixel, in linear light. Where both
    frames see a layer, they are mixed by time.
 
@@ -245,21 +245,27 @@ def _at_contour(
     depth: np.float32,
     limit: np.float32,
 ) -> tuple[np.float32, np.float32, np.float32]:
-    """Share and level of the layer at `depth`, bilinear between four pixels; and their spread."""
+    """Share and level of the layer at `depth` in a pixel that four overlap; and their spread."""
     height, width = layers.order.shape
+    one = np.float32(1.0)
     share, light = np.float32(0.0), np.float32(0.0)
     low, high = np.float32(np.inf), np.float32(0.0)
     for corner in range(4):
         i, j = corner % 2, corner // 2
-        part = (u if i else np.float32(1.0) - u) * (v if j else np.float32(1.0) - v)
+        # What of this pixel the new one overlaps.
+        left, right = (np.float32(0.0), u) if i else (u, one)
+        top, bottom = (np.float32(0.0), v) if j else (v, one)
+        part = (right - left) * (bottom - top)
         if part <= 0:
             continue
         x, y = min(column + i, width - 1), min(row + j, height - 1)
+        beyond = layers.other_pixel[y, x]
+        step_x, step_y = (beyond % width - x, beyond // width - y) if beyond >= 0 else (0, 0)
         if abs(layers.order[y, x] - depth) <= limit:
-            part *= layers.share[y, x]
+            part *= _filled(layers.share[y, x], step_x, step_y, left, right, top, bottom)
             value = layers.value[y, x]
         elif abs(layers.other_order[y, x] - depth) <= limit:
-            part *= layers.other_share[y, x]
+            part *= _filled(layers.other_share[y, x], -step_x, -step_y, left, right, top, bottom)
             value = layers.other_value[y, x]
         else:
             continue
@@ -269,6 +275,30 @@ def _at_contour(
     if share <= np.float32(1e-4):
         return np.float32(0.0), np.float32(0.0), np.float32(0.0)
     return share, light / share, high - low
+
+
+@jit(error_model="numpy")
+def _filled(
+    share: np.float32,
+    step_x: int,
+    step_y: int,
+    left: np.float32,
+    right: np.float32,
+    top: np.float32,
+    bottom: np.float32,
+) -> np.float32:
+    """How much of a rectangle in a pixel a surface fills that covers `share` of the pixel.
+
+    It lies on the side away from the step across its contour; the contour is taken as straight.
+    """
+    one = np.float32(1.0)
+    if share >= one or (step_x == 0 and step_y == 0):
+        return share
+    if step_x != 0:
+        start, stop = (left, right) if step_x > 0 else (one - right, one - left)
+    else:
+        start, stop = (top, bottom) if step_y > 0 else (one - bottom, one - top)
+    return np.float32(min(max((share - start) / (stop - start), np.float32(0.0)), one))
 
 
 @jit(error_model="numpy")

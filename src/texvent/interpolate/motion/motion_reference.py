@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +34,8 @@ class Surface:
     """ln depth."""
     donor: tuple[int, int]
     """(x, y) of the pixel whose path it takes: its own, or a neighbour's."""
+    away: tuple[int, int] = (0, 0)
+    """Step (x, y) across its contour: it fills the pixel from the other side."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +50,7 @@ class View:
     bend: Float64s | None
     """Second difference of position: forward plus backward vector; None with two frames alone."""
 
+    @cache  # noqa: B019  (a handful of small views, for tests)
     def tolerance(self, x: int, y: int) -> float:
         """How much ln depth may differ within the layer: a constant, and the local slope."""
         slope = 0.0
@@ -63,6 +67,7 @@ class View:
             if 0 <= x + dx < width and 0 <= y + dy < height:
                 yield x + dx, y + dy
 
+    @cache  # noqa: B019
     def surfaces(self, x: int, y: int) -> list[Surface]:
         """The surfaces of a pixel: its own, and at a contour the one beyond it."""
         own = Surface(float(self.levels[y, x]), 1.0, float(self.order[y, x]), (x, y))
@@ -86,10 +91,10 @@ class View:
         if share == 1.0 and not is_nearer:
             return [own]
         colours = limits.gamma_coded(inner or 0.0), limits.gamma_coded(light)
-        order = float(self.order[j, i])
+        order, back = float(self.order[j, i]), (-step[0], -step[1])
         return [
-            Surface(colours[0], share if is_nearer else 1.0, own.order, (x, y)),
-            Surface(colours[1], 1.0 if is_nearer else 1.0 - share, order, (i, j)),
+            Surface(colours[0], share if is_nearer else 1.0, own.order, (x, y), step),
+            Surface(colours[1], 1.0 if is_nearer else 1.0 - share, order, (i, j), back),
         ]
 
     def _across(self, x: int, y: int) -> tuple[int, int] | None:
@@ -200,6 +205,7 @@ def _overlap(
     return float(np.prod(np.maximum(high - low, 0.0)))
 
 
+@cache
 def _stretch(view: View, x: int, y: int) -> Float64s:
     """How the displacement changes along x and y within the layer, [[dx/dx, dx/dy], ...]."""
     result = np.zeros((2, 2))
@@ -291,20 +297,29 @@ def _look(view: View, place: Float64s, order: float, limit: float) -> tuple[floa
     if _is_plain(view, column, row) and abs(nearest - order) <= 3 * limit:
         return 1.0, _smooth(view.levels, column, row, u, v)
     share = light = 0.0
-    for i, j, part in (
-        (column, row, (1 - u) * (1 - v)),
-        (column + 1, row, u * (1 - v)),
-        (column, row + 1, (1 - u) * v),
-        (column + 1, row + 1, u * v),
-    ):
-        if part <= 0:
-            continue
-        for surface in view.surfaces(min(i, width - 1), min(j, height - 1)):
-            if abs(surface.order - order) <= SAME_LAYER * limit:
-                share += part * surface.share
-                light += part * surface.share * surface.level
-                break
+    for i, across in ((column, (u, 1.0)), (column + 1, (0.0, u))):
+        for j, down in ((row, (v, 1.0)), (row + 1, (0.0, v))):
+            part = (across[1] - across[0]) * (down[1] - down[0])
+            if part <= 0:
+                continue
+            for surface in view.surfaces(min(i, width - 1), min(j, height - 1)):
+                if abs(surface.order - order) <= SAME_LAYER * limit:
+                    part *= _filled(surface, across, down)
+                    share += part
+                    light += part * surface.level
+                    break
     return (share, light / share) if share > 1e-4 else (0.0, 0.0)
+
+
+def _filled(surface: Surface, across: tuple[float, float], down: tuple[float, float]) -> float:
+    """How much of a rectangle in its pixel a surface fills: from one side, up to its share."""
+    if surface.share >= 1.0:
+        return surface.share
+    axis = 0 if surface.away[0] else 1
+    start, stop = (across, down)[axis]
+    if surface.away[axis] < 0:
+        start, stop = 1.0 - stop, 1.0 - start
+    return min(max((surface.share - start) / (stop - start), 0.0), 1.0)
 
 
 def _is_plain(view: View, x: int, y: int) -> bool:
@@ -333,6 +348,7 @@ def _basis(u: float) -> Float64s:
     return np.asarray(np.where(distances < 1, inner, np.maximum(2 - distances, 0) ** 3 / 6))
 
 
+@cache
 def _interpolating(count: int) -> Float64s:
     """[count, count]: levels to the coefficients whose spline passes through them, mirrored."""
     matrix = np.zeros((count, count))

@@ -1,0 +1,212 @@
+"""Instants between two frames with known motion: against the reference, and by hand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tests.interpolate.motion.scenes import (
+    BACKGROUND_M,
+    HEIGHT,
+    OBJECT_M,
+    WIDTH,
+    bar_frame,
+    bar_pair,
+    field,
+    texture,
+    views,
+)
+
+from texvent.errors import InputError
+from texvent.interpolate.motion.draw_cpu import FOLLOWED, MIXED
+from texvent.interpolate.motion.motion_reference import level_at
+from texvent.interpolate.motion.pair import MotionPair, moving_part
+from texvent.video import Frame, Motion
+
+FLAT = np.full((HEIGHT, WIDTH), BACKGROUND_M, np.float32)
+
+
+def moving_texture(x: float, y: float, *, forward: bool = True, backward: bool = True):
+    first = Motion(forward=field(x, y) if forward else None, depth=FLAT)
+    second = Motion(backward=field(-x, -y) if backward else None, depth=FLAT)
+    return (
+        Frame(texture().astype(np.float32), 0, motion=first),
+        Frame(texture(x, y).astype(np.float32), 1000, motion=second),
+    )
+
+
+def both_at(first: Frame, second: Frame, place: float) -> tuple[np.ndarray, np.ndarray]:
+    """The kernels' image and the reference's."""
+    image, _ = MotionPair.of(first, second).draw(place)
+    one, two = views(first, second)
+    expected = [[level_at(one, two, place, x, y) for x in range(WIDTH)] for y in range(HEIGHT)]
+    return image, np.array(expected)
+
+
+@pytest.mark.parametrize("place", [0.0, 0.3, 0.5, 1.0])
+def test_a_bar_before_a_background_is_drawn_as_defined(place):
+    image, expected = both_at(*bar_pair(), place)
+    assert image == pytest.approx(expected, abs=0.02)
+
+
+def test_random_surfaces_are_drawn_as_defined():
+    random = np.random.default_rng(5)
+    for _ in range(3):
+        depth = np.where(random.random((HEIGHT, WIDTH)) < 0.2, OBJECT_M, BACKGROUND_M)
+        turn = random.normal(0, 0.05, (2, 2))
+        y, x = np.mgrid[:HEIGHT, :WIDTH]
+        bent = np.stack([x, y], axis=2) @ turn + random.normal(0, 1.5, 2)
+        vectors = np.where((depth == OBJECT_M)[..., None], bent + 1.0, bent).astype(np.float32)
+        frames = [
+            Frame(
+                random.uniform(20, 220, (HEIGHT, WIDTH)).astype(np.float32),
+                1000 * index,
+                motion=Motion(
+                    forward=vectors, backward=-0.9 * vectors, depth=depth.astype(np.float32)
+                ),
+            )
+            for index in range(2)
+        ]
+        image, expected = both_at(*frames, 0.4)
+        # A place exactly on a limit may fall to either side in float32.
+        assert np.mean(np.abs(image - expected) > 0.05) < 0.02
+
+
+def test_texture_is_found_where_it_has_moved():
+    pair = MotionPair.of(*moving_texture(2.6, -1.4))
+    for place in (0.25, 0.5, 0.75):
+        image, _ = pair.draw(place)
+        truth = texture(2.6 * place, -1.4 * place)
+        assert np.abs(image - truth)[3:-3, 3:-3].max() < 0.5
+
+
+def test_source_frames_are_met_exactly_at_both_ends():
+    for first, second in (moving_texture(2.0, 1.0), bar_pair()):
+        pair = MotionPair.of(first, second)
+        assert pair.draw(0.0)[0] == pytest.approx(first.luma, abs=0.02)
+        assert pair.draw(1.0)[0] == pytest.approx(second.luma, abs=0.02)
+
+
+def test_an_edge_moves_by_parts_of_a_pixel():
+    """The bar starts at 4 and moves 2.5 px: its edges cross pixels smoothly, nothing smears."""
+    pair = MotionPair.of(*bar_pair())
+    for place in (0.1, 0.2, 0.5, 0.8):
+        image, kind = pair.draw(place)
+        left = 4.0 + 2.5 * place
+        assert np.abs(image - bar_frame(left, left + 4.0)).max() < 6.0
+        assert (kind == MIXED).any()
+
+
+def test_what_the_nearer_thing_reveals_comes_from_the_frame_that_shows_it():
+    first, second = bar_pair(start=4.0, step=6.0, wide=3.0)
+    image, _ = MotionPair.of(first, second).draw(0.5)
+    assert image[:, 4] == pytest.approx(160.0, abs=0.5)  # covered at first, free by now
+    assert image[:, 8] == pytest.approx(40.0, abs=0.5)  # the bar is here, in neither frame
+    assert image[:, 12] == pytest.approx(160.0, abs=0.5)  # covered in the end, not yet
+
+
+def test_without_depth_the_faster_thing_is_nearer():
+    first, second = bar_pair(start=4.0, step=6.0, wide=3.0)
+    bare = [
+        Frame(one.pixels, one.t_us, motion=Motion(one.motion.forward, one.motion.backward))
+        for one in (first, second)
+    ]
+    image, _ = MotionPair.of(*bare).draw(0.5)
+    assert image[:, 8] == pytest.approx(40.0, abs=1.0)
+    assert image[:, 4] == pytest.approx(160.0, abs=1.0)
+
+
+@pytest.mark.parametrize("missing", ["forward", "backward"])
+def test_one_direction_is_enough_where_nothing_hides(missing):
+    pair = MotionPair.of(*moving_texture(2.0, 1.0, **{missing: False}))
+    image, _ = pair.draw(0.5)
+    assert np.abs(image - texture(1.0, 0.5))[3:-3, 3:-3].max() < 0.5
+
+
+def test_paths_are_curved_with_vectors_to_both_neighbours():
+    """Constant acceleration: places 0, 1 and 4 px at three frames; 2.25 px halfway."""
+    shape = (HEIGHT, WIDTH)
+    place = {-1: 0.0, 0: 1.0, 1: 4.0, 2: 9.0}
+    frames = [
+        Frame(
+            texture(place[index]).astype(np.float32),
+            1000 * index,
+            motion=Motion(
+                forward=field(place[index + 1] - place[index], 0.0),
+                backward=field(place[index - 1] - place[index], 0.0),
+                depth=np.full(shape, 5.0, np.float32),
+            ),
+        )
+        for index in (0, 1)
+    ]
+    image, _ = MotionPair.of(*frames).draw(0.5)
+    assert np.abs(image - texture(2.25))[3:-3, 5:-4].max() < 0.6
+
+
+def test_a_bounce_between_frames_is_followed_straight():
+    """Before the pair it came from the other side: the bends disagree, so the path is straight."""
+    first, second = moving_texture(3.0, 0.0)
+    bounced = Motion(forward=field(3.0, 0.0), backward=field(3.0, 0.0), depth=FLAT)
+    going_on = Motion(forward=field(3.0, 0.0), backward=field(-3.0, 0.0), depth=FLAT)
+    pair = MotionPair.of(
+        Frame(first.pixels, 0, motion=bounced), Frame(second.pixels, 1000, motion=going_on)
+    )
+    image, _ = pair.draw(0.5)
+    assert np.abs(image - texture(1.5))[3:-3, 4:-4].max() < 0.5
+
+
+def test_unknown_vectors_are_left_to_the_other_frame():
+    first, second = moving_texture(2.0, 0.0)
+    forward = first.motion.forward.copy()
+    forward[4:7, 5:8] = np.nan
+    gappy = Frame(first.pixels, 0, motion=Motion(forward=forward, depth=FLAT))
+    image, _ = MotionPair.of(gappy, second).draw(0.5)
+    assert np.abs(image - texture(1.0))[3:-3, 3:-3].max() < 1.0
+
+
+def test_frames_at_rest_are_mixed_in_place():
+    flat = Motion(forward=field(0, 0), backward=field(0, 0), depth=FLAT)
+    dark = Frame(np.full((HEIGHT, WIDTH), 50, np.float32), 0, motion=flat)
+    light = Frame(np.full((HEIGHT, WIDTH), 90, np.float32), 1000, motion=flat)
+    image, kind = MotionPair.of(dark, light).draw(0.25)
+    assert image == pytest.approx(60.0)
+    assert (kind == MIXED).all()
+    same, kind = MotionPair.of(dark, dark).draw(0.25)
+    assert (same == 50).all()
+    assert (kind == FOLLOWED).all()
+
+
+def test_only_what_moves_is_looked_at():
+    forward = field(0, 0).copy()
+    forward[5, 6] = (4.0, -3.0)
+    rows, columns = moving_part(forward, field(0, 0))
+    assert (rows.start, rows.stop, columns.start, columns.stop) == (0, 9, 3, 14)
+    rows, columns = moving_part(field(0, 0), field(0, 0))
+    assert rows.stop - rows.start == 0
+
+
+def test_frames_without_vectors_are_refused():
+    plain = Frame(texture().astype(np.float32), 0), Frame(texture().astype(np.float32), 40_000)
+    with pytest.raises(InputError, match="no motion vectors to each other; give --motion"):
+        MotionPair.of(*plain)
+
+
+@settings(max_examples=25)
+@given(
+    x=st.floats(-6, 6),
+    y=st.floats(-6, 6),
+    place=st.floats(0, 1),
+    depth=st.sampled_from([1e-6, 0.5, 300.0, np.inf, np.nan]),
+)
+def test_levels_stay_within_those_of_the_frames(x, y, place, depth):
+    first, second = moving_texture(x, y)
+    first.motion.depth[3:6, 3:6] = depth
+    try:
+        image, _ = MotionPair.of(first, second).draw(place)
+    finally:
+        first.motion.depth[3:6, 3:6] = BACKGROUND_M
+    assert np.isfinite(image).all()
+    low, high = min(first.luma.min(), second.luma.min()), max(first.luma.max(), second.luma.max())
+    assert image.min() >= low - 0.01
+    assert image.max() <= high + 0.01
