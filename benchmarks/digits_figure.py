@@ -20,10 +20,10 @@ from texvent.bench.digits.arms import Way, find_arm
 from texvent.bench.digits.data.idx import read_mnist
 from texvent.bench.digits.data.inputs import REPRESENTATIONS, WINDOW_US
 from texvent.bench.digits.data.recordings import FIRST_TEST, read_recordings
-from texvent.bench.digits.data.saccades import DURATION_US
 from texvent.bench.digits.data.sheet import Digits, DigitSheet
 from texvent.bench.digits.report.results import DigitsReport, read_report
 from texvent.bench.document import read_document
+from texvent.capture.camera_path.saccades import DURATION_US
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, check_output
 from texvent.represent.event_frame import count_events

@@ -143,11 +143,23 @@ class CaptureConfig:
     """Compare warped with real frames, and refuse vectors that fit clearly better if they are
     meant otherwise."""
     depth: Path | None = None
-    """Depth along the optical axis, m, in files as --motion; says what is in front."""
+    """Depth along the optical axis, m, in files as --motion; says what is in front. With --camera,
+    that of the image: nearer things move more."""
     depth_scale: float | None = None
     """Metres per stored step of depth: 0.001 for mm. Needed for PNG."""
     instances: Path | None = None
     """Ids of objects, in files as --motion."""
+    camera: str | None = None
+    """Move a camera over a still image: saccade (N-MNIST's three), shake (held by hand), pan, or a
+    file of positions (t x y [roll [zoom]]: s, px, degrees) or of poses (t tx ty tz qx qy qz qw)."""
+    camera_amplitude: float | None = None
+    """Size of the movement, px: the longest saccade (5.5), the shake's root mean square (2), or the
+    pan's px per second (60)."""
+    camera_fov: float | None = None
+    """Angle that the image spans horizontally, degrees; poses need it."""
+    duration: float | None = None
+    """How long the camera moves, s. Without it, as long as its path: 0.315 (saccade), 1 (shake,
+    pan), or what its file says."""
 
     def __post_init__(self) -> None:
         check_range("start", self.start, 0.0)
@@ -155,6 +167,9 @@ class CaptureConfig:
         check_range("white_level", self.white_level, 1e-9, 1e9)
         check_range("fps", self.fps, *FPS_RANGE)
         check_range("depth_scale", self.depth_scale, 1e-9, 1e9)
+        check_range("camera_amplitude", self.camera_amplitude, 1e-6, 1e6)
+        check_range("camera_fov", self.camera_fov, 1e-3, 179.0)
+        check_range("duration", self.duration, 1e-6, 86_400.0)
         if self.stop is not None and not self.stop > self.start:
             raise ConfigError(f"stop is {self.stop:g} s; it must be after start ({self.start:g} s)")
 

@@ -85,6 +85,17 @@ def test_image_folders_are_videos(tmp_path: Path) -> None:
     assert single.video == tmp_path / "one"
 
 
+def test_under_a_camera_every_image_is_a_sample(tmp_path: Path) -> None:
+    for name in ("b.png", "a.JPG", "notes.md", "clip.mp4", ".hidden.png"):
+        (tmp_path / name).touch()
+    samples = read_samples([tmp_path], seed=0, of_stills=True)
+    assert [sample.video for sample in samples] == [tmp_path / "a.JPG", tmp_path / "b.png"]
+    assert len({sample.seed for sample in samples}) == 2
+    (tmp_path / "none").mkdir()
+    with pytest.raises(InputError, match="none holds no image, and --camera moves"):
+        read_samples([tmp_path / "none"], seed=0, of_stills=True)
+
+
 @pytest.mark.parametrize(
     ("sources", "error", "why"),
     [

@@ -37,7 +37,9 @@ class Sample:
     video: Path | None = None
 
 
-def read_samples(sources: Sequence[str | Path], *, seed: int) -> tuple[Sample, ...]:
+def read_samples(
+    sources: Sequence[str | Path], *, seed: int, of_stills: bool = False
+) -> tuple[Sample, ...]:
     """The samples of lists, videos, folders and patterns.
 
     Every sample gets a seed derived from the batch's and its own key, so that equal prompts differ,
@@ -47,13 +49,14 @@ def read_samples(sources: Sequence[str | Path], *, seed: int) -> tuple[Sample, .
         sources: lists of prompts or videos (`.txt`, `.csv`, `.jsonl`), video files, folders of
             videos or of image folders, an image folder, patterns such as `clips/*.mp4`.
         seed: of the batch.
+        of_stills: every image of a folder is a sample, not the folder.
 
     Raises:
         InputError: a source does not exist or holds nothing; two samples have one name.
         FileFormatError: a line of a list cannot be read.
         ConfigError: prompts and videos are mixed.
     """
-    entries = [entry for source in sources for entry in entries_of(str(source))]
+    entries = [entry for source in sources for entry in entries_of(str(source), of_stills)]
     if not entries:
         raise InputError("there is nothing to do; name a list of prompts, videos or a folder")
     if len({entry.video is None for entry in entries}) > 1:
@@ -74,11 +77,11 @@ def are_videos(sources: Sequence[str | Path]) -> bool:
     return False
 
 
-def entries_of(source: str) -> Iterator[ListEntry]:
-    """What a list, video, folder or pattern holds; errors as `read_samples`."""
+def entries_of(source: str, of_stills: bool = False) -> Iterator[ListEntry]:
+    """What a list, video, folder or pattern holds; arguments and errors as `read_samples`."""
     path = Path(source)
     if path.is_dir():
-        yield from _folder_entries(path)
+        yield from _folder_stills(path) if of_stills else _folder_entries(path)
     elif path.suffix.lower() in LIST_EXTENSIONS:
         yield from read_list(path)
     elif path.exists():
@@ -88,7 +91,7 @@ def entries_of(source: str) -> Iterator[ListEntry]:
         if not found:
             raise InputError(f"nothing matches {shown(source)}")
         for one in found:
-            yield from entries_of(one)
+            yield from entries_of(one, of_stills)
     else:
         raise InputError(
             f"no such file or folder: {source}; give a list ({', '.join(LIST_EXTENSIONS)}), "
@@ -110,6 +113,16 @@ def _folder_entries(folder: Path) -> Iterator[ListEntry]:
             f"{', '.join(sorted(FOLDER_VIDEOS))}"
         )
     for path in videos:
+        yield ListEntry(where=str(path), video=path)
+
+
+def _folder_stills(folder: Path) -> Iterator[ListEntry]:
+    """Every image in a folder."""
+    inside = sorted(path for path in folder.iterdir() if not path.name.startswith("."))
+    images = [path for path in inside if _holds_images([path])]
+    if not images:
+        raise InputError(f"{folder} holds no image, and --camera moves a camera over images")
+    for path in images:
         yield ListEntry(where=str(path), video=path)
 
 

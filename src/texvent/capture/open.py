@@ -11,6 +11,7 @@ from typing import Any
 
 from texvent.capture.aedat4_frames import Aedat4Frames, is_aedat4
 from texvent.capture.array_frames import ArrayFrames
+from texvent.capture.camera_path.opening import check_no_camera, field_of, is_still, open_photo
 from texvent.capture.dsec_frames import DsecFrames, is_dsec
 from texvent.capture.evreal_frames import EvrealFrames, is_evreal
 from texvent.capture.frame_times import FrameTimes, listed_times, read_timestamps
@@ -33,6 +34,7 @@ def open_frames(
     size: SensorSize | None = None,
     t_us: Any = None,
     motion: Mapping[str, Any] | None = None,
+    seed: int = 0,
 ) -> FrameStream:
     """Frames of a video file, an image folder, an array, a camera or a network stream.
 
@@ -45,6 +47,7 @@ def open_frames(
         size: sensor size to fit the frames to, or None to keep theirs.
         t_us: [N] frame times, integer µs.
         motion: fields of motion in memory, as `attach_motion` takes them.
+        seed: of a camera that shakes over a still image.
 
     Returns:
         A checked stream: one size, strictly increasing times, at least two frames, no NaN.
@@ -56,6 +59,11 @@ def open_frames(
         ConfigError: frame times are given in two ways at once, or the motion's convention is
             unknown.
     """
+    if config.camera is not None:
+        if t_us is not None:
+            raise ConfigError("t_us is for frames, and camera makes them of an image; leave it out")
+        return open_photo(source, config, size=size, seed=seed, depth=field_of(motion))
+    check_no_camera(config)
     given = _given_times(config, t_us)
     stream: FrameStream
     if isinstance(source, (str, Path)):
@@ -109,6 +117,11 @@ def _open_address(address: str, config: CaptureConfig, given: FrameTimes | None)
         return _open_array(StoredArray(path), config, given)
     if is_aedat4(path):
         return Aedat4Frames(path, _file_times(config, given))
+    if is_still(path):
+        raise InputError(
+            f"{path} is one image, so nothing changes; move a camera over it with --camera "
+            "saccade, shake, pan or FILE, or name a folder of images"
+        )
     from texvent.capture.video_file import VideoFile  # brings PyAV
 
     try:

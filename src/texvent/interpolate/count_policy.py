@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class CountPolicy:
     """Eq. 4 or a fixed count, raised by motion and by flickering light, lowered by a budget.
 
-    Motion that is known (`Frame.motion`) always counts where it is followed.
+    Motion that is known (`Frame.motion`) always counts where it is followed or rendered.
     """
 
     def __init__(
@@ -74,8 +74,8 @@ class CountPolicy:
         count = max(count, count_for_flicker(first.t_us, second.t_us, self._flicker_hz, cap=cap))
         if count == cap:
             return count
-        if config.interpolate == "motion":
-            # Frames follow the vectors exactly, so what they skip is all that is lost.
+        if config.interpolate in ("motion", "exact"):
+            # What these frames show is exact, so what they skip is all that is lost.
             count = max(count, count_for_vectors(first.motion, second.motion))
         if self._pair_flow is not None:
             count = max(count, self._pair_flow.motion_px(first, second))

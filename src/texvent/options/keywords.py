@@ -142,6 +142,10 @@ class CaptureOptions(TypedDict, total=False):
     depth: Field | None
     depth_scale: float | None
     instances: Field | None
+    camera: str | None
+    camera_amplitude: float | None
+    camera_fov: float | None
+    duration: float | None
 
 
 class GeneratorOptions(TypedDict, total=False):

@@ -82,6 +82,7 @@ def prepare_source(
     t_us: Any = None,
     motion: Mapping[str, Any] | None = None,
     prompt: str | None = None,
+    video_seed: int | None = None,
     progress: Progress | None = None,
 ) -> Simulation:
     """The run of recorded frames.
@@ -93,6 +94,7 @@ def prepare_source(
         motion: motion vectors, depth and ids in memory, as `attach_motion` takes them.
         prompt: what the video shows; stored with the events. A video that texvent generated and
             wrote brings the facts of its generation along.
+        video_seed: of a camera that shakes over a still image; None: that of the run.
         progress: told how the search for the target rate gets on.
 
     Raises:
@@ -102,10 +104,17 @@ def prepare_source(
     from texvent.capture.open import open_frames  # brings readers that a prompt does not need
 
     check_run(settings)
-    is_plain = motion is None and t_us is None and getattr(settings.source, "motion", None) is None
+    is_plain = motion is None and t_us is None and _is_of_frames(settings.source)
     if prompt is not None and is_plain and settings.source.fps is None:
         source = _stored_video(source) or source
-    video = open_frames(source, settings.source, size=settings.size, t_us=t_us, motion=motion)
+    video = open_frames(
+        source,
+        settings.source,
+        size=settings.size,
+        t_us=t_us,
+        motion=motion,
+        seed=settings.run.seed if video_seed is None else video_seed,
+    )
     return prepare_video(video, settings, prompt=prompt, progress=progress)
 
 
@@ -121,6 +130,11 @@ def prepare_video(
     check_memory(settings, video.size)
     simulation = video_to_events(video, settings, prompt=prompt)
     return reach_target_rate(simulation, progress=progress)
+
+
+def _is_of_frames(capture: Any) -> bool:
+    """Whether frames are all that is read: no motion vectors, no camera over an image."""
+    return getattr(capture, "motion", None) is None and getattr(capture, "camera", None) is None
 
 
 def _stored_video(source: Any) -> FrameStream | None:

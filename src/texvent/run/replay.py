@@ -109,11 +109,24 @@ def prepare_replay(
             simulation = prepare_video(text_to_video(detailed, of_video), settings)
         return replace(simulation, prompt=prompt)
     settings = resolve("simulate", options)
+    _refuse_fields_of_memory(facts, settings)
+    shaken = facts.get("camera_seed")
+    return prepare_source(
+        source or _find_source(facts, folder),
+        settings,
+        prompt=prompt,
+        video_seed=shaken if isinstance(shaken, int) else None,
+    )
+
+
+def _refuse_fields_of_memory(facts: Mapping[str, Any], settings: Settings) -> None:
+    """Refuse a run whose motion vectors, or depth under a camera path, were arrays."""
     if facts.get("motion") is not None and settings.source.motion is None:
         raise InputError(
             "its motion vectors came from memory, so only the program that gave them can"
         )
-    return prepare_source(source or _find_source(facts, folder), settings, prompt=prompt)
+    if facts.get("depth") == "array":
+        raise InputError("its depth came from memory, so only the program that gave it can")
 
 
 def _stored_video(path: Path, facts: Mapping[str, Any]) -> FrameStream:
@@ -168,7 +181,9 @@ def describe_differences(stored: Mapping[str, Any], now: Mapping[str, Any]) -> l
         if before == today:
             continue
         if isinstance(before, Mapping) and isinstance(today, Mapping):
-            ignored = ("source", "size_before_fit", "motion") if name == "source" else ()
+            ignored = (
+                ("source", "size_before_fit", "motion", "camera_files") if name == "source" else ()
+            )
             for key in dict.fromkeys((*before, *today)):
                 if key in ignored or before.get(key) == today.get(key):
                     continue
@@ -185,6 +200,7 @@ def describe_differences(stored: Mapping[str, Any], now: Mapping[str, Any]) -> l
 FINGERPRINTS = {
     "fingerprint": "its source was changed",
     "motion_fingerprint": "its motion vectors were changed",
+    "camera_fingerprint": "its camera path or depth was changed",
 }
 """Digest in the facts of a source → what a difference means."""
 COMPARED = {

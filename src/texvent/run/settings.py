@@ -71,6 +71,7 @@ def default_settings(
     simulator: str | None = None,
     preset: str | None = None,
     has_motion: bool = False,
+    has_camera: bool = False,
 ) -> Settings:
     """Settings before any single option: the defaults of the named parts and preset.
 
@@ -80,6 +81,7 @@ def default_settings(
         simulator: name of the simulator, or None for the default.
         preset: name of the preset, or None for the simulator's first.
         has_motion: whether the frames come with motion vectors.
+        has_camera: whether they are made by a camera that moves over a still image.
 
     Raises:
         ConfigError: a part or preset of that name does not exist.
@@ -98,7 +100,9 @@ def default_settings(
         return Settings(
             run=run,
             source=CaptureConfig(),
-            interpolate=_interpolation(simulator_class, has_motion=has_motion),
+            interpolate=_interpolation(
+                simulator_class, has_motion=has_motion, has_camera=has_camera
+            ),
             simulate=presets[preset_name],
         )
     generator_name = generator or next(iter(GENERATORS.builtin))
@@ -114,12 +118,16 @@ def default_settings(
     )
 
 
-def _interpolation(*parts: Any, has_motion: bool = False) -> InterpolateConfig:
+def _interpolation(
+    *parts: Any, has_motion: bool = False, has_camera: bool = False
+) -> InterpolateConfig:
     """Interpolation as the first of the parts that has a wish wants it, else as the frames do."""
     for part in parts:
         wish = getattr(part, "default_interpolate", None)
         if wish is not None:
             return InterpolateConfig(interpolate=wish)
+    if has_camera:
+        return InterpolateConfig(interpolate=RENDERED)
     if has_motion:
         return InterpolateConfig(interpolate=ALONG_MOTION)
     return InterpolateConfig()
@@ -127,7 +135,9 @@ def _interpolation(*parts: Any, has_motion: bool = False) -> InterpolateConfig:
 
 ALONG_MOTION = "motion"
 """The interpolator of frames that come with motion vectors."""
-DECIDING = ("generator", "simulator", "preset", "sensor", "motion", "motion_back")
+RENDERED = "exact"
+"""The interpolator of what is known at any instant."""
+DECIDING = ("generator", "simulator", "preset", "sensor", "motion", "motion_back", "camera")
 """Options that decide which other options there are, or their defaults."""
 
 
@@ -169,7 +179,8 @@ def base_settings(
     where = f"config file {config}" if config is not None else "options"
     named = chosen.get("motion"), chosen.get("motion_back")
     has_motion = has_motion or any(one is not None for one in named)
-    defaults = default_settings(command, **parts, has_motion=has_motion)
+    has_camera = command == "simulate" and chosen.get("camera") is not None
+    defaults = default_settings(command, **parts, has_motion=has_motion, has_camera=has_camera)
     return apply_options(defaults, chosen, where=where)
 
 

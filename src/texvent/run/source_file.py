@@ -18,13 +18,15 @@ def describe_source(metadata: Mapping[str, Any]) -> dict[str, Any]:
 
     Args:
         metadata: of a video; `source` names what it was read from, `motion` the files of its
-            motion vectors, which get theirs under "motion_fingerprint".
+            motion vectors, `camera_files` those of a camera's path and of the image's depth; they
+            get theirs under "motion_fingerprint" and "camera_fingerprint".
     """
     found = {"fingerprint": fingerprint(metadata.get("source"))}
-    motion = metadata.get("motion")
-    if isinstance(motion, Mapping):
-        prints = [one for one in map(fingerprint, motion.values()) if one is not None]
-        found["motion_fingerprint"] = "-".join(prints) or None
+    for name, key in (("motion", "motion_fingerprint"), ("camera_files", "camera_fingerprint")):
+        files = metadata.get(name)
+        if isinstance(files, Mapping):
+            prints = [one for one in map(fingerprint, files.values()) if one is not None]
+            found[key] = "-".join(prints) or None
     return {**metadata, **{name: text for name, text in found.items() if text is not None}}
 
 

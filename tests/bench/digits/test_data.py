@@ -14,8 +14,8 @@ from texvent.bench.digits.data.idx import read_idx, read_mnist
 from texvent.bench.digits.data.inputs import represent_all
 from texvent.bench.digits.data.polarity import polarity_agreement
 from texvent.bench.digits.data.recordings import read_recordings
-from texvent.bench.digits.data.saccades import DURATION_US, digit_corner
 from texvent.bench.digits.data.sheet import MARGIN, PITCH, Digits, DigitSheet
+from texvent.capture.camera_path.saccades import DURATION_US, digit_corner
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.run.prepare import prepare_video

@@ -54,3 +54,18 @@ def test_a_prompt_that_is_added_changes_no_clip_of_the_others() -> None:
 def test_a_split_that_would_be_empty_is_refused() -> None:
     with pytest.raises(ConfigError, match="split test would be empty"):
         clips_of(["a", "b"], splits={"train": 0.9, "test": 0.1})
+
+
+def test_under_a_camera_the_images_of_a_folder_are_items(tmp_path: Path) -> None:
+    for name in ("cats/a.png", "cats/b.png", "dogs/c.png"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).touch()
+    folders = [str(tmp_path / name) for name in ("cats", "dogs")]
+    tables = {
+        "name": "x",
+        "sources": [{"videos": folders, "label": "{folder}"}],
+        "options": {"camera": "shake"},
+    }
+    items = read_items(specification_from(tables, folder=Path()))
+    assert [item.label for item in items.all] == ["cats", "cats", "dogs"]
+    assert items.labels == ("cats", "dogs")

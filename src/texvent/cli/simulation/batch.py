@@ -52,7 +52,8 @@ class BatchOptions(UpsampleConfig):
     )  # fmt: skip
 
     sources: tuple[str, ...] = REQUIRED
-    """Lists (.txt, .csv, .jsonl), videos, folders of videos, patterns such as 'clips/*.mp4'."""
+    """Lists (.txt, .csv, .jsonl), videos, folders of videos, patterns such as 'clips/*.mp4'; with
+    --camera, images and folders of images."""
     jobs: int = 1
     """Samples made at once, each in a process of its own; they share the cores. A learned model is
     loaded once per process."""
@@ -95,7 +96,8 @@ def run(arguments: Sequence[str]) -> int:
     if output.print_config:
         return print_settings(settings)
     check_run(settings)
-    samples = read_samples(own.sources, seed=settings.run.seed)
+    has_camera = getattr(settings.source, "camera", None) is not None
+    samples = read_samples(own.sources, seed=settings.run.seed, of_stills=has_camera)
     if (samples[0].video is not None) != is_of_videos:
         raise ConfigError("name the videos first: texvent batch VIDEOS ... [OPTIONS]")
     plan = _plan(settings, own, output)

@@ -15,7 +15,8 @@ from texvent.cli.run import print_settings, run_source
 DESCRIPTION = """Turn a video into the events that an event camera would have recorded.
 
   texvent simulate clip.mp4 -o out.h5
-  texvent simulate frames/ --fps 120 --simulator v2e --sensor davis346"""
+  texvent simulate frames/ --fps 120 --simulator v2e --sensor davis346
+  texvent simulate photo.png --camera saccade --sensor davis346"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,11 +27,13 @@ class VideoOptions:
     positional: ClassVar[tuple[str, ...]] = ("source",)
     main_options: ClassVar[tuple[str, ...]] = (
         "out", "sensor", "simulator", "preset", "contrast_threshold", "noise", "interpolate",
-        "fps", "motion", "start", "stop", "seed", "events_only", "config", "dry_run", "overwrite",
+        "fps", "motion", "camera", "start", "stop", "seed", "events_only", "config", "dry_run",
+        "overwrite",
     )  # fmt: skip
 
     source: str = REQUIRED
-    """Video file, image folder, camera (/dev/video0), stream (rtsp://...), - (standard input)."""
+    """Video file, image folder, camera (/dev/video0), stream (rtsp://...), - (standard input); or a
+    still image, with --camera."""
     prompt: str | None = None
     """What the video shows; stored with the events."""
 

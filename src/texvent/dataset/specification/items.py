@@ -66,7 +66,7 @@ def read_items(specification: Specification) -> Items:
     found: dict[str, Item] = {}
     duplicates = 0
     for source in specification.sources:
-        for item in _items_of(source, specification.seed):
+        for item in _items_of(source, specification):
             if item.key in found:
                 duplicates += 1
                 continue
@@ -90,23 +90,25 @@ def read_items(specification: Specification) -> Items:
     return items
 
 
-def _items_of(source: SampleSource, seed: int) -> Iterator[Item]:
+def _items_of(source: SampleSource, specification: Specification) -> Iterator[Item]:
     if source.template is not None:
-        yield from _of_template(source, seed)
+        yield from _of_template(source, specification.seed)
         return
-    for entry in _entries(source):
+    variants = (variant.options for variant in specification.variants)
+    of_stills = any("camera" in options for options in (specification.options, *variants))
+    for entry in _entries(source, of_stills):
         label = entry.label if entry.label is not None else _label(source, entry.video)
         yield _item(entry.prompt, entry.video, label, source.split, entry.seed)
 
 
-def _entries(source: SampleSource) -> Iterable[ListEntry]:
+def _entries(source: SampleSource, of_stills: bool) -> Iterable[ListEntry]:
     if source.prompts:
         return [ListEntry(where="prompts", prompt=prompt.strip()) for prompt in source.prompts]
     if source.file is not None:
         if not source.file.is_file():
             raise InputError(f"no such list: {source.file}; file names a .txt, .csv or .jsonl")
         return entries_of(str(source.file))
-    return itertools.chain.from_iterable(entries_of(video) for video in source.videos)
+    return itertools.chain.from_iterable(entries_of(one, of_stills) for one in source.videos)
 
 
 def _item(

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from texvent.bench.digits.data.saccades import DURATION_US
 from texvent.bench.digits.data.sheet import DigitSheet
+from texvent.capture.camera_path.saccades import DURATION_US
 from texvent.events import EventStream
 
 STEP_US = 5_000

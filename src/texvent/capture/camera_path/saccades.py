@@ -1,6 +1,7 @@
 """How N-MNIST's sensor moved: three saccades, measured on pairs of a digit and its recording.
 
-A digit of 28×28 px lies on a sensor of 34×34 px; its corner moves.
+A digit of 28×28 px lies on a sensor of 34×34 px; its corner moves. The benchmark of digits and the
+camera path `saccade` over still images use the same numbers.
 """
 
 from __future__ import annotations

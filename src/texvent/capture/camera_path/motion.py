@@ -1,0 +1,154 @@
+"""Where a camera over an image is at an instant, and the paths that it can take."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.capture.camera_path.saccades import DURATION_US, digit_corner
+from texvent.video import MICROSECONDS
+
+Float64Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where the camera is, in px of the sensor, as seen from where the image was taken."""
+
+    x: float = 0.0
+    """How far it looks to the right of the image's centre, px: the image moves to the left."""
+    y: float = 0.0
+    """How far it looks below the centre, px."""
+    roll: float = 0.0
+    """Turn about the optical axis, clockwise, radians: the image turns counterclockwise."""
+    zoom: float = 1.0
+    """Magnification about the centre of the view."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pose:
+    """Where the camera is in space, as seen from where the image was taken."""
+
+    rotation: Float64Array
+    """[3, 3] from this camera's axes to the first one's: x right, y down, z forward."""
+    position: Float64Array
+    """[3] m, along the first camera's axes."""
+
+
+class CameraPath(Protocol):
+    """A path that is known at any instant."""
+
+    @property
+    def seconds(self) -> float:
+        """How long it lasts, unless another time is asked for, s."""
+        ...
+
+    @property
+    def facts(self) -> Mapping[str, Any]:
+        """What it is, JSON-serialisable, for provenance."""
+        ...
+
+    def __call__(self, t_us: float) -> Place | Pose:
+        """Where the camera is at `t_us`, µs."""
+        ...
+
+
+@dataclass(frozen=True)
+class Saccades:
+    """N-MNIST's three saccades, measured; the camera is still before, between and after them."""
+
+    amplitude: float | None = None
+    """Length of the longest one along an axis, px; None: as measured."""
+    name: ClassVar[str] = "saccade"
+    seconds: ClassVar[float] = DURATION_US / MICROSECONDS
+    measured_px: ClassVar[float] = 5.5
+    """Down, the first one."""
+    middle: ClassVar[tuple[float, float]] = (2.8, 3.1)
+    """Middle of the path of the digit's corner, px."""
+
+    @property
+    def facts(self) -> Mapping[str, Any]:
+        """Its name and size."""
+        return {"camera": self.name, "amplitude_px": self.amplitude or self.measured_px}
+
+    def __call__(self, t_us: float) -> Place:
+        """The image moves as the digits of N-MNIST, about the middle of their path."""
+        one = np.ones(1)
+        factor = (self.amplitude or self.measured_px) / self.measured_px
+        x, y = digit_corner(t_us, one, one)[0]
+        return Place(factor * (self.middle[0] - x), factor * (self.middle[1] - y))
+
+
+@dataclass(frozen=True)
+class Shake:
+    """A camera held by hand: a sum of sinusoids along x and another along y.
+
+    There is one in each of `COUNT` equal bands between `LOWEST_HZ` and `HIGHEST_HZ`; its frequency
+    and its phase are drawn from the seed, and its amplitude falls with the frequency as 1 / f.
+    """
+
+    amplitude: float | None = None
+    """Root mean square along each axis, px."""
+    seed: int = 0
+    name: ClassVar[str] = "shake"
+    seconds: ClassVar[float] = 1.0
+    usual_px: ClassVar[float] = 2.0
+    lowest_hz: ClassVar[float] = 1.0
+    highest_hz: ClassVar[float] = 12.0
+    """Physiological tremor of the hand is at 8 to 12 Hz; slower sway is larger."""
+    count: ClassVar[int] = 22
+    _waves: Float64Array = field(init=False, repr=False, compare=False)
+    """[2, 3, count] angular frequency, 1/µs; phase; amplitude, px."""
+
+    def __post_init__(self) -> None:
+        chance = np.random.default_rng([self.seed, SHAKE_KEY])
+        draws = chance.random((2, 2, self.count))
+        width = (self.highest_hz - self.lowest_hz) / self.count
+        hertz = self.lowest_hz + width * (np.arange(self.count) + draws[:, 0])
+        amplitude = 1.0 / hertz
+        rms = np.sqrt((amplitude**2).sum(axis=1, keepdims=True) / 2)
+        amplitude *= (self.amplitude or self.usual_px) / rms
+        angular, phase = 2 * math.pi * hertz / MICROSECONDS, 2 * math.pi * draws[:, 1]
+        object.__setattr__(self, "_waves", np.stack([angular, phase, amplitude], axis=1))
+
+    @property
+    def facts(self) -> Mapping[str, Any]:
+        """Its name, size and seed."""
+        size = self.amplitude or self.usual_px
+        return {"camera": self.name, "amplitude_px": size, "camera_seed": self.seed}
+
+    def __call__(self, t_us: float) -> Place:
+        """The sum at `t_us`."""
+        angular, phase, amplitude = self._waves[:, 0], self._waves[:, 1], self._waves[:, 2]
+        x, y = (amplitude * np.sin(angular * t_us + phase)).sum(axis=1)
+        return Place(float(x), float(y))
+
+
+SHAKE_KEY = 0x5AAE
+"""Keeps the draws of the path apart from other draws of a seed."""
+
+
+@dataclass(frozen=True)
+class Pan:
+    """The camera turns to the right at constant speed; half way it looks at the image's centre."""
+
+    amplitude: float | None = None
+    """Speed, px/s."""
+    seconds: float = 1.0
+    name: ClassVar[str] = "pan"
+    usual_px: ClassVar[float] = 60.0
+
+    @property
+    def facts(self) -> Mapping[str, Any]:
+        """Its name and speed."""
+        return {"camera": self.name, "amplitude_px": self.amplitude or self.usual_px}
+
+    def __call__(self, t_us: float) -> Place:
+        """On its way at `t_us`."""
+        speed = self.amplitude or self.usual_px
+        return Place(speed * (t_us / MICROSECONDS - self.seconds / 2))

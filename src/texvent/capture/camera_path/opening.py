@@ -1,0 +1,223 @@
+"""A still image and the options of a camera → frames."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.capture.camera_path.motion import CameraPath, Pan, Saccades, Shake
+from texvent.capture.camera_path.photo_frames import PhotoFrames
+from texvent.capture.camera_path.trajectory_file import PoseFile, read_trajectory
+from texvent.capture.image_folder import read_image
+from texvent.capture.intensity_scale import refuse_unit_range, scale_to_levels, usable_pixels
+from texvent.capture.motion_vectors.conventions import named_convention
+from texvent.capture.motion_vectors.fields import FRAME_EXTENSIONS, read_file
+from texvent.capture.motion_vectors.values import metric_depth
+from texvent.config import CaptureConfig
+from texvent.errors import ConfigError, InputError, shown
+from texvent.runtime.file_names import IMAGE_EXTENSIONS, usable_path
+from texvent.sensor import SensorSize
+from texvent.video import MICROSECONDS, Frame, check_intensity
+
+FPS = Fraction(60)
+"""Frames per second, unless asked for: what lies between is exact as well."""
+PRESETS = ("saccade", "shake", "pan")
+MOST_FRAMES = 10_000_000
+OF_CAMERA = ("camera_amplitude", "camera_fov", "duration")
+"""Options that only a camera path has."""
+OF_VIDEOS = ("timestamps", "start", "stop", "fit", "motion", "motion_back", "instances")
+"""Options that a camera path does not have."""
+
+
+def is_still(path: Path) -> bool:
+    """Whether a path is, by its name, a still image."""
+    return path.suffix.lower() in IMAGE_EXTENSIONS and path.is_file()
+
+
+def open_photo(
+    source: Any,
+    config: CaptureConfig,
+    *,
+    size: SensorSize | None = None,
+    seed: int = 0,
+    depth: Any = None,
+) -> PhotoFrames:
+    """Frames of a camera that moves over an image.
+
+    Args:
+        source: path of an image, or an array [H, W] or [H, W, 3] (RGB).
+        config: with `camera`.
+        size: of the sensor; None: that of the image.
+        seed: of the shake.
+        depth: of the image, [H, W] m, in memory; it replaces `config.depth`.
+
+    Raises:
+        InputError: the source is no image, or a file does not fit it.
+        FileFormatError: a file is damaged.
+        ConfigError: an option does not go with the others.
+    """
+    _refuse_options_of_videos(config)
+    path, files = _path(config, seed)
+    levels, facts = _levels(source, config)
+    fps = FPS if config.fps is None else Fraction(config.fps)
+    seconds = path.seconds if config.duration is None else config.duration
+    intervals = max(1, math.ceil(Fraction(round(seconds * MICROSECONDS), MICROSECONDS) * fps))
+    if intervals >= MOST_FRAMES:
+        raise ConfigError(
+            f"{seconds:g} s at {float(fps):g} fps are {intervals:,} frames; at most "
+            f"{MOST_FRAMES:,} are made: give a lower fps or a shorter duration"
+        )
+    given = config.depth if depth is None else depth
+    metres = None if given is None else _depth(given, config, levels)
+    if isinstance(given, str | Path):
+        files["depth"] = str(given)
+    elif given is not None:
+        facts["depth"] = "array"
+    focal_px = _focal_px(config, path, levels.shape[1])
+    if isinstance(path, PoseFile) and path.moves and metres is None:
+        raise InputError(
+            f"the camera of {config.camera} changes its position, which needs the depth of the "
+            "image; give --depth FILE, or poses that only turn"
+        )
+    return PhotoFrames(
+        levels,
+        path,
+        getattr(path, "start_us", 0),
+        fps,
+        intervals,
+        size,
+        metres,
+        focal_px,
+        {**facts, **({"camera_files": files} if files else {})},
+    )
+
+
+def _refuse_options_of_videos(config: CaptureConfig) -> None:
+    default = CaptureConfig()
+    for name in OF_VIDEOS:
+        if getattr(config, name) != getattr(default, name):
+            hint = "; --duration says how long it lasts" if name in ("start", "stop") else ""
+            raise ConfigError(
+                f"{name} is for videos, and --camera makes one of an image{hint}; leave {name} out"
+            )
+
+
+def check_no_camera(config: CaptureConfig) -> None:
+    """Refuse options of a camera path where there is none.
+
+    Raises:
+        ConfigError: there is such an option.
+    """
+    for name in OF_CAMERA:
+        if getattr(config, name) is not None:
+            hint = "; --stop ends a video" if name == "duration" else ""
+            raise ConfigError(
+                f"{name} is for a camera that moves over a still image (--camera){hint}; leave it "
+                "out"
+            )
+
+
+def _path(config: CaptureConfig, seed: int) -> tuple[CameraPath, dict[str, str]]:
+    """The camera's path, and the file that it is from."""
+    camera, amplitude = str(config.camera), config.camera_amplitude
+    if camera == "saccade":
+        return Saccades(amplitude), {}
+    if camera == "shake":
+        return Shake(amplitude, seed), {}
+    if camera == "pan":
+        return Pan(amplitude, config.duration or Pan.seconds), {}
+    file = usable_path(camera).expanduser()
+    if not file.exists():
+        raise InputError(
+            f"camera is {shown(camera)}; give {', '.join(PRESETS)}, or a file that exists with a "
+            "camera path"
+        )
+    if amplitude is not None:
+        raise ConfigError(
+            "camera_amplitude is for saccade, shake and pan; a file states its own sizes, so leave "
+            "it out"
+        )
+    return read_trajectory(file), {"path": camera}
+
+
+def _levels(source: Any, config: CaptureConfig) -> tuple[NDArray[np.float32], dict[str, Any]]:
+    """Luma of the image, [H, W], and where it comes from."""
+    if isinstance(source, str | Path):
+        path = usable_path(usable_path(str(source).removeprefix("file://")).expanduser())
+        if not path.exists():
+            raise InputError(f"no such image: {path}")
+        if not is_still(path):
+            raise InputError(
+                f"{path} is no still image (.png, .jpg, .exr, ...), and --camera moves a camera "
+                "over one; leave --camera out for a video, or name images one by one or in "
+                "texvent batch FOLDER"
+            )
+        pixels, where, kind = read_image(path), str(path), "still image"
+    elif hasattr(source, "__array__"):
+        pixels, where, kind = usable_pixels(np.asarray(source), "the image"), "the image", "array"
+        if pixels.ndim not in (2, 3) or (pixels.ndim == 3 and pixels.shape[2] != 3):
+            raise InputError(
+                "camera needs one image, [H, W] or [H, W, 3]; got shape "
+                f"{shown(list(pixels.shape))}"
+            )
+    else:
+        raise InputError(
+            f"camera moves a camera over one still image, not over {type(source).__name__}; give "
+            "its path or an array [H, W] or [H, W, 3], or leave camera out"
+        )
+    check_intensity(pixels, where)
+    facts = {"source": where if kind != "array" else "array", "kind": kind}
+    facts["pixel_type"] = str(pixels.dtype)
+    if config.white_level is not None:
+        pixels = scale_to_levels(pixels, config.white_level)
+    elif pixels.dtype.kind == "f":
+        refuse_unit_range(float(pixels.max()), where)
+    return np.asarray(Frame(pixels, 0).luma, dtype=np.float32), facts
+
+
+def _depth(given: Any, config: CaptureConfig, levels: NDArray[np.float32]) -> NDArray[np.float32]:
+    """[H, W] m."""
+    if isinstance(given, str | Path):
+        path = usable_path(usable_path(given).expanduser())
+        if path.suffix.lower() not in FRAME_EXTENSIONS or not path.is_file():
+            raise InputError(
+                f"depth is {shown(str(given))}; give one file that exists, of one of "
+                f"{', '.join(FRAME_EXTENSIONS)}"
+            )
+        convention = named_convention(config.motion_convention)
+        stored, where = read_file(path, "depth", convention)["depth"], str(path)
+    else:
+        stored, where = np.asarray(given), "depth"
+    height, width = levels.shape
+    return metric_depth(stored, config.depth_scale, (width, height), where)
+
+
+def _focal_px(config: CaptureConfig, path: CameraPath, width: int) -> float | None:
+    if not isinstance(path, PoseFile):
+        if config.camera_fov is not None:
+            raise ConfigError("camera_fov is for poses (t tx ty tz qx qy qz qw); leave it out")
+        return None
+    if config.camera_fov is None:
+        raise InputError(
+            f"{config.camera} holds poses, whose effect depends on the field of view of the image; "
+            "give --camera-fov: the angle that it spans horizontally, degrees"
+        )
+    return width / 2 / math.tan(math.radians(config.camera_fov) / 2)
+
+
+def field_of(arrays: Mapping[str, Any] | None) -> Any:
+    """The depth among fields in memory.
+
+    Raises:
+        ConfigError: there are others.
+    """
+    others = [name for name, one in (arrays or {}).items() if one is not None and name != "depth"]
+    if others:
+        raise ConfigError(f"{others[0]} is for videos, and camera makes one of an image")
+    return (arrays or {}).get("depth")

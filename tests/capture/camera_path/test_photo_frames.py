@@ -1,0 +1,230 @@
+"""A still image becomes frames, and events, by a camera that moves over it."""
+
+import cv2
+import numpy as np
+import pytest
+
+import texvent
+from texvent.capture.camera_path.opening import open_photo
+from texvent.capture.open import open_frames
+from texvent.config import CaptureConfig
+from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.io.files import open_events
+from texvent.run.replay import describe_differences, prepare_replay
+from texvent.run.settings import resolve
+from texvent.sensor import SensorSize
+from texvent.video import RenderableStream
+
+ROWS, COLUMNS = np.mgrid[:60, :80]
+PHOTO = np.uint8(127 + 60 * np.sin(0.31 * COLUMNS) + 60 * np.cos(0.23 * ROWS + 0.1 * COLUMNS))
+DEPTH = np.where((COLUMNS > 30) & (COLUMNS < 50), 1.5, 3.0)
+
+
+@pytest.fixture
+def photo(tmp_path):
+    path = tmp_path / "photo.png"
+    cv2.imwrite(str(path), PHOTO)
+    return path
+
+
+def frames_of(source=PHOTO, size=None, seed=0, depth=None, **options):
+    return open_photo(source, CaptureConfig(**options), size=size, seed=seed, depth=depth)
+
+
+def test_frames_can_be_rendered_at_any_instant():
+    video = frames_of(camera="shake", seed=3, duration=0.1)
+    assert isinstance(video, RenderableStream)
+    frames = list(video)
+    assert len(frames) == video.frame_count == 7
+    assert [frame.t_us for frame in frames][:3] == [0, 16667, 33333]
+    for frame in frames:
+        np.testing.assert_array_equal(video.at(frame.t_us).pixels, frame.pixels)
+    assert not np.array_equal(video.at(5000).pixels, frames[0].pixels)
+
+
+def test_all_of_a_path_is_covered_by_whole_frame_intervals():
+    assert frames_of(camera="saccade").frame_count == 20
+    assert frames_of(camera="saccade", fps=24).frame_count == 9
+    assert frames_of(camera="pan", duration=0.001).frame_count == 2
+
+
+def test_without_a_sensor_pixels_are_those_of_the_image():
+    video = frames_of(camera="pan", camera_amplitude=1000, fps=1000, duration=0.002)
+    first, middle, last = (frame.pixels for frame in video)
+    np.testing.assert_array_equal(middle, PHOTO)
+    np.testing.assert_array_equal(first[:, 1:], PHOTO[:, :-1])
+    np.testing.assert_array_equal(last[:, :-1], PHOTO[:, 1:])
+    np.testing.assert_array_equal(last[:, -1], PHOTO[:, -1])  # mirrored
+
+
+def test_a_sensor_sees_as_much_of_the_image_as_its_path_allows():
+    video = frames_of(camera="pan", camera_amplitude=80, size=SensorSize(16, 12), duration=0.1)
+    assert video.size == (16, 12)
+    assert video.metadata["image_px_per_px"] == pytest.approx(80 / 24)
+    assert video.metadata["amplitude_px"] == 80
+
+
+@pytest.mark.parametrize("depth", [None, np.full((480, 640), 2.0)])
+def test_large_images_are_averaged_in_blocks_without_a_shift(depth):
+    ramp = np.add.outer(0.05 * np.arange(480), 0.1 * np.arange(640)).astype(np.float32)
+    video = frames_of(ramp, camera="pan", size=SensorSize(12, 9), duration=0.01, depth=depth)
+    assert video.view.image.width < 640
+    image = video.at(5_000).pixels
+    # What is left over of whole blocks may be odd: half a px of the image, 0.05 levels.
+    assert image.mean() == pytest.approx(ramp.mean(), abs=0.06)
+    scale = video.metadata["image_px_per_px"]
+    np.testing.assert_allclose(np.diff(image, axis=1), 0.1 * scale, rtol=0.01)
+
+
+@pytest.mark.parametrize("depth", [None, np.full(PHOTO.shape, 2.0)])
+def test_motion_vectors_lead_to_the_same_brightness(depth):
+    ramp = (3 * COLUMNS + 0.5 * ROWS).astype(np.float32)
+    video = frames_of(ramp, camera="shake", seed=1, duration=0.1, depth=depth)
+    first, second = list(video)[:2]
+    x, y = first.motion.forward[30, 40]
+    slope = 3 * x + 0.5 * y
+    change = second.pixels[30, 40] - first.pixels[30, 40]
+    assert change == pytest.approx(-slope, abs=1e-3)
+    np.testing.assert_allclose(second.motion.backward[30, 40], [-x, -y], atol=1e-6)
+    assert first.motion.backward is None
+
+
+def test_depth_is_told_and_near_things_move_more():
+    video = frames_of(camera="pan", depth=DEPTH, duration=0.1)
+    frame = next(iter(video))
+    assert set(np.unique(frame.motion.depth)) == {1.5, 3.0}
+    speeds = np.abs(frame.motion.forward[30, :, 0])
+    assert speeds.max() == pytest.approx(2.0, rel=1e-4)  # 60 px/s at the median depth of 3 m
+    assert speeds.min() == pytest.approx(1.0, rel=1e-4)
+
+
+def test_events_are_exact_by_default_and_the_same_from_file_and_array(photo):
+    options = {"camera": "saccade", "sensor": "32x24", "noise": "none"}
+    events = texvent.simulate(photo, **options)
+    again = texvent.simulate(PHOTO, **options)
+    assert len(events) > 100
+    np.testing.assert_array_equal(events.t, again.t)
+    settings = events.metadata["settings"]
+    assert settings["interpolate"]["interpolate"] == "exact"
+    assert events.metadata["source"]["camera"] == "saccade"
+    assert len(events.metadata["source"]["fingerprint"]) == 64
+    seeds = [texvent.simulate(PHOTO, **{**options, "camera": "shake", "seed": s}) for s in (1, 2)]
+    assert not np.array_equal(seeds[0].t, seeds[1].t)
+
+
+def test_enough_frames_are_rendered_that_nothing_moves_by_more_than_a_pixel():
+    # Stripes that move by a whole period between two frames: their brightness does not change.
+    stripes = np.tile(np.uint8(127 + 100 * np.sin(np.pi * np.arange(80) / 4)), (20, 1))
+    options = {"camera": "pan", "camera_amplitude": 240.0, "fps": 30, "duration": 0.1}
+    assert len(texvent.simulate(stripes, noise="none", **options)) > 20 * 60
+
+
+def test_a_run_is_replayed_with_its_files(photo, tmp_path):
+    (tmp_path / "path.txt").write_text("0 0 0\n0.05 3 1\n0.1 0 0\n")
+    np.save(tmp_path / "depth.npy", DEPTH)
+    events = texvent.simulate(
+        photo, camera=str(tmp_path / "path.txt"), depth=tmp_path / "depth.npy", sensor="40x30"
+    )
+    file = tmp_path / "events.h5"
+    events.save(file)
+    stored = open_events(file).metadata
+    again = prepare_replay(stored, path=file)
+    np.testing.assert_array_equal(again.packets.collect().t, events.t)
+    assert describe_differences(stored, again.provenance) == []
+    (tmp_path / "path.txt").write_text("0 0 0\n0.05 4 1\n0.1 0 0\n")
+    now = prepare_replay(stored, path=file).provenance
+    assert "its camera path or depth was changed" in describe_differences(stored, now)
+
+
+def test_a_shake_is_replayed_with_its_seed(photo):
+    settings = resolve("simulate", {"camera": "shake", "sensor": "16x12", "duration": 0.1})
+    from texvent.run.prepare import prepare_source
+
+    run = prepare_source(photo, settings, video_seed=77)
+    again = prepare_replay(run.provenance, path=photo)
+    assert again.video.metadata == run.video.metadata
+    assert again.video.metadata["camera_seed"] == 77
+
+
+def test_depth_in_memory_cannot_be_replayed(photo, tmp_path):
+    events = texvent.simulate(photo, camera="pan", depth=DEPTH, duration=0.1)
+    with pytest.raises(InputError, match="its depth came from memory"):
+        prepare_replay(events.metadata, path=tmp_path / "events.h5")
+
+
+POSES = "0 0 0 0 0 0 0 1\n0.1 0.1 0 0 0 0 0 1\n"
+
+
+@pytest.mark.parametrize(
+    ("options", "error", "said"),
+    [
+        ({"camera": "wobble"}, InputError, "give saccade, shake, pan, or a file that exists"),
+        ({"camera": "pan", "start": 1.0}, ConfigError, "start is for videos.*--duration says"),
+        ({"camera": "pan", "fit": "stretch"}, ConfigError, "fit is for videos"),
+        ({"camera": "pan", "motion": "flow"}, ConfigError, "motion is for videos"),
+        ({"camera": "pan", "camera_fov": 60.0}, ConfigError, "camera_fov is for poses"),
+        ({"camera": "pan", "duration": 0.0}, ConfigError, "duration is 0; it must be"),
+        ({"camera": "pan", "camera_amplitude": -1.0}, ConfigError, "camera_amplitude is -1"),
+        ({"camera": "pan", "fps": 1e6, "duration": 1e4}, ConfigError, "10,000,000,000 frames"),
+        ({"camera": "POSES"}, InputError, "give --camera-fov"),
+        ({"camera": "POSES", "camera_fov": 60.0}, InputError, "give --depth FILE, or poses that"),
+        ({"camera": "POSES", "camera_amplitude": 2.0}, ConfigError, "a file states its own sizes"),
+        ({"duration": 2.0}, ConfigError, r"duration is for a camera .*; --stop ends a video"),
+        ({"camera_amplitude": 2.0}, ConfigError, r"camera_amplitude is for a camera"),
+        ({}, InputError, "is one image, so nothing changes; move a camera over it with --camera"),
+    ],
+)
+def test_what_does_not_go_together_gets_one_line(photo, tmp_path, options, error, said):
+    poses = tmp_path / "poses.txt"
+    poses.write_text(POSES)
+    options = {name: str(poses) if one == "POSES" else one for name, one in options.items()}
+    with pytest.raises(error, match=said) as caught:
+        texvent.simulate(photo, **options)
+    assert "\n" not in str(caught.value)
+
+
+def test_what_is_no_image_gets_one_line(photo, tmp_path):
+    video = tmp_path / "clip.mp4"
+    video.write_bytes(b"x")
+    with pytest.raises(InputError, match=r"clip.mp4 is no still image .* leave --camera out"):
+        texvent.simulate(video, camera="pan")
+    with pytest.raises(InputError, match="texvent batch FOLDER"):
+        texvent.simulate(tmp_path, camera="pan")
+    with pytest.raises(InputError, match="no such image"):
+        texvent.simulate(tmp_path / "none.png", camera="pan")
+    with pytest.raises(InputError, match=r"needs one image.*\[3, 60, 80\]"):
+        texvent.simulate(np.stack([PHOTO] * 3), camera="pan")
+    with pytest.raises(InputError, match="over one still image, not over list"):
+        texvent.simulate([PHOTO], camera="pan")
+    with pytest.raises(InputError, match="so they are probably"):
+        texvent.simulate(PHOTO / 255.0, camera="pan")
+    with pytest.raises(ConfigError, match="t_us is for frames"):
+        open_frames(PHOTO, CaptureConfig(camera="pan"), t_us=[0, 1])
+    with pytest.raises(ConfigError, match="motion is for videos"):
+        texvent.simulate(PHOTO, camera="pan", flow=np.zeros((1, 60, 80, 2)))
+    photo.write_bytes(photo.read_bytes()[:40])
+    with pytest.raises(FileFormatError, match="cannot be decoded"):
+        texvent.simulate(photo, camera="pan")
+
+
+@pytest.mark.parametrize(
+    ("depth", "said"),
+    [
+        (np.ones((5, 5)), "80x60"),
+        (np.where(COLUMNS == 3, np.nan, 1.0), "NaN or negative"),
+        (np.ones((60, 80), np.uint16), "give --depth-scale"),
+    ],
+)
+def test_bad_depth_gets_one_line(depth, said, tmp_path, photo):
+    np.save(tmp_path / "depth.npy", depth)
+    for given in (depth, tmp_path / "depth.npy"):
+        with pytest.raises(InputError, match=said) as caught:
+            texvent.simulate(photo, camera="pan", depth=given)
+        assert "\n" not in str(caught.value)
+
+
+def test_white_level_and_deep_pixels_keep_the_scale():
+    half = frames_of((PHOTO / 255.0).astype(np.float32), camera="pan", white_level=1.0)
+    deep = frames_of(PHOTO.astype(np.uint16) * np.uint16(257), camera="pan")
+    for video in (half, deep):
+        np.testing.assert_allclose(video.at(500_000).pixels, PHOTO, rtol=1e-5)
