@@ -120,7 +120,7 @@ class CaptureConfig:
     timestamps_unit: Literal["s", "ms", "us", "ns"] = "s"
     """Unit of the times in that file."""
     start: float = 0.0
-    """Skip this much of the input, in seconds."""
+    """Skip this many seconds of input."""
     stop: float | None = None
     """Stop at this time of the input, in seconds."""
     white_level: float | None = None
@@ -150,8 +150,9 @@ class CaptureConfig:
     instances: Path | None = None
     """Ids of objects, in files as --motion."""
     camera: str | None = None
-    """Move a camera over a still image: saccade (N-MNIST's three), shake (held by hand), pan, or a
-    file of positions (t x y [roll [zoom]]: s, px, degrees) or of poses (t tx ty tz qx qy qz qw)."""
+    """Over a still image: saccade, shake, pan or FILE. The camera moves by N-MNIST's three saccades,
+    as if held by hand, or to the right; or as a file says: positions (t x y [roll [zoom]]: s, px,
+    degrees) or poses (t tx ty tz qx qy qz qw)."""
     camera_amplitude: float | None = None
     """Size of the movement, px: the longest saccade (5.5), the shake's root mean square (2), or the
     pan's px per second (60)."""

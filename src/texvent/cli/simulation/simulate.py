@@ -15,8 +15,7 @@ from texvent.cli.run import print_settings, run_source
 DESCRIPTION = """Turn a video into the events that an event camera would have recorded.
 
   texvent simulate clip.mp4 -o out.h5
-  texvent simulate frames/ --fps 120 --simulator v2e --sensor davis346
-  texvent simulate photo.png --camera saccade --sensor davis346"""
+  texvent simulate frames/ --fps 120 --simulator v2e --sensor davis346"""
 
 
 @dataclass(frozen=True, kw_only=True)
