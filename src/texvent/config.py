@@ -150,8 +150,8 @@ class CaptureConfig:
     instances: Path | None = None
     """Ids of objects, in files as --motion."""
     camera: str | None = None
-    """Over a still image: saccade, shake, pan or FILE. The camera moves by N-MNIST's three saccades,
-    as if held by hand, or to the right; or as a file says: positions (t x y [roll [zoom]]: s, px,
+    """Over a still image: saccade, shake, pan or FILE. The camera moves as N-MNIST's sensor did, as
+    if held by hand, or to the right; or as a file says: positions (t x y [roll [zoom]]: s, px,
     degrees) or poses (t tx ty tz qx qy qz qw)."""
     camera_amplitude: float | None = None
     """Size of the movement, px: the longest saccade (5.5), the shake's root mean square (2), or the
