@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 import typing
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -18,7 +19,7 @@ from typing import ClassVar, Literal
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown
-from texvent.options.fields import renamed
+from texvent.options.fields import RemovedOption, renamed
 from texvent.runtime.memory import parse_memory
 
 FPS_RANGE = 1e-9, 1e6
@@ -67,6 +68,9 @@ class RunConfig:
     """What decides a run as a whole."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("sensor",)
+    removed: ClassVar[Mapping[str, RemovedOption]] = {
+        "engine": RemovedOption("frames", "leave it out: every model runs through the frames")
+    }
 
     simulator: str = "texvent"
     """Pixel model, such as texvent, esim, v2e, voltmeter or physical. It turns brightness into
@@ -77,10 +81,6 @@ class RunConfig:
     """Sensor: a name such as davis346, WIDTHxHEIGHT, or a file of texvent calibrate.
     Frames are fitted to its size, and a simulator that knows its measured constants uses
     them. Without it, a video keeps its own size and a generated scene is davis346."""
-    engine: Literal["frames", "continuous"] = "frames"
-    """Simulate the frames at Eq. 4's instants (frames), or follow each pixel along
-    the flow and solve for its threshold crossings (continuous: esim, and texvent's preset
-    accurate)."""
     seed: int = 0
     """Seed of everything random. The same seed and options give the same events, on any machine
     and with any number of threads."""

@@ -25,7 +25,7 @@ from texvent.pairs.frame_pair import OnSceneChange, notify_scene_change
 from texvent.run.provenance import describe_run
 from texvent.run.settings import Settings
 from texvent.runtime.progress import Progress
-from texvent.simulate.build import build_simulator, check_engine
+from texvent.simulate.build import build_simulator
 from texvent.simulate.randomized_options import draw_training_config
 from texvent.video import Frame, FrameStream
 
@@ -48,9 +48,7 @@ def text_to_events(
 
     Raises:
         InputError: the prompt is empty, or the model cannot be had.
-        ConfigError: the engine cannot run the simulator.
     """
-    check_engine(settings.run, settings.simulate, settings.interpolate)
     return video_to_events(
         text_to_video(prompt, settings, progress=progress), settings, prompt=prompt
     )
@@ -76,12 +74,7 @@ def fit_to_sensor(video: FrameStream, settings: Settings) -> FrameStream:
 def video_to_events(
     video: FrameStream, settings: Settings, *, prompt: str | None = None
 ) -> Simulation:
-    """Events for a video; nothing is computed before the result is iterated.
-
-    Raises:
-        ConfigError: the engine cannot run the simulator.
-    """
-    check_engine(settings.run, settings.simulate, settings.interpolate)
+    """Events for a video; nothing is computed before the result is iterated."""
     recipe = settings.run.randomize
     if recipe != "none":
         drawn = draw_training_config(settings.simulate, recipe, seed=settings.run.seed)
@@ -102,8 +95,7 @@ class Simulation:
     ) -> Iterator[tuple[Frame, EventStream]]:
         """Every dense frame with the packet of events that ends at it.
 
-        With engine "continuous", every source frame. Intermediate frames may be drawn only when
-        their pixels are read.
+        Intermediate frames may be drawn only when their pixels are read.
 
         Args:
             on_scene_change: called at every cut and flash.

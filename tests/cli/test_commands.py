@@ -211,6 +211,11 @@ def test_the_former_name_of_a_flag_works_and_says_the_new_one(folder, capsys, fl
     assert said.err.count("\n") == 1
 
 
+def test_a_removed_flag_is_refused_by_name(folder, capsys):
+    said = fails(capsys, "simulate", CLIP, "--engine", "continuous")
+    assert "--engine was removed; leave it out: every model" in said
+
+
 def test_a_prompt_without_quotes_is_told_to_take_them(folder, capsys):
     assert "put all of it in quotes" in fails(capsys, "generate", "a", "ball")
     assert "did you mean --help" not in fails(capsys, "generate", "a ball", "--nosuch", "1")

@@ -56,8 +56,6 @@ SIMULATORS: dict[str, list[dict[str, Any]]] = {
 }
 FLOW = {"interpolate": "flow"}
 STILL = {"dtype": "still", "interpolate": "flow"}
-CONTINUOUS_ESIM = {"engine": "continuous", "simulator": "esim"}
-CONTINUOUS_TEXVENT = {"engine": "continuous", "simulator": "texvent", "preset": "accurate"}
 MORE_CASES: list[dict[str, Any]] = [
     {**STILL, "simulator": "texvent", "preset": "paper"},
     {**STILL, "simulator": "texvent", "preset": "accurate"},
@@ -65,14 +63,6 @@ MORE_CASES: list[dict[str, Any]] = [
     {**STILL, "simulator": "texvent", "cache": "global"},
     {**STILL, "simulator": "texvent", "cache": "leaky"},
     {**STILL, "simulator": "esim"},
-    {**CONTINUOUS_ESIM, "interpolate": "none"},
-    {**CONTINUOUS_ESIM, "interpolate": "blend"},
-    {**CONTINUOUS_ESIM, "interpolate": "flow"},
-    {**CONTINUOUS_ESIM, "interpolate": "flow", "refractory_period_us": 3000},
-    {**CONTINUOUS_TEXVENT, "interpolate": "none"},
-    {**CONTINUOUS_TEXVENT, "interpolate": "blend"},
-    {**CONTINUOUS_TEXVENT, "interpolate": "flow"},
-    {**CONTINUOUS_TEXVENT, "interpolate": "flow", "cache": "global"},
     {**FLOW, "simulator": "texvent", "count": "fixed", "fixed_count": 3},
     {**FLOW, "simulator": "texvent", "motion_floor": True},
     {**FLOW, "simulator": "texvent", "max_frames_per_second": 60.0},

@@ -1,12 +1,14 @@
 """What a config dataclass declares: names, former names and help."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import pytest
 
 from texvent.config import CaptureConfig, InterpolateConfig, RunConfig
 from texvent.errors import ConfigError
 from texvent.options.fields import (
+    RemovedOption,
     RenamedOptionWarning,
     former_names,
     option_help,
@@ -19,6 +21,8 @@ from texvent.options.fields import (
 @dataclass(frozen=True, kw_only=True)
 class Example:
     """An example."""
+
+    removed: ClassVar = {"shape": RemovedOption("round", "leave it out: all are round")}
 
     rate: float | None = None
     """A rate,
@@ -49,3 +53,9 @@ def test_a_former_name_is_taken_with_a_notice():
 def test_both_names_of_an_option_are_refused():
     with pytest.raises(ConfigError, match="'side' is the former name of 'size', which is given"):
         with_current_names({"side": 4, "size": 4}, [Example], where="test")
+
+
+def test_a_removed_option_is_taken_if_it_says_what_holds_now():
+    assert with_current_names({"shape": "round", "size": 4}, [Example], where="test") == {"size": 4}
+    with pytest.raises(ConfigError, match="test: shape 'square' was removed; leave it out: all"):
+        with_current_names({"shape": "square"}, [Example], where="test")

@@ -1,10 +1,13 @@
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+from texvent.errors import ConfigError
 from texvent.pipeline import text_to_events
-from texvent.run.replay import render_again
+from texvent.run.replay import prepare_replay, render_again
 from texvent.run.settings import resolve
 
 OPTIONS = {"duration": 0.2, "fps": 10, "sensor": "48x36", "seed": 4, "samples": 1}
@@ -40,3 +43,14 @@ def test_a_generated_recording_is_filmed_again_from_its_provenance(simulation) -
 )
 def test_other_recordings_cannot_be_filmed_again(simulation, changed: dict[str, object]) -> None:
     assert render_again({**simulation.provenance, **changed}) is None
+
+
+def test_recordings_from_before_an_option_was_removed_are_made_again(simulation) -> None:
+    stored = simulation.provenance
+    tables = stored["settings"]
+    stored["settings"] = {**tables, "run": {**tables["run"], "engine": "frames"}}
+    again = prepare_replay(stored, path=Path("events.h5"))
+    assert again.settings == simulation.settings
+    stored["settings"]["run"]["engine"] = "continuous"
+    with pytest.raises(ConfigError, match="engine 'continuous' was removed; leave it out"):
+        prepare_replay(stored, path=Path("events.h5"))

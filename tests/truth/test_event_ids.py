@@ -63,16 +63,3 @@ def test_without_vectors_the_closer_frame_counts():
     early = ids_of_frames(before, after, Interval(0, 400, events_at([3])))
     late = ids_of_frames(before, after, Interval(600, 1000, events_at([3])))
     assert (early.tolist(), late.tolist()) == ([1], [2])
-
-
-def test_slots_hold_each_event_once_in_order():
-    t = np.array([5, 900, 1004, 1005, 4999])
-    zeros = np.zeros(5, int)
-    events = EventStream.from_columns(zeros, zeros, t, zeros, size=SMALL)
-    slots = list(Interval(5, 5000, events).slots(1000))
-    assert [(slot.start_us, slot.stop_us) for slot in slots] == [
-        (5, 1005),
-        (1005, 2005),
-        (4005, 5005),
-    ]
-    assert [slot.events.t.tolist() for slot in slots] == [[5, 900, 1004], [1005], [4999]]

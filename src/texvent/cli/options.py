@@ -20,7 +20,13 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED, SCALARS, without_none
 from texvent.errors import ConfigError, shown
 from texvent.io.protected_inputs import protect_inputs
-from texvent.options.fields import RenamedOptionWarning, former_names, option_help, option_names
+from texvent.options.fields import (
+    RenamedOptionWarning,
+    former_names,
+    option_help,
+    option_names,
+    removed_options,
+)
 
 MOST_MESSAGE = 240
 """Characters of the parser's messages that are shown."""
@@ -57,7 +63,7 @@ def parse_options(
     form = dataclasses.make_dataclass(
         "Form", [(title.replace(" ", "_"), _group(group)) for title, group in groups.items()]
     )
-    words = _current_flags(arguments, groups.values())
+    words = _current_flags(arguments, list(map(type, groups.values())))
     complaint = io.StringIO()
     try:
         with _registry, contextlib.redirect_stderr(complaint):
@@ -159,15 +165,25 @@ def peek_options(arguments: Sequence[str], names: Sequence[str]) -> dict[str, st
     return values
 
 
-def _current_flags(arguments: Sequence[str], groups: Iterable[Any]) -> list[str]:
-    """The words with former names of flags replaced by those of today; each gives a notice."""
+def _current_flags(arguments: Sequence[str], config_types: Sequence[type]) -> list[str]:
+    """The words with former names of flags replaced by those of today; each gives a notice.
+
+    Raises:
+        ConfigError: a flag was removed.
+    """
+    removed = {
+        f"--{name.replace('_', '-')}": option.reason
+        for name, option in removed_options(config_types).items()
+    }
     former: dict[str, str] = {}
-    for old, new in former_names(map(type, groups)).items():
+    for old, new in former_names(config_types).items():
         old, new = old.replace("_", "-"), new.replace("_", "-")
         former |= {f"--{old}": f"--{new}", f"--no-{old}": f"--no-{new}"}
     words = []
     for word in arguments:
         flag, has_value, value = word.partition("=")
+        if flag in removed:
+            raise ConfigError(f"{flag} was removed; {removed[flag]}")
         if flag in former:
             warnings.warn(
                 f"{flag} is now {former[flag]}; the former name goes with the next release",

@@ -1,4 +1,4 @@
-"""The options that a config dataclass declares: their names, former names and help."""
+"""The options that a config dataclass declares or once had: names, former names and help."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import itertools
 import textwrap
 import warnings
 from collections.abc import Iterable, Mapping
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 from texvent.errors import ConfigError, shown
 
@@ -29,6 +29,24 @@ def renamed(default: Any, *, was: str) -> Any:
         {'flicker_guard': 'deflicker'}
     """
     return dataclasses.field(default=default, metadata={"was": was})
+
+
+class RemovedOption(NamedTuple):
+    """An option that a config dataclass had before; its class attribute `removed` lists them."""
+
+    value: Any
+    """The one value that says what now holds always: taken and left out."""
+    reason: str
+    """What to say of other values, behind a semicolon."""
+
+
+def removed_options(config_types: Iterable[type]) -> dict[str, RemovedOption]:
+    """Name → option, of those that config dataclasses had before."""
+    return {
+        name: option
+        for config_type in config_types
+        for name, option in getattr(config_type, "removed", {}).items()
+    }
 
 
 def option_names(config_type: type) -> tuple[str, ...]:
@@ -69,17 +87,27 @@ def with_current_names(
 ) -> dict[str, Any]:
     """The options by their names of today; a former name is taken with a `RenamedOptionWarning`.
 
+    A removed option is left out, as files of former releases have it.
+
     Args:
         options: name → value.
         config_types: config dataclasses that declare the options.
         where: what to call the source of the options in messages.
 
     Raises:
-        ConfigError: an option is given by both of its names.
+        ConfigError: an option is given by both of its names, or a removed one has another value
+            than what now holds always.
     """
-    former = former_names(config_types)
+    config_types = tuple(config_types)
+    former, removed = former_names(config_types), removed_options(config_types)
     current: dict[str, Any] = {}
     for name, value in options.items():
+        if name in removed:
+            if value != removed[name].value:
+                raise ConfigError(
+                    f"{where}: {name} {shown(value)} was removed; {removed[name].reason}"
+                )
+            continue
         now = former.get(name, name)
         if now != name:
             if now in options:

@@ -29,7 +29,6 @@ class RunOptions(TypedDict, total=False):
     simulator: str | None
     preset: str | None
     sensor: SensorName | None
-    engine: Literal["frames", "continuous"] | None
     seed: int | None
     backend: Literal["auto", "cpu", "reference", "gpu"] | None
     events: Literal["all", "signal", "noise"] | None

@@ -251,7 +251,6 @@ def _open_truth(
         files.truth,
         metadata=facts,
         overwrite=files.overwrite,
-        is_continuous=simulation.settings.run.engine == "continuous",
         on_events=on_events,
     )
     return outputs.enter_context(writer)

@@ -18,7 +18,7 @@ from texvent.run.memory import check_memory
 from texvent.run.provenance import describe_weights
 from texvent.run.settings import Settings
 from texvent.runtime.progress import Progress
-from texvent.simulate.build import build_simulator, check_engine
+from texvent.simulate.build import build_simulator
 from texvent.video import FrameStream
 
 
@@ -26,12 +26,11 @@ def check_run(settings: Settings) -> None:
     """Refuse a run that cannot be, before any work.
 
     Raises:
-        ConfigError: the engine cannot run the simulator, or there is no such backend.
+        ConfigError: the simulator has no such backend.
         InputError: weights of the simulator or the interpolator are not here, or the sensor's
             pixels do not fit into memory.
         MissingDependencyError: the backend or a network needs a package.
     """
-    check_engine(settings.run, settings.simulate, settings.interpolate)
     describe_weights(settings)
     if settings.size is not None:
         check_memory(settings, settings.size)

@@ -106,6 +106,5 @@ def _truth_writer(
         folder.names,
         metadata=run.provenance,
         overwrite=folder.overwrite,
-        is_continuous=run.settings.run.engine == "continuous",
         on_events=on_events,
     )

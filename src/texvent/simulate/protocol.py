@@ -13,16 +13,15 @@ from texvent.video import Frame
 class Simulator(Protocol):
     """A pixel model: pairs of source frames in, packets of events out.
 
-    Built as `Simulator(config, seed=seed)`, with `backend=` or `engine=` only where the user named
-    one; the first frame decides the size. Random draws are keyed by (seed, frame, y, x), so neither
-    threads nor chunk sizes nor backends change an event.
+    Built as `Simulator(config, seed=seed)`, with `backend=` only where the user named one; the
+    first frame decides the size. Random draws are keyed by (seed, frame, y, x), so neither threads
+    nor chunk sizes nor backends change an event.
 
     `stepping.SteppingSimulator` brings `advance` and `finish` to a model that has `step`. A model
     may also declare `default_interpolate`, the interpolation it was made for. One whose weights are
     a file of the user's may offer `provenance(config)`: facts about that file, stored with the
-    events. One that runs in continuous time offers `continuous_misfit(config)`; see
-    `fused.continuous`. It may declare `bytes_per_pixel`: memory that its pixels, its packets and
-    the frames that wait for it take, measured on moving texture; `run.memory` adds it up.
+    events. It may declare `bytes_per_pixel`: memory that its pixels, its packets and the frames
+    that wait for it take, measured on moving texture; `run.memory` adds it up.
     """
 
     config_type: ClassVar[type]
@@ -48,12 +47,12 @@ class Simulator(Protocol):
         """Events between the two frames of a pair; pairs come in order.
 
         How is the model's choice: it may draw the intermediate frames and step through them, or
-        compute single pixels where they may fire, or solve for threshold crossings.
+        compute single pixels where they may fire.
 
         Yields:
             The intermediate frames and the later frame of the pair, each with the packet of events
-            that ends at it, as `step` has it. A model in continuous time yields the later frame
-            alone. A model that must see later frames first may yield frames of earlier pairs.
+            that ends at it, as `step` has it. A model that must see later frames first may yield
+            frames of earlier pairs.
 
         Raises:
             InputError: as `step`.

@@ -4,8 +4,7 @@ A simulator compares the brightness of two instants, the dense frames before and
 where in between it puts the event is its own rule. So an event belongs to what its pixel sees at
 these two instants: through its middle and its four corners, of all objects met the nearest. An
 event at a contour then belongs to the object before, and none to the background that has an
-object in its pixel. With engine "continuous" events have times of their own, and the two instants
-are half a millisecond before and after.
+object in its pixel.
 
 Frames with ids alone are moved along their vectors to these instants.
 
@@ -29,8 +28,6 @@ from texvent.events import EventStream
 from texvent.io.arrays.npy_file import growing_array
 from texvent.truth.source import InstancesStream, Snapshot, TruthSource
 
-SLOT_US = 1000
-"""Length of the intervals that those of engine "continuous" are cut into, µs."""
 CORNER = 0.5 - 1e-6
 """From the middle of a pixel to its corners, which belong to it alone, pixels."""
 RAYS = np.array(
@@ -52,14 +49,6 @@ class Interval:
     start_us: int
     stop_us: int
     events: EventStream
-
-    def slots(self, length_us: int) -> Iterator[Interval]:
-        """The interval in parts of that length, those without events left out."""
-        slot = (self.events.t - self.start_us) // length_us
-        for one in np.unique(slot):
-            start_us = self.start_us + int(one) * length_us
-            first, end = np.searchsorted(slot, (one, one + 1))
-            yield Interval(start_us, start_us + length_us, self.events[int(first) : int(end)])
 
 
 def ids_of_scene(scene: InstancesStream, interval: Interval) -> Ids:

@@ -17,7 +17,6 @@ from texvent.io.atomic import atomic_folder
 from texvent.options.values import plain
 from texvent.truth.boxes import labelled, open_boxes
 from texvent.truth.event_ids import (
-    SLOT_US,
     Interval,
     ids_of_frames,
     ids_of_scene,
@@ -63,7 +62,6 @@ class TruthWriter(AtomicOutput):
         parts: what is written; see `texvent.truth.parts.PARTS`.
         metadata: what made the run, stored with the truth.
         overwrite: whether a folder of truth may be replaced.
-        is_continuous: whether events have times of their own; see `texvent.truth.event_ids`.
         on_events: given all events in order, with the ids of their objects, where "events" is among
             the parts; a few frames late.
 
@@ -80,7 +78,6 @@ class TruthWriter(AtomicOutput):
         *,
         metadata: Mapping[str, Any] | None = None,
         overwrite: bool = False,
-        is_continuous: bool = False,
         on_events: Callable[[EventStream], None] | None = None,
     ) -> None:
         super().__init__()
@@ -91,7 +88,6 @@ class TruthWriter(AtomicOutput):
         self._parts = parts
         self._metadata = dict(metadata or {})
         self._overwrite = overwrite
-        self._is_continuous = is_continuous
         self._on_events = on_events
         self._last_us: int | None = None
         self._intervals: list[Interval] = []
@@ -210,8 +206,7 @@ class TruthWriter(AtomicOutput):
         found = [np.zeros(0, dtype=np.int32)]
         if self._add_ids is not None or self._overlay is not None:
             for interval in intervals:
-                slots = interval.slots(SLOT_US) if self._is_continuous else (interval,)
-                ids = np.concatenate([self._ids_in(truth, slot) for slot in slots])
+                ids = self._ids_in(truth, interval)
                 self._store_ids(interval.events, ids)
                 found.append(ids)
         return np.concatenate(found)

@@ -36,7 +36,7 @@ def made_again(name: str, capsys: pytest.CaptureFixture[str], *words: object) ->
     "options",
     [
         ("--simulator", "v2e", "--seed", "5"),
-        ("--simulator", "esim", "--engine", "continuous", "--interpolate", "flow"),
+        ("--simulator", "esim", "--interpolate", "flow"),
         ("--simulator", "physical", "--randomize", "v2v", "--seed", "9"),
         ("--target-rate", "20000", "--label-noise"),
     ],

@@ -1,4 +1,4 @@
-"""The engines are tested with compiled kernels, unless a test wants the definitions."""
+"""The fused pass is tested with compiled kernels, unless a test wants the definitions."""
 
 from __future__ import annotations
 

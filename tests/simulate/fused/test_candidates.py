@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 
 from texvent.pairs.warp_cpu import prepare_pair
+from texvent.pairs.warp_reference import warp_between
 from texvent.runtime.read_only import read_only
 from texvent.simulate.fused import candidates_cpu, candidates_reference
 from texvent.simulate.fused.bounds_cpu import find_bounds, list_active
-from texvent.simulate.fused.candidates import one_grid
-from texvent.simulate.fused.continuous import dyadic_segments
 from texvent.simulate.fused.definitions import (
     FOLLOWS,
     STEPS,
@@ -23,11 +22,11 @@ from texvent.simulate.fused.definitions import (
     PreparedPair,
     ReferenceLevels,
 )
-from texvent.simulate.packets.interval import FrameInterval
 
 KERNELS = [candidates_reference.find_candidates, candidates_cpu.find_candidates]
 kernels = pytest.mark.parametrize("find", KERNELS, ids=["reference", "cpu"])
-STILL = read_only(np.empty((0, 0, 2), np.float32))
+STILL = np.zeros((1, 1, 2), np.float32)
+THIRDS = np.array([1 / 3, 2 / 3])
 UP = math.exp(0.2)
 
 
@@ -39,7 +38,8 @@ def own_levels(rule, balance=30.0, up=UP):
     return ReferenceLevels(np.empty((0, 0)), balance, up, 1 / up, rule)
 
 
-def blended(first, second):
+def at_rest(first, second):
+    """One pixel without flow: its luma changes evenly."""
     return pair_of(np.float32([[first]]), np.float32([[second]]), STILL, STILL)
 
 
@@ -61,7 +61,7 @@ def test_a_pixel_is_listed_where_it_passes_a_level_and_its_reference_goes_along(
     # α + I: 50, 70, 90, 110; ln steps .336, .251, .201: with δ = .3 the first fires (A := 70), then
     # ln(90/70) = .251 does not, and ln(110/70) = .452 does.
     levels = own_levels(TAKES, up=math.exp(0.3))
-    found = find(blended(20, 80), one_grid([1 / 3, 2 / 3]), levels)
+    found = find(at_rest(20, 80), THIRDS, levels)
     assert found.segment.tolist() == [0, 2]
     np.testing.assert_allclose(found.before, [20, 60], rtol=1e-6)
     np.testing.assert_allclose(found.now, [40, 80], rtol=1e-6)
@@ -72,15 +72,15 @@ def test_a_reference_that_steps_stays_behind(find):
     # The same, A := 50 · e^.3 = 67.5, and ln(90/67.5) = .288 does not fire, ln(110/67.5) = .488
     # does. Falling levels are the mirror image.
     levels = own_levels(STEPS_ONCE, up=math.exp(0.3))
-    assert find(blended(20, 80), one_grid([1 / 3, 2 / 3]), levels).segment.tolist() == [0, 2]
+    assert find(at_rest(20, 80), THIRDS, levels).segment.tolist() == [0, 2]
     # 110, 90, 70, 50: .2007, .452 (fires, A := 81.5), .488 (fires).
-    assert find(blended(80, 20), one_grid([1 / 3, 2 / 3]), levels).segment.tolist() == [1, 2]
+    assert find(at_rest(80, 20), THIRDS, levels).segment.tolist() == [1, 2]
 
 
 @kernels
 def test_a_reference_that_follows_every_picture_sees_single_steps_only(find):
     levels = own_levels(FOLLOWS, up=math.exp(0.3))
-    assert find(blended(20, 80), one_grid([1 / 3, 2 / 3]), levels).segment.tolist() == [0]
+    assert find(at_rest(20, 80), THIRDS, levels).segment.tolist() == [0]
 
 
 @kernels
@@ -88,60 +88,37 @@ def test_where_it_is_open_whether_a_pixel_fires_all_its_later_pictures_are_liste
     # The change is δ but for rounding, so the finishing pass must see everything from there on.
     levels = own_levels(TAKES, up=60 / 50)
     arrays = pair_of(np.float32([[20]]), np.float32([[30]]), STILL, STILL)
-    assert find(arrays, one_grid([0.99999]), levels).segment.tolist() == [1]
+    assert find(arrays, np.array([0.99999]), levels).segment.tolist() == [1]
     for rule in (TAKES, STEPS_ONCE, STEPS):
-        late = find(blended(20, 30), one_grid([1.0, 0.5, 0.3]), own_levels(rule, up=60 / 50))
+        late = find(at_rest(20, 30), np.array([1.0, 0.5, 0.3]), own_levels(rule, up=60 / 50))
         assert late.segment.tolist() == [0, 1, 2, 3]
-
-
-@kernels
-def test_a_pixel_takes_the_first_grid_that_is_fine_enough(find):
-    # Grids of 1, 2, 4, ... segments, each for half a pixel of flow and a factor of 1.5.
-    shape = (1, 4)
-    flow = np.zeros((*shape, 2), np.float32)
-    flow[0, 1, 0], flow[0, 2, 1] = 1.5, 5.0
-    first, second = np.float32([[0, 0, 0, 0]]), np.float32([[100, 100, 100, 0]])
-    grids, _ = dyadic_segments(FrameInterval(0, 1000, np.uint64(0)))
-    found = find(
-        pair_of(first, second, flow, -flow),
-        grids,
-        ReferenceLevels(np.full(shape, 1.0), 200.0, UP, 1 / UP, FOLLOWS),
-    )
-    grid_of = dict(zip(found.pixel.tolist(), found.grid.tolist(), strict=True))
-    assert grid_of == {0: 0, 1: 2, 2: 4, 3: 0}
 
 
 @pytest.mark.parametrize("shape", [(1, 1), (3, 40), (35, 41)])
 @pytest.mark.parametrize("speed", [0.0, 0.4, 6.0, 300.0])
 def test_compiled_kernel_lists_what_the_definition_lists(shape, speed):
     arrays = moving(shape, speed)
-    if speed == 0:
-        arrays = arrays._replace(forward=STILL, backward=STILL)
     spread = np.random.default_rng(1).normal(0, 0.1, shape)
     kept = (arrays.earlier + 30.0) * np.exp(spread)
-    grids = (
-        one_grid([]),
-        one_grid([0.2, 0.5, 0.6]),
-        dyadic_segments(FrameInterval(0, 9, np.uint64(0)))[0],
-    )
-    for grid, rule, reference in itertools.product(
-        grids, (FOLLOWS, TAKES, STEPS_ONCE, STEPS), (np.empty((0, 0)), kept)
+    places = (np.array([]), np.array([0.2, 0.5, 0.6]))
+    for positions, rule, reference in itertools.product(
+        places, (FOLLOWS, TAKES, STEPS_ONCE, STEPS), (np.empty((0, 0)), kept)
     ):
         levels = ReferenceLevels(reference, 30.0, math.exp(0.1), math.exp(-0.15), rule)
-        got = candidates_cpu.find_candidates(arrays, grid, levels)
-        wanted = candidates_reference.find_candidates(arrays, grid, levels)
+        got = candidates_cpu.find_candidates(arrays, positions, levels)
+        wanted = candidates_reference.find_candidates(arrays, positions, levels)
         for one, other in zip(got, wanted, strict=True):
             np.testing.assert_array_equal(one, other)
 
 
 def test_rows_can_be_searched_in_bands():
-    arrays, grid, levels = moving((30, 20), 2.0), one_grid([0.5]), own_levels(TAKES)
+    arrays, positions, levels = moving((30, 20), 2.0), np.array([0.5]), own_levels(TAKES)
     prepared = PreparedPair(prepare_pair(*arrays), find_bounds(arrays))
     bands = [
-        candidates_cpu.find_in_rows(arrays, grid, levels, prepared, rows)
+        candidates_cpu.find_in_rows(arrays, positions, levels, prepared, rows)
         for rows in ((0, 7), (7, 16), (16, 30))
     ]
-    whole = candidates_cpu.find_candidates(arrays, grid, levels)
+    whole = candidates_cpu.find_candidates(arrays, positions, levels)
     for joined, column in zip(zip(*bands, strict=True), whole, strict=True):
         np.testing.assert_array_equal(np.concatenate(joined), column)
 
@@ -167,14 +144,7 @@ def test_pixels_that_cannot_fire_are_not_followed():
 def test_some_pixels_of_a_picture_are_those_of_the_whole_picture():
     arrays = moving((20, 30), 3.0)
     pixel = np.array([0, 17, 311, 599])
-    whole = candidates_reference.draw_image(arrays, 0.3)
+    whole = warp_between(*arrays, 0.3)
     np.testing.assert_array_equal(
-        candidates_cpu.warp_pixels(arrays, prepare_pair(*arrays), 0.3, pixel),
-        whole.reshape(-1)[pixel],
-    )
-    still = arrays._replace(forward=STILL, backward=STILL)
-    whole = candidates_reference.draw_image(still, 0.3)
-    np.testing.assert_array_equal(
-        candidates_cpu.warp_pixels(still, prepare_pair(*still), 0.3, pixel),
-        whole.reshape(-1)[pixel],
+        candidates_cpu.warp_pixels(prepare_pair(*arrays), 0.3, pixel), whole.reshape(-1)[pixel]
     )

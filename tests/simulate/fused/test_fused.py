@@ -11,11 +11,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import texvent
 from texvent.errors import InputError
 from texvent.pairs.motion_interpolation import MotionInterpolation, UndrawnFrame
 from texvent.simulate.esim import simulator as esim_simulator
 from texvent.simulate.fused import candidates, segments_reference
-from texvent.simulate.fused.candidates import find_bounds
+from texvent.simulate.fused.candidates import compiled_kernels, find_bounds
 from texvent.simulate.fused.segments import CROSS_SEGMENTS
 from texvent.simulate.texvent import fused as texvent_fused
 from texvent.video import Frame, Video
@@ -179,13 +180,15 @@ def test_any_frames_give_the_same_events(seed, simulator, spread):
     assert_equal(video, simulator=simulator, seed=seed % 1000, max_intermediate=9)
 
 
-@pytest.mark.parametrize("interpolate", ["flow", "blend"])
 @pytest.mark.parametrize("simulator", ["texvent", "esim"])
-def test_until_kernels_are_compiled_the_events_are_the_same(simulator, interpolate, monkeypatch):
+def test_until_kernels_are_compiled_the_events_are_the_same(simulator, monkeypatch):
     monkeypatch.setattr(candidates, "is_ready", lambda module: False)
+    assert assert_equal(panning(3), simulator=simulator, max_intermediate=5) > 200
+
+
+def test_the_definition_of_crossings_gives_the_same_events(monkeypatch):
     monkeypatch.setattr(CROSS_SEGMENTS, "load", lambda: segments_reference.cross_segments)
-    options = {"simulator": simulator, "interpolate": interpolate, "max_intermediate": 5}
-    assert assert_equal(panning(3), **options) > 200
+    assert assert_equal(panning(3), simulator="esim", max_intermediate=5) > 200
 
 
 @pytest.mark.parametrize("simulator", ["texvent", "esim"])
@@ -222,3 +225,27 @@ def test_pairs_out_of_order_are_refused():
     list(simulator.advance(second))
     with pytest.raises(InputError, match="time"):
         list(simulator.advance(second))
+
+
+@pytest.mark.parametrize(
+    ("options", "is_tried"),
+    [
+        ({}, True),
+        ({"preset": "accurate"}, True),
+        ({"simulator": "esim"}, True),
+        ({"interpolate": "blend"}, False),
+        ({"interpolate": "none", "simulator": "esim"}, False),
+        ({"noise": "gaussian"}, False),
+        ({"backend": "reference"}, False),
+        ({"simulator": "esim", "threshold_sigma": 0.03}, False),
+    ],
+)
+def test_a_pair_is_not_drawn_where_it_can_be_fused(options, is_tried, monkeypatch):
+    estimated = []
+    kernels = compiled_kernels()
+    whole = kernels.estimate_active
+    monkeypatch.setattr(
+        kernels, "estimate_active", lambda *given: estimated.append(1) or whole(*given)
+    )
+    texvent.simulate(panning(3), **options)
+    assert bool(estimated) is is_tried

@@ -92,7 +92,6 @@ def write_events(
                 simulation.video,
                 parts,
                 metadata=facts,
-                is_continuous=simulation.settings.run.engine == "continuous",
                 on_events=sink.append if has_ids else None,
             )
             outputs.enter_context(truth)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Mapping
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,8 +21,7 @@ from texvent.simulate.crossing.ramp import RefractoryPeriod
 from texvent.simulate.crossing.trigger_levels import LOOK_UP, BrightnessCurve, TriggerLevels
 from texvent.simulate.esim.config import WHITE, EsimConfig
 from texvent.simulate.esim.crossings import CROSS_THRESHOLDS, RampPixels
-from texvent.simulate.fused.candidates import find_bounds, one_grid
-from texvent.simulate.fused.continuous import plan_segments
+from texvent.simulate.fused.candidates import find_bounds
 from texvent.simulate.fused.definitions import Float64Array, LumaBounds
 from texvent.simulate.fused.segment_pixels import BandEvents, LogScale, SegmentPixels
 from texvent.simulate.fused.segments import CrossingRules, CrossingState
@@ -72,35 +71,6 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
 
     has_gpu: ClassVar[bool] = True
 
-    def __init__(
-        self,
-        config: EsimConfig | None = None,
-        *,
-        seed: int = 0,
-        backend: str = AUTO,
-        engine: Literal["frames", "continuous"] = "frames",
-    ) -> None:
-        """Prepare a simulator that has seen no frame.
-
-        Args:
-            config: options; default: the first preset.
-            seed: of drawn thresholds, 0..2⁶³−1.
-            backend: "auto", "cpu", "reference" or "gpu": which kernels compute.
-            engine: "frames" evaluates pixels at Eq. 4's instants, "continuous" along their paths.
-
-        Raises:
-            ConfigError: the seed is out of range, or the backend unknown or not available.
-        """
-        self._is_continuous = engine == "continuous"
-        super().__init__(config, seed=seed, backend=backend)
-
-    @staticmethod
-    def continuous_misfit(config: EsimConfig) -> str | None:
-        """What the options must be in continuous time, if they are not; see `fused.continuous`."""
-        if config.threshold_sigma > 0:
-            return "with threshold_sigma 0 only, so that all pixels have one threshold"
-        return None
-
     @property
     def contrast_threshold(self) -> float:
         """The smaller threshold, log units."""
@@ -137,13 +107,8 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
 
     def advance(self, pair: FramePair) -> Iterator[tuple[Frame, EventStream]]:
         """Events between two frames; see `simulate.protocol.Simulator.advance`."""
-        if pair.first is None:
-            yield from super().advance(pair)
-        elif self._is_continuous:
-            yield pair.second, self._cross_pair(pair)
-        else:
-            bounds = self._find_bounds(pair)
-            yield from super().advance(pair) if bounds is None else self._fuse(pair, bounds)
+        bounds = None if pair.first is None else self._find_bounds(pair)
+        yield from super().advance(pair) if bounds is None else self._fuse(pair, bounds)
 
     def _find_bounds(self, pair: FramePair) -> LumaBounds | None:
         """Luma bounds if the pair is better computed without drawing its frames, else None."""
@@ -154,8 +119,7 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
     def _fuse(self, pair: FramePair, bounds: LumaBounds) -> Iterator[tuple[Frame, EventStream]]:
         """The packets of `step` for every frame of a pair, without drawing them."""
         motion, edges_us = pair.motion, pair.edges_us
-        grids = one_grid(motion.positions)
-        bands = self._segments.cross(motion, grids, edges_us[np.newaxis], bounds=bounds)
+        bands = self._segments.cross(motion, edges_us, bounds)
         self._leave_pair(pair)
         parts = [_split_by_segment(band, len(edges_us) - 1) for band in bands]
         spans = itertools.pairwise(edges_us.tolist())
@@ -165,22 +129,12 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
             interval = FrameInterval(*span_us, np.uint64(0))
             yield frame, make_packet(UnsortedEvents.concat(fired), interval, motion.size)
 
-    def _cross_pair(self, pair: FramePair) -> EventStream:
-        """All events of a pair, in continuous time."""
-        plan = plan_segments(pair)
-        bands = self._segments.cross(pair.motion, plan.grids, plan.edges_us)
-        interval = self._leave_pair(pair)
-        return make_packet(
-            UnsortedEvents.concat(band.fired for band in bands), interval, pair.second.size
-        )
-
-    def _leave_pair(self, pair: FramePair) -> FrameInterval:
+    def _leave_pair(self, pair: FramePair) -> None:
         """Note that the pixels have seen the later frame of a pair, though no frame was stepped."""
-        interval = self._enter(pair.second)
+        self._enter(pair.second)
         # Found again from the references when a frame is stepped.
         self._triggers = None
         self._last_luma = pair.second.luma
-        return interval
 
     def _begin(self, intensity: IntensityArray) -> None:
         config = self.config

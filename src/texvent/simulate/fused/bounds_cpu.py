@@ -39,15 +39,12 @@ def find_bounds(arrays: PairArrays) -> NDArray[np.float32]:
     """Darkest and brightest luma that the pixels of each cell can reach.
 
     Returns:
-        [2, rows, W] float32: the lowest and the highest of each cell, for each of its columns;
-        empty without flow.
+        [2, rows, W] float32: the lowest and the highest of each cell, for each of its columns.
     """
     earlier, later, forward, backward = arrays
     height, width = earlier.shape
     down, across = (height + CELL - 1) // CELL, (width + CELL - 1) // CELL
-    reachable = np.empty((2, down if forward.size else 0, width), np.float32)
-    if forward.size == 0:
-        return reachable
+    reachable = np.empty((2, down, width), np.float32)
     own = np.empty((down, across, 2), np.float32)
     reach = np.empty((down, across, 2), np.int64)
     for i in range(down):
@@ -130,13 +127,12 @@ def list_active(
     """
     earlier, later, forward, backward = arrays
     height, width = earlier.shape
-    low, high = np.minimum(earlier[row], later[row]), np.maximum(earlier[row], later[row])
-    if forward.size:
-        above, below = max(row - 1, 0), min(row + 1, height - 1)
-        first = earlier[above], earlier[row], earlier[below]
-        second = later[above], later[row], later[below]
-        reachable = bounds[0, row // CELL], bounds[1, row // CELL]
-        _bound_row(first, second, (forward[row], backward[row]), reachable, low, high)
+    low, high = np.empty(width, np.float32), np.empty(width, np.float32)
+    above, below = max(row - 1, 0), min(row + 1, height - 1)
+    first = earlier[above], earlier[row], earlier[below]
+    second = later[above], later[row], later[below]
+    reachable = bounds[0, row // CELL], bounds[1, row // CELL]
+    _bound_row(first, second, (forward[row], backward[row]), reachable, low, high)
     level = levels.reference[row] if levels.reference.size else earlier[row] + levels.balance
     marks = np.empty(width, np.uint8)
     _mark(low, high, level, levels, marks)
@@ -176,7 +172,7 @@ def _bound_row(
     low: NDArray[np.float32],
     high: NDArray[np.float32],
 ) -> None:
-    """Bounds of a row with flow: near ones where the flow is at most a pixel, else the cell's."""
+    """Fill in bounds of a row: near ones where the flow is at most a pixel, else the cell's."""
     width = low.size
     work = np.empty((4, width), np.float32)
     dx, dy, room_first, room_second = work[0], work[1], work[2], work[3]

@@ -3,26 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from types import ModuleType
 from typing import TypeVar
 
 import numpy as np
 
-from texvent.pairs.motion_interpolation import NO_FLOW, MotionInterpolation, load_warp
+from texvent.pairs.motion_interpolation import MotionInterpolation
 from texvent.runtime.background_jit import is_ready
 from texvent.runtime.threads import count_threads, run_parts
-from texvent.simulate.fused.candidates_reference import find_candidates
 from texvent.simulate.fused.definitions import (
     CrossingCandidates,
     Float32Array,
-    Float64Array,
     Int64Array,
     LumaBounds,
     PairArrays,
     PreparedPair,
     ReferenceLevels,
-    SampleGrids,
 )
 
 BAND_PIXELS = 1 << 16
@@ -72,9 +69,8 @@ def map_candidates(
     decide: Callable[[CrossingCandidates], Decided],
     motion: MotionInterpolation,
     *,
-    grids: SampleGrids,
     levels: ReferenceLevels,
-    bounds: LumaBounds | None = None,
+    bounds: LumaBounds,
 ) -> list[Decided]:
     """The results of a function for the candidates of each band of rows, from the top.
 
@@ -82,21 +78,17 @@ def map_candidates(
 
     Args:
         decide: called in threads, so it must change the pixels of its candidates only.
-        motion: what lies between the two frames.
-        grids: when pixels are evaluated.
-        levels: what they are compared with.
-        bounds: of `find_bounds`, if it was called.
+        motion: what lies between the two frames; with flow.
+        levels: what pixels are compared with.
+        bounds: of `find_bounds`.
     """
-    arrays, kernels = arrays_of(motion), compiled_kernels()
-    if kernels is None:
-        return [decide(find_candidates(arrays, grids, levels, load_warp().warp_between))]
-    prepared = PreparedPair(
-        motion.prepared, kernels.find_bounds(arrays) if bounds is None else bounds
-    )
-    find_in_rows = kernels.find_in_rows
+    from texvent.simulate.fused.candidates_cpu import find_in_rows  # needs Numba
+
+    arrays, positions = arrays_of(motion), np.array(motion.positions, np.float64)
+    prepared = PreparedPair(motion.prepared, bounds)
 
     def decide_band(rows: tuple[int, int]) -> Decided:
-        return decide(find_in_rows(arrays, grids, levels, prepared, rows))
+        return decide(find_in_rows(arrays, positions, levels, prepared, rows))
 
     height = len(arrays.earlier)
     number = max(count_threads(), math.ceil(arrays.earlier.size / BAND_PIXELS))
@@ -110,28 +102,22 @@ def warp_pixels(motion: MotionInterpolation, index: int, pixel: Int64Array) -> F
     """Luma of some pixels of an intermediate frame, [n], or of the later frame after the last one.
 
     Args:
-        motion: what lies between the two frames.
+        motion: what lies between the two frames; with flow.
         index: number of the intermediate frame.
         pixel: [n] flat indices.
     """
     if index == len(motion):
         return motion.later.reshape(-1)[pixel]
-    kernels = compiled_kernels()
-    if kernels is None:
-        return motion.image(index).reshape(-1)[pixel]
-    warped: Float32Array = kernels.warp_pixels(
-        arrays_of(motion), motion.prepared, motion.positions[index], pixel
+    from texvent.simulate.fused import candidates_cpu  # needs Numba
+
+    warped: Float32Array = candidates_cpu.warp_pixels(
+        motion.prepared, motion.positions[index], pixel
     )
     return warped
 
 
 def arrays_of(motion: MotionInterpolation) -> PairArrays:
-    """The arrays of a pair, as kernels take them."""
-    return PairArrays(motion.earlier, motion.later, *(motion.flows or (NO_FLOW, NO_FLOW)))
-
-
-def one_grid(positions: Sequence[float]) -> SampleGrids:
-    """The grid whose instants are at some positions, for all pixels."""
-    inner: Float64Array = np.array([*positions, 1.0])[np.newaxis]
-    endless = np.array([np.inf])
-    return SampleGrids(inner, np.array([inner.size]), endless, endless)
+    """The arrays of a pair with flow, as kernels take them."""
+    if motion.flows is None:
+        raise ValueError("the frames of the pair are blended, and no pixel moves")
+    return PairArrays(motion.earlier, motion.later, *motion.flows)

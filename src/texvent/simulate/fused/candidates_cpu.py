@@ -7,8 +7,6 @@ memory. Most pixels of most videos cannot fire at all: bounds of their luma cost
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -31,16 +29,15 @@ from texvent.simulate.fused.definitions import (
     STEPS,
     TAKES,
     CrossingCandidates,
+    Float64Array,
     LumaBounds,
     PairArrays,
     PreparedPair,
     ReferenceLevels,
-    SampleGrids,
 )
 
 Columns = tuple[
     NDArray[np.int64],
-    NDArray[np.int16],
     NDArray[np.int16],
     NDArray[np.float32],
     NDArray[np.float32],
@@ -54,23 +51,21 @@ next row whose number is a multiple of `PROBE`."""
 
 
 def find_candidates(
-    arrays: PairArrays, grids: SampleGrids, levels: ReferenceLevels
+    arrays: PairArrays, positions: Float64Array, levels: ReferenceLevels
 ) -> CrossingCandidates:
     """Every segment at whose end a pixel may fire; see `candidates_reference.find_candidates`."""
     prepared = PreparedPair(prepare_pair(*arrays), find_bounds(arrays))
-    return find_in_rows(arrays, grids, levels, prepared, (0, arrays.earlier.shape[0]))
+    return find_in_rows(arrays, positions, levels, prepared, (0, arrays.earlier.shape[0]))
 
 
 def warm_up() -> None:
     """Compile everything, or load what was compiled before."""
     image, flow = (read_only(np.zeros(one, np.float32)) for one in ((1, 1), (1, 1, 2)))
-    endless = np.array([np.inf])
-    grids = SampleGrids(np.ones((1, 1)), np.array([1]), endless, endless)
     arrays = PairArrays(image, image, flow, flow)
     levels = ReferenceLevels(np.empty((0, 0)), 1.0, 2.0, 0.5, TAKES)
-    find_candidates(arrays, grids, levels)
+    find_candidates(arrays, np.ones(1), levels)
     estimate_active(arrays, levels, find_bounds(arrays))
-    warp_pixels(arrays, prepare_pair(*arrays), 0.5, np.zeros(1, np.int64))
+    warp_pixels(prepare_pair(*arrays), 0.5, np.zeros(1, np.int64))
 
 
 @jit
@@ -88,7 +83,7 @@ def estimate_active(arrays: PairArrays, levels: ReferenceLevels, bounds: LumaBou
 
 def find_in_rows(
     arrays: PairArrays,
-    grids: SampleGrids,
+    positions: Float64Array,
     levels: ReferenceLevels,
     prepared: PreparedPair,
     rows: tuple[int, int],
@@ -97,31 +92,19 @@ def find_in_rows(
 
     Args:
         arrays: the pair.
-        grids: when pixels are evaluated.
-        levels: what they are compared with.
+        positions: [K] τ of each intermediate instant.
+        levels: what pixels are compared with.
         prepared: the pair prepared, and its `find_bounds`.
         rows: first row, and the one after the last.
     """
-    found, columns = _find(arrays, grids, levels, prepared, rows)
+    found, columns = _find(arrays, positions, levels, prepared, rows)
     return CrossingCandidates(*columns).take(slice(found))
-
-
-class _ActivePixels(NamedTuple):
-    """Active pixels, and where their luma is written; [n]."""
-
-    pixel: NDArray[np.int64]
-    """Flat index, ascending."""
-    grid: NDArray[np.int64]
-    start: NDArray[np.int64]
-    """Where the pixel's first luma is in `warped`."""
-    step: NDArray[np.int64]
-    """How much further each of the next ones is."""
 
 
 @jit
 def _find(
     arrays: PairArrays,
-    grids: SampleGrids,
+    positions: Float64Array,
     levels: ReferenceLevels,
     prepared: PreparedPair,
     rows: tuple[int, int],
@@ -129,30 +112,29 @@ def _find(
     width = arrays.earlier.shape[1]
     found, columns = 0, _columns(FIRST_ROOM)
     room, warped = make_room(POINTS + width), np.empty(FIRST_ROOM, np.float32)
-    memory = np.empty((5, POINTS + width), np.int64)
+    memory = np.empty((2, POINTS + width), np.int64)
     row, number = rows[0], 0
     while row < rows[1]:
         filled = 0
         while row < rows[1] and filled < POINTS:
             # Where nearly all pixels may fire, the bounds of each are not worth computing.
             if number <= BUSY * width or row % PROBE == 0:
-                number = list_active(arrays, levels, prepared.bounds, row, memory[4])
+                number = list_active(arrays, levels, prepared.bounds, row, memory[1])
             else:
-                number = _list_all(memory[4, :width])
+                number = _list_all(memory[1, :width])
             for k in range(number):
-                memory[0, filled + k] = row * width + memory[4, k]
+                memory[0, filled + k] = row * width + memory[1, k]
             filled += number
             row += 1
-        active_pixels = _ActivePixels(
-            memory[0, :filled], memory[1, :filled], memory[2, :filled], memory[3, :filled]
-        )
-        segments = _choose_grids(arrays, grids, levels.balance, active_pixels)
-        if segments > warped.size:
-            warped = np.empty(2 * segments, np.float32)
-        if found + segments > columns[0].size:
-            columns = _grown(columns, segments)
-        _warp_active(prepared.pair, grids, active_pixels, room, memory[4], warped)
-        found = _list_candidates(arrays, grids, levels, active_pixels, warped, (columns, found))
+        active = memory[0, :filled]
+        size = filled * (positions.size + 1)
+        if size > warped.size:
+            warped = np.empty(2 * size, np.float32)
+        if found + size > columns[0].size:
+            columns = _grown(columns, size)
+        lumas = warped[:size].reshape(positions.size + 1, filled)
+        _warp_active(prepared.pair, positions, active, room, lumas)
+        found = _list_candidates(arrays, levels, active, lumas, (columns, found))
     return found, columns
 
 
@@ -164,113 +146,45 @@ def _list_all(active: NDArray[np.int64]) -> int:
 
 
 @jit
-def _choose_grids(
-    arrays: PairArrays, grids: SampleGrids, balance: float, active_pixels: _ActivePixels
-) -> int:
-    """Fill in the grid of each active pixel; return how many segments they have together."""
-    earlier, later = arrays.earlier.reshape(-1), arrays.later.reshape(-1)
-    forward, backward = arrays.forward.reshape(-1), arrays.backward.reshape(-1)
-    last = grids.parts.size - 1
-    room = 0
-    for k in range(active_pixels.pixel.size):
-        i = active_pixels.pixel[k]
-        displacement2 = 0.0
-        if forward.size:
-            x, y = np.float64(forward[2 * i]), np.float64(forward[2 * i + 1])
-            displacement2 = x * x + y * y
-            x, y = np.float64(backward[2 * i]), np.float64(backward[2 * i + 1])
-            displacement2 = max(displacement2, x * x + y * y)
-        first = np.float64(earlier[i]) + balance
-        second = np.float64(later[i]) + balance
-        low, high = min(first, second), max(first, second)
-        grid = 0
-        while grid < last and not (
-            displacement2 <= grids.max_displacement2[grid] and high <= low * grids.max_ratio[grid]
-        ):
-            grid += 1
-        active_pixels.grid[k] = grid
-        room += grids.parts[grid]
-    return room
-
-
-@jit
 def _warp_active(
     pair: WarpPair,
-    grids: SampleGrids,
-    active_pixels: _ActivePixels,
+    positions: Float64Array,
+    active: NDArray[np.int64],
     room: Room,
-    chosen: NDArray[np.int64],
-    warped: NDArray[np.float32],
+    lumas: NDArray[np.float32],
 ) -> None:
-    """Fill in the luma of the active pixels at the ends of their segments, grid by grid."""
-    pixel, grid_of, start, step = active_pixels
-    points, filled = room.points, 0
-    for grid in range(grids.parts.size):
-        number, segments = 0, grids.parts[grid]
-        for k in range(pixel.size):
-            if grid_of[k] == grid:
-                start[k] = filled + number
-                chosen[number] = pixel[k]
-                number += 1
-        for k in range(pixel.size):
-            if grid_of[k] == grid:
-                step[k] = number
-        if number == 0:
-            continue
-        take_points(pair, chosen[:number], points)
-        for segment in range(segments - 1):
-            place, out = grids.positions[grid, segment], warped[filled : filled + number]
-            if pair.forward.size:
-                warp_points(pair, room, number, place, out)
-            else:
-                _blend(points.earlier, points.later, np.float32(place), out)
-            filled += number
-        warped[filled : filled + number] = points.later[:number]
-        filled += number
-
-
-@jit
-def _blend(
-    earlier: NDArray[np.float32],
-    later: NDArray[np.float32],
-    position: np.float32,
-    out: NDArray[np.float32],
-) -> None:
-    for k in range(out.size):
-        out[k] = earlier[k] + position * (later[k] - earlier[k])
+    """Fill in the luma of active pixels [n] at the ends of the segments, [K + 1, n]."""
+    take_points(pair, active, room.points)
+    for segment in range(positions.size):
+        warp_points(pair, room, active.size, positions[segment], lumas[segment])
+    lumas[positions.size] = room.points.later[: active.size]
 
 
 @jit
 def _list_candidates(
     arrays: PairArrays,
-    grids: SampleGrids,
     levels: ReferenceLevels,
-    active_pixels: _ActivePixels,
-    warped: NDArray[np.float32],
+    active: NDArray[np.int64],
+    lumas: NDArray[np.float32],
     out: tuple[Columns, int],
 ) -> int:
     """List the candidates among some pixels behind those found; return how many there are."""
     earlier = arrays.earlier.reshape(-1)
-    parts = grids.parts
     reference, balance, up, down, rule = levels
     references = reference.reshape(-1)
-    active, chosen, starts, steps = active_pixels
-    (pixel, grid, segment, befores, nows), found = out
+    (pixel, segment, befores, nows), found = out
     for k in range(active.size):
         i = active[k]
         before = earlier[i]
         level = references[i] if references.size else np.float64(before) + balance
         above, below = level * (up * (1.0 - MARGIN)), level * (down * (1.0 + MARGIN))
         is_open: bool | np.bool_ = False
-        place, step = starts[k], steps[k]
-        for j in range(parts[chosen[k]]):
-            now = warped[place]
-            place += step
+        for j in range(len(lumas)):
+            now = lumas[j, k]
             shifted = np.float64(now) + balance
             is_up, is_down = shifted >= above, shifted <= below
             if is_up | is_down:
-                pixel[found] = i
-                grid[found], segment[found] = chosen[k], j
+                pixel[found], segment[found] = i, j
                 befores[found], nows[found] = before, now
                 found += 1
                 level, is_unclear = _move(level, shifted, is_up, is_down, (up, down, rule))
@@ -322,7 +236,6 @@ def _columns(size: int) -> Columns:
     return (
         np.empty(size, np.int64),
         np.empty(size, np.int16),
-        np.empty(size, np.int16),
         np.empty(size, np.float32),
         np.empty(size, np.float32),
     )
@@ -331,26 +244,17 @@ def _columns(size: int) -> Columns:
 @jit
 def _grown(columns: Columns, least: int) -> Columns:
     """The same columns with more room."""
-    pixel, grid, segment, before, now = columns
+    pixel, segment, before, now = columns
     room = 2 * pixel.size + least
-    return (
-        grown(pixel, room),
-        grown(grid, room),
-        grown(segment, room),
-        grown(before, room),
-        grown(now, room),
-    )
+    return grown(pixel, room), grown(segment, room), grown(before, room), grown(now, room)
 
 
 @jit
-def warp_pixels(
-    arrays: PairArrays, pair: WarpPair, position: float, pixel: NDArray[np.int64]
-) -> NDArray[np.float32]:
+def warp_pixels(pair: WarpPair, position: float, pixel: NDArray[np.int64]) -> NDArray[np.float32]:
     """Luma of some pixels of the intermediate frame at a position.
 
     Args:
-        arrays: the pair.
-        pair: the same, prepared.
+        pair: the pair, prepared.
         position: τ, 0 = earlier, 1 = later.
         pixel: [n] flat indices.
 
@@ -360,8 +264,5 @@ def warp_pixels(
     warped = np.empty(pixel.size, np.float32)
     room = make_room(pixel.size)
     take_points(pair, pixel, room.points)
-    if arrays.forward.size:
-        warp_points(pair, room, pixel.size, position, warped)
-    else:
-        _blend(room.points.earlier, room.points.later, np.float32(position), warped)
+    warp_points(pair, room, pixel.size, position, warped)
     return warped

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TypeAlias
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,110 +15,42 @@ from texvent.simulate.fused.definitions import (
     Float64Array,
     PairArrays,
     ReferenceLevels,
-    SampleGrids,
 )
-
-Warp: TypeAlias = Callable[..., NDArray[np.float32]]
-"""`pairs.warp_reference.warp_between`, or its compiled twin."""
 
 
 def find_candidates(
-    arrays: PairArrays, grids: SampleGrids, levels: ReferenceLevels, warp: Warp = warp_between
+    arrays: PairArrays, positions: Float64Array, levels: ReferenceLevels
 ) -> CrossingCandidates:
-    """Every segment at whose end a pixel may fire; see `interface`.
+    """Every segment at whose end a pixel may fire; see `definitions`.
 
     Args:
         arrays: the pair.
-        grids: when pixels are evaluated.
-        levels: what they are compared with.
-        warp: draws a frame between two frames.
+        positions: [K] τ of each intermediate instant.
+        levels: what pixels are compared with.
 
     Returns:
         The candidates by pixel, then by segment.
     """
-    chosen = choose_grids(arrays, grids, levels.balance)
-    found = [CrossingCandidates(*(np.empty(0, kind) for kind in ("i8", "i2", "i2", "f4", "f4")))]
-    for grid in range(len(grids.parts)):
-        pixel = np.flatnonzero(chosen.reshape(-1) == grid)
-        if pixel.size:
-            found += _list_candidates(pixel, grid, (arrays, warp), grids, levels)
-    joined = CrossingCandidates(*(np.concatenate(column) for column in zip(*found, strict=True)))
-    return joined.take(np.lexsort((joined.segment, joined.pixel)))
-
-
-def choose_grids(arrays: PairArrays, grids: SampleGrids, balance: float) -> NDArray[np.int64]:
-    """The grid of each pixel: the first that is fine enough, else the last; [H, W]."""
-    shape = arrays.earlier.shape
-    displacement2 = np.zeros(shape)
-    if arrays.forward.size:
-        for flow in (
-            arrays.forward.astype(np.float64),
-            arrays.backward.astype(np.float64),
-        ):
-            displacement2 = np.maximum(
-                displacement2, flow[..., 0] * flow[..., 0] + flow[..., 1] * flow[..., 1]
-            )
-    first, second = (one.astype(np.float64) + balance for one in arrays[:2])
-    low, high = np.minimum(first, second), np.maximum(first, second)
-    chosen = np.full(shape, len(grids.parts) - 1)
-    for grid in reversed(range(len(grids.parts) - 1)):
-        chosen[
-            (displacement2 <= grids.max_displacement2[grid]) & (high <= low * grids.max_ratio[grid])
-        ] = grid
-    return chosen
-
-
-def _list_candidates(
-    pixel: NDArray[np.int64],
-    grid: int,
-    drawing: tuple[PairArrays, Warp],
-    grids: SampleGrids,
-    levels: ReferenceLevels,
-) -> list[CrossingCandidates]:
-    """The candidates among the pixels of one grid, segment by segment."""
-    arrays, warp = drawing
-    before = arrays.earlier.reshape(-1)[pixel]
-    level = (
-        levels.reference.reshape(-1)[pixel]
-        if levels.reference.size
-        else before.astype(np.float64) + levels.balance
-    )
-    is_open = np.zeros(pixel.size, np.bool_)
+    before = arrays.earlier.reshape(-1)
+    level = before.astype(np.float64) + levels.balance
+    if levels.reference.size:
+        level = levels.reference.reshape(-1)
+    is_open = np.zeros(before.size, np.bool_)
     found = []
-    parts = int(grids.parts[grid])
-    for segment in range(parts):
-        is_last = segment == parts - 1
-        place = float(grids.positions[grid, segment])
-        image = arrays.later if is_last else draw_image(arrays, place, warp)
-        now = image.reshape(-1)[pixel]
+    images = [*(warp_between(*arrays, place) for place in positions.tolist()), arrays.later]
+    for segment, image in enumerate(images):
+        now = image.reshape(-1)
         shifted = now.astype(np.float64) + levels.balance
         is_up = shifted >= level * (levels.up * (1.0 - MARGIN))
         is_down = shifted <= level * (levels.down * (1.0 + MARGIN))
-        listed = is_open | is_up | is_down
-        number = np.count_nonzero(listed)
-        found.append(
-            CrossingCandidates(
-                pixel[listed],
-                np.full(number, grid, np.int16),
-                np.full(number, segment, np.int16),
-                before[listed],
-                now[listed],
-            )
-        )
+        listed = np.flatnonzero(is_open | is_up | is_down)
+        number = np.full(listed.size, segment, np.int16)
+        found.append(CrossingCandidates(listed, number, before[listed], now[listed]))
         level, is_unclear = _moved(level, shifted, is_up, is_down, levels)
-        is_open |= is_unclear & listed
+        is_open |= is_unclear
         before = now
-    return found
-
-
-def draw_image(
-    arrays: PairArrays, position: float, warp: Warp = warp_between
-) -> NDArray[np.float32]:
-    """The whole intermediate frame at a position between the frames, [H, W]."""
-    if arrays.forward.size:
-        return warp(*arrays, position)
-    change = arrays.later - arrays.earlier
-    return arrays.earlier + np.float32(position) * change
+    joined = CrossingCandidates(*(np.concatenate(column) for column in zip(*found, strict=True)))
+    return joined.take(np.lexsort((joined.segment, joined.pixel)))
 
 
 def _moved(

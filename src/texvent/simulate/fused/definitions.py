@@ -7,10 +7,7 @@ pixels of one pair of frames at every intermediate instant and lists each place 
 with a margin (`trigger_levels.MARGIN`). The simulator then decides in NumPy, with its own
 logarithm. Where the margin leaves open whether a pixel fired, all its later instants are listed.
 
-**Sample grids.** When a pixel is evaluated: grid g divides the pair into `parts[g]` segments that
-end at the positions `positions[g, :parts[g] − 1]` and at 1. With one grid, all pixels share the
-instants of the intermediate frames. With several, a pixel takes the first one that is fine enough
-for the length of its flow and for the factor by which its own α + I changes.
+**Segments.** K intermediate instants divide the time between the two frames into K + 1 segments.
 """
 
 from __future__ import annotations
@@ -39,9 +36,9 @@ class PairArrays(NamedTuple):
     later: Float32Array
     """[H, W] luma."""
     forward: Float32Array
-    """[H, W, 2] flow, px; [0, 0, 2] where the frames are blended in place."""
+    """[H, W, 2] flow, px."""
     backward: Float32Array
-    """[H, W, 2] flow, px; [0, 0, 2] where the frames are blended in place."""
+    """[H, W, 2] flow, px."""
 
 
 class PreparedPair(NamedTuple):
@@ -50,19 +47,6 @@ class PreparedPair(NamedTuple):
     pair: Any
     """`pairs.warp_cpu.WarpPair` of its frames."""
     bounds: LumaBounds
-
-
-class SampleGrids(NamedTuple):
-    """When pixels are evaluated between two frames."""
-
-    positions: Float64Array
-    """[G, P] τ of each intermediate instant of each grid; past `parts − 1` not read."""
-    parts: Int64Array
-    """[G] number of segments, increasing."""
-    max_displacement2: Float64Array
-    """[G] squared length of the longest flow that a grid is fine enough for, px²."""
-    max_ratio: Float64Array
-    """[G] largest factor of change that a grid is fine enough for."""
 
 
 class ReferenceLevels(NamedTuple):
@@ -85,10 +69,8 @@ class CrossingCandidates(NamedTuple):
 
     pixel: Int64Array
     """[n] flat index y · W + x."""
-    grid: NDArray[np.int16]
-    """[n] the pixel's grid."""
     segment: NDArray[np.int16]
-    """[n] which segment of it, from 0."""
+    """[n] which segment, from 0."""
     before: Float32Array
     """[n] luma at the start of the segment."""
     now: Float32Array
@@ -97,5 +79,5 @@ class CrossingCandidates(NamedTuple):
     def take(self, rows: Int64Array | slice) -> CrossingCandidates:
         """Some of the candidates, by number."""
         return CrossingCandidates(
-            self.pixel[rows], self.grid[rows], self.segment[rows], self.before[rows], self.now[rows]
+            self.pixel[rows], self.segment[rows], self.before[rows], self.now[rows]
         )

@@ -18,7 +18,6 @@ from texvent.simulate.fused.definitions import (
     Int64Array,
     LumaBounds,
     ReferenceLevels,
-    SampleGrids,
 )
 from texvent.simulate.fused.segments import (
     CROSS_SEGMENTS,
@@ -82,35 +81,32 @@ class SegmentPixels:
     def cross(
         self,
         motion: MotionInterpolation,
-        grids: SampleGrids,
         edges_us: Int64Array,
-        *,
-        bounds: LumaBounds | None = None,
+        bounds: LumaBounds,
     ) -> list[BandEvents]:
         """Events between two source frames, in bands of rows from the top; changes the state.
 
         Args:
-            motion: what lies between the two frames.
-            grids: the segments.
-            edges_us: [G, P + 1] where the segments of each grid begin and end, µs.
-            bounds: of `candidates.find_bounds`, if it was called.
+            motion: what lies between the two frames; with flow.
+            edges_us: [K + 2] where the segments begin and end, µs.
+            bounds: of `candidates.find_bounds`.
         """
         levels = self.levels()
 
         def decide(found: CrossingCandidates) -> BandEvents:
             return self._decide(found, levels.reference, edges_us)
 
-        return map_candidates(decide, motion, grids=grids, levels=levels, bounds=bounds)
+        return map_candidates(decide, motion, levels=levels, bounds=bounds)
 
     def _decide(
         self, found: CrossingCandidates, level: Float64Array, edges_us: Int64Array
     ) -> BandEvents:
         """The events of the candidates of a band; moves their references and levels [H, W]."""
-        pixel, grid, segment, before, now = found
+        pixel, segment, before, now = found
         segments = Segments(
             pixel,
-            edges_us[grid, segment],
-            edges_us[grid, segment + 1],
+            edges_us[segment],
+            edges_us[segment + 1],
             self._scale.brightness_of(before),
             self._scale.brightness_of(now),
         )

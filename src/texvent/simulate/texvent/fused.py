@@ -21,7 +21,6 @@ from texvent.simulate.crossing.trigger_levels import trigger_factors
 from texvent.simulate.fused.candidates import (
     find_bounds,
     map_candidates,
-    one_grid,
     warp_pixels,
 )
 from texvent.simulate.fused.definitions import (
@@ -88,13 +87,7 @@ class FusedPass:
         decide = functools.partial(
             self._decide, earlier=motion.earlier.reshape(-1), memory=memory, parts=len(motion) + 1
         )
-        bands = map_candidates(
-            decide,
-            motion,
-            grids=one_grid(motion.positions),
-            levels=self._levels(pair, memory),
-            bounds=bounds,
-        )
+        bands = map_candidates(decide, motion, levels=self._levels(pair, memory), bounds=bounds)
         return self._timestamp(pair, list(zip(*bands, strict=True)), edges_us)
 
     def _timestamp(

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from texvent.brightness import Float64Array, balanced_log
 from texvent.events import NOISE, EventStream
-from texvent.simulate.backend.select import AUTO
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.sorting import make_packet
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
@@ -136,7 +135,7 @@ def add_noise(
     luma: NDArray[Any],
     fired: NDArray[np.int64],
     span: FrameInterval,
-    backend: str = AUTO,
+    backend: str,
 ) -> UnsortedEvents:
     """Eq. 6, or its ablation E11 ("random"); nothing for E10 ("gaussian"), which shakes brightness.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -17,7 +17,6 @@ from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.stepping import SteppingSimulator
 from texvent.simulate.texvent.config import TexventConfig
-from texvent.simulate.texvent.continuous import ContinuousPixels, continuous_misfit
 from texvent.simulate.texvent.fused import FusedPass
 from texvent.simulate.texvent.pixels import SparsePixels
 from texvent.simulate.texvent.reference import DensePixels
@@ -60,7 +59,6 @@ class TexventSimulator(SteppingSimulator):
         *,
         seed: int = 0,
         backend: str = AUTO,
-        engine: Literal["frames", "continuous"] = "frames",
     ) -> None:
         """Prepare a simulator that has seen no frame.
 
@@ -69,7 +67,6 @@ class TexventSimulator(SteppingSimulator):
             seed: of noise and random times, 0..2⁶³−1.
             backend: "auto", "cpu", "numpy", "reference" or "gpu": which kernels scan the pixels.
                 All give the same events; `texvent.simulate.gpu` says how nearly.
-            engine: "frames" evaluates pixels at Eq. 4's instants, "continuous" along their paths.
 
         Raises:
             ConfigError: the seed is out of range, the backend unknown, or it is "gpu" and there is
@@ -80,14 +77,8 @@ class TexventSimulator(SteppingSimulator):
         self.config = config or TexventConfig()
         self._seed = int(seed)
         self._backend = check_backend(backend, has_gpu=True)
-        self._is_continuous = engine == "continuous"
         self._forgets = self.config.cache in ("local", "none")
         self.reset()
-
-    @staticmethod
-    def continuous_misfit(config: TexventConfig) -> str | None:
-        """What the options must be in continuous time, if they are not; see `fused.continuous`."""
-        return continuous_misfit(config)
 
     @property
     def contrast_threshold(self) -> float:
@@ -104,7 +95,6 @@ class TexventSimulator(SteppingSimulator):
         self._checker = StreamChecker()
         self._pixels: DensePixels | SparsePixels | None = None
         self._last: Frame | None = None
-        self._continuous: ContinuousPixels | None = None
         self._fused = FusedPass(self.config, self._seed)
         self._on_gpu: Any = None
         if self._backend == GPU:
@@ -114,9 +104,6 @@ class TexventSimulator(SteppingSimulator):
 
     def advance(self, pair: FramePair) -> Iterator[tuple[Frame, EventStream]]:
         """Events between two frames; see `simulate.protocol.Simulator.advance`."""
-        if self._is_continuous:
-            yield pair.second, self._cross_pair(pair)
-            return
         is_drawn = (
             pair.first is None
             or self._backend not in (AUTO, "cpu")
@@ -146,19 +133,6 @@ class TexventSimulator(SteppingSimulator):
             self._pixels = None
         self._checker.accept(pair.second)
         self._last = pair.second
-
-    def _cross_pair(self, pair: FramePair) -> EventStream:
-        """All events of a pair, in continuous time."""
-        where = self._checker.check_order(pair.second)
-        check_intensity(pair.second.pixels, where)
-        if self._continuous is None:
-            self._continuous = ContinuousPixels(self.config, self._seed, pair.second)
-            span = FrameInterval(pair.second.t_us, pair.second.t_us, np.uint64(0))
-            packet = make_packet(UnsortedEvents.none(), span, pair.second.size)
-        else:
-            packet = self._continuous.advance(pair)
-        self._checker.accept(pair.second)
-        return packet
 
     def step(self, frame: Frame) -> EventStream:
         """Events in `[t of the frame before, t of this frame)`, sorted; none for the first frame.
