@@ -22,8 +22,6 @@ FloatImage = NDArray[np.float32]
 Flows = tuple[NDArray[np.float32], NDArray[np.float32]]
 
 WARP = "texvent.pairs.warp_cpu"
-NO_FLOW = read_only(np.empty((0, 0, 2), np.float32))
-"""Stands for the flow of frames that are blended in place."""
 DRAWN_BYTES = 16 << 20
 """Moved frames are drawn a few at a time, which is faster; this much of them at most."""
 
@@ -107,9 +105,10 @@ class MotionInterpolation:
 
     @cached_property
     def prepared(self) -> Any:
-        """The pair as the compiled kernels read it, a `pairs.warp_cpu.WarpPair`."""
-        flows = self.flows or (NO_FLOW, NO_FLOW)
-        return load_warp().prepare_pair(self.earlier, self.later, *flows)
+        """The pair as the compiled kernels read it, a `pairs.warp_cpu.WarpPair`; only with flow."""
+        if self.flows is None:
+            raise ValueError("the frames of the pair are blended, and no pixel moves")
+        return load_warp().prepare_pair(self.earlier, self.later, *self.flows)
 
 
 class UndrawnFrame(Frame):

@@ -130,10 +130,7 @@ def warp_between(
 
 
 def prepare_pair(first: Floats, second: Floats, forward: Floats, backward: Floats) -> WarpPair:
-    """What all intermediate frames of a pair share; see `warp_between`.
-
-    The arrays may be empty where no frame is drawn.
-    """
+    """What all intermediate frames of a pair share; see `warp_between`."""
     # Read-only throughout, because Numba compiles for each kind of array again.
     frames = [read_only(first), read_only(second)]
     pixels = [read_only(_with_neighbours(frame)) for frame in frames]

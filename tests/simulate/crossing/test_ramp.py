@@ -10,7 +10,7 @@ from texvent.errors import ConfigError
 from texvent.simulate.crossing.ramp import Ramp, RefractoryPeriod
 from texvent.simulate.crossing.ramp_reference import cross_ramp
 from texvent.simulate.esim.crossings import CROSS_THRESHOLDS, RampPixels
-from texvent.simulate.fused.segments import CrossingState
+from texvent.simulate.esim.segments import CrossingState
 from texvent.simulate.random.mismatch import Thresholds
 
 SHAPE = (12,)

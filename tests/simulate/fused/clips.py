@@ -63,8 +63,8 @@ def readable(video: Video, options: dict[str, Any]) -> list[Any]:
 
 def wait_for_kernels() -> None:
     """Return when the fused kernels are compiled."""
-    for name in ("candidates", "segments"):
-        wait_until_ready(f"texvent.simulate.fused.{name}_cpu")
+    for name in ("fused.candidates", "esim.segments"):
+        wait_until_ready(f"texvent.simulate.{name}_cpu")
 
 
 def fused(video: Video, options: dict[str, Any]) -> list[Any]:

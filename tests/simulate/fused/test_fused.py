@@ -14,10 +14,11 @@ from hypothesis import strategies as st
 import texvent
 from texvent.errors import InputError
 from texvent.pairs.motion_interpolation import MotionInterpolation, UndrawnFrame
+from texvent.simulate.esim import segments_reference
 from texvent.simulate.esim import simulator as esim_simulator
-from texvent.simulate.fused import candidates, segments_reference
+from texvent.simulate.esim.segments import CROSS_SEGMENTS
+from texvent.simulate.fused import candidates
 from texvent.simulate.fused.candidates import compiled_kernels, find_bounds
-from texvent.simulate.fused.segments import CROSS_SEGMENTS
 from texvent.simulate.texvent import fused as texvent_fused
 from texvent.video import Frame, Video
 

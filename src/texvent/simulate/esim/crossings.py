@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from texvent.simulate.backend.select import Kernel
 from texvent.simulate.crossing.ramp import RefractoryPeriod
-from texvent.simulate.fused.segments import CrossingState
+from texvent.simulate.esim.segments import CrossingState
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.random.mismatch import Thresholds
 

@@ -21,7 +21,7 @@ from texvent.simulate.crossing.ramp_cpu import (
 )
 from texvent.simulate.esim import reference
 from texvent.simulate.esim.crossings import Float64Array, RampPixels
-from texvent.simulate.fused.segments import CrossingState
+from texvent.simulate.esim.segments import CrossingState
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.sorting_cpu import sort_keyed_events
 from texvent.simulate.random.mismatch import Thresholds

@@ -8,7 +8,7 @@ from texvent.events import SIGNAL
 from texvent.simulate.crossing.ramp import Ramp, RefractoryPeriod
 from texvent.simulate.crossing.ramp_reference import cross_ramp
 from texvent.simulate.esim.crossings import RampPixels
-from texvent.simulate.fused.segments import CrossingState
+from texvent.simulate.esim.segments import CrossingState
 from texvent.simulate.packets.sorting import SortedEvents
 from texvent.simulate.packets.sorting_reference import sort_events
 from texvent.simulate.packets.unsorted_events import UnsortedEvents

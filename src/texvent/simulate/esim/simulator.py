@@ -21,10 +21,10 @@ from texvent.simulate.crossing.ramp import RefractoryPeriod
 from texvent.simulate.crossing.trigger_levels import LOOK_UP, BrightnessCurve, TriggerLevels
 from texvent.simulate.esim.config import WHITE, EsimConfig
 from texvent.simulate.esim.crossings import CROSS_THRESHOLDS, RampPixels
+from texvent.simulate.esim.segment_pixels import BandEvents, LogScale, SegmentPixels
+from texvent.simulate.esim.segments import CrossingRules, CrossingState
 from texvent.simulate.fused.candidates import find_bounds
 from texvent.simulate.fused.definitions import Float64Array, LumaBounds
-from texvent.simulate.fused.segment_pixels import BandEvents, LogScale, SegmentPixels
-from texvent.simulate.fused.segments import CrossingRules, CrossingState
 from texvent.simulate.packets.interval import FrameInterval
 from texvent.simulate.packets.sorting import SortedEvents, make_packet
 from texvent.simulate.packets.unsorted_events import UnsortedEvents

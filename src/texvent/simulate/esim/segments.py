@@ -1,7 +1,8 @@
 """Threshold crossings of brightness that is piecewise linear in time, pixel by pixel.
 
-The pixel is ESIM's: it compares brightness with a reference, fires at every threshold crossed, at
-the time of the crossing, and its reference moves in steps.
+The pixel compares brightness with a reference, fires at every threshold crossed, at the time of
+the crossing, and its reference moves in steps. The fused pass lists some segments of some pixels;
+`crossings.py` is for whole frames.
 """
 
 from __future__ import annotations

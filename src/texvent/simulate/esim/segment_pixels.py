@@ -10,6 +10,12 @@ from numpy.typing import NDArray
 
 from texvent.pairs.motion_interpolation import MotionInterpolation
 from texvent.simulate.crossing.trigger_levels import trigger_factors
+from texvent.simulate.esim.segments import (
+    CROSS_SEGMENTS,
+    CrossingRules,
+    CrossingState,
+    Segments,
+)
 from texvent.simulate.fused.candidates import map_candidates
 from texvent.simulate.fused.definitions import (
     STEPS,
@@ -18,12 +24,6 @@ from texvent.simulate.fused.definitions import (
     Int64Array,
     LumaBounds,
     ReferenceLevels,
-)
-from texvent.simulate.fused.segments import (
-    CROSS_SEGMENTS,
-    CrossingRules,
-    CrossingState,
-    Segments,
 )
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
 

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from texvent.simulate.fused.segments import CrossingRules, CrossingState, SegmentCrossings, Segments
+from texvent.simulate.esim.segments import CrossingRules, CrossingState, SegmentCrossings, Segments
 
 
 def cross_segments(
@@ -28,7 +28,7 @@ def cross_segments(
         The events, times rounded down, never the stop of their segment.
 
     Source: Rebecq, Gehrig and Scaramuzza, "ESIM: an open event camera simulator", CoRL 2018,
-        section 3.1, where samples are taken as often as the scene needs, at each pixel.
+        section 3.1.
     """
     events = []
     for row, segment in enumerate(zip(*(one.tolist() for one in segments), strict=True)):

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
 from texvent.simulate.backend.lanes_cpu import grown
-from texvent.simulate.fused.segments import CrossingRules, CrossingState, SegmentCrossings, Segments
+from texvent.simulate.esim.segments import CrossingRules, CrossingState, SegmentCrossings, Segments
 
 Events = tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.uint8]]
 
@@ -17,7 +17,7 @@ Events = tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.uint8]]
 def cross_segments(
     segments: Segments, rules: CrossingRules, state: CrossingState
 ) -> SegmentCrossings:
-    """Every threshold that brightness crosses; see `pieces_reference.cross_segments`."""
+    """Every threshold that brightness crosses; see `segments_reference.cross_segments`."""
     found, (row, t, p) = _cross(segments, rules, state)
     return SegmentCrossings(row[:found], t[:found], p[:found])
 
