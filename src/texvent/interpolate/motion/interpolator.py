@@ -15,6 +15,8 @@ from texvent.pairs.instants import check_between, float_luma, position
 from texvent.runtime.threads import count_threads, run_parts
 from texvent.video import FlickeringStream, Frame, FrameStream, MovingStream
 
+MOST_AT_ONCE = 8
+"""Intermediate frames that are drawn at a time, each by a thread."""
 MOST_RENDERED = 0.15
 """Share of the pixels that motion does not tell; above it, frames are rendered whole where they
 can be."""
@@ -31,7 +33,7 @@ class MotionInterpolator:
         of splats as in Niklaus and Liu, Softmax splatting (CVPR 2020), with depth for their weight.
     """
 
-    bytes_per_pixel: ClassVar[int] = 600
+    bytes_per_pixel: ClassVar[int] = 1200
 
     def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
         del config  # an argument of every interpolator; not used here
@@ -46,26 +48,31 @@ class MotionInterpolator:
             second: the later source frame, with motion.
             times_us: times of the intermediate frames, µs.
 
-        Yields:
-            One frame per time, [H, W] float32 luma, 0..255 scale.
+        Returns:
+            One frame per time, [H, W] float32 luma, 0..255 scale, drawn while they are read.
 
         Raises:
             InputError: the frames differ in size, a time is not between theirs, or neither frame
                 has vectors to the other.
         """
         check_between(first, second, times_us)
-        if self._beats and self._stream is not None:
-            yield from _rendered(self._stream, times_us)
-            return
+        if self._stream is not None and self._beats:
+            return _rendered(self._stream, times_us)
+        # Now, not at the first frame: this may run in the prefetch thread.
         pair = MotionPair.of(first, second)
-        step = max(1, count_threads())
-        for start in range(0, len(times_us), step):
-            chosen = times_us[start : start + step]
-            drawn = run_parts(lambda t_us: pair.draw(position(first, second, t_us)), chosen)
+        return self._draw(pair, [position(first, second, t_us) for t_us in times_us], times_us)
+
+    def _draw(
+        self, pair: MotionPair, places: Sequence[float], times_us: Sequence[int]
+    ) -> Iterator[Frame]:
+        """Frames at τ = `places`, a few at a time; what motion does not tell is rendered."""
+        step = max(1, min(count_threads(), MOST_AT_ONCE))
+        for start in range(0, len(places), step):
+            drawn = run_parts(pair.draw, places[start : start + step])
             if self._stream is not None and np.mean(drawn[0][1] == MIXED) > MOST_RENDERED:
                 yield from _rendered(self._stream, times_us[start:])
                 return
-            for (image, kind), t_us in zip(drawn, chosen, strict=True):
+            for (image, kind), t_us in zip(drawn, times_us[start:], strict=False):
                 if self._stream is not None:
                     wanted = _grown(kind == MIXED)
                     image[wanted] = self._stream.luma_of(t_us, wanted)

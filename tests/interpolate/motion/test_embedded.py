@@ -1,0 +1,79 @@
+"""Embedded scenes: motion is followed, what it does not tell is rendered."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from texvent.config import InterpolateConfig
+from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
+from texvent.interpolate.motion.interpolator import MotionInterpolator
+from texvent.metrics.compare import compare
+from texvent.pipeline import Simulation
+from texvent.run.settings import resolve
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(80, 60)
+
+
+def video(prompt: str, **options):
+    config = ProceduralConfig(duration=0.2, **options)
+    return ProceduralGenerator(config, seed=1, size=SIZE).generate(prompt)
+
+
+def test_frames_agree_with_those_rendered_at_the_instant():
+    moving = video("a dog runs across a meadow").with_motion()
+    first, second = list(moving)[1:3]
+    times = [first.t_us + 5_000, first.t_us + 21_000, first.t_us + 33_000]
+    interpolator = MotionInterpolator(InterpolateConfig(interpolate="motion"), moving)
+    for frame in interpolator.between(first, second, times):
+        off = np.abs(frame.pixels - moving.at(frame.t_us).luma)
+        assert not frame.is_source
+        assert np.mean(off > 3.0) < 0.003
+        assert np.median(off) < 0.05
+
+
+def test_motion_of_frames_is_the_ground_truth():
+    moving = video("a red car drives left").with_motion()
+    frames = list(moving)
+    truth = moving.ground_truth(frames[1].t_us, frames[2].t_us)
+    back = moving.ground_truth(frames[1].t_us, frames[0].t_us)
+    motion = frames[1].motion
+    assert motion.forward == pytest.approx(truth.flow, abs=1e-4, nan_ok=True)
+    assert motion.backward == pytest.approx(back.flow, abs=1e-4, nan_ok=True)
+    assert motion.depth == pytest.approx(truth.depth)
+    assert frames[0].motion.backward is None
+    assert frames[-1].motion.forward is None
+
+
+def test_chosen_pixels_are_those_of_the_whole_frame():
+    scene = video("a man walks past a house")
+    wanted = np.random.default_rng(0).random(SIZE.shape) < 0.2
+    whole = scene.at(70_000).luma
+    # A pixel rendered alone looks for shadow at each of its probes, not at every other one.
+    assert np.mean(np.abs(scene.luma_of(70_000, wanted) - whole[wanted]) > 1e-3) < 0.01
+
+
+@pytest.mark.parametrize("prompt", ["a ball bounces on a table", "the camera flies over a city"])
+def test_events_agree_with_those_of_every_instant_rendered(prompt):
+    streams = {}
+    for interpolate in ("motion", "exact"):
+        options = {"interpolate": interpolate, "count": "fixed", "fixed_count": 12}
+        settings = resolve("generate", {**options, "simulator": "esim"})
+        run = Simulation(video=video(prompt), settings=settings)
+        streams[interpolate] = run.packets.collect()
+    assert compare(streams["motion"], streams["exact"], ["stpp"])["stpp"] > 0.93
+
+
+def test_light_that_beats_is_rendered_at_every_instant():
+    scene = video("a ball on a table, flickering at 100 Hz")
+    assert scene.flicker_hz == 100
+    moving = scene.with_motion()
+    first, second = list(moving)[:2]
+    interpolator = MotionInterpolator(InterpolateConfig(interpolate="motion"), moving)
+    for frame in interpolator.between(first, second, [2_500, 7_500]):
+        assert frame.pixels == pytest.approx(moving.at(frame.t_us).luma)
+
+
+def test_the_default_of_embedded_scenes_is_motion():
+    assert resolve("generate", {}).interpolate.interpolate == "motion"
