@@ -61,7 +61,7 @@ class Piece(NamedTuple):
     """Of ln depth within its layer."""
 
 
-@jit
+@jit(inner=True)
 def make_room(height: int, width: int) -> Room:
     """Room for an image of which nothing is known."""
     return Room(
@@ -73,7 +73,7 @@ def make_room(height: int, width: int) -> Room:
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def splat(pieces: Floats, s: np.float32, index: int, room: Room) -> None:
     """Collect all pieces of a frame at `s` of their paths, as if there were one layer.
 
@@ -104,7 +104,7 @@ def splat(pieces: Floats, s: np.float32, index: int, room: Room) -> None:
                 _add(places, row * width + column, index, piece, across * down)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def number_meetings(room: Room) -> Numbers:
     """Number the pixels in which two layers meet, and clear what they collected.
 
@@ -124,7 +124,7 @@ def number_meetings(room: Room) -> Numbers:
     return pixels[: count + 1].copy()
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def splat_meetings(
     pieces: Floats,
     chosen: Numbers,
@@ -162,7 +162,7 @@ def splat_meetings(
                     _add(behind.places, meeting, index, piece, across * down)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _piece_at(pieces: Floats, k: int, s: np.float32) -> Piece:
     """Piece `k` at `s` of its path."""
     return Piece(
@@ -174,7 +174,7 @@ def _piece_at(pieces: Floats, k: int, s: np.float32) -> Piece:
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _rectangle(
     pieces: Floats, k: int, s: np.float32, x: np.float32, y: np.float32
 ) -> tuple[np.float32, np.float32, np.float32, np.float32]:
@@ -185,7 +185,7 @@ def _rectangle(
     return x + half - wide, x + half + wide, y + half - high, y + half + high
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _add(places: Floats, row: int, index: int, piece: Piece, weight: np.float32) -> None:
     places[row, index] += weight
     places[row, index + 1] -= weight * piece.shift_x
@@ -194,7 +194,7 @@ def _add(places: Floats, row: int, index: int, piece: Piece, weight: np.float32)
     places[row, index + 4] += weight * piece.tolerance
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def find_meeting_pieces(pieces: Floats, s: np.float32, number: Numbers) -> Numbers:
     """Indices of the pieces that may reach a pixel in which two layers meet."""
     height, width = number.shape
