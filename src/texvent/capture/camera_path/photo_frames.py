@@ -23,7 +23,7 @@ PX_ALONG = 16
 """A larger image is averaged in whole blocks first, so that this many of its px, up to twice as
 many, lie along a px of the sensor."""
 PX_ALONG_DEPTH = 2
-"""The same of images with depth, of which every px is drawn as a piece."""
+"""About as many of images with depth, of which every px is drawn as a piece."""
 NEAR_PERCENT, FAR_PERCENT = 1.0, 99.0
 """Percentiles of depth that count as nearest and farthest."""
 
@@ -66,8 +66,8 @@ class PhotoFrames:
         places = [self.path(float(t_us)) for t_us in times]
         start = View(image, self.sensor or image, 1.0, self.focal_px, reference)
         view = fitted_view(start, places, nearness, is_pixelwise=self.sensor is None)
-        px_along = PX_ALONG if self.depth is None else PX_ALONG_DEPTH
-        levels, view, block = _averaged(self.levels, view, px_along)
+        wanted = view.scale // PX_ALONG if self.depth is None else view.scale / PX_ALONG_DEPTH
+        levels, view, block = _averaged(self.levels, view, max(1, round(wanted)))
         object.__setattr__(self, "view", view)
         object.__setattr__(self, "_block", block)
         object.__setattr__(self, "_levels", levels)
@@ -173,10 +173,9 @@ def _depths(depth: NDArray[np.float32] | None) -> tuple[float, float, float]:
 
 
 def _averaged(
-    levels: NDArray[np.float32], view: View, px_along: int
+    levels: NDArray[np.float32], view: View, block: int
 ) -> tuple[NDArray[np.float32], View, int]:
     """The image averaged in whole blocks, the same view of it, and the side of the blocks."""
-    block = max(1, int(view.scale // px_along))
     width, height = view.image.width // block, view.image.height // block
     if block == 1 or not (width and height):
         return np.ascontiguousarray(levels), view, 1

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,6 +38,8 @@ class Surfaces:
     hidden_px: int = 0
     """Px by which farther surfaces go on behind nearer ones."""
     _layers: tuple[_Layer, ...] = field(init=False, repr=False)
+    _order: NDArray[np.int64] = field(init=False, repr=False)
+    """Places of all pieces, nearest first, when the camera has not moved."""
 
     def __post_init__(self) -> None:
         pad = (self.margin, self.margin)
@@ -45,12 +48,16 @@ class Surfaces:
         whole = np.ones(depth.shape, np.bool_)
         front = _Layer(levels, depth, whole)
         behind = _behind(levels, depth, min(self.hidden_px, MOST_HIDDEN))
-        object.__setattr__(self, "_layers", (front, behind) if behind.kept.any() else (front,))
+        layers = (front, behind) if behind.kept.any() else (front,)
+        object.__setattr__(self, "_layers", layers)
+        order = np.argsort(np.concatenate([one.depth[one.kept] for one in layers]), kind="stable")
+        object.__setattr__(self, "_order", order)
 
     def pieces(self, place: Place | Pose) -> Float64Array:
         """[n, 6] as `draw_pieces` takes them, nearest first."""
-        parts = [self._of_layer(layer, place) for layer in self._layers]
-        pieces = np.concatenate(parts)
+        pieces = np.concatenate([self._of_layer(layer, place) for layer in self._layers])
+        if isinstance(place, Place):  # such a camera changes no depth
+            return pieces[self._order]
         return pieces[np.argsort(pieces[:, 5], kind="stable")]
 
     def project(
@@ -109,8 +116,11 @@ class Surfaces:
         half = growth * (0.5 * zoom / self.view.scale)
         left, right = _edges(shown[..., 0], half, layer.joined_x)
         top, bottom = (one.T for one in _edges(shown[..., 1].T, half.T, layer.joined_y.T))
-        pieces = np.stack([left, right, top, bottom, layer.levels, depth], axis=-1)[layer.kept]
-        return np.asarray(pieces[~np.isnan(pieces[:, :4]).any(axis=1)])
+        columns = left, right, top, bottom, layer.levels, depth
+        pieces = np.stack([one[layer.kept] for one in columns], axis=-1)
+        if isinstance(place, Pose):
+            pieces = pieces[~np.isnan(pieces[:, :4]).any(axis=1)]
+        return np.asarray(pieces)
 
 
 NEAREST = 1e-3
@@ -125,12 +135,12 @@ class _Layer:
     depth: Float64Array
     kept: NDArray[np.bool_]
 
-    @property
+    @cached_property
     def joined_x(self) -> NDArray[np.bool_]:
         """[H, W - 1] whether a piece and its right neighbour are of one surface."""
         return _near(self.depth[:, 1:], self.depth[:, :-1]) & self.kept[:, 1:] & self.kept[:, :-1]
 
-    @property
+    @cached_property
     def joined_y(self) -> NDArray[np.bool_]:
         """[H - 1, W] the same for the neighbour below."""
         return _near(self.depth[1:], self.depth[:-1]) & self.kept[1:] & self.kept[:-1]
