@@ -131,3 +131,11 @@ def test_one_surface_has_no_gaps(x, y, zoom):
     out, _, covered = draw(surfaces, Place(x, y, 0.0, zoom))
     np.testing.assert_allclose(covered, 1, atol=0.05)
     assert levels.min() - 1e-3 <= out.min() <= out.max() <= levels.max() + 1e-3
+
+
+def test_behind_a_near_thing_goes_on_what_is_beside_it_not_what_is_farthest():
+    levels, depth = two_planes(height=6)
+    levels[0], depth[0] = 250.0, np.inf  # a sky above the wall
+    out, _, _ = draw(surfaces_of(levels, depth), Place(x=1.0))
+    np.testing.assert_allclose(out[2, 5], 80, atol=1e-4)
+    np.testing.assert_allclose(out[0], 250, atol=1e-4)

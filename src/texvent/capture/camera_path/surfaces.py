@@ -123,6 +123,14 @@ class Surfaces:
         return np.asarray(pieces)
 
 
+ALL, LATER, EARLIER = slice(None), slice(1, None), slice(None, -1)
+NEIGHBOURS = (
+    ((ALL, LATER), (ALL, EARLIER)),
+    ((ALL, EARLIER), (ALL, LATER)),
+    ((LATER, ALL), (EARLIER, ALL)),
+    ((EARLIER, ALL), (LATER, ALL)),
+)
+"""Pixels, and their neighbours on the left, on the right, above and below."""
 NEAREST = 1e-3
 """What comes nearer than this share of its first depth is behind the camera, or as good as."""
 
@@ -163,20 +171,17 @@ def _edges(
 
 
 def _behind(levels: Float64Array, depth: Float64Array, reach: int) -> _Layer:
-    """What goes on behind nearer surfaces: farther neighbours, step by step."""
+    """What goes on behind nearer surfaces: the next farther one in the row, else in the column."""
     levels, far = levels.copy(), depth.copy()
+    is_open = np.ones(depth.shape, np.bool_)
     for _ in range(reach):
         before, level_before = far.copy(), levels.copy()
-        for axis, step in ((0, 1), (0, -1), (1, 1), (1, -1)):
-            here = [slice(None), slice(None)]
-            there = [slice(None), slice(None)]
-            here[axis] = slice(1, None) if step > 0 else slice(None, -1)
-            there[axis] = slice(None, -1) if step > 0 else slice(1, None)
-            to, of = tuple(here), tuple(there)
-            is_farther = before[of] > far[to] * (1 + ONE_SURFACE)
+        for to, of in NEIGHBOURS:
+            is_farther = is_open[to] & (before[of] > depth[to] * (1 + ONE_SURFACE))
             far[to] = np.where(is_farther, before[of], far[to])
             levels[to] = np.where(is_farther, level_before[of], levels[to])
-    return _Layer(levels, far, far != depth)
+            is_open[to] &= ~is_farther
+    return _Layer(levels, far, ~is_open)
 
 
 def _turn(roll: float) -> Float64Array:
