@@ -161,7 +161,8 @@ def simulate(
 
     Args:
         source: a video file, an image folder, a camera or network address, an array [N, H, W] or
-            [N, H, W, 3] (uint8, uint16, or float on the 0..255 scale), or a FrameStream.
+            [N, H, W, 3] (uint8, uint16, or float on the 0..255 scale), or a FrameStream; with
+            `camera`, such as "saccade", a still image: its file, or an array [H, W] or [H, W, 3].
         t_us: frame times, µs, for arrays; otherwise give `fps`.
         prompt: what the video shows, stored with the events.
         as_packets: give packets one by one, with flat memory, instead of one stream.

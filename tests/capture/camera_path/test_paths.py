@@ -1,5 +1,7 @@
 """Paths of the camera: presets, and trajectory files good and bad."""
 
+import contextlib
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -166,3 +168,14 @@ def test_any_path_goes_through_its_rows_and_is_finite_between(tmp_path_factory, 
     for index, (x, y) in enumerate(rows):
         assert (path(1e6 * index).x, path(1e6 * index).y) == pytest.approx((x, y), abs=1e-6)
     assert np.isfinite([path(t_us).x, path(t_us).y]).all()
+
+
+WORDS = st.sampled_from(["0", "1", "-2.5", "1e9", "nan", "t", ",", "#", "\x00", "1/0", "\u0661"])
+
+
+@given(st.lists(st.lists(WORDS, max_size=9), max_size=5))
+def test_any_text_is_read_or_refused_as_such(tmp_path_factory, rows):
+    file = tmp_path_factory.mktemp("paths") / "path.txt"
+    file.write_text("\n".join(" ".join(row) for row in rows))
+    with contextlib.suppress(InputError, FileFormatError):
+        assert read_trajectory(file)(1e5) is not None

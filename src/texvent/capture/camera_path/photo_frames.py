@@ -17,7 +17,7 @@ from texvent.runtime.threads import count_threads, run_parts
 from texvent.sensor import SensorSize
 from texvent.video import Frame, Motion, describe_stream, frame_time_us
 
-INSTANTS = 1000
+INSTANTS = 300
 """Instants of a path that are looked at to find the scale."""
 PX_ALONG = 16
 """A larger image is averaged in whole blocks first, so that this many of its px, up to twice as

@@ -14,7 +14,7 @@ from texvent.errors import InputError
 from texvent.sensor import SensorSize
 
 Float64Array = NDArray[np.float64]
-STEPS = 50
+STEPS = 30
 """Halvings of the interval in which the scale is looked for."""
 MOST_REACH = 3.0
 """The mirrored image reaches from -3 to 3 if the image reaches from -1 to 1."""
