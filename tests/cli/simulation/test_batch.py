@@ -10,6 +10,8 @@ import sys
 import time
 from pathlib import Path
 
+import cv2
+import numpy as np
 import pytest
 
 import texvent
@@ -50,6 +52,23 @@ def test_a_sample_can_be_made_alone_with_its_seed(folder, capsys):
     seed = texvent.load("p/dog.h5").metadata["seed"]
     assert run("generate", "a dog runs", "-o", "alone.h5", "--seed", seed, *QUICK) == 0
     assert texvent.load("alone.h5").equals(texvent.load("p/dog.h5"))
+
+
+def test_images_of_a_folder_each_shake_in_their_own_way(folder, capsys):
+    rows, columns = np.mgrid[:40, :60]
+    image = np.uint8(127 + 100 * np.sin(columns / 2) * np.cos(rows / 3))
+    (folder / "photos").mkdir()
+    for name in ("a.png", "b.png"):
+        cv2.imwrite(str(folder / "photos" / name), image)
+    words = ("batch", "photos", "--camera", "shake", "--duration", 0.1, "--noise", "none")
+    assert run(*words, "-o", "out", "--events-only") == 0
+    one, other = (texvent.load(path) for path in sorted((folder / "out").glob("*.h5")))
+    assert len(one) and not one.equals(other)
+    alone = {"camera": "shake", "duration": 0.1, "noise": "none", "seed": one.metadata["seed"]}
+    assert texvent.simulate(folder / "photos" / "a.png", **alone).equals(one)
+    capsys.readouterr()
+    assert run(*words, "-o", "out", "--events-only") == 0
+    assert "kept     2 of 2 samples" in capsys.readouterr().err
 
 
 def test_a_batch_goes_on_where_it_was(folder, capsys):
