@@ -63,7 +63,8 @@ def test_images_of_a_folder_each_shake_in_their_own_way(folder, capsys):
     words = ("batch", "photos", "--camera", "shake", "--duration", 0.1, "--noise", "none")
     assert run(*words, "-o", "out", "--events-only") == 0
     one, other = (texvent.load(path) for path in sorted((folder / "out").glob("*.h5")))
-    assert len(one) and not one.equals(other)
+    assert len(one)
+    assert not one.equals(other)
     alone = {"camera": "shake", "duration": 0.1, "noise": "none", "seed": one.metadata["seed"]}
     assert texvent.simulate(folder / "photos" / "a.png", **alone).equals(one)
     capsys.readouterr()
