@@ -21,7 +21,7 @@ balance = 12.5
 def test_a_video_keeps_its_size_and_a_scene_is_davis346():
     assert resolve("simulate", {}).size is None
     assert resolve("generate", {}).size == (346, 260)
-    assert resolve("generate", {}).interpolate.interpolate == "exact"
+    assert resolve("generate", {}).interpolate.interpolate == "motion"
 
 
 def test_precedence_is_preset_then_file_then_option(tmp_path):

@@ -17,7 +17,7 @@ from typing import Any
 from texvent.pipeline import Simulation
 from texvent.run.files import RunFiles, write_run
 from texvent.sensor import SensorSize
-from texvent.video import Frame, FrameStream, RenderableStream
+from texvent.video import Frame, FrameStream, MovingStream, RenderableStream
 from texvent.view.page.sample import SAMPLE_EVENTS
 
 EXCERPTS = 5
@@ -82,6 +82,9 @@ def estimate_run(simulation: Simulation, files: RunFiles) -> Estimate:
         InputError: the frames cannot be used.
     """
     video = simulation.video
+    if simulation.settings.interpolate.interpolate == "motion" and isinstance(video, MovingStream):
+        video = video.with_motion()
+        simulation = replace(simulation, video=video)
     total = None if video.frame_count is None else max(video.frame_count - 1, 0)
     with tempfile.TemporaryDirectory(prefix="texvent-estimate-") as folder:
         scratch = _Scratch(simulation, files, Path(folder))
@@ -239,6 +242,13 @@ class _SceneExcerpt(_RenderableExcerpt):
     def ground_truth(self, t0_us: int, t1_us: int) -> Any:
         whole: Any = self.whole
         return whole.ground_truth(t0_us, t1_us)
+
+    def with_motion(self) -> _SceneExcerpt:
+        return self
+
+    def luma_of(self, t_us: int, wanted: Any) -> Any:
+        whole: Any = self.whole
+        return whole.luma_of(t_us, wanted)
 
     def camera_at(self, t_us: int) -> Any:
         whole: Any = self.whole

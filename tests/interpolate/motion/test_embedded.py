@@ -73,7 +73,3 @@ def test_light_that_beats_is_rendered_at_every_instant():
     interpolator = MotionInterpolator(InterpolateConfig(interpolate="motion"), moving)
     for frame in interpolator.between(first, second, [2_500, 7_500]):
         assert frame.pixels == pytest.approx(moving.at(frame.t_us).luma)
-
-
-def test_the_default_of_embedded_scenes_is_motion():
-    assert resolve("generate", {}).interpolate.interpolate == "motion"

@@ -223,7 +223,7 @@ def test_the_frames_of_the_video_are_used_unless_asked_otherwise():
         asked = resolve(command, {"simulator": "v2ce", "interpolate": "blend"})
         assert asked.interpolate.interpolate == "blend"
     assert resolve("simulate", {}).interpolate.interpolate == "flow"
-    assert resolve("generate", {}).interpolate.interpolate == "exact"
+    assert resolve("generate", {}).interpolate.interpolate == "motion"
 
 
 def test_a_run_uses_whole_sequences(model, weights):
