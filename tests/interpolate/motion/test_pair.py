@@ -177,6 +177,19 @@ def test_frames_at_rest_are_mixed_in_place():
     assert (kind == FOLLOWED).all()
 
 
+def test_where_no_path_leads_both_frames_are_mixed_and_nothing_is_known():
+    first, second = moving_texture(2.0, 0.0)
+    forward, backward = first.motion.forward.copy(), second.motion.backward.copy()
+    forward[3:8, 3:9] = backward[3:8, 3:9] = np.nan
+    frames = (
+        Frame(first.pixels, 0, motion=Motion(forward=forward, depth=FLAT)),
+        Frame(second.pixels, 1000, motion=Motion(backward=backward, depth=FLAT)),
+    )
+    image, kind = MotionPair.of(*frames).draw(0.5)
+    assert image[5, 6] == pytest.approx((first.luma[5, 6] + second.luma[5, 6]) / 2, abs=0.01)
+    assert kind[5, 6] == MIXED
+
+
 def test_only_what_moves_is_looked_at():
     forward = field(0, 0).copy()
     forward[5, 6] = (4.0, -3.0)

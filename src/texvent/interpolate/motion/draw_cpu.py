@@ -111,7 +111,7 @@ def _compose(
             kind[y, x] = MIXED
             if meeting == 0:
                 is_same = share_1 == 0 or share_2 == 0 or _is_alike(value_1, value_2)
-                if is_same and near_1[k, 2] > 0 and near_2[k, 2] > 0:
+                if level >= 0 and is_same and near_1[k, 2] > 0 and near_2[k, 2] > 0:
                     kind[y, x] = FOLLOWED
             else:
                 farther = _mix(
