@@ -123,7 +123,7 @@ def _refuse_generation(arguments: Sequence[str]) -> None:
     generator = peek_options(arguments, ("generator",))["generator"]
     source = default_settings("generate", generator=generator).source
     making = {*option_names(PromptOptions), *option_names(type(source))}
-    taken = {*option_names(FromVideoOptions), *option_names(CaptureConfig)}
+    taken = {*option_names(FromVideoOptions), *option_names(CaptureConfig)} - {"duration"}
     for word in arguments:
         flag = word.partition("=")[0]
         name = flag.removeprefix("--").removeprefix("no-").replace("-", "_")
