@@ -18,6 +18,16 @@ from texvent.video import FrameStream
 OWN_FOLDER = "motion"
 """Folder of passes beside the folder of frames, as the script for Blender makes it."""
 
+TRUTH_MARK = "truth.json"
+"""In every folder that `--truth` makes."""
+TRUTH_PARTS = {
+    "motion": "flow/forward_npz",
+    "motion_back": "flow/backward_npz",
+    "depth": "depth",
+    "instances": "instance",
+}
+"""Where such a folder holds what motion is followed by."""
+
 
 def attach_motion(
     stream: FrameStream, config: CaptureConfig, given: Mapping[str, Any] | None = None
@@ -46,12 +56,26 @@ def attach_motion(
         return stream
     if stream.is_live:
         raise InputError("motion vectors need frames that can be read twice, not a live stream")
+    sources = _of_truth(sources)
     name = named_convention(config.motion_convention)
     stacks = {role: open_fields(one, role, name) for role, one in sources.items()}
     motion = MotionFrames(stream, stacks, config)
     if config.check_motion:
         motion.check()
     return motion
+
+
+def _of_truth(sources: Mapping[str, Any]) -> dict[str, Any]:
+    """The sources, where `motion` is a folder of `--truth`, by the parts that it holds."""
+    folder = sources.get("motion")
+    if not isinstance(folder, str | Path) or not (Path(folder) / TRUTH_MARK).is_file():
+        return dict(sources)
+    held = {role: Path(folder) / part for role, part in TRUTH_PARTS.items()}
+    if not held["motion"].is_dir():
+        raise InputError(f"{folder} holds truth, but no flow; make it with --truth flow,flow-back")
+    return {role: part for role, part in held.items() if part.is_dir()} | {
+        role: one for role, one in sources.items() if role != "motion"
+    }
 
 
 def own_motion(source: Any) -> Path | None:
