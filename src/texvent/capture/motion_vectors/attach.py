@@ -68,7 +68,11 @@ def attach_motion(
 def _of_truth(sources: Mapping[str, Any]) -> dict[str, Any]:
     """The sources, where `motion` is a folder of `--truth`, by the parts that it holds."""
     folder = sources.get("motion")
-    if not isinstance(folder, str | Path) or not (Path(folder) / TRUTH_MARK).is_file():
+    try:
+        is_truth = isinstance(folder, str | Path) and (Path(folder) / TRUTH_MARK).is_file()
+    except (OSError, ValueError):  # no path
+        is_truth = False
+    if folder is None or not is_truth:
         return dict(sources)
     held = {role: Path(folder) / part for role, part in TRUTH_PARTS.items()}
     if not held["motion"].is_dir():
