@@ -24,14 +24,19 @@ class ObjectMotion:
 
     kind: str
     """What it does: "drive", "walk", "run", "fly", "swim", "sail", "spin", "roll", "bounce",
-    "fall", "rise", "orbit", "swing", "jump", "hover", "throw", "sway", "slide" or "stand"."""
+    "fall", "rise", "orbit", "swing", "jump", "hover", "throw", "sway", "slide", "turn" (a curve
+    to `direction`), "sit", "lie", "stand", or a gesture such as "wave" or "clap"."""
     direction: str | None = None
-    """"left", "right", "towards", "away", "up", "down", "across", "circle" or "to and fro";
-    None = not stated."""
+    """"left", "right", "towards", "away", "up", "down", "across", "circle", "to and fro",
+    "clockwise" or "counter-clockwise"; None = not stated."""
     pace: float = 1.0
     """Multiple of the usual speed."""
     speed_m_s: float | None = None
     """Speed that the prompt states, m/s."""
+    end_pace: float | None = None
+    """Multiple of the usual speed at its end, for what accelerates or brakes; None = steady."""
+    start_s: float | None = None
+    """When it begins, s; None = at once, or when the motion before it ends."""
 
     @property
     def is_moving(self) -> bool:
@@ -42,6 +47,16 @@ class ObjectMotion:
 SPIN_RATE_HZ = 0.5
 """Usual turns per second of what spins."""
 STANDING = ObjectMotion("stand")
+
+
+@dataclass(frozen=True)
+class Picture:
+    """What is shown on a flat surface: a poster, a page, a screen."""
+
+    kind: str
+    """"file" (an image, or a video that plays), "checkerboard" or "text"."""
+    value: str = ""
+    """Path of the file, "9x6" squares of the board, or the text."""
 
 
 @dataclass(frozen=True)
@@ -60,6 +75,14 @@ class SceneObject:
     """What it does; None = not stated."""
     side: str | None = None
     """Where in the image: "left", "right", "centre", "far" or "near"; None = not stated."""
+    then: tuple[ObjectMotion, ...] = ()
+    """What it does after `motion`, in order."""
+    material: str | None = None
+    """What it is made of, such as "wood"; None = what it usually is."""
+    picture: Picture | None = None
+    """What it shows; None = its usual surface."""
+    blink_hz: float | None = None
+    """Frequency at which its own light blinks, Hz; None = steady."""
 
 
 @dataclass(frozen=True)
@@ -67,8 +90,10 @@ class Relation:
     """Where one object is, or goes, with respect to others."""
 
     kind: str
-    """"beside", "behind", "front", "on", "above", "under", "between", "left of", "right of",
-    "past", "around", "surround", "among", "towards", "follow" or "with"."""
+    """"beside", "behind", "front", "on", "in", "above", "under", "between", "left of",
+    "right of", "past", "around", "surround", "among", "towards", "from", "follow" or "with"; or
+    an act of the subject on the target: "hold", "carry", "wear", "ride", "push", "pull", "kick",
+    "hit", "throw" or "catch"."""
     subject: int
     """Index into `SceneDescription.objects`."""
     targets: tuple[int, ...]
@@ -80,12 +105,15 @@ class CameraMove:
     """One move of the camera."""
 
     kind: str
-    """"static", "pan", "tilt", "zoom", "dolly", "truck", "pedestal", "orbit", "follow" or
-    "handheld"."""
+    """"static", "pan", "tilt", "roll", "zoom", "dolly", "truck", "pedestal", "orbit", "follow",
+    "handheld" or "travel" (ego-motion: along the road or through the place)."""
     direction: str | None = None
-    """"left", "right", "up", "down", "in", "out"; for follow: "behind", "front" or "side"."""
+    """"left", "right", "up", "down", "in", "out"; for travel "forward", "backward", "left" or
+    "right"; for follow: "behind", "front", "side" or "above"."""
     pace: float = 1.0
     """Multiple of the usual rate."""
+    phase: int = 0
+    """Moves of one phase happen together; phases follow each other and share the clip evenly."""
 
 
 @dataclass(frozen=True)
@@ -95,7 +123,8 @@ class Shot:
     moves: tuple[CameraMove, ...] = ()
     """Moves, which add up; empty = static."""
     view: str | None = None
-    """"aerial", "top", "low", "side", "front" or "back"; None = a little above eye level."""
+    """"aerial", "top", "low", "side", "front", "back" or "first person"; None = a little above
+    eye level."""
     framing: str | None = None
     """"close" or "wide"; None = all objects fit."""
     target: int | None = None
@@ -145,6 +174,16 @@ class Surroundings:
 
 
 @dataclass(frozen=True)
+class Substitution:
+    """A word that is shown as something else."""
+
+    said: str
+    """The word or words of the prompt, such as "spaniel"."""
+    shown: str
+    """What is shown, such as "dog"."""
+
+
+@dataclass(frozen=True)
 class SceneDescription:
     """A prompt, understood as far as it could be."""
 
@@ -156,6 +195,10 @@ class SceneDescription:
     surroundings: Surroundings = field(default_factory=Surroundings)
     absent: tuple[str, ...] = ()
     """Nouns that the prompt excludes; no scenery shows them."""
+    shown: tuple[str, ...] = ()
+    """Words of the prompt that the scene shows, in order, each once."""
+    substituted: tuple[Substitution, ...] = ()
+    """Words that are shown as something else."""
     not_understood: tuple[str, ...] = ()
     """Words that had no effect on the scene, in order, each once."""
     notes: tuple[str, ...] = ()
@@ -176,6 +219,9 @@ class SceneDescription:
         if self.absent:
             lines.append(f"left out as asked: {', '.join(self.absent)}")
         lines.extend(self.notes)
+        if self.substituted:
+            pairs = ", ".join(f"{each.said} → {each.shown}" for each in self.substituted)
+            lines.append(f"shown as something else: {pairs}")
         if self.not_understood:
             lines.append(f"not understood: {', '.join(self.not_understood)}")
         return lines
