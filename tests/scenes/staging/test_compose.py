@@ -14,8 +14,8 @@ from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.scene import Camera, Float64Array, Ground
 from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.camera.framing import fit, look_at
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
-from texvent.scenes.staging.framing import fit, look_at
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(346, 260)

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.scenes.staging.action_trajectories import (
+from texvent.scenes.staging.trajectories.action_trajectories import (
     GRAVITY_M_S2,
     Bounce,
     Climb,
@@ -20,7 +20,7 @@ from texvent.scenes.staging.action_trajectories import (
     Sway,
     Swing,
 )
-from texvent.scenes.staging.trajectory import (
+from texvent.scenes.staging.trajectories.trajectory import (
     BodyState,
     Circle,
     Riding,

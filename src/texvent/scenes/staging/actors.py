@@ -11,7 +11,7 @@ from texvent.scenes.models.nouns import AFLOAT
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.assemble import PlacedModel
-from texvent.scenes.staging.trajectory import Trajectory
+from texvent.scenes.staging.trajectories.trajectory import Trajectory
 
 
 def seeded(seed: int, *role: object) -> np.random.Generator:

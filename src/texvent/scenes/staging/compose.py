@@ -20,8 +20,8 @@ from texvent.scenes.scene import (
 )
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.assemble import assemble, join_primitives
-from texvent.scenes.staging.camera_path import CameraPath
-from texvent.scenes.staging.camera_placement import place_camera
+from texvent.scenes.staging.camera.camera_path import CameraPath
+from texvent.scenes.staging.camera.camera_placement import place_camera
 from texvent.scenes.staging.environment import (
     PLACES,
     AnimatedEnvironment,
@@ -29,7 +29,8 @@ from texvent.scenes.staging.environment import (
     build_environment,
     choose_lighting,
 )
-from texvent.scenes.staging.object_placement import SCENIC, ObjectPlacer
+from texvent.scenes.staging.placement.object_placement import SCENIC, ObjectPlacer
+from texvent.scenes.staging.road import RoadLine
 from texvent.scenes.staging.scenery import (
     BACKDROPS,
     SCENERY,
@@ -128,7 +129,7 @@ def compose_scene(
     names.update({first_free + number: item.noun for number, (_, item) in enumerate(surrounding)})
     distance = camera_path.framing.distance_m
     animated_environment = build_environment(
-        description, place=place, road_angle=view.road_angle, road_offset=view.road_offset,
+        description, place=place, road=view.road,
         lamps=_list_lamps(description, place, actors, items, camera_path),
         distance_m=distance, room_m=camera_path.room_m if ground is Ground.FLOOR else 9.0,
     )  # fmt: skip
@@ -169,28 +170,27 @@ def _describe_view(
 ) -> ViewClearance:
     times = [duration_s * step / (VIEW_INSTANTS - 1) for step in range(VIEW_INSTANTS)]
     has_road = PLACES[place].ground in (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY)
-    angle, offset = _road_line(actors, path)
     points = [
         np.vstack([actor.corners(t)[::2] for actor in actors]) if actors else np.zeros((0, 3))
         for t in times
     ]
     return ViewClearance(
         [path.at(t) for t in times], points, path.framing.distance_m,
-        PLACES[place].road_half_width if has_road else None, angle, offset,
+        PLACES[place].road_half_width if has_road else None, _road_line(actors, path),
         path.room_m,
     )  # fmt: skip
 
 
-def _road_line(actors: Sequence[Actor], path: CameraPath) -> tuple[float, tuple[float, float]]:
+def _road_line(actors: Sequence[Actor], path: CameraPath) -> RoadLine:
     """The road runs along the path of the first object on the ground that moves."""
     for actor in actors:
         if actor.is_mover and actor.noun.habitat == "ground":
             state = actor.trajectory.at(0.0)
-            return state.yaw % math.pi, (state.position[0], state.position[1])
+            return RoadLine(state.yaw % math.pi, (state.position[0], state.position[1]))
     for actor in actors:
         if actor.noun.habitat == "ground":
-            return 0.0, (0.0, actor.trajectory.at(0.0).position[1])
-    return 0.0, (0.0, float(path.framing.target[1]))
+            return RoadLine(offset=(0.0, actor.trajectory.at(0.0).position[1]))
+    return RoadLine(offset=(0.0, float(path.framing.target[1])))
 
 
 def _scatter_all(

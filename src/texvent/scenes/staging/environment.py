@@ -10,6 +10,7 @@ import numpy as np
 from texvent.scenes.description import Illumination, SceneDescription, Surroundings
 from texvent.scenes.models.materials import mix
 from texvent.scenes.scene import Colour, Environment, Float32Array, Float64Array, Ground
+from texvent.scenes.staging.road import RoadLine
 
 FLICKER_DEPTH = 0.8
 """Share of the light that a flicker takes away at its darkest."""
@@ -182,8 +183,7 @@ def build_environment(
     description: SceneDescription,
     *,
     place: str,
-    road_angle: float,
-    road_offset: tuple[float, float],
+    road: RoadLine,
     lamps: list[PointLight],
     distance_m: float,
     room_m: float,
@@ -193,8 +193,7 @@ def build_environment(
     Args:
         description: what the prompt says of place, weather and light.
         place: key of `PLACES`.
-        road_angle: direction of the road, radians.
-        road_offset: a point on its centre line, m.
+        road: centre lines of the roads.
         lamps: point lights; they shine as far as the light lets them.
         distance_m: from the camera to what it looks at: fog is scaled to it.
         room_m: half the side of a room, m.
@@ -218,9 +217,9 @@ def build_environment(
         ground=ground.ground,
         ground_colour=_array(colour),
         ground_second_colour=_array(second),
-        road_angle=road_angle,
+        road_angle=road.angle,
         road_half_width=ground.road_half_width,
-        road_offset=np.array(road_offset, dtype=np.float64),
+        road_offset=np.array(road.offset, dtype=np.float64),
         sky_top=_array(sky_top),
         sky_horizon=_array(horizon),
         clouds=clouds,
@@ -234,6 +233,8 @@ def build_environment(
         lamps=_lamp_array(lamps, lighting.lamps),
         time_s=0.0,
         room_half_size=room_m,
+        road_curvature=road.curvature,
+        road_crossings=np.array(road.crossings, dtype=np.float64).reshape(-1, 3),
     )
     return AnimatedEnvironment(base, description.light.flicker_hz)
 

@@ -16,7 +16,8 @@ from texvent.scenes.models.protocol import Model, Noun, Pose
 from texvent.scenes.scene import Camera, Colour, Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.assemble import PlacedModel
-from texvent.scenes.staging.trajectory import BodyState
+from texvent.scenes.staging.road import RoadLine
+from texvent.scenes.staging.trajectories.trajectory import BodyState
 
 
 @dataclass(frozen=True)
@@ -47,8 +48,7 @@ class ViewClearance:
     distance_m: float
     road_half_width: float | None
     """Half width of the strip to keep free, m; None = no road."""
-    road_angle: float
-    road_offset: tuple[float, float]
+    road: RoadLine
     room_m: float = math.inf
 
 
@@ -239,7 +239,7 @@ def _draw_reach(
 def _face(rule: ScatterRule, view: ViewClearance, rng: np.random.Generator) -> float:
     """Street furniture and houses stand square to the road; the rest as it grows."""
     if rule.noun in ("building", "house", "barrier", "street lamp", "building frame"):
-        return view.road_angle - 0.5 * math.pi
+        return view.road.angle - 0.5 * math.pi
     return float(rng.uniform(0.0, 2.0 * math.pi))
 
 
@@ -248,9 +248,8 @@ def _is_free(
 ) -> bool:
     spot, radius = np.array(item.position), item.radius_m
     if view.road_half_width is not None:
-        offset = spot - np.array(view.road_offset)
-        across = offset[1] * math.cos(view.road_angle) - offset[0] * math.sin(view.road_angle)
-        if abs(across) < view.road_half_width + radius + 0.4:
+        clear = view.road_half_width + radius + 0.4
+        if float(view.road.distance(spot[None])[0]) < clear:
             return False
     if np.max(np.abs(spot)) + radius > view.room_m:
         return False

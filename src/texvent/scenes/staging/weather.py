@@ -12,7 +12,7 @@ from texvent.scenes.scene import (
     Shape,
     Texture,
 )
-from texvent.scenes.staging.trajectory import Trajectory
+from texvent.scenes.staging.trajectories.trajectory import Trajectory
 
 RAIN_DROPS = 130
 SNOW_FLAKES = 170

@@ -9,7 +9,7 @@ import numpy as np
 
 from texvent.scenes.description import SPIN_RATE_HZ, ObjectMotion
 from texvent.scenes.models.protocol import Model, Noun
-from texvent.scenes.staging.action_trajectories import (
+from texvent.scenes.staging.trajectories.action_trajectories import (
     GRAVITY_M_S2,
     Bounce,
     Climb,
@@ -19,7 +19,7 @@ from texvent.scenes.staging.action_trajectories import (
     Sway,
     Swing,
 )
-from texvent.scenes.staging.trajectory import (
+from texvent.scenes.staging.trajectories.trajectory import (
     Circle,
     Rolling,
     Shuttle,

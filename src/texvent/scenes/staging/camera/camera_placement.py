@@ -10,8 +10,8 @@ import numpy as np
 from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
-from texvent.scenes.staging.camera_path import CameraPath
-from texvent.scenes.staging.framing import Framing, fit
+from texvent.scenes.staging.camera.camera_path import CameraPath
+from texvent.scenes.staging.camera.framing import Framing, fit
 
 FILL = 0.84
 """Share of the image that what matters may fill."""

@@ -11,8 +11,8 @@ from texvent.scenes.description import SceneObject
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
-from texvent.scenes.staging.choose_trajectory import MotionPlan
-from texvent.scenes.staging.trajectory import Vector
+from texvent.scenes.staging.trajectories.choose_trajectory import MotionPlan
+from texvent.scenes.staging.trajectories.trajectory import Vector
 
 GAP_M = 0.25
 """Least space between two objects, in units of the smaller one's size."""

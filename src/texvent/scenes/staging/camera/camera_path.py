@@ -9,8 +9,8 @@ import numpy as np
 
 from texvent.scenes.description import CameraMove
 from texvent.scenes.scene import Camera, Float64Array
-from texvent.scenes.staging.framing import Framing, direction, look_at
-from texvent.scenes.staging.trajectory import Trajectory
+from texvent.scenes.staging.camera.framing import Framing, direction, look_at
+from texvent.scenes.staging.trajectories.trajectory import Trajectory
 
 PAN_RAD = 0.36
 """Turn of a pan over the clip."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from texvent.scenes.staging.trajectory import BodyState, Vector, ahead
+from texvent.scenes.staging.trajectories.trajectory import BodyState, Vector, ahead
 
 GRAVITY_M_S2 = 9.81
 

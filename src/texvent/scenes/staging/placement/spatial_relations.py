@@ -11,8 +11,12 @@ import numpy as np
 
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
-from texvent.scenes.staging.choose_trajectory import PEOPLE
-from texvent.scenes.staging.object_groups import GAP_M, ObjectGroup, half_extents_over_clip
+from texvent.scenes.staging.placement.object_groups import (
+    GAP_M,
+    ObjectGroup,
+    half_extents_over_clip,
+)
+from texvent.scenes.staging.trajectories.choose_trajectory import PEOPLE
 
 
 class Goal(NamedTuple):

@@ -13,17 +13,21 @@ from texvent.scenes.models.materials import Material
 from texvent.scenes.models.protocol import Model, ModelPart, Noun
 from texvent.scenes.models.shapes import post
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.action_trajectories import Swing
 from texvent.scenes.staging.actors import Actor, seeded
-from texvent.scenes.staging.choose_trajectory import choose_trajectory, plan_motion
-from texvent.scenes.staging.object_groups import (
+from texvent.scenes.staging.placement.object_groups import (
     ObjectGroup,
     half_extents_over_clip,
     overlap,
     place_copies,
 )
-from texvent.scenes.staging.spatial_relations import Goal, place_by_subject, place_on_targets
-from texvent.scenes.staging.trajectory import Circle, Riding, Trajectory, Vector
+from texvent.scenes.staging.placement.spatial_relations import (
+    Goal,
+    place_by_subject,
+    place_on_targets,
+)
+from texvent.scenes.staging.trajectories.action_trajectories import Swing
+from texvent.scenes.staging.trajectories.choose_trajectory import choose_trajectory, plan_motion
+from texvent.scenes.staging.trajectories.trajectory import Circle, Riding, Trajectory, Vector
 
 ON_TARGET = frozenset({"on", "above", "around", "under", "between", "follow"})
 """Relations in which the subject's place follows from the target's; in the others the target's

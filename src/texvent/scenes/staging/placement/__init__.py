@@ -1,0 +1,1 @@
+"""Where things stand: groups of copies, relations and free places."""

@@ -1,0 +1,1 @@
+"""Where things are at each instant: trajectories as pure functions of time."""

@@ -1,0 +1,34 @@
+"""The road's centre line."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.scenes.staging.road import RoadLine
+
+
+@given(st.floats(-4.0, 4.0), st.sampled_from([0.0, 0.02, -0.03]), st.floats(-40.0, 40.0))
+def test_points_at_an_arc_length_lie_on_the_line(
+    angle: float, curvature: float, along: float
+) -> None:
+    road = RoadLine(angle, (3.0, -2.0), curvature)
+    x, y, heading = road.at(along)
+    assert road.distance(np.array([[x, y]]))[0] == pytest.approx(0.0, abs=1e-9)
+    further = road.at(along + 1e-6)
+    assert math.hypot(further[0] - x, further[1] - y) == pytest.approx(1e-6, rel=1e-3)
+    assert math.cos(heading) == pytest.approx((further[0] - x) / 1e-6, abs=1e-3)
+
+
+def test_distance_is_to_the_nearest_road() -> None:
+    road = RoadLine(crossings=((5.0, 0.0, math.pi / 2),))
+    np.testing.assert_allclose(road.distance(np.array([[4.0, 3.0], [0.0, 2.0]])), [1.0, 2.0])
+
+
+def test_a_left_bend_lies_to_the_left() -> None:
+    assert RoadLine(curvature=0.05).at(10.0)[1] > 1.0
+    assert RoadLine(curvature=-0.05).at(10.0)[1] < -1.0
