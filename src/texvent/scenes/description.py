@@ -24,17 +24,22 @@ class ObjectMotion:
 
     kind: str
     """What it does: "drive", "walk", "run", "fly", "swim", "sail", "spin", "roll", "bounce",
-    "fall", "rise", "orbit", "swing", "jump", "hover", "throw", "sway", "slide", "turn" (a curve
-    to `direction`), "sit", "lie", "stand", or a gesture such as "wave" or "clap"."""
+    "fall", "rise", "sink", "orbit", "swing", "jump", "hover", "throw", "sway", "slide", "turn" (a
+    curve to its own left or right as `direction` says; "around": back where it came from),
+    "reverse" (backwards without turning round), "zigzag", "enter" and "leave" (the picture),
+    "appear" (from behind what a "behind" or "from" relation names), "sit", "lie", "stand" (also
+    for "stops"), or a gesture such as "wave" or "clap"."""
     direction: str | None = None
-    """"left", "right", "towards", "away", "up", "down", "across", "circle", "to and fro",
-    "clockwise" or "counter-clockwise"; None = not stated."""
+    """"left", "right", "towards", "away", "forward", "backward", "up", "down", "across", "circle",
+    "to and fro", "up and down", "around", "clockwise" or "counter-clockwise"; None = not
+    stated."""
     pace: float = 1.0
     """Multiple of the usual speed."""
     speed_m_s: float | None = None
     """Speed that the prompt states, m/s."""
     end_pace: float | None = None
-    """Multiple of the usual speed at its end, for what accelerates or brakes; None = steady."""
+    """Multiple of the usual speed at its end, for what accelerates or brakes (0 = comes to rest);
+    None = steady."""
     start_s: float | None = None
     """When it begins, s; None = at once, or when the motion before it ends."""
 
@@ -91,7 +96,8 @@ class Relation:
 
     kind: str
     """"beside", "behind", "front", "on", "in", "above", "under", "between", "left of",
-    "right of", "past", "around", "surround", "among", "towards", "from", "follow" or "with"; or
+    "right of", "past", "overtake", "through" (a tunnel, a gate), "around", "surround", "among",
+    "towards", "away from", "from" (with "towards": from one to the other), "follow" or "with"; or
     an act of the subject on the target: "hold", "carry", "wear", "ride", "push", "pull", "kick",
     "hit", "throw" or "catch"."""
     subject: int
@@ -106,10 +112,12 @@ class CameraMove:
 
     kind: str
     """"static", "pan", "tilt", "roll", "zoom", "dolly", "truck", "pedestal", "orbit", "follow",
-    "handheld" or "travel" (ego-motion: along the road or through the place)."""
+    "crane" (up or down over what it looks at), "dolly zoom", "handheld" or "travel" (ego-motion:
+    along the road or through the place; from the air with an "aerial" view)."""
     direction: str | None = None
-    """"left", "right", "up", "down", "in", "out"; for travel "forward", "backward", "left" or
-    "right"; for follow: "behind", "front", "side" or "above"."""
+    """"left", "right", "up", "down", "in", "out", "clockwise" or "counter-clockwise"; for travel
+    "forward", "backward", "left" or "right" (a bend); for follow: "behind", "front", "side" or
+    "above"."""
     pace: float = 1.0
     """Multiple of the usual rate."""
     phase: int = 0
