@@ -87,7 +87,25 @@ class SceneObject:
     picture: Picture | None = None
     """What it shows; None = its usual surface."""
     blink_hz: float | None = None
-    """Frequency at which its own light blinks, Hz; None = steady."""
+    """Frequency at which its own light blinks, Hz; None = as it usually does."""
+    is_lit: bool | None = None
+    """Whether its lamps are on; None = as usual: headlights at night, a candle always."""
+
+
+@dataclass(frozen=True)
+class Effect:
+    """Smoke, sparks, water drops and the like: see `models.effects.EFFECTS`."""
+
+    kind: str
+    """Key of `EFFECTS`, such as "smoke", "drip" or "burst"."""
+    source: int | None = None
+    """Index into `SceneDescription.objects` of what it comes from; None = it is all around, or in
+    the middle of the scene."""
+    colour: NamedColour | None = None
+    """Its colour; None = its usual one."""
+    start_s: float | None = None
+    """When it begins, s; None = it has always been there, or in the first half for what happens
+    once (a burst, a splash, a break, an explosion)."""
 
 
 @dataclass(frozen=True)
@@ -198,6 +216,8 @@ class SceneDescription:
     prompt: str
     objects: tuple[SceneObject, ...] = ()
     relations: tuple[Relation, ...] = ()
+    effects: tuple[Effect, ...] = ()
+    """Smoke, sparks, drops ..."""
     shot: Shot = field(default_factory=Shot)
     light: Illumination = field(default_factory=Illumination)
     surroundings: Surroundings = field(default_factory=Surroundings)
@@ -221,6 +241,7 @@ class SceneDescription:
             ['1 car, drives left', 'place: what suits the things', 'light: day', 'camera: static']
         """
         lines = [self._describe_object(index) for index in range(len(self.objects))]
+        lines.extend(self._describe_effect(effect) for effect in self.effects)
         lines.append(f"place: {_describe_surroundings(self.surroundings)}")
         lines.append(f"light: {_describe_light(self.light)}")
         lines.append(f"camera: {_describe_shot(self.shot)}")
@@ -245,6 +266,10 @@ class SceneDescription:
             words.append(_describe_motion(scene_object.motion, is_plural=scene_object.count > 1))
         if scene_object.side is not None:
             words.append(_SIDES[scene_object.side])
+        if scene_object.is_lit is not None:
+            words.append("lit" if scene_object.is_lit else "not lit")
+        if scene_object.blink_hz is not None:
+            words.append(f"blinking at {scene_object.blink_hz:g} Hz")
         for relation in self.relations:
             if relation.subject == index:
                 targets = " and ".join(
@@ -252,6 +277,12 @@ class SceneDescription:
                 )
                 words.append(f"{_RELATIONS.get(relation.kind, relation.kind)} {targets}")
         return ", ".join(words)
+
+    def _describe_effect(self, effect: Effect) -> str:
+        words = effect.kind if effect.colour is None else f"{effect.colour.name} {effect.kind}"
+        if effect.source is not None:
+            words += f", from {self.objects[effect.source].noun}"
+        return words if effect.start_s is None else f"{words}, after {effect.start_s:g} s"
 
 
 _SIDES = {

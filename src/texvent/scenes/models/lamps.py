@@ -1,0 +1,123 @@
+"""Lamps of objects: which glowing parts of a model give off light, where to, and how they blink.
+
+A lamp is a part with emission: it stands where the part stands, has its colour, and gets brighter
+and darker with it. This table says what kind of lamp it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Literal
+
+Wave = Literal["square", "sine", "flame", "rotating"]
+"""How a lamp's light goes up and down: on and off; as mains light does; as a flame does; as a beam
+that turns."""
+
+
+@dataclass(frozen=True)
+class Lamp:
+    """One kind of lamp."""
+
+    intensity: float
+    """Light it casts on a surface that faces it at 1 m, where full daylight is 1."""
+    direction: tuple[float, float, float] | None = None
+    """Where a beam points, in body coordinates; None = to all sides."""
+    half_angle: float = 180.0
+    """From the middle of the beam to where it has faded, degrees."""
+    soft_share: float = 0.5
+    """Share of the half angle over which it fades."""
+    is_panel: bool = False
+    """Whether it is a flat area that shines to one side by its cosine, without a halo: a screen."""
+    always_on: bool = True
+    """Whether it is usually on by day as well."""
+    blink_hz: float | None = None
+    """How often it usually blinks; None = steady."""
+    wave: Wave = "square"
+    """How it blinks."""
+    hue: str = ""
+    """Which of a model's glowing parts it is: "white", "red", "blue", "amber", "green"; empty =
+    any."""
+    boost: float = 1.0
+    """The glowing part is drawn this much brighter when the lamp is on."""
+    turns_hz: float = 0.0
+    """How often its beam turns round the upright axis each second."""
+
+
+_HEAD = Lamp(45.0, (1.0, 0.0, -0.09), 32.0, 0.75, always_on=False, hue="white", boost=4.0)
+_TAIL = Lamp(0.35, (-1.0, 0.0, 0.0), 80.0, 1.0, always_on=False, hue="red", boost=3.0)
+_VEHICLE = (_HEAD, _TAIL)
+_BEACONS = (
+    Lamp(4.0, hue="blue", boost=2.0, blink_hz=2.0, wave="rotating"),
+    Lamp(4.0, hue="red", boost=2.0, blink_hz=2.0, wave="rotating"),
+)
+_SCREEN = (Lamp(0.9, (1.0, 0.0, 0.0), 90.0, 1.0, is_panel=True),)
+_FLAME = (Lamp(6.0, blink_hz=6.0, wave="flame", boost=1.5),)
+_TORCH = (Lamp(40.0, (1.0, 0.0, 0.0), 16.0, 0.6, boost=4.0),)
+_LED = (Lamp(0.004, boost=8.0),)
+_STREET = (Lamp(26.0, always_on=False, boost=2.0),)
+
+LAMPS: Mapping[str, tuple[Lamp, ...]] = MappingProxyType({
+    **dict.fromkeys(("car", "suv", "van", "pickup", "truck", "bus", "taxi", "tractor", "train",
+                     "motorcycle", "bicycle", "scooter", "tram", "ambulance truck", "go-kart",
+                     "limousine", "race car"), _VEHICLE),
+    **dict.fromkeys(("police car", "fire engine", "ambulance"), (*_BEACONS, *_VEHICLE)),
+    "excavator": (Lamp(1.5, hue="amber", blink_hz=2.0, wave="rotating", boost=2.0), *_VEHICLE),
+    "street lamp": _STREET,
+    "traffic light": (Lamp(0.6, (1.0, 0.0, 0.0), 80.0, 1.0, boost=2.0),),
+    "barrier": (Lamp(0.4, boost=2.0),),
+    "lamp": (Lamp(4.0, boost=2.0),),
+    "desk lamp": (Lamp(5.0, (0.25, 0.0, -1.0), 60.0, 0.6, boost=3.0),),
+    "light bulb": (Lamp(3.0, boost=3.0),),
+    "lantern": (Lamp(2.5, boost=2.0, blink_hz=5.0, wave="flame"),),
+    "candle": (Lamp(1.2, blink_hz=7.0, wave="flame", boost=1.5),),
+    **dict.fromkeys(("torch",), (Lamp(3.0, blink_hz=6.0, wave="flame", boost=1.5),)),
+    **dict.fromkeys(("fire", "campfire", "bonfire", "fireplace", "stove fire"), _FLAME),
+    "flashlight": _TORCH,
+    "headlight": _TORCH,
+    "spotlight": (Lamp(60.0, (1.0, 0.0, -0.45), 18.0, 0.4, boost=4.0),),
+    "projector": (Lamp(25.0, (1.0, 0.0, 0.0), 18.0, 0.15, boost=4.0),),
+    "lighthouse": (Lamp(3000.0, (1.0, 0.0, -0.04), 12.0, 0.8, boost=4.0, turns_hz=0.25),),
+    "beacon": (Lamp(2.0, blink_hz=1.5, wave="rotating", boost=3.0),),
+    "siren": (Lamp(2.0, blink_hz=2.0, wave="rotating", boost=3.0),),
+    "led": _LED,
+    "led strip": (Lamp(0.05, boost=3.0),),
+    "laser pointer": (Lamp(0.02, boost=8.0),),
+    "neon sign": (Lamp(0.4, boost=2.5),),
+    "disco ball": (Lamp(1.0, boost=1.0),),
+    "string lights": (Lamp(0.03, boost=3.0),),
+    "christmas tree": (Lamp(0.02, boost=3.0),),
+    **dict.fromkeys(("screen", "tv", "television", "monitor", "laptop", "phone", "smartphone",
+                     "tablet", "computer", "billboard", "display", "cell phone"), _SCREEN),
+    "drone": (Lamp(0.03, boost=2.0, blink_hz=1.5),),
+    "airplane": (Lamp(0.5, boost=2.0, blink_hz=1.0),),
+    "helicopter": (Lamp(0.5, boost=2.0, blink_hz=1.0),),
+    "ufo": (Lamp(0.5, boost=2.0),),
+    "rocket": (Lamp(60.0, boost=2.0, blink_hz=9.0, wave="flame"),),
+    "hot air balloon": (Lamp(20.0, boost=2.0, blink_hz=4.0, wave="flame"),),
+    "sparkler": (Lamp(1.0, boost=3.0, blink_hz=9.0, wave="flame"),),
+})  # fmt: skip
+"""Noun → its lamps; a part takes the first whose hue suits its colour."""
+
+
+def hue_of(colour: tuple[float, float, float]) -> str:
+    """Name of a lamp colour: "white", "red", "amber", "green" or "blue".
+
+    Example:
+        >>> hue_of((0.95, 0.92, 0.75)), hue_of((0.7, 0.02, 0.02)), hue_of((0.9, 0.5, 0.05))
+        ('white', 'red', 'amber')
+    """
+    red, green, _ = colour
+    top = max(colour)
+    if min(colour) > 0.35 * top:
+        return "white"
+    if red == top:
+        return "amber" if green > 0.35 * red else "red"
+    return "green" if green == top else "blue"
+
+
+def lamp_of(noun: str, colour: tuple[float, float, float]) -> Lamp | None:
+    """The lamp that a glowing part of that colour is, if any."""
+    hue = hue_of(colour)
+    return next((lamp for lamp in LAMPS.get(noun, ()) if lamp.hue in ("", hue)), None)
