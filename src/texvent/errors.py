@@ -69,14 +69,14 @@ def visible_lines(text: str) -> str:
     return "\n".join(map(visible, text.split("\n")))
 
 
-def few(words: Sequence[str]) -> str:
+def few(words: Sequence[str], most: int = MOST_WORDS) -> str:
     """The first words of a list, each bounded, and how many more there are.
 
     Example:
         >>> few(["a", "b"]), few(list("abcdefgh"))
         ('a, b', 'a, b, c, d, e and 3 more')
     """
-    first, more = words[:MOST_WORDS], len(words) - MOST_WORDS
+    first, more = words[:most], len(words) - most
     bounded = (one if len(one) <= MAX_WORD else f"{one[: MAX_WORD - 3]}..." for one in first)
     return ", ".join(bounded) + (f" and {more} more" if more > 0 else "")
 

@@ -285,8 +285,8 @@ def test_a_file_that_the_system_refuses_to_grow_is_one_line(folder):
 def test_words_not_understood_are_reported(folder, capsys):
     words = ["--duration", "0.1", "--sensor", "32x24", "--events-only", "--interpolate", "none"]
     assert run("generate", "a red ball zorbles", "-o", "a.h5", *words) == 0
-    assert "not understood in the prompt, without effect: zorbles" in capsys.readouterr().err
-    assert "zorbles" in str(texvent.load("a.h5").metadata["source"]["not_understood"])
+    assert "prompt words not understood: zorbles" in capsys.readouterr().err
+    assert "zorbles" in str(texvent.load("a.h5").metadata["prompt_report"]["not_understood"])
 
 
 def test_nan_intensities_stop_the_api_with_one_clear_error():

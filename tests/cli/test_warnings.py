@@ -59,11 +59,22 @@ def test_words_without_effect_are_a_line_of_their_own(capsys):
     words = ["generate", "a wug and a red ball bounce", "--duration", 0.1, "-o", "a.h5", *SMALL]
     assert run(*words) == 0
     lines = capsys.readouterr().err.splitlines()
-    assert lines[0] == "warning  not understood in the prompt, without effect: wug"
+    assert lines[0] == "warning  prompt words not understood: wug"
     assert sum("not understood" in line for line in lines) == 1
-    with pytest.warns(texvent.TexventWarning, match="without effect: wug") as caught:
+    with pytest.warns(texvent.TexventWarning, match="not understood: wug") as caught:
         texvent.generate("a wug and a red ball bounce", sensor="48x36", duration=0.1)
     assert caught[0].filename == __file__
+
+
+def test_strict_refuses_what_is_not_shown_as_it_says(capsys):
+    said = error_of(capsys, "generate", "a wug and a red ball", "--strict", "-o", "a.h5", *SMALL)
+    assert "not understood: wug" in said
+    assert "leave strict out" in said
+    assert not Path("a.h5").exists()
+    words = ["generate", "a red ball bounces", "--strict", "--duration", 0.1, "-o", "a.h5", *SMALL]
+    assert run(*words) == 0
+    with pytest.raises(texvent.errors.InputError, match="not understood: wug"):
+        texvent.video("a wug and a red ball", strict=True)
 
 
 def test_a_run_without_events_warns(capsys):

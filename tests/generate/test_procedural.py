@@ -17,6 +17,7 @@ from texvent.generate.procedural import (
     ProceduralGenerator,
     ProceduralVideo,
 )
+from texvent.scenes.report import PromptReport
 from texvent.sensor import SensorSize
 from texvent.video import FrameStream, RenderableStream
 
@@ -97,13 +98,14 @@ def test_an_empty_prompt_is_refused(prompt: str) -> None:
 
 def test_a_prompt_becomes_a_moving_video_that_says_what_was_understood() -> None:
     generator = ProceduralGenerator(ProceduralConfig(duration=1.0), seed=3, size=SMALL)
-    with pytest.warns(TexventWarning, match="without effect: xylophonically"):
+    with pytest.warns(TexventWarning, match="not understood: xylophonically"):
         video = generator.generate("a red car drives left past two trees, xylophonically")
     assert json.loads(json.dumps(video.metadata)) == video.metadata
     assert video.metadata["generator"] == "procedural"
     assert video.metadata["seed"] == 3
-    assert any("car" in line for line in video.metadata["understood"])
-    assert video.metadata["not_understood"] == ["xylophonically"]
+    report = PromptReport.of_metadata(video.metadata)
+    assert any("car" in line for line in report.scene)
+    assert report.not_understood == ("xylophonically",)
     first, last = video.at(0).pixels, video.at(1_000_000).pixels
     assert np.abs(first - last).max() > 30.0
     again = ProceduralGenerator(ProceduralConfig(duration=1.0), seed=3, size=SMALL)

@@ -17,6 +17,7 @@ from typing import Any
 from texvent.batch.samples import Sample
 from texvent.errors import ConfigError, FileFormatError, one_line
 from texvent.io.atomic import atomic_file
+from texvent.scenes.report import PromptReport
 
 OPTIONS_FILE, SAMPLES_FILE = "batch.json", "samples.jsonl"
 KIND, VERSION = "samples", "texvent_version"
@@ -37,6 +38,8 @@ class Done:
     events: int
     files: Mapping[str, tuple[int, str]]
     """File name → bytes and sha256."""
+    prompt_report: Mapping[str, Any] | None = None
+    """What became of the prompt's words, a `PromptReport` as JSON; None where it is not known."""
 
 
 class Manifest:
@@ -81,6 +84,13 @@ class Manifest:
             return False
         return all(_size(self._folder / name) == size for name, (size, _) in done.files.items())
 
+    def report_of(self, sample: Sample) -> PromptReport | None:
+        """The report of a complete sample's prompt; None where it has none."""
+        done = self._done.get(sample.key)
+        if done is None or done.prompt_report is None:
+            return None
+        return PromptReport.from_json(done.prompt_report)
+
     def is_known(self, sample: Sample) -> bool:
         """True if the sample was complete once, so that what is left of it may be replaced."""
         done = self._done.get(sample.key)
@@ -91,11 +101,27 @@ class Manifest:
         keys = {sample.key for sample in samples}
         return [done.name for key, done in self._done.items() if key not in keys]
 
-    def add(self, sample: Sample, paths: Sequence[Path], *, events: int) -> None:
+    def add(
+        self,
+        sample: Sample,
+        paths: Sequence[Path],
+        *,
+        events: int,
+        report: PromptReport | None = None,
+    ) -> None:
         """Note that a sample is complete; durable before it returns."""
         files = {path.name: (_size(path) or 0, _sha256(path)) for path in paths}
         video = None if sample.video is None else str(sample.video)
-        done = Done(sample.key, sample.name, sample.seed, sample.prompt, video, events, files)
+        done = Done(
+            sample.key,
+            sample.name,
+            sample.seed,
+            sample.prompt,
+            video,
+            events,
+            files,
+            None if report is None else report.to_json(),
+        )
         self._done[sample.key] = done
         with (self._folder / SAMPLES_FILE).open("a", encoding="utf-8") as file:
             file.write(_line(done))

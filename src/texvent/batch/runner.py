@@ -24,9 +24,10 @@ from texvent.errors import (
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.io.files import open_events
 from texvent.run.files import RunFiles, write_run
-from texvent.run.prepare import prepare_prompt, prepare_source
+from texvent.run.prepare import is_strict, prepare_prompt, prepare_source, report_prompt
 from texvent.run.settings import Settings
 from texvent.runtime.progress import NoProgress, Progress
+from texvent.scenes.report import PromptReport
 from texvent.video import Frame
 
 BATCH_KEY = "batch_key"
@@ -66,6 +67,8 @@ class Outcome:
     """Why there are no files; None: they are complete."""
     warnings: tuple[str, ...] = ()
     """What is hardly meant, such as words that are not understood."""
+    report: PromptReport | None = None
+    """What became of the prompt's words, where the generator says so."""
 
 
 def run_batch(
@@ -108,6 +111,22 @@ def run_batch(
                     ) from error
 
 
+def find_refused(plan: BatchPlan, samples: Sequence[Sample]) -> Iterator[Outcome]:
+    """Prompts that `strict` refuses, before any sample is made.
+
+    A chat model that rewrites prompts is not asked: its answers are judged one by one, as made.
+    """
+    if not is_strict(plan.settings) or plan.upsample is not None:
+        return
+    for sample in samples:
+        try:
+            report_prompt(sample.prompt or "", plan.settings_of(sample))
+        except ENDING_ALL:
+            raise
+        except InputError as error:
+            yield Outcome(sample, failure=str(error))
+
+
 def make_sample(
     plan: BatchPlan, sample: Sample, is_replaceable: bool, progress: Progress | None = None
 ) -> Outcome:
@@ -120,6 +139,7 @@ def make_sample(
     overwrite = plan.files.overwrite or is_replaceable or _is_own(files.events[0], sample)
     settings, events = plan.settings_of(sample), 0
     found: list[str] = []
+    report: PromptReport | None = None
 
     def count(frame: Frame, packet: Any) -> None:
         nonlocal events
@@ -133,6 +153,7 @@ def make_sample(
                 simulation = prepare_prompt(
                     sample.prompt or "", settings, upsample=plan.upsample, progress=progress
                 )
+            report = PromptReport.of_metadata(simulation.video.metadata)
             facts = {**simulation.provenance, BATCH_KEY: sample.key}
             files = replace(files, overwrite=overwrite)
             write_run(simulation, files, metadata=facts, on_step=count)
@@ -141,7 +162,7 @@ def make_sample(
     except TexventError as error:
         # One prompt that a guardrail refuses, or one damaged video, must not end the others.
         return Outcome(sample, failure=" ".join(str(error).split()))
-    return Outcome(sample, events, warnings=tuple(found))
+    return Outcome(sample, events, warnings=tuple(found), report=report)
 
 
 def _is_own(path: Path, sample: Sample) -> bool:

@@ -22,6 +22,7 @@ from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_source
 from texvent.run.settings import Settings, unmeasured_sensor
 from texvent.runtime.console_progress import ConsoleProgress
+from texvent.scenes.report import PromptReport
 from texvent.video import MICROSECONDS, Frame, FrameStream
 
 SIGNALLED = 128
@@ -150,10 +151,10 @@ def _saying_what_is_complete(paths: Sequence[Path]) -> Iterator[None]:
 
 
 def _notes(simulation: Simulation) -> Iterator[str]:
-    """What the generator made of the prompt; a warning has named the words without effect."""
-    for line in simulation.video.metadata.get("understood", ()):
-        if not line.startswith("not understood: "):
-            yield f"scene    {line}"
+    """What the generator made of the prompt; warnings have named what is not shown as it says."""
+    report = PromptReport.of_metadata(simulation.video.metadata)
+    if report is not None:
+        yield from (f"scene    {line}" for line in (*report.scene, *report.notes))
     unmeasured = unmeasured_sensor(simulation.settings.run)
     if unmeasured is not None:
         yield f"note     {unmeasured}"

@@ -19,14 +19,17 @@ from numpy.typing import NDArray
 from texvent._version import __version__
 from texvent.brightness import luma_bt601
 from texvent.config import FPS_RANGE, check_range
-from texvent.errors import ConfigError, few, warn
+from texvent.errors import MOST_WORDS, ConfigError, InputError, warn
 from texvent.options.values import plain
+from texvent.scenes.report import REPORT_KEY
 from texvent.sensor import SENSORS, SensorSize
 from texvent.video import MICROSECONDS, Frame, Motion, describe_stream, frame_time_us
 
 if TYPE_CHECKING:
     from texvent.runtime.progress import Progress
+    from texvent.scenes.description import SceneDescription
     from texvent.scenes.raycast.ground_truth import GroundTruth
+    from texvent.scenes.report import PromptReport
     from texvent.scenes.scene import Camera, Scene
 
 DEFAULT_SIZE = SENSORS["davis346"].size
@@ -48,6 +51,9 @@ class ProceduralConfig:
     enough for events."""
     shadows: bool = True
     """Whether the sun and the moon cast shadows."""
+    strict: bool = False
+    """Refuse a prompt with a word that is not shown as it says; without it a warning names the
+    word."""
 
     def __post_init__(self) -> None:
         check_range("duration", self.duration, 1e-6, 86_400.0)
@@ -200,36 +206,63 @@ class ProceduralGenerator:
             progress: unused: frames are rendered on demand.
 
         Returns:
-            A stream of float RGB frames. Its metadata say what was understood and which words
-            had no effect.
+            A stream of float RGB frames. Its metadata hold the report of the prompt's words, a
+            `texvent.scenes.report.PromptReport` as JSON, under "prompt_report".
 
         Raises:
-            InputError: the prompt is empty, or nothing in it is understood.
+            InputError: the prompt is empty, nothing in it is understood, or `strict` refuses it.
 
         Warns:
-            TexventWarning: some of its words are not understood.
+            TexventWarning: some of its words are not shown as they say.
         """
         del progress
-        # Imported here: the vocabulary and all models are only needed to make a scene.
-        from texvent.scenes.language.parser import parse_prompt
-        from texvent.scenes.staging.compose import compose_scene
-
-        description = parse_prompt(prompt)
-        if description.not_understood:
-            words = few(description.not_understood)
-            warn(f"not understood in the prompt, without effect: {words}")
-        scene = compose_scene(
-            description, seed=self.seed, size=self.size, duration_s=self.config.duration
-        )
+        description, scene, report = self._stage(prompt)
+        for fault in report.faults(MOST_WORDS):
+            warn(f"prompt words {fault}")
         metadata = {
             "generator": "procedural",
             "version": __version__,
             "prompt": prompt,
             "seed": self.seed,
             "options": plain(self.config),
-            "understood": list(description.summary()),
-            "not_understood": list(description.not_understood),
+            REPORT_KEY: report.to_json(),
         }
         return ProceduralVideo(
             scene, self.size, self.config, metadata, flicker_hz=description.light.flicker_hz
         )
+
+    def report(self, prompt: str, *, is_staged: bool = True) -> PromptReport:
+        """What would be shown of a prompt.
+
+        Args:
+            prompt: as `generate` takes it.
+            is_staged: whether the scene is built, which takes 50 to 100 ms, so that words that it
+                cannot show are found too; False: the sentence is only read.
+
+        Raises:
+            InputError: as `generate`.
+        """
+        from texvent.scenes.language.parser import parse_prompt
+
+        if is_staged:
+            return self._stage(prompt)[-1]
+        return self._accepted(parse_prompt(prompt).report())
+
+    def _stage(self, prompt: str) -> tuple[SceneDescription, Scene, PromptReport]:
+        # Imported here: the vocabulary and all models are only needed to make a scene.
+        from texvent.scenes.language.parser import parse_prompt
+        from texvent.scenes.staging.compose import compose_scene
+
+        description = parse_prompt(prompt)
+        self._accepted(description.report())  # before the scene is built
+        scene = compose_scene(
+            description, seed=self.seed, size=self.size, duration_s=self.config.duration
+        )
+        return description, scene, self._accepted(description.report(scene.not_shown))
+
+    def _accepted(self, report: PromptReport) -> PromptReport:
+        """The report, unless `strict` refuses the prompt."""
+        refusal = report.refusal() if self.config.strict else None
+        if refusal is not None:
+            raise InputError(refusal)
+        return report

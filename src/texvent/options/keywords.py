@@ -155,6 +155,7 @@ class GeneratorOptions(TypedDict, total=False):
     duration: float | None
     samples: int | None
     shadows: bool | None
+    strict: bool | None
     fit: Literal["cover", "contain", "stretch"] | None
     reuse_video: bool | None
     on_failure: Literal["ignore", "warn", "reject", "retry"] | None

@@ -5,11 +5,12 @@ The Python API, the command line, the web page, training samples and benchmarks 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from texvent._registry import GENERATORS
 from texvent.calibrate.rate import reach_target_rate
 from texvent.errors import InputError
 from texvent.generate.prompts.upsample_config import UpsampleConfig
@@ -18,6 +19,7 @@ from texvent.run.memory import check_memory
 from texvent.run.provenance import describe_weights
 from texvent.run.settings import Settings
 from texvent.runtime.progress import Progress
+from texvent.scenes.report import PromptReport
 from texvent.simulate.build import build_simulator
 from texvent.video import FrameStream
 
@@ -61,6 +63,33 @@ def prepare_prompt(
     detailed = _detailed(prompt, upsample, progress)
     simulation = replace(text_to_events(detailed, settings, progress=progress), prompt=prompt)
     return reach_target_rate(simulation, progress=progress)
+
+
+def report_prompt(
+    prompt: str, settings: Settings, *, is_staged: bool = True
+) -> PromptReport | None:
+    """What would be shown of a prompt, without making its video.
+
+    Args:
+        prompt: what to show.
+        settings: all options.
+        is_staged: whether the scene is built too, which finds more and takes 50 to 100 ms.
+
+    Returns:
+        The report; None for a learned generator, which gives none.
+
+    Raises:
+        InputError: the generator refuses the prompt.
+    """
+    generator_class = GENERATORS.load(settings.generator or "procedural")
+    generator = generator_class(settings.source, seed=settings.run.seed, size=settings.size)
+    report: Callable[..., PromptReport] | None = getattr(generator, "report", None)
+    return None if report is None else report(prompt, is_staged=is_staged)
+
+
+def is_strict(settings: Settings) -> bool:
+    """Whether prompts that are not shown as they say are refused."""
+    return bool(getattr(settings.source, "strict", False))
 
 
 def make_video(

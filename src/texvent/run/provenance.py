@@ -9,12 +9,13 @@ from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent._version import full_version
 from texvent.run.settings import Settings
 from texvent.run.source_file import describe_source
+from texvent.scenes.report import REPORT_KEY
 
 
 def describe_run(
     settings: Settings, *, prompt: str | None, source: Mapping[str, Any]
 ) -> dict[str, Any]:
-    """Prompt, source, models, seed, resolved options, version and weight files of a run.
+    """Prompt and its report, source, models, seed, options, version and weight files of a run.
 
     Args:
         settings: all options.
@@ -22,9 +23,12 @@ def describe_run(
         source: metadata of the video.
     """
     run = settings.run
+    facts = describe_source(source)
+    report = facts.pop(REPORT_KEY, None)
     return {
         "prompt": prompt,
-        "source": describe_source(source),
+        **({} if report is None else {REPORT_KEY: report}),
+        "source": facts,
         "generator": settings.generator,
         "simulator": run.simulator,
         "preset": run.preset,

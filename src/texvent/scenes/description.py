@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from texvent.scenes.inflection import list_finite_forms, pluralise
+from texvent.scenes.report import PromptReport
+from texvent.scenes.report import Substitution as Substitution
 from texvent.scenes.scene import Colour
 
 
@@ -200,16 +202,6 @@ class Surroundings:
 
 
 @dataclass(frozen=True)
-class Substitution:
-    """A word that is shown as something else."""
-
-    said: str
-    """The word or words of the prompt, such as "spaniel"."""
-    shown: str
-    """What is shown, such as "dog"."""
-
-
-@dataclass(frozen=True)
 class SceneDescription:
     """A prompt, understood as far as it could be."""
 
@@ -240,6 +232,14 @@ class SceneDescription:
             >>> SceneDescription("a left-driving car", objects=(car,)).summary()
             ['1 car, drives left', 'place: what suits the things', 'light: day', 'camera: static']
         """
+        return self.report().lines()
+
+    def report(self, not_shown: tuple[str, ...] = ()) -> PromptReport:
+        """What becomes of the prompt's words.
+
+        Args:
+            not_shown: words that are understood but that the staged scene does not show.
+        """
         lines = [self._describe_object(index) for index in range(len(self.objects))]
         lines.extend(self._describe_effect(effect) for effect in self.effects)
         lines.append(f"place: {_describe_surroundings(self.surroundings)}")
@@ -247,13 +247,14 @@ class SceneDescription:
         lines.append(f"camera: {_describe_shot(self.shot)}")
         if self.absent:
             lines.append(f"left out as asked: {', '.join(self.absent)}")
-        lines.extend(self.notes)
-        if self.substituted:
-            pairs = ", ".join(f"{each.said} → {each.shown}" for each in self.substituted)
-            lines.append(f"shown as something else: {pairs}")
-        if self.not_understood:
-            lines.append(f"not understood: {', '.join(self.not_understood)}")
-        return lines
+        return PromptReport(
+            scene=tuple(lines),
+            shown=self.shown,
+            substituted=self.substituted,
+            not_shown=not_shown,
+            not_understood=self.not_understood,
+            notes=self.notes,
+        )
 
     def _describe_object(self, index: int) -> str:
         scene_object = self.objects[index]

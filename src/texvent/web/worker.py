@@ -21,6 +21,7 @@ from texvent.pipeline import Simulation
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_prompt, prepare_video
 from texvent.run.settings import resolve
+from texvent.scenes.report import PromptReport
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS, Frame
 from texvent.web.job import Answer, ConvertJob, Job, SimulateJob, answer_line, read_job
@@ -191,7 +192,8 @@ def _shown(simulation: Simulation) -> dict[str, Any]:
 
 def _summary(simulation: Simulation, count: int) -> str:
     lines = [f"{count:,} events on {simulation.video.size} pixels"]
-    lines += [str(line) for line in simulation.video.metadata.get("understood", ())]
+    report = PromptReport.of_metadata(simulation.video.metadata)
+    lines += report.lines() if report is not None else []
     return "\n".join(lines)
 
 

@@ -46,6 +46,31 @@ def test_every_prompt_gets_its_own_file_with_its_own_seed(folder, capsys):
     assert (folder / "out" / "dog.h5").exists()
 
 
+def test_a_strict_batch_lists_the_rows_that_it_refuses_and_makes_nothing(folder, capsys):
+    (folder / "p.txt").write_text("a wug and a dog run\na red ball bounces\nqwerty zxcv\n")
+    assert run("batch", "p.txt", "-o", "out", "--strict", *QUICK) == 2
+    said = capsys.readouterr().err
+    assert "refused  p.txt line 1: strict: the prompt is not shown as it says: not under" in said
+    assert "refused  p.txt line 3: nothing in the prompt was understood: qwerty, zxcv" in said
+    assert "--strict refuses 2 of 3 prompts; nothing is made" in said
+    assert not (folder / "out").exists()
+
+
+def test_a_batch_keeps_the_report_of_every_prompt_and_counts_them(folder, capsys):
+    (folder / "p.txt").write_text("a wug and a dog run\na red ball bounces\n")
+    assert run("batch", "p.txt", "-o", "out", "--dry-run", *QUICK) == 0
+    expected = "1 of 2 prompts shown as they say; 1 with words not understood (wug)"
+    assert f"prompts  {expected}" in capsys.readouterr().out
+    assert run("batch", "p.txt", "-o", "out", *QUICK) == 0
+    assert f"prompts  {expected}" in capsys.readouterr().err
+    lines = map(json.loads, (folder / "out" / "samples.jsonl").read_text().splitlines())
+    reports = {one["prompt"]: one["prompt_report"] for one in lines}
+    assert reports["a wug and a dog run"]["not_understood"] == ["wug"]
+    assert "not_understood" not in reports["a red ball bounces"]
+    (event_file, _) = sorted((folder / "out").glob("*.h5"))
+    assert texvent.load(event_file).metadata["prompt_report"]["scene"]
+
+
 def test_a_sample_can_be_made_alone_with_its_seed(folder, capsys):
     (folder / "p.csv").write_text("prompt,name\na dog runs,dog\n")
     assert run("batch", "p.csv", *QUICK) == 0
@@ -143,7 +168,7 @@ def test_a_prompt_that_fails_does_not_end_the_others(folder, capsys):
     assert run("batch", "p.txt", *QUICK) == 1
     said = capsys.readouterr().err
     assert "failed   p.txt line 1: nothing in the prompt was understood: qwerty, zxcv" in said
-    assert "warning  p.txt line 2: not understood in the prompt, without effect: wug" in said
+    assert "warning  p.txt line 2: prompt words not understood: wug" in said
     assert "error: 1 of 2 samples failed" in said
     assert len(recordings(folder / "p")) == 1
 

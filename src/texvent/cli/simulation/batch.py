@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 from texvent._registry import GENERATORS
 from texvent._version import full_version
 from texvent.batch.manifest import Manifest
-from texvent.batch.runner import BatchPlan, run_batch
+from texvent.batch.runner import BatchPlan, find_refused, run_batch
 from texvent.batch.samples import Sample, are_videos, read_samples
 from texvent.cli.command import resolve_command
 from texvent.cli.estimate import describe_estimate, estimate_run
@@ -21,14 +21,15 @@ from texvent.cli.option_types import REQUIRED
 from texvent.cli.outputs import OutputOptions
 from texvent.cli.run import print_settings
 from texvent.config import check_range
-from texvent.errors import ConfigError, OutputError, TexventError
+from texvent.errors import ConfigError, InputError, OutputError, TexventError
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.io.files import codec_for, extension_of
 from texvent.options.values import plain
 from texvent.run.files import RunFiles
-from texvent.run.prepare import check_run, prepare_prompt, prepare_source
+from texvent.run.prepare import check_run, prepare_prompt, prepare_source, report_prompt
 from texvent.run.settings import Settings
 from texvent.runtime.console_progress import ConsoleProgress
+from texvent.scenes.report import ReportTally
 from texvent.truth.parts import check_generator
 
 DESCRIPTION = """Events for many prompts or videos. A list is a .txt (one prompt per line, # begins
@@ -104,6 +105,7 @@ def run(arguments: Sequence[str]) -> int:
     manifest = Manifest(plan.folder)
     if output.dry_run:
         return _describe(plan, samples, manifest)
+    _refuse_prompts(plan, samples)
     plan.folder.mkdir(parents=True, exist_ok=True)
     manifest.begin(_options(plan, is_of_videos), overwrite=output.overwrite)
     return _make_all(plan, samples, manifest, jobs=own.jobs, is_quiet=output.quiet)
@@ -142,6 +144,20 @@ def _plan(settings: Settings, own: BatchOptions, output: OutputOptions) -> Batch
     return BatchPlan(settings, upsample, folder, extension, files)
 
 
+def _refuse_prompts(plan: BatchPlan, samples: Sequence[Sample]) -> None:
+    """List the prompts that `strict` refuses.
+
+    Raises:
+        InputError: there are some.
+    """
+    refused = 0
+    for outcome in find_refused(plan, samples):
+        refused += 1
+        say(f"refused  {outcome.sample.where}: {outcome.failure}")
+    if refused:
+        raise InputError(f"--strict refuses {refused} of {len(samples)} prompts; nothing is made")
+
+
 def _options(plan: BatchPlan, is_of_videos: bool) -> Mapping[str, Any]:
     """What must be the same when the batch goes on."""
     truth = {"truth": list(plan.files.truth)} if plan.files.truth else {}
@@ -161,6 +177,7 @@ def _describe(plan: BatchPlan, samples: Sequence[Sample], manifest: Manifest) ->
     """How much is to do, and what the first sample of it takes."""
     todo = [sample for sample in samples if not manifest.is_done(sample)]
     write_out(f"{len(samples)} samples, {len(samples) - len(todo)} done already\n")
+    write_out("".join(f"prompts  {line}\n" for line in _read_prompts(plan, samples)))
     if todo:
         first = todo[0]
         settings = plan.settings_of(first)
@@ -171,6 +188,23 @@ def _describe(plan: BatchPlan, samples: Sequence[Sample], manifest: Manifest) ->
         write_out(f"the first, {first.name}:\n")
         write_out(describe_estimate(estimate_run(simulation, plan.files_of(first))) + "\n")
     return 0
+
+
+def _read_prompts(plan: BatchPlan, samples: Sequence[Sample]) -> Iterator[str]:
+    """How many prompts would be shown as they say; a line, or none."""
+    tally = ReportTally()
+    if plan.upsample is None and samples[0].video is None:
+        for sample in samples:
+            try:
+                report = report_prompt(sample.prompt or "", plan.settings, is_staged=False)
+            except InputError:
+                tally.add(None)
+                continue
+            if report is None:
+                return
+            tally.add(report)
+    if tally.prompts:
+        yield tally.line()
 
 
 def _make_all(
@@ -205,10 +239,12 @@ def _make_all(
                     continue
                 done += 1
                 paths = plan.files_of(sample).paths
-                manifest.add(sample, paths, events=outcome.events)
+                manifest.add(sample, paths, events=outcome.events, report=outcome.report)
                 warning = "" if outcome.events else ": nothing changed enough to fire"
                 progress.announce(f"made     {paths[0]}, {outcome.events:,} events{warning}")
                 progress.advance("samples", done, len(samples))
+            for line in _count_reports(manifest, samples):
+                progress.announce(line)
     except KeyboardInterrupt:
         say(f"kept     {done} of {len(samples)} samples; the same command goes on")
         raise
@@ -217,3 +253,14 @@ def _make_all(
             f"{failed} of {len(samples)} samples failed; the others are in {plan.folder}"
         )
     return 0
+
+
+def _count_reports(manifest: Manifest, samples: Sequence[Sample]) -> Iterator[str]:
+    """How many of the complete samples show their prompt as it says; a line, or none."""
+    tally = ReportTally()
+    for sample in samples:
+        report = manifest.report_of(sample)
+        if report is not None:
+            tally.add(report)
+    if tally.prompts:
+        yield f"prompts  {tally.line()}"

@@ -67,6 +67,8 @@ class ComposedScene:
     animated_environment: AnimatedEnvironment
     class_names: dict[int, str]
     """Instance id → noun."""
+    not_shown: tuple[str, ...] = ()
+    """Words of the prompt that the scene could not show, such as "under the table"."""
 
     def primitives(self, time_s: float) -> Primitives:
         """All shapes at that instant: actors, then scenery, then weather."""

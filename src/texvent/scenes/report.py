@@ -1,0 +1,212 @@
+"""What became of the words of a prompt: one report, the same in every output."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from texvent.errors import few
+
+REPORT_KEY = "prompt_report"
+"""Name of the report in the metadata of videos and events."""
+MOST_REFUSED = 30
+"""Words of a kind that the error of `strict` names."""
+MOST_COUNTED = 5
+"""Words that a tally names."""
+
+
+@dataclass(frozen=True)
+class Substitution:
+    """A word that is shown as something else."""
+
+    said: str
+    """The word or words of the prompt, such as "spaniel"."""
+    shown: str
+    """What is shown, such as "dog"."""
+
+    def __str__(self) -> str:
+        return f"{self.said} → {self.shown}"
+
+
+@dataclass(frozen=True)
+class PromptReport:
+    """What is shown of a prompt, and every word of it accounted for.
+
+    Example:
+        >>> report = PromptReport(
+        ...     scene=("1 dog, runs",),
+        ...     shown=("runs",),
+        ...     substituted=(Substitution("spaniel", "dog"),),
+        ...     not_understood=("wug",),
+        ... )
+        >>> report.lines()
+        ['1 dog, runs', 'shown as something else: spaniel → dog', 'not understood: wug']
+        >>> PromptReport.from_json(report.to_json()) == report
+        True
+    """
+
+    scene: tuple[str, ...] = ()
+    """What is shown, line by line, for a person to check."""
+    shown: tuple[str, ...] = ()
+    """Words that the scene shows, in order, each once."""
+    substituted: tuple[Substitution, ...] = ()
+    """Words that are shown as something else."""
+    not_shown: tuple[str, ...] = ()
+    """Words that are understood but that the scene could not show, such as "under the table"."""
+    not_understood: tuple[str, ...] = ()
+    """Words that had no effect on the scene, in order, each once."""
+    notes: tuple[str, ...] = ()
+    """What was decided where the prompt leaves it open, as sentences."""
+
+    @property
+    def is_faithful(self) -> bool:
+        """Whether every word is shown as it says: what `strict` asks for."""
+        return not (self.substituted or self.not_shown or self.not_understood)
+
+    def faults(self, most: int | None = None) -> list[str]:
+        """What is not shown as it says: a line for each kind.
+
+        Args:
+            most: words that a line names; None: all.
+        """
+        kinds = {
+            "shown as something else": [str(one) for one in self.substituted],
+            "not shown": self.not_shown,
+            "not understood": self.not_understood,
+        }
+        return [
+            f"{kind}: {', '.join(words) if most is None else few(words, most)}"
+            for kind, words in kinds.items()
+            if words
+        ]
+
+    def lines(self) -> list[str]:
+        """The whole report but for the words that are shown, a line each."""
+        return [*self.scene, *self.notes, *self.faults()]
+
+    def refusal(self) -> str | None:
+        """What `strict` says against the prompt; None where nothing is to say."""
+        if self.is_faithful:
+            return None
+        return (
+            f"strict: the prompt is not shown as it says: {'; '.join(self.faults(MOST_REFUSED))}; "
+            "say it in words of docs/prompts.md, or leave strict out"
+        )
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain values; lists without entries are left out."""
+        plain = {
+            "scene": list(self.scene),
+            "shown": list(self.shown),
+            "substituted": [{"said": one.said, "shown": one.shown} for one in self.substituted],
+            "not_shown": list(self.not_shown),
+            "not_understood": list(self.not_understood),
+            "notes": list(self.notes),
+        }
+        return {name: words for name, words in plain.items() if words}
+
+    @classmethod
+    def from_json(cls, facts: Mapping[str, Any]) -> PromptReport:
+        """The report that `to_json` wrote."""
+        pairs = facts.get("substituted", ())
+        return cls(
+            scene=tuple(facts.get("scene", ())),
+            shown=tuple(facts.get("shown", ())),
+            substituted=tuple(Substitution(one["said"], one["shown"]) for one in pairs),
+            not_shown=tuple(facts.get("not_shown", ())),
+            not_understood=tuple(facts.get("not_understood", ())),
+            notes=tuple(facts.get("notes", ())),
+        )
+
+    @classmethod
+    def of_metadata(cls, metadata: Mapping[str, Any]) -> PromptReport | None:
+        """The report in the metadata of a video; None where its generator gives none.
+
+        Files of texvent 0.x before `prompt_report` hold "understood" and "not_understood".
+        """
+        if REPORT_KEY in metadata:
+            return cls.from_json(metadata[REPORT_KEY])
+        if "understood" not in metadata:
+            return None
+        lines = (str(line) for line in metadata["understood"])
+        return cls(
+            scene=tuple(line for line in lines if not line.startswith("not understood: ")),
+            not_understood=tuple(metadata.get("not_understood", ())),
+        )
+
+
+@dataclass
+class ReportTally:
+    """Counts over the reports of many prompts."""
+
+    prompts: int = 0
+    """Prompts with a report, and those that were refused."""
+    faithful: int = 0
+    refused: int = 0
+    """Prompts that gave no scene: nothing of them is understood, or `strict` refuses them."""
+    kinds: Counter[str] = field(default_factory=Counter)
+    """Kind of fault → prompts that have it."""
+    words: dict[str, Counter[str]] = field(default_factory=dict)
+    """Kind of fault → word → prompts."""
+
+    def add(self, report: PromptReport | None) -> None:
+        """Count a prompt; None: it was refused."""
+        self.prompts += 1
+        if report is None:
+            self.refused += 1
+            return
+        self.faithful += report.is_faithful
+        self._count("not understood", report.not_understood)
+        self._count("not shown", report.not_shown)
+        self._count("shown as something else", map(str, report.substituted))
+
+    def _count(self, kind: str, words: Iterable[str]) -> None:
+        found = set(words)
+        if found:
+            self.kinds[kind] += 1
+            self.words.setdefault(kind, Counter()).update(found)
+
+    @property
+    def tables(self) -> dict[str, Any]:
+        """Plain values, ready for JSON."""
+        return {
+            "prompts": self.prompts,
+            "shown_as_said": self.faithful,
+            "refused": self.refused,
+            **{kind.replace(" ", "_"): count for kind, count in self.kinds.items()},
+            "words": {
+                kind.replace(" ", "_"): dict(ranked(words)) for kind, words in self.words.items()
+            },
+        }
+
+    def line(self, noun: str = "prompts") -> str:
+        """The counts in a line.
+
+        Example:
+            >>> tally = ReportTally()
+            >>> tally.add(PromptReport(not_understood=("wug", "dax")))
+            >>> tally.add(PromptReport())
+            >>> tally.line()
+            '1 of 2 prompts shown as they say; 1 with words not understood (dax, wug)'
+        """
+        parts = [f"{self.faithful:,} of {self.prompts:,} {noun} shown as they say"]
+        for kind, count in self.kinds.items():
+            parts.append(f"{count:,} with words {kind} ({self._few(kind)})")
+        if self.refused:
+            parts.append(f"{self.refused:,} refused")
+        return "; ".join(parts)
+
+    def _few(self, kind: str) -> str:
+        """The most frequent words of a kind."""
+        words = [
+            word if count == 1 else f"{word} ({count:,})"
+            for word, count in ranked(self.words[kind])
+        ]
+        return few(words, MOST_COUNTED)
+
+
+def ranked(counts: Mapping[str, int]) -> list[tuple[str, int]]:
+    """Words with their counts, the most frequent first."""
+    return sorted(counts.items(), key=lambda pair: (-pair[1], pair[0]))
