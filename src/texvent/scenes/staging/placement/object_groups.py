@@ -12,6 +12,7 @@ from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.trajectories.choose_trajectory import MotionPlan
+from texvent.scenes.staging.trajectories.phases import sample_places
 from texvent.scenes.staging.trajectories.trajectory import Vector
 
 GAP_M = 0.25
@@ -106,6 +107,10 @@ def half_extents_over_clip(
         [cosine * length + sine * width, sine * length + cosine * width, model.height]
     )
     spread = np.abs(np.array(offsets)).max(axis=0)
+    if plan.path is not None:
+        half[:2] = 0.5 * max(length, width)
+        places = sample_places(plan.path, plan.duration_s)
+        return np.asarray(half + spread + 0.5 * np.ptp(places, axis=0))
     travel = 0.5 * plan.travel_m * np.array([cosine, sine, abs(plan.climb)])
     if plan.motion.direction == "circle":
         travel = np.array([1.3, 1.3, 0.0]) * max(model.length, model.width)

@@ -82,7 +82,8 @@ class ObjectPlacer:
             noun.build(colour=colour, scale=scene_object.scale, seed=int(rng.integers(2**31)))
             for _ in range(scene_object.count)
         ]
-        plan = plan_motion(scene_object.motion or STANDING, noun, models[0], self._duration_s, rng)
+        motions = (scene_object.motion or STANDING, *scene_object.then)
+        plan = plan_motion(motions, noun, models[0], self._duration_s, rng)
         offsets = place_copies(models, plan, noun, rng)
         return ObjectGroup(
             index,

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,6 +20,13 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
     Sway,
     Swing,
 )
+from texvent.scenes.staging.trajectories.phases import (
+    PATH_KINDS,
+    YAWS,
+    build_path,
+    needs_steering,
+)
+from texvent.scenes.staging.trajectories.steered_path import SteeredPath
 from texvent.scenes.staging.trajectories.trajectory import (
     Circle,
     Rolling,
@@ -35,19 +43,6 @@ in view and large; a speed stated in numbers is not."""
 RUN_FACTOR = 2.2
 """Running over walking speed."""
 
-YAWS = {
-    "right": 0.0,
-    "left": math.pi,
-    "away": 0.5 * math.pi,
-    "up": 0.5 * math.pi,
-    "backward": 0.5 * math.pi,
-    "towards": -0.5 * math.pi,
-    "down": -0.5 * math.pi,
-}
-"""Direction → heading; up and down are along a slope for what moves on the ground."""
-_PATH_KINDS = frozenset(
-    {"drive", "walk", "run", "fly", "swim", "sail", "paddle", "slide", "roll", "move"}
-)
 FLAT = 0.62
 """Objects whose length is below this share of their width show their front to the camera."""
 PEOPLE = frozenset({"person", "man", "woman", "child", "runner", "worker"})
@@ -64,15 +59,14 @@ class MotionPlan:
     yaw: float
     speed_m_s: float
     duration_s: float
+    path: SteeredPath | None = None
+    """Its path about (0, 0), where it does more than one simple movement."""
 
     @property
     def is_path(self) -> bool:
         """Whether it goes from one place to another along a straight line."""
-        return self.motion.kind in _PATH_KINDS and self.motion.direction not in (
-            "circle",
-            "to and fro",
-            "up and down",
-        )
+        is_straight = self.motion.direction not in ("circle", "to and fro", "up and down")
+        return self.path is None and self.motion.kind in PATH_KINDS and is_straight
 
     @property
     def travel_m(self) -> float:
@@ -91,35 +85,59 @@ class MotionPlan:
 
 
 def plan_motion(
-    motion: ObjectMotion, noun: Noun, model: Model, duration_s: float, rng: np.random.Generator
+    motions: Sequence[ObjectMotion],
+    noun: Noun,
+    model: Model,
+    duration_s: float,
+    rng: np.random.Generator,
 ) -> MotionPlan:
     """Heading and speed of a motion: said by the prompt, or usual for the noun.
 
     Args:
-        motion: what the prompt says.
+        motions: what the prompt says, in order; the first decides the heading.
         noun: the object.
         model: its model, for its size.
         duration_s: length of the clip, s.
         rng: decides between left and right where nothing is said.
     """
+    motion = motions[0]
     toss = rng.random()
     default = "left" if toss < 0.5 else "right"
-    direction = motion.direction or default
-    if motion.direction is None and motion.kind not in _PATH_KINDS:
+    later = (m.direction for m in motions if m.kind in PATH_KINDS and m.direction in YAWS)
+    direction = motion.direction or next(later, None) or default
+    is_steered = needs_steering(motions)
+    goes = motion.kind in PATH_KINDS or any(m.kind in _GOING for m in motions)
+    if motion.kind == "turn":
+        yaw = YAWS[default]  # "turns left" is to its own left
+    elif motion.direction is None and not goes:
         yaw = _face_camera(noun, model, motion, toss)
     elif motion.kind in ("fly", "swim") and direction in ("up", "down"):
         yaw = YAWS[default]
     else:
         yaw = YAWS.get(direction, YAWS[default])
-    if motion.speed_m_s is not None:
-        return MotionPlan(motion, yaw, motion.speed_m_s, duration_s)
+    speed = _choose_speed(motions, noun, model)
+    if not is_steered:
+        pace = 1.0 if motion.speed_m_s is not None else motion.pace
+        return MotionPlan(motion, yaw, speed * pace, duration_s)
+    path = build_path(motions, noun, model, yaw=yaw, usual_m_s=speed, duration_s=duration_s)
+    return MotionPlan(motion, path.yaw, speed, duration_s, path)
+
+
+_GOING = PATH_KINDS | {"turn", "reverse", "zigzag", "enter", "leave", "appear"}
+
+
+def _choose_speed(motions: Sequence[ObjectMotion], noun: Noun, model: Model) -> float:
+    """Speed at pace 1, or as stated, m/s."""
+    motion = motions[0]
+    stated = next((m.speed_m_s for m in motions if m.speed_m_s is not None), None)
+    if stated is not None:
+        return stated
     speed = noun.speed_m_s if noun.speed_m_s > 0.0 else 1.0
     if motion.kind == "run" and noun.motion == "walk":
         speed *= RUN_FACTOR
     # What flies has no road to be compared with: slower, it can be shown larger.
     most = MAX_LENGTHS_PER_S * (0.8 if noun.habitat == "air" else 1.0)
-    speed = min(speed, most * max(model.length, model.height))
-    return MotionPlan(motion, yaw, speed * motion.pace, duration_s)
+    return min(speed, most * max(model.length, model.height))
 
 
 def _face_camera(noun: Noun, model: Model, motion: ObjectMotion, toss: float) -> float:
@@ -154,23 +172,33 @@ def choose_trajectory(
         rng: decides phases.
         clear_m: height of what it jumps over at its home, m.
     """
+    if plan.path is not None:
+        return _shift_path(plan.path, model, home)
     if clear_m > 0.0:
         return _jump_over(plan, model, home, clear_m)
     kind, direction = plan.motion.kind, plan.motion.direction
     phase = float(rng.uniform(0.0, 2.0 * math.pi))
-    if kind in _PATH_KINDS and direction == "circle":
+    if kind in PATH_KINDS and direction == "circle":
         radius = 1.3 * max(model.length, model.width)
         lean = 0.35 if kind == "fly" else 0.0
-        return Circle(home, radius, plan.speed_m_s / radius, phase, _activity(kind), lean)
+        rate = plan.speed_m_s / radius
+        return Circle(home, radius, rate, phase, _activity(kind), lean)
     if direction in ("to and fro", "up and down"):
         reach = max(0.3 * plan.speed_m_s * plan.duration_s, 0.4 * model.height)
         return Shuttle(
             home, plan.yaw, reach, max(plan.duration_s, 1.0), _activity(kind),
             direction == "up and down",
         )  # fmt: skip
-    if kind in _PATH_KINDS:
+    if kind in PATH_KINDS:
         return _follow_path(plan, model, home, phase)
     return _act_in_place(plan, model, home, phase)
+
+
+def _shift_path(path: SteeredPath, model: Model, home: Vector) -> SteeredPath:
+    """The path about a home; what flies stays above the ground."""
+    x, y, _ = path.start
+    floor = home[2] if math.isfinite(path.floor_m) else min(0.5 * model.height, home[2])
+    return replace(path, start=(x + home[0], y + home[1], home[2]), floor_m=floor)
 
 
 def _jump_over(plan: MotionPlan, model: Model, home: Vector, clear_m: float) -> Trajectory:
@@ -213,7 +241,7 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
     span = max(model.length, model.width, model.height)
     turn = 2.0 * math.pi * SPIN_RATE_HZ * pace
     if kind == "spin":
-        sign = -1.0 if plan.motion.direction == "right" else 1.0
+        sign = -1.0 if plan.motion.direction in ("right", "clockwise") else 1.0
         return Spin(home, sign * turn, phase)
     if kind in ("bounce", "fall", "throw"):
         return _fly_freely(plan, model, home)

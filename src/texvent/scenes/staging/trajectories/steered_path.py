@@ -1,0 +1,268 @@
+"""A path made of pieces: each ends at a speed, a rate of turning and a rate of climbing.
+
+Within a piece these three change smoothly (3u² - 2u³) from the values that the last piece ended
+with and stay there, so position, heading and speed are continuous. Heading, height and distance
+follow in closed form; the position is the integral of the velocity, in closed form on straight
+lines and circular arcs and by Gauss-Legendre quadrature while speed or rate of turning change.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from texvent.scenes.staging.trajectories.action_trajectories import GRAVITY_M_S2, Bounce
+from texvent.scenes.staging.trajectories.trajectory import BodyState, Vector
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
+_RADIANS_PER_STEP = 1.0
+"""Most heading that one step of the quadrature spans."""
+_STRAIGHT_RAD_S = 1e-9
+
+
+@dataclass(frozen=True)
+class Piece:
+    """One stretch of a path."""
+
+    duration_s: float
+    speed_m_s: float = 0.0
+    """Along the heading, at its end; negative = backwards."""
+    turn_rad_s: float = 0.0
+    """Rate of the heading at its end; positive = to the left."""
+    climb_m_s: float = 0.0
+    ramp_s: float = 0.3
+    """How long the change to these values takes; at most the whole piece."""
+    activity: str = "move"
+    hop_m: float = 0.0
+    """Height of hops; 0 = none."""
+    is_dropped: bool = False
+    """Whether it falls to the floor, with small bounces."""
+    pitch_rad: float = 0.0
+    """Pitch of the body at its end, as of a person who falls over."""
+    sway_rad: float = 0.0
+    """Amplitude of leaning from side to side."""
+
+
+class _Knot(NamedTuple):
+    """Values at the beginning of a piece."""
+
+    time_s: float
+    x: float
+    y: float
+    z: float
+    heading: float
+    distance_m: float
+    speed: float
+    turn: float
+    climb: float
+    pitch: float
+
+
+@dataclass(frozen=True)
+class SteeredPath:
+    """Goes along its pieces; before the first it moves straight, after the last it goes on."""
+
+    start: Vector
+    """Where it is at t = 0, m."""
+    yaw: float
+    pieces: tuple[Piece, ...]
+    initial_speed_m_s: float = 0.0
+    initial_turn_rad_s: float = 0.0
+    lean: float = 0.0
+    """How far it leans into a turn: 1 = as far as a bicycle must."""
+    usual_speed_m_s: float = 1.0
+    floor_m: float = 0.0
+    """Height of its origin when it rests on the ground, m."""
+    restitution: float = 0.3
+
+    @property
+    def duration_s(self) -> float:
+        """Sum of its pieces."""
+        return self._knots[-1].time_s
+
+    @cached_property
+    def _knots(self) -> list[_Knot]:
+        x, y, z = self.start
+        knot = _Knot(0.0, x, y, z, self.yaw, 0.0, self.initial_speed_m_s, self.initial_turn_rad_s,
+                     0.0, 0.0)  # fmt: skip
+        knots = [knot]
+        for piece in self.pieces:
+            knot = self._advance(knot, piece, piece.duration_s)
+            knots.append(knot)
+        return knots
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        number, knot, piece, elapsed = self._find(time_s)
+        now = self._advance(knot, piece, elapsed)
+        height, pitch, roll = now.z, now.pitch, 0.0
+        if 0.0 <= elapsed <= piece.duration_s and number >= 0:
+            height += _hop_height(piece, elapsed)
+            share = elapsed / piece.duration_s
+            roll += piece.sway_rad * math.sin(math.pi * share) ** 2 * math.sin(9.0 * elapsed)
+        slow = 0.3 * max(self.usual_speed_m_s, 0.1)
+        pitch -= math.atan(now.climb * abs(now.speed) / (now.speed**2 + slow**2))
+        roll -= math.atan(self.lean * now.speed * now.turn / GRAVITY_M_S2)
+        return BodyState(
+            (now.x, now.y, height),
+            now.heading,
+            pitch,
+            roll,
+            distance_m=now.distance_m,
+            speed_m_s=abs(now.speed),
+            activity=piece.activity,
+        )
+
+    def distance_at(self, time_s: float) -> float:
+        """Way covered since t = 0, forwards less backwards, m."""
+        _, knot, piece, elapsed = self._find(time_s)
+        return knot.distance_m + _integral(knot.speed, piece.speed_m_s, _ramp(piece), elapsed)
+
+    def _find(self, time_s: float) -> tuple[int, _Knot, Piece, float]:
+        """The piece that holds an instant: its number, its beginning, itself, and time in it."""
+        knots = self._knots
+        if time_s < 0.0:
+            steady = Piece(1.0, knots[0].speed, activity=self.pieces[0].activity)
+            return -1, knots[0]._replace(turn=0.0), steady, time_s
+        for number, piece in enumerate(self.pieces):
+            if time_s < knots[number + 1].time_s or number == len(self.pieces) - 1:
+                return number, knots[number], piece, time_s - knots[number].time_s
+        raise AssertionError("a path has at least one piece")
+
+    def _advance(self, knot: _Knot, piece: Piece, elapsed: float) -> _Knot:
+        """Values that long after the beginning of a piece."""
+        ramp = _ramp(piece)
+        x, y = _travel(knot, piece, ramp, elapsed)
+        z = knot.z + _integral(knot.climb, piece.climb_m_s, ramp, elapsed)
+        if piece.is_dropped:
+            drop = Bounce((0.0, 0.0, knot.z), self.floor_m, restitution=self.restitution)
+            z = self.floor_m + drop.height_m(max(elapsed, 0.0))
+        pitch = _blend(knot.pitch, piece.pitch_rad, ramp, elapsed)
+        return _Knot(
+            knot.time_s + elapsed,
+            x,
+            y,
+            max(z, self.floor_m),
+            knot.heading + _integral(knot.turn, piece.turn_rad_s, ramp, elapsed),
+            knot.distance_m + _integral(knot.speed, piece.speed_m_s, ramp, elapsed),
+            _blend(knot.speed, piece.speed_m_s, ramp, elapsed),
+            _blend(knot.turn, piece.turn_rad_s, ramp, elapsed),
+            _blend(knot.climb, piece.climb_m_s, ramp, elapsed),
+            pitch,
+        )
+
+
+@dataclass(frozen=True)
+class Lagging:
+    """Follows a path at a constant distance behind, along the very same line."""
+
+    path: SteeredPath
+    gap_m: float
+    shift: Vector = (0.0, 0.0, 0.0)
+    """Added to its place, m."""
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        way = self.path.distance_at(time_s) - self.gap_m
+        low, high = -(abs(self.gap_m) + 1.0) / max(abs(self.path.initial_speed_m_s), 1e-3), time_s
+        if way <= 0.0:
+            x, y, z = self.path.start
+            place = (x + way * math.cos(self.path.yaw), y + way * math.sin(self.path.yaw), z)
+            state = BodyState(place, self.path.yaw)
+        else:
+            low = 0.0
+            for _ in range(60):
+                middle = 0.5 * (low + high)
+                if self.path.distance_at(middle) < way:
+                    low = middle
+                else:
+                    high = middle
+            state = self.path.at(high)
+        leader = self.path.at(time_s)
+        x, y, z = (a + b for a, b in zip(state.position, self.shift, strict=True))
+        return BodyState(
+            (x, y, z), state.yaw, state.pitch, state.roll, way, leader.speed_m_s, leader.activity
+        )
+
+
+def _ramp(piece: Piece) -> float:
+    return min(piece.ramp_s, piece.duration_s)
+
+
+def _blend(before: float, after: float, ramp: float, elapsed: float) -> float:
+    if elapsed >= ramp:
+        return after
+    u = max(elapsed, 0.0) / ramp
+    return before + (after - before) * u * u * (3.0 - 2.0 * u)
+
+
+def _integral(before: float, after: float, ramp: float, elapsed: float) -> float:
+    """Integral of `_blend` from 0 to `elapsed`; before 0 the value is `before`."""
+    if elapsed < 0.0 or ramp <= 0.0:
+        return (before if elapsed < 0.0 else after) * elapsed
+    u = min(elapsed / ramp, 1.0)
+    eased = ramp * (u * u * u - 0.5 * u**4)
+    return before * u * ramp + (after - before) * eased + after * max(elapsed - ramp, 0.0)
+
+
+def _travel(knot: _Knot, piece: Piece, ramp: float, elapsed: float) -> tuple[float, float]:
+    """X and y that long after the beginning of a piece, m."""
+    x, y, heading = knot.x, knot.y, knot.heading
+    changing = min(elapsed, ramp)
+    if elapsed < 0.0:
+        way = knot.speed * elapsed
+        return x + way * math.cos(heading), y + way * math.sin(heading)
+    if knot.turn == 0.0 == piece.turn_rad_s:
+        way = _integral(knot.speed, piece.speed_m_s, ramp, elapsed)
+        return x + way * math.cos(heading), y + way * math.sin(heading)
+    dx, dy = _quadrature(knot, piece, ramp, changing)
+    x, y = x + dx, y + dy
+    heading += _integral(knot.turn, piece.turn_rad_s, ramp, changing)
+    rest = max(elapsed - ramp, 0.0)
+    speed, turn = piece.speed_m_s, piece.turn_rad_s
+    if abs(turn) < _STRAIGHT_RAD_S:
+        return x + speed * rest * math.cos(heading), y + speed * rest * math.sin(heading)
+    end = heading + turn * rest
+    radius = speed / turn
+    return (
+        x + radius * (math.sin(end) - math.sin(heading)),
+        y - radius * (math.cos(end) - math.cos(heading)),
+    )
+
+
+def _quadrature(knot: _Knot, piece: Piece, ramp: float, elapsed: float) -> tuple[float, float]:
+    """Integral of the velocity over the first `elapsed` s of a piece, within its ramp, m."""
+    if elapsed <= 0.0:
+        return 0.0, 0.0
+    widest = max(abs(knot.turn), abs(piece.turn_rad_s)) * ramp
+    steps = max(1, math.ceil(widest / _RADIANS_PER_STEP))
+    edges = np.linspace(0.0, elapsed, steps + 1)
+    half = 0.5 * elapsed / steps
+    times = (0.5 * (edges[:-1] + edges[1:]))[:, None] + half * _NODES
+    u = times / ramp
+    ease, area = u * u * (3.0 - 2.0 * u), ramp * (u**3 - 0.5 * u**4)
+    speed = knot.speed + (piece.speed_m_s - knot.speed) * ease
+    heading = knot.heading + knot.turn * times + (piece.turn_rad_s - knot.turn) * area
+    dx = half * float(np.sum(_WEIGHTS * speed * np.cos(heading)))
+    dy = half * float(np.sum(_WEIGHTS * speed * np.sin(heading)))
+    return dx, dy
+
+
+HOP_PAUSE_S = 0.12
+"""Time on the ground between hops."""
+
+
+def _hop_height(piece: Piece, elapsed: float) -> float:
+    """Height above the ground: hops of free flight that fill the piece as often as they fit."""
+    if piece.hop_m <= 0.0:
+        return 0.0
+    flight = 2.0 * math.sqrt(2.0 * piece.hop_m / GRAVITY_M_S2)
+    count = max(1, math.floor(piece.duration_s / (flight + HOP_PAUSE_S)))
+    period = piece.duration_s / count
+    flight = min(flight, period)
+    into = min(elapsed % period, flight) if elapsed < piece.duration_s else flight
+    return max(0.5 * GRAVITY_M_S2 * into * (flight - into), 0.0)

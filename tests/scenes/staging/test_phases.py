@@ -1,0 +1,127 @@
+"""Sequences of motions: when each happens, and what the path does."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.scenes.description import ObjectMotion
+from texvent.scenes.models.nouns import NOUNS
+from texvent.scenes.staging.trajectories.phases import build_path, left_out, schedule
+from texvent.scenes.staging.trajectories.steered_path import SteeredPath
+
+KINDS = ("drive", "walk", "run", "fly", "turn", "reverse", "zigzag", "spin", "rise", "sink",
+         "jump", "bounce", "fall", "stand", "sit", "sway", "dance", "hover")  # fmt: skip
+DIRECTIONS = (None, "left", "right", "towards", "away", "backward", "around", "circle", "up")
+motions = st.builds(
+    ObjectMotion,
+    st.sampled_from(KINDS),
+    st.sampled_from(DIRECTIONS),
+    st.sampled_from([0.5, 1.0, 2.0]),
+    end_pace=st.sampled_from([None, None, 0.0, 2.0]),
+)
+
+
+def path_of(
+    *sequence: ObjectMotion, noun: str = "car", speed: float = 4.0, duration_s: float = 4.0
+) -> SteeredPath:
+    model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
+    return build_path(sequence, NOUNS[noun], model, yaw=0.0, usual_m_s=speed, duration_s=duration_s)
+
+
+def test_motions_share_the_clip_evenly() -> None:
+    phases = schedule([ObjectMotion("drive"), ObjectMotion("turn"), ObjectMotion("stand")], 3.0)
+    assert [(p.start_s, p.end_s) for p in phases] == [(0.0, 1.0), (1.0, 2.0), (2.0, 3.0)]
+
+
+def test_stated_times_are_kept() -> None:
+    sequence = [ObjectMotion("walk"), ObjectMotion("jump", start_s=2.0), ObjectMotion("sit")]
+    starts = [phase.start_s for phase in schedule(sequence, 6.0)]
+    assert starts == [0.0, 2.0, 4.0]
+    waiting = schedule([ObjectMotion("walk", start_s=1.5)], 2.0)
+    assert [(p.motion.kind, p.start_s) for p in waiting] == [("stand", 0.0), ("walk", 1.5)]
+
+
+def test_what_begins_after_the_clip_is_named() -> None:
+    sequence = [ObjectMotion("walk"), ObjectMotion("jump", start_s=5.0)]
+    assert left_out(sequence, 2.0) == [sequence[1]]
+    assert [p.motion.kind for p in schedule(sequence, 2.0)] == ["walk"]
+
+
+@given(
+    st.lists(motions, min_size=1, max_size=4),
+    st.sampled_from(["car", "man", "helicopter", "dog", "fish", "table"]),
+    st.floats(0.0, 4.0),
+    st.floats(0.5, 4.0),
+)
+def test_sequences_are_continuous(
+    sequence: list[ObjectMotion], noun: str, time_s: float, duration_s: float
+) -> None:
+    path = path_of(*sequence, noun=noun, duration_s=duration_s)
+    assert path.duration_s == pytest.approx(duration_s)
+    edges = np.cumsum([piece.duration_s for piece in path.pieces])
+    for instant in (time_s, *(edges - 5e-4)):
+        before, after = path.at(float(instant)), path.at(float(instant) + 1e-3)
+        assert np.abs(np.subtract(after.position, before.position)).max() < 0.05
+        assert abs(after.yaw - before.yaw) < 0.2
+        assert abs(after.speed_m_s - before.speed_m_s) < 1.0
+
+
+@pytest.mark.parametrize(("direction", "sign"), [("left", 1.0), ("right", -1.0)])
+def test_a_car_turns_a_quarter_circle_and_drives_on(direction: str, sign: float) -> None:
+    path = path_of(ObjectMotion("turn", direction))
+    turned = path.at(4.0).yaw - path.at(0.0).yaw
+    assert turned == pytest.approx(sign * 0.5 * math.pi)
+    assert path.at(4.0).distance_m > 10.0
+    assert path.at(4.0).speed_m_s == path.at(0.0).speed_m_s
+
+
+def test_a_car_that_turns_and_stops_ends_at_rest() -> None:
+    path = path_of(ObjectMotion("turn", "left"), ObjectMotion("stand"))
+    assert path.at(4.0).speed_m_s == 0.0
+    assert path.at(1.0).speed_m_s > 3.0
+
+
+def test_a_car_that_reverses_moves_against_its_heading() -> None:
+    path = path_of(ObjectMotion("drive", "backward"))
+    assert path.at(4.0).position[0] < path.at(0.0).position[0] - 10.0
+    assert path.at(2.0).yaw == path.at(0.0).yaw == 0.0
+    assert path.at(4.0).distance_m < 0.0
+
+
+def test_turning_round_ends_with_the_opposite_heading() -> None:
+    path = path_of(ObjectMotion("walk"), ObjectMotion("turn", "around"), ObjectMotion("walk"),
+                   noun="man", speed=1.4)  # fmt: skip
+    assert math.cos(path.at(4.0).yaw) == pytest.approx(-1.0)
+
+
+def test_a_later_direction_is_one_in_the_picture() -> None:
+    path = path_of(ObjectMotion("rise"), ObjectMotion("fly", "left"), noun="helicopter")
+    assert math.cos(path.at(4.0).yaw) == pytest.approx(-1.0)
+    assert path.at(4.0).position[2] > 1.0
+
+
+@given(st.floats(0.5, 20.0))
+def test_stated_speeds_are_exact(speed: float) -> None:
+    path = path_of(
+        ObjectMotion("drive", speed_m_s=speed), ObjectMotion("turn", "left", speed_m_s=speed)
+    )
+    for time_s in (0.3, 1.0, 3.0):
+        assert path.at(time_s).speed_m_s == pytest.approx(speed, rel=1e-12)
+
+
+def test_accelerating_and_braking_end_at_the_end_pace() -> None:
+    faster = path_of(ObjectMotion("drive", end_pace=2.0))
+    assert (faster.at(0.0).speed_m_s, faster.at(4.0).speed_m_s) == (4.0, 8.0)
+    braking = path_of(ObjectMotion("drive", end_pace=0.0))
+    assert braking.at(4.0).speed_m_s == 0.0
+
+
+def test_what_falls_over_lies_on_the_ground() -> None:
+    path = path_of(ObjectMotion("walk"), ObjectMotion("fall"), noun="man", speed=1.4)
+    assert path.at(4.0).pitch == pytest.approx(0.5 * math.pi)
+    assert path.at(1.9).pitch == 0.0
