@@ -142,6 +142,11 @@ class CameraMove:
     """Multiple of the usual rate."""
     phase: int = 0
     """Moves of one phase happen together; phases follow each other and share the clip evenly."""
+    means: str | None = None
+    """For travel: "drive", "cycle", "walk", "run", "fly", "sail" or "swim"; None = what suits the
+    place."""
+    speed_m_s: float | None = None
+    """For travel: speed that the prompt states, m/s."""
 
 
 @dataclass(frozen=True)
