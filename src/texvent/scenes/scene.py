@@ -40,13 +40,54 @@ class Texture(IntEnum):
 
     PLAIN = 0
     MOTTLED = 1
-    """Smooth value noise: foliage, fur, soil."""
+    """Patches as large as 1 / `texture_scale` of the shape."""
     STRIPES = 2
     """Bands along local z: a zebra, a barrier, planks."""
     CHECKS = 3
     """3-D checker: tiles, a football, windows."""
     WINDOWS = 4
     """Grid of panes on the sides: a façade."""
+
+    # Materials: textures at life size, from the tiles in `raycast.surfaces`.
+    VARIATION = 16
+    CRACKED = 17
+    WORN = 18
+    """Nearly even: paint, plastic."""
+    ASPHALT = 19
+    GRASS = 20
+    SOIL = 21
+    SAND = 22
+    GRAVEL = 23
+    LEAVES = 24
+    SNOW = 25
+    PAVING = 26
+    TILES = 27
+    BOARDS = 28
+    CARPET = 29
+    WATER = 30
+    STONE = 31
+    CONCRETE = 32
+    PLASTER = 33
+    BRICK = 34
+    ROOFING = 35
+    WALLPAPER = 36
+    WOOD = 37
+    BARK = 38
+    FOLIAGE = 39
+    NEEDLES = 40
+    FUR = 41
+    FEATHERS = 42
+    CLOTH = 43
+    SKIN = 44
+    METAL = 45
+    RUST = 46
+    LEATHER = 47
+    SCALES = 48
+    SPOTS = 49
+
+
+FIRST_SURFACE = Texture.VARIATION
+"""Textures from here on are materials; see `raycast.surfaces.catalogue.SURFACES`."""
 
 
 @dataclass(frozen=True)
@@ -158,6 +199,10 @@ class Environment:
     road_crossings: Float64Array = field(default_factory=lambda: np.zeros((0, 3)))
     """[k, 3] straight roads that cross the main one: x, y of a point on the centre line (metres)
     and direction (radians)."""
+    ground_surface: Texture | None = None
+    """Material of the ground; None = the usual one of `ground`."""
+    wall_surface: Texture = Texture.PLASTER
+    """Material of a room's walls."""
 
 
 class Scene(Protocol):

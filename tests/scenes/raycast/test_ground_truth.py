@@ -190,5 +190,5 @@ def test_warping_a_image_back_by_the_flow_gives_the_other_image() -> None:
     def psnr(other: np.ndarray) -> float:
         return float(10 * np.log10(255.0**2 / np.mean((other - before)[visible] ** 2)))
 
-    assert psnr(warped) > 34.0
+    assert psnr(warped) > 32.0
     assert psnr(warped) > psnr(after) + 8.0

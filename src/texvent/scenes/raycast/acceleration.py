@@ -22,7 +22,9 @@ from texvent.scenes.raycast.records import (
     describe_materials,
     describe_rays,
     describe_surroundings,
+    ground_surfaces,
 )
+from texvent.scenes.raycast.surfaces.catalogue import build_tiles
 from texvent.scenes.scene import (
     Environment,
     Float64Array,
@@ -184,8 +186,7 @@ def build_world(
     shapes["depth"] = depth
     shapes["window"] = bounds + coarseness[1] * WINDOW_MARGIN_PX * np.array([-1.0, 1.0, -1.0, 1.0])
     wanted = _wanted_widths(primitives, rays, coarseness[0] * THIN_PROBES / samples)
-    half = np.linalg.norm(primitives.to_world[:, :, :3], axis=1)
-    shapes["shrink"] = np.minimum(half / wanted[:, None], 1.0)
+    shapes["shrink"] = np.minimum(shapes["extent"] / wanted[:, None], 1.0)
     shapes["is_thin"] = (shapes["shrink"] < 1.0).any(axis=1)
     corner = instant["plane_corner"][0][[0, 0, 1, 1]]
     tiles = _tile_lists(shapes["window"] - corner, depth, exists, plane_size)
@@ -199,7 +200,8 @@ def build_world(
     instant["tile_columns"], instant["tile_rows"] = tiles.columns, tiles.rows
     instant["sun_cells"] = len(tiles.start)
     lamps = np.ascontiguousarray(np.asarray(environment.lamps, dtype=np.float64).reshape(-1, 7))
-    return World(instant, shapes, _join_lists(tiles, sun_cells), lamps)
+    textures = {*np.unique(shapes["texture"]).tolist(), *ground_surfaces(environment)}
+    return World(instant, shapes, _join_lists(tiles, sun_cells), lamps, *build_tiles(textures))
 
 
 def _describe_distortion(

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from texvent.scenes.lens import Lens
 from texvent.scenes.projection import Rays
-from texvent.scenes.scene import Environment, Float64Array, Primitives
+from texvent.scenes.scene import Environment, Float64Array, Ground, Primitives, Texture
 
 NIGHT_SKY = 0.06
 """Stars show where the sky at the zenith is darker than this (linear luma)."""
@@ -48,6 +48,9 @@ INSTANT_RECORD = np.dtype(
         ("ground", "i8"),
         ("colour", "f8", 3),
         ("second_colour", "f8", 3),
+        ("ground_surface", "i8"),  # `Texture` of what lies beside the road, of the road, of walls
+        ("road_surface", "i8"),
+        ("wall_surface", "i8"),
         ("road", "f8", 5),  # cosine and sine of its direction, half width, x and y on it
         ("sky_top", "f8", 3),
         ("sky_horizon", "f8", 3),
@@ -86,6 +89,7 @@ SHAPE_RECORD = np.dtype(
         ("is_thin", "i8"),
         ("texture", "i8"),
         ("texture_scale", "f8"),
+        ("extent", "f8", 3),  # metres per local unit along each local axis
         ("emission", "f8"),
         ("colour", "f8", 3),
         ("second_colour", "f8", 3),
@@ -106,6 +110,10 @@ class World(NamedTuple):
     """Shape numbers by screen tile and by sun cell; see `INSTANT_RECORD`."""
     lamps: Float64Array
     """[m, 7] as in `Environment.lamps`."""
+    tiles: NDArray[np.float32]
+    """[k, texels, channels] tiles of the materials in use; see `surfaces.catalogue.build_tiles`."""
+    surfaces: Float64Array
+    """[materials, 5] what each material is like; see `surfaces.catalogue.build_tiles`."""
 
 
 def describe_lens(instant: NDArray[Any], lens: Lens, corner: tuple[float, float]) -> None:
@@ -122,12 +130,37 @@ def describe_rays(instant: NDArray[Any], rays: Rays) -> None:
     instant["step"] = np.linalg.norm(rays.right)
 
 
+_GROUND_SURFACES = {
+    Ground.PLAIN: (Texture.CONCRETE, Texture.ASPHALT),
+    Ground.GRASS: (Texture.GRASS, Texture.ASPHALT),
+    Ground.ROAD: (Texture.GRASS, Texture.ASPHALT),
+    Ground.DIRT_ROAD: (Texture.GRASS, Texture.SOIL),
+    Ground.SEA: (Texture.WATER, Texture.WATER),
+    Ground.CITY: (Texture.PAVING, Texture.ASPHALT),
+    Ground.FLOOR: (Texture.BOARDS, Texture.BOARDS),
+    Ground.SAND: (Texture.SAND, Texture.SAND),
+    Ground.SNOW: (Texture.SNOW, Texture.SNOW),
+    Ground.UNDERWATER: (Texture.SAND, Texture.SAND),
+    Ground.NONE: (Texture.PLAIN, Texture.PLAIN),
+}
+"""What each ground is usually made of, and the road on it."""
+
+
+def ground_surfaces(environment: Environment) -> tuple[int, int, int]:
+    """Materials of the ground, of the road on it, and of a room's walls, as `Texture`."""
+    usual = _GROUND_SURFACES[environment.ground]
+    ground = usual[0] if environment.ground_surface is None else environment.ground_surface
+    return int(ground), int(usual[1]), int(environment.wall_surface)
+
+
 def describe_surroundings(instant: NDArray[Any], environment: Environment, shadows: bool) -> None:
     """Write the surroundings into the record; `shadows` False turns shadows off."""
     sun = np.asarray(environment.sun_direction, dtype=np.float64)
     luma = float(np.dot([0.2126, 0.7152, 0.0722], environment.sky_top))
     angle = float(environment.road_angle)
     instant["ground"] = int(environment.ground)
+    surfaces = ground_surfaces(environment)
+    instant["ground_surface"], instant["road_surface"], instant["wall_surface"] = surfaces
     instant["colour"] = environment.ground_colour
     instant["second_colour"] = environment.ground_second_colour
     instant["road"] = (
@@ -149,6 +182,14 @@ def describe_surroundings(instant: NDArray[Any], environment: Environment, shado
 
 
 def describe_materials(shapes: NDArray[Any], primitives: Primitives) -> None:
-    """Write what shapes are made of into their records."""
+    """Write what shapes are made of into their records.
+
+    `Texture.MOTTLED` follows the size of its shape: it is a material at another fineness.
+    """
     for name in ("texture", "texture_scale", "emission", "colour", "second_colour"):
         shapes[name] = getattr(primitives, name)
+    shapes["extent"] = np.linalg.norm(primitives.to_world[:, :, :3], axis=1)
+    mottled = primitives.texture == Texture.MOTTLED
+    largest = np.maximum(shapes["extent"][mottled].max(axis=1, initial=0.0), 1e-9)
+    shapes["texture"][mottled] = Texture.SPOTS
+    shapes["texture_scale"][mottled] = 0.25 * primitives.texture_scale[mottled] / largest

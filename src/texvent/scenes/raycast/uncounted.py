@@ -45,4 +45,6 @@ def uncounted_world(world: World) -> World:
         uncounted(world.shapes),
         uncounted(world.lists),
         uncounted(world.lamps),
+        uncounted(world.tiles),
+        uncounted(world.surfaces),
     )

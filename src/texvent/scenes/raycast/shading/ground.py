@@ -1,139 +1,193 @@
-"""Colour of what z = 0 is made of, and of the walls of a room (compiled by Numba)."""
+"""Colour and relief of what z = 0 is made of, and of the walls of a room (compiled by Numba)."""
 
 from __future__ import annotations
 
-import math
-
 from texvent.runtime.jit import jit
-from texvent.scenes.raycast.records import Record
+from texvent.scenes.raycast.records import Record, World
+from texvent.scenes.raycast.shading.material import (
+    Patch,
+    Sample,
+    largest_patches,
+    patch_axes,
+    sample_material,
+)
 from texvent.scenes.raycast.shading.sky import mix
 from texvent.scenes.raycast.shading.value_noise import (
     box_coverage,
     detail_fade,
-    fractal_2d,
     noise_2d,
     smooth,
     square_wave,
 )
-from texvent.scenes.raycast.vectors import scaled, triple
+from texvent.scenes.raycast.vectors import Vector, along, scaled, triple
 from texvent.scenes.scene import Colour
 
-_WHITE_PAINT = (0.75, 0.75, 0.72)
+_WHITE_PAINT = (0.62, 0.62, 0.60)
 _PAVEMENT = (0.34, 0.33, 0.32)
+_KERB = (0.46, 0.46, 0.44)
+_DRY = (0.05, 0.035, 0.008)
 _DASH_M = 6.0
 _LINE_M = 0.14
+_DIRT_ROAD = 3
+_CITY = 5
+
+Look = tuple[Colour, float, float]
+"""Reflectance, and slopes along x and y."""
 
 
 @jit(error_model="numpy")
-def _meadow(instant: Record, x: float, y: float, footprint: float) -> Colour:
-    """Grass: patches, tufts and blades."""
-    patches = fractal_2d(0.23 * x, 0.23 * y, 3, 0.23 * footprint)
-    blades = fractal_2d(3.1 * x, 3.1 * y, 3, 3.1 * footprint)
-    colour = mix(triple(instant.colour), triple(instant.second_colour), smooth(0.5 + 0.6 * patches))
-    return scaled(colour, 1.0 + 0.45 * blades)
+def _painted(sample: Sample, first: Colour, second: Colour, factor: float) -> Look:
+    """A material in two colours."""
+    colour = along(scaled(first, factor * sample[0]), second, factor * sample[1])
+    return colour, sample[2], sample[3]
 
 
 @jit(error_model="numpy")
-def _speckled(colour: Colour, x: float, y: float, footprint: float, contrast: float) -> Colour:
-    """A rough plain surface: asphalt, soil, snow."""
-    coarse = fractal_2d(0.6 * x, 0.6 * y, 3, 0.6 * footprint)
-    fine = fractal_2d(7.0 * x, 7.0 * y, 2, 7.0 * footprint)
-    return scaled(colour, 1.0 + contrast * (0.6 * coarse + 0.5 * fine))
-
-
-@jit(error_model="numpy")
-def _asphalt(instant: Record, along: float, across: float, footprints: Colour) -> Colour:
-    """Carriageway with a dashed middle line and edge lines.
-
-    `footprints` are metres that a pixel covers along and across, and the pixel's longest side.
-    """
-    half = instant.road[2]
-    footprint_along, footprint_across, pixel = footprints
-    colour = _speckled(triple(instant.second_colour), along, across, pixel, 0.18)
-    edge = box_coverage(abs(across), half - 3.0 * _LINE_M, half - 2.0 * _LINE_M, footprint_across)
-    middle = box_coverage(across, -0.5 * _LINE_M, 0.5 * _LINE_M, footprint_across)
-    dashes = square_wave(along / _DASH_M, footprint_along / _DASH_M)
-    return mix(colour, _WHITE_PAINT, max(edge, middle * dashes))
-
-
-@jit(error_model="numpy")
-def _road(instant: Record, x: float, y: float, footprint: Colour) -> Colour:
-    """ROAD, DIRT_ROAD and CITY: a strip along `road`, and what lies beside it."""
-    cosine, sine, half, x0, y0 = instant.road
-    along = (x - x0) * cosine + (y - y0) * sine
-    across = (y - y0) * cosine - (x - x0) * sine
-    footprint_along = abs(footprint[0] * cosine) + abs(footprint[1] * sine)
-    footprint_across = abs(footprint[1] * cosine) + abs(footprint[0] * sine)
-    if instant.ground == 3:
-        wobble = 0.35 * noise_2d(0.35 * along, 0.0, 3) + 0.12 * noise_2d(1.3 * along, 9.0, 4)
-        soil = _speckled(triple(instant.second_colour), along, across, footprint[2], 0.55)
-        track = smooth(1.6 - abs(abs(across + 0.3 * wobble) - 0.85) / 0.35)
-        soil = scaled(soil, 1.0 - 0.28 * track * detail_fade(footprint_across / 1.5))
-        inside = smooth((half + wobble - abs(across)) / max(0.6, 1.5 * footprint_across) + 0.5)
-        return mix(_meadow(instant, x, y, footprint[2]), soil, inside)
-    inside = box_coverage(across, -half, half, footprint_across)
-    if instant.ground == 2:
-        beside = _meadow(instant, x, y, footprint[2])
-    else:
-        slabs = square_wave(along / 2.4, footprint_along / 2.4) - 0.5
-        rows = square_wave(across / 2.4, footprint_across / 2.4) - 0.5
-        beside = _speckled(_PAVEMENT, x, y, footprint[2], 0.12)
-        beside = scaled(beside, 1.0 + 0.5 * slabs * rows)
-        kerb = box_coverage(abs(across), half, half + 0.3, footprint_across)
-        beside = mix(beside, (0.5, 0.5, 0.48), kerb)
-    surface = _asphalt(instant, along, across, (footprint_along, footprint_across, footprint[2]))
-    return mix(beside, surface, inside)
-
-
-@jit(error_model="numpy")
-def _floor(instant: Record, x: float, y: float, footprint: Colour) -> Colour:
-    """Boards along x."""
-    row = math.floor(y / 0.22)
-    shade = 0.5 + 0.5 * noise_2d(7.3 * row, 0.7 * x + 3.7 * row, 5)
-    shade = 0.5 + (shade - 0.5) * detail_fade(footprint[1] / 0.22)
-    grain = fractal_2d(1.2 * x, 14.0 * y, 2, max(1.2 * footprint[0], 14.0 * footprint[1]))
-    colour = mix(triple(instant.colour), triple(instant.second_colour), shade)
-    gap = box_coverage(y - 0.22 * row, 0.0, 0.012, footprint[1]) + box_coverage(
-        y - 0.22 * row, 0.22, 0.232, footprint[1]
+def _mixed(first: Look, second: Look, share: float) -> Look:
+    """`first` at share 0, `second` at share 1."""
+    return (
+        mix(first[0], second[0], share),
+        first[1] + share * (second[1] - first[1]),
+        first[2] + share * (second[2] - first[2]),
     )
-    return scaled(colour, (1.0 + 0.15 * grain) * (1.0 - 0.55 * min(gap, 1.0)))
 
 
 @jit(error_model="numpy")
-def ground_colour(instant: Record, x: float, y: float, footprint: Colour) -> Colour:
-    """Reflectance of the ground at (x, y), metres.
+def _land(world: World, x: float, y: float, axes: Patch) -> Look:
+    """What lies beside the road."""
+    instant = world.instant[0]
+    sample = sample_material(world, instant.ground_surface, x, y, axes, 1.0)
+    factor = largest_patches(world, instant.ground_surface, x, y, axes)
+    first, second = triple(instant.colour), triple(instant.second_colour)
+    if instant.ground == _CITY:
+        first, second = _PAVEMENT, scaled(_PAVEMENT, 1.25)
+    elif instant.ground in (2, _DIRT_ROAD):
+        second = along(scaled(first, 1.35), _DRY, 1.0)
+    return _painted(sample, first, second, factor)
+
+
+@jit(error_model="numpy")
+def _line_marks(along_it: float, across: float, half: float, feet: tuple[float, float]) -> float:
+    """Share of white paint: edge lines and a dashed middle line."""
+    edge = box_coverage(abs(across), half - 3.0 * _LINE_M, half - 2.0 * _LINE_M, feet[1])
+    middle = box_coverage(across, -0.5 * _LINE_M, 0.5 * _LINE_M, feet[1])
+    return max(edge, middle * square_wave(along_it / _DASH_M, feet[0] / _DASH_M))
+
+
+@jit(error_model="numpy")
+def _asphalt(
+    world: World, place: tuple[float, float], axes: Patch, feet: tuple[float, float]
+) -> Look:
+    """Carriageway with worn marks; `place` and `feet` are metres along and across it."""
+    instant = world.instant[0]
+    along_it, across = place
+    sample = sample_material(world, instant.road_surface, along_it, across, axes, 1.0)
+    factor = largest_patches(world, instant.road_surface, along_it, across, axes)
+    tar = triple(instant.second_colour)
+    surface = _painted(sample, tar, scaled(tar, 2.2), factor)
+    paint = _line_marks(along_it, across, instant.road[2], feet)
+    worn = scaled(_WHITE_PAINT, 0.55 + 0.45 * min(sample[0] + sample[1], 1.3))
+    return mix(surface[0], worn, 0.9 * paint), surface[1], surface[2]
+
+
+@jit(error_model="numpy")
+def _track(
+    world: World, place: tuple[float, float], axes: Patch, feet: tuple[float, float]
+) -> Look:
+    """A dirt road with two ruts."""
+    instant = world.instant[0]
+    sample = sample_material(world, instant.road_surface, place[0], place[1], axes, 1.0)
+    factor = largest_patches(world, instant.road_surface, place[0], place[1], axes)
+    wobble = 0.3 * noise_2d(0.35 * place[0], 0.0, 3)
+    rut = smooth(1.6 - abs(abs(place[1] + wobble) - 0.85) / 0.35)
+    factor *= 1.0 - 0.28 * rut * detail_fade(feet[1] / 1.5)
+    soil = triple(instant.second_colour)
+    return _painted(sample, soil, scaled(soil, 1.3), factor)
+
+
+@jit(error_model="numpy")
+def _road(world: World, x: float, y: float, patch: Patch, axes: Patch) -> Look:
+    """ROAD, DIRT_ROAD and CITY: a strip along `road`, and what lies beside it."""
+    instant = world.instant[0]
+    cosine, sine, half, x0, y0 = instant.road
+    along_it = (x - x0) * cosine + (y - y0) * sine
+    across = (y - y0) * cosine - (x - x0) * sine
+    feet = (
+        abs(patch[0] * cosine + patch[1] * sine) + abs(patch[2] * cosine + patch[3] * sine),
+        abs(patch[1] * cosine - patch[0] * sine) + abs(patch[3] * cosine - patch[2] * sine),
+    )
+    inside = _inside_share(instant, along_it, across, feet[1])
+    if inside <= 0.0:
+        land = _land(world, x, y, axes)
+        if instant.ground == _CITY:
+            kerb = box_coverage(abs(across), half, half + 0.3, feet[1])
+            land = (mix(land[0], _KERB, kerb), land[1], land[2])
+        return land
+    turned = (
+        axes[0] * cosine + axes[1] * sine, axes[1] * cosine - axes[0] * sine, axes[2], axes[3],
+    )  # fmt: skip
+    if instant.ground == _DIRT_ROAD:
+        surface = _track(world, (along_it, across), turned, feet)
+    else:
+        surface = _asphalt(world, (along_it, across), turned, feet)
+    surface = (
+        surface[0],
+        surface[1] * cosine - surface[2] * sine,
+        surface[1] * sine + surface[2] * cosine,
+    )
+    if inside >= 1.0:
+        return surface
+    return _mixed(_land(world, x, y, axes), surface, inside)
+
+
+@jit(error_model="numpy")
+def _inside_share(instant: Record, along_it: float, across: float, foot: float) -> float:
+    """Share of a pixel that shows the road rather than what lies beside it."""
+    half = instant.road[2]
+    if instant.ground != _DIRT_ROAD:
+        return box_coverage(across, -half, half, foot)
+    wobble = 0.35 * noise_2d(0.35 * along_it, 0.0, 3) + 0.12 * noise_2d(1.3 * along_it, 9.0, 4)
+    return smooth((half + wobble - abs(across)) / max(0.6, 1.5 * foot) + 0.5)
+
+
+@jit(error_model="numpy")
+def ground_look(world: World, point: Vector, patch: tuple[Vector, Vector]) -> Look:
+    """Reflectance and relief of the ground.
 
     Args:
-        instant: the surroundings.
-        x: metres east.
-        y: metres north.
-        footprint: metres that one pixel covers in x and in y, and the longest side of its patch.
+        world: the scene.
+        point: on the ground, metres.
+        patch: what one pixel covers there, from `texture.surface_patch`.
     """
-    kind = instant.ground
-    if kind == 1:
-        return _meadow(instant, x, y, footprint[2])
-    if kind in (2, 3, 5):
-        return _road(instant, x, y, footprint)
-    if kind == 6:
-        return _floor(instant, x, y, footprint)
-    if kind == 7 or kind == 9:
-        bend = 0.8 * noise_2d(0.5 * x, 0.5 * y, 7)
-        ripple = math.sin(2.0 * math.pi * (1.4 * y + 0.4 * x + bend)) * detail_fade(
-            1.5 * footprint[2]
-        )
-        base = _speckled(triple(instant.colour), x, y, footprint[2], 0.25)
-        return mix(base, triple(instant.second_colour), 0.5 + 0.22 * ripple)
-    if kind == 8:
-        return _speckled(triple(instant.colour), x, y, footprint[2], 0.12)
-    return _speckled(triple(instant.colour), x, y, footprint[2], 0.2)
+    flat = (patch[0][0], patch[0][1], patch[1][0], patch[1][1])
+    axes = patch_axes(flat)
+    if world.instant[0].ground in (2, _DIRT_ROAD, _CITY):
+        return _road(world, point[0], point[1], flat, axes)
+    return _land(world, point[0], point[1], axes)
 
 
 @jit(error_model="numpy")
-def wall_colour(instant: Record, point: Colour, face: int, footprint: float) -> Colour:
-    """Reflectance of a room's wall or ceiling; walls have a skirting board."""
+def wall_look(
+    world: World, point: Vector, face: int, patch: tuple[Vector, Vector]
+) -> tuple[Colour, Vector]:
+    """Reflectance and normal of a room's wall or ceiling; walls have a skirting board."""
+    instant = world.instant[0]
+    right, down = patch
+    a, b = (1, 2) if face == 0 else (0, 2)
+    if face == 2:
+        a, b = 0, 1
+    axes = patch_axes((right[a], right[b], down[a], down[b]))
+    sample = sample_material(world, instant.wall_surface, point[a], point[b], axes, 1.0)
+    side = -1.0 if face == 2 or point[face] > 0.0 else 1.0
     plain = mix(triple(instant.second_colour), (0.85, 0.83, 0.78), 0.75)
     if face == 2:
-        return (0.8, 0.8, 0.78)
-    skirting = box_coverage(point[2], 0.0, 0.14, footprint)
-    spread = fractal_2d(0.4 * (point[0] + point[1]), 0.4 * point[2], 2, 0.4 * footprint)
-    return mix(scaled(plain, 1.0 + 0.06 * spread), (0.3, 0.24, 0.2), skirting)
+        plain = (0.8, 0.8, 0.78)
+    look = _painted(sample, plain, scaled(plain, 0.72), 1.0)
+    foot = abs(right[2]) + abs(down[2])
+    skirting = 0.0 if face == 2 else box_coverage(point[2], 0.0, 0.14, foot)
+    colour = mix(look[0], (0.3, 0.24, 0.2), skirting)
+    if face == 0:
+        return colour, (side, -look[1], -look[2])
+    if face == 1:
+        return colour, (-look[1], side, -look[2])
+    return colour, (-look[1], -look[2], side)

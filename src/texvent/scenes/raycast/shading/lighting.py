@@ -11,9 +11,9 @@ import math
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.lens_kernel import NO_DISTORTION, pixel_steps
 from texvent.scenes.raycast.records import Record, World
-from texvent.scenes.raycast.shading.ground import ground_colour, wall_colour
+from texvent.scenes.raycast.shading.ground import ground_look, wall_look
 from texvent.scenes.raycast.shading.sky import mix, sky_colour
-from texvent.scenes.raycast.shading.texture import patch_extent, surface_colour, surface_patch
+from texvent.scenes.raycast.shading.texture import patch_extent, surface_look, surface_patch
 from texvent.scenes.raycast.shading.value_noise import smooth
 from texvent.scenes.raycast.shading.water import caustics, sea_light
 from texvent.scenes.raycast.trace import (
@@ -98,7 +98,7 @@ def _shape_light(
     depth, number, face = hit
     normal = surface_normal(world, number, face, point)
     patch = surface_patch(steps, direction, depth, normal)
-    colour = surface_colour(world, number, face, point, patch)
+    colour, normal = surface_look(world, number, face, point, (normal, patch[0], patch[1]))
     view = unit(direction)
     light = _reflected(world, colour, point, normal, patch_extent(patch)[2], is_lit)
     if is_lit:
@@ -120,12 +120,14 @@ def _ground_light(
     """Light from the ground or the sea, which fade into the horizon."""
     instant = world.instant[0]
     up = (0.0, 0.0, 1.0)
-    footprint = patch_extent(surface_patch(steps, direction, depth, up))
+    patch = surface_patch(steps, direction, depth, up)
+    footprint = patch_extent(patch)
     if instant.ground == _SEA:
         light = sea_light(instant, point, unit(direction), footprint)
     else:
-        colour = ground_colour(instant, point[0], point[1], footprint)
-        light = _reflected(world, colour, point, up, footprint[2], is_lit)
+        colour, slope_x, slope_y = ground_look(world, point, patch)
+        normal = unit((-slope_x, -slope_y, 1.0))
+        light = _reflected(world, colour, point, normal, footprint[2], is_lit)
     if instant.ground == _UNDERWATER:
         return light
     return mix(light, triple(instant.sky_horizon), smooth((depth - 150.0) / 1500.0))
@@ -166,10 +168,10 @@ def shade_hit(
     if number == GROUND:
         light = _ground_light(world, depth, point, direction, steps, is_lit)
     elif number == ROOM:
-        footprint = (depth if instant.distortion == NO_DISTORTION else distance) * step
-        colour = wall_colour(instant, point, face, footprint)
-        normal = surface_normal(world, ROOM, face, point)
-        light = _reflected(world, colour, point, normal, footprint, False)
+        flat = surface_normal(world, ROOM, face, point)
+        patch = surface_patch(steps, direction, depth, flat)
+        colour, normal = wall_look(world, point, face, patch)
+        light = _reflected(world, colour, point, unit(normal), patch_extent(patch)[2], False)
     else:
         light = _shape_light(world, hit, point, direction, steps, is_lit)
     return _add_fog(instant, light, distance)

@@ -6,11 +6,26 @@ import math
 
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.records import World
+from texvent.scenes.raycast.shading.material import patch_axes, sample_material
 from texvent.scenes.raycast.shading.sky import mix
-from texvent.scenes.raycast.shading.value_noise import detail_fade, noise_3d, smooth, square_wave
-from texvent.scenes.raycast.vectors import Vector, along, dot, mapped, scaled, triple, turned
-from texvent.scenes.scene import Colour
+from texvent.scenes.raycast.shading.value_noise import square_wave
+from texvent.scenes.raycast.vectors import (
+    Vector,
+    along,
+    dot,
+    mapped,
+    scaled,
+    times,
+    triple,
+    turned,
+    unit,
+)
+from texvent.scenes.scene import FIRST_SURFACE, Colour
 
+_PLAIN = 0
+_BLEND = 0.8
+"""A view along an axis counts where its component of the normal is above this share of the
+largest."""
 _STEEPEST = 0.04
 """A surface seen at less than this slope is taken to be at it, so that its patch stays finite."""
 
@@ -44,43 +59,91 @@ def patch_extent(patch: tuple[Vector, Vector]) -> Colour:
 
 
 @jit(error_model="numpy")
-def surface_colour(
-    world: World, number: int, face: int, point: Vector, patch: tuple[Vector, Vector]
-) -> Colour:
-    """Reflectance of shape `number` at a world point, with its texture.
+def surface_look(
+    world: World, number: int, face: int, point: Vector, look: tuple[Vector, Vector, Vector]
+) -> tuple[Colour, Vector]:
+    """Reflectance of shape `number` at a world point, and its normal with the material's relief.
 
     Args:
         world: the scene.
         number: shape number.
         face: face that was hit.
         point: metres.
-        patch: what one pixel covers there, from `surface_patch`.
+        look: unit normal of the shape, and what one pixel covers there, from `surface_patch`.
     """
     shape = world.shapes[number]
     plain = triple(shape.colour)
-    if shape.texture == 0:
-        return plain
-    m, scale = shape.inverse, shape.texture_scale
-    right, down = turned(m, patch[0]), turned(m, patch[1])
+    normal, right, down = look
+    if shape.texture == _PLAIN:
+        return plain, normal
+    m = shape.inverse
+    if shape.texture >= FIRST_SURFACE:
+        return _material_look(world, number, point, look)
+    scale = shape.texture_scale
+    right, down = turned(m, right), turned(m, down)
     steps = (
         scale * (abs(right[0]) + abs(down[0])),
         scale * (abs(right[1]) + abs(down[1])),
         scale * (abs(right[2]) + abs(down[2])),
     )
     share = _pattern(shape.texture, face, scaled(mapped(m, point), scale), steps)
-    return mix(plain, triple(shape.second_colour), share)
+    return mix(plain, triple(shape.second_colour), share), normal
+
+
+@jit(error_model="numpy")
+def _material_look(
+    world: World, number: int, point: Vector, look: tuple[Vector, Vector, Vector]
+) -> tuple[Colour, Vector]:
+    """As `surface_look`, for a material: seen along the local axes that the surface faces."""
+    shape = world.shapes[number]
+    normal, right, down = look
+    m, extent = shape.inverse, triple(shape.extent)
+    place = times(mapped(m, point), extent)
+    right, down = times(turned(m, right), extent), times(turned(m, down), extent)
+    x_axis = (extent[0] * m[0, 0], extent[0] * m[0, 1], extent[0] * m[0, 2])
+    y_axis = (extent[1] * m[1, 0], extent[1] * m[1, 1], extent[1] * m[1, 2])
+    z_axis = (extent[2] * m[2, 0], extent[2] * m[2, 1], extent[2] * m[2, 2])
+    shares = _facing_shares(dot(normal, x_axis), dot(normal, y_axis), dot(normal, z_axis))
+    fine = shape.texture_scale
+    shift = 0.377 * number
+    first, second = 0.0, 0.0
+    bent = normal
+    if shares[0] > 0.0:
+        axes = patch_axes((right[1], right[2], down[1], down[2]))
+        one = sample_material(world, shape.texture, place[1] + shift, place[2], axes, fine)
+        first, second = shares[0] * one[0], shares[0] * one[1]
+        bent = along(along(bent, y_axis, -shares[0] * one[2]), z_axis, -shares[0] * one[3])
+    if shares[1] > 0.0:
+        axes = patch_axes((right[0], right[2], down[0], down[2]))
+        one = sample_material(world, shape.texture, place[0] + shift, place[2], axes, fine)
+        first, second = first + shares[1] * one[0], second + shares[1] * one[1]
+        bent = along(along(bent, x_axis, -shares[1] * one[2]), z_axis, -shares[1] * one[3])
+    if shares[2] > 0.0:
+        axes = patch_axes((right[0], right[1], down[0], down[1]))
+        one = sample_material(world, shape.texture, place[0], place[1] + shift, axes, fine)
+        first, second = first + shares[2] * one[0], second + shares[2] * one[1]
+        bent = along(along(bent, x_axis, -shares[2] * one[2]), y_axis, -shares[2] * one[3])
+    colour = along(scaled(triple(shape.colour), first), triple(shape.second_colour), second)
+    return colour, unit(bent)
+
+
+@jit(error_model="numpy")
+def _facing_shares(x: float, y: float, z: float) -> Colour:
+    """Shares of the views along three axes, for a surface whose normal has these components."""
+    a, b, c = abs(x), abs(y), abs(z)
+    largest = max(a, b, c)
+    a, b, c = (
+        max(a - _BLEND * largest, 0.0),
+        max(b - _BLEND * largest, 0.0),
+        max(c - _BLEND * largest, 0.0),
+    )
+    total = a + b + c
+    return a / total, b / total, c / total
 
 
 @jit(error_model="numpy")
 def _pattern(texture: int, face: int, p: Colour, steps: Colour) -> float:
     """Share of the second colour at texture coordinates `p`, averaged over `steps`."""
-    if texture == 1:
-        footprint = max(steps[0], steps[1], steps[2])
-        total = 0.62 * detail_fade(2.0 * footprint) * noise_3d(2.0 * p[0], 2.0 * p[1], 2.0 * p[2])
-        fine = detail_fade(4.6 * footprint)
-        if fine > 0.0:
-            total += 0.38 * fine * noise_3d(4.6 * p[0], 4.6 * p[1], 4.6 * p[2] + 31.0)
-        return smooth(0.5 + 0.75 * total)
     if texture == 2:
         return square_wave(p[2], steps[2])
     if texture == 3:

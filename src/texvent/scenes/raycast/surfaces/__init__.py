@@ -1,0 +1,1 @@
+"""Materials as small tiles that repeat without a seam, with all their blurred versions."""

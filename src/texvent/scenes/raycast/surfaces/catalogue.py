@@ -1,0 +1,157 @@
+"""Which pattern each material has, how large it is, and the tiles the kernels read."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.scenes.raycast.surfaces import bodies, grounds
+from texvent.scenes.raycast.surfaces.fields import SIDE, Field
+from texvent.scenes.raycast.surfaces.grounds import Pattern
+from texvent.scenes.scene import FIRST_SURFACE, Texture
+
+LEVELS = 9
+"""A tile, and its averages over 2 × 2, 4 × 4, ... texels up to the whole tile."""
+CHANNELS = 4
+TEXELS = (4 * SIDE * SIDE - 1) // 3
+"""Texels of all levels together."""
+STEEPEST = 1.2
+"""Slopes of relief are cut off here."""
+_FRACTION = 1 << 16
+"""Factors are whole multiples of 1 / this, so that their sum is exact."""
+
+
+@dataclass(frozen=True)
+class SurfaceKind:
+    """One material."""
+
+    pattern: Callable[[], Pattern]
+    side_m: float
+    """Side of its tile, metres."""
+    relief: float = 0.0
+    """Strength of its bumps: slope per unit of height per texel."""
+    wear: float = 0.6
+    """Strength of patches larger than the tile."""
+    large: Texture = Texture.VARIATION
+    """Pattern of those patches on the ground."""
+
+
+SURFACES: dict[Texture, SurfaceKind] = {
+    Texture.VARIATION: SurfaceKind(grounds.variation, 1.0),
+    Texture.CRACKED: SurfaceKind(grounds.cracked, 1.0),
+    Texture.WORN: SurfaceKind(bodies.worn, 1.6, wear=0.0),
+    Texture.ASPHALT: SurfaceKind(grounds.asphalt, 1.1, 0.25, 1.0, Texture.CRACKED),
+    Texture.GRASS: SurfaceKind(grounds.grass, 1.7, 0.35, 0.9),
+    Texture.SOIL: SurfaceKind(grounds.soil, 1.6, 0.7, 0.8),
+    Texture.SAND: SurfaceKind(grounds.sand, 2.2, 0.45, 0.5),
+    Texture.GRAVEL: SurfaceKind(grounds.gravel, 1.3, 0.9, 0.6),
+    Texture.LEAVES: SurfaceKind(grounds.leaves, 1.9, 0.4, 0.8),
+    Texture.SNOW: SurfaceKind(grounds.snow, 4.0, 0.55, 0.25),
+    Texture.PAVING: SurfaceKind(grounds.paving, 3.0, 0.8, 0.8),
+    Texture.TILES: SurfaceKind(grounds.tiles, 2.4, 0.4, 0.3),
+    Texture.BOARDS: SurfaceKind(grounds.boards, 1.9, 0.3, 0.4),
+    Texture.CARPET: SurfaceKind(grounds.carpet, 1.8, 0.3, 0.4),
+    Texture.WATER: SurfaceKind(grounds.water, 3.5, 0.3, 0.3),
+    Texture.STONE: SurfaceKind(bodies.stone, 1.5, 0.9),
+    Texture.CONCRETE: SurfaceKind(bodies.concrete, 2.6, 0.4, 0.7),
+    Texture.PLASTER: SurfaceKind(bodies.plaster, 3.2, 0.3, 0.5),
+    Texture.BRICK: SurfaceKind(bodies.brick, 2.0, 0.8, 0.5),
+    Texture.ROOFING: SurfaceKind(bodies.roofing, 2.5, 0.4),
+    Texture.WALLPAPER: SurfaceKind(bodies.wallpaper, 1.6, 0.2, 0.3),
+    Texture.WOOD: SurfaceKind(bodies.wood, 0.9, 0.2, 0.3),
+    Texture.BARK: SurfaceKind(bodies.bark, 0.9, 0.9, 0.3),
+    Texture.FOLIAGE: SurfaceKind(bodies.foliage, 1.8, 0.45, 0.4),
+    Texture.NEEDLES: SurfaceKind(bodies.needles, 1.5, 0.45, 0.4),
+    Texture.FUR: SurfaceKind(bodies.fur, 0.6, 0.35, 0.3),
+    Texture.FEATHERS: SurfaceKind(bodies.feathers, 0.5, 0.3, 0.3),
+    Texture.CLOTH: SurfaceKind(bodies.cloth, 0.7, 0.35, 0.0),
+    Texture.SKIN: SurfaceKind(bodies.skin, 0.35, 0.2, 0.0),
+    Texture.METAL: SurfaceKind(bodies.metal, 1.0, 0.1, 0.2),
+    Texture.RUST: SurfaceKind(bodies.rust, 0.9, 0.4, 0.3),
+    Texture.LEATHER: SurfaceKind(bodies.leather, 0.6, 0.5, 0.2),
+    Texture.SPOTS: SurfaceKind(bodies.spots, 1.0, 0.2, 0.0),
+    Texture.SCALES: SurfaceKind(bodies.scales, 0.5, 0.4, 0.2),
+}
+"""Every material."""
+
+
+@cache
+def build_tile(texture: Texture) -> NDArray[np.float32]:
+    """A material's tile at all levels.
+
+    Channels: what the first and the second colour are multiplied by, and the slope of the relief
+    along u and v. All four are averages at every level, so what is shown of a pixel that covers
+    many texels is their mean.
+
+    Args:
+        texture: one of `SURFACES`.
+
+    Returns:
+        [TEXELS, CHANNELS]; level l begins at `level_start(l)`, rows along v.
+    """
+    kind = SURFACES[texture]
+    pattern = kind.pattern()
+    factor = np.rint(np.clip(pattern.factor, 0.0, 8.0) * _FRACTION)
+    factor = factor * (SIDE * SIDE / float(int(factor.astype(np.int64).sum())))
+    share = np.clip(pattern.share, 0.0, 1.0)
+    level = np.stack(
+        [
+            factor * (1.0 - share),
+            factor * share,
+            _slope(pattern.height, 1, kind.relief),
+            _slope(pattern.height, 0, kind.relief),
+        ],
+        axis=-1,
+    )
+    levels = [level]
+    while len(levels[-1]) > 1:
+        fine = levels[-1]
+        levels.append((fine[::2, ::2] + fine[1::2, ::2] + fine[::2, 1::2] + fine[1::2, 1::2]) / 4.0)
+    return np.concatenate([each.reshape(-1, CHANNELS) for each in levels]).astype(np.float32)
+
+
+def level_start(level: int) -> int:
+    """Where a level's texels begin in a tile of `build_tile`."""
+    return int((4 * SIDE * SIDE - (4 * SIDE * SIDE >> (2 * level))) // 3)
+
+
+def build_tiles(textures: Iterable[int]) -> tuple[NDArray[np.float32], NDArray[np.float64]]:
+    """Tiles of the materials in use, and what the kernels need to know about each material.
+
+    Args:
+        textures: values of `Texture`; those without a tile are passed over.
+
+    Returns:
+        Tiles [k, TEXELS, CHANNELS] and rows [materials, 5] by texture less `FIRST_SURFACE`:
+        number of its tile, of its large pattern's tile, tiles per metre, wear, and whether it
+        has relief. What is not in use has tile 0.
+    """
+    used = {Texture(value) for value in textures if value >= FIRST_SURFACE}
+    used |= {SURFACES[texture].large for texture in used}
+    return _join_tiles(tuple(sorted(used)))
+
+
+@cache
+def _join_tiles(used: tuple[Texture, ...]) -> tuple[NDArray[np.float32], NDArray[np.float64]]:
+    numbers = {texture: number for number, texture in enumerate(used)}
+    rows = np.zeros((max(SURFACES) - FIRST_SURFACE + 1, 5))
+    for texture, kind in SURFACES.items():
+        rows[texture - FIRST_SURFACE] = (
+            numbers.get(texture, 0),
+            numbers.get(kind.large, 0),
+            1.0 / kind.side_m,
+            kind.wear,
+            float(kind.relief > 0.0),
+        )
+    tiles = [build_tile(texture) for texture in used] or [np.zeros((TEXELS, CHANNELS), np.float32)]
+    return np.stack(tiles), rows
+
+
+def _slope(height: Field, axis: int, relief: float) -> Field:
+    """Slope along one axis, from the texels on both sides."""
+    step = 0.5 * relief * (np.roll(height, -1, axis) - np.roll(height, 1, axis))
+    return np.clip(step, -STEEPEST, STEEPEST)
