@@ -142,7 +142,8 @@ def test_a_lens_without_distortion_is_the_pinhole() -> None:
     ]
     pinhole, calibrated, distorted = (render(scene, 0.0, SIZE) for scene in scenes)
     np.testing.assert_allclose(calibrated, pinhole, atol=1e-3)
-    np.testing.assert_allclose(distorted, pinhole, atol=0.6)  # edges are placed to 1/128 pixel
+    # Edges are placed to 1/128 pixel; near the horizon the ground changes fast from row to row.
+    np.testing.assert_allclose(distorted, pinhole, atol=1.5)
 
 
 def test_undistort_leaves_the_axis_alone() -> None:

@@ -13,14 +13,172 @@ class Material:
 
     colour: Colour
     second_colour: Colour = (0.0, 0.0, 0.0)
-    texture: Texture = Texture.PLAIN
+    texture: Texture = Texture.WORN
     scale: float = 1.0
-    """Repeats of the texture per local unit (half the part's size)."""
+    """How much finer than in life a material is; of the patterns MOTTLED, STRIPES, CHECKS and
+    WINDOWS, repeats per local unit (half the part's size)."""
     emission: float = 0.0
 
 
+def made_of(
+    texture: Texture, colour: Colour, second_colour: Colour | None = None, *, scale: float = 1.0
+) -> Material:
+    """A material in a colour; its second colour follows from the first unless it is given."""
+    if second_colour is None:
+        second_colour = shade(colour, _SECOND_SHADES.get(texture, 0.7))
+    return Material(colour, second_colour, texture, scale)
+
+
+_SECOND_SHADES = {
+    Texture.FOLIAGE: 1.8,
+    Texture.NEEDLES: 1.6,
+    Texture.FUR: 0.65,
+    Texture.FEATHERS: 0.6,
+    Texture.STONE: 1.3,
+    Texture.BARK: 1.5,
+    Texture.CLOTH: 0.85,
+    Texture.SKIN: 0.85,
+    Texture.METAL: 1.7,
+    Texture.CONCRETE: 0.75,
+    Texture.PLASTER: 0.8,
+    Texture.ROOFING: 0.8,
+    Texture.WOOD: 0.65,
+    Texture.SCALES: 1.4,
+    Texture.SNOW: 0.85,
+}
+"""Second colour of a material as a multiple of the first."""
+
+
+def fur(colour: Colour, *, scale: float = 1.0) -> Material:
+    """Hairs along the part's local z."""
+    return made_of(Texture.FUR, colour, scale=scale)
+
+
+def feathers(colour: Colour, *, scale: float = 1.0) -> Material:
+    """Rows of feathers."""
+    return made_of(Texture.FEATHERS, colour, scale=scale)
+
+
+def foliage(colour: Colour, *, scale: float = 1.0) -> Material:
+    """Leaves of trees and bushes."""
+    return made_of(Texture.FOLIAGE, colour, scale=scale)
+
+
+def needles(colour: Colour, *, scale: float = 1.0) -> Material:
+    """Needles of pines."""
+    return made_of(Texture.NEEDLES, colour, scale=scale)
+
+
+def stone(colour: Colour, *, scale: float = 1.0) -> Material:
+    """Rock with cracks and lichen."""
+    return made_of(Texture.STONE, colour, scale=scale)
+
+
+def wood(colour: Colour, *, scale: float = 1.0) -> Material:
+    """Grain along the part's local z."""
+    return made_of(Texture.WOOD, colour, scale=scale)
+
+
+def cloth(colour: Colour, *, scale: float = 1.0) -> Material:
+    """Woven, with folds."""
+    return made_of(Texture.CLOTH, colour, scale=scale)
+
+
+def skin(colour: Colour, *, scale: float = 1.0) -> Material:
+    """Skin of people."""
+    return made_of(Texture.SKIN, colour, scale=scale)
+
+
+def brick(colour: Colour, *, scale: float = 1.0) -> Material:
+    """A wall of bricks."""
+    return made_of(Texture.BRICK, colour, (0.42, 0.40, 0.36), scale=scale)
+
+
+def plaster(colour: Colour, *, scale: float = 1.0) -> Material:
+    """A rendered wall."""
+    return made_of(Texture.PLASTER, colour, scale=scale)
+
+
+def roofing(colour: Colour, *, scale: float = 1.0) -> Material:
+    """Rows of roof tiles."""
+    return made_of(Texture.ROOFING, colour, scale=scale)
+
+
+def metal(colour: Colour, *, scale: float = 1.0) -> Material:
+    """Brushed metal."""
+    return made_of(Texture.METAL, colour, scale=scale)
+
+
+def leather(colour: Colour, *, scale: float = 1.0) -> Material:
+    """Creased leather, rough skin."""
+    return made_of(Texture.LEATHER, colour, scale=scale)
+
+
+def scales(colour: Colour, *, scale: float = 1.0) -> Material:
+    """Scales of fish and reptiles."""
+    return made_of(Texture.SCALES, colour, scale=scale)
+
+
+@dataclass(frozen=True)
+class NamedMaterial:
+    """A material as a prompt names it."""
+
+    texture: Texture
+    colour: Colour | None = None
+    """Its usual colour; None = the object's own."""
+    second_colour: Colour | None = None
+    """None = follows from the colour."""
+
+
+MATERIALS: dict[str, NamedMaterial] = {
+    "wood": NamedMaterial(Texture.WOOD, (0.30, 0.15, 0.06)),
+    "stone": NamedMaterial(Texture.STONE, (0.26, 0.25, 0.23)),
+    "marble": NamedMaterial(Texture.STONE, (0.62, 0.61, 0.58), (0.40, 0.40, 0.41)),
+    "brick": NamedMaterial(Texture.BRICK, (0.34, 0.11, 0.07), (0.42, 0.40, 0.36)),
+    "concrete": NamedMaterial(Texture.CONCRETE, (0.38, 0.37, 0.35)),
+    "plaster": NamedMaterial(Texture.PLASTER, (0.68, 0.65, 0.58)),
+    "metal": NamedMaterial(Texture.METAL, (0.34, 0.35, 0.37)),
+    "gold": NamedMaterial(Texture.METAL, (0.60, 0.38, 0.07)),
+    "silver": NamedMaterial(Texture.METAL, (0.52, 0.53, 0.55)),
+    "copper": NamedMaterial(Texture.METAL, (0.48, 0.20, 0.09)),
+    "rust": NamedMaterial(Texture.RUST, None, (0.26, 0.09, 0.03)),
+    "glass": NamedMaterial(Texture.WORN, (0.10, 0.15, 0.17)),
+    "plastic": NamedMaterial(Texture.WORN),
+    "rubber": NamedMaterial(Texture.LEATHER, (0.030, 0.030, 0.032)),
+    "cloth": NamedMaterial(Texture.CLOTH),
+    "wool": NamedMaterial(Texture.CARPET),
+    "leather": NamedMaterial(Texture.LEATHER, (0.20, 0.09, 0.04)),
+    "fur": NamedMaterial(Texture.FUR, (0.30, 0.19, 0.10)),
+    "feathers": NamedMaterial(Texture.FEATHERS),
+    "paper": NamedMaterial(Texture.CLOTH, (0.70, 0.68, 0.62)),
+    "cardboard": NamedMaterial(Texture.CLOTH, (0.38, 0.23, 0.11)),
+    "clay": NamedMaterial(Texture.SOIL, (0.42, 0.20, 0.10), (0.50, 0.27, 0.15)),
+    "tile": NamedMaterial(Texture.TILES, (0.66, 0.66, 0.64), (0.52, 0.53, 0.55)),
+    "ice": NamedMaterial(Texture.SNOW, (0.62, 0.74, 0.82)),
+    "snow": NamedMaterial(Texture.SNOW, (0.80, 0.83, 0.88)),
+    "sand": NamedMaterial(Texture.SAND, (0.56, 0.43, 0.25), (0.68, 0.55, 0.35)),
+    "grass": NamedMaterial(Texture.GRASS, (0.055, 0.14, 0.022), (0.13, 0.21, 0.045)),
+    "leaf": NamedMaterial(Texture.FOLIAGE, (0.06, 0.17, 0.03)),
+}
+"""Material → what it looks like; `SceneObject.material` is one of these or a `MATERIAL_WORDS`."""
+
+MATERIAL_WORDS: dict[str, str] = {
+    "wooden": "wood", "timber": "wood", "oak": "wood", "bamboo": "wood", "rock": "stone",
+    "rocky": "stone", "granite": "stone", "sandstone": "sand", "metallic": "metal",
+    "steel": "metal", "iron": "metal", "aluminium": "metal", "aluminum": "metal",
+    "chrome": "silver", "tin": "metal", "golden": "gold", "brass": "gold", "bronze": "copper",
+    "rusty": "rust", "rusted": "rust", "plastered": "plaster", "fabric": "cloth",
+    "cotton": "cloth", "silk": "cloth", "denim": "cloth", "textile": "cloth", "woollen": "wool",
+    "woolen": "wool", "knitted": "wool", "furry": "fur", "fluffy": "fur", "feathered": "feathers",
+    "carton": "cardboard", "ceramic": "clay", "porcelain": "marble", "terracotta": "clay",
+    "tiled": "tile", "icy": "ice", "leafy": "leaf", "grassy": "grass", "sandy": "sand",
+    "bricks": "brick",
+}  # fmt: skip
+"""Word of a prompt → key of `MATERIALS`."""
+
+
 def mottled(colour: Colour, *, contrast: float = 0.45, scale: float = 3.0) -> Material:
-    """Patches of a darker shade: foliage, fur, rock."""
+    """Soft patches of a darker shade, `scale` to half the part's size."""
     return Material(colour, shade(colour, 1.0 - contrast), Texture.MOTTLED, scale)
 
 
@@ -36,7 +194,7 @@ def checked(colour: Colour, second_colour: Colour, scale: float) -> Material:
 
 def glowing(colour: Colour, emission: float) -> Material:
     """A lamp: gives off `emission` times its colour."""
-    return Material(colour, emission=emission)
+    return Material(colour, texture=Texture.PLAIN, emission=emission)
 
 
 def shade(colour: Colour, factor: float) -> Colour:
@@ -60,14 +218,14 @@ YELLOW: Colour = (0.75, 0.45, 0.02)
 GREEN: Colour = (0.05, 0.30, 0.05)
 BLUE: Colour = (0.03, 0.10, 0.45)
 
-RUBBER = Material((0.018, 0.018, 0.020))
-STEEL = Material((0.36, 0.37, 0.39))
-CHROME = Material((0.58, 0.59, 0.61))
+RUBBER = leather((0.018, 0.018, 0.020))
+STEEL = metal((0.32, 0.33, 0.35))
+CHROME = metal((0.52, 0.53, 0.55))
 GLASS = Material((0.035, 0.050, 0.065))
 DARK = Material((0.030, 0.030, 0.033))
-WOOD = mottled((0.30, 0.15, 0.06), contrast=0.35, scale=2.0)
-BARK = mottled((0.11, 0.065, 0.035), contrast=0.4, scale=5.0)
-CONCRETE = mottled((0.38, 0.37, 0.35), contrast=0.15, scale=4.0)
+WOOD = wood((0.30, 0.15, 0.06))
+BARK = made_of(Texture.BARK, (0.11, 0.065, 0.035))
+CONCRETE = made_of(Texture.CONCRETE, (0.38, 0.37, 0.35))
 HEADLIGHT = glowing((0.95, 0.92, 0.75), 1.2)
 TAILLIGHT = glowing((0.70, 0.02, 0.02), 0.6)
 SKIN_TONES: tuple[Colour, ...] = (

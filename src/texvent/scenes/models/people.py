@@ -16,6 +16,9 @@ from texvent.scenes.models.materials import (
     SKIN_TONES,
     YELLOW,
     Material,
+    cloth,
+    fur,
+    skin,
 )
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import Point, ball, limb, peak
@@ -84,16 +87,16 @@ def build_person(
 
 def dress_person(kind: PersonKind, *, colour: Colour | None, seed: int) -> Outfit:
     """Choose skin, hair and clothes."""
-    skin = Material(choose(seed, "skin", SKIN_TONES))
-    shirt = Material(paint(colour, seed, "shirt", kind.shirts))
-    trousers = Material(choose(seed, "trousers", ((0.03, 0.05, 0.12), (0.06, 0.055, 0.05))))
+    flesh = skin(choose(seed, "skin", SKIN_TONES))
+    shirt = cloth(paint(colour, seed, "shirt", kind.shirts))
+    trousers = cloth(choose(seed, "trousers", ((0.03, 0.05, 0.12), (0.06, 0.055, 0.05))))
     legs = shirt if kind.dress == "skirt" else trousers
     return Outfit(
-        skin=skin,
-        hair=Material(choose(seed, "hair", HAIR_COLOURS)),
+        skin=flesh,
+        hair=fur(choose(seed, "hair", HAIR_COLOURS)),
         shirt=shirt,
-        legs=skin if kind.dress == "skirt" else legs,
-        shins=trousers if kind.dress == "trousers" else skin,
+        legs=flesh if kind.dress == "skirt" else legs,
+        shins=trousers if kind.dress == "trousers" else flesh,
         shoes=DARK if kind.dress != "shorts" else Material((0.6, 0.6, 0.58)),
     )
 

@@ -13,8 +13,9 @@ from texvent.scenes.models.materials import (
     WHITE,
     YELLOW,
     Material,
+    brick,
     checked,
-    mottled,
+    cloth,
     shade,
 )
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose, fixed_noun
@@ -62,18 +63,18 @@ def build_upright(
 
 def build_pyramid(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a stepped pyramid, 14 m high, of sandstone; `colour` is its stone."""
-    stone = mottled(colour if colour is not None else (0.55, 0.43, 0.25), contrast=0.25, scale=8.0)
+    blocks = brick(colour if colour is not None else (0.55, 0.43, 0.25), scale=0.25)
     steps, tall = 10, 1.4
     parts = []
     for index in range(steps):
         wide = 22.0 * (steps - index) / steps
-        parts.append(box(stone, (0.0, 0.0, (index + 0.5) * tall), (wide, wide, tall)))
+        parts.append(box(blocks, (0.0, 0.0, (index + 0.5) * tall), (wide, wide, tall)))
     return ArticulatedModel(parts, scale=scale)
 
 
 def build_crate(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a cardboard box closed with tape, 0.5 m; `colour` is its card."""
-    card = Material(colour if colour is not None else (0.38, 0.23, 0.11))
+    card = cloth(colour if colour is not None else (0.38, 0.23, 0.11))
     tape, ink = Material((0.60, 0.48, 0.30)), Material((0.12, 0.07, 0.04))
     parts = [
         box(card, (0.0, 0.0, 0.20), (0.50, 0.60, 0.40)),

@@ -7,7 +7,13 @@ from dataclasses import dataclass
 from functools import partial
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
-from texvent.scenes.models.materials import BLACK, WHITE, Material, mottled, shade
+from texvent.scenes.models.materials import (
+    BLACK,
+    WHITE,
+    Material,
+    feathers,
+    shade,
+)
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
     Point,
@@ -62,9 +68,9 @@ def build_flier(
 ) -> ArticulatedModel:
     """Make a bird in flight; `colour` is its body and wings."""
     size = plumage.length
-    body = Material(paint(colour, seed, "body", plumage.bodies))
-    wing = mottled(shade(colour, 0.8) if colour is not None else plumage.wing, contrast=0.3)
-    head, beak = Material(plumage.head), Material(plumage.beak)
+    body = feathers(paint(colour, seed, "body", plumage.bodies))
+    wing = feathers(shade(colour, 0.8) if colour is not None else plumage.wing)
+    head, beak = feathers(plumage.head), Material(plumage.beak)
     rigid = [
         limb(body, (-0.28 * size, 0.0, 0.0), (0.22 * size, 0.0, 0.02 * size), 0.13 * size),
         ball(head, (0.34 * size, 0.0, 0.06 * size), (0.22 * size, 0.18 * size, 0.18 * size)),
@@ -144,8 +150,8 @@ def _spread(
 
 def build_duck(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a duck afloat, its origin on the waterline; it rocks a little."""
-    body = mottled(colour if colour is not None else (0.30, 0.22, 0.14), contrast=0.3)
-    head = Material((0.02, 0.16, 0.06) if colour is None else colour)
+    body = feathers(colour if colour is not None else (0.30, 0.22, 0.14))
+    head = feathers((0.02, 0.16, 0.06) if colour is None else colour)
     parts = [
         limb(body, (-0.20, 0.0, 0.05), (0.16, 0.0, 0.05), 0.12, side_radius=0.13),
         spike(Material(BLACK), (-0.22, 0.0, 0.08), (-0.38, 0.0, 0.18), 0.06),
@@ -154,7 +160,7 @@ def build_duck(*, colour: Colour | None, scale: float, seed: int) -> Articulated
         ball(head, (0.23, 0.0, 0.29), (0.15, 0.12, 0.12)),
         ball(Material((0.70, 0.38, 0.02)), (0.33, 0.0, 0.275), (0.14, 0.07, 0.035)),
         ball(Material(BLACK), (0.26, 0.0, 0.31), (0.025, 0.122, 0.025)),
-        ball(mottled((0.16, 0.12, 0.09)), (-0.05, 0.0, 0.10), (0.36, 0.27, 0.15)),
+        ball(feathers((0.16, 0.12, 0.09)), (-0.05, 0.0, 0.10), (0.36, 0.27, 0.15)),
     ]
     start = 2.0 * math.pi * fraction(seed, "rock")
 

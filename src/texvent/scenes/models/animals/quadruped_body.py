@@ -7,7 +7,12 @@ from dataclasses import dataclass
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limb_kinematics import Gait, bend, foot_path, step_amount
-from texvent.scenes.models.materials import BLACK, WHITE, Material
+from texvent.scenes.models.materials import (
+    BLACK,
+    WHITE,
+    Material,
+    fur,
+)
 from texvent.scenes.models.protocol import ModelPart, Pose
 from texvent.scenes.models.shapes import (
     Point,
@@ -247,7 +252,7 @@ def _mane(build: Build, coat: Coat, base: Point, top: Point) -> list[ModelPart]:
         return [limb(coat.dark, start, end, 0.12 * height, side_radius=0.05 * height)]
     if build.mane == "full":
         middle = (top[0] - 0.34 * skull, 0.0, top[2] - 0.10 * skull)
-        shaggy = Material(coat.dark.colour)
+        shaggy = fur(coat.dark.colour)
         return [
             ball(shaggy, middle, (1.15 * skull, 1.75 * skull, 1.95 * skull)),
             limb(shaggy, base, (middle[0], 0.0, middle[2] - 0.3 * skull), 0.62 * skull),

@@ -12,7 +12,7 @@ from texvent.scenes.models.materials import (
     WHITE,
     Material,
     checked,
-    mottled,
+    fur,
     shade,
     striped,
 )
@@ -44,15 +44,15 @@ def build_animal(
 ) -> ArticulatedModel:
     """Make a four-legged animal; `colour` is its coat."""
     hue = paint(colour, seed, "coat", animal.colours)
-    fur = mottled(hue, contrast=0.25, scale=3.0)
-    trunk, limbs = fur, fur
+    coat_fur = fur(hue)
+    trunk, limbs = coat_fur, coat_fur
     if animal.pattern == "stripes":
         trunk = striped(hue, animal.second_colour, 4.5)
         limbs = striped(hue, animal.second_colour, 3.0)
     elif animal.pattern == "checks":
         trunk = checked(hue, animal.second_colour, animal.checks)
     dark = animal.dark if animal.dark is not None else shade(hue, 0.45)
-    coat = Coat(trunk=trunk, limbs=limbs, dark=Material(dark), hoof=Material(animal.hoof))
+    coat = Coat(trunk=trunk, limbs=limbs, dark=fur(dark), hoof=Material(animal.hoof))
     return draw_animal(animal.build, coat, scale=scale, seed=seed)
 
 

@@ -7,7 +7,14 @@ from dataclasses import dataclass
 from functools import partial
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
-from texvent.scenes.models.materials import BLACK, Material, checked, mottled, shade
+from texvent.scenes.models.materials import (
+    BLACK,
+    Material,
+    checked,
+    leather,
+    scales,
+    shade,
+)
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
     Affine,
@@ -88,9 +95,7 @@ def build_swimmer(
     def articulate(pose: Pose) -> list[ModelPart]:
         rests = pose.activity in ("stand", "sit")
         turn = 2.0 * math.pi * (kind.beat_hz * pose.time_s + start)
-        return _body(
-            kind, mottled(back, contrast=0.2), Material(belly), turn, 0.3 if rests else 1.0
-        )
+        return _body(kind, scales(back), scales(belly), turn, 0.3 if rests else 1.0)
 
     return ArticulatedModel([], scale=scale * kind.length, articulate=articulate, is_centred=True)
 
@@ -184,7 +189,7 @@ def build_turtle(*, colour: Colour | None, scale: float, seed: int) -> Articulat
         shade(colour, 0.5) if colour is not None else (0.07, 0.08, 0.03),
         2.2,
     )
-    skin = mottled((0.16, 0.22, 0.09), contrast=0.4)
+    skin = leather((0.16, 0.22, 0.09))
     rigid = [
         ball(shell, (0.0, 0.0, 0.04), (0.86, 0.68, 0.34)),
         ball(Material((0.45, 0.40, 0.22)), (0.0, 0.0, -0.03), (0.80, 0.62, 0.20)),

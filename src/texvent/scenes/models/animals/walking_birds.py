@@ -8,7 +8,14 @@ from functools import partial
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limb_kinematics import Gait, bend, foot_path, step_amount
-from texvent.scenes.models.materials import BLACK, ORANGE, WHITE, Material, mottled
+from texvent.scenes.models.materials import (
+    BLACK,
+    ORANGE,
+    WHITE,
+    Material,
+    feathers,
+    leather,
+)
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import Point, ball, limb, moved, shift, spike
 from texvent.scenes.models.variation import fraction
@@ -59,7 +66,7 @@ def build_strider(
     kind: Strider, *, colour: Colour | None, scale: float, seed: int
 ) -> ArticulatedModel:
     """Make a walking bird; `colour` is its plumage."""
-    plumage = mottled(colour if colour is not None else kind.plumage, contrast=0.4)
+    plumage = feathers(colour if colour is not None else kind.plumage)
     start = fraction(seed, "step")
 
     def articulate(pose: Pose) -> list[ModelPart]:
@@ -80,7 +87,7 @@ def _trunk(kind: Strider, plumage: Material, nod: float) -> list[ModelPart]:
     """Body, wings, tail, neck and head; `nod` -1..1 moves the head forth and back."""
     length, width, height = kind.body
     z = kind.hip + 0.10 * height
-    skin, wing = Material(kind.skin), Material(kind.wing)
+    skin, wing = leather(kind.skin), feathers(kind.wing)
     neck_base: Point = (0.40 * length, 0.0, z + 0.15 * height)
     reach = 0.10 * kind.neck * (1.0 + 0.5 * nod)
     middle: Point = (neck_base[0] + 0.22 * kind.neck, 0.0, neck_base[2] + 0.42 * kind.neck)
@@ -146,8 +153,8 @@ def _leg(kind: Strider, side: float, foot: tuple[float, float], bob: float) -> l
 
 def build_penguin(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a penguin that waddles; `colour` is its back."""
-    back = Material(colour if colour is not None else BLACK)
-    front, feet = Material(WHITE), Material(ORANGE)
+    back = feathers(colour if colour is not None else BLACK)
+    front, feet = feathers(WHITE), leather(ORANGE)
     gait = Gait(0.30, 0.6, 0.04)
     start = fraction(seed, "step")
     trunk = [

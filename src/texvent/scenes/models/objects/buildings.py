@@ -12,8 +12,13 @@ from texvent.scenes.models.materials import (
     GLASS,
     WHITE,
     Material,
-    mottled,
+    brick,
+    cloth,
+    plaster,
+    roofing,
     shade,
+    stone,
+    wood,
 )
 from texvent.scenes.models.protocol import ModelPart, Pose, fixed_noun
 from texvent.scenes.models.shapes import (
@@ -42,14 +47,14 @@ _ROOFS: tuple[Colour, ...] = ((0.30, 0.07, 0.035), (0.10, 0.09, 0.095), (0.20, 0
 
 def build_house(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a house with a gabled roof, door, windows and chimney; it faces +x; 8 m wide."""
-    wall = Material(paint(colour, seed, "wall", _WALLS))
-    roof = mottled(choose(seed, "roof", _ROOFS), contrast=0.25, scale=8.0)
+    wall = plaster(paint(colour, seed, "wall", _WALLS))
+    roof = roofing(choose(seed, "roof", _ROOFS))
     frame, door = Material(WHITE), Material((0.16, 0.06, 0.03))
     parts = [
         box(wall, (0.0, 0.0, 1.6), (6.0, 8.0, 3.2)),
         gable(wall, (0.0, 0.0, 3.2), (6.0, 8.0, 2.2)),
         *_gable_roof(roof, (6.0, 8.0), 3.2, 2.2),
-        box(mottled((0.30, 0.10, 0.06)), (-1.4, 2.3, 5.0), (0.8, 0.8, 2.0)),
+        box(brick((0.30, 0.10, 0.06)), (-1.4, 2.3, 5.0), (0.8, 0.8, 2.0)),
         box(door, (3.02, 0.0, 1.1), (0.10, 1.1, 2.2)),
         box(frame, (3.01, 0.0, 1.20), (0.06, 1.4, 2.4)),
         box(CONCRETE, (3.4, 0.0, 0.1), (0.9, 1.8, 0.2)),
@@ -92,7 +97,7 @@ def build_high_rise(*, colour: Colour | None, scale: float, seed: int) -> Articu
     wall = paint(colour, seed, "wall", ((0.40, 0.38, 0.35), (0.48, 0.36, 0.27), (0.30, 0.33, 0.38)))
     floors = int(between(seed, "floors", 6.0, 13.0))
     tall, wide, deep = 3.2 * floors, 13.0, 11.0
-    plain, dark = Material(wall), Material(shade(wall, 0.55))
+    plain, dark = plaster(wall), Material(shade(wall, 0.55))
     parts = [box(plain, (0.0, 0.0, 0.5 * tall), (deep, wide, tall))]
     for floor in range(floors):
         z = 3.2 * floor + 1.9
@@ -113,8 +118,8 @@ def build_high_rise(*, colour: Colour | None, scale: float, seed: int) -> Articu
 
 def build_barn(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a red barn with white edges and a large door on +x, its ridge along x; 9 m wide."""
-    wall = Material(colour if colour is not None else (0.32, 0.035, 0.025))
-    roof, white = mottled((0.14, 0.13, 0.13), contrast=0.2), Material(WHITE)
+    wall = wood(colour if colour is not None else (0.32, 0.035, 0.025), scale=0.5)
+    roof, white = roofing((0.14, 0.13, 0.13)), Material(WHITE)
     wide, thick = (0.2, 0.0, 0.0), (0.0, 0.26, 0.0)
     across = [
         box(wall, (0.0, 0.0, 2.0), (9.0, 11.0, 4.0)),
@@ -134,8 +139,8 @@ def build_barn(*, colour: Colour | None, scale: float, seed: int) -> Articulated
 
 def build_windmill(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a Dutch windmill, 13 m, its four sails turning on +x; `colour` is its tower."""
-    tower = mottled(colour if colour is not None else (0.52, 0.47, 0.38), contrast=0.15)
-    cap, sail = Material((0.17, 0.08, 0.05)), Material((0.74, 0.70, 0.60))
+    tower = stone(colour if colour is not None else (0.52, 0.47, 0.38))
+    cap, sail = wood((0.17, 0.08, 0.05)), cloth((0.74, 0.70, 0.60))
     spar = Material((0.10, 0.06, 0.04))
     rigid = [
         peak(tower, (0.0, 0.0, 6.2), (6.0, 6.0, 12.4)),

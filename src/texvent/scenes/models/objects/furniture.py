@@ -3,7 +3,14 @@
 from __future__ import annotations
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
-from texvent.scenes.models.materials import WHITE, WOOD, Material, mottled, shade
+from texvent.scenes.models.materials import (
+    WHITE,
+    WOOD,
+    Material,
+    cloth,
+    shade,
+    wood,
+)
 from texvent.scenes.models.protocol import fixed_noun
 from texvent.scenes.models.shapes import ball, box, limb
 from texvent.scenes.models.variation import choose, fraction, paint
@@ -14,29 +21,29 @@ _FABRICS: tuple[Colour, ...] = ((0.05, 0.16, 0.32), (0.36, 0.07, 0.05), (0.24, 0
 
 def build_table(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a table, 1.6 m by 0.9 m; `colour` is its wood."""
-    wood = mottled(colour, contrast=0.25) if colour is not None else WOOD
-    parts = [box(wood, (0.0, 0.0, 0.73), (0.90, 1.60, 0.05))]
-    parts.append(box(wood, (0.0, 0.0, 0.66), (0.74, 1.44, 0.09)))
+    grain = wood(colour) if colour is not None else WOOD
+    parts = [box(grain, (0.0, 0.0, 0.73), (0.90, 1.60, 0.05))]
+    parts.append(box(grain, (0.0, 0.0, 0.66), (0.74, 1.44, 0.09)))
     parts += [
-        box(wood, (x, y, 0.36), (0.07, 0.07, 0.72)) for x in (0.38, -0.38) for y in (0.7, -0.7)
+        box(grain, (x, y, 0.36), (0.07, 0.07, 0.72)) for x in (0.38, -0.38) for y in (0.7, -0.7)
     ]
     return ArticulatedModel(parts, scale=scale)
 
 
 def build_chair(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a chair with a slatted back; `colour` is its wood."""
-    wood = mottled(colour, contrast=0.25) if colour is not None else WOOD
-    parts = [box(wood, (0.0, 0.0, 0.45), (0.44, 0.44, 0.05))]
-    parts += [box(wood, (0.19, y, 0.22), (0.05, 0.05, 0.44)) for y in (0.19, -0.19)]
-    parts += [box(wood, (-0.20, y, 0.47), (0.05, 0.05, 0.94)) for y in (0.19, -0.19)]
-    parts += [box(wood, (-0.20, 0.0, z), (0.03, 0.40, 0.08)) for z in (0.62, 0.76, 0.90)]
+    grain = wood(colour) if colour is not None else WOOD
+    parts = [box(grain, (0.0, 0.0, 0.45), (0.44, 0.44, 0.05))]
+    parts += [box(grain, (0.19, y, 0.22), (0.05, 0.05, 0.44)) for y in (0.19, -0.19)]
+    parts += [box(grain, (-0.20, y, 0.47), (0.05, 0.05, 0.94)) for y in (0.19, -0.19)]
+    parts += [box(grain, (-0.20, 0.0, z), (0.03, 0.40, 0.08)) for z in (0.62, 0.76, 0.90)]
     return ArticulatedModel(parts, scale=scale)
 
 
 def build_sofa(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a sofa for two, 2 m wide; `colour` is its fabric."""
     hue = paint(colour, seed, "fabric", _FABRICS)
-    fabric, cushion = Material(hue), Material(shade(hue, 1.35))
+    fabric, cushion = cloth(hue), cloth(shade(hue, 1.35))
     parts = [
         box(fabric, (0.0, 0.0, 0.24), (0.85, 1.90, 0.30)),
         box(fabric, (-0.36, 0.0, 0.55), (0.22, 1.90, 0.65)),
@@ -50,8 +57,8 @@ def build_sofa(*, colour: Colour | None, scale: float, seed: int) -> Articulated
 
 def build_bed(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a double bed, 2.1 m long, its headboard at -x; `colour` is its blanket."""
-    blanket = Material(paint(colour, seed, "blanket", _FABRICS))
-    white = Material(WHITE)
+    blanket = cloth(paint(colour, seed, "blanket", _FABRICS))
+    white = cloth(WHITE)
     parts = [
         box(WOOD, (0.0, 0.0, 0.20), (2.10, 1.60, 0.20)),
         box(WOOD, (-1.05, 0.0, 0.55), (0.08, 1.70, 1.10)),
@@ -70,10 +77,10 @@ def build_bed(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedM
 
 def build_shelf(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a bookshelf, 1.8 m tall, full of books; `colour` is its wood."""
-    wood = mottled(colour, contrast=0.25) if colour is not None else WOOD
-    parts = [box(wood, (0.0, y, 0.90), (0.32, 0.04, 1.80)) for y in (0.48, -0.48)]
-    parts.append(box(wood, (-0.15, 0.0, 0.90), (0.02, 0.96, 1.80)))
-    parts += [box(wood, (0.0, 0.0, 0.06 + 0.43 * i), (0.32, 0.96, 0.035)) for i in range(5)]
+    grain = wood(colour) if colour is not None else WOOD
+    parts = [box(grain, (0.0, y, 0.90), (0.32, 0.04, 1.80)) for y in (0.48, -0.48)]
+    parts.append(box(grain, (-0.15, 0.0, 0.90), (0.02, 0.96, 1.80)))
+    parts += [box(grain, (0.0, 0.0, 0.06 + 0.43 * i), (0.32, 0.96, 0.035)) for i in range(5)]
     hues: tuple[Colour, ...] = (*_FABRICS, (0.08, 0.28, 0.10), (0.55, 0.35, 0.06), WHITE)
     for shelf in range(4):
         y = -0.44
@@ -89,11 +96,11 @@ def build_shelf(*, colour: Colour | None, scale: float, seed: int) -> Articulate
 
 def build_bench(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a park bench, 1.6 m wide, with slats; `colour` is its wood."""
-    wood = mottled(colour, contrast=0.25) if colour is not None else WOOD
+    grain = wood(colour) if colour is not None else WOOD
     iron = Material((0.03, 0.03, 0.03))
-    parts = [box(wood, (0.20 - 0.14 * i, 0.0, 0.45), (0.11, 1.60, 0.035)) for i in range(4)]
+    parts = [box(grain, (0.20 - 0.14 * i, 0.0, 0.45), (0.11, 1.60, 0.035)) for i in range(4)]
     parts += [
-        box(wood, (-0.28 - 0.03 * i, 0.0, 0.60 + 0.14 * i), (0.035, 1.60, 0.11)) for i in range(3)
+        box(grain, (-0.28 - 0.03 * i, 0.0, 0.60 + 0.14 * i), (0.035, 1.60, 0.11)) for i in range(3)
     ]
     for y in (0.65, -0.65):
         parts.append(limb(iron, (0.22, y, 0.03), (0.18, y, 0.43), 0.03))

@@ -5,11 +5,16 @@ from __future__ import annotations
 import math
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
-from texvent.scenes.models.materials import Material, mottled, shade
+from texvent.scenes.models.materials import (
+    Material,
+    made_of,
+    shade,
+    stone,
+)
 from texvent.scenes.models.protocol import Noun, fixed_noun
 from texvent.scenes.models.shapes import ball, moved, peak, turn_z
 from texvent.scenes.models.variation import between, fraction
-from texvent.scenes.scene import Colour
+from texvent.scenes.scene import Colour, Texture
 
 _STONE: Colour = (0.30, 0.28, 0.26)
 
@@ -17,20 +22,20 @@ _STONE: Colour = (0.30, 0.28, 0.26)
 def build_rock(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a boulder of a few stones, about 1.4 m; `colour` is its stone."""
     hue = colour if colour is not None else shade(_STONE, between(seed, "stone", 0.8, 1.2))
-    parts = [ball(mottled(hue), (0.0, 0.0, 0.42), (1.3, 1.05, 0.84))]
+    parts = [ball(stone(hue), (0.0, 0.0, 0.42), (1.3, 1.05, 0.84))]
     for index in range(3):
         angle = 2.0 * math.pi * (index + 0.6 * fraction(seed, f"angle {index}")) / 3.0
         size = between(seed, f"size {index}", 0.55, 0.85)
         at = (0.45 * math.cos(angle), 0.36 * math.sin(angle), 0.38 * size)
-        stone = ball(mottled(shade(hue, 0.85)), at, (size, 0.8 * size, 0.76 * size))
-        parts += moved([stone], turn_z(0.7 * angle, at))
+        boulder = ball(stone(shade(hue, 0.85)), at, (size, 0.8 * size, 0.76 * size))
+        parts += moved([boulder], turn_z(0.7 * angle, at))
     return ArticulatedModel(parts, scale=scale)
 
 
 def build_mountain(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a mountain of three peaks with snow, about 60 m; `colour` is its rock."""
     hue = colour if colour is not None else (0.19, 0.19, 0.20)
-    rock, snow = mottled(hue, scale=7.0), Material((0.85, 0.87, 0.90))
+    rock, snow = stone(hue, scale=0.02), made_of(Texture.SNOW, (0.85, 0.87, 0.90), scale=0.05)
     parts = []
     for index, (x, y, tall) in enumerate(((0.0, 0.0, 60.0), (8.0, 34.0, 40.0), (5.0, -32.0, 44.0))):
         high = tall * between(seed, f"height {index}", 0.9, 1.1)

@@ -11,7 +11,9 @@ from texvent.scenes.models.materials import (
     RED,
     YELLOW,
     Material,
+    foliage,
     mottled,
+    needles,
     shade,
     striped,
 )
@@ -38,7 +40,7 @@ def build_tree(*, colour: Colour | None, scale: float, seed: int) -> Articulated
     """Make a broad-leaved tree, about 7 m; `colour` is its foliage."""
     leaf = colour if colour is not None else shade(_LEAF, between(seed, "leaf", 0.8, 1.3))
     trunk_top = between(seed, "trunk", 2.6, 3.2)
-    crown = [ball(mottled(leaf, scale=2.5), (0.0, 0.0, trunk_top + 2.0), (3.6, 3.6, 3.4))]
+    crown = [ball(foliage(leaf), (0.0, 0.0, trunk_top + 2.0), (3.6, 3.6, 3.4))]
     for step in range(5):
         angle = 2.0 * math.pi * (step + 0.6 * fraction(seed, f"angle {step}")) / 5.0
         out = between(seed, f"out {step}", 1.1, 1.5)
@@ -46,7 +48,7 @@ def build_tree(*, colour: Colour | None, scale: float, seed: int) -> Articulated
         z = trunk_top + between(seed, f"height {step}", 0.7, 2.2)
         tint = shade(leaf, between(seed, f"tint {step}", 0.75, 1.2))
         centre = (out * math.cos(angle), out * math.sin(angle), z)
-        crown.append(ball(mottled(tint, scale=2.5), centre, (size, size, 0.85 * size)))
+        crown.append(ball(foliage(tint), centre, (size, size, 0.85 * size)))
     trunk = [
         post(BARK, (0.0, 0.0, 0.5 * trunk_top + 0.3), (0.44, 0.44, trunk_top + 0.6)),
         peak(BARK, (0.0, 0.0, 0.6), (0.8, 0.8, 1.2)),
@@ -67,7 +69,7 @@ def build_pine(*, colour: Colour | None, scale: float, seed: int) -> Articulated
         width = (3.6 - 2.7 * share) * between(seed, f"width {step}", 0.92, 1.08)
         low = 1.2 + (height - 2.4) * share
         tall = (height - 1.2) * (0.34 - 0.12 * share) if step < tiers - 1 else height - low
-        tint = mottled(shade(needle, 0.85 + 0.35 * share), scale=4.0)
+        tint = needles(shade(needle, 0.85 + 0.35 * share))
         crown.append(peak(tint, (0.0, 0.0, low + 0.5 * tall), (width, width, tall)))
     trunk = [post(BARK, (0.0, 0.0, 0.35 * height), (0.36, 0.36, 0.7 * height))]
     return _swaying(trunk, crown, scale=scale, seed=seed, amount=0.008)
@@ -75,7 +77,7 @@ def build_pine(*, colour: Colour | None, scale: float, seed: int) -> Articulated
 
 def build_palm(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a palm, about 7 m: a ringed stem with drooping fronds; `colour` is its fronds."""
-    leaf = mottled(colour if colour is not None else (0.09, 0.24, 0.04), scale=4.0)
+    leaf = foliage(colour if colour is not None else (0.09, 0.24, 0.04), scale=2.0)
     stem = striped((0.20, 0.14, 0.09), (0.12, 0.08, 0.05), 6.0)
     knee, top = (0.35, 0.0, 2.8), (0.15, 0.0, 5.6)
     trunk = [rod(stem, (0.0, 0.0, 0.0), knee, 0.20), rod(stem, knee, top, 0.16)]
@@ -99,17 +101,17 @@ def build_bush(*, colour: Colour | None, scale: float, seed: int) -> Articulated
     for step in range(5):
         angle = 2.0 * math.pi * step / 5.0 + fraction(seed, f"angle {step}")
         size = between(seed, f"size {step}", 0.8, 1.1)
-        tint = mottled(shade(leaf, between(seed, f"tint {step}", 0.8, 1.2)), scale=3.0)
+        tint = foliage(shade(leaf, between(seed, f"tint {step}", 0.8, 1.2)), scale=1.6)
         centre = (0.42 * math.cos(angle), 0.42 * math.sin(angle), 0.42 * size)
         crown.append(ball(tint, centre, (size, size, 0.84 * size)))
-    crown.append(ball(mottled(leaf, scale=3.0), (0.0, 0.0, 0.68), (1.0, 1.0, 0.95)))
+    crown.append(ball(foliage(leaf, scale=1.6), (0.0, 0.0, 0.68), (1.0, 1.0, 0.95)))
     return _swaying([], crown, scale=scale, seed=seed, amount=0.015)
 
 
 def build_flower(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a flower, about 0.6 m, with a head large enough to see; `colour` is its petals."""
     petal_colour = paint(colour, seed, "petal", (RED, YELLOW))
-    petal, stem = Material(petal_colour), Material(GREEN)
+    petal, stem = Material(petal_colour), foliage(GREEN, scale=8.0)
     crown = []
     for step in range(7):
         angle = 2.0 * math.pi * step / 7.0

@@ -14,6 +14,7 @@ from texvent.scenes.models.materials import (
     WHITE,
     WOOD,
     Material,
+    cloth,
     shade,
 )
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
@@ -52,7 +53,7 @@ def build_boat(*, colour: Colour | None, scale: float, seed: int) -> Articulated
 def build_sailboat(*, colour: Colour | None, scale: float, seed: int) -> ArticulatedModel:
     """Make a sailing boat, 7 m, with mainsail and jib; `colour` is its hull."""
     hull = Material(paint(colour, seed, "hull", (WHITE, (0.04, 0.12, 0.35), (0.35, 0.05, 0.04))))
-    sail, second = Material((0.85, 0.84, 0.80)), Material((0.74, 0.73, 0.70))
+    sail, second = cloth((0.85, 0.84, 0.80), scale=0.3), cloth((0.74, 0.73, 0.70), scale=0.3)
     parts = [
         *_hull(hull, 6.6, 2.0, 0.85),
         box(WOOD, (-0.8, 0.0, 0.62), (2.8, 1.4, 0.10)),
