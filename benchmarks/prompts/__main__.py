@@ -1,0 +1,50 @@
+"""Choose a benchmark; see the package."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from benchmarks.prompts import coverage, score, sheet, structure
+from texvent.errors import TexventError
+
+
+def main() -> int:
+    """Run a benchmark; returns the exit code."""
+    chosen = _parser().parse_args()
+    try:
+        chosen.run(chosen)
+    except TexventError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return error.exit_code
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.prompts")
+    commands = parser.add_subparsers(required=True)
+    one = commands.add_parser("sheet", help="film strips of prompts, for grading")
+    one.add_argument("prompts", type=Path, help=".csv with columns id, prompt, and perhaps style")
+    one.add_argument("-o", "--out", type=Path, required=True, help="folder")
+    one.add_argument("--jobs", type=int, default=1, help="processes")
+    one.add_argument("--no-events", action="store_true", help="stills and reports only: faster")
+    one.add_argument("--again", action="store_true", help="draw what is there anew")
+    one.set_defaults(run=sheet.run)
+    one = commands.add_parser("score", help="the table of a grader's sheet")
+    one.add_argument("grades", type=Path, help=".csv; columns: " + ", ".join(score.COLUMNS))
+    one.add_argument("--json", type=Path, help="write the figures here")
+    one.set_defaults(run=score.run)
+    one = commands.add_parser("coverage", help="names of COCO and ImageNet")
+    one.add_argument("--names", type=Path, action="append", help="a list of one's own")
+    one.add_argument("--json", type=Path, help="write the figures here")
+    one.set_defaults(run=coverage.run)
+    one = commands.add_parser("structure", help="what is read, against annotated sentences")
+    one.add_argument("gold", type=Path, help=".json: see benchmarks/prompts/structure.py")
+    one.add_argument("--json", type=Path, help="write the figures, and every fault, here")
+    one.set_defaults(run=structure.run)
+    return parser
+
+
+if __name__ == "__main__":
+    sys.exit(main())

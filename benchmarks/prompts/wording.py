@@ -1,0 +1,53 @@
+"""Words compared by their stems: "drives", "driving" and "drive" are one."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+_IRREGULAR = {
+    "people": "person", "men": "man", "women": "woman", "children": "child", "mice": "mouse",
+    "geese": "goose", "feet": "foot", "leaves": "leaf", "wolves": "wolf", "knives": "knife",
+    "ran": "run", "flew": "fly", "fell": "fall", "rose": "rise", "held": "hold", "sat": "sit",
+    "stood": "stand", "swam": "swim", "rode": "ride", "threw": "throw", "caught": "catch",
+    "drove": "drive", "spun": "spin", "swung": "swing", "wore": "wear", "worn": "wear",
+}  # fmt: skip
+_EMPTY = frozenset({
+    "a", "an", "the", "of", "to", "and", "or", "at", "with", "from", "its", "his", "her", "their",
+    "it", "them", "is", "are", "be", "being", "very", "in", "on", "by", "then", "while", "as",
+    "into", "onto",
+})  # fmt: skip
+
+
+def stem(word: str) -> str:
+    """A word without its inflection, only good for comparing.
+
+    Example:
+        >>> [stem(word) for word in ("drives", "driving", "drive", "stopped", "stop", "flies")]
+        ['driv', 'driv', 'driv', 'stop', 'stop', 'fli']
+        >>> stem("fly"), stem("buses"), stem("bus"), stem("grass")
+        ('fli', 'bus', 'bus', 'gras')
+    """
+    word = word.lower()
+    word = _IRREGULAR.get(word, word)
+    for suffix in ("ing", "ed", "es", "s"):
+        if word.endswith(suffix) and len(word) - len(suffix) >= 3:
+            word = word[: -len(suffix)]
+            break
+    if len(word) > 3 and word[-1] == word[-2]:
+        word = word[:-1]
+    if word.endswith("e") and len(word) > 3:
+        word = word[:-1]
+    return f"{word[:-1]}i" if word.endswith("y") and len(word) > 2 else word
+
+
+def stems(texts: Iterable[str]) -> set[str]:
+    """Stems of all words that carry meaning."""
+    words = (word for text in texts for word in re.findall(r"[^\W_]+", text.lower()))
+    return {stem(word) for word in words if word not in _EMPTY}
+
+
+def head(phrase: str) -> str:
+    """Stem of the last word of a noun phrase: the thing that it names."""
+    words = re.findall(r"[^\W_]+", phrase.lower())
+    return stem(words[-1]) if words else ""

@@ -1,0 +1,132 @@
+"""The prompt benchmark: strips that go on, sums of grades, coverage of names, structure."""
+
+from __future__ import annotations
+
+import csv
+import json
+import sys
+from pathlib import Path
+
+import cv2
+import pytest
+from benchmarks.prompts import coverage, score, structure
+from benchmarks.prompts.__main__ import main
+from benchmarks.prompts.gold import GoldAction, read_gold
+from benchmarks.prompts.rates import Share
+
+from texvent.errors import InputError
+
+GOLD = Path(__file__).with_name("prompts_gold.json")
+GRADES = """id,style,nouns_asked,nouns_shown,motion,silently_wrong,fully_right,fully_reported,stand_in,grade,remark
+a,short,2,2,yes,no,yes,no,no,5,
+b,short,3,1,partly,yes,no,no,no,2,no dog
+c,long,1,0,no,0,0,1,1,0,
+d,long,2,2,none,,1,,,4,
+"""  # noqa: E501  # a row of a table
+
+
+def run(monkeypatch: pytest.MonkeyPatch, *words: object) -> int:
+    monkeypatch.setattr(sys, "argv", ["benchmarks.prompts", *map(str, words)])
+    return main()
+
+
+def test_a_share_has_wilsons_interval():
+    # Worked by hand: p = 1/2, n = 4, z² = 3.8415: middle 1/2, half-width .5 sqrt(z²/(4+z²)) = .35.
+    low, high = Share(2, 4).interval
+    assert (low, high) == pytest.approx((0.15, 0.85), abs=0.001)
+    assert Share(0, 10).interval[0] == pytest.approx(0.0)
+    assert Share(10, 10).interval[1] == pytest.approx(1.0)
+
+
+def test_a_sheet_of_grades_is_summed(tmp_path, capsys, monkeypatch):
+    (tmp_path / "g.csv").write_text(GRADES)
+    sums = score.sum_grades(score.read_grades(tmp_path / "g.csv"))
+    assert sums["nouns shown"] == Share(5, 8)
+    assert sums["motion right"] == Share(1, 3)
+    assert sums["motion right or partly"] == Share(2, 3)
+    assert sums["silently wrong"] == Share(1, 4)
+    assert sums["fully right or fully reported"] == Share(3, 4)
+    assert sums["stand-in"] == Share(1, 4)
+    assert sums["mean grade"] == 2.75
+    assert run(monkeypatch, "score", tmp_path / "g.csv", "--json", tmp_path / "s.json") == 0
+    assert "| | all | short | long | target |" in capsys.readouterr().out
+    assert json.loads((tmp_path / "s.json").read_text())["short"]["prompts"] == 2
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("partly", "perhaps", "line 3: motion is 'perhaps'"),
+        ("b,short,3,1", "b,short,3,4", "line 3: 4 nouns are shown of 3"),
+        ("no,2,no dog", "no,7,no dog", "grade is 7"),
+        ("partly,yes", "partly,maybe", "silently_wrong is 'maybe'"),
+        ("nouns_asked,", "nouns,", "lacks the columns nouns_asked"),
+    ],
+)
+def test_a_sheet_with_a_fault_is_refused(tmp_path, old, new, said):
+    (tmp_path / "g.csv").write_text(GRADES.replace(old, new))
+    with pytest.raises(InputError, match=said):
+        score.read_grades(tmp_path / "g.csv")
+
+
+def test_names_are_judged_by_their_report():
+    assert coverage.judge("car").kind == "shown"
+    assert coverage.judge("zorble").kind == "not understood"
+    assert coverage.judge("zorble car").kind == "partly"
+    lists = {title: coverage.read_names(path) for title, path in coverage.LISTS.items()}
+    assert [len(names) for names in lists.values()] == [80, 100]
+
+
+def test_annotated_sentences_are_compared():
+    findings = structure.compare(read_gold(GOLD))
+    counts = findings.counts
+    assert counts["things"]["silent"] == 0
+    assert counts["things"]["reported"] == 2  # wug, qwerty
+    assert counts["counts"] == {"right": 4}
+    assert counts["attributes"] == {"right": 2}
+    assert counts["excluded"] == {"right": 1}
+    assert findings.objects == findings.asked_for
+
+
+def test_a_verb_of_another_subject_is_silent():
+    words = {"verb": "roll", "subject": "man"}
+    entry = {"id": "x", "prompt": "A man stands and a ball rolls.", "actions": [words],
+             "things": [{"noun": "man"}, {"noun": "ball"}]}  # fmt: skip
+    findings = structure.compare([read_gold_entry(entry)])
+    assert findings.counts["actions of their subject"] == {"silent": 1}
+    assert findings.silent[0]["what"] == "man roll"
+
+
+def read_gold_entry(entry):
+    from benchmarks.prompts import gold
+
+    return gold._sentence(entry)
+
+
+def test_a_verb_stands_for_the_kind_of_motion_that_one_clause_gives():
+    assert "drive" in {kind + "e" for kind in structure.action_kinds(GoldAction("drive", "car"))}
+    assert structure.action_kinds(GoldAction("zorble", "car")) == {"zorbl"}
+
+
+def test_strips_are_drawn_and_the_same_command_goes_on(tmp_path, monkeypatch, capsys):
+    rows = [["id", "style", "prompt"], ["a1", "short", "a red ball bounces next to a wug"],
+            ["a2", "short", "qwerty zxcv"]]  # fmt: skip
+    with (tmp_path / "p.csv").open("w", newline="") as file:
+        csv.writer(file).writerows(rows)
+    words = ("sheet", tmp_path / "p.csv", "-o", tmp_path / "out", "--no-events")
+    assert run(monkeypatch, *words) == 0
+    assert "1/2  a1: drawn" in capsys.readouterr().out
+    reports = json.loads((tmp_path / "out" / "reports.json").read_text())
+    drawn, refused = reports["prompts"]
+    assert "wug" in drawn["prompt_report"]["not_understood"]
+    assert drawn["in_view"]["ball"] > 0
+    assert drawn["never_in_view"] == []
+    assert "nothing in the prompt was understood" in refused["error"]
+    strip = cv2.imread(str(tmp_path / "out" / "strips" / "a1.png"))
+    assert strip.shape[1] == 6 * 173 + 5 * 2
+    assert (tmp_path / "out" / "contact-01.png").is_file()
+    assert run(monkeypatch, *words) == 0
+    assert "drawn" not in capsys.readouterr().out
+    (tmp_path / "p.csv").write_text("id,prompt\n../a,a dog\n")
+    assert run(monkeypatch, *words) == 2
+    assert "line 2: id is '../a'" in capsys.readouterr().err
