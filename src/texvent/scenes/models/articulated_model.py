@@ -12,6 +12,8 @@ from texvent.scenes.models.protocol import ModelPart, Pose
 from texvent.scenes.models.shapes import Affine, half_extents
 
 Articulation = Callable[[Pose], Sequence[ModelPart]]
+Anchorage = Callable[[str, Pose], Affine]
+"""Axes [3, 4] at a named place of a body at its usual size."""
 
 # Poses that together show how far limbs, wings and rotors reach: times and distances spread
 # evenly by the golden ratio and its two-dimensional counterpart, out of step with any cycle.
@@ -42,6 +44,7 @@ class ArticulatedModel:
         scale: float,
         articulate: Articulation | None = None,
         is_centred: bool = False,
+        anchor: Anchorage | None = None,
     ) -> None:
         """Measure the figure.
 
@@ -50,6 +53,7 @@ class ArticulatedModel:
             scale: size relative to the usual one.
             articulate: gives the parts that move; None = there are none.
             is_centred: whether the origin is its middle rather than the ground below it.
+            anchor: places at which other things are held; None = those of its box.
 
         Raises:
             InputError: scale is not a positive number.
@@ -59,6 +63,7 @@ class ArticulatedModel:
         self._scale = float(scale)
         self._rigid = [_scaled(each, self._scale) for each in rigid]
         self._articulate = articulate
+        self._anchor = anchor
         low, high = (self._scale * corner for corner in _measure(rigid, articulate))
         reach = np.maximum(np.abs(low), np.abs(high))
         self.length = float(2.0 * reach[0])
@@ -69,13 +74,28 @@ class ArticulatedModel:
         """The shapes at that pose, rigid ones first."""
         if self._articulate is None:
             return list(self._rigid)
-        usual = Pose(
-            time_s=pose.time_s,
+        usual = self._at_usual_size(pose)
+        return [*self._rigid, *(_scaled(each, self._scale) for each in self._articulate(usual))]
+
+    def anchor(self, name: str, pose: Pose) -> Affine | None:
+        """Axes [3, 4] at a named place, m; None = this model names no places."""
+        if self._anchor is None:
+            return None
+        axes = self._anchor(name, self._at_usual_size(pose))
+        return np.column_stack([axes[:, :3], self._scale * axes[:, 3]])
+
+    def _at_usual_size(self, pose: Pose) -> Pose:
+        """The same instant of a body of the usual size."""
+        grips = tuple(
+            (name, (x / self._scale, y / self._scale, z / self._scale))
+            for name, (x, y, z) in pose.grips
+        )
+        return replace(
+            pose,
             distance_m=pose.distance_m / self._scale,
             speed_m_s=pose.speed_m_s / self._scale,
-            activity=pose.activity,
+            grips=grips,
         )
-        return [*self._rigid, *(_scaled(each, self._scale) for each in self._articulate(usual))]
 
 
 def _measure(rigid: Sequence[ModelPart], articulate: Articulation | None) -> tuple[Affine, Affine]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from texvent.scenes.models import people, solids
+from texvent.scenes.models import solids
 from texvent.scenes.models.animals import (
     flying_birds,
     quadrupeds,
@@ -27,6 +27,7 @@ from texvent.scenes.models.objects import (
     street,
     toys,
 )
+from texvent.scenes.models.people import person
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.vehicles import aircraft, boats, cars, construction, cycles, heavy
 
@@ -37,7 +38,7 @@ _FAMILIES: tuple[tuple[Noun, ...], ...] = (
     aircraft.NOUNS,
     boats.NOUNS,
     construction.NOUNS,
-    people.NOUNS,
+    person.NOUNS,
     quadrupeds.NOUNS,
     walking_birds.NOUNS,
     flying_birds.NOUNS,

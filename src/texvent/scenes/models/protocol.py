@@ -44,7 +44,13 @@ class Pose:
     speed_m_s: float
     """Speed along its path, m/s; 0 = standing."""
     activity: str = "move"
-    """What it does: "stand", "move" (walk, drive, fly or swim), "run", "sit", "swing", ..."""
+    """What it does: "stand", "move" (walk, drive, fly or swim), "run", "sit", "swing", ...; for
+    people and hands a name of `people.activities`."""
+    act_s: float | None = None
+    """Time since the instant of contact of a single act such as a kick, s; None = it repeats."""
+    grips: tuple[tuple[str, tuple[float, float, float]], ...] = ()
+    """Where "left hand", "right hand", "left foot", "right foot" or "hips" are held, m, in body
+    coordinates."""
 
 
 class Model(Protocol):

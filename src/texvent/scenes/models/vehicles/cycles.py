@@ -16,17 +16,9 @@ from texvent.scenes.models.materials import (
     TAILLIGHT,
     Material,
 )
-from texvent.scenes.models.people import (
-    ADULT,
-    FOREARM,
-    UPPER_ARM,
-    Outfit,
-    draw_arm,
-    draw_head,
-    draw_leg,
-    draw_torso,
-    dress_person,
-)
+from texvent.scenes.models.people.figure import draw_arm, draw_head, draw_leg, draw_torso
+from texvent.scenes.models.people.outfit import ADULT, Outfit, dress_person
+from texvent.scenes.models.people.posture import LOWER_ARM, UPPER_ARM
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import Point, ball, box, rod
 from texvent.scenes.models.variation import paint
@@ -112,7 +104,7 @@ def _upper_body(
     for side in (1.0, -1.0):
         shoulder = (neck[0], side * 0.19, neck[2] - 0.09)
         hand = (grip[0], side * wide, grip[2] + 0.02)
-        elbow = bend(shoulder, hand, UPPER_ARM, FOREARM, (-0.3, side * 0.5, -1.0))
+        elbow = bend(shoulder, hand, UPPER_ARM, LOWER_ARM, (-0.3, side * 0.5, -1.0))
         parts += draw_arm(outfit, shoulder, elbow, hand)
     return parts
 

@@ -1,0 +1,1 @@
+"""People: bodies with joints, what they do, what they wear."""

@@ -1,0 +1,206 @@
+"""Names of what people and hands can do, with the English phrases that mean them.
+
+Loads nothing but the standard library, so that the sentence reader can import it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+
+@dataclass(frozen=True)
+class Activity:
+    """One activity; its name is an `ObjectMotion.kind`."""
+
+    words: tuple[str, ...]
+    """Verb phrases in their base form."""
+    travels: bool = False
+    """Whether the body goes from place to place."""
+    is_sideways: bool = False
+    """Whether it is best seen from the side."""
+    is_still: bool = False
+    """Whether the body keeps still apart from breathing."""
+
+
+def _seen_from_side(*words: str) -> Activity:
+    return Activity(words, is_sideways=True)
+
+
+def _travels(*words: str) -> Activity:
+    return Activity(words, travels=True, is_sideways=True)
+
+
+def _still(*words: str, is_sideways: bool = False) -> Activity:
+    return Activity(words, is_sideways=is_sideways, is_still=True)
+
+
+_GESTURES: dict[str, Activity] = {
+    "wave": Activity(("wave", "wave a hand", "wave his hand", "wave her hand", "greet")),
+    "wave left": Activity(("wave the left hand", "wave with the left hand", "left hand wave")),
+    "wave right": Activity(("wave the right hand", "wave with the right hand", "right hand wave")),
+    "wave both": Activity(
+        ("wave both hands", "wave both arms", "wave the arms", "wave the hands", "flail")
+    ),
+    "clap": Activity(("clap", "clap hands", "clap the hands", "applaud", "hand clap")),
+    "point": Activity(("point", "point a finger")),
+    "nod": Activity(("nod", "nod the head")),
+    "shake head": Activity(("shake the head", "shake head")),
+    "bow": _seen_from_side("bow",),
+    "salute": Activity(("salute",)),
+    "raise arms": Activity(("raise the arms", "raise arms", "raise both arms", "cheer",
+                            "celebrate", "lift the arms")),
+    "stretch": Activity(("stretch",)),
+    "talk": Activity(("talk", "speak", "chat", "argue", "explain", "gesticulate", "discuss")),
+    "right arm clockwise": Activity(("right arm clockwise", "rotate the right arm clockwise",
+                                     "right hand clockwise")),
+    "right arm counter-clockwise": Activity(
+        ("right arm counter-clockwise", "rotate the right arm counter-clockwise",
+         "right hand counter-clockwise", "right arm anticlockwise")),
+    "left arm clockwise": Activity(("left arm clockwise", "rotate the left arm clockwise",
+                                    "left hand clockwise")),
+    "left arm counter-clockwise": Activity(
+        ("left arm counter-clockwise", "rotate the left arm counter-clockwise",
+         "left hand counter-clockwise", "left arm anticlockwise")),
+    "arm roll": Activity(("arm roll", "roll the arms", "forearm roll", "roll the forearms")),
+    "air drums": Activity(("air drums", "play air drums")),
+    "air guitar": Activity(("air guitar", "play air guitar")),
+    "other gesture": Activity(("other gesture", "gesture", "make a gesture")),
+}  # fmt: skip
+
+_SPORTS: dict[str, Activity] = {
+    "jump": Activity(("jump", "hop", "leap")),
+    "dance": Activity(("dance", "waltz", "breakdance")),
+    "jumping jack": Activity(("jumping jack", "do a jumping jack", "do jumping jacks",
+                              "perform jumping jacks", "star jump")),
+    "squat": _seen_from_side("squat", "do squats"),
+    "lunge": _seen_from_side("lunge", "do lunges"),
+    "push-up": _seen_from_side("push-up", "do push-ups", "do pushups", "do press-ups"),
+    "sit-up": _seen_from_side("sit-up", "do sit-ups", "do situps", "do crunches"),
+    "lift": Activity(("lift weights", "lift a weight", "lift a barbell", "do weightlifting")),
+    "punch": _seen_from_side("punch", "throw punches"),
+    "box": _seen_from_side("box", "shadow box", "spar", "fight"),
+    "kick": _seen_from_side("kick",),
+    "throw": _seen_from_side("throw", "toss", "pitch", "hurl", "bowl"),
+    "catch": _seen_from_side("catch",),
+    "swing bat": _seen_from_side("swing a bat", "bat", "play baseball", "play cricket",
+                                 "play softball"),
+    "swing racket": _seen_from_side("swing a racket", "play tennis", "play badminton",
+                                    "play squash", "play table tennis", "play ping pong"),
+    "swing club": Activity(("swing a club", "swing a golf club", "golf", "play golf", "putt")),
+    "dribble": _seen_from_side("dribble", "dribble a ball", "dribble a basketball",
+                               "play basketball"),
+    "juggle": Activity(("juggle", "juggle balls")),
+    "climb": Activity(("climb", "scale"), is_sideways=True),
+    "crawl": _travels("crawl",),
+    "swim": _travels("swim",),
+    "surf": _travels("surf", "ride a wave", "ride the waves", "ride waves", "catch a wave"),
+    "skate": _travels("skateboard", "skate", "longboard"),
+    "ski": _travels("ski", "go skiing"),
+    "snowboard": _travels("snowboard",),
+    "row": _seen_from_side("row", "paddle", "kayak", "canoe"),
+}  # fmt: skip
+
+_DAILY: dict[str, Activity] = {
+    "play guitar": Activity(("play guitar", "play the guitar", "strum", "strum a guitar")),
+    "play drums": Activity(("play drums", "play the drums", "drum")),
+    "play piano": _seen_from_side("play piano", "play the piano", "play keyboard",
+                                  "play the keyboard"),
+    "play violin": Activity(("play violin", "play the violin", "fiddle")),
+    "play flute": _seen_from_side("play flute", "play the flute", "play clarinet",
+                                  "play the trumpet", "play trumpet"),
+    "type": _seen_from_side("type", "use a laptop", "use a computer", "work on a laptop",
+                            "work on a computer", "work at a computer"),
+    "write": Activity(("write", "draw", "sketch")),
+    "read": Activity(("read", "read a book", "read a newspaper")),
+    "eat": Activity(("eat", "have lunch", "have dinner", "have breakfast", "dine")),
+    "drink": Activity(("drink", "sip")),
+    "phone": Activity(("phone", "talk on the phone", "talk on a phone", "speak on the phone",
+                       "make a call", "call")),
+    "text": Activity(("text", "use a phone", "look at a phone", "use a smartphone",
+                      "look at the phone")),
+    "photograph": Activity(("photograph", "take a photo", "take a picture", "take photos",
+                            "take pictures", "take a selfie", "film")),
+    "sing": Activity(("sing",)),
+    "dig": _seen_from_side("dig", "shovel"),
+    "sweep": _seen_from_side("sweep", "mop", "vacuum", "rake"),
+    "hammer": _seen_from_side("hammer", "pound"),
+    "saw": _seen_from_side("saw",),
+    "chop": _seen_from_side("chop", "chop wood", "cut wood"),
+    "paint": Activity(("paint", "paint a wall")),
+    "cook": Activity(("cook", "stir", "fry", "prepare food", "make food")),
+    "wash": Activity(("wash", "wash dishes", "wipe", "clean", "scrub")),
+    "pull": _seen_from_side("pull", "tug"),
+    "push": _seen_from_side("push", "shove"),
+    "fish": _seen_from_side("fish", "go fishing"),
+}  # fmt: skip
+
+_RESTING: dict[str, Activity] = {
+    "stand": _still("stand",),
+    "sit": _still("sit",),
+    "lie": _still("lie", "lie down", "sleep", is_sideways=True),
+    "kneel": _still("kneel", is_sideways=True),
+    "crouch": _still("crouch", "duck", is_sideways=True),
+}  # fmt: skip
+
+_ON_FOOT: dict[str, Activity] = {
+    "walk": Activity(("walk",), travels=True),
+    "run": Activity(("run",), travels=True),
+}
+
+ACTIVITIES: Mapping[str, Activity] = MappingProxyType(
+    {**_ON_FOOT, **_RESTING, **_GESTURES, **_SPORTS, **_DAILY}
+)
+"""What a person can do: name → activity."""
+
+HAND_GESTURES: Mapping[str, Activity] = MappingProxyType(
+    {
+        "wave": Activity(("wave",)),
+        "open and close": Activity(("open and close", "open", "close", "clench", "squeeze")),
+        "grasp": Activity(("grasp", "grab", "grip")),
+        "fist": Activity(("make a fist", "form a fist", "clench a fist")),
+        "point": Activity(("point", "point a finger")),
+        "count": Activity(("count", "count to five", "count with its fingers")),
+        "thumbs up": Activity(("thumbs up", "give a thumbs up", "give thumbs up", "thumb up")),
+        "thumbs down": Activity(("thumbs down", "give a thumbs down", "thumb down")),
+        "victory": Activity(("make a victory sign", "make a peace sign", "victory sign",
+                             "peace sign", "show two fingers")),
+        "ok": Activity(("make an ok sign", "ok sign", "ok")),
+        "rotate": Activity(("rotate", "turn", "spin", "twist")),
+        "swipe left": Activity(("swipe left", "swipe to the left")),
+        "swipe right": Activity(("swipe right", "swipe", "swipe to the right")),
+        "swipe up": Activity(("swipe up",)),
+        "swipe down": Activity(("swipe down",)),
+        "pinch": Activity(("pinch", "zoom")),
+        "snap": Activity(("snap", "snap its fingers", "snap fingers")),
+        "tap": Activity(("tap", "press", "click", "knock")),
+        "type": Activity(("type", "play the piano", "drum its fingers")),
+        "rock paper scissors": Activity(("rock paper scissors", "play rock paper scissors",
+                                         "rock-paper-scissors")),
+        "stand": Activity(("rest", "keep still"), is_still=True),
+    }
+)  # fmt: skip
+"""What a hand can do: name → gesture."""
+
+DVS_GESTURES: Mapping[str, str] = MappingProxyType(
+    {
+        "hand clap": "clap",
+        "right hand wave": "wave right",
+        "left hand wave": "wave left",
+        "right arm clockwise": "right arm clockwise",
+        "right arm counter clockwise": "right arm counter-clockwise",
+        "left arm clockwise": "left arm clockwise",
+        "left arm counter clockwise": "left arm counter-clockwise",
+        "arm roll": "arm roll",
+        "air drums": "air drums",
+        "air guitar": "air guitar",
+        "other gestures": "other gesture",
+    }
+)
+"""Class of DVS-Gesture (Amir et al., CVPR 2017) → activity."""
+
+PERSON_NOUNS = frozenset({"person", "man", "woman", "child", "runner", "worker"})
+"""Nouns whose models take every posture of `ACTIVITIES`."""
+HAND_NOUNS = frozenset({"hand", "fist", "finger"})
+"""Nouns whose models take every posture of `HAND_GESTURES`."""

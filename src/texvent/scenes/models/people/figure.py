@@ -1,0 +1,143 @@
+"""Draws a body: torso, head with a face, arms and legs between given joints."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from texvent.scenes.models.materials import BLACK, WHITE, YELLOW, Material, shade
+from texvent.scenes.models.people.outfit import Outfit, PersonKind
+from texvent.scenes.models.people.posture import (
+    FOREARM,
+    LOWER_ARM,
+    NECK,
+    SHIN,
+    THIGH,
+    Skeleton,
+)
+from texvent.scenes.models.limb_kinematics import bend
+from texvent.scenes.models.protocol import ModelPart
+from texvent.scenes.models.shapes import Point, ball, limb, moved, part_way, peak
+
+HEAD_SIZE = 0.23
+"""Height of an adult's head, m."""
+_KNEE: Point = (1.0, 0.0, 0.35)
+
+
+def draw_figure(kind: PersonKind, outfit: Outfit, joints: Skeleton) -> list[ModelPart]:
+    """A whole person in the posture that the joints describe."""
+    parts = moved(draw_torso(kind, outfit, (0.0, 0.0, 0.0), (0.0, 0.0, NECK)), joints.torso)
+    parts += moved(draw_head(kind, outfit, (0.0, 0.0, 0.0)), joints.head)
+    for side in (0, 1):
+        parts += draw_arm(outfit, joints.shoulders[side], joints.elbows[side], joints.hands[side])
+    for side in (0, 1):
+        parts += _leg(outfit, joints, side)
+    return parts
+
+
+def draw_head(kind: PersonKind, outfit: Outfit, neck: Point) -> list[ModelPart]:
+    """Neck, head, face, hair and hat above the base of the neck."""
+    x, y, z = neck
+    size = HEAD_SIZE * kind.head
+    middle = z + 0.09 + 0.5 * size
+    front = x + 0.02 + 0.41 * size
+    hair = 0.92 if kind.hat != "helmet" else 0.80
+    lips = Material(shade(outfit.skin.colour, 0.45))
+    parts = [
+        limb(outfit.skin, (x, y, z - 0.02), (x + 0.01, y, z + 0.12), 0.055),
+        ball(outfit.skin, (x + 0.02, y, middle), (0.9 * size, 0.78 * size, 1.08 * size)),
+        ball(outfit.skin, (x + 0.02 + 0.46 * size, y, middle - 0.02), (0.05, 0.04, 0.06)),
+        ball(
+            outfit.hair,
+            (x - 0.025, y, middle + 0.15 * size),
+            (hair * size, 0.88 * size, hair * size),
+        ),
+        ball(lips, (front + 0.005, y, middle - 0.27 * size), (0.03, 0.075, 0.018)),
+    ]
+    for side in (1.0, -1.0):
+        eye = (front - 0.014, y + side * 0.17 * size, middle + 0.05 * size)
+        parts.append(ball(Material(WHITE), eye, (0.05, 0.052, 0.034)))
+        pupil = (eye[0] + 0.018, eye[1], eye[2])
+        parts.append(ball(Material(BLACK), pupil, (0.022, 0.026, 0.028)))
+        ear = (x + 0.015, y + side * 0.40 * size, middle - 0.02)
+        parts.append(ball(outfit.skin, ear, (0.05, 0.025, 0.07)))
+    if kind.long_hair:
+        parts.append(ball(outfit.hair, (x - 0.07, y, z + 0.06), (0.13, 0.20, 0.36)))
+    if kind.hat == "helmet":
+        yellow = Material(YELLOW)
+        parts.append(ball(yellow, (x + 0.01, y, middle + 0.30 * size), (0.28, 0.25, 0.22)))
+        parts.append(ball(yellow, (x + 0.05, y, middle + 0.34 * size), (0.38, 0.30, 0.05)))
+    return parts
+
+
+def draw_torso(kind: PersonKind, outfit: Outfit, hips: Point, neck: Point) -> list[ModelPart]:
+    """Pelvis, chest, shoulders, and a skirt or a vest's stripes."""
+    waist = (0.6 * hips[0] + 0.4 * neck[0], hips[1], 0.6 * hips[2] + 0.4 * neck[2])
+    collar = (neck[0], neck[1], neck[2] - 0.10)
+    low = (hips[0], hips[1], hips[2] + 0.02)
+    pelvis = outfit.shirt if kind.dress == "skirt" else outfit.legs
+    belt = part_way(hips, neck, 0.22)
+    parts = [
+        limb(pelvis, (low[0], low[1], low[2] - 0.06), belt, 0.115, side_radius=0.165),
+        limb(outfit.shirt, low, collar, 0.128, side_radius=0.178),
+        ball(outfit.shirt, (neck[0], neck[1], neck[2] - 0.12), (0.22, 0.43, 0.24)),
+    ]
+    if kind.dress == "skirt":
+        skirt = (hips[0] + 0.02, hips[1], hips[2] - 0.02)
+        parts.append(peak(outfit.shirt, skirt, (0.74, 0.62, 1.00)))
+    if kind.hat == "helmet":
+        band = Material((0.75, 0.75, 0.3), emission=0.2)
+        parts.append(ball(band, (waist[0], waist[1], waist[2] + 0.04), (0.265, 0.36, 0.09)))
+    return parts
+
+
+def draw_arm(outfit: Outfit, shoulder: Point, elbow: Point, palm: Point) -> list[ModelPart]:
+    """Sleeve, forearm and hand; `palm` is the middle of the palm."""
+    wrist = part_way(elbow, palm, FOREARM / LOWER_ARM)
+    tips = part_way(elbow, palm, 1.16)
+    return [
+        limb(outfit.shirt, shoulder, elbow, 0.055),
+        limb(outfit.skin, elbow, wrist, 0.040),
+        limb(outfit.skin, wrist, tips, 0.042, side_radius=0.034),
+    ]
+
+
+def draw_leg(outfit: Outfit, hip: Point, ankle: Point, *, pitch: float = 0.0) -> list[ModelPart]:
+    """Thigh, shin and shoe, the knee pointing forward; `pitch` radians tip the toes down."""
+    knee = bend(hip, ankle, THIGH, SHIN, _KNEE)
+    return _draw_leg(outfit, (hip, knee, ankle), pitch, 0.0)
+
+
+def _leg(outfit: Outfit, joints: Skeleton, side: int) -> list[ModelPart]:
+    chain = (joints.hips[side], joints.knees[side], joints.ankles[side])
+    return _draw_leg(outfit, chain, joints.pitches[side], joints.heading)
+
+
+def _draw_leg(
+    outfit: Outfit, chain: tuple[Point, Point, Point], pitch: float, heading: float
+) -> list[ModelPart]:
+    hip, knee, ankle = chain
+    heel = foot_point(ankle, pitch, heading, -0.05)
+    toe = foot_point(ankle, pitch, heading, 0.13)
+    return [
+        limb(outfit.legs, hip, knee, 0.085),
+        limb(outfit.shins, knee, ankle, 0.058),
+        limb(outfit.shoes, heel, toe, 0.044),
+    ]
+
+
+def foot_point(ankle: Point, pitch: float, heading: float, ahead: float) -> Point:
+    """A point of the middle of the shoe, `ahead` m before the ankle."""
+    along = ahead * math.cos(pitch) - 0.035 * math.sin(pitch)
+    up = -ahead * math.sin(pitch) - 0.035 * math.cos(pitch)
+    return (
+        ankle[0] + along * math.cos(heading),
+        ankle[1] + along * math.sin(heading),
+        ankle[2] + up,
+    )
+
+
+def unit(vector: np.ndarray) -> np.ndarray:
+    """The same direction with length 1."""
+    return vector / max(float(np.linalg.norm(vector)), 1e-9)

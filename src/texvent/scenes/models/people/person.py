@@ -1,0 +1,185 @@
+"""People: one body that walks, runs, rests, gestures, works and does sports."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from functools import partial
+from types import MappingProxyType
+
+from texvent.scenes.models.articulated_model import ArticulatedModel
+from texvent.scenes.models.limb_kinematics import Gait, foot_path, step_amount
+from texvent.scenes.models.people.anchors import locate_anchor
+from texvent.scenes.models.people.daily import DAILY
+from texvent.scenes.models.people.figure import draw_figure
+from texvent.scenes.models.people.gestures import GESTURES, Movement
+from texvent.scenes.models.people.outfit import (
+    ADULT,
+    CHILD,
+    RUNNER,
+    WOMAN,
+    WORKER,
+    PersonKind,
+    dress_person,
+)
+from texvent.scenes.models.people.posture import (
+    ANKLE,
+    HIP,
+    LOWER_ARM,
+    UPPER_ARM,
+    Arm,
+    Leg,
+    Posture,
+    Skeleton,
+    blend,
+    fill,
+    solve,
+)
+from texvent.scenes.models.people.sports import SINGLE_ACTS, SPORTS
+from texvent.scenes.models.people.timing import ease
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose
+from texvent.scenes.models.shapes import Affine
+from texvent.scenes.scene import Colour
+
+WALK = Gait(stride=1.25, duty=0.60, lift=0.12)
+RUN = Gait(stride=2.40, duty=0.34, lift=0.32)
+CRAWL = Gait(stride=0.60, duty=0.60, lift=0.07)
+RUN_UP = WALK
+"""Gait of a run-up."""
+
+MOVEMENTS: Mapping[str, Movement] = MappingProxyType({**GESTURES, **SPORTS, **DAILY})
+"""Activity → posture over time; what is not here walks or runs."""
+
+
+def build_person(
+    kind: PersonKind, *, colour: Colour | None, scale: float, seed: int
+) -> ArticulatedModel:
+    """Make a person; `colour` is the shirt or dress."""
+    outfit = dress_person(kind, colour=colour, seed=seed)
+
+    def articulate(pose: Pose) -> list[ModelPart]:
+        return draw_figure(kind, outfit, solve(choose_posture(kind, pose)))
+
+    def anchor(name: str, pose: Pose) -> Affine:
+        return locate_anchor(name, solve(choose_posture(kind, pose)), kind.head)
+
+    return ArticulatedModel([], scale=scale * kind.height, articulate=articulate, anchor=anchor)
+
+
+def pose_joints(pose: Pose, kind: PersonKind = ADULT) -> Skeleton:
+    """The joints of a person at a pose, for an adult of the usual size."""
+    return solve(choose_posture(kind, pose))
+
+
+def choose_posture(kind: PersonKind, pose: Pose) -> Posture:
+    """The complete posture of an activity at an instant."""
+    activity = pose.activity
+    if activity == "crawl":
+        return _grip(_crawl(pose), pose)
+    runs = activity == "run" or (kind.runs and activity == "move")
+    amount = 0.0 if activity == "sit" else step_amount(activity, pose.speed_m_s, 0.5)
+    base = step(RUN if runs else WALK, pose.distance_m, amount)
+    if activity == "jump":
+        return _grip(fill(_jump(pose.act_s), base), pose)
+    if pose.act_s is not None and activity in SINGLE_ACTS:
+        act = fill(SINGLE_ACTS[activity](pose.act_s), base)
+        share = ease(pose.act_s, -0.50, -0.20) if amount > 0.0 else 1.0
+        return _grip(blend(base, act, share), pose)
+    movement = MOVEMENTS.get(activity)
+    if movement is None:
+        return _grip(base, pose)
+    return _grip(fill(movement(pose.time_s), base), pose)
+
+
+def step(gait: Gait, distance: float, amount: float) -> Posture:
+    """Walking or running: legs and arms by the distance covered; amount 0 = standing."""
+    runs = gait is RUN
+    turn = 2.0 * math.pi * distance / gait.stride
+    # A walker is highest in mid-stance, a runner lowest; legs are nearly straight at both.
+    bob = -0.03 * math.cos(2.0 * turn + 1.0) if runs else 0.03 * math.cos(2.0 * turn - 0.63)
+    drop = 0.05 if runs else 0.02
+    legs, arms = [], []
+    for offset in (0.0, 0.5):
+        x, z = foot_path(gait, distance, offset + 0.25, amount)
+        pitch = 0.54 * z / gait.lift
+        legs.append(Leg((x, 0.08, ANKLE + z), (1.0, 0.0, 0.35), pitch))
+        # Each arm swings with the opposite leg.
+        swing = amount * (0.75 if runs else 0.42) * math.sin(turn + 2.0 * math.pi * offset)
+        fold = swing + 0.12 + amount * (1.45 if runs else 0.18)
+        forward = UPPER_ARM * math.sin(swing) + LOWER_ARM * math.sin(fold)
+        up = -UPPER_ARM * math.cos(swing) - LOWER_ARM * math.cos(fold)
+        arms.append(Arm((forward, 0.03, up), (-1.0, 0.25, 0.2)))
+    return Posture(
+        hips=(0.0, 0.0, HIP - 0.005 + amount * (bob - drop)), 
+        lean=amount * (0.16 if runs else 0.04),
+        left=arms[0], right=arms[1], left_leg=legs[0], right_leg=legs[1],
+    )  # fmt: skip
+
+
+def _jump(act_s: float | None) -> Posture:
+    """Crouched at take-off and landing, stretched with raised arms at the top (`act_s` 0)."""
+    away = abs(act_s) if act_s is not None else 0.0
+    crouch, tuck = ease(away, 0.18, 0.40), 1.0 - ease(away, 0.02, 0.26)
+    arm = Arm(
+        (0.16 - 0.20 * crouch, 0.22 * (1.0 - crouch), 0.48 - 0.90 * crouch), (-0.6, 0.8, -0.4)
+    )
+    leg = Leg((-0.10 * tuck, 0.09, ANKLE + 0.16 * tuck), pitch=0.7 * tuck)
+    return Posture(hips=(-0.14 * crouch, 0.0, HIP - 0.26 * crouch), lean=0.5 * crouch, left=arm,
+                   right=arm, left_leg=leg, right_leg=leg)  # fmt: skip
+
+
+def _crawl(pose: Pose) -> Posture:
+    """On hands and knees, which stay where they are set down."""
+    arms, legs = [], []
+    for side, offset in ((1.0, 0.0), (-1.0, 0.5)):
+        x, z = foot_path(CRAWL, pose.distance_m, offset, 1.0)
+        arms.append(Arm((0.34 + x, side * 0.18, 0.05 + z), (-0.4, 0.6, -0.6), True))
+        x, z = foot_path(CRAWL, pose.distance_m, offset + 0.5, 1.0)
+        legs.append(Leg((-0.56 + x, 0.11, 0.09 + 0.6 * z), (0.4, 0.1, -1.0), 1.9))
+    return Posture(hips=(-0.24, 0.0, 0.47), lean=1.40, nod=-0.9, left=arms[0], right=arms[1],
+                   left_leg=legs[0], right_leg=legs[1])  # fmt: skip
+
+
+def _grip(posture: Posture, pose: Pose) -> Posture:
+    """The posture with hands, feet or hips where the pose holds them."""
+    if not pose.grips:
+        return posture
+    held = dict(pose.grips)
+    changes: dict[str, Posture | Arm | Leg | tuple[float, float, float]] = {}
+    for name, arm in (("left", posture.left), ("right", posture.right)):
+        if f"{name} hand" in held:
+            elbow = (-0.4, 0.8, -0.8) if arm is None else arm.elbow
+            changes[name] = Arm(held[f"{name} hand"], elbow, True)
+    for name, leg, side in (("left", posture.left_leg, 1.0), ("right", posture.right_leg, -1.0)):
+        if f"{name} foot" in held:
+            x, y, z = held[f"{name} foot"]
+            knee = (1.0, 0.5, 0.3) if leg is None else leg.knee
+            changes[f"{name}_leg"] = Leg((x, side * y, z), knee)
+    if "hips" in held:
+        changes["hips"] = held["hips"]
+    return Posture(**{**posture.__dict__, **changes})  # type: ignore[arg-type]
+
+
+NOUNS = (
+    Noun(
+        "person", partial(build_person, ADULT), "ground", 1.4, "walk",
+        ("pedestrian", "human", "walker", "somebody", "tourist", "hiker"), ("people",),
+    ),
+    Noun(
+        "man", partial(build_person, ADULT), "ground", 1.4, "walk",
+        ("guy", "gentleman", "businessman"),
+    ),
+    Noun("woman", partial(build_person, WOMAN), "ground", 1.3, "walk", ("lady", "businesswoman")),
+    Noun(
+        "child", partial(build_person, CHILD), "ground", 1.1, "walk",
+        ("kid", "boy", "girl", "toddler"), ("children",),
+    ),
+    Noun(
+        "runner", partial(build_person, RUNNER), "ground", 3.5, "run",
+        ("jogger", "athlete", "sprinter", "marathon runner"),
+    ),
+    Noun(
+        "worker", partial(build_person, WORKER), "ground", 1.2, "walk",
+        ("construction worker", "builder", "workman"),
+    ),
+)  # fmt: skip
