@@ -64,6 +64,7 @@ class ArticulatedModel:
         self._rigid = [_scaled(each, self._scale) for each in rigid]
         self._articulate = articulate
         self._anchor = anchor
+        self.is_centred = is_centred
         low, high = (self._scale * corner for corner in _measure(rigid, articulate))
         reach = np.maximum(np.abs(low), np.abs(high))
         self.length = float(2.0 * reach[0])

@@ -7,8 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from texvent.scenes.models.anchors import locate
 from texvent.scenes.models.nouns import AFLOAT
+from texvent.scenes.models.people.props import Prop
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
+from texvent.scenes.models.shapes import compose, moved
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.assemble import PlacedModel
 from texvent.scenes.staging.trajectories.trajectory import Trajectory
@@ -41,6 +44,8 @@ class Actor:
     """Head start of its gait, m, so that a herd does not walk in step."""
     extras: tuple[ModelPart, ...] = ()
     """Parts that are not the model's, such as the rope it hangs from; body coordinates."""
+    props: tuple[Prop, ...] = ()
+    """What a person's activity needs, such as a guitar."""
 
     @property
     def is_centred(self) -> bool:
@@ -50,14 +55,30 @@ class Actor:
     def place(self, time_s: float) -> PlacedModel:
         """Its parts in the world at that instant."""
         state = self.trajectory.at(time_s)
-        pose = Pose(
-            time_s + 0.37 * self.lead_m,
+        pose = self.pose(time_s)
+        parts = [*self.model.parts(pose), *self.extras]
+        for prop in self.props:
+            axes = locate(self.model, prop.anchor, pose)
+            parts += moved(prop.draw(pose.time_s), axes)
+        return PlacedModel(parts, state.to_world(), self.instance)
+
+    def pose(self, time_s: float) -> Pose:
+        """What moves its limbs at that instant."""
+        state = self.trajectory.at(time_s)
+        return Pose(
+            state.tempo * time_s + 0.37 * self.lead_m,
             state.distance_m + self.lead_m,
             state.speed_m_s,
             state.activity,
+            state.act_s,
+            state.grips,
         )
-        parts = [*self.model.parts(pose), *self.extras]
-        return PlacedModel(parts, state.to_world(), self.instance)
+
+    def anchor(self, name: str, time_s: float) -> Float64Array:
+        """[3, 4] axes at a named place of it, in the world: see `anchors.locate`."""
+        return compose(
+            self.trajectory.at(time_s).to_world(), locate(self.model, name, self.pose(time_s))
+        )
 
     def middle(self, time_s: float) -> Float64Array:
         """[3] world position of its middle, m."""

@@ -154,6 +154,9 @@ ACTIVITIES: Mapping[str, Activity] = MappingProxyType(
 )
 """What a person can do: name → activity."""
 
+TRAVELLING = frozenset(name for name, activity in ACTIVITIES.items() if activity.travels)
+"""Names of the activities that go from place to place."""
+
 HAND_GESTURES: Mapping[str, Activity] = MappingProxyType(
     {
         "wave": Activity(("wave",)),
@@ -202,5 +205,5 @@ DVS_GESTURES: Mapping[str, str] = MappingProxyType(
 
 PERSON_NOUNS = frozenset({"person", "man", "woman", "child", "runner", "worker"})
 """Nouns whose models take every posture of `ACTIVITIES`."""
-HAND_NOUNS = frozenset({"hand", "fist", "finger"})
+HAND_NOUNS = frozenset({"hand"})
 """Nouns whose models take every posture of `HAND_GESTURES`."""

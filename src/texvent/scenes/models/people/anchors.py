@@ -17,7 +17,7 @@ def locate_anchor(name: str, joints: Skeleton, head: float = 1.0) -> Affine:
     Args:
         name: "right hand" (z along what it holds), "left hand", "hands" (between both),
             "crown" (top of the head), "face", "mouth", "neck", "torso" (origin at the hips),
-            "back", "chest", "seat", "right foot" or "left foot" (tip of the shoe).
+            "back", "chest", "seat", "ground", "right foot" or "left foot" (tip of the shoe).
         joints: the body.
         head: size of its head relative to an adult's.
 
@@ -33,6 +33,8 @@ def locate_anchor(name: str, joints: Skeleton, head: float = 1.0) -> Affine:
         side = 0 if name == "left foot" else 1
         tip = foot_point(joints.ankles[side], joints.pitches[side], joints.heading, 0.17)
         return _level(joints.torso[:, 0], np.array(tip))
+    if name == "ground":
+        return np.eye(3, 4)
     if name in _ON_HEAD:
         return _carried(joints.head, _ON_HEAD[name], head * HEAD_SIZE)
     return _carried(joints.torso, _ON_TORSO[name], 1.0)

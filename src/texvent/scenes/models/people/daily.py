@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 from texvent.scenes.models.people.gestures import Movement, drum, strum
 from texvent.scenes.models.people.posture import ANKLE, Arm, Leg, Posture
-from texvent.scenes.models.people.timing import ease, follow_keys, pulse, swing
+from texvent.scenes.models.people.timing import ease, follow_keys, swing
 from texvent.scenes.models.shapes import Point
 
 _DOWN: Point = (-0.2, 0.5, -1.0)

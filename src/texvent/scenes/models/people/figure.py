@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from texvent.scenes.models.limb_kinematics import bend
 from texvent.scenes.models.materials import BLACK, WHITE, YELLOW, Material, shade
 from texvent.scenes.models.people.outfit import Outfit, PersonKind
 from texvent.scenes.models.people.posture import (
@@ -16,9 +17,8 @@ from texvent.scenes.models.people.posture import (
     THIGH,
     Skeleton,
 )
-from texvent.scenes.models.limb_kinematics import bend
 from texvent.scenes.models.protocol import ModelPart
-from texvent.scenes.models.shapes import Point, ball, limb, moved, part_way, peak
+from texvent.scenes.models.shapes import Point, ball, limb, moved, part_way, spike
 
 HEAD_SIZE = 0.23
 """Height of an adult's head, m."""
@@ -29,11 +29,22 @@ def draw_figure(kind: PersonKind, outfit: Outfit, joints: Skeleton) -> list[Mode
     """A whole person in the posture that the joints describe."""
     parts = moved(draw_torso(kind, outfit, (0.0, 0.0, 0.0), (0.0, 0.0, NECK)), joints.torso)
     parts += moved(draw_head(kind, outfit, (0.0, 0.0, 0.0)), joints.head)
+    if kind.dress == "skirt":
+        parts.append(_skirt(outfit, joints))
     for side in (0, 1):
         parts += draw_arm(outfit, joints.shoulders[side], joints.elbows[side], joints.hands[side])
     for side in (0, 1):
         parts += _leg(outfit, joints, side)
     return parts
+
+
+def _skirt(outfit: Outfit, joints: Skeleton) -> ModelPart:
+    """A cone from the chest down to the knees."""
+    hips = joints.torso[:, 3]
+    knees = 0.5 * (np.array(joints.knees[0]) + np.array(joints.knees[1]))
+    tip = joints.torso @ np.array([0.02, 0.0, 0.46, 1.0])
+    x, y, z = hips + 1.12 * (knees - hips)
+    return spike(outfit.shirt, (x, y, z), (float(tip[0]), float(tip[1]), float(tip[2])), 0.33)
 
 
 def draw_head(kind: PersonKind, outfit: Outfit, neck: Point) -> list[ModelPart]:
@@ -83,9 +94,6 @@ def draw_torso(kind: PersonKind, outfit: Outfit, hips: Point, neck: Point) -> li
         limb(outfit.shirt, low, collar, 0.128, side_radius=0.178),
         ball(outfit.shirt, (neck[0], neck[1], neck[2] - 0.12), (0.22, 0.43, 0.24)),
     ]
-    if kind.dress == "skirt":
-        skirt = (hips[0] + 0.02, hips[1], hips[2] - 0.02)
-        parts.append(peak(outfit.shirt, skirt, (0.74, 0.62, 1.00)))
     if kind.hat == "helmet":
         band = Material((0.75, 0.75, 0.3), emission=0.2)
         parts.append(ball(band, (waist[0], waist[1], waist[2] + 0.04), (0.265, 0.36, 0.09)))
@@ -136,8 +144,3 @@ def foot_point(ankle: Point, pitch: float, heading: float, ahead: float) -> Poin
         ankle[1] + along * math.sin(heading),
         ankle[2] + up,
     )
-
-
-def unit(vector: np.ndarray) -> np.ndarray:
-    """The same direction with length 1."""
-    return vector / max(float(np.linalg.norm(vector)), 1e-9)

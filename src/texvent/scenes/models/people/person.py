@@ -110,7 +110,7 @@ def step(gait: Gait, distance: float, amount: float) -> Posture:
         up = -UPPER_ARM * math.cos(swing) - LOWER_ARM * math.cos(fold)
         arms.append(Arm((forward, 0.03, up), (-1.0, 0.25, 0.2)))
     return Posture(
-        hips=(0.0, 0.0, HIP - 0.005 + amount * (bob - drop)), 
+        hips=(0.0, 0.0, HIP - 0.005 + amount * (bob - drop)),
         lean=amount * (0.16 if runs else 0.04),
         left=arms[0], right=arms[1], left_leg=legs[0], right_leg=legs[1],
     )  # fmt: skip
@@ -157,7 +157,7 @@ def _grip(posture: Posture, pose: Pose) -> Posture:
             changes[f"{name}_leg"] = Leg((x, side * y, z), knee)
     if "hips" in held:
         changes["hips"] = held["hips"]
-    return Posture(**{**posture.__dict__, **changes})  # type: ignore[arg-type]
+    return Posture(**{**posture.__dict__, **changes})
 
 
 NOUNS = (

@@ -161,8 +161,10 @@ def solve(posture: Posture) -> Skeleton:
     arms = [_solve_arm(torso, arm or Arm(), side)
             for arm, side in zip((posture.left, posture.right), SIDES, strict=True)]  # fmt: skip
     turn = _about_z(posture.turn) if abs(posture.lean) < 1.0 else np.eye(3)
-    legs = [_solve_leg(np.array(hips), axes, turn, leg or Leg(), side)
-            for leg, side in zip((posture.left_leg, posture.right_leg), SIDES, strict=True)]  # fmt: skip
+    legs = [
+        _solve_leg(np.array(hips), axes, turn, leg or Leg(), side)
+        for leg, side in zip((posture.left_leg, posture.right_leg), SIDES, strict=True)
+    ]
     points = [[_point(heading @ joint) for joint in limb] for limb in (*arms, *legs)]
     pitches = tuple((leg or Leg()).pitch for leg in (posture.left_leg, posture.right_leg))
     forward, out, up = posture.tool

@@ -284,7 +284,8 @@ def _swim(t: float) -> Posture:
         return Leg((-0.82, 0.08, -0.06 + 0.12 * swing(t, 2.4, phase)), (0.0, 0.1, -1.0), 1.3)
 
     return Posture(hips=(0.0, 0.0, -0.02), lean=1.48, tilt=0.3 * swing(t, 0.8), nod=-0.4,
-                   left=arm(0.0), right=arm(0.5), left_leg=leg(0.0), right_leg=leg(0.5))  # fmt: skip
+                   left=arm(0.0), right=arm(0.5), left_leg=leg(0.0),
+                   right_leg=leg(0.5))  # fmt: skip
 
 
 BOARD_STANCE = 0.09

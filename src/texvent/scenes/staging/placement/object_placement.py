@@ -10,6 +10,8 @@ import numpy as np
 
 from texvent.scenes.description import STANDING, Relation, SceneDescription
 from texvent.scenes.models.materials import Material
+from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.models.people.props import PROPS, Prop
 from texvent.scenes.models.protocol import Model, ModelPart, Noun
 from texvent.scenes.models.shapes import post
 from texvent.scenes.scene import Float64Array
@@ -209,10 +211,20 @@ class ObjectPlacer:
                 Actor(
                     group.index, group.noun, model, trajectory, group.plan.motion.is_moving,
                     before + number + 1, float(rng.uniform(0.0, 1.0)) if number else 0.0,
-                    _rope(trajectory, model),
+                    _rope(trajectory, model), self._choose_props(group),
                 )
             )  # fmt: skip
         return actors
+
+    def _choose_props(self, group: ObjectGroup) -> tuple[Prop, ...]:
+        """What a person's activities need and the prompt does not show as an object."""
+        if group.noun.name not in PERSON_NOUNS:
+            return ()
+        shown = {scene_object.noun for scene_object in self._description.objects}
+        said = (group.scene_object.motion or STANDING, *group.scene_object.then)
+        kinds = dict.fromkeys(motion.kind for motion in said)
+        props = [prop for kind in kinds for prop in PROPS.get(kind, ())]
+        return tuple(prop for prop in props if not shown.intersection(prop.nouns))
 
     def _choose(
         self, group: ObjectGroup, model: Model, home: Vector, number: int, rng: np.random.Generator

@@ -9,6 +9,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent.scenes.description import SPIN_RATE_HZ, ObjectMotion
+from texvent.scenes.models.people.activities import (
+    ACTIVITIES,
+    HAND_GESTURES,
+    HAND_NOUNS,
+    PERSON_NOUNS,
+    TRAVELLING,
+)
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.staging.trajectories.action_trajectories import (
     GRAVITY_M_S2,
@@ -45,7 +52,7 @@ RUN_FACTOR = 2.2
 
 FLAT = 0.62
 """Objects whose length is below this share of their width show their front to the camera."""
-PEOPLE = frozenset({"person", "man", "woman", "child", "runner", "worker"})
+PEOPLE = PERSON_NOUNS
 _SIDEWAYS = frozenset({"flag", "crane", "bridge"})
 """Objects that are known by their side."""
 _WEAVING = frozenset({"swim"})
@@ -61,6 +68,8 @@ class MotionPlan:
     duration_s: float
     path: SteeredPath | None = None
     """Its path about (0, 0), where it does more than one simple movement."""
+    gesture: str | None = None
+    """What a person or a hand does in its place: a name of `people.activities`."""
 
     @property
     def is_path(self) -> bool:
@@ -109,7 +118,7 @@ def plan_motion(
     goes = motion.kind in PATH_KINDS or any(m.kind in _GOING for m in motions)
     if motion.kind == "turn":
         yaw = YAWS[default]  # "turns left" is to its own left
-    elif motion.direction is None and not goes:
+    elif (motion.direction is None or _is_gesture_seen_from_front(noun, motion)) and not goes:
         yaw = _face_camera(noun, model, motion, toss)
     elif motion.kind in ("fly", "swim") and direction in ("up", "down"):
         yaw = YAWS[default]
@@ -118,9 +127,30 @@ def plan_motion(
     speed = _choose_speed(motions, noun, model)
     if not is_steered:
         pace = 1.0 if motion.speed_m_s is not None else motion.pace
-        return MotionPlan(motion, yaw, speed * pace, duration_s)
+        gesture = choose_gesture(noun, motion)
+        return MotionPlan(motion, yaw, speed * pace, duration_s, gesture=gesture)
     path = build_path(motions, noun, model, yaw=yaw, usual_m_s=speed, duration_s=duration_s)
     return MotionPlan(motion, path.yaw, speed, duration_s, path)
+
+
+def choose_gesture(noun: Noun, motion: ObjectMotion) -> str | None:
+    """The activity of a person or hand that stays in its place; None = it is no such thing."""
+    kinds = {**dict.fromkeys(PERSON_NOUNS, ACTIVITIES), **dict.fromkeys(HAND_NOUNS, HAND_GESTURES)}
+    known = kinds.get(noun.name)
+    if known is None or motion.kind in PATH_KINDS or motion.kind in ("jump", "spin", "fall"):
+        return None
+    handed = f"{motion.kind} {motion.direction}"
+    if handed in known:
+        return handed
+    if motion.kind == "sit" and noun.name in PERSON_NOUNS:
+        return "sit on ground"
+    return motion.kind if motion.kind in known else None
+
+
+def _is_gesture_seen_from_front(noun: Noun, motion: ObjectMotion) -> bool:
+    """Whether its direction says which hand, not which way the body faces."""
+    gesture = choose_gesture(noun, motion)
+    return gesture is not None and not (gesture in ACTIVITIES and ACTIVITIES[gesture].is_sideways)
 
 
 _GOING = PATH_KINDS | {"turn", "reverse", "zigzag", "enter", "leave", "appear"}
@@ -146,6 +176,8 @@ def _face_camera(noun: Noun, model: Model, motion: ObjectMotion, toss: float) ->
     Fronts are at +x. Flat objects turn it to the camera; others stand at an angle to it.
     """
     tilt = 0.5 * (2.0 * toss - 1.0)
+    if noun.name in PEOPLE and motion.kind in ACTIVITIES and ACTIVITIES[motion.kind].is_sideways:
+        return (math.pi if toss < 0.5 else 0.0) + 0.5 * tilt
     if noun.name in _SIDEWAYS:
         return 0.3 * tilt
     if model.length < FLAT * model.width or noun.name in PEOPLE:
@@ -174,6 +206,8 @@ def choose_trajectory(
     """
     if plan.path is not None:
         return _shift_path(plan.path, model, home)
+    if plan.gesture is not None:
+        return Stationary(home, plan.yaw, plan.gesture, plan.motion.pace)
     if clear_m > 0.0:
         return _jump_over(plan, model, home, clear_m)
     kind, direction = plan.motion.kind, plan.motion.direction
@@ -212,7 +246,9 @@ def _jump_over(plan: MotionPlan, model: Model, home: Vector, clear_m: float) -> 
 
 
 def _activity(kind: str) -> str:
-    return "run" if kind == "run" else "stand" if kind == "slide" else "move"
+    if kind in TRAVELLING:
+        return kind
+    return "stand" if kind == "slide" else "move"
 
 
 def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:
@@ -263,8 +299,10 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
         return Hover(home, 0.12 * span * pace, plan.yaw, phase)
     if kind == "sway":
         return Sway(home, 0.14, 0.5 * pace, plan.yaw)
-    activity = {"stand": "stand", "sit": "sit"}.get(kind, "move")
-    return Stationary(home, plan.yaw, activity)
+    return Stationary(home, plan.yaw, kind if kind in _RESTING else "move")
+
+
+_RESTING = frozenset({"stand", "sit", "lie"})
 
 
 def _fly_freely(plan: MotionPlan, model: Model, home: Vector) -> Trajectory:

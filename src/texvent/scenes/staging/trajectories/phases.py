@@ -9,12 +9,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent.scenes.description import SPIN_RATE_HZ, STANDING, ObjectMotion
+from texvent.scenes.models.people.activities import TRAVELLING
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
 
-PATH_KINDS = frozenset(
-    {"drive", "walk", "run", "fly", "swim", "sail", "paddle", "slide", "roll", "move"}
-)
+PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "paddle", "slide", "roll", "move"})
 """Motions from one place to another."""
 _STEERED_KINDS = frozenset({"turn", "reverse", "zigzag", "enter", "leave", "appear"})
 _GOING = _STEERED_KINDS - {"turn", "zigzag"}
@@ -362,4 +361,6 @@ class _Builder:
 
 
 def _activity(motion: ObjectMotion) -> str:
-    return {"run": "run", "slide": "stand"}.get(motion.kind, "move")
+    if motion.kind in TRAVELLING:
+        return motion.kind
+    return "stand" if motion.kind == "slide" else "move"

@@ -37,6 +37,12 @@ class BodyState:
     """`Pose.activity`."""
     pivot_m: float = 0.0
     """Height above the body's origin about which it turns, m."""
+    act_s: float | None = None
+    """`Pose.act_s`."""
+    grips: tuple[tuple[str, Vector], ...] = ()
+    """`Pose.grips`."""
+    tempo: float = 1.0
+    """How fast its gestures are, as a multiple of their usual rate."""
 
     def to_world(self) -> Float64Array:
         """[3, 4] map from body to world coordinates."""
@@ -83,10 +89,11 @@ class Stationary:
     home: Vector
     yaw: float = 0.0
     activity: str = "stand"
+    tempo: float = 1.0
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
-        return BodyState(self.home, self.yaw, activity=self.activity)
+        return BodyState(self.home, self.yaw, activity=self.activity, tempo=self.tempo)
 
 
 @dataclass(frozen=True)
@@ -206,10 +213,11 @@ class Riding:
     carrier: Trajectory
     seat: Vector
     """In the carrier's body coordinates, m."""
+    activity: str = "sit"
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
         below = self.carrier.at(time_s)
         place = below.to_world() @ np.array([*self.seat, 1.0])
         seat = (float(place[0]), float(place[1]), float(place[2]))
-        return BodyState(seat, below.yaw, below.pitch, below.roll, activity="sit")
+        return BodyState(seat, below.yaw, below.pitch, below.roll, activity=self.activity)

@@ -1,0 +1,267 @@
+"""What activities need: instruments, tools, balls and boards, drawn with the person."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from texvent.scenes.models.materials import (
+    BLUE,
+    CHROME,
+    DARK,
+    ORANGE,
+    RED,
+    STEEL,
+    WHITE,
+    WOOD,
+    YELLOW,
+    Material,
+    glowing,
+    striped,
+)
+from texvent.scenes.models.people.sports import BOARD_STANCE, DRIBBLE_HZ, JUGGLE_HZ
+from texvent.scenes.models.protocol import ModelPart
+from texvent.scenes.models.shapes import Point, ball, blade, box, post, rod, spike
+
+Draw = Callable[[float], Sequence[ModelPart]]
+
+BAT_REACH, RACKET_REACH, CLUB_REACH = 0.66, 0.48, 0.80
+"""From the right palm to where a bat, a racket and a club meet the ball, m."""
+_LEATHER = Material((0.10, 0.035, 0.02))
+_PALE = Material((0.55, 0.34, 0.14))
+
+
+@dataclass(frozen=True)
+class Prop:
+    """Something that goes with a place of the body."""
+
+    anchor: str
+    """Place of `anchors.locate_anchor`; "ground" = body coordinates."""
+    draw: Draw
+    """Its shapes at a time, s, in the axes of that place, m."""
+    nouns: tuple[str, ...] = ()
+    """Nouns that are the same thing: where the prompt shows one, the prop is left out."""
+
+
+def _still(*parts: ModelPart) -> Draw:
+    return lambda _: parts
+
+
+def _stick(material: Material, low: float, high: float, radius: float) -> ModelPart:
+    """A rod along what the hand holds."""
+    return rod(material, (0.0, 0.0, low), (0.0, 0.0, high), radius)
+
+
+def _disc(material: Material, middle: Point, size: tuple[float, float], thick: float) -> ModelPart:
+    """A flat ellipse that stands in the x-z plane of the hand: width, length."""
+    x, y, z = middle
+    wide, long = size
+    return blade(material, (x, y, z - 0.5 * long), (x, y, z + 0.5 * long), chord=(wide, 0.0, 0.0),
+                 thickness=(0.0, thick, 0.0))  # fmt: skip
+
+
+BAT = _still(_stick(_PALE, -0.10, 0.30, 0.016), _stick(_PALE, 0.28, 0.80, 0.034))
+RACKET = _still(
+    _stick(DARK, -0.08, 0.26, 0.016),
+    _disc(Material(RED), (0.0, 0.0, RACKET_REACH), (0.27, 0.36), 0.024),
+    _disc(Material((0.7, 0.7, 0.62)), (0.0, 0.0, RACKET_REACH), (0.22, 0.30), 0.030),
+)
+CLUB = _still(_stick(STEEL, -0.16, 0.80, 0.011), box(DARK, (0.04, 0.0, 0.80), (0.12, 0.05, 0.06)))
+_SHOVEL = _still(_stick(WOOD, -0.42, 0.62, 0.018), box(STEEL, (0.0, 0.0, 0.74), (0.05, 0.22, 0.30)))
+_BROOM = _still(
+    _stick(WOOD, -0.50, 0.86, 0.014),
+    spike(Material(YELLOW), (0.0, 0.0, 1.06), (0.0, 0.0, 0.76), 0.15),
+)
+_HAMMER = _still(_stick(WOOD, -0.06, 0.26, 0.016), box(STEEL, (0.0, 0.0, 0.27), (0.15, 0.05, 0.06)))
+_AXE = _still(_stick(WOOD, -0.12, 0.62, 0.018), box(STEEL, (0.08, 0.0, 0.60), (0.18, 0.03, 0.14)))
+_SAW = _still(box(WOOD, (0.0, 0.0, 0.0), (0.10, 0.04, 0.12)),
+              box(STEEL, (-0.02, 0.0, 0.32), (0.10, 0.012, 0.54)))  # fmt: skip
+_BRUSH = _still(_stick(WOOD, -0.06, 0.20, 0.014),
+                rod(Material(BLUE), (0.0, -0.12, 0.24), (0.0, 0.12, 0.24), 0.04))  # fmt: skip
+_LADLE = _still(_stick(WOOD, -0.10, 0.28, 0.012), ball(WOOD, (0.0, 0.0, 0.30), (0.07, 0.05, 0.07)))
+_PAN = _still(post(DARK, (0.22, 0.0, -0.02), (0.34, 0.34, 0.07)),
+              rod(DARK, (-0.04, 0.0, 0.0), (0.10, 0.0, 0.0), 0.014))  # fmt: skip
+_CUP = _still(post(Material(WHITE), (0.03, 0.0, 0.02), (0.09, 0.09, 0.13)))
+_PHONE = _still(box(DARK, (0.02, 0.0, 0.05), (0.02, 0.08, 0.17)))
+_SCREEN = _still(
+    box(DARK, (0.03, 0.0, 0.06), (0.02, 0.08, 0.17)),
+    box(glowing((0.35, 0.5, 0.75), 0.8), (0.019, 0.0, 0.06), (0.006, 0.07, 0.15)),
+)
+_MICROPHONE = _still(_stick(DARK, -0.08, 0.10, 0.018), ball(STEEL, (0.0, 0.0, 0.12), (0.06,) * 3))
+_STICK = _still(rod(_PALE, (-0.05, 0.0, 0.0), (0.34, 0.0, 0.0), 0.012))
+_GLOVE = _still(ball(Material(RED), (0.03, 0.0, 0.0), (0.20, 0.16, 0.17)))
+_SPOON = _still(
+    _stick(CHROME, -0.06, 0.12, 0.008), ball(CHROME, (0.0, 0.0, 0.14), (0.04, 0.03, 0.06))
+)
+_BOWL = _still(ball(Material((0.55, 0.60, 0.68)), (0.06, 0.0, 0.02), (0.20, 0.20, 0.12)))
+_PAD = _still(box(Material(WHITE), (0.04, 0.04, 0.03), (0.24, 0.20, 0.02)))
+_PEN = _still(_stick(Material(BLUE), -0.02, 0.12, 0.008))
+_CLOTH = _still(box(Material((0.7, 0.6, 0.1)), (0.02, 0.0, -0.04), (0.18, 0.16, 0.03)))
+_BOOK = _still(
+    box(Material(RED), (0.02, 0.09, 0.04), (0.03, 0.18, 0.26), lean=0.25),
+    box(Material(RED), (0.02, -0.09, 0.04), (0.03, 0.18, 0.26), lean=0.25),
+    box(Material(WHITE), (0.0, 0.088, 0.045), (0.02, 0.165, 0.24), lean=0.25),
+    box(Material(WHITE), (0.0, -0.088, 0.045), (0.02, 0.165, 0.24), lean=0.25),
+)
+_CAMERA = _still(
+    box(DARK, (0.04, 0.0, 0.04), (0.09, 0.16, 0.11)),
+    rod(STEEL, (0.08, 0.0, 0.04), (0.16, 0.0, 0.04), 0.04),
+)
+_BARBELL = _still(
+    rod(STEEL, (0.03, -0.80, 0.0), (0.03, 0.80, 0.0), 0.016),
+    *(rod(DARK, (0.03, y, 0.0), (0.03, y + 0.10, 0.0), 0.20) for y in (0.60, -0.70)),
+)
+_GUITAR = _still(
+    blade(_PALE, (0.20, -0.32, -0.05), (0.20, 0.02, 0.10), chord=(-0.1, -0.12, 0.26),
+          thickness=(0.10, 0.0, 0.0)),
+    blade(_PALE, (0.20, -0.10, 0.04), (0.21, 0.16, 0.16), chord=(-0.1, -0.10, 0.20),
+          thickness=(0.09, 0.0, 0.0)),
+    ball(DARK, (0.245, -0.02, 0.08), (0.02, 0.09, 0.09)),
+    rod(_LEATHER, (0.23, 0.06, 0.12), (0.28, 0.56, 0.34), 0.020),
+    rod(DARK, (0.28, 0.56, 0.34), (0.29, 0.68, 0.39), 0.032),
+)  # fmt: skip
+_VIOLIN = _still(
+    blade(_LEATHER, (0.08, 0.12, 0.47), (0.34, 0.27, 0.47), chord=(-0.09, 0.17, 0.0),
+          thickness=(0.0, 0.0, 0.06)),
+    rod(DARK, (0.32, 0.26, 0.48), (0.50, 0.36, 0.48), 0.014),
+)  # fmt: skip
+_BOW = _still(_stick(_LEATHER, -0.05, 0.60, 0.009))
+_FLUTE = _still(rod(DARK, (0.02, 0.0, -0.01), (0.48, 0.0, -0.20), 0.017),
+                spike(DARK, (0.52, 0.0, -0.22), (0.36, 0.0, -0.15), 0.05))  # fmt: skip
+
+
+def _drum(x: float, y: float, z: float, wide: float) -> list[ModelPart]:
+    return [post(Material(RED), (x, y, z - 0.10), (wide, wide, 0.22)),
+            post(Material(WHITE), (x, y, z + 0.015), (0.98 * wide, 0.98 * wide, 0.02))]  # fmt: skip
+
+
+_DRUMS = _still(
+    *_drum(0.56, 0.24, 0.68, 0.36), *_drum(0.56, -0.24, 0.68, 0.36),
+    rod(Material(RED), (0.66, -0.001, 0.30), (0.98, 0.001, 0.30), 0.30),
+    post(Material(YELLOW), (0.66, 0.62, 1.02), (0.46, 0.46, 0.02)),
+    rod(STEEL, (0.66, 0.62, 0.0), (0.66, 0.62, 1.02), 0.012),
+    post(Material(YELLOW), (0.66, -0.62, 1.02), (0.46, 0.46, 0.02)),
+    rod(STEEL, (0.66, -0.62, 0.0), (0.66, -0.62, 1.02), 0.012),
+    post(DARK, (-0.05, 0.0, 0.20), (0.34, 0.34, 0.40)),
+)  # fmt: skip
+_STOOL = post(DARK, (-0.05, 0.0, 0.20), (0.36, 0.36, 0.40))
+_PIANO = _still(
+    _STOOL, box(DARK, (0.78, 0.0, 0.52), (0.36, 1.40, 1.02)),
+    box(DARK, (0.54, 0.0, 0.63), (0.30, 1.40, 0.08)),
+    box(Material(WHITE), (0.50, 0.0, 0.675), (0.20, 1.24, 0.02)),
+    *(box(DARK, (0.53, -0.56 + 0.16 * k, 0.69), (0.12, 0.06, 0.03)) for k in range(8)),
+)  # fmt: skip
+_DESK = _still(
+    _STOOL, box(WOOD, (0.66, 0.0, 0.64), (0.60, 1.10, 0.04)),
+    *(rod(WOOD, (x, y, 0.0), (x, y, 0.63), 0.025) for x in (0.42, 0.90) for y in (0.5, -0.5)),
+    box(STEEL, (0.58, 0.0, 0.672), (0.26, 0.38, 0.02)),
+    box(STEEL, (0.745, 0.0, 0.80), (0.02, 0.38, 0.26), lean=0.25),
+    box(glowing((0.35, 0.5, 0.75), 0.9), (0.732, 0.0, 0.80), (0.01, 0.34, 0.22), lean=0.25),
+)  # fmt: skip
+_ROD = _still(_stick(DARK, -0.20, 1.9, 0.012),
+              rod(Material(WHITE), (0.0, 0.0, 1.88), (1.0, 0.0, 0.9), 0.006))  # fmt: skip
+_PADDLE = _still(
+    _stick(WOOD, -0.85, 0.85, 0.016),
+    *(_disc(Material(ORANGE), (0.0, 0.0, z), (0.20, 0.44), 0.03) for z in (0.98, -0.98)),
+)
+
+
+def _board(size: Point, material: Material, wheels: bool = False) -> Draw:
+    """A board under both feet, its nose ahead."""
+    long, wide, thick = size
+    top = BOARD_STANCE
+    parts = [
+        box(material, (0.0, 0.0, top - 0.5 * thick), (0.72 * long, wide, thick)),
+        ball(material, (0.36 * long, 0.0, top - 0.5 * thick), (0.30 * long, wide, thick)),
+        ball(material, (-0.36 * long, 0.0, top - 0.5 * thick), (0.30 * long, wide, thick)),
+    ]
+    if wheels:
+        parts += [
+            rod(Material(WHITE), (x, y, 0.03), (x, y + 0.04, 0.03), 0.03)
+            for x in (0.26 * long, -0.26 * long)
+            for y in (0.34 * wide, -0.34 * wide - 0.04)
+        ]
+    return _still(*parts)
+
+
+_SKIS = _still(
+    *(
+        part
+        for y in (0.12, -0.12)
+        for part in (
+            box(Material(RED), (0.10, y, 0.02), (1.60, 0.09, 0.025)),
+            rod(Material(RED), (0.90, y, 0.02), (1.02, y, 0.10), 0.02),
+        )
+    )
+)
+_POLE = _still(_stick(STEEL, -0.04, 0.85, 0.012))
+_LEFT_POLE = _still(rod(STEEL, (0.03, 0.0, 0.03), (-0.62, 0.10, -0.55), 0.012))
+
+
+def _dribbled(t: float) -> list[ModelPart]:
+    """Between the right hand and the ground; free flight after each bounce, pushed down again."""
+    share = (t * DRIBBLE_HZ) % 1.0
+    # The hand has it at the start of each cycle and is lowest in the middle, when it bounces.
+    height = 0.12 + 0.72 * abs(math.cos(math.pi * share)) ** 1.3
+    surface = striped(ORANGE, (0.05, 0.03, 0.02), 2.0)
+    return [ball(surface, (0.66, -0.30, height), (0.24, 0.24, 0.24))]
+
+
+def _juggled(t: float) -> list[ModelPart]:
+    """Three balls in turn from hand to hand, each in free flight half of the time."""
+    parts = []
+    for index, colour in enumerate((RED, YELLOW, BLUE)):
+        cycle = (t * JUGGLE_HZ + index / 1.5) / 2.0 % 1.0
+        half, into = divmod(2.0 * cycle, 1.0)
+        side = 1.0 if half < 1.0 else -1.0
+        across = 0.22 * side * (1.0 - 2.0 * into)
+        rise = 4.0 * into * (1.0 - into)
+        parts.append(ball(Material(colour), (0.42, across, 1.14 + 0.62 * rise), (0.12,) * 3))
+    return parts
+
+
+_SURFBOARD = _board((2.0, 0.52, 0.07), Material(WHITE))
+PROPS: Mapping[str, tuple[Prop, ...]] = MappingProxyType(
+    {
+        "swing bat": (Prop("right hand", BAT, ("bat", "baseball bat")),),
+        "swing racket": (Prop("right hand", RACKET, ("racket", "tennis racket")),),
+        "swing club": (Prop("right hand", CLUB, ("club", "golf club")),),
+        "dribble": (Prop("ground", _dribbled, ("ball", "basketball", "football")),),
+        "juggle": (Prop("ground", _juggled, ("ball",)),),
+        "box": (Prop("right hand", _GLOVE), Prop("left hand", _GLOVE)),
+        "lift": (Prop("hands", _BARBELL, ("barbell", "dumbbell")),),
+        "surf": (Prop("ground", _SURFBOARD, ("surfboard",)),),
+        "skate": (Prop("ground", _board((0.86, 0.22, 0.03), _LEATHER, True), ("skateboard",)),),
+        "snowboard": (Prop("ground", _board((1.5, 0.28, 0.04), Material(BLUE)), ("snowboard",)),),
+        "ski": (Prop("ground", _SKIS, ("skis", "ski")), Prop("right hand", _POLE),
+                Prop("left hand", _LEFT_POLE)),
+        "row": (Prop("right hand", _PADDLE, ("paddle", "oar")),),
+        "play guitar": (Prop("torso", _GUITAR, ("guitar",)),),
+        "play drums": (Prop("ground", _DRUMS, ("drum", "drums")), Prop("right hand", _STICK),
+                       Prop("left hand", _STICK)),
+        "play piano": (Prop("ground", _PIANO, ("piano",)),),
+        "play violin": (Prop("torso", _VIOLIN, ("violin",)), Prop("right hand", _BOW)),
+        "play flute": (Prop("mouth", _FLUTE, ("flute", "trumpet", "clarinet", "saxophone")),),
+        "type": (Prop("ground", _DESK, ("laptop", "computer", "keyboard", "desk")),),
+        "write": (Prop("left hand", _PAD), Prop("right hand", _PEN, ("pen", "pencil"))),
+        "read": (Prop("hands", _BOOK, ("book", "newspaper", "magazine")),),
+        "eat": (Prop("right hand", _SPOON), Prop("left hand", _BOWL, ("bowl",))),
+        "drink": (Prop("right hand", _CUP, ("cup", "bottle", "glass", "mug", "wine glass")),),
+        "phone": (Prop("right hand", _PHONE, ("phone",)),),
+        "text": (Prop("right hand", _SCREEN, ("phone",)),),
+        "photograph": (Prop("hands", _CAMERA, ("camera", "phone")),),
+        "sing": (Prop("right hand", _MICROPHONE, ("microphone",)),),
+        "dig": (Prop("right hand", _SHOVEL, ("shovel", "spade")),),
+        "sweep": (Prop("right hand", _BROOM, ("broom", "mop")),),
+        "hammer": (Prop("right hand", _HAMMER, ("hammer",)),),
+        "chop": (Prop("right hand", _AXE, ("axe",)),),
+        "saw": (Prop("right hand", _SAW, ("saw",)),),
+        "paint": (Prop("right hand", _BRUSH, ("brush", "paintbrush")),),
+        "cook": (Prop("right hand", _LADLE, ("spoon",)), Prop("left hand", _PAN, ("pan",))),
+        "wash": (Prop("right hand", _CLOTH),),
+        "fish": (Prop("right hand", _ROD, ("fishing rod",)),),
+    }
+)  # fmt: skip
+"""Activity → what is drawn with it."""
