@@ -22,6 +22,7 @@ from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.assemble import assemble, join_primitives
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.camera_placement import place_camera
+from texvent.scenes.staging.camera.journey import plan_travel
 from texvent.scenes.staging.environment import (
     PLACES,
     AnimatedEnvironment,
@@ -39,6 +40,7 @@ from texvent.scenes.staging.scenery import (
     ViewClearance,
     scatter,
 )
+from texvent.scenes.staging.scenery_along import line_route
 from texvent.scenes.staging.weather import (
     DustTrail,
     FallingParticles,
@@ -115,14 +117,19 @@ def compose_scene(
         raise InputError(f"duration is {duration_s} s; it must be a positive number of seconds")
     place = description.surroundings.place or "grass"
     levels = choose_levels(place, description, nouns)
-    placer = ObjectPlacer(description, nouns, seed=seed, duration_s=duration_s, level_m=levels)
+    travel = plan_travel(description, place, duration_s)
+    placer = ObjectPlacer(
+        description, nouns, seed=seed, duration_s=duration_s, level_m=levels, travel=travel
+    )
     actors = placer.place_all()
     ground = PLACES[place].ground
     camera_path = place_camera(
         description, actors, place, seed=seed, aspect=size.height / size.width,
-        duration_s=duration_s,
+        duration_s=duration_s, travel=travel,
     )  # fmt: skip
     view = _describe_view(place, camera_path, actors, duration_s)
+    if travel is not None:
+        view = replace(view, road=travel.road, travel=travel)
     items, surrounding = _scatter_all(description, place, view, actors, nouns, seed)
     first_free = len(actors) + 1
     placed = [item.place(0) for item in items]
@@ -221,13 +228,26 @@ def _scatter_all(
             rule = ScatterRule(scene_object.noun, scene_object.count, -0.2, 3.5, sizes, (colour,))
             rng = seeded(seed, "surround", target)
             taken = [item for _, item in around]
-            found = scatter([rule], view, actors, allowed, rng=rng, taken=taken)
+            if view.travel is None:
+                found = scatter([rule], view, actors, allowed, rng=rng, taken=taken)
+            else:
+                found = line_route(
+                    [rule], view.travel, actors, allowed, rng=rng, road_half_m=view.road_half_width
+                )
             around.extend((relation, item) for item in found)
     rules = list(SCENERY.get(place, ()))
     for backdrop in description.surroundings.backdrops:
         rules.extend(BACKDROPS[backdrop])
     taken = [item for _, item in around]
     rng = seeded(seed, "scenery", place)
+    if view.travel is not None:
+        if place == "sky":
+            rules.append(ScatterRule("cloud", 6, 0.0, 1.0, (0.3, 0.7)))
+        lined = line_route(
+            rules, view.travel, actors, unsaid, rng=rng, road_half_m=view.road_half_width
+        )
+        far = [rule for rule in rules if rule.is_metres]
+        return lined + scatter(far, view, actors, unsaid, rng=rng, taken=taken), around
     return scatter(rules, view, actors, unsaid, rng=rng, taken=taken), around
 
 

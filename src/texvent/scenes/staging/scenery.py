@@ -16,6 +16,7 @@ from texvent.scenes.models.protocol import Model, Noun, Pose
 from texvent.scenes.scene import Camera, Colour, Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.assemble import PlacedModel
+from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.road import RoadLine
 from texvent.scenes.staging.trajectories.trajectory import BodyState
 
@@ -50,6 +51,8 @@ class ViewClearance:
     """Half width of the strip to keep free, m; None = no road."""
     road: RoadLine
     room_m: float = math.inf
+    travel: TravelPlan | None = None
+    """The route of a camera that travels."""
 
 
 _PINK: Colour = (0.75, 0.25, 0.30)
@@ -124,6 +127,8 @@ class SceneryItem:
     model: Model
     position: tuple[float, float]
     yaw: float
+    height_m: float = 0.0
+    """Of its origin, m."""
 
     @property
     def radius_m(self) -> float:
@@ -132,7 +137,7 @@ class SceneryItem:
 
     def place(self, instance: int) -> PlacedModel:
         """Its parts in the world."""
-        state = BodyState((*self.position, 0.0), self.yaw, activity="stand")
+        state = BodyState((*self.position, self.height_m), self.yaw, activity="stand")
         parts = self.model.parts(Pose(0.0, 0.0, 0.0, "stand"))
         return PlacedModel(parts, state.to_world(), instance)
 
@@ -160,7 +165,7 @@ def scatter(
         The pieces that found a place; fewer than wanted where it is crowded.
     """
     items = list(taken)
-    bodies = _list_bodies(actors)
+    bodies = list_bodies(actors)
     for rule in rules:
         noun = nouns.get(rule.noun)
         if noun is None:
@@ -184,7 +189,7 @@ def _fit_scale(rule: ScatterRule, view: ViewClearance) -> float:
     return min(max(view.distance_m / _USUAL_DISTANCE_M, 0.15), 1.5)
 
 
-def _list_bodies(actors: Sequence[Actor]) -> Float64Array:
+def list_bodies(actors: Sequence[Actor]) -> Float64Array:
     """[n, 3]: x, y and radius of the actors at some instants, m."""
     rows = []
     for actor in actors:

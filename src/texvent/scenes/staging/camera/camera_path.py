@@ -1,30 +1,54 @@
-"""The camera as a function of time: a position plus moves that add up."""
+"""The camera as a function of time: a place, or a journey, plus moves that add up."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from texvent.scenes.description import CameraMove
 from texvent.scenes.scene import Camera, Float64Array
 from texvent.scenes.staging.camera.framing import Framing, direction, look_at
+from texvent.scenes.staging.camera.move_channels import MoveChannels
+from texvent.scenes.staging.trajectories.steered_path import SteeredPath
 from texvent.scenes.staging.trajectories.trajectory import Trajectory
 
 PAN_RAD = 0.36
 """Turn of a pan over the clip."""
 TILT_RAD = 0.24
+ROLL_RAD = 0.7
 ORBIT_RAD = 1.0
+CRANE_RAD = 0.5
+"""Change of the angle under which a crane looks at its subject."""
 ZOOM = 1.7
 """Focal length at the near end over the far end."""
 DOLLY = 1.6
 """Distance at the far end over the near end."""
+DOLLY_ZOOM = 2.2
+"""The same for a dolly zoom."""
 SHAKE_RAD = 0.006
+STEP_M = 0.02
+"""Amplitude of the bob of a camera that walks."""
 LOWEST_M = 0.25
 """The camera stays at least this high above the ground."""
+MOST_PITCH_RAD = 1.5
 
-_SIGN = {"left": -1.0, "right": 1.0, "up": 1.0, "down": -1.0, "in": 1.0, "out": -1.0}
+
+@dataclass(frozen=True)
+class Journey:
+    """A camera that travels: ego-motion along a route."""
+
+    route: SteeredPath
+    """Where it is and heads, at the height of the ground."""
+    height_m: float
+    """Of the camera."""
+    pitch_rad: float
+    """Below the horizon."""
+    step_m: float = 0.0
+    """Length of a step, m; 0 = it rolls or flies."""
 
 
 @dataclass(frozen=True)
@@ -35,50 +59,118 @@ class CameraPath:
     moves: tuple[CameraMove, ...]
     duration_s: float
     followed: Trajectory | None = None
-    """What a "follow" keeps in place in the image."""
+    """What a "follow" or "orbit" keeps in place in the image."""
     follows_height: bool = True
     """Whether it also rises and falls with what it follows."""
     has_floor: bool = True
     """Whether there is ground to stay above."""
     room_m: float = math.inf
     """Half the side of the room it must stay in, m."""
+    journey: Journey | None = None
+    """The route of what travels."""
+    subject_corners: Callable[[float], Float64Array] | None = None
+    """[8, 3] box of the subject, m, whose size a dolly zoom keeps."""
+
+    @cached_property
+    def _channels(self) -> MoveChannels:
+        return MoveChannels(self.moves)
 
     def at(self, time_s: float) -> Camera:
         """The camera at that instant."""
         share = time_s / self.duration_s
+        if self.journey is not None:
+            camera = self._travel(self.journey, time_s)
+        else:
+            camera = self._watch(share, time_s)
+        return _rolled(camera, ROLL_RAD * self._centred("roll", share))
+
+    def _centred(self, kind: str, share: float) -> float:
+        return self._channels.centred(kind, share) if self._channels.has(kind) else 0.0
+
+    def _nearness(self, kind: str, share: float) -> float:
+        return self._channels.below_most(kind, share) if self._channels.has(kind) else 0.0
+
+    def _watch(self, share: float, time_s: float) -> Camera:
+        """A camera that looks at its subject."""
         framing = self.framing
-        azimuth, distance, focal = framing.azimuth, framing.distance_m, framing.focal
-        slide, turn = np.zeros(3), np.zeros(2)
-        for move in self.moves:
-            amount = move.pace * _SIGN.get(move.direction or "right", 1.0)
-            if move.kind == "orbit":
-                azimuth += ORBIT_RAD * amount * (share - 0.5)
-            elif move.kind == "zoom":
-                focal *= _ramp(ZOOM, share, amount)
-            elif move.kind == "dolly":
-                distance /= _ramp(DOLLY, share, amount)
-            else:
-                slide = slide + self._slide(move, amount, share, time_s)
-                turn = turn + _turn(move, amount, share, time_s)
-        offset = distance * direction(azimuth, framing.elevation)
-        position = self._keep_inside(framing.target + offset + slide)
+        azimuth = framing.azimuth + ORBIT_RAD * self._centred("orbit", share)
+        azimuth += self._turn_with_subject(time_s)
+        elevation = framing.elevation + CRANE_RAD * self._centred("crane", share)
+        elevation = min(max(elevation, -MOST_PITCH_RAD), MOST_PITCH_RAD)
+        distance = framing.distance_m * DOLLY ** -self._nearness("dolly", share)
+        distance *= DOLLY_ZOOM ** -self._nearness("dolly zoom", share)
+        focal = framing.focal * ZOOM ** self._nearness("zoom", share)
+        slide = self._slide(share, time_s)
         target = framing.target + slide
-        target = position + _turned(target - position, *turn)
+        position = self._keep_inside(target + distance * direction(azimuth, elevation))
+        focal *= self._hold_size(target, position, time_s)
+        target = position + _turned(target - position, *self._turn(share, time_s))
         return look_at(position, target, focal)
 
-    def _slide(self, move: CameraMove, amount: float, share: float, time_s: float) -> Float64Array:
+    def _travel(self, journey: Journey, time_s: float) -> Camera:
+        """A camera that moves along its route and looks where it heads."""
+        share = time_s / self.duration_s
+        state = journey.route.at(time_s)
+        x, y, z = state.position
+        bob = 0.0
+        if journey.step_m > 0.0:
+            bob = STEP_M * math.sin(2.0 * math.pi * state.distance_m / journey.step_m)
+        height = z + journey.height_m + bob
+        width = 0.4 * journey.height_m
+        height += width * (self._centred("pedestal", share) + self._centred("crane", share))
+        position = self._keep_inside(np.array([x, y, height]))
+        flat = math.cos(journey.pitch_rad)
+        forward = np.array(
+            [flat * math.cos(state.yaw), flat * math.sin(state.yaw), -math.sin(journey.pitch_rad)]
+        )
+        target = position + _turned(forward, *self._turn(share, time_s))
+        focal = self.framing.focal * ZOOM ** self._nearness("zoom", share)
+        return _rolled(look_at(position, target, focal), -state.roll)
+
+    def _turn_with_subject(self, time_s: float) -> float:
+        """How far a camera behind or in front of its subject has gone round with it."""
+        is_tied = any(
+            move.kind == "follow" and move.direction in ("behind", "front") for move in self.moves
+        )
+        if not is_tied or self.followed is None:
+            return 0.0
+        return self.followed.at(time_s).yaw - self.followed.at(0.0).yaw
+
+    def _slide(self, share: float, time_s: float) -> Float64Array:
         """Metres by which camera and target move together."""
-        if move.kind == "follow" and self.followed is not None:
+        slide = np.zeros(3)
+        if self.followed is not None and any(m.kind in ("follow", "orbit") for m in self.moves):
             now, start = self.followed.at(time_s).position, self.followed.at(0.0).position
             rises = 1.0 if self.follows_height else 0.0
-            return np.asarray(np.subtract(now, start) * np.array([1.0, 1.0, rises]))
+            slide += np.subtract(now, start) * np.array([1.0, 1.0, rises])
         width = self.framing.distance_m / self.framing.focal
-        if move.kind == "truck":
-            right = np.array([math.cos(self.framing.azimuth), math.sin(self.framing.azimuth), 0])
-            return np.asarray(0.4 * width * amount * (share - 0.5) * right)
-        if move.kind == "pedestal":
-            return np.array([0.0, 0.0, 0.3 * width * amount * (share - 0.5)])
-        return np.zeros(3)
+        azimuth = self.framing.azimuth
+        right = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
+        slide += 0.4 * width * self._centred("truck", share) * right
+        slide[2] += 0.3 * width * self._centred("pedestal", share)
+        return slide
+
+    def _hold_size(self, target: Float64Array, position: Float64Array, time_s: float) -> float:
+        """Factor on the focal length that keeps the subject's size in a dolly zoom."""
+        if not self._channels.has("dolly zoom") or self.subject_corners is None:
+            return 1.0
+        corners = self.subject_corners(time_s)
+        offset = position - target
+        distance = float(np.linalg.norm(offset))
+        near = target + offset * (self.framing.distance_m / max(distance, 1e-9))
+        return _extent(corners, near, target) / _extent(corners, position, target)
+
+    def _turn(self, share: float, time_s: float) -> tuple[float, float]:
+        """Angles to the right and up, radians."""
+        right = PAN_RAD * self._centred("pan", share)
+        up = TILT_RAD * self._centred("tilt", share)
+        for move in self.moves:
+            if move.kind == "handheld":
+                wave = 2.0 * math.pi * time_s
+                shake = SHAKE_RAD * move.pace
+                right += shake * (math.sin(1.1 * wave) + 0.6 * math.sin(2.7 * wave + 1.0))
+                up += shake * (math.sin(1.4 * wave + 2.0) + 0.5 * math.sin(3.3 * wave))
+        return right, up
 
     def _keep_inside(self, position: Float64Array) -> Float64Array:
         position = np.asarray(position, dtype=np.float64)
@@ -91,24 +183,22 @@ class CameraPath:
         return position
 
 
-def _ramp(factor: float, share: float, amount: float) -> float:
-    """1 at the near end of a zoom or dolly, 1 / factor^pace at the far end."""
-    steps = abs(amount) * ((share - 1.0) if amount > 0.0 else -share)
-    return float(factor**steps)
+def _extent(corners: Float64Array, position: Float64Array, target: Float64Array) -> float:
+    """Largest extent of a box in the image at focal length 1, image widths."""
+    camera = look_at(position, target, 1.0)
+    seen = (corners - position) @ camera.rotation.T
+    image = seen[:, :2] / np.maximum(seen[:, 2:], 0.1)
+    return float(np.ptp(image, axis=0).max())
 
 
-def _turn(move: CameraMove, amount: float, share: float, time_s: float) -> Float64Array:
-    """Angles to the right and up, radians."""
-    if move.kind == "pan":
-        return np.array([PAN_RAD * amount * (share - 0.5), 0.0])
-    if move.kind == "tilt":
-        return np.array([0.0, TILT_RAD * amount * (share - 0.5)])
-    if move.kind == "handheld":
-        wave = 2.0 * math.pi * time_s
-        right = math.sin(1.1 * wave) + 0.6 * math.sin(2.7 * wave + 1.0)
-        up = math.sin(1.4 * wave + 2.0) + 0.5 * math.sin(3.3 * wave)
-        return SHAKE_RAD * move.pace * np.array([right, up])
-    return np.zeros(2)
+def _rolled(camera: Camera, angle: float) -> Camera:
+    """The camera turned about its optical axis; positive = clockwise seen from behind it."""
+    if angle == 0.0:
+        return camera
+    cosine, sine = math.cos(angle), math.sin(angle)
+    right, down, forward = camera.rotation
+    axes = np.stack([cosine * right + sine * down, cosine * down - sine * right, forward])
+    return Camera(camera.position, axes, camera.focal)
 
 
 def _turned(forward: Float64Array, right: float, up: float) -> Float64Array:
@@ -117,7 +207,7 @@ def _turned(forward: Float64Array, right: float, up: float) -> Float64Array:
     x, y, z = forward
     x, y = x * cosine + y * sine, y * cosine - x * sine
     flat = math.hypot(x, y)
-    angle = math.atan2(z, flat) + up
+    angle = min(max(math.atan2(z, flat) + up, -MOST_PITCH_RAD), MOST_PITCH_RAD)
     length = math.hypot(flat, z)
     scale = length * math.cos(angle) / max(flat, 1e-9)
     return np.array([x * scale, y * scale, length * math.sin(angle)])

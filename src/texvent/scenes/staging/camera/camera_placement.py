@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.framing import Framing, fit
+from texvent.scenes.staging.camera.journey import TravelPlan
 
 FILL = 0.84
 """Share of the image that what matters may fill."""
@@ -38,6 +40,7 @@ def place_camera(
     seed: int,
     aspect: float,
     duration_s: float,
+    travel: TravelPlan | None = None,
 ) -> CameraPath:
     """The camera over the clip: near enough to recognise the objects and far enough to show them.
 
@@ -48,8 +51,11 @@ def place_camera(
         seed: decides the angle where nothing is said.
         aspect: image height over width.
         duration_s: length of the clip, s.
+        travel: the route of a camera that travels.
     """
     has_floor = place not in ("sky", "space")
+    if travel is not None:
+        return _travel(description, travel, actors, place, duration_s)
     if not actors:
         target = np.array([0.0, 0.0, 2.0])
         empty = Framing(target, 0.0, 0.06, 16.0, 1.0)
@@ -62,9 +68,34 @@ def place_camera(
     is_open = has_floor and place not in ("underwater", "indoor")
     lift = SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
     framing = fit(points, azimuth=azimuth, elevation=elevation, aspect=aspect, fill=fill, lift=lift)
-    room = _size_room(framing, points) if place == "indoor" else math.inf
     follows_height = main.noun.habitat != "ground"
-    return CameraPath(framing, moves, duration_s, main.trajectory, follows_height, has_floor, room)
+    path = CameraPath(framing, moves, duration_s, main.trajectory, follows_height, has_floor,
+                      subject_corners=main.corners)  # fmt: skip
+    if place == "indoor":
+        path = replace(path, room_m=_size_room(path, points))
+    return path
+
+
+def _travel(
+    description: SceneDescription,
+    travel: TravelPlan,
+    actors: Sequence[Actor],
+    place: str,
+    duration_s: float,
+) -> CameraPath:
+    """A camera on a route; what it looks at is some way ahead of the middle of the route."""
+    x, y, heading = travel.point(0.5 * travel.length_m, 0.0)
+    target = np.array([x, y, 0.5 * travel.journey.height_m])
+    framing = Framing(target, heading - 0.5 * math.pi, 0.05, max(16.0, 0.8 * travel.length_m), 0.9)
+    moves = tuple(move for move in description.shot.moves if move.kind != "static")
+    room = math.inf
+    if place == "indoor":
+        corners = [actor.corners(0.5 * duration_s)[:, :2] for actor in actors]
+        spread = float(np.abs(np.vstack(corners)).max()) + 0.8 if corners else 0.0
+        room = max(0.5 * travel.length_m + 3.5, spread)
+    has_floor = place not in ("sky", "space")
+    return CameraPath(framing, moves, duration_s, has_floor=has_floor, room_m=room,
+                      journey=travel.journey)  # fmt: skip
 
 
 def _choose_framing(
@@ -217,9 +248,12 @@ def _face(view: str, yaw: float) -> float:
     return yaw + 0.5 * math.pi if view == "front" else yaw - 0.5 * math.pi
 
 
-def _size_room(framing: Framing, points: Float64Array) -> float:
+def _size_room(path: CameraPath, points: Float64Array) -> float:
     """Half the side of a room that holds the camera and everything it looks at, m."""
-    reach = float(np.max(np.abs(framing.position[:2])))
+    times = np.linspace(0.0, path.duration_s, INSTANTS)
+    places = np.array([path.at(float(time)).position for time in times])
+    reach = float(np.max(np.abs(places[:, :2])))
     spread = float(np.max(np.abs(points[:, :2])))
     height = float(np.max(points[:, 2])) / 0.6
-    return max(reach + 0.6, spread + 0.8, height + 0.5, 3.5)
+    above = (float(np.max(places[:, 2])) + 0.35) / 0.6
+    return max(reach + 0.6, spread + 0.8, height + 0.5, above, 3.5)

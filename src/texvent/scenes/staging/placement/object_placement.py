@@ -16,6 +16,8 @@ from texvent.scenes.models.protocol import Model, ModelPart, Noun
 from texvent.scenes.models.shapes import post
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
+from texvent.scenes.staging.camera.journey import TravelPlan
+from texvent.scenes.staging.placement.along_route import RoutePlacer, push_aside
 from texvent.scenes.staging.placement.object_groups import (
     ObjectGroup,
     half_extents_over_clip,
@@ -49,6 +51,7 @@ class ObjectPlacer:
         seed: int,
         duration_s: float,
         level_m: Mapping[str, float],
+        travel: TravelPlan | None = None,
     ) -> None:
         self._description = description
         self._nouns = nouns
@@ -57,6 +60,9 @@ class ObjectPlacer:
         self._level_m = level_m
         """Height of the origin of what lives in the air and in the water, in own sizes."""
         self.groups: dict[int, ObjectGroup] = {}
+        self._travel = travel
+        bodies = sum(scene_object.count for scene_object in description.objects)
+        self._along = None if travel is None else RoutePlacer(travel, duration_s, bodies)
 
     def place_all(self) -> list[Actor]:
         """Every copy of every object that is no scenery, with its trajectory."""
@@ -110,6 +116,8 @@ class ObjectPlacer:
         goal = self._choose_goal(group, related)
         self._align(group, related)
         group.centre = self._find_free_position(group, goal)
+        if self._travel is not None and goal.slide.any():
+            push_aside(group, self._travel)
         self.groups[index] = group
 
     def _align(self, group: ObjectGroup, related: list[Relation]) -> None:
@@ -140,6 +148,9 @@ class ObjectPlacer:
             if group.index in relation.targets and relation.subject in self.groups:
                 subject = self.groups[relation.subject]
                 return place_by_subject(group, relation.kind, subject, height)
+        if self._along is not None:
+            is_goal = self._description.shot.target == group.index
+            return Goal(self._along.place(group, height, is_goal=is_goal), np.zeros(3))
         offset = {"left": -2.0, "right": 2.0}.get(group.scene_object.side or "", 0.0) * group.size_m
         offset += self._spread_apart(group) + self._stagger(group)
         depth = {"far": 2.2 * group.size_m + 6.0, "near": -1.2 * group.size_m}

@@ -28,6 +28,7 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
     Swing,
 )
 from texvent.scenes.staging.trajectories.phases import (
+    NO_FLOOR_M,
     PATH_KINDS,
     YAWS,
     build_path,
@@ -231,7 +232,7 @@ def choose_trajectory(
 def _shift_path(path: SteeredPath, model: Model, home: Vector) -> SteeredPath:
     """The path about a home; what flies stays above the ground."""
     x, y, _ = path.start
-    floor = home[2] if math.isfinite(path.floor_m) else min(0.5 * model.height, home[2])
+    floor = home[2] if path.floor_m > NO_FLOOR_M else min(0.5 * model.height, home[2])
     return replace(path, start=(x + home[0], y + home[1], home[2]), floor_m=floor)
 
 

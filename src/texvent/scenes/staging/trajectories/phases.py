@@ -27,6 +27,8 @@ YAWS = {
 }
 """Direction → heading; up and down are along a slope for what moves on the ground."""
 _STEERED_DIRECTIONS = frozenset({"backward", "around"})
+NO_FLOOR_M = -1e4
+"""Floor of a path that is not yet placed above the ground, m."""
 QUARTER = 0.5 * math.pi
 TURN_SHARE = 0.6
 """Share of a turn's phase that it turns, where it is all that happens: it comes and goes on."""
@@ -140,7 +142,7 @@ def build_path(
         builder.initial_turn,
         lean=1.0 if noun.habitat == "air" or noun.name in _LEANING else 0.0,
         usual_speed_m_s=usual_m_s,
-        floor_m=floor_m if noun.habitat in ("ground", "fixed") else -math.inf,
+        floor_m=floor_m if noun.habitat in ("ground", "fixed") else NO_FLOOR_M,
     )
     places = sample_places(path, duration_s)
     middle = 0.5 * (places.min(axis=0) + places.max(axis=0))

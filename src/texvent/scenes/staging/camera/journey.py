@@ -1,0 +1,214 @@
+"""Ego-motion: the route of a camera that travels along a road or through a place."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from texvent.scenes.description import CameraMove, SceneDescription
+from texvent.scenes.scene import Float64Array, Ground
+from texvent.scenes.staging.camera.camera_path import Journey
+from texvent.scenes.staging.environment import PLACES
+from texvent.scenes.staging.road import RoadLine
+from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
+
+VIEW_M = 70.0
+"""How far ahead scenery stands along a route."""
+_ROAD_RADIUS_M = 27.0
+"""Least radius of a bend of a road, m."""
+_LEAST_CLEAR_M = 1.1
+_FREE_RADIUS_M = 4.0
+_BEND_S = 4.5
+"""Seconds that a quarter circle takes in a bend: its radius follows from the speed."""
+
+
+@dataclass(frozen=True)
+class Means:
+    """How a camera travels."""
+
+    speed_m_s: float
+    height_m: float
+    pitch_rad: float = 0.03
+    step_m: float = 0.0
+    is_on_road: bool = False
+    """Whether it keeps to its lane."""
+
+
+MEANS: dict[str, Means] = {
+    "drive": Means(9.0, 1.35, is_on_road=True),
+    "cycle": Means(5.0, 1.6, 0.06, is_on_road=True),
+    "walk": Means(1.5, 1.65, 0.04, 0.75),
+    "run": Means(3.4, 1.6, 0.04, 1.1),
+    "fly": Means(8.0, 9.0, 0.22),
+    "sail": Means(4.0, 2.2, 0.06),
+    "swim": Means(1.0, 1.4, 0.0),
+}
+"""`CameraMove.means` → speed, height above the ground, pitch."""
+_BY_PLACE = {"road": "drive", "dirt road": "drive", "city": "drive", "sea": "sail",
+             "underwater": "swim", "sky": "fly", "space": "fly"}  # fmt: skip
+_ROADS = (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY)
+_AERIAL_HEIGHT_M = 16.0
+_AERIAL_PITCH = 0.5
+
+
+@dataclass(frozen=True)
+class TravelPlan:
+    """A route with what stands along it."""
+
+    journey: Journey
+    length_m: float
+    """From its rearmost to its foremost point."""
+    clear_m: tuple[float, float]
+    """How far to the left and to the right of the route the ground stays free."""
+    road: RoadLine
+
+    def clear(self, side: float) -> float:
+        """Metres that stay free on a side; 1 = right, -1 = left."""
+        return self.clear_m[1] if side > 0.0 else self.clear_m[0]
+
+    @property
+    def speed_m_s(self) -> float:
+        """At its beginning; negative = backwards."""
+        return self.journey.route.initial_speed_m_s
+
+    def point(self, along_m: float, right_m: float) -> tuple[float, float, float]:
+        """x, y and heading of a place that far ahead of the rearmost point and to the right."""
+        route = self.journey.route
+        speed = max(abs(route.initial_speed_m_s), 1e-3)
+        back = self.length_m if route.initial_speed_m_s < 0.0 else 0.0
+        state = route.at((along_m - back) / math.copysign(speed, route.initial_speed_m_s))
+        x, y, _ = state.position
+        return (
+            x + right_m * math.sin(state.yaw),
+            y - right_m * math.cos(state.yaw),
+            state.yaw,
+        )
+
+    def branches(self) -> list[tuple[float, float, float]]:
+        """x, y and heading of roads that leave the route at corners."""
+        found = []
+        for x, y, heading in self.road.crossings:
+            back = self.journey.route.yaw
+            # The main road goes on beyond the crossing; the crossing goes on behind the route.
+            offset_x, offset_y = self.road.offset
+            along = (x - offset_x) * math.cos(back) + (y - offset_y) * math.sin(back)
+            corner = (offset_x + along * math.cos(back), offset_y + along * math.sin(back))
+            found += [(*corner, back), (*corner, heading + math.pi)]
+        return found
+
+    def places(self, step_m: float = 1.0) -> Float64Array:
+        """[n, 2] the route, and on for as far as one sees, m."""
+        count = max(2, math.ceil((self.length_m + VIEW_M) / step_m))
+        alongs = np.linspace(0.0, self.length_m + VIEW_M, count)
+        return np.array([self.point(float(along), 0.0)[:2] for along in alongs])
+
+
+def plan_travel(description: SceneDescription, place: str, duration_s: float) -> TravelPlan | None:
+    """The route of a camera that travels; None where it does not.
+
+    Args:
+        description: what the prompt says of the camera.
+        place: key of `environment.PLACES`.
+        duration_s: length of the clip, s.
+    """
+    moves = [move for move in description.shot.moves if move.kind == "travel"]
+    if not moves:
+        return None
+    is_aerial = description.shot.view in ("aerial", "top")
+    usual = "fly" if is_aerial else _BY_PLACE.get(place, "walk")
+    means = MEANS[moves[0].means or usual] if (moves[0].means or usual) in MEANS else MEANS["walk"]
+    height, pitch = means.height_m, means.pitch_rad
+    if is_aerial:
+        height, pitch = max(height, _AERIAL_HEIGHT_M), _AERIAL_PITCH
+    if description.shot.view == "top":
+        pitch = 1.4
+    if description.shot.view == "low":
+        height = min(height, 0.5)
+    last = max(move.phase for move in description.shot.moves)
+    phases = [[move for move in moves if move.phase == number] for number in range(last + 1)]
+    speed = moves[0].speed_m_s
+    speed = means.speed_m_s * moves[0].pace if speed is None else speed
+    has_road = PLACES[place].ground in _ROADS
+    tightest = _ROAD_RADIUS_M if has_road else _FREE_RADIUS_M
+    route, bends, corner = _steer(phases, speed, duration_s, tightest)
+    lane, road_half = 0.0, 0.0
+    if has_road:
+        road_half = PLACES[place].road_half_width
+        if means.is_on_road:
+            lane = 0.5 * road_half
+        elif place == "city" and not is_aerial and means.speed_m_s < 4.0:
+            lane = road_half + 1.0
+    route = _centre(route, duration_s)
+    length = _length(route, duration_s)
+    clear = (max(road_half + lane, _LEAST_CLEAR_M), max(road_half - lane, _LEAST_CLEAR_M))
+    road = _road_beside(route, lane, bends, corner)
+    return TravelPlan(Journey(route, height, pitch, means.step_m), length, clear, road)
+
+
+def _steer(
+    phases: Sequence[Sequence[CameraMove]], speed: float, duration_s: float, tightest_m: float
+) -> tuple[SteeredPath, float, float | None]:
+    """The route from the origin northwards, its steady rate of turning, and where a corner ends.
+
+    The rate is in rad/s, 0 where it does not bend all along; the end of the corner in s.
+    """
+    span = duration_s / len(phases)
+    pieces: list[Piece] = []
+    bend, corner, initial = 0.0, None, 0.0
+    for number, moves in enumerate(phases):
+        words = [move.direction for move in moves]
+        way = -speed if "backward" in words else speed if moves else 0.0
+        side = 1.0 if "left" in words else -1.0 if "right" in words else 0.0
+        ramp = min(0.5, 0.4 * span)
+        if number == 0:
+            initial = way
+        if side and len(phases) == 1:
+            bend = side * min(0.5 * math.pi / _BEND_S, abs(way) / tightest_m)
+            pieces.append(Piece(span, way, bend, ramp_s=0.0))
+        elif side:
+            rate = side * min(0.5 * math.pi / (span - ramp), abs(way) / 2.0)
+            pieces += [Piece(span - ramp, way, rate, ramp_s=ramp), Piece(ramp, way, ramp_s=ramp)]
+            corner = span * (number + 1)
+        else:
+            pieces.append(Piece(span, way, ramp_s=ramp))
+    route = SteeredPath((0.0, 0.0, 0.0), 0.5 * math.pi, tuple(pieces), initial, bend)
+    return route, bend, corner
+
+
+def _centre(route: SteeredPath, duration_s: float) -> SteeredPath:
+    """The route shifted so that its middle is the origin."""
+    places = np.array([route.at(float(t)).position for t in np.linspace(0.0, duration_s, 33)])
+    x, y, _ = 0.5 * (places.min(axis=0) + places.max(axis=0))
+    return SteeredPath(
+        (-float(x), -float(y), 0.0), route.yaw, route.pieces, route.initial_speed_m_s,
+        route.initial_turn_rad_s,
+    )  # fmt: skip
+
+
+def _length(route: SteeredPath, duration_s: float) -> float:
+    ways = [route.distance_at(float(time)) for time in np.linspace(0.0, duration_s, 33)]
+    return max(ways) - min(ways)
+
+
+def _road_beside(
+    route: SteeredPath, lane_m: float, bend_rad_s: float, corner_s: float | None
+) -> RoadLine:
+    """The road whose right lane the route is."""
+    x, y, _ = route.start
+    angle = route.yaw
+    offset = (x - lane_m * math.sin(angle), y + lane_m * math.cos(angle))
+    crossings = []
+    if corner_s is not None:
+        state = route.at(corner_s)
+        cx, cy, _ = state.position
+        crossings.append(
+            (cx - lane_m * math.sin(state.yaw), cy + lane_m * math.cos(state.yaw), state.yaw)
+        )
+    curvature = 0.0
+    if bend_rad_s:
+        curvature = bend_rad_s / route.initial_speed_m_s
+        curvature = 1.0 / (1.0 / curvature - lane_m)
+    return RoadLine(angle, offset, curvature, tuple(crossings))

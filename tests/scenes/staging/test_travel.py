@@ -1,0 +1,121 @@
+"""A camera that travels: route, road, what stands along it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from texvent.scenes.description import (
+    CameraMove,
+    ObjectMotion,
+    SceneDescription,
+    SceneObject,
+    Shot,
+    Surroundings,
+)
+from texvent.scenes.staging.compose import ComposedScene, compose_scene
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(173, 130)
+DURATION_S = 2.0
+PLACES = ("road", "city", "dirt road", "forest", "grass", "sand", "snow", "sea", "underwater",
+          "mountain", "sky", "indoor")  # fmt: skip
+
+
+def travel(
+    place: str, *moves: CameraMove, view: str | None = None, objects: tuple[SceneObject, ...] = ()
+) -> ComposedScene:
+    description = SceneDescription(
+        "", objects, shot=Shot(moves, view), surroundings=Surroundings(place)
+    )
+    return compose_scene(description, seed=0, size=SIZE, duration_s=DURATION_S)
+
+
+@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize("direction", ["forward", "backward", "left"])
+def test_the_camera_moves_on_above_the_ground_and_through_nothing(
+    place: str, direction: str
+) -> None:
+    scene = travel(place, CameraMove("travel", direction))
+    times = np.linspace(0.0, DURATION_S, 21)
+    cameras = [scene.camera(float(time)) for time in times]
+    positions = np.array([camera.position for camera in cameras])
+    way = np.hypot(*np.diff(positions[:, :2], axis=0).T).sum()
+    assert way > 1.5
+    assert positions[:, 2].min() > 0.25
+    sign = -1.0 if direction == "backward" else 1.0
+    steps = np.diff(positions, axis=0)
+    ahead = [float(step @ camera.rotation[2]) for step, camera in zip(steps, cameras, strict=False)]
+    assert min(sign * step for step in ahead) > 0.0
+    boxes = scene.still.to_world
+    middles, reach = boxes[:, :, 3], np.linalg.norm(boxes[:, :, :3], axis=(1, 2)) / math.sqrt(3.0)
+    for position in positions:
+        assert np.all(np.linalg.norm(middles - position, axis=1) > 0.3 * reach)
+
+
+@pytest.mark.parametrize("place", ["road", "city", "forest", "sand", "mountain"])
+def test_scenery_stands_on_both_sides_up_to_the_end_of_the_route(place: str) -> None:
+    scene = travel(place, CameraMove("travel", "forward"))
+    last = scene.camera(DURATION_S)
+    offsets = (scene.still.to_world[:, :, 3] - last.position) @ last.rotation.T
+    is_near = (offsets[:, 2] > 3.0) & (offsets[:, 2] < 60.0)
+    assert np.sum(is_near & (offsets[:, 0] > 0.0)) > 15
+    assert np.sum(is_near & (offsets[:, 0] < 0.0)) > 15
+
+
+def test_the_speed_of_the_camera_is_the_stated_one() -> None:
+    scene = travel("road", CameraMove("travel", "forward", speed_m_s=13.0))
+    step = scene.camera(1.001).position - scene.camera(1.0).position
+    assert np.linalg.norm(step) / 1e-3 == pytest.approx(13.0)
+
+
+def test_the_road_bends_with_the_route() -> None:
+    scene = travel("road", CameraMove("travel", "left"))
+    environment = scene.environment(0.0)
+    centre = (
+        environment.road_offset
+        + np.array([-math.sin(environment.road_angle), math.cos(environment.road_angle)])
+        / environment.road_curvature
+    )
+    lanes = [
+        np.hypot(*(scene.camera(t).position[:2] - centre)) - 1.0 / environment.road_curvature
+        for t in (0.0, 1.0, 2.0)
+    ]
+    np.testing.assert_allclose(lanes, lanes[0], atol=1e-6)
+    assert 0.5 < lanes[0] < environment.road_half_width
+
+
+def test_a_turn_after_a_straight_road_goes_into_a_crossing() -> None:
+    scene = travel("city", CameraMove("travel", "forward"), CameraMove("travel", "left", phase=1))
+    x, y, angle = scene.environment(0.0).road_crossings[0]
+    heading = scene.camera(DURATION_S).rotation[2]
+    assert abs(math.cos(angle) * heading[0] + math.sin(angle) * heading[1]) > 0.99
+    offset = scene.camera(DURATION_S).position[:2] - [x, y]
+    across = offset[1] * math.cos(angle) - offset[0] * math.sin(angle)
+    assert abs(across) < scene.environment(0.0).road_half_width
+
+
+def test_a_vehicle_ahead_keeps_its_distance_and_oncoming_ones_pass() -> None:
+    ahead = SceneObject("truck", motion=ObjectMotion("drive"))
+    oncoming = SceneObject("car", motion=ObjectMotion("drive", "towards"))
+    scene = travel("road", CameraMove("travel", "forward"), objects=(ahead, oncoming))
+    depths = []
+    for time in (0.0, 1.0, 2.0):
+        camera = scene.camera(time)
+        middles = np.array([actor.middle(time) for actor in scene.actors])
+        depths.append(((middles - camera.position) @ camera.rotation.T)[:, 2])
+    gaps = np.array(depths)
+    np.testing.assert_allclose(gaps[:, 0], gaps[0, 0], atol=0.05)
+    assert gaps[0, 1] - gaps[2, 1] > 20.0
+
+
+def test_objects_stand_beside_the_route_and_are_seen() -> None:
+    objects = (SceneObject("car", 4), SceneObject("bench", 2))
+    scene = travel("city", CameraMove("travel", "forward"), objects=objects)
+    camera = scene.camera(0.0)
+    for actor in scene.actors:
+        seen = camera.rotation @ (actor.middle(0.0) - camera.position)
+        assert seen[2] > 2.0
+        assert abs(seen[0] / seen[2]) < 0.6
