@@ -164,6 +164,14 @@ class RenderableStream(FrameStream, Protocol):
 class MovingStream(RenderableStream, Protocol):
     """A renderable stream that also knows how everything in it moves."""
 
+    @property
+    def has_moving_light(self) -> bool:
+        """Whether light moves that belongs to no surface, such as beams and smoke.
+
+        `Frame.motion` does not tell where it goes: frames between others must be rendered.
+        """
+        ...
+
     def with_motion(self) -> MovingStream:
         """The same stream, whose source frames carry `Frame.motion`."""
         ...
@@ -182,7 +190,7 @@ class FlickeringStream(RenderableStream, Protocol):
 
     @property
     def flicker_hz(self) -> float | None:
-        """Periods per second with which all light beats, or None where it is steady."""
+        """Periods per second of the fastest light that beats, or None where all is steady."""
         ...
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from texvent.scenes.scene import (
+    LAMP_COLUMNS,
     Camera,
     Environment,
     Float64Array,
@@ -79,9 +80,26 @@ def day(ground: Ground = Ground.GRASS) -> Environment:
         fog_distance=np.inf,
         fog_colour=np.array([0.7, 0.75, 0.8], dtype=np.float32),
         exposure=1.0,
-        lamps=np.zeros((0, 7)),
+        lamps=np.zeros((0, LAMP_COLUMNS)),
         time_s=0.0,
     )
+
+
+def lamp_row(
+    place: tuple[float, float, float],
+    light: tuple[float, float, float] = (2.0, 2.0, 2.0),
+    *,
+    reach: float = 100.0,
+    beam: tuple[float, float, float] | None = None,
+    cosines: tuple[float, float] = (-2.0, -2.0),
+    radius: float = 0.01,
+    casts: bool = False,
+    glows: bool = False,
+) -> Float64Array:
+    """[1, 15] one lamp."""
+    direction = (0.0, 0.0, 0.0) if beam is None else beam
+    numbers = (*place, *light, reach, *direction, *cosines, radius, casts, glows)
+    return np.array([numbers], dtype=np.float64)
 
 
 def turned(angle: float) -> Float64Array:

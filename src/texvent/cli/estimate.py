@@ -243,6 +243,10 @@ class _SceneExcerpt(_RenderableExcerpt):
         whole: Any = self.whole
         return whole.ground_truth(t0_us, t1_us)
 
+    @property
+    def has_moving_light(self) -> bool:
+        return bool(getattr(self.whole, "has_moving_light", False))
+
     def with_motion(self) -> _SceneExcerpt:
         return self
 

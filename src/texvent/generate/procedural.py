@@ -27,10 +27,10 @@ from texvent.video import MICROSECONDS, Frame, Motion, describe_stream, frame_ti
 
 if TYPE_CHECKING:
     from texvent.runtime.progress import Progress
-    from texvent.scenes.description import SceneDescription
     from texvent.scenes.raycast.ground_truth import GroundTruth
     from texvent.scenes.report import PromptReport
     from texvent.scenes.scene import Camera, Scene
+    from texvent.scenes.staging.compose import ComposedScene
 
 DEFAULT_SIZE = SENSORS["davis346"].size
 """Image size when none is given."""
@@ -84,9 +84,11 @@ class ProceduralVideo:
     metadata: Mapping[str, Any] = field(default_factory=dict)
     """What the generator made of the prompt (JSON-serialisable)."""
     flicker_hz: float | None = None
-    """Flicker frequency of all light, Hz, or None where it is steady."""
+    """Highest frequency at which any light goes up and down, Hz, or None where all is steady."""
     has_motion: bool = False
     """Whether frames carry exact motion vectors and depth."""
+    has_moving_light: bool = False
+    """Whether light moves that belongs to no surface: beams, the glow of lamps, smoke."""
 
     def __repr__(self) -> str:
         return describe_stream(self)
@@ -216,7 +218,7 @@ class ProceduralGenerator:
             TexventWarning: some of its words are not shown as they say.
         """
         del progress
-        description, scene, report = self._stage(prompt)
+        scene, report = self._stage(prompt)
         for fault in report.faults(MOST_WORDS):
             warn(f"prompt words {fault}")
         metadata = {
@@ -228,7 +230,12 @@ class ProceduralGenerator:
             REPORT_KEY: report.to_json(),
         }
         return ProceduralVideo(
-            scene, self.size, self.config, metadata, flicker_hz=description.light.flicker_hz
+            scene,
+            self.size,
+            self.config,
+            metadata,
+            flicker_hz=scene.flicker_hz,
+            has_moving_light=scene.has_moving_light,
         )
 
     def report(self, prompt: str, *, is_staged: bool = True) -> PromptReport:
@@ -248,7 +255,7 @@ class ProceduralGenerator:
             return self._stage(prompt)[-1]
         return self._accepted(parse_prompt(prompt).report())
 
-    def _stage(self, prompt: str) -> tuple[SceneDescription, Scene, PromptReport]:
+    def _stage(self, prompt: str) -> tuple[ComposedScene, PromptReport]:
         # Imported here: the vocabulary and all models are only needed to make a scene.
         from texvent.scenes.language.parser import parse_prompt
         from texvent.scenes.staging.compose import compose_scene
@@ -258,7 +265,7 @@ class ProceduralGenerator:
         scene = compose_scene(
             description, seed=self.seed, size=self.size, duration_s=self.config.duration
         )
-        return description, scene, self._accepted(description.report(scene.not_shown))
+        return scene, self._accepted(description.report(scene.not_shown))
 
     def _accepted(self, report: PromptReport) -> PromptReport:
         """The report, unless `strict` refuses the prompt."""

@@ -152,6 +152,17 @@ class Ground(IntEnum):
     """No ground: only sky (objects in the air or in space)."""
 
 
+LAMP_COLUMNS = 15
+"""Numbers of a lamp: position (3, metres), linear RGB that falls on a surface facing it at 1 m (3),
+reach (metres), direction of its beam (3, unit vector), cosines of the angles from the beam's middle
+at which it begins to fade and has faded (2; -2 and -2: it shines to all sides), radius (metres),
+whether it casts shadows (0 or 1; at most four lamps do), whether it is seen as a glow (0 or 1)."""
+PUFF_COLUMNS = 19
+"""Numbers of a puff: unit sphere → world ([3, 4], row by row), linear RGB (3), optical depth
+through its middle, light that it gives off as a multiple of its colour, how much finer detail
+modulates it (0..1), and a number that tells its detail from that of others."""
+
+
 @dataclass(frozen=True)
 class Environment:
     """Surroundings and light at one instant."""
@@ -188,7 +199,7 @@ class Environment:
     exposure: float
     """Multiplies linear light before gamma coding."""
     lamps: Float64Array
-    """[m, 7] point lights: position (3, metres), linear RGB (3, at 1 m), reach (metres)."""
+    """[m, 15] lamps; see `LAMP_COLUMNS`."""
     time_s: float
     """For waves, clouds and grass."""
     room_half_size: float = 9.0
@@ -203,6 +214,8 @@ class Environment:
     """Material of the ground; None = the usual one of `ground`."""
     wall_surface: Texture = Texture.PLASTER
     """Material of a room's walls."""
+    puffs: Float64Array = field(default_factory=lambda: np.zeros((0, PUFF_COLUMNS)))
+    """[k, 19] translucent ellipsoids of smoke, steam, mist or flame; see `PUFF_COLUMNS`."""
 
 
 class Scene(Protocol):

@@ -13,7 +13,7 @@ from texvent.scenes.raycast.render import encode_srgb, render, sample_pattern
 from texvent.scenes.scene import Environment, Ground, Shape, Texture
 from texvent.sensor import SensorSize
 
-from ..hand_scenes import HandScene, MovingShape, day, look_at, moving, showcase, still
+from ..hand_scenes import HandScene, MovingShape, day, lamp_row, look_at, moving, showcase, still
 
 SMALL = SensorSize(96, 72)
 BACKDROP = 0.0625
@@ -176,7 +176,7 @@ def test_fog_hides_what_is_far() -> None:
 
 def test_a_lamp_lights_what_is_near_it() -> None:
     night = replace(day(), sun_colour=np.zeros(3, np.float32), ambient=np.full(3, 0.01, np.float32))
-    lamp = replace(night, lamps=np.array([[0.0, -4.0, 1.0, 2.0, 2.0, 2.0, 6.0]]))
+    lamp = replace(night, lamps=lamp_row((0.0, -4.0, 1.0), reach=6.0))
     off = render(HandScene(environment_base=night), 0.0, SMALL)
     on = render(HandScene(environment_base=lamp), 0.0, SMALL)
     assert (on - off)[60:, 30:60].mean() > 20.0

@@ -56,7 +56,7 @@ class MotionInterpolator:
                 has vectors to the other.
         """
         check_between(first, second, times_us)
-        if self._stream is not None and self._beats:
+        if self._stream is not None and (self._beats or self._stream.has_moving_light):
             return _rendered(self._stream, times_us)
         # Now, not at the first frame: this may run in the prefetch thread.
         pair = MotionPair.of(first, second)

@@ -41,22 +41,26 @@ class Lamp:
     any."""
     boost: float = 1.0
     """The glowing part is drawn this much brighter when the lamp is on."""
+    is_single: bool = False
+    """Whether only the first of its parts sheds light: the parts of one flame are one lamp."""
+    own_hz: float = 0.0
+    """How often the model itself lets its part shine up and down each second."""
     turns_hz: float = 0.0
     """How often its beam turns round the upright axis each second."""
 
 
-_HEAD = Lamp(45.0, (1.0, 0.0, -0.09), 32.0, 0.75, always_on=False, hue="white", boost=4.0)
+_HEAD = Lamp(90.0, (1.0, 0.0, -0.09), 32.0, 0.75, always_on=False, hue="white", boost=4.0)
 _TAIL = Lamp(0.35, (-1.0, 0.0, 0.0), 80.0, 1.0, always_on=False, hue="red", boost=3.0)
 _VEHICLE = (_HEAD, _TAIL)
 _BEACONS = (
-    Lamp(4.0, hue="blue", boost=2.0, blink_hz=2.0, wave="rotating"),
-    Lamp(4.0, hue="red", boost=2.0, blink_hz=2.0, wave="rotating"),
+    Lamp(4.0, hue="blue", boost=2.0, own_hz=2.0),
+    Lamp(4.0, hue="red", boost=2.0, own_hz=2.0),
 )
 _SCREEN = (Lamp(0.9, (1.0, 0.0, 0.0), 90.0, 1.0, is_panel=True),)
-_FLAME = (Lamp(6.0, blink_hz=6.0, wave="flame", boost=1.5),)
+_FLAME = (Lamp(5.0, is_single=True, blink_hz=6.0, wave="flame", boost=1.5),)
 _TORCH = (Lamp(40.0, (1.0, 0.0, 0.0), 16.0, 0.6, boost=4.0),)
 _LED = (Lamp(0.004, boost=8.0),)
-_STREET = (Lamp(26.0, always_on=False, boost=2.0),)
+_STREET = (Lamp(26.0, always_on=False, boost=2.0, wave="sine"),)
 
 LAMPS: Mapping[str, tuple[Lamp, ...]] = MappingProxyType({
     **dict.fromkeys(("car", "suv", "van", "pickup", "truck", "bus", "taxi", "tractor", "train",
@@ -65,14 +69,14 @@ LAMPS: Mapping[str, tuple[Lamp, ...]] = MappingProxyType({
     **dict.fromkeys(("police car", "fire engine", "ambulance"), (*_BEACONS, *_VEHICLE)),
     "excavator": (Lamp(1.5, hue="amber", blink_hz=2.0, wave="rotating", boost=2.0), *_VEHICLE),
     "street lamp": _STREET,
-    "traffic light": (Lamp(0.6, (1.0, 0.0, 0.0), 80.0, 1.0, boost=2.0),),
-    "barrier": (Lamp(0.4, boost=2.0),),
-    "lamp": (Lamp(4.0, boost=2.0),),
-    "desk lamp": (Lamp(5.0, (0.25, 0.0, -1.0), 60.0, 0.6, boost=3.0),),
-    "light bulb": (Lamp(3.0, boost=3.0),),
-    "lantern": (Lamp(2.5, boost=2.0, blink_hz=5.0, wave="flame"),),
-    "candle": (Lamp(1.2, blink_hz=7.0, wave="flame", boost=1.5),),
-    **dict.fromkeys(("torch",), (Lamp(3.0, blink_hz=6.0, wave="flame", boost=1.5),)),
+    "traffic light": (Lamp(0.6, (1.0, 0.0, 0.0), 80.0, 1.0, boost=2.0, own_hz=1.0),),
+    "barrier": (Lamp(0.4, boost=2.0, own_hz=1.0),),
+    "lamp": (Lamp(1.7, is_single=True, always_on=False, boost=2.0, wave="sine"),),
+    "desk lamp": (Lamp(1.2, (0.25, 0.0, -1.0), 60.0, 0.6, boost=3.0, wave="sine"),),
+    "light bulb": (Lamp(1.5, is_single=True, boost=3.0, wave="sine"),),
+    "lantern": (Lamp(1.5, is_single=True, boost=2.0, blink_hz=5.0, wave="flame"),),
+    "candle": (Lamp(0.15, is_single=True, blink_hz=7.0, wave="flame", boost=1.5),),
+    "torch": (Lamp(3.0, is_single=True, blink_hz=6.0, wave="flame", boost=1.5),),
     **dict.fromkeys(("fire", "campfire", "bonfire", "fireplace", "stove fire"), _FLAME),
     "flashlight": _TORCH,
     "headlight": _TORCH,
@@ -84,7 +88,7 @@ LAMPS: Mapping[str, tuple[Lamp, ...]] = MappingProxyType({
     "led": _LED,
     "led strip": (Lamp(0.05, boost=3.0),),
     "laser pointer": (Lamp(0.02, boost=8.0),),
-    "neon sign": (Lamp(0.4, boost=2.5),),
+    "neon sign": (Lamp(0.4, boost=2.5, wave="sine"),),
     "disco ball": (Lamp(1.0, boost=1.0),),
     "string lights": (Lamp(0.03, boost=3.0),),
     "christmas tree": (Lamp(0.02, boost=3.0),),
@@ -94,7 +98,7 @@ LAMPS: Mapping[str, tuple[Lamp, ...]] = MappingProxyType({
     "airplane": (Lamp(0.5, boost=2.0, blink_hz=1.0),),
     "helicopter": (Lamp(0.5, boost=2.0, blink_hz=1.0),),
     "ufo": (Lamp(0.5, boost=2.0),),
-    "rocket": (Lamp(60.0, boost=2.0, blink_hz=9.0, wave="flame"),),
+    "rocket": (Lamp(60.0, is_single=True, boost=2.0, blink_hz=9.0, wave="flame"),),
     "hot air balloon": (Lamp(20.0, boost=2.0, blink_hz=4.0, wave="flame"),),
     "sparkler": (Lamp(1.0, boost=3.0, blink_hz=9.0, wave="flame"),),
 })  # fmt: skip

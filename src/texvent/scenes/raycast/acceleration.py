@@ -7,7 +7,7 @@ grid facing the sun (for shadow rays). A ray then only tests the shapes listed w
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 from texvent.scenes.lens import Lens, lens_reach
 from texvent.scenes.projection import Rays
 from texvent.scenes.raycast.records import (
+    GLOW_RECORD,
     INSTANT_RECORD,
+    PUFF_RECORD,
     SHAPE_RECORD,
     World,
     describe_lens,
@@ -26,6 +28,7 @@ from texvent.scenes.raycast.records import (
 )
 from texvent.scenes.raycast.surfaces.catalogue import build_tiles
 from texvent.scenes.scene import (
+    LAMP_COLUMNS,
     Environment,
     Float64Array,
     Primitives,
@@ -86,8 +89,22 @@ def bin_rectangles(rectangles: IntArray, numbers: IntArray, columns: int, rows: 
     return Bins(start.astype(np.int64), numbers[owner[order]].astype(np.int64), columns, rows)
 
 
+class Placed(Protocol):
+    """Placed unit shapes."""
+
+    @property
+    def shape(self) -> NDArray[np.int8]:
+        """[n] `Shape`."""
+        ...
+
+    @property
+    def to_world(self) -> Float64Array:
+        """[n, 3, 4] unit shape → world."""
+        ...
+
+
 def screen_bounds(
-    primitives: Primitives, rays: Rays, size: SensorSize
+    primitives: Placed, rays: Rays, size: SensorSize
 ) -> tuple[Float64Array, Float64Array]:
     """Where shapes may appear, from the corners of the boxes around them.
 
@@ -116,7 +133,7 @@ def screen_bounds(
 
 
 def _tighten_ellipsoids(
-    bounds: Float64Array, primitives: Primitives, to_image: Float64Array, rays: Rays
+    bounds: Float64Array, primitives: Placed, to_image: Float64Array, rays: Rays
 ) -> None:
     """Replace the bounds of ellipsoids wholly in front of the camera by their exact outline's."""
     chosen = np.flatnonzero(primitives.shape == Shape.ELLIPSOID)
@@ -155,7 +172,7 @@ def build_world(
     samples: int,
     lens: Lens | None = None,
 ) -> World:
-    """Everything the kernels need to draw one instant.
+    """Everything the kernels need to draw one instant but lamps and puffs: see `lamps.light_up`.
 
     Args:
         primitives: the shapes.
@@ -199,9 +216,16 @@ def build_world(
     instant["sun_plane"], instant["sun_grid"] = plane, grid
     instant["tile_columns"], instant["tile_rows"] = tiles.columns, tiles.rows
     instant["sun_cells"] = len(tiles.start)
-    lamps = np.ascontiguousarray(np.asarray(environment.lamps, dtype=np.float64).reshape(-1, 7))
     textures = {*np.unique(shapes["texture"]).tolist(), *ground_surfaces(environment)}
-    return World(instant, shapes, _join_lists(tiles, sun_cells), lamps, *build_tiles(textures))
+    return World(
+        instant,
+        shapes,
+        _join_lists(tiles, sun_cells),
+        np.zeros((0, LAMP_COLUMNS)),
+        *build_tiles(textures),
+        puffs=np.zeros(0, dtype=PUFF_RECORD),
+        glows=np.zeros(0, dtype=GLOW_RECORD),
+    )
 
 
 def _describe_distortion(

@@ -16,6 +16,9 @@ from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import TILE
+from texvent.scenes.raycast.lamps.glow import add_glows
+from texvent.scenes.raycast.lamps.shadows import LIT_BITS, lamps_reach
+from texvent.scenes.raycast.puffs.compositing import through_puffs
 from texvent.scenes.raycast.records import World
 from texvent.scenes.raycast.shading.lighting import shade_hit
 from texvent.scenes.raycast.trace import (
@@ -47,22 +50,34 @@ _SOFT_CLIP_START = 0.75
 
 
 @jit(error_model="numpy")
-def _is_lit(world: World, x: float, y: float, hit: tuple[float, int, int]) -> tuple[bool, bool]:
-    """Whether the sun reaches what was hit, and whether a thin shadow is near."""
+def _lit_by(world: World, x: float, y: float, hit: tuple[float, int, int]) -> tuple[int, bool]:
+    """What light reaches what was hit (bit 0: sun, then lamps), and whether a thin shadow is near.
+
+    Only lamps that cast shadows count.
+    """
     depth, number, face = hit
-    if number in (SKY, ROOM):
-        return False, False
     instant = world.instant[0]
+    if number == SKY or (number == ROOM and instant.shadow_lamps == 0):
+        return 0, False
     point = along(triple(instant.origin), ray_direction(instant, x, y), depth)
-    return sun_reaches(world, point, surface_normal(world, number, face, point))
+    normal = surface_normal(world, number, face, point)
+    is_sunlit, thin = False, False
+    if number != ROOM:
+        is_sunlit, thin = sun_reaches(world, point, normal)
+    lit = int(is_sunlit)
+    if instant.shadow_lamps > 0:
+        lamps, thin_lamp = lamps_reach(world, point, normal)
+        lit |= lamps << 1
+        thin = thin or thin_lamp
+    return lit, thin
 
 
 @jit(error_model="numpy")
 def _probe(world: World, x: float, y: float) -> int:
-    """What is at image point (x, y), as one number: surface, face, and lit or not."""
+    """What is at image point (x, y), as one number: surface, face, and what it is lit by."""
     depth, number, face, _ = first_hit(world, x, y)
-    lit = _is_lit(world, x, y, (depth, number, face))[0]
-    return (number * 8 + face) * 2 + int(lit)
+    lit = _lit_by(world, x, y, (depth, number, face))[0]
+    return ((number * 8 + face) << LIT_BITS) + lit
 
 
 @jit(error_model="numpy")
@@ -83,14 +98,17 @@ def _expose(world: World, light: Colour) -> Colour:
 @jit(error_model="numpy")
 def _shade(world: World, x: float, y: float, probe: int) -> Colour:
     """Exposed light at image point (x, y), where the surface `probe` is."""
-    number, lit = probe >> 4, bool(probe & 1)
+    number, lit = probe >> (LIT_BITS + 3), probe & ((1 << LIT_BITS) - 1)
     depth, face = math.inf, 0
     if number >= 0:
         depth, face = hit_again(world, x, y, number)
     if depth == math.inf:
         instant = world.instant[0]
         depth, number, face = background_hit(instant, ray_direction(instant, x, y))
-    return _expose(world, shade_hit(world, x, y, (depth, number, face), lit))
+    light = shade_hit(world, x, y, (depth, number, face), lit)
+    if len(world.puffs) > 0:
+        light = through_puffs(world, x, y, depth, light)
+    return _expose(world, light)
 
 
 @jit(error_model="numpy")
@@ -165,13 +183,13 @@ def _find_edge(
     `low` is where on the line (0..1) that surface is known to be; `probes[1]` is at its end.
     """
     high = 1.0
-    by_surface = probes[0] >> 1 != probes[1] >> 1
+    by_surface = probes[0] >> LIT_BITS != probes[1] >> LIT_BITS
     for _ in range(_BISECTIONS):
         middle = 0.5 * (low + high)
         x, y = _between(ends[0], ends[1], middle)
         if by_surface:  # no need to know about shadow
             _, number, face, _ = first_hit(world, x, y)
-            is_same = number * 8 + face == probes[0] >> 1
+            is_same = number * 8 + face == probes[0] >> LIT_BITS
         else:
             is_same = _probe(world, x, y) == probes[0]
         if is_same:
@@ -277,12 +295,13 @@ def _probe_tile(
                 continue
             x, y = left + i / samples, top + j / samples
             depth, number, face, thin = first_hit(world, x, y)
-            probe = (number * 8 + face) * 2
-            if not thin and i > 0 and (i + j) % 2 == 1 and probes[j, i - 1] >> 1 == probe >> 1:
+            surface = number * 8 + face
+            is_odd = (i + j) % 2 == 1
+            if not thin and i > 0 and is_odd and probes[j, i - 1] >> LIT_BITS == surface:
                 probes[j, i] = probes[j, i - 1]
                 continue
-            lit, thin_shadow = _is_lit(world, x, y, (depth, number, face))
-            probes[j, i] = _THIN if thin or thin_shadow else probe + int(lit)
+            lit, thin_shadow = _lit_by(world, x, y, (depth, number, face))
+            probes[j, i] = _THIN if thin or thin_shadow else (surface << LIT_BITS) + lit
 
 
 @jit(error_model="numpy")
@@ -365,6 +384,8 @@ def render_rows(
                     around[:] = probes[j : j + samples + 1, i : i + samples + 1]
                     _probe_shadows(world, column, row, (j, i), around)
                     light = _split_pixel(world, column, row, around, shares)
+                if len(world.glows) > 0:
+                    light = add_glows(world, column + 0.5, row + 0.5, light)
                 image[row, column, 0] = light[0]
                 image[row, column, 1] = light[1]
                 image[row, column, 2] = light[2]

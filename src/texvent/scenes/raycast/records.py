@@ -42,6 +42,10 @@ INSTANT_RECORD = np.dtype(
         ("tile_columns", "i8"),
         ("tile_rows", "i8"),
         ("sun_cells", "i8"),
+        # Where the cells of the lamps that cast shadows begin, and the screen tiles of puffs.
+        ("lamp_cells", "i8"),
+        ("puff_tiles", "i8"),
+        ("shadow_lamps", "i8"),  # how many lamps, the first ones, cast shadows
         ("sun_plane", "f8", (2, 3)),
         ("sun_grid", "f8", 4),
         # Surroundings: see primitives.Environment.
@@ -99,6 +103,38 @@ SHAPE_RECORD = np.dtype(
 """One shape: geometry and material."""
 
 
+PUFF_RECORD = np.dtype(
+    [
+        ("inverse", "f8", (3, 4)),  # world → unit sphere
+        ("eye", "f8", 3),  # the camera's position there
+        ("depth", "f8"),  # no point of it is nearer than this, metres
+        ("window", "f8", 4),  # where it may be seen: lowest, highest x, lowest, highest y, pixels
+        ("colour", "f8", 3),
+        ("thickness", "f8"),  # optical depth per metre in its middle
+        ("radius", "f8"),  # metres; the geometric mean of its half axes
+        ("emission", "f8"),
+        ("detail", "f8"),
+        ("seed", "f8"),
+    ],
+    align=True,
+)
+"""One translucent ellipsoid."""
+
+GLOW_RECORD = np.dtype(
+    [
+        ("place", "f8", 2),  # x, y in the image without distortion, pixels
+        ("core", "f8"),  # standard deviation of the spot, pixels
+        ("halo", "f8"),  # of the light that the lens scatters around it
+        ("core_light", "f8", 3),  # exposed light of the spot, summed over pixels
+        ("halo_light", "f8", 3),
+        ("core_reach", "f8"),  # beyond this many pixels it adds nothing
+        ("halo_reach", "f8"),
+    ],
+    align=True,
+)
+"""One lamp as the camera sees it: a bright spot with a halo."""
+
+
 class World(NamedTuple):
     """One instant of a scene, as the kernels read it."""
 
@@ -109,11 +145,15 @@ class World(NamedTuple):
     lists: NDArray[np.int32]
     """Shape numbers by screen tile and by sun cell; see `INSTANT_RECORD`."""
     lamps: Float64Array
-    """[m, 7] as in `Environment.lamps`."""
+    """[m, 15] as in `Environment.lamps`; those that cast shadows come first."""
     tiles: NDArray[np.float32]
     """[k, texels, channels] tiles of the materials in use; see `surfaces.catalogue.build_tiles`."""
     surfaces: Float64Array
     """[materials, 5] what each material is like; see `surfaces.catalogue.build_tiles`."""
+    puffs: NDArray[Any]
+    """[k] `PUFF_RECORD`."""
+    glows: NDArray[Any]
+    """[g] `GLOW_RECORD`."""
 
 
 def describe_lens(instant: NDArray[Any], lens: Lens, corner: tuple[float, float]) -> None:

@@ -14,6 +14,7 @@ from texvent.runtime.threads import run_parts
 from texvent.scenes.projection import camera_rays
 from texvent.scenes.raycast.acceleration import TILE, build_world
 from texvent.scenes.raycast.adaptive_sampling import render_rows
+from texvent.scenes.raycast.lamps.light_up import light_up
 from texvent.scenes.raycast.records import World
 from texvent.scenes.scene import Float32Array, Float64Array, Scene
 from texvent.sensor import SensorSize
@@ -25,15 +26,11 @@ def world_at(
     """What the kernels read about one instant of a scene."""
     camera = scene.camera(time_s)
     rays = camera_rays(camera, size)
-    return build_world(
-        scene.primitives(time_s),
-        scene.environment(time_s),
-        rays,
-        size,
-        shadows=shadows,
-        samples=samples,
-        lens=camera.lens,
+    primitives, environment = scene.primitives(time_s), scene.environment(time_s)
+    world = build_world(
+        primitives, environment, rays, size, shadows=shadows, samples=samples, lens=camera.lens
     )
+    return light_up(world, primitives, environment, rays, shadows=shadows)
 
 
 def render(

@@ -28,7 +28,7 @@ NOTHING = -4
 """What a ray may meet besides shape number 0, 1, ...; NOTHING: the lens lets no ray through."""
 _NO_GROUND = 10
 _FLOOR = 6
-_SHADOW_BIAS_M = 2e-3
+SHADOW_BIAS_M = 2e-3
 """A shadow ray starts this far off the surface, so that rounding does not shade it."""
 
 
@@ -65,7 +65,7 @@ def hit_again(world: World, x: float, y: float, number: int) -> tuple[float, int
 
 
 @jit(error_model="numpy")
-def _widened_hit(shape: Record, o: Vector, d: Vector, near: float) -> float:
+def widened_hit(shape: Record, o: Vector, d: Vector, near: float) -> float:
     """Where the ray from `o` meets a thin shape, widened; inf if even that misses."""
     s = triple(shape.shrink)
     return hit_shape(shape.kind, times(o, s), times(d, s), near)[0]
@@ -107,7 +107,7 @@ def first_hit(world: World, x: float, y: float) -> tuple[float, int, int, bool]:
         if t < best:
             best, found, best_face = t, int(lists[index]), face
         if shape.is_thin:
-            thin = min(thin, _widened_hit(shape, triple(shape.eye), d, NEAR_M))
+            thin = min(thin, widened_hit(shape, triple(shape.eye), d, NEAR_M))
     return best, found, best_face, thin < math.inf and thin <= best
 
 
@@ -151,7 +151,7 @@ def _blocked_in_cell(world: World, cell: int, point: Vector, place: Vector) -> t
         if hit_shape(shape.kind, o, d, 0.0)[0] < math.inf:
             return True, thin
         if shape.is_thin and not thin:
-            thin = _widened_hit(shape, o, d, 0.0) < math.inf
+            thin = widened_hit(shape, o, d, 0.0) < math.inf
     return False, thin
 
 
@@ -198,5 +198,5 @@ def sun_reaches(world: World, point: Vector, normal: Vector) -> tuple[bool, bool
         return False, False
     if not world.instant[0].shadows:
         return True, False
-    blocked, thin = sun_blocked(world, along(point, normal, _SHADOW_BIAS_M))
+    blocked, thin = sun_blocked(world, along(point, normal, SHADOW_BIAS_M))
     return not blocked, thin

@@ -47,4 +47,6 @@ def uncounted_world(world: World) -> World:
         uncounted(world.lamps),
         uncounted(world.tiles),
         uncounted(world.surfaces),
+        uncounted(world.puffs),
+        uncounted(world.glows),
     )

@@ -26,10 +26,10 @@ from texvent.scenes.staging.camera.journey import plan_travel
 from texvent.scenes.staging.environment import (
     PLACES,
     AnimatedEnvironment,
-    PointLight,
     build_environment,
     choose_lighting,
 )
+from texvent.scenes.staging.lamps import LampPlan, list_still_lamps, plan_lamps
 from texvent.scenes.staging.placement.object_placement import SCENIC, ObjectPlacer
 from texvent.scenes.staging.road import RoadLine
 from texvent.scenes.staging.scenery import (
@@ -52,9 +52,6 @@ from texvent.sensor import SensorSize
 
 VIEW_INSTANTS = 7
 """Instants of the clip at which scenery must not hide anything."""
-_LAMP_NOUNS = {"street lamp": (1.1, 4.7), "lamp": (0.0, 0.9), "candle": (0.0, 0.9)}
-"""Noun → where its light is: metres along its x, and share of its height or metres up."""
-_WARM = (1.0, 0.72, 0.40)
 
 
 @dataclass(frozen=True)
@@ -67,6 +64,7 @@ class ComposedScene:
     effects: tuple[FallingParticles | DustTrail, ...]
     camera_path: CameraPath
     animated_environment: AnimatedEnvironment
+    lamps: LampPlan
     class_names: dict[int, str]
     """Instance id → noun."""
     not_shown: tuple[str, ...] = ()
@@ -74,7 +72,7 @@ class ComposedScene:
 
     def primitives(self, time_s: float) -> Primitives:
         """All shapes at that instant: actors, then scenery, then weather."""
-        acting = assemble([actor.place(time_s) for actor in self.actors])
+        acting = assemble([self.lamps.place(actor, time_s) for actor in self.actors])
         weather = [effect.at(time_s) for effect in self.effects]
         shapes = join_primitives([acting, self.still, *weather])
         factor = np.float32(self.animated_environment.flicker(time_s))
@@ -86,7 +84,20 @@ class ComposedScene:
 
     def environment(self, time_s: float) -> Environment:
         """Surroundings and light at that instant."""
-        return self.animated_environment.at(time_s)
+        lamps = self.lamps.rows(time_s)
+        lamps[:, 3:6] *= self.animated_environment.flicker(time_s)
+        return replace(self.animated_environment.at(time_s), lamps=lamps)
+
+    @property
+    def flicker_hz(self) -> float | None:
+        """Highest frequency at which any light goes up and down, Hz; None = all is steady."""
+        rates = (self.animated_environment.flicker_hz, self.lamps.blink_hz)
+        return max((rate for rate in rates if rate is not None), default=None)
+
+    @property
+    def has_moving_light(self) -> bool:
+        """Whether light moves that belongs to no surface: beams and glow of lamps."""
+        return self.lamps.is_moving
 
 
 def compose_scene(
@@ -139,12 +150,17 @@ def compose_scene(
     distance = camera_path.framing.distance_m
     animated_environment = build_environment(
         description, place=place, road=view.road,
-        lamps=_list_lamps(description, place, actors, items, camera_path),
         distance_m=distance, room_m=camera_path.room_m if ground is Ground.FLOOR else 9.0,
+    )  # fmt: skip
+    strength = choose_lighting(place, description.light).lamps
+    lamps = plan_lamps(
+        description, actors, strength=strength, instant_s=0.5 * duration_s,
+        focus=np.asarray(camera_path.framing.target, dtype=np.float64),
+        still=list_still_lamps(place, strength, actors, items, camera_path.framing),
     )  # fmt: skip
     effects = _make_effects(description, actors, camera_path, seed)
     return ComposedScene(
-        tuple(actors), assemble(placed), effects, camera_path, animated_environment, names
+        tuple(actors), assemble(placed), effects, camera_path, animated_environment, lamps, names
     )
 
 
@@ -249,44 +265,6 @@ def _scatter_all(
         far = [rule for rule in rules if rule.is_metres]
         return lined + scatter(far, view, actors, unsaid, rng=rng, taken=taken), around
     return scatter(rules, view, actors, unsaid, rng=rng, taken=taken), around
-
-
-def _list_lamps(
-    description: SceneDescription,
-    place: str,
-    actors: Sequence[Actor],
-    items: Sequence[SceneryItem],
-    path: CameraPath,
-) -> list[PointLight]:
-    """Lights of lamps in the scene, and of a room's ceiling."""
-    lamps = []
-    for actor in actors:
-        if actor.noun.name in _LAMP_NOUNS:
-            along, up = _LAMP_NOUNS[actor.noun.name]
-            height = up if up > 1.0 else up * actor.model.height
-            spot = actor.trajectory.at(0.0).to_world() @ np.array([along, 0.0, height, 1.0])
-            lamps.append(_warm_light(float(spot[0]), float(spot[1]), float(spot[2]) - 0.2))
-    for item in items:
-        if item.noun == "street lamp":
-            along, height = _LAMP_NOUNS["street lamp"]
-            x = item.position[0] + along * math.cos(item.yaw)
-            y = item.position[1] + along * math.sin(item.yaw)
-            lamps.append(_warm_light(x, y, height))
-    dark = choose_lighting(place, description.light).lamps > 0.0
-    if dark and not lamps and place not in ("sky", "space", "underwater", "sea"):
-        x, y, z = path.framing.target
-        reach = path.framing.distance_m
-        lamps.append(
-            _warm_light(float(x) - 0.25 * reach, float(y) - 0.25 * reach, float(z) + 0.55 * reach)
-        )
-    return lamps
-
-
-def _warm_light(x: float, y: float, z: float) -> PointLight:
-    """A lamp bright enough for the ground below it."""
-    strength = 1.1 * max(z, 0.7) ** 2
-    red, green, blue = (strength * channel for channel in _WARM)
-    return PointLight((x, y, z), (red, green, blue), 5.0 * max(z, 0.7))
 
 
 def _make_effects(

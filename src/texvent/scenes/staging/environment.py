@@ -9,7 +9,13 @@ import numpy as np
 
 from texvent.scenes.description import Illumination, SceneDescription, Surroundings
 from texvent.scenes.models.materials import mix
-from texvent.scenes.scene import Colour, Environment, Float32Array, Float64Array, Ground
+from texvent.scenes.scene import (
+    LAMP_COLUMNS,
+    Colour,
+    Environment,
+    Float32Array,
+    Ground,
+)
 from texvent.scenes.staging.road import RoadLine
 
 FLICKER_DEPTH = 0.8
@@ -122,16 +128,6 @@ _FOG_SIGHT = 3.0
 
 
 @dataclass(frozen=True)
-class PointLight:
-    """A point light."""
-
-    position: tuple[float, float, float]
-    colour: Colour
-    """At 1 m."""
-    reach_m: float
-
-
-@dataclass(frozen=True)
 class AnimatedEnvironment:
     """The surroundings as a function of time: all fixed, but for flicker, waves and clouds."""
 
@@ -141,14 +137,11 @@ class AnimatedEnvironment:
     def at(self, time_s: float) -> Environment:
         """The surroundings at that instant."""
         factor = np.float32(self.flicker(time_s))
-        lamps = self.base.lamps.copy()
-        lamps[:, 3:6] *= factor
         return replace(
             self.base,
             time_s=time_s,
             sun_colour=self.base.sun_colour * factor,
             ambient=self.base.ambient * factor,
-            lamps=lamps,
         )
 
     def flicker(self, time_s: float) -> float:
@@ -174,6 +167,8 @@ def choose_lighting(place: str, light: Illumination) -> Lighting:
         chosen = LIGHTINGS["moonlight"]  # no lamps up there: without a moon one sees nothing
     else:
         chosen = LIGHTINGS[kind]
+    if place == "snow":
+        chosen = replace(chosen, lamps=0.3 * chosen.lamps)
     if light.shadows is not None:
         chosen = replace(chosen, shadows=light.shadows)
     return chosen
@@ -184,7 +179,6 @@ def build_environment(
     *,
     place: str,
     road: RoadLine,
-    lamps: list[PointLight],
     distance_m: float,
     room_m: float,
 ) -> AnimatedEnvironment:
@@ -194,14 +188,11 @@ def build_environment(
         description: what the prompt says of place, weather and light.
         place: key of `PLACES`.
         road: centre lines of the roads.
-        lamps: point lights; they shine as far as the light lets them.
         distance_m: from the camera to what it looks at: fog is scaled to it.
         room_m: half the side of a room, m.
     """
     ground = PLACES[place]
     lighting = choose_lighting(place, description.light)
-    if place == "snow":
-        lighting = replace(lighting, lamps=0.3 * lighting.lamps)
     said = description.surroundings
     colour, second = _ground_colours(ground, said)
     sky_top, horizon = lighting.sky_top, lighting.sky_horizon
@@ -230,7 +221,7 @@ def build_environment(
         fog_distance=fog_distance,
         fog_colour=_array(fog_colour),
         exposure=lighting.exposure,
-        lamps=_lamp_array(lamps, lighting.lamps),
+        lamps=np.zeros((0, LAMP_COLUMNS)),
         time_s=0.0,
         room_half_size=room_m,
         road_curvature=road.curvature,
@@ -264,14 +255,6 @@ def _choose_fog(
     if weather in ("rain", "snow"):
         return 14.0 * distance_m, horizon
     return math.inf, horizon
-
-
-def _lamp_array(lamps: list[PointLight], strength: float) -> Float64Array:
-    rows = [
-        [*lamp.position, *(strength * channel for channel in lamp.colour), lamp.reach_m]
-        for lamp in lamps
-    ]
-    return np.array(rows if strength > 0.0 else [], dtype=np.float64).reshape(-1, 7)
 
 
 def _array(colour: Colour) -> Float32Array:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 
 from texvent.runtime.jit import jit
+from texvent.scenes.raycast.lamps.light import lamp_light
 from texvent.scenes.raycast.lens_kernel import NO_DISTORTION, pixel_steps
 from texvent.scenes.raycast.records import Record, World
 from texvent.scenes.raycast.shading.ground import ground_look, wall_look
@@ -24,33 +25,12 @@ from texvent.scenes.raycast.trace import (
     surface_normal,
 )
 from texvent.scenes.raycast.vectors import along, dot, scaled, times, triple, unit
-from texvent.scenes.scene import Colour, Float64Array
+from texvent.scenes.scene import Colour
 
 _SEA = 4
 _UNDERWATER = 9
 _FOG_HEIGHT_M = 40.0
 """Fog and water above this height do not count for rays that go up."""
-
-
-@jit(error_model="numpy")
-def _lamp_light(lamps: Float64Array, point: Colour, normal: Colour) -> Colour:
-    """Light of all point lamps on a surface."""
-    light = (0.0, 0.0, 0.0)
-    for index in range(len(lamps)):
-        lamp = lamps[index]
-        towards = (lamp[0] - point[0], lamp[1] - point[1], lamp[2] - point[2])
-        square = dot(towards, towards)
-        reach = lamp[6]
-        if square >= reach * reach:
-            continue
-        distance = math.sqrt(square) + 1e-9
-        facing = dot(towards, normal) / distance
-        if facing <= 0.0:
-            continue
-        window = 1.0 - square / (reach * reach)
-        share = facing * window * window / max(square, 0.25)
-        light = along(light, (lamp[3], lamp[4], lamp[5]), share)
-    return light
 
 
 @jit(error_model="numpy")
@@ -69,14 +49,14 @@ def _sky_light(instant: Record, direction: Colour, pixel: float) -> Colour:
 
 @jit(error_model="numpy")
 def _reflected(
-    world: World, colour: Colour, point: Colour, normal: Colour, footprint: float, is_lit: bool
+    world: World, colour: Colour, point: Colour, normal: Colour, footprint: float, lit: int
 ) -> Colour:
     """Light reflected by a matt surface of which a pixel covers `foot` metres."""
     instant = world.instant[0]
-    lamps = _lamp_light(world.lamps, point, normal)
+    lamps = lamp_light(world, point, normal, lit)
     above = 0.68 + 0.32 * normal[2]
     facing = 0.0
-    if is_lit:
+    if lit & 1:
         facing = max(dot(normal, instant.sun), 0.0)
         if instant.ground == _UNDERWATER:
             facing *= caustics(instant, point, footprint)
@@ -91,7 +71,7 @@ def _shape_light(
     point: Colour,
     direction: Colour,
     steps: tuple[Colour, Colour],
-    is_lit: bool,
+    lit: int,
 ) -> Colour:
     """Light from a shape: texture, reflection, a soft highlight, its own glow."""
     instant = world.instant[0]
@@ -100,8 +80,8 @@ def _shape_light(
     patch = surface_patch(steps, direction, depth, normal)
     colour, normal = surface_look(world, number, face, point, (normal, patch[0], patch[1]))
     view = unit(direction)
-    light = _reflected(world, colour, point, normal, patch_extent(patch)[2], is_lit)
-    if is_lit:
+    light = _reflected(world, colour, point, normal, patch_extent(patch)[2], lit)
+    if lit & 1:
         half = along(triple(instant.sun), view, -1.0)
         facing = max(dot(half, normal), 0.0) / math.sqrt(dot(half, half) + 1e-12)
         light = along(light, triple(instant.sun_colour), 0.12 * facing**24)
@@ -115,7 +95,7 @@ def _ground_light(
     point: Colour,
     direction: Colour,
     steps: tuple[Colour, Colour],
-    is_lit: bool,
+    lit: int,
 ) -> Colour:
     """Light from the ground or the sea, which fade into the horizon."""
     instant = world.instant[0]
@@ -127,7 +107,7 @@ def _ground_light(
     else:
         colour, slope_x, slope_y = ground_look(world, point, patch)
         normal = unit((-slope_x, -slope_y, 1.0))
-        light = _reflected(world, colour, point, normal, footprint[2], is_lit)
+        light = _reflected(world, colour, point, normal, footprint[2], lit)
     if instant.ground == _UNDERWATER:
         return light
     return mix(light, triple(instant.sky_horizon), smooth((depth - 150.0) / 1500.0))
@@ -141,9 +121,7 @@ def _angle_of_step(direction: Colour, step: Colour) -> float:
 
 
 @jit(error_model="numpy")
-def shade_hit(
-    world: World, x: float, y: float, hit: tuple[float, int, int], is_lit: bool
-) -> Colour:
+def shade_hit(world: World, x: float, y: float, hit: tuple[float, int, int], lit: int) -> Colour:
     """Linear light that reaches image point (x, y).
 
     Args:
@@ -151,7 +129,7 @@ def shade_hit(
         x: pixels from the left.
         y: pixels from the top.
         hit: depth, what was hit, and which face, from `first_hit`.
-        is_lit: whether direct sunlight falls on it.
+        lit: what falls on it, from `lamps_reach` shifted by one bit; bit 0: the sun.
     """
     instant = world.instant[0]
     depth, number, face = hit
@@ -166,12 +144,12 @@ def shade_hit(
     point = along(triple(instant.origin), direction, depth)
     distance = depth * math.sqrt(direction[0] ** 2 + direction[1] ** 2 + direction[2] ** 2)
     if number == GROUND:
-        light = _ground_light(world, depth, point, direction, steps, is_lit)
+        light = _ground_light(world, depth, point, direction, steps, lit)
     elif number == ROOM:
         flat = surface_normal(world, ROOM, face, point)
         patch = surface_patch(steps, direction, depth, flat)
         colour, normal = wall_look(world, point, face, patch)
-        light = _reflected(world, colour, point, unit(normal), patch_extent(patch)[2], False)
+        light = _reflected(world, colour, point, unit(normal), patch_extent(patch)[2], lit)
     else:
-        light = _shape_light(world, hit, point, direction, steps, is_lit)
+        light = _shape_light(world, hit, point, direction, steps, lit)
     return _add_fog(instant, light, distance)

@@ -1,0 +1,78 @@
+"""Which lamps a surface sees: shadow rays to the lamps that cast shadows (compiled by Numba)."""
+
+from __future__ import annotations
+
+import math
+
+from texvent.runtime.jit import jit
+from texvent.scenes.raycast.intersect import hit_shape
+from texvent.scenes.raycast.lamps.bins import LATITUDES, LONGITUDES, MOST_SHADOW_LAMPS
+from texvent.scenes.raycast.lamps.light import falloff, towards_lamp
+from texvent.scenes.raycast.records import World
+from texvent.scenes.raycast.trace import SHADOW_BIAS_M, widened_hit
+from texvent.scenes.raycast.vectors import Vector, along, dot, mapped, turned
+
+LIT_BITS = 1 + MOST_SHADOW_LAMPS
+"""Bits of a probe that tell what light reaches a surface: the sun, then lamps."""
+
+
+@jit(error_model="numpy")
+def direction_cell(towards: Vector, distance: float) -> int:
+    """The cell of a lamp's grid of directions that a surface is in; `towards` leads to the lamp."""
+    longitude = math.atan2(-towards[1], -towards[0]) / (2.0 * math.pi) + 0.5
+    height = max(min(-towards[2] / distance, 1.0), -1.0)
+    latitude = math.asin(height) / math.pi + 0.5
+    column = min(int(longitude * LONGITUDES), LONGITUDES - 1)
+    row = min(int(latitude * LATITUDES), LATITUDES - 1)
+    return row * LONGITUDES + column
+
+
+@jit(error_model="numpy")
+def _blocked(
+    world: World, cell: int, point: Vector, towards: Vector, near: float
+) -> tuple[bool, bool]:
+    """Whether a shape of one cell stands between a point and a lamp, and whether a thin one nearly.
+
+    Shapes beyond the share `near` of the way belong to the lamp itself.
+    """
+    lists = world.lists
+    thin = False
+    reach_mm = 1e3 * math.sqrt(dot(towards, towards))
+    for index in range(lists[cell], lists[cell + 1], 2):
+        if lists[index + 1] > reach_mm:
+            break
+        shape = world.shapes[lists[index]]
+        o, d = mapped(shape.inverse, point), turned(shape.inverse, towards)
+        if hit_shape(shape.kind, o, d, 0.0)[0] < near:
+            return True, thin
+        if shape.is_thin and not thin:
+            thin = widened_hit(shape, o, d, 0.0) < near
+    return False, thin
+
+
+@jit(error_model="numpy")
+def lamps_reach(world: World, point: Vector, normal: Vector) -> tuple[int, bool]:
+    """Which of the lamps that cast shadows a surface sees, and whether a thin shadow is near.
+
+    Bit k belongs to lamp k. A lamp that the surface faces but whose light ends before it is seen.
+    """
+    instant = world.instant[0]
+    seen, thin = 0, False
+    for index in range(instant.shadow_lamps):
+        lamp = world.lamps[index]
+        start = along(point, normal, SHADOW_BIAS_M)
+        towards = towards_lamp(lamp, start)
+        if dot(towards, normal) <= 0.0:
+            continue
+        seen |= 1 << index
+        share, distance = falloff(lamp, towards)
+        if share <= 0.0:
+            continue
+        grid = instant.lamp_cells + index * (LONGITUDES * LATITUDES + 1)
+        cell = grid + direction_cell(towards, distance)
+        near = 1.0 - min(lamp[12] / distance, 0.9)
+        is_blocked, is_thin = _blocked(world, cell, start, towards, near)
+        thin = thin or is_thin
+        if is_blocked:
+            seen &= ~(1 << index)
+    return seen, thin

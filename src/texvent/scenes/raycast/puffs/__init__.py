@@ -1,0 +1,1 @@
+"""Translucent puffs of smoke, steam, mist and flame."""

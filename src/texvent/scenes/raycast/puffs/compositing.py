@@ -1,0 +1,162 @@
+"""Light through translucent ellipsoids (compiled by Numba).
+
+The density of a puff is (1 - r²)² at r of its radius, so its optical depth along a ray is a
+polynomial: with h² = 1 - (distance of the ray from the middle)², the integral of (h² - s²)² over
+s. It and its first two derivatives are 0 at the rim: a puff has no edge, and none of its parts can
+jump. Where puffs overlap, their optical depths add, as they do in nature. The mixture shines with
+the mean of their colours, weighted by optical depth: exact where puffs of one colour overlap, and
+without any order in which two of them could change places.
+"""
+
+from __future__ import annotations
+
+import math
+
+from texvent.runtime.jit import jit
+from texvent.scenes.raycast.lamps.light import light_through
+from texvent.scenes.raycast.lens_kernel import plane_point
+from texvent.scenes.raycast.records import Record, World
+from texvent.scenes.raycast.shading.value_noise import detail_fade, noise_3d
+from texvent.scenes.raycast.trace import plane_direction, tile_at
+from texvent.scenes.raycast.vectors import Vector, along, dot, scaled, triple, turned
+from texvent.scenes.scene import Colour
+
+_DETAIL_SCALE = 2.3
+"""Lumps of detail per radius of a puff."""
+
+
+@jit(error_model="numpy")
+def density_integral(half: float, start: float, stop: float) -> float:
+    """∫ (h² - s²)² ds from start to stop, within -h..h."""
+    start, stop = max(start, -half), min(stop, half)
+    if stop <= start:
+        return 0.0
+    h2 = half * half
+    first = start * (h2 * h2 - start * start * (2.0 / 3.0 * h2 - 0.2 * start * start))
+    last = stop * (h2 * h2 - stop * stop * (2.0 / 3.0 * h2 - 0.2 * stop * stop))
+    return max(last - first, 0.0)
+
+
+@jit(error_model="numpy")
+def _puff_depth(puff: Record, direction: Vector, depth: float) -> tuple[float, Vector]:
+    """(optical depth of one puff before `depth`, point of the ray nearest to its middle).
+
+    The point is in the puff's own coordinates.
+    """
+    o, d = triple(puff.eye), turned(puff.inverse, direction)
+    length = math.sqrt(dot(d, d))
+    nearest = -dot(o, d) / length
+    place = along(o, d, nearest / length)
+    h2 = 1.0 - dot(place, place)
+    if h2 <= 0.0:
+        return 0.0, place
+    stop = math.inf if depth == math.inf else depth * length - nearest
+    mass = density_integral(math.sqrt(h2), -nearest, stop)
+    metres = math.sqrt(dot(direction, direction)) / length
+    return puff.thickness * metres * mass, place
+
+
+@jit(error_model="numpy")
+def _with_detail(puff: Record, place: Vector, footprint: float) -> float:
+    """Factor around 1: lumps in a puff, which fade where a pixel covers them."""
+    if puff.detail == 0.0:
+        return 1.0
+    s, seed = _DETAIL_SCALE, puff.seed
+    lumps = 0.0
+    for octave in range(3):
+        fade = detail_fade(s * footprint)
+        if fade <= 0.0:
+            break
+        x, y, z = s * place[0] + seed, s * place[1] - 0.7 * seed, s * place[2] + 31.0 * octave
+        lumps += 0.55**octave * fade * noise_3d(x, y, z)
+        s *= 2.1
+    return max(1.0 + float(puff.detail) * 1.3 * lumps, 0.0)
+
+
+@jit(error_model="numpy")
+def optical_depth(world: World, u: float, v: float, depth: float) -> float:
+    """Optical depth of all puffs before `depth`, at a point of the image without distortion."""
+    instant, lists = world.instant[0], world.lists
+    direction = plane_direction(instant, u, v)
+    cell = instant.puff_tiles + tile_at(instant, u, v)
+    total = 0.0
+    for index in range(lists[cell], lists[cell + 1]):
+        puff = world.puffs[lists[index]]
+        if puff.depth >= depth:
+            continue
+        thickness, place = _puff_depth(puff, direction, depth)
+        if thickness > 0.0:
+            footprint = puff.depth * instant.step / puff.radius
+            total += thickness * _with_detail(puff, place, footprint)
+    return total
+
+
+@jit(error_model="numpy")
+def _puff_light(world: World, puff: Record, direction: Vector, place: Vector) -> Colour:
+    """Light that a puff scatters and gives off towards the camera.
+
+    It is lit like a matt ball, softly: smoke scatters light many times.
+    """
+    instant = world.instant[0]
+    colour = triple(puff.colour)
+    if puff.emission > 0.0:
+        return scaled(colour, puff.emission)
+    m = puff.inverse
+    view = turned(m, direction)
+    back = math.sqrt(max(1.0 - dot(place, place), 0.0) / dot(view, view))
+    x, y, z = along(place, view, -0.8 * back)
+    normal = (
+        m[0, 0] * x + m[1, 0] * y + m[2, 0] * z,
+        m[0, 1] * x + m[1, 1] * y + m[2, 1] * z,
+        m[0, 2] * x + m[1, 2] * y + m[2, 2] * z,
+    )
+    normal = scaled(normal, 1.0 / math.sqrt(dot(normal, normal) + 1e-12))
+    facing = 0.5 + 0.5 * dot(normal, triple(instant.sun))
+    light = scaled(triple(instant.ambient), 0.78 + 0.22 * normal[2])
+    light = along(light, triple(instant.sun_colour), 0.15 + 0.65 * facing * facing)
+    if len(world.lamps) > 0:
+        distance = puff.depth + puff.radius
+        point = along(triple(instant.origin), direction, distance)
+        light = along(light, light_through(world, point), 0.5)
+    return colour[0] * light[0], colour[1] * light[1], colour[2] * light[2]
+
+
+@jit(error_model="numpy")
+def through_puffs(world: World, x: float, y: float, depth: float, light: Colour) -> Colour:
+    """What is left of a surface's light behind all puffs, with the light of the puffs.
+
+    Args:
+        world: the scene.
+        x: pixels from the left.
+        y: pixels from the top.
+        depth: of the surface, metres; inf for the sky.
+        light: of the surface, linear.
+    """
+    instant, lists = world.instant[0], world.lists
+    u, v = plane_point(instant, x, y)
+    if math.isnan(u):
+        return light
+    cell = instant.puff_tiles + tile_at(instant, u, v)
+    if lists[cell] == lists[cell + 1]:
+        return light
+    direction = plane_direction(instant, u, v)
+    total, own = 0.0, (0.0, 0.0, 0.0)
+    for index in range(lists[cell], lists[cell + 1]):
+        puff = world.puffs[lists[index]]
+        window = puff.window
+        if puff.depth >= depth or u < window[0] or u > window[1] or v < window[2] or v > window[3]:
+            continue
+        thickness, place = _puff_depth(puff, direction, depth)
+        if thickness <= 0.0:
+            continue
+        thickness *= _with_detail(puff, place, puff.depth * instant.step / puff.radius)
+        colour = _puff_light(world, puff, direction, place)
+        if instant.fog > 0.0:
+            share = math.exp(-instant.fog * puff.depth)
+            colour = along(scaled(triple(instant.fog_colour), 1.0 - share), colour, share)
+        own = along(own, colour, thickness)
+        total += thickness
+    if total <= 0.0:
+        return light
+    left = math.exp(-total)
+    return along(scaled(light, left), own, (1.0 - left) / total)

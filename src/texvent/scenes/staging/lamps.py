@@ -1,0 +1,337 @@
+"""Lamps of the objects in a scene: which are on, how they blink, and what light they shed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from texvent.scenes.description import SceneDescription
+from texvent.scenes.models.lamps import LAMPS, Lamp, lamp_of
+from texvent.scenes.models.protocol import ModelPart
+from texvent.scenes.models.variation import fraction
+from texvent.scenes.scene import LAMP_COLUMNS, Float64Array
+from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.assemble import PlacedModel
+from texvent.scenes.staging.camera.framing import Framing
+from texvent.scenes.staging.scenery import SceneryItem
+
+WARM = (1.0, 0.72, 0.40)
+MAINS_HZ = 20.0
+"""From this frequency on, lamps on mains beat as a sine instead of going on and off."""
+FLAME_SHARES = ((1.0, 0.13), (1.83, 0.09), (3.17, 0.06))
+"""Sines that make a flame flicker: multiple of its frequency, and amplitude."""
+_LIGHTS_A_ROOM = 1.0
+"""A lamp without a beam that is at least this bright lights its surroundings."""
+_DIMMEST_CASTER = 0.5
+"""Lamps whose light at 1 m is less than this cast no shadows."""
+_MOST_CASTERS = 3
+"""Each costs time: see docs/design/speed.md."""
+_FAINTEST_SHARE = 0.05
+"""Lamps that light the focus less than this share of what the best one does cast no shadows."""
+_FAINTEST = 0.004
+"""A lamp's light ends where it is this."""
+_FARTHEST_M = 120.0
+_LEVEL_INSTANTS = 24
+_LEVEL_SPAN_S = 6.0
+"""Instants and time over which a part's brightest state is looked for."""
+
+
+@dataclass(frozen=True)
+class Switch:
+    """How the lamps of one object are switched."""
+
+    is_lit: bool | None
+    """As `SceneObject.is_lit`."""
+    blink_hz: float | None
+    """As `SceneObject.blink_hz`."""
+    strength: float
+    """Strength of artificial light, 0..1; above 0 it is so dark that lamps are on."""
+    phase: float = 0.0
+    """Head start of flames, periods, so that two candles do not flicker in step."""
+
+    def is_on(self, lamp: Lamp) -> bool:
+        """Whether a lamp is on."""
+        return (lamp.always_on or self.strength > 0.0) if self.is_lit is None else self.is_lit
+
+    def blink_of(self, lamp: Lamp) -> float | None:
+        """Frequency at which a lamp blinks, Hz; None = it is steady."""
+        return lamp.blink_hz if self.blink_hz is None else self.blink_hz
+
+    def level(self, lamp: Lamp, time_s: float, number: int) -> float:
+        """Light of the object's lamp `number` at that instant, as a share of its usual light."""
+        if not self.is_on(lamp):
+            return 0.0
+        full = self.strength if self.is_lit is None and not lamp.always_on else 1.0
+        rate = self.blink_of(lamp)
+        return full * (1.0 if rate is None else wave_at(lamp, rate, time_s, self.phase, number))
+
+
+def wave_at(lamp: Lamp, rate_hz: float, time_s: float, phase: float, number: int) -> float:
+    """Share of its light that a blinking lamp gives off at an instant; at t = 0 it is on."""
+    cycles = rate_hz * time_s
+    if lamp.wave == "flame":
+        turn = 2.0 * math.pi
+        waves = (
+            share * math.sin(turn * (multiple * cycles + phase * (1.0 + multiple)))
+            for multiple, share in FLAME_SHARES
+        )
+        return 1.0 + sum(waves)
+    if lamp.wave == "rotating":
+        return max(math.cos(2.0 * math.pi * cycles + math.pi * number), 0.0) ** 2
+    if lamp.wave == "sine" and rate_hz >= MAINS_HZ:
+        return 0.5 + 0.5 * math.cos(2.0 * math.pi * cycles)
+    return 1.0 if cycles % 1.0 < 0.5 else 0.0
+
+
+@dataclass(frozen=True)
+class LitActor:
+    """An object with lamps."""
+
+    actor: Actor
+    switch: Switch
+    brightest: tuple[float, ...]
+    """Greatest emission of each part over time; 0 = it does not glow."""
+    casts: bool
+    """Whether its lamps cast shadows."""
+
+    def glow(self, placed: PlacedModel, time_s: float) -> PlacedModel:
+        """The object with its glowing parts as bright as its lamps are at that instant."""
+        parts, number = [], 0
+        for part in placed.parts:
+            lamp = lamp_of(self.actor.noun.name, part.colour) if part.emission > 0.0 else None
+            if lamp is not None:
+                level = self.switch.level(lamp, time_s, number)
+                if self.switch.is_on(lamp):
+                    part = replace(part, emission=part.emission * lamp.boost * level)
+                elif self.switch.is_lit is not None:
+                    part = replace(part, emission=0.0)
+                number += 1
+            parts.append(part)
+        return replace(placed, parts=parts)
+
+    def rows(self, placed: PlacedModel, time_s: float) -> list[Float64Array]:
+        """Its lamps at that instant, as in `Environment.lamps`: always as many."""
+        rows: list[Float64Array] = []
+        number, done = 0, set[Lamp]()
+        for part, brightest in zip(placed.parts, self.brightest, strict=True):
+            lamp = lamp_of(self.actor.noun.name, part.colour) if part.emission > 0.0 else None
+            if lamp is None or lamp in done:
+                continue
+            if lamp.is_single:
+                done.add(lamp)
+            level = self.switch.level(lamp, time_s, number) * part.emission / max(brightest, 1e-9)
+            if self.switch.is_on(lamp):
+                casts = self.casts and lamp.intensity >= _DIMMEST_CASTER
+                rows.append(lamp_row(lamp, part, placed.to_world, level, time_s, casts))
+            number += 1
+        return rows
+
+
+def lamp_row(
+    lamp: Lamp,
+    part: ModelPart,
+    to_world: Float64Array,
+    level: float,
+    time_s: float = 0.0,
+    casts: bool = False,
+) -> Float64Array:
+    """A lamp's numbers, as in `Environment.lamps`.
+
+    Args:
+        lamp: what kind it is.
+        part: the glowing part, in body coordinates.
+        to_world: [3, 4] body → world.
+        level: light as a share of its usual light.
+        time_s: for beams that turn.
+        casts: whether it casts shadows.
+    """
+    row = np.zeros(LAMP_COLUMNS)
+    half = np.sort(np.linalg.norm(part.to_body[:, :3], axis=0))
+    centre = part.to_body[:, 3].copy()
+    row[10] = row[11] = -2.0
+    if lamp.direction is not None:
+        beam = np.array(lamp.direction) / np.linalg.norm(lamp.direction)
+        angle = 2.0 * math.pi * lamp.turns_hz * time_s
+        cosine, sine = math.cos(angle), math.sin(angle)
+        beam = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]]) @ beam
+        centre += beam * np.abs(beam @ part.to_body[:, :3]).max()
+        row[7:10] = to_world[:, :3] @ beam
+        row[7:10] /= np.linalg.norm(row[7:10])
+        dark = math.radians(lamp.half_angle)
+        row[10] = math.cos(dark * (1.0 - lamp.soft_share))
+        row[11] = math.cos(dark)
+    row[:3] = to_world[:, :3] @ centre + to_world[:, 3]
+    row[3:6] = level * lamp.intensity * np.array(part.colour) / max(max(part.colour), 1e-9)
+    row[6] = min(math.sqrt(lamp.intensity / _FAINTEST), _FARTHEST_M)
+    row[12] = half[1] if lamp.is_panel else half[0]
+    row[13], row[14] = float(casts), float(not lamp.is_panel)
+    return row
+
+
+@dataclass(frozen=True)
+class LampPlan:
+    """All lamps of a scene as functions of time."""
+
+    lit: tuple[LitActor, ...]
+    still: Float64Array
+    """[m, 15] lamps of the scenery, and light whose lamp is out of sight."""
+
+    def of(self, actor: Actor) -> LitActor | None:
+        """The lamps of one object, if it has any."""
+        return next((one for one in self.lit if one.actor.instance == actor.instance), None)
+
+    def place(self, actor: Actor, time_s: float) -> PlacedModel:
+        """An object in the world, with its lamps as bright as they are at that instant."""
+        placed, lit = actor.place(time_s), self.of(actor)
+        return placed if lit is None else lit.glow(placed, time_s)
+
+    def rows(self, time_s: float) -> Float64Array:
+        """[m, 15] all lamps at that instant."""
+        rows = [row for one in self.lit for row in one.rows(one.actor.place(time_s), time_s)]
+        return np.concatenate([np.array(rows).reshape(-1, LAMP_COLUMNS), self.still])
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether objects of the scene, which may move, shed light."""
+        return any(one.switch.is_lit is not False for one in self.lit)
+
+    @property
+    def blink_hz(self) -> float | None:
+        """Highest frequency at which a lamp goes up and down, Hz; None = all are steady."""
+        rates = []
+        for one in self.lit:
+            for part in one.actor.place(0.0).parts:
+                lamp = lamp_of(one.actor.noun.name, part.colour)
+                if part.emission > 0.0 and lamp is not None and one.switch.is_on(lamp):
+                    rate = max(one.switch.blink_of(lamp) or 0.0, lamp.turns_hz, lamp.own_hz)
+                    rates.append(rate * (FLAME_SHARES[-1][0] if lamp.wave == "flame" else 1.0))
+        return max(rates, default=0.0) or None
+
+
+def plan_lamps(
+    description: SceneDescription,
+    actors: Sequence[Actor],
+    *,
+    strength: float,
+    instant_s: float,
+    focus: Float64Array,
+    still: Float64Array,
+) -> LampPlan:
+    """Which lamps are on, and which of them cast shadows.
+
+    Args:
+        description: says which are lit and how they blink.
+        actors: the objects.
+        strength: of artificial light, 0..1; above 0 it is dark.
+        instant_s: when the lamps that cast shadows are chosen, s.
+        focus: [3] what the camera looks at, m: the lamps that light it most cast shadows.
+        still: [m, 15] lamps that stay as they are.
+    """
+    lit = []
+    for actor in actors:
+        said = description.objects[actor.object_index]
+        brightest = _brightest(actor)
+        if not any(brightest):
+            continue
+        start = fraction(actor.instance, "flame")
+        switch = Switch(said.is_lit, said.blink_hz, strength, start)
+        lamps = [lamp_of(actor.noun.name, part.colour) for part in actor.place(0.0).parts]
+        is_on = any(
+            lamp is not None and level > 0.0 and switch.is_on(lamp)
+            for lamp, level in zip(lamps, brightest, strict=True)
+        )
+        if is_on or said.is_lit is False:
+            lit.append(LitActor(actor, switch, brightest, casts=False))
+    if description.light.shadows is not False:
+        lit, still = _choose_casters(lit, still, instant_s, focus)
+    return LampPlan(tuple(lit), still)
+
+
+def _brightest(actor: Actor) -> tuple[float, ...]:
+    """Greatest emission of each part of an object over a few seconds, where it is a lamp."""
+    levels = []
+    for step in range(_LEVEL_INSTANTS):
+        parts = actor.place(_LEVEL_SPAN_S * step / _LEVEL_INSTANTS).parts
+        levels.append([
+            part.emission if lamp_of(actor.noun.name, part.colour) is not None else 0.0
+            for part in parts
+        ])  # fmt: skip
+        if not any(levels[0]):
+            break
+    return tuple(max(column) for column in zip(*levels, strict=True))
+
+
+def _choose_casters(
+    lit: list[LitActor], still: Float64Array, instant_s: float, focus: Float64Array
+) -> tuple[list[LitActor], Float64Array]:
+    """Let the lamps that light the focus most cast shadows, all of one object or none."""
+
+    def light_of(rows: Float64Array) -> float:
+        bright = rows[rows[:, 3:6].max(axis=1) >= _DIMMEST_CASTER]
+        square = ((bright[:, :3] - focus) ** 2).sum(axis=1)
+        return float((bright[:, 3:6].max(axis=1) / (square + 1.0)).sum())
+
+    def is_bright(row: Float64Array) -> bool:
+        return bool(row[3:6].max() >= _DIMMEST_CASTER)
+
+    choices: list[tuple[float, int, int]] = []
+    for index, one in enumerate(lit):
+        steady = replace(one, switch=replace(one.switch, blink_hz=1e-9))
+        rows = steady.rows(one.actor.place(instant_s), 0.0)
+        count = sum(is_bright(row) for row in rows)
+        choices.append((light_of(np.array(rows).reshape(-1, LAMP_COLUMNS)), count, index))
+    choices += [(light_of(still[k : k + 1]), 1, len(lit) + k) for k in range(len(still))]
+    left, lit, still = _MOST_CASTERS, list(lit), still.copy()
+    least = _FAINTEST_SHARE * max((light for light, _, _ in choices), default=0.0)
+    for light, count, index in sorted(choices, key=lambda choice: (-choice[0], choice[2])):
+        if light <= least or count > left:
+            continue
+        left -= count
+        if index < len(lit):
+            lit[index] = replace(lit[index], casts=True)
+        else:
+            still[index - len(lit), 13] = 1.0
+    return lit, still
+
+
+def hidden_lamp(position: tuple[float, float, float]) -> Float64Array:
+    """[15] warm light from a lamp out of sight, bright enough for the ground below it."""
+    height = max(position[2], 0.7)
+    row = np.zeros(LAMP_COLUMNS)
+    row[:3], row[3:6] = position, 1.1 * height**2 * np.array(WARM)
+    row[6], row[10], row[11], row[12] = 5.0 * height, -2.0, -2.0, 0.3
+    return row
+
+
+def list_still_lamps(
+    place: str,
+    strength: float,
+    actors: Sequence[Actor],
+    items: Sequence[SceneryItem],
+    framing: Framing,
+) -> Float64Array:
+    """[m, 15] lamps of the scenery; one out of sight where none would light the scene."""
+    rows = []
+    if strength > 0.0:
+        for item in items:
+            placed = item.place(0)
+            for part in placed.parts:
+                lamp = lamp_of(item.noun, part.colour) if part.emission > 0.0 else None
+                if lamp is not None and not lamp.hue:
+                    rows.append(lamp_row(lamp, part, placed.to_world, strength))
+    own = any(
+        lamp.intensity >= _LIGHTS_A_ROOM and lamp.direction is None
+        for actor in actors
+        for lamp in LAMPS.get(actor.noun.name, ())
+    )
+    is_lit = own or bool(rows)
+    if strength > 0.0 and not is_lit and place not in ("sky", "space", "underwater", "sea"):
+        x, y, z = (float(value) for value in framing.target)
+        reach = framing.distance_m
+        row = hidden_lamp((x - 0.25 * reach, y - 0.25 * reach, z + 0.55 * reach))
+        row[3:6] *= strength
+        rows.append(row)
+    return np.array(rows, dtype=np.float64).reshape(-1, LAMP_COLUMNS)
