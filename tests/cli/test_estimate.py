@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 
@@ -37,13 +38,39 @@ def said_and_done(
         "events": (float(events[1].replace(",", "")), len(texvent.load("out.h5")))
     }
     unit = {"MB": 2**20, "KB": 2**10}
-    patterns = {"out*": r"files  ([\d.,]+) (MB|KB):", "out.h5": r"([\d.]+) (MB|KB) \.h5"}
+    patterns = {"out*": r"files  ([\d.,]+) (MB|KB):", "out.h5": r"([\d.,]+) (MB|KB) \.h5"}
     for names, pattern in patterns.items():
         size = re.search(pattern, said)
         assert size is not None
         written = sum(path.stat().st_size for path in Path().glob(names))
-        found[names] = (float(size[1]) * unit[size[2]], written)
+        found[names] = (float(size[1].replace(",", "")) * unit[size[2]], written)
     return found
+
+
+def test_a_preview_shows_the_scene_and_says_what_is_shown_and_nothing_more(capsys):
+    words = ["generate", "a wug and a red ball bounce", "--sensor", "64x48", "--duration", "0.5"]
+    assert main([*words, "--preview", "scene.png", "-o", "out.h5"]) == 0
+    said = capsys.readouterr()
+    assert said.out == "scene.png\n"
+    assert "scene    1 ball, red, bounces" in said.err
+    assert "warning  prompt words not understood: wug" in said.err
+    assert not Path("out.h5").exists()
+    image = cv2.imread("scene.png")
+    assert image.shape == (48, 3 * 64 + 2 * 4, 3)
+    assert not np.array_equal(image[:, :64], image[:, 68:132])
+    assert main([*words, "--preview", "scene.png"]) == 3  # exists already
+    assert main([*words, "--preview", "scene.jpg"]) == 2
+    assert main([*words, "--preview", "a.png", "--generator", "wan-1.3b"]) == 2
+    assert not Path("a.png").exists()
+
+
+def test_a_dry_run_says_what_is_shown_of_the_prompt(capsys):
+    words = ["generate", "a red ball bounces", "--sensor", "32x24", "--duration", "0.1"]
+    assert main([*words, "--dry-run"]) == 0
+    said = capsys.readouterr()
+    assert "scene    1 ball, red, bounces" in said.err
+    assert "about" in said.out
+    assert not list(Path().glob("*.h5"))
 
 
 @pytest.mark.parametrize(

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import tomli_w
 
@@ -103,8 +104,7 @@ def execute(simulation: Simulation, options: OutputOptions, files: RunFiles) -> 
         InputError: the frames cannot be used.
     """
     if options.dry_run:
-        write_out(describe_estimate(estimate_run(simulation, files)) + "\n")
-        return 0
+        return _estimate(simulation, options, files)
     progress = ConsoleProgress(is_quiet=options.quiet)
     _announce(progress, _notes(simulation))
     tally, started, total = Tally(), time.perf_counter(), simulation.video.frame_count
@@ -132,6 +132,15 @@ def execute(simulation: Simulation, options: OutputOptions, files: RunFiles) -> 
     return SIGNALLED + (early.signal or 0)
 
 
+def _estimate(simulation: Simulation, options: OutputOptions, files: RunFiles) -> int:
+    """Say what is shown of a prompt and what the run would take; returns exit code 0."""
+    if not options.quiet:
+        for line in describe_scene(simulation.video.metadata, with_words=True):
+            say(line)
+    write_out(describe_estimate(estimate_run(simulation, files)) + "\n")
+    return 0
+
+
 def _announce(progress: ConsoleProgress, lines: Iterable[str]) -> None:
     for line in lines:
         progress.announce(line)
@@ -150,11 +159,23 @@ def _saying_what_is_complete(paths: Sequence[Path]) -> Iterator[None]:
             raise
 
 
+def describe_scene(metadata: Mapping[str, Any], *, with_words: bool = False) -> Iterator[str]:
+    """What the generator made of a prompt; warnings have named what is not shown as it says.
+
+    Args:
+        metadata: of the video.
+        with_words: whether the words that are shown are listed too.
+    """
+    report = PromptReport.of_metadata(metadata)
+    if report is None:
+        return
+    yield from (f"scene    {line}" for line in (*report.scene, *report.notes))
+    if with_words and report.shown:
+        yield f"shown    {', '.join(report.shown)}"
+
+
 def _notes(simulation: Simulation) -> Iterator[str]:
-    """What the generator made of the prompt; warnings have named what is not shown as it says."""
-    report = PromptReport.of_metadata(simulation.video.metadata)
-    if report is not None:
-        yield from (f"scene    {line}" for line in (*report.scene, *report.notes))
+    yield from describe_scene(simulation.video.metadata)
     unmeasured = unmeasured_sensor(simulation.settings.run)
     if unmeasured is not None:
         yield f"note     {unmeasured}"

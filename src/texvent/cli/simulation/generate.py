@@ -14,6 +14,7 @@ from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import peek_options
 from texvent.cli.outputs import OutputOptions, default_event_file
 from texvent.cli.run import execute, print_settings, run_source
+from texvent.cli.simulation.preview import check_preview, write_preview
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError
 from texvent.generate.prompts.upsample_config import UpsampleConfig
@@ -40,11 +41,12 @@ class PromptOptions(UpsampleConfig):
     """What to show."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("generator",)
+    outputs: ClassVar[tuple[str, ...]] = ("out", "preview")
     positional: ClassVar[tuple[str, ...]] = ("prompt",)
     main_options: ClassVar[tuple[str, ...]] = (
-        "out", "generator", "duration", "fps", "sensor", "simulator", "preset",
-        "contrast_threshold", "noise", "interpolate", "seed", "events_only", "config", "dry_run",
-        "overwrite",
+        "out", "generator", "duration", "sensor", "simulator", "preset",
+        "contrast_threshold", "noise", "interpolate", "seed", "events_only", "config", "preview",
+        "dry_run", "overwrite",
     )  # fmt: skip
 
     prompt: str = REQUIRED
@@ -54,6 +56,9 @@ class PromptOptions(UpsampleConfig):
     saved diffusers pipeline; hub: names a repository of the model hub."""
     video_only: bool = False
     """Write the generated video (.avi, lossless, 16 bits) instead of events, and stop."""
+    preview: Path | None = None
+    """Write stills of the scene (.png), say what is shown, and stop. With --dry-run the estimate
+    follows."""
     from_video: Path | None = None
     """Take this video for the prompt's instead of generating one; all further options are then
     those of texvent simulate, which does the same: texvent simulate VIDEO --prompt TEXT."""
@@ -86,6 +91,15 @@ def run(arguments: Sequence[str]) -> int:
     files = output.files(own.prompt)
     if files.truth:
         check_generator(own.generator)
+    if own.preview is not None:
+        generator_class = GENERATORS.load(str(settings.generator))
+        check_preview(own.preview, generator_class, overwrite=output.overwrite)
+        write_preview(
+            own.prompt, settings, own.preview, upsample=own, overwrite=output.overwrite,
+            is_quiet=output.quiet,
+        )  # fmt: skip
+        if not output.dry_run:
+            return 0
     if output.dry_run and (plan := _plan(own.prompt, settings)) is not None:
         write_out(f"{plan}\n")
         return 0
