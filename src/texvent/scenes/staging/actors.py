@@ -47,6 +47,15 @@ class Actor:
     props: tuple[Prop, ...] = ()
     """What a person's activity needs, such as a guitar."""
 
+    enters: bool = False
+    """Whether it comes into the picture only after the clip has begun."""
+    leaves: bool = False
+
+    @property
+    def size_m(self) -> float:
+        """Its largest extent, m."""
+        return max(self.model.length, self.model.width, self.model.height)
+
     @property
     def is_centred(self) -> bool:
         """Whether its origin is at its middle, not on the ground below."""

@@ -10,26 +10,25 @@ import numpy as np
 
 from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import Actor, seeded
+from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.camera_path import CameraPath
+from texvent.scenes.staging.camera.framed_points import INSTANTS, choose_points
 from texvent.scenes.staging.camera.framing import Framing, fit
 from texvent.scenes.staging.camera.journey import TravelPlan
+from texvent.scenes.staging.camera.view_angles import choose_angles
 
-FILL = 0.84
-"""Share of the image that what matters may fill."""
 SKY_LIFT = 0.2
 """How far the camera looks above what matters outdoors, in half image heights."""
-LIMIT = 0.7
-"""What a mover passes counts for the framing up to this multiple of the mover's size."""
-WHOLE = 3.5
-"""Other objects must fit as a whole if they are at most this many times as large as the mover."""
 TRACKING_LENGTHS = 4.5
 """An object that covers more of its own lengths in the clip is followed from the side."""
-INSTANTS = 13
-_ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02}
-_AZIMUTHS = {"side": 0.0, "front": 0.0, "back": math.pi}
-_FILL_BY_MOVE = {"pan": 0.62, "tilt": 0.7, "truck": 0.66, "pedestal": 0.7, "orbit": 0.66,
-                 "handheld": 0.78}  # fmt: skip
+LEAST_SHARE = 0.16
+"""Share of the image's width that a moving subject extends over at least, on average."""
+_LEAVES_AT = 0.55
+"""Share of the clip after which what leaves need not be in the picture."""
+_ENTERS_AT = (0.35, 0.45, 0.55, 0.65, 0.75)
+_VISIBLE_SHARE = 0.92
+"""Share of the clip in which the subject's middle is in the image at least."""
+_CHECKS = 41
 
 
 def place_camera(
@@ -63,17 +62,133 @@ def place_camera(
                           has_floor=has_floor)  # fmt: skip
     main = _choose_main(description, actors)
     moves = _plan_moves(description, main, duration_s)
-    points, fill = _choose_framing(description, actors, main, moves, duration_s)
-    azimuth, elevation = _choose_angles(description, main, moves, place, seed)
-    is_open = has_floor and place not in ("underwater", "indoor")
-    lift = SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
-    framing = fit(points, azimuth=azimuth, elevation=elevation, aspect=aspect, fill=fill, lift=lift)
-    follows_height = main.noun.habitat != "ground"
-    path = CameraPath(framing, moves, duration_s, main.trajectory, follows_height, has_floor,
-                      subject_corners=main.corners)  # fmt: skip
+    path = _frame(description, actors, main, moves, place, (seed, aspect, duration_s))
+    path = _keep_in_view(path, main, actors, aspect)
     if place == "indoor":
+        near = [a for a in actors if description.objects[a.object_index].side != "far"]
+        points = np.vstack([a.corners(float(t)) for a in near or actors
+                            for t in np.linspace(0.0, duration_s, INSTANTS)])  # fmt: skip
         path = replace(path, room_m=_size_room(path, points))
     return path
+
+
+def _frame(
+    description: SceneDescription,
+    actors: Sequence[Actor],
+    main: Actor,
+    moves: tuple[CameraMove, ...],
+    place: str,
+    how: tuple[int, float, float],
+) -> CameraPath:
+    """The nearest camera that shows what matters; alone or followed, what would else be tiny."""
+    seed, aspect, duration_s = how
+    has_floor = place not in ("sky", "space")
+    is_open = has_floor and place not in ("underwater", "indoor")
+    is_said = bool(description.shot.moves) or description.shot.framing == "wide"
+    attempts = [(False, moves)]
+    if main.is_mover:
+        attempts.append((True, moves))
+    if main.is_mover and not is_said and sum(actor.is_mover for actor in actors) == 1:
+        attempts.append((True, (CameraMove("follow", "side"),)))
+    for is_alone, tried in attempts:
+        azimuth, elevation = choose_angles(description, main, tried, place, seed)
+        lift = SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
+        for times in _instants(main, duration_s):
+            points, fill = choose_points(description, actors, main, tried, times, is_alone=is_alone)
+            framing = fit(
+                points, azimuth=azimuth, elevation=elevation, aspect=aspect, fill=fill, lift=lift
+            )
+            path = CameraPath(
+                framing, tried, duration_s, main.trajectory, main.noun.habitat != "ground",
+                has_floor, subject_corners=main.corners,
+            )  # fmt: skip
+            if not main.enters or _is_outside(path, main, aspect):
+                break
+        if _share_of_image(path, main) >= LEAST_SHARE:
+            break
+    return path
+
+
+def _instants(main: Actor, duration_s: float) -> list[Float64Array]:
+    """Instants at which everything must be in the picture; choices for what enters it."""
+    first, last = 0.0, duration_s
+    if main.leaves:
+        last = _LEAVES_AT * duration_s
+    if main.enters:
+        starts = [share * duration_s for share in _ENTERS_AT]
+        return [np.linspace(start, max(last, start), INSTANTS) for start in starts]
+    return [np.linspace(first, last, INSTANTS)]
+
+
+def _project(path: CameraPath, points: Float64Array, time_s: float) -> Float64Array:
+    """[n, 3]: x and y in image widths from the middle, y down; and depth, m."""
+    camera = path.at(time_s)
+    seen = (points - camera.position) @ camera.rotation.T
+    depth = np.maximum(seen[:, 2:], 1e-3)
+    return np.hstack([camera.focal * seen[:, :2] / depth, seen[:, 2:]])
+
+
+def _is_outside(path: CameraPath, main: Actor, aspect: float) -> bool:
+    """Whether the subject is out of the picture when the clip begins."""
+    seen = _project(path, main.corners(0.0), 0.0)
+    low, high = seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
+    half = np.array([0.5, 0.5 * aspect])
+    return bool(np.any(low > half) or np.any(high < -half))
+
+
+def _share_of_image(path: CameraPath, main: Actor) -> float:
+    """Mean extent of the subject, image widths."""
+    times = np.linspace(0.0, path.duration_s, INSTANTS)
+    extents = []
+    for time in times:
+        seen = _project(path, main.corners(float(time)), float(time))
+        extents.append(float(np.ptp(seen[:, :2], axis=0).max()))
+    return float(np.mean(extents))
+
+
+def _keep_in_view(
+    path: CameraPath, main: Actor, actors: Sequence[Actor], aspect: float
+) -> CameraPath:
+    """The path with smaller moves if the subject would leave the picture, and clear of bodies."""
+    for _ in range(10):
+        if _runs_into(path, actors):
+            framing = replace(path.framing, distance_m=1.2 * path.framing.distance_m)
+            path = replace(path, framing=framing)
+            continue
+        if main.enters or main.leaves or _visible_share(path, main, aspect) >= _VISIBLE_SHARE:
+            break
+        damped = tuple(
+            replace(move, pace=0.75 * move.pace) if move.kind in _LEAVING else move
+            for move in path.moves
+        )
+        path = replace(path, moves=damped)
+    return path
+
+
+_LEAVING = frozenset({"pan", "tilt", "truck", "pedestal", "zoom", "dolly"})
+"""Moves that can lose the subject."""
+
+
+def _visible_share(path: CameraPath, main: Actor, aspect: float) -> float:
+    """Share of the clip in which the middle of the subject is in the picture."""
+    half = np.array([0.49, 0.49 * aspect])
+    times = np.linspace(0.0, path.duration_s, _CHECKS)
+    seen = [_project(path, main.middle(float(t))[None], float(t))[0] for t in times]
+    return float(np.mean([bool(np.all(np.abs(p[:2]) < half) and p[2] > 0.0) for p in seen]))
+
+
+def _runs_into(path: CameraPath, actors: Sequence[Actor]) -> bool:
+    """Whether the camera comes into the box of an object."""
+    for time in np.linspace(0.0, path.duration_s, INSTANTS):
+        position = path.at(float(time)).position
+        for actor in actors:
+            corners = actor.corners(float(time))
+            near = 0.05 * actor.size_m
+            if np.all(position > corners.min(axis=0) - near) and np.all(
+                position < corners.max(axis=0) + near
+            ):
+                return True
+    return False
 
 
 def _travel(
@@ -98,32 +213,6 @@ def _travel(
                       journey=travel.journey)  # fmt: skip
 
 
-def _choose_framing(
-    description: SceneDescription,
-    actors: Sequence[Actor],
-    main: Actor,
-    moves: Sequence[CameraMove],
-    duration_s: float,
-) -> tuple[Float64Array, float]:
-    """[n, 3] points that must fit, m, and the share of the image that they may fill."""
-    shot = description.shot
-    follows = any(move.kind == "follow" for move in moves)
-    approaches = any(move.kind in ("zoom", "dolly") for move in moves)
-    times = np.linspace(0.0, duration_s, INSTANTS)
-    is_aimed = approaches and main.object_index == shot.target
-    if is_aimed or shot.framing == "close":
-        is_still = follows and not is_aimed
-        points = [main.corners(float(time)) for time in (times[:1] if is_still else times)]
-        return np.vstack(points), 0.55 if is_aimed else 0.95
-    points_to_frame = _points_to_frame(description, actors, main, times, follows)
-    if shot.framing == "wide":
-        return points_to_frame, 0.45
-    fill = min([FILL, *(_FILL_BY_MOVE.get(move.kind, FILL) for move in moves)])
-    if follows and main.is_mover:
-        fill = min(fill, 0.5)
-    return points_to_frame, fill
-
-
 def _choose_main(description: SceneDescription, actors: Sequence[Actor]) -> Actor:
     """The object the camera is about: as said, or the first that moves."""
     target = description.shot.target
@@ -145,107 +234,6 @@ def _plan_moves(
     if main.is_mover and travel > TRACKING_LENGTHS * span:
         return (CameraMove("follow", "side"),)
     return ()
-
-
-def _points_to_frame(
-    description: SceneDescription,
-    actors: Sequence[Actor],
-    main: Actor,
-    times: Float64Array,
-    follows: bool,
-) -> Float64Array:
-    """[n, 3] what must fit, m: movers whole, the rest up to a multiple of their size."""
-    near = [actor for actor in actors if description.objects[actor.object_index].side != "far"]
-    movers = [actor for actor in near if actor.is_mover] or near or list(actors)
-    largest = max(
-        max(actor.model.length, actor.model.width, actor.model.height) for actor in movers
-    )
-    passed = {
-        target
-        for relation in description.relations
-        if relation.kind in ("past", "among")
-        for target in relation.targets
-    }
-    start = np.array(main.trajectory.at(0.0).position)
-    points = []
-    for actor in actors:
-        is_far = description.objects[actor.object_index].side == "far"
-        if is_far and actor is not main:
-            continue
-        for time in times:
-            limit = math.inf if actor in movers else _limit_extent(actor, passed, largest)
-            corners = actor.corners(float(time), limit)
-            if follows:
-                shift = np.array(main.trajectory.at(float(time)).position) - start
-                shift[2] = shift[2] if main.noun.habitat != "ground" else 0.0
-                if actor is not main and not actor.is_mover:
-                    continue
-                corners = corners - shift
-            points.append(corners)
-    return np.vstack(points)
-
-
-def _limit_extent(actor: Actor, passed: set[int], largest_m: float) -> float:
-    """How much of an object at rest must fit, m."""
-    size = max(actor.model.length, actor.model.width, actor.model.height)
-    is_whole = actor.object_index not in passed and size <= WHOLE * largest_m
-    return math.inf if is_whole else LIMIT * largest_m
-
-
-def _choose_angles(
-    description: SceneDescription,
-    main: Actor,
-    moves: Sequence[CameraMove],
-    place: str,
-    seed: int,
-) -> tuple[float, float]:
-    """Azimuth and elevation of the camera, radians."""
-    rng = seeded(seed, "camera")
-    wander = float(rng.uniform(-0.14, 0.14))
-    state = main.trajectory.at(0.0)
-    later = main.trajectory.at(0.5)
-    step = np.subtract(later.position, state.position)
-    goes_in_depth = abs(step[1]) > 1.2 * abs(step[0]) and abs(step[1]) > 0.05
-    azimuth = wander
-    if goes_in_depth:
-        azimuth = math.copysign(0.42, wander)
-    follow = next((move for move in moves if move.kind == "follow"), None)
-    if follow is not None and follow.direction in ("behind", "front"):
-        heading = state.yaw if follow.direction == "behind" else state.yaw + math.pi
-        azimuth = heading - 0.5 * math.pi + 0.1 * wander
-    view = description.shot.view
-    if view in _AZIMUTHS:
-        azimuth = _AZIMUTHS[view] if view == "side" else _face(view, state.yaw)
-    elevation = _ELEVATIONS.get(view or "")
-    if elevation is None:
-        elevation = _choose_elevation(main, follow, place, goes_in_depth)
-    return azimuth, elevation
-
-
-def _choose_elevation(
-    main: Actor, follow: CameraMove | None, place: str, goes_in_depth: bool
-) -> float:
-    """Height of the camera above what it looks at, radians."""
-    if follow is not None and follow.direction in _FOLLOW_ELEVATIONS:
-        return _FOLLOW_ELEVATIONS[follow.direction]
-    if place in _PLACE_ELEVATIONS:
-        return _PLACE_ELEVATIONS[place]
-    if main.noun.habitat == "air":
-        return -0.03
-    if not main.is_mover and main.model.height > 5.0:
-        return 0.03
-    if main.model.height < 0.7:
-        return 0.24
-    return 0.2 if goes_in_depth else 0.12
-
-
-_FOLLOW_ELEVATIONS = {"behind": 0.22, "front": 0.22, "above": 0.7}
-_PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04, "indoor": 0.24}
-
-
-def _face(view: str, yaw: float) -> float:
-    """Azimuth from which an object of that heading is seen from the front or from behind."""
-    return yaw + 0.5 * math.pi if view == "front" else yaw - 0.5 * math.pi
 
 
 def _size_room(path: CameraPath, points: Float64Array) -> float:

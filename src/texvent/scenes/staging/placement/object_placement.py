@@ -215,6 +215,7 @@ class ObjectPlacer:
         """The copies of a group on their trajectories."""
         rng = seeded(self._seed, "lead", group.index, group.noun.name)
         actors = []
+        said = (group.plan.motion, *group.scene_object.then)
         for number, (model, offset) in enumerate(zip(group.models, group.offsets, strict=True)):
             home = group.centre + np.array(offset)
             trajectory = self._choose(group, model, (home[0], home[1], home[2]), number, rng)
@@ -223,6 +224,7 @@ class ObjectPlacer:
                     group.index, group.noun, model, trajectory, group.plan.motion.is_moving,
                     before + number + 1, float(rng.uniform(0.0, 1.0)) if number else 0.0,
                     _rope(trajectory, model), self._choose_props(group),
+                    enters=said[0].kind == "enter", leaves=said[-1].kind == "leave",
                 )
             )  # fmt: skip
         return actors

@@ -1,0 +1,76 @@
+"""From where the camera looks: azimuth and elevation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from texvent.scenes.description import CameraMove, SceneDescription
+from texvent.scenes.staging.actors import Actor, seeded
+
+FLAT = 0.3
+"""What stays in place and is flatter than this share of its length is looked down upon."""
+_ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02, "first person": 0.05}
+_AZIMUTHS = {"side": 0.0, "front": 0.0, "back": math.pi}
+_FLAT_ELEVATION = 0.85
+_FOLLOW_ELEVATIONS = {"behind": 0.22, "front": 0.22, "above": 0.7}
+_PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04, "indoor": 0.24}
+
+
+def choose_angles(
+    description: SceneDescription,
+    main: Actor,
+    moves: Sequence[CameraMove],
+    place: str,
+    seed: int,
+) -> tuple[float, float]:
+    """Azimuth and elevation of the camera, radians."""
+    rng = seeded(seed, "camera")
+    wander = float(rng.uniform(-0.14, 0.14))
+    state = main.trajectory.at(0.0)
+    later = main.trajectory.at(0.5)
+    step = np.subtract(later.position, state.position)
+    goes_in_depth = abs(step[1]) > 1.2 * abs(step[0]) and abs(step[1]) > 0.05
+    azimuth = wander
+    if goes_in_depth:
+        azimuth = math.copysign(0.42, wander)
+    follow = next((move for move in moves if move.kind == "follow"), None)
+    if follow is not None and follow.direction in ("behind", "front"):
+        heading = state.yaw if follow.direction == "behind" else state.yaw + math.pi
+        azimuth = heading - 0.5 * math.pi + 0.1 * wander
+    elif follow is not None and goes_in_depth:
+        azimuth = state.yaw + math.copysign(0.5, wander)
+    view = description.shot.view
+    if view in _AZIMUTHS:
+        azimuth = _AZIMUTHS[view] if view == "side" else _face(view, state.yaw)
+    elevation = _ELEVATIONS.get(view or "")
+    if elevation is None:
+        elevation = _choose_elevation(main, follow, place, goes_in_depth)
+    return azimuth, elevation
+
+
+def _choose_elevation(
+    main: Actor, follow: CameraMove | None, place: str, goes_in_depth: bool
+) -> float:
+    """Height of the camera above what it looks at, radians."""
+    if follow is not None and follow.direction in _FOLLOW_ELEVATIONS:
+        return _FOLLOW_ELEVATIONS[follow.direction]
+    widest = max(main.model.length, main.model.width)
+    if main.noun.habitat == "fixed" and main.model.height < FLAT * widest:
+        return _FLAT_ELEVATION
+    if place in _PLACE_ELEVATIONS:
+        return _PLACE_ELEVATIONS[place]
+    if main.noun.habitat == "air":
+        return -0.03
+    if not main.is_mover and main.model.height > 5.0:
+        return 0.03
+    if main.model.height < 0.7:
+        return 0.24
+    return 0.2 if goes_in_depth else 0.12
+
+
+def _face(view: str, yaw: float) -> float:
+    """Azimuth from which an object of that heading is seen from the front or from behind."""
+    return yaw + 0.5 * math.pi if view == "front" else yaw - 0.5 * math.pi
