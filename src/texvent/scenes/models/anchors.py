@@ -38,3 +38,9 @@ def locate(model: Model, name: str, pose: Pose) -> Affine:
     low = -0.5 * model.height if getattr(model, "is_centred", False) else 0.0
     place = [along * model.length, across * model.width, low + up * model.height]
     return np.column_stack([np.eye(3), np.array(place)])
+
+
+def has_places(model: Model) -> bool:
+    """Whether a model names places of its own: a body with limbs."""
+    own = getattr(model, "anchor", None)
+    return own is not None and own("ground", Pose(0.0, 0.0, 0.0)) is not None

@@ -71,6 +71,11 @@ class ArticulatedModel:
         self.width = float(2.0 * reach[1])
         self.height = float(2.0 * reach[2]) if is_centred else float(high[2])
 
+    @property
+    def scale(self) -> float:
+        """Size relative to the usual one."""
+        return self._scale
+
     def parts(self, pose: Pose) -> Sequence[ModelPart]:
         """The shapes at that pose, rigid ones first."""
         if self._articulate is None:

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from texvent.scenes.models.anchors import locate
+from texvent.scenes.models.anchors import has_places, locate
+from texvent.scenes.models.materials import Material
 from texvent.scenes.models.nouns import AFLOAT
 from texvent.scenes.models.people.props import Prop
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
-from texvent.scenes.models.shapes import compose, moved
+from texvent.scenes.models.shapes import compose, half_extents, moved, rod
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.assemble import PlacedModel
 from texvent.scenes.staging.trajectories.trajectory import Trajectory
@@ -26,6 +27,27 @@ def seeded(seed: int, *role: object) -> np.random.Generator:
 def is_centred(noun: Noun) -> bool:
     """Whether its models have their origin at their middle: what flies or dives, not boats."""
     return noun.habitat in ("air", "water") and noun.name not in AFLOAT
+
+
+@dataclass(frozen=True)
+class Tether:
+    """A string or rope to another body."""
+
+    holder: Actor
+    anchor: str
+    """Place of the holder at which it begins."""
+    end: tuple[float, float, float]
+    """Where it ends, in the own body's coordinates, m."""
+    radius_m: float
+
+    def draw(self, to_world: Float64Array, time_s: float) -> ModelPart:
+        """The string at that instant, in the own body's coordinates."""
+        start = self.holder.anchor(self.anchor, time_s)[:, 3]
+        x, y, z = to_world[:, :3].T @ (start - to_world[:, 3])
+        return rod(_STRING, (float(x), float(y), float(z)), self.end, self.radius_m)
+
+
+_STRING = Material((0.5, 0.5, 0.48))
 
 
 @dataclass(frozen=True)
@@ -46,6 +68,8 @@ class Actor:
     """Parts that are not the model's, such as the rope it hangs from; body coordinates."""
     props: tuple[Prop, ...] = ()
     """What a person's activity needs, such as a guitar."""
+    tether: Tether | None = None
+    """What ties it to who flies or pulls it."""
 
     enters: bool = False
     """Whether it comes into the picture only after the clip has begun."""
@@ -69,6 +93,8 @@ class Actor:
         for prop in self.props:
             axes = locate(self.model, prop.anchor, pose)
             parts += moved(prop.draw(pose.time_s), axes)
+        if self.tether is not None:
+            parts.append(self.tether.draw(state.to_world(), time_s))
         return PlacedModel(parts, state.to_world(), self.instance)
 
     def pose(self, time_s: float) -> Pose:
@@ -97,10 +123,26 @@ class Actor:
 
     def corners(self, time_s: float, limit_m: float = np.inf) -> Float64Array:
         """[8, 3] corners of its box in the world, m; extents above `limit_m` are cut to it."""
-        extents = (self.model.length, self.model.width, self.model.height)
-        half_x, half_y, half_z = (0.5 * min(extent, limit_m) for extent in extents)
-        low = -half_z if self.is_centred else 0.0
-        signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (0, 1)])
-        points = signs * [half_x, half_y, 2.0 * half_z] + [0.0, 0.0, low]
+        low, high = self._box(time_s)
+        middle = 0.5 * (low + high)
+        middle[:2] = np.where(high[:2] - low[:2] > limit_m, 0.0, middle[:2])
+        half = 0.5 * np.minimum(high - low, limit_m)
+        middle[2] = low[2] + half[2]
+        signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+        points = middle + signs * half
         to_world = self.trajectory.at(time_s).to_world()
         return np.asarray(points @ to_world[:, :3].T + to_world[:, 3])
+
+    def _box(self, time_s: float) -> tuple[Float64Array, Float64Array]:
+        """Least and greatest body coordinates: of a body with limbs, at that instant."""
+        pose = self.pose(time_s)
+        if has_places(self.model):
+            parts = [*self.model.parts(pose)]
+            for prop in self.props:
+                parts += moved(prop.draw(pose.time_s), locate(self.model, prop.anchor, pose))
+            corners = [half_extents(part.shape, part.to_body) for part in parts]
+            low = np.min([corner for corner, _ in corners], axis=0)
+            return low, np.max([corner for _, corner in corners], axis=0)
+        half = 0.5 * np.array([self.model.length, self.model.width, self.model.height])
+        lift = np.array([0.0, 0.0, 0.0 if self.is_centred else half[2]])
+        return lift - half, lift + half

@@ -51,6 +51,10 @@ MOVEMENTS: Mapping[str, Movement] = MappingProxyType({**GESTURES, **SPORTS, **DA
 """Activity → posture over time; what is not here walks or runs."""
 
 
+_LEANING = {"push along": 0.30, "pull along": 0.16}
+"""How far who pushes or pulls while walking leans forward, radians."""
+
+
 def build_person(
     kind: PersonKind, *, colour: Colour | None, scale: float, seed: int
 ) -> ArticulatedModel:
@@ -85,6 +89,8 @@ def choose_posture(kind: PersonKind, pose: Pose) -> Posture:
         act = fill(SINGLE_ACTS[activity](pose.act_s), base)
         share = ease(pose.act_s, -0.50, -0.20) if amount > 0.0 else 1.0
         return _grip(blend(base, act, share), pose)
+    if activity in _LEANING:
+        return _grip(fill(Posture(lean=_LEANING[activity]), base), pose)
     movement = MOVEMENTS.get(activity)
     if movement is None:
         return _grip(base, pose)

@@ -16,6 +16,7 @@ from texvent.scenes.models.protocol import Model, ModelPart, Noun
 from texvent.scenes.models.shapes import post
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
+from texvent.scenes.staging.acts.perform import perform_acts, settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.along_route import RoutePlacer, push_aside
 from texvent.scenes.staging.placement.object_groups import (
@@ -53,7 +54,7 @@ class ObjectPlacer:
         level_m: Mapping[str, float],
         travel: TravelPlan | None = None,
     ) -> None:
-        self._description = description
+        self._description = settle_motions(description, nouns, seed)
         self._nouns = nouns
         self._seed = seed
         self._duration_s = duration_s
@@ -78,7 +79,7 @@ class ObjectPlacer:
         actors: list[Actor] = []
         for index in order:
             actors.extend(self._populate(self.groups[index], len(actors)))
-        return actors
+        return perform_acts(self._description, actors, self._duration_s)
 
     def build_group(self, index: int) -> ObjectGroup:
         """An object's copies in formation about (0, 0)."""

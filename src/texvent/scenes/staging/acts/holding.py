@@ -1,0 +1,194 @@
+"""How things are held and worn: a table of nouns, and defaults from their size for all others."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+
+from texvent.scenes.models.people.activities import PERSON_NOUNS
+from texvent.scenes.models.people.posture import UPPER_ARM
+from texvent.scenes.models.protocol import Model
+from texvent.scenes.models.shapes import Affine
+from texvent.scenes.scene import Float64Array
+from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.trajectories.trajectory import Vector, rotation
+
+Grips = tuple[tuple[str, Vector], ...]
+
+
+@dataclass(frozen=True)
+class Hold:
+    """How one thing is held."""
+
+    style: str
+    """"tool" (along what the right hand holds), "upright" (in the raised right hand), "hanging"
+    (from a hand at the side), "front" (in both arms), "string" (floats above the hand),
+    "kite" (flies far above), "mouth", or the name of a place it is worn at."""
+    activity: str | None = None
+    """What a person who only stands does with it."""
+
+
+_TOOLS = (
+    "bat", "baseball bat", "racket", "tennis racket", "club", "golf club", "sword", "broom", "mop",
+    "shovel", "spade", "hammer", "axe", "knife", "fork", "spoon", "stick", "rod", "fishing rod",
+    "brush", "paintbrush", "toothbrush", "scissors", "pen", "pencil", "screwdriver", "wrench",
+    "torch", "flashlight", "wand", "magnifying glass", "microphone", "hair drier", "remote",
+)  # fmt: skip
+_UPRIGHTS = (
+    "umbrella", "flag", "candle", "sign", "flower", "bouquet", "cup", "mug", "bottle", "glass",
+    "wine glass", "can", "ice cream", "lamp", "trophy", "vase", "book", "phone", "apple", "banana",
+    "orange", "sandwich", "donut", "lollipop", "key", "clock", "ball", "tennis ball",
+    "sports ball", "parasol", "torch", "lantern", "fan",
+)  # fmt: skip
+_HANGING = (
+    "bag", "handbag", "suitcase", "bucket", "basket", "briefcase", "shopping bag", "watering can",
+    "kettle", "guitar case", "toolbox",
+)  # fmt: skip
+HOLDS: Mapping[str, Hold] = MappingProxyType(
+    {
+        **{noun: Hold("tool") for noun in _TOOLS},
+        **{noun: Hold("upright") for noun in _UPRIGHTS},
+        **{noun: Hold("hanging") for noun in _HANGING},
+        "balloon": Hold("string"),
+        "hot air balloon": Hold("kite"),
+        "kite": Hold("kite"),
+        "broom": Hold("tool", "sweep"),
+        "shovel": Hold("tool", "dig"),
+        "fishing rod": Hold("tool", "fish"),
+        "backpack": Hold("back"),
+    }
+)
+"""Noun → how it is held or carried."""
+
+WORN: Mapping[str, str] = MappingProxyType(
+    {
+        "hat": "crown", "cap": "crown", "helmet": "crown", "crown": "crown", "glasses": "face",
+        "sunglasses": "face", "mask": "face", "scarf": "neck", "tie": "neck", "necklace": "neck",
+        "vest": "torso", "jacket": "torso", "shirt": "torso", "dress": "torso", "skirt": "torso",
+        "coat": "torso", "sweater": "torso", "apron": "torso", "backpack": "back", "bag": "back",
+        "handbag": "left hand", "cape": "back", "headphones": "crown",
+    }
+)  # fmt: skip
+"""Noun → place at which it is worn; its model's origin comes there."""
+
+HELD_SCALE: Mapping[str, float] = MappingProxyType({"umbrella": 0.5, "flag": 0.3, "sign": 0.45})
+"""Noun → size of what is carried relative to what stands on the ground."""
+LARGE_M = 0.36
+"""What is larger is held in both arms."""
+_RAISED: Vector = (0.30, -0.24, 1.16)
+"""Right hand of who holds something up, adult's body coordinates."""
+_UP_HIGH: Vector = (0.24, -0.24, 1.55)
+
+
+def is_person(actor: Actor) -> bool:
+    """Whether it has hands."""
+    return actor.noun.name in PERSON_NOUNS
+
+
+def size_of(model: Model) -> float:
+    """Scale of a model: 1 = the usual size."""
+    return float(getattr(model, "scale", 1.0))
+
+
+def choose_hold(holder: Actor, thing: Actor) -> Hold:
+    """How a thing is held: as the table says, else by its size and by who holds it."""
+    if not is_person(holder):
+        return Hold("mouth")
+    if thing.noun.name in HOLDS:
+        return HOLDS[thing.noun.name]
+    model = thing.model
+    large = max(model.length, model.width, model.height) > LARGE_M
+    if thing.noun.habitat == "air" and large and thing.noun.motion == "fly":
+        return Hold("front")
+    return Hold("front" if large else "upright")
+
+
+def place_in_hold(hold: Hold, holder: Actor, thing: Actor) -> tuple[str, Affine, bool, Grips]:
+    """Anchor, offset, whether it stays upright, and where the holder's hands are.
+
+    Args:
+        hold: how it is held.
+        holder: who holds it.
+        thing: what is held.
+
+    Returns:
+        Name of the holder's place, [3, 4] the thing's body coordinates in its axes, whether it
+        stays upright, and the grips in the holder's body coordinates, m.
+    """
+    size, model = size_of(holder.model), thing.model
+    lift = 0.5 * model.height if thing.is_centred else 0.0
+    if hold.style == "tool":
+        return "right hand", _shifted(0.0, 0.0, lift - 0.12 * model.height), False, ()
+    if hold.style == "upright":
+        grip = _UP_HIGH if thing.noun.name in ("flag", "sign", "torch") else _RAISED
+        low = min(0.35 * model.height, 0.06)
+        x = 0.5 * model.length if model.height < 1.6 * model.length else 0.0
+        offset = _shifted(min(x, 0.06), 0.0, lift - low)
+        return "right hand", offset, True, (("right hand", _scaled(grip, size)),)
+    if hold.style == "hanging":
+        return "right hand", _shifted(0.0, 0.0, lift - model.height + 0.02), True, ()
+    if hold.style in ("string", "kite"):
+        grips = (("right hand", _scaled(_UP_HIGH if hold.style == "kite" else _RAISED, size)),)
+        return "right hand", _fly(hold.style, model, lift), True, grips
+    if hold.style == "mouth":
+        drop = 0.0 if thing.is_centred else -0.5 * model.height
+        return "mouth", _shifted(0.35 * model.length, 0.0, drop), False, ()
+    if hold.style == "front":
+        return _hold_in_front(holder, thing, size, lift)
+    return hold.style, _shifted(0.0, 0.0, lift), False, ()
+
+
+def _hold_in_front(
+    holder: Actor, thing: Actor, size: float, lift: float
+) -> tuple[str, Affine, bool, Grips]:
+    """Both arms around it; its longer side goes across."""
+    model = thing.model
+    is_long = model.length > 1.2 * model.width
+    deep, wide = (model.width, model.length) if is_long else (model.length, model.width)
+    ahead = 0.16 * size + 0.5 * deep
+    middle = 1.08 * size
+    reach = min(0.5 * wide, 0.34 * size)
+    x = min(ahead, 0.42 * size)
+    bottom = max(middle - 0.5 * model.height, 0.75 * size)
+    hand_z = min(max(bottom + 0.15 * model.height, 0.9 * size), 1.25 * size)
+    turn = rotation(0.5 * math.pi if is_long else 0.0, 0.0, 0.0)
+    offset = np.column_stack([turn, np.array([ahead, 0.0, bottom + lift])])
+    grips = (("left hand", (x, reach, hand_z)), ("right hand", (x, -reach, hand_z)))
+    return "ground", offset, True, grips
+
+
+def _fly(style: str, model: Model, lift: float) -> Affine:
+    """Above the hand at the end of a string."""
+    if style == "string":
+        return _shifted(0.0, 0.0, lift - 0.02)
+    return np.column_stack([rotation(0.5 * math.pi - 0.3, 0.0, 0.0), np.array([-1.3, 0.3, 1.7 + lift])])
+
+
+def _shifted(x: float, y: float, z: float) -> Affine:
+    return np.column_stack([np.eye(3), np.array([x, y, z])])
+
+
+def _scaled(point: Vector, size: float) -> Vector:
+    return (size * point[0], size * point[1], size * point[2])
+
+
+def shoulder_height(actor: Actor) -> float:
+    """Height of a person's shoulders, m; of another model three quarters of its height."""
+    return 1.38 * size_of(actor.model) if is_person(actor) else 0.75 * actor.model.height
+
+
+def arm_reach(actor: Actor) -> float:
+    """How far ahead of its middle a pusher's hands are, m."""
+    if is_person(actor):
+        return size_of(actor.model) * (UPPER_ARM + 0.27)
+    return 0.5 * actor.model.length
+
+
+def offset_of_worn(place: str, thing: Actor) -> Float64Array:
+    """[3, 4] a worn thing's body coordinates in the axes of its place."""
+    lift = 0.5 * thing.model.height if thing.is_centred else 0.0
+    return _shifted(0.0, 0.0, lift)

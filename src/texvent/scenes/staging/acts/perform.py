@@ -1,0 +1,236 @@
+"""Applies the acts of a prompt: what comes before placing, and what binds placed actors."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from texvent.scenes.description import ObjectMotion, Relation, SceneDescription, SceneObject
+from texvent.scenes.models.protocol import Noun
+from texvent.scenes.staging.actors import Actor, Tether, seeded
+from texvent.scenes.staging.acts import striking
+from texvent.scenes.staging.acts.acts import ACTS
+from texvent.scenes.staging.acts.attached import HeldAt, MovedAlong, Performed
+from texvent.scenes.staging.acts.holding import (
+    HELD_SCALE,
+    WORN,
+    Hold,
+    arm_reach,
+    choose_hold,
+    is_person,
+    offset_of_worn,
+    place_in_hold,
+    shoulder_height,
+    size_of,
+)
+from texvent.scenes.staging.acts.riding import MOUNTS, mount
+from texvent.scenes.staging.trajectories.trajectory import Vector
+
+_ORDER = ("ride", "push", "pull", "kick", "throw", "catch", "hit", "hold", "carry", "wear")
+"""What moves bodies comes before what hangs on them."""
+
+
+def settle_motions(
+    description: SceneDescription, nouns: Mapping[str, Noun], seed: int
+) -> SceneDescription:
+    """The description with the motions that its acts imply.
+
+    Who pushes walks; what is ridden moves and its rider sits; who kicks faces left or right.
+    """
+    objects = list(description.objects)
+    for relation in description.relations:
+        if relation.kind not in ACTS or not relation.targets:
+            continue
+        subject, target = relation.subject, relation.targets[0]
+        if relation.kind == "ride":
+            objects[target] = _give_motion(objects[subject], objects[target], nouns)
+            objects[subject] = replace(objects[subject], motion=ObjectMotion("sit"), then=())
+        elif relation.kind in ("push", "pull"):
+            motion = objects[subject].motion
+            if motion is None or motion.kind in ("push", "pull", "stand"):
+                way = motion.direction if motion is not None else None
+                objects[subject] = replace(objects[subject], motion=ObjectMotion("walk", way))
+            objects[target] = _still(objects[target])
+        elif ACTS[relation.kind].is_single:
+            way = _choose_way(objects[subject], objects[target], seed, subject)
+            objects[subject] = replace(
+                objects[subject], motion=ObjectMotion(relation.kind, way), then=()
+            )
+            objects[target] = _still(objects[target])
+        else:
+            held = objects[target]
+            size = HELD_SCALE.get(held.noun, 1.0) if relation.kind != "wear" else 1.0
+            objects[target] = replace(_still(held), scale=held.scale * size)
+    return replace(description, objects=tuple(objects))
+
+
+def _still(scene_object: SceneObject) -> SceneObject:
+    return replace(scene_object, motion=None, then=())
+
+
+def _give_motion(rider: SceneObject, ridden: SceneObject, nouns: Mapping[str, Noun]) -> SceneObject:
+    """What is ridden, with the motion that the prompt gives to it or to its rider."""
+    said = ridden.motion if ridden.motion is not None and ridden.motion.is_moving else rider.motion
+    usual = nouns[ridden.noun].motion
+    if nouns[ridden.noun].habitat == "fixed":
+        usual = "slide"
+    if said is None:
+        return replace(ridden, motion=ObjectMotion(usual))
+    if said.kind in ("sit", "stand"):
+        return ridden
+    kind = said.kind if said.kind in ("run", "jump", "turn", "fly", "swim") else usual
+    return replace(ridden, motion=replace(said, kind=kind), then=ridden.then or rider.then)
+
+
+def _choose_way(subject: SceneObject, target: SceneObject, seed: int, index: int) -> str:
+    for motion in (subject.motion, target.motion):
+        if motion is not None and motion.direction in ("left", "right", "towards", "away"):
+            return str(motion.direction)
+    return "left" if seeded(seed, "act", index).random() < 0.5 else "right"
+
+
+def perform_acts(
+    description: SceneDescription, actors: list[Actor], duration_s: float
+) -> list[Actor]:
+    """The actors with every act's bodies bound together.
+
+    Args:
+        description: the prompt, its motions settled.
+        actors: all actors, each where it was placed.
+        duration_s: length of the clip, s.
+
+    Returns:
+        The actors in the same order, without those whose part a model plays itself: the rider of
+        a bicycle.
+    """
+    cast = _Cast(actors)
+    relations = [r for r in description.relations if r.kind in ACTS and r.targets]
+    for kind in _ORDER:
+        for relation in relations:
+            if relation.kind == kind:
+                _perform(cast, relation, duration_s)
+    return cast.actors()
+
+
+class _Cast:
+    """The actors by object, so that an act can replace them."""
+
+    def __init__(self, actors: list[Actor]) -> None:
+        self._actors: list[Actor | None] = list(actors)
+
+    def copies(self, index: int) -> list[int]:
+        """Positions of the copies of an object."""
+        return [
+            number
+            for number, actor in enumerate(self._actors)
+            if actor is not None and actor.object_index == index
+        ]
+
+    def get(self, number: int) -> Actor:
+        """The actor at a position."""
+        actor = self._actors[number]
+        if actor is None:
+            raise KeyError(number)
+        return actor
+
+    def put(self, number: int, actor: Actor | None) -> None:
+        """Replace an actor; None takes it off the scene."""
+        self._actors[number] = actor
+
+    def actors(self) -> list[Actor]:
+        """Those that are left, numbered anew."""
+        left = [actor for actor in self._actors if actor is not None]
+        return [replace(actor, instance=number) for number, actor in enumerate(left, start=1)]
+
+
+def _perform(cast: _Cast, relation: Relation, duration_s: float) -> None:
+    subjects = cast.copies(relation.subject)
+    targets = cast.copies(relation.targets[0])
+    others = cast.copies(relation.targets[1]) if len(relation.targets) > 1 else []
+    for turn, target in enumerate(targets):
+        if not subjects:
+            return
+        subject = subjects[turn % len(subjects)]
+        other = others[turn] if turn < len(others) else None
+        _bind(cast, relation.kind, (subject, target, other), duration_s)
+
+
+def _bind(cast: _Cast, kind: str, who: tuple[int, int, int | None], duration_s: float) -> None:
+    subject_at, target_at, other_at = who
+    subject, target = cast.get(subject_at), cast.get(target_at)
+    other = None if other_at is None else cast.get(other_at)
+    if kind == "ride":
+        is_own = target.noun.name in MOUNTS and MOUNTS[target.noun.name].style == "built-in"
+        cast.put(subject_at, None if is_own else mount(subject, target))
+        return
+    if kind in ("push", "pull"):
+        subject, target = _move_along(kind, subject, target)
+    elif kind == "kick":
+        subject, target = striking.kick(subject, target, duration_s)
+    elif kind == "throw":
+        subject, target, other = striking.throw(subject, target, other, duration_s)
+    elif kind == "catch":
+        subject, target = striking.catch(subject, target, duration_s)
+    elif kind == "hit":
+        subject, target, other = striking.hit(subject, target, other, duration_s)
+    elif kind == "wear":
+        subject, target = _wear(subject, target)
+    else:
+        subject, target = _hold(subject, target)
+    cast.put(subject_at, subject)
+    cast.put(target_at, target)
+    if other_at is not None and other is not None:
+        cast.put(other_at, other)
+
+
+def _move_along(kind: str, subject: Actor, target: Actor) -> tuple[Actor, Actor]:
+    """Hands at the thing's back, or a rope to it; both move together."""
+    size, model = size_of(subject.model), target.model
+    floor = subject.trajectory.at(0.0).position[2]
+    lift = 0.5 * model.height if target.is_centred else 0.0
+    tether = target.tether
+    grips: tuple[tuple[str, Vector], ...]
+    if kind == "push":
+        reach = arm_reach(subject)
+        along = reach + 0.02 + 0.5 * model.length
+        height = min(0.85 * model.height, 0.95 * shoulder_height(subject))
+        height = max(height, 0.55 * shoulder_height(subject))
+        side = min(0.16 * size, 0.45 * model.width)
+        grips = (("left hand", (reach, side, height)), ("right hand", (reach, -side, height)))
+    else:
+        along = -(0.9 * size + 0.5 * model.length)
+        hand: Vector = (-0.34 * size, -0.20 * size, 0.92 * size)
+        grips = (("right hand", hand),)
+        tether = Tether(subject, "right hand", (0.5 * model.length, 0.0, 0.5 * model.height), 0.012)
+    activity = f"{kind} along" if is_person(subject) else None
+    path = Performed(subject.trajectory, activity, grips if is_person(subject) else ())
+    subject = replace(subject, trajectory=path)
+    moved = MovedAlong(subject.trajectory, along, floor + lift)
+    target = replace(target, trajectory=moved, lead_m=subject.lead_m, tether=tether)
+    return subject, replace(target, is_mover=subject.is_mover)
+
+
+def _wear(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
+    place = WORN.get(target.noun.name, "crown")
+    held = HeldAt(subject, place, offset_of_worn(place, target))
+    return subject, _carried(target, held, subject)
+
+
+def _hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
+    hold: Hold = choose_hold(subject, target)
+    anchor, offset, is_upright, grips = place_in_hold(hold, subject, target)
+    busy = subject.trajectory.at(0.0).activity not in ("stand", "move", "walk", "run", "sit",
+                                                       "sit on ground")  # fmt: skip
+    if is_person(subject) and not busy and grips:
+        subject = replace(subject, trajectory=Performed(subject.trajectory, None, grips))
+    if is_person(subject) and not busy and hold.activity and not subject.is_mover:
+        subject = replace(subject, trajectory=Performed(subject.trajectory, hold.activity))
+    held = HeldAt(subject, anchor, offset, is_upright, "move" if hold.style == "kite" else "stand")
+    target = _carried(target, held, subject)
+    if hold.style == "kite":
+        target = replace(target, tether=Tether(subject, "right hand", (0.0, 0.0, 0.0), 0.008))
+    return subject, target
+
+
+def _carried(target: Actor, held: HeldAt, holder: Actor) -> Actor:
+    return replace(target, trajectory=held, is_mover=holder.is_mover, lead_m=0.0, extras=())
