@@ -165,7 +165,9 @@ def _fly(style: str, model: Model, lift: float) -> Affine:
     """Above the hand at the end of a string."""
     if style == "string":
         return _shifted(0.0, 0.0, lift - 0.02)
-    return np.column_stack([rotation(0.5 * math.pi - 0.3, 0.0, 0.0), np.array([-1.3, 0.3, 1.7 + lift])])
+    return np.column_stack(
+        [rotation(0.5 * math.pi - 0.3, 0.0, 0.0), np.array([-1.3, 0.3, 1.7 + lift])]
+    )
 
 
 def _shifted(x: float, y: float, z: float) -> Affine:
