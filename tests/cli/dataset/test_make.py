@@ -64,7 +64,46 @@ def test_a_plan_says_what_there_will_be_and_leaves_nothing(folder, capsys):
     assert "paper (2 seeds), esim" in said
     assert "classes  2, 2 prompts each" in said
     assert "no license" in said
+    assert "prompts  4 of 4 prompts shown as they say" in said
     assert [path.name for path in folder.iterdir()] == ["cars.toml"]
+
+
+WUGS = """
+name = "wugs"
+[options]
+duration = 0.1
+sensor = "32x24"
+interpolate = "none"
+samples = 1
+[[sources]]
+prompts = ["a red ball bounces", "a wug and a dog run", "qwerty zxcv"]
+"""
+
+
+def test_prompts_that_are_not_shown_as_they_say_are_counted_and_fail_the_set(folder, capsys):
+    (folder / "wugs.toml").write_text(WUGS)
+    expected = "1 of 3 prompts shown as they say; 1 with words not understood (wug); 1 refused"
+    assert run("plan", "wugs.toml", "--trial", 0) == 0
+    assert f"prompts  {expected}" in capsys.readouterr().out
+    assert run("make", "wugs.toml", "--workers", 1, "-q") == 1
+    said = capsys.readouterr()
+    assert "2 samples" in said.out
+    assert "1 sample failed: texvent dataset stats" in said.err
+    assert run("make", "wugs", "--workers", 1, "-q", "--allow-failed") == 0
+    capsys.readouterr()
+    assert run("stats", "wugs") == 0
+    counted = "1 of 2 samples shown as they say; 1 with words not understood (wug)"
+    said_of_set = capsys.readouterr().out
+    assert f"prompts: {counted}" in said_of_set
+    assert "failed: nothing in the prompt was understood: qwerty, zxcv" in said_of_set
+
+
+def test_a_strict_data_set_is_refused_before_any_work(folder, capsys):
+    (folder / "wugs.toml").write_text(WUGS.replace("[options]", "[options]\nstrict = true"))
+    assert run("make", "wugs.toml", "--workers", 1, "-q") == 2
+    said = capsys.readouterr().err
+    assert "2 of 3 prompts are refused, such as 'a wug and a dog run': strict: " in said
+    assert not (folder / "wugs").exists()
 
 
 def test_a_plan_of_a_learned_model_costs_gpu_hours(folder, capsys):

@@ -17,6 +17,7 @@ from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.dataset.generation.engines.protocol import Engine, in_this_process
 from texvent.dataset.generation.make import Work, find_work, make_shards, remove_dead_parts
+from texvent.dataset.generation.prompt_check import refuse_prompts
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, load_recipe
 from texvent.dataset.specification.reading import read_specification
 from texvent.errors import ConfigError, TexventError, shown
@@ -54,6 +55,9 @@ class MakeOptions:
     """K/N: of N parts of all shards, the K-th only, from 1."""
     retry_failed: bool = False
     """Make samples that failed again."""
+    allow_failed: bool = False
+    """End with exit code 0 although samples failed, such as prompts of which nothing is
+    understood."""
     quiet: bool = False
     """Show errors only."""
 
@@ -78,6 +82,7 @@ def run(arguments: Sequence[str]) -> int:
     )
     part = parse_part(options.shards)
     recipe, folder = _open(options)
+    refuse_prompts(recipe, folder)
     recipe.begin(folder)
     work = find_work(recipe, folder, part=part, retry_failed=options.retry_failed)
     with (
@@ -87,7 +92,7 @@ def run(arguments: Sequence[str]) -> int:
     ):
         later.callback(remove_dead_parts, recipe, folder)
         make_shards(work, engine, table.note)
-    return _finish(folder, work, is_whole=part[1] == 1)
+    return _finish(folder, work, options, is_whole=part[1] == 1)
 
 
 def parse_part(text: str | None) -> tuple[int, int]:
@@ -126,19 +131,25 @@ def _engine(options: MakeOptions, work: Work) -> Engine:
     return ProcessEngine(workers)
 
 
-def _finish(folder: Path, work: Work, *, is_whole: bool) -> int:
+def _finish(folder: Path, work: Work, options: MakeOptions, *, is_whole: bool) -> int:
+    failed = sum(one.failed for one in work.complete.values())
     shards = [one for shard, one in work.complete.items() if shard.variant != VIDEOS]
     write_out(
         f"{folder}: {sum(one.made for one in shards):,} samples, "
         f"{sum(one.events for one in shards):,} events in {len(shards):,} shards; "
         f"{sum(one.filtered for one in shards):,} filtered out, "
-        f"{sum(one.failed for one in work.complete.values()):,} failed\n"
+        f"{failed:,} failed\n"
     )
     if work.failures:
         shard, reason = next(iter(work.failures.items()))
         raise TexventError(
             f"{len(work.failures)} shards could not be made, such as {shard.path}: {reason}; the "
             "others are kept: run the command again"
+        )
+    if failed and not options.allow_failed:
+        raise TexventError(
+            f"{failed:,} {'sample' if failed == 1 else 'samples'} failed: texvent dataset stats {folder} says why; the others are "
+            "kept. --retry-failed makes them again, --allow-failed accepts the set as it is"
         )
     if is_whole:
         write_out(f"next: texvent dataset sample {folder}, then verify, stats, publish\n")

@@ -18,6 +18,7 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
+from texvent.dataset.generation.prompt_check import MOST_READ, tally_prompts
 from texvent.dataset.generation.recipe import VIDEOS, Recipe
 from texvent.dataset.generation.trial import StageEstimate, try_samples
 from texvent.dataset.specification.reading import read_specification
@@ -63,6 +64,10 @@ def run(arguments: Sequence[str]) -> int:
     )
     recipe = Recipe.of(read_specification(options.specification))
     write_out("\n".join(describe_contents(recipe)) + "\n")
+    tally = tally_prompts(recipe)
+    if tally is not None:
+        drawn = f", drawn from {len(recipe.items.all):,}" if tally.prompts == MOST_READ else ""
+        write_out(f"prompts  {tally.line()}{drawn}\n")
     trial = options.trial
     if trial is None:
         trial = 0 if recipe.stores_videos else DEFAULT_TRIAL

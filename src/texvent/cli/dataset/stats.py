@@ -81,6 +81,8 @@ def _print(made: MadeSet, statistics: SetStatistics) -> None:
     _print_counts(console, "sensors", total.sensors)
     _print_counts(console, "not there", total.reasons)
     _print_counts(console, "warnings", total.warnings)
+    if total.reports.prompts:
+        console.print(escape(f"prompts: {total.reports.line('samples')}"))
     console.print(
         f"{escape(made.name)}: {total.samples:,} samples of {len(total.clips):,} videos, "
         f"{sum(total.events):,} events in {sum(total.durations_us) / MICROSECONDS:,.1f} s, "

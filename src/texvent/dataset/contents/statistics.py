@@ -12,6 +12,7 @@ import numpy as np
 
 from texvent.dataset.contents.made_set import MadeSet, MadeShard
 from texvent.dataset.generation.records import FAILED, FILTERED, MADE
+from texvent.scenes.report import PromptReport, ReportTally
 
 QUANTILES = (0.05, 0.5, 0.95)
 MOST_REASONS = 10
@@ -40,6 +41,8 @@ class Statistics:
     reasons: Counter[str] = field(default_factory=Counter)
     """Why samples are not there, numbers left out."""
     warnings: Counter[str] = field(default_factory=Counter)
+    reports: ReportTally = field(default_factory=ReportTally)
+    """What became of the words of prompts, over the samples that were made."""
     versions: Counter[str] = field(default_factory=Counter)
     """Version of texvent → shards."""
 
@@ -57,6 +60,8 @@ class Statistics:
             if sample.status != MADE:
                 self.reasons[f"{sample.status}: {without_numbers(sample.reason or '')}"] += 1
                 continue
+            if sample.prompt_report is not None:
+                self.reports.add(PromptReport.from_json(sample.prompt_report))
             self.events.append(sample.events)
             self.durations_us.append(sample.duration_us)
             self.clips.add(sample.clip)
@@ -95,6 +100,7 @@ class Statistics:
             "classes": dict(sorted(self.classes.items())),
             "reasons": dict(self.reasons.most_common(MOST_REASONS)),
             "warnings": dict(self.warnings.most_common(MOST_REASONS)),
+            "prompts": self.reports.tables,
             "texvent_versions": dict(sorted(self.versions.items())),
         }
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from texvent.dataset.generation.engines.processes import ProcessEngine
 from texvent.dataset.generation.engines.protocol import Engine, in_this_process
 from texvent.dataset.generation.make import Work, find_work, make_shards
+from texvent.dataset.generation.prompt_check import refuse_prompts
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
@@ -41,6 +42,7 @@ def make(
     if not isinstance(specification, Specification):
         specification = read_specification(specification)
     recipe, folder = Recipe.of(specification), Path(folder).absolute()
+    refuse_prompts(recipe, folder)
     recipe.begin(folder)
     work = find_work(recipe, folder, retry_failed=retry_failed)
     total = len(work.complete) + len(work.todo) + len(work.videos_todo)

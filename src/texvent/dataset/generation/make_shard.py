@@ -40,6 +40,7 @@ from texvent.io.atomic import atomic_file
 from texvent.pipeline import Simulation, fit_to_sensor
 from texvent.run.prepare import make_video, prepare_video
 from texvent.run.settings import Settings
+from texvent.scenes.report import REPORT_KEY
 from texvent.video import FrameStream
 
 OnSample = Callable[[SampleRecord], None]
@@ -187,6 +188,7 @@ def _video_job(recipe: Recipe, clip: Clip, scratch: Path) -> _Job:
         return {EXTENSION[1:]: content, "txt": (clip.item.prompt or "").encode()}, {
             "width": width,
             "height": height,
+            REPORT_KEY: stored.metadata.get(REPORT_KEY),
         }
 
     return _Job(_record(clip.key, clip, clip.seed), make)
@@ -218,6 +220,7 @@ def _events_job(
             "duration_us": made.duration_us,
             "width": width,
             "height": height,
+            REPORT_KEY: simulation.provenance.get(REPORT_KEY),
         }
         facts = {
             **simulation.provenance,

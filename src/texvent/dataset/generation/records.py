@@ -32,6 +32,8 @@ class SampleRecord:
     """Why it is not there."""
     warnings: tuple[str, ...] = ()
     """What is hardly meant, such as words that are not understood."""
+    prompt_report: Mapping[str, Any] | None = None
+    """What became of the prompt's words, a `PromptReport` as JSON; None where it is not known."""
     events: int = 0
     duration_us: int = 0
     start_us: int = 0
