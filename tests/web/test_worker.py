@@ -12,6 +12,7 @@ import texvent
 from texvent._registry import CODECS
 from texvent.errors import InputError, TexventError
 from texvent.io.files import extension_of
+from texvent.scenes.report import PromptReport
 from texvent.web.job import Answer, ConvertJob, SimulateJob
 from texvent.web.limits import Limits
 from texvent.web.supervisor import Supervisor
@@ -35,6 +36,17 @@ def test_a_prompt_gives_events_video_and_page_and_reports_on_its_way(tmp_path: P
     shares = [answer.share for answer in told if answer.share is not None]
     assert shares == sorted(shares)
     assert shares[-1] == 1.0
+
+
+def test_the_page_says_what_became_of_the_words(tmp_path: Path) -> None:
+    prompt = "a wug and a red ball bounce"
+    with pytest.warns(texvent.TexventWarning, match="prompt words not understood: wug"):
+        done, _ = run(tmp_path, prompt=prompt, options=SCENE)
+    report = PromptReport.from_json(texvent.load(done.files["events"]).metadata["prompt_report"])
+    assert done.text.splitlines()[1:] == report.lines()
+    assert report.not_understood == ("wug",)
+    with pytest.raises(InputError, match="strict: .* not understood: wug"):
+        run(tmp_path / "strict", prompt=prompt, options={**SCENE, "strict": True})
 
 
 def test_the_same_events_as_the_command_and_the_api_give(tmp_path: Path) -> None:

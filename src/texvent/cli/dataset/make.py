@@ -147,8 +147,9 @@ def _finish(folder: Path, work: Work, options: MakeOptions, *, is_whole: bool) -
             "others are kept: run the command again"
         )
     if failed and not options.allow_failed:
+        noun = "sample" if failed == 1 else "samples"
         raise TexventError(
-            f"{failed:,} {'sample' if failed == 1 else 'samples'} failed: texvent dataset stats {folder} says why; the others are "
+            f"{failed:,} {noun} failed: texvent dataset stats {folder} says why; the others are "
             "kept. --retry-failed makes them again, --allow-failed accepts the set as it is"
         )
     if is_whole:
