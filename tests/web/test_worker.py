@@ -45,7 +45,7 @@ def test_the_page_says_what_became_of_the_words(tmp_path: Path) -> None:
     report = PromptReport.from_json(texvent.load(done.files["events"]).metadata["prompt_report"])
     assert done.text.splitlines()[1:] == report.lines()
     assert report.not_understood == ("wug",)
-    with pytest.raises(InputError, match="strict: .* not understood: wug"):
+    with pytest.raises(InputError, match=r"strict: .* not understood: wug"):
         run(tmp_path / "strict", prompt=prompt, options={**SCENE, "strict": True})
 
 
