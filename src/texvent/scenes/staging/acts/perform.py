@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from texvent.scenes.description import ObjectMotion, Relation, SceneDescription, SceneObject
+from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.staging.actors import Actor, Tether, seeded
 from texvent.scenes.staging.acts import striking
@@ -38,7 +39,8 @@ def settle_motions(
     Who pushes walks; what is ridden moves and its rider sits; who kicks faces left or right.
     """
     objects = list(description.objects)
-    for relation in description.relations:
+    relations = [_mounted(relation, objects) for relation in description.relations]
+    for relation in relations:
         if relation.kind not in ACTS or not relation.targets:
             continue
         subject, target = relation.subject, relation.targets[0]
@@ -61,7 +63,15 @@ def settle_motions(
             held = objects[target]
             size = HELD_SCALE.get(held.noun, 1.0) if relation.kind != "wear" else 1.0
             objects[target] = replace(_still(held), scale=held.scale * size)
-    return replace(description, objects=tuple(objects))
+    return replace(description, objects=tuple(objects), relations=tuple(relations))
+
+
+def _mounted(relation: Relation, objects: list[SceneObject]) -> Relation:
+    """A person on a horse or a skateboard rides it."""
+    if relation.kind != "on" or objects[relation.subject].noun not in PERSON_NOUNS:
+        return relation
+    target = objects[relation.targets[0]].noun
+    return replace(relation, kind="ride") if target in MOUNTS else relation
 
 
 def _still(scene_object: SceneObject) -> SceneObject:

@@ -36,6 +36,8 @@ class ObjectGroup:
     clear_m: float = 0.0
     """Height of what it jumps over, m."""
     carrier: ObjectGroup | None = None
+    grips: tuple[tuple[str, Vector], ...] = ()
+    """`Pose.grips` of those who rest on something."""
     orbits: ObjectGroup | None = None
 
     @property

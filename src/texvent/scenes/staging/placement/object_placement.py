@@ -16,6 +16,7 @@ from texvent.scenes.models.protocol import Model, ModelPart, Noun
 from texvent.scenes.models.shapes import post
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
+from texvent.scenes.staging.acts.attached import Performed
 from texvent.scenes.staging.acts.perform import perform_acts, settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.along_route import RoutePlacer, push_aside
@@ -34,7 +35,7 @@ from texvent.scenes.staging.trajectories.action_trajectories import Swing
 from texvent.scenes.staging.trajectories.choose_trajectory import choose_trajectory, plan_motion
 from texvent.scenes.staging.trajectories.trajectory import Circle, Riding, Trajectory, Vector
 
-ON_TARGET = frozenset({"on", "above", "around", "under", "between", "follow"})
+ON_TARGET = frozenset({"on", "in", "above", "around", "under", "between", "follow"})
 """Relations in which the subject's place follows from the target's; in the others the target's
 follows from the subject's."""
 SCENIC = frozenset({"surround", "among"})
@@ -142,7 +143,7 @@ class ObjectPlacer:
                 shared = [
                     other.subject
                     for other in self._description.relations
-                    if other.kind == "on" and other.targets == relation.targets
+                    if other.kind == relation.kind and other.targets == relation.targets
                 ]
                 return place_on_targets(group, relation.kind, targets, height, shared)
         for relation in self._description.relations:
@@ -251,8 +252,14 @@ class ObjectPlacer:
                                           group.carrier.noun.name))  # fmt: skip
             offset = np.array(home) - group.carrier.centre
             turned = _unturn(offset, group.carrier.plan.yaw)
-            return Riding(carrier, turned)
-        return choose_trajectory(group.plan, model, home, rng, clear_m=group.clear_m)
+            activity = group.plan.gesture or "sit"
+            return _gripping(Riding(carrier, turned, activity), group)
+        path = choose_trajectory(group.plan, model, home, rng, clear_m=group.clear_m)
+        return _gripping(path, group)
+
+
+def _gripping(path: Trajectory, group: ObjectGroup) -> Trajectory:
+    return Performed(path, None, group.grips) if group.grips else path
 
 
 def _rope(trajectory: Trajectory, model: Model) -> tuple[ModelPart, ...]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -14,9 +13,8 @@ from texvent.scenes.staging.actors import is_centred
 from texvent.scenes.staging.placement.object_groups import (
     GAP_M,
     ObjectGroup,
-    half_extents_over_clip,
 )
-from texvent.scenes.staging.trajectories.choose_trajectory import PEOPLE
+from texvent.scenes.staging.placement.resting import rest_in, rest_on
 
 
 class Goal(NamedTuple):
@@ -44,19 +42,12 @@ def place_on_targets(
         kind: one of `object_placement.ON_TARGET`.
         targets: what it is related to.
         height: of its origin where the relation does not decide it, m.
-        neighbours: for "on", the indices of all objects on the target.
+        neighbours: for "on" and "in", the indices of all objects there.
     """
-    if kind == "on":
-        return _place_on(group, targets[0], neighbours)
+    if kind in ("on", "in"):
+        rest = rest_on if kind == "on" else rest_in
+        return Goal(rest(group, targets[0], neighbours), _FIXED)
     return _PLACE_BY_KIND[kind](group, targets, height)
-
-
-def _place_on(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> Goal:
-    if target.plan.motion.is_moving:
-        group.carrier = target
-    seat = _seat_height(target, group) + _origin_height(group)
-    _sit_in_row(group, target, neighbours)
-    return Goal(target.centre + np.array([0.0, 0.0, seat]), _FIXED)
 
 
 def _place_around(group: ObjectGroup, targets: list[ObjectGroup], height: float) -> Goal:
@@ -118,44 +109,6 @@ def _top(target: ObjectGroup) -> float:
 def _origin_height(group: ObjectGroup) -> float:
     """Height of a group's origin above what it rests on, m."""
     return 0.5 * group.models[0].height if is_centred(group.noun) else 0.0
-
-
-def _sit_in_row(group: ObjectGroup, target: ObjectGroup, neighbours: list[int]) -> None:
-    """Spread what is on an object along its longer side, facing as it faces.
-
-    `neighbours` are the indices of all objects on it: each group takes its part of the row.
-    """
-    body, own = target.models[0], len(group.offsets)
-    count, first = own * len(neighbours), own * neighbours.index(group.index)
-    is_wide = body.width > body.length
-    room = 0.8 * max(body.width, body.length) / count
-    size = max(group.models[0].width, group.models[0].length)
-    spacing = max(min(room, 1.3 * size), 1.05 * size if group.noun.name not in PEOPLE else 0.5)
-    yaw = target.plan.yaw + (0.5 * math.pi if is_wide else 0.0)
-    group.offsets = [
-        (a * math.cos(yaw), a * math.sin(yaw), 0.0)
-        for a in (spacing * (number - 0.5 * (count - 1)) for number in range(first, first + own))
-    ]
-    if group.plan.motion.kind in ("sit", "stand") and group.noun.name in PEOPLE:
-        group.plan = replace(group.plan, yaw=target.plan.yaw)
-    group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
-
-
-def _seat_height(target: ObjectGroup, group: ObjectGroup) -> float:
-    """Height above the target's origin at which the object on it has its own origin, m."""
-    is_sitting = group.plan.motion.kind in ("sit", "drive", "sail") or group.carrier is not None
-    shares = _SADDLES if is_sitting and group.noun.name in PEOPLE else _TOPS
-    inside = 0.02 if shares is _SADDLES and target.noun.motion == "drive" else 1.0
-    share = shares.get(target.noun.name, inside)
-    return (share - (0.5 if is_centred(target.noun) else 0.0)) * target.models[0].height
-
-
-_TOPS = {"chair": 0.5, "sofa": 0.5, "bed": 0.5, "bench": 0.5, "boat": 0.35, "horse": 0.62,
-         "sailboat": 0.15, "bridge": 0.338}  # fmt: skip
-"""Share of an object's height at which others lie on it; 1 where nothing is said."""
-_SADDLES = {"chair": 0.02, "sofa": 0.02, "bench": 0.02, "bed": 0.05, "horse": 0.40, "boat": 0.2,
-            "elephant": 0.78, "sailboat": 0.1, "zebra": 0.40, "cow": 0.6}  # fmt: skip
-"""The same for people who sit: their origin is under their feet."""
 
 
 def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height: float) -> Goal:

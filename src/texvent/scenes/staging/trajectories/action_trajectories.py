@@ -152,6 +152,7 @@ class Hop:
             distance_m=max(self.hop_m * (hops - self.phase_s / period), 0.0),
             speed_m_s=self.hop_m / period,
             activity="move" if self.hop_m else "jump",
+            act_s=into - 0.5 * flight,
         )
 
 
