@@ -200,6 +200,8 @@ class Surroundings:
     backdrops: tuple[str, ...] = ()
     """"mountain", "forest" or "city": what stands around a road, a field or a lake. A slope is
     shown as mountains around; the ground itself stays flat."""
+    road: str | None = None
+    """"curved" or "crossing", where the place has a road; None = straight."""
     has_snow: bool = False
     """Whether snow lies on the ground."""
     has_dust: bool = False
@@ -337,6 +339,8 @@ _PHRASES = {"throw": "fly through the air", "work": "move in place", "stand": "s
 
 def _describe_surroundings(surroundings: Surroundings) -> str:
     words = [surroundings.place or "what suits the things"]
+    if surroundings.road is not None:
+        words.append(f"{surroundings.road} road")
     if surroundings.colour is not None:
         words.append(surroundings.colour.name)
     if surroundings.sky is not None:

@@ -2,121 +2,222 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from texvent.scenes.description import CameraMove, Shot
-from texvent.scenes.language import vocabulary_scene
+from texvent.scenes.language.adjectives import Attributes
 from texvent.scenes.language.lexicon import Role
-from texvent.scenes.language.tagging import Phrase
+from texvent.scenes.language.referents import Referent
+from texvent.scenes.language.syntax import Clause, PrepPhrase
+from texvent.scenes.language.tagging import Word
 from texvent.scenes.language.vocabulary_motion import Verb
+from texvent.scenes.language.vocabulary_scene import TRAVEL_MEANS
 
-_SIDE_BY_RELATION = {
-    "behind": "behind",
-    "front": "front",
-    "beside": "side",
-    "past": "side",
-    "above": "above",
-}
-_IN_OUT = {"forward": "in", "backward": "out", "towards": "in", "away": "out"}
+_SIDES = {"behind": "behind", "in front of": "front", "beside": "side", "alongside": "side",
+          "next to": "side", "past": "side", "above": "above", "over": "above"}  # fmt: skip
+_IN_OUT = {"forward": "in", "backward": "out", "towards": "in", "away": "out", "in": "in",
+           "out": "out"}  # fmt: skip
+_TRAVEL_PREPOSITIONS = frozenset(
+    {"through", "along", "over", "across", "down", "up", "into", "past", "between", "throughout",
+     "above", "in"}
+)  # fmt: skip
+_AIMED = frozenset({"follow", "orbit", "zoom", "dolly", "dolly zoom", "crane", "tilt", "pan"})
+_PLAIN_MOVE = frozenset({"move", "slide", "hover", "rise", "sink", "fall"})
+_TRUCK = {"up": ("pedestal", "up"), "down": ("pedestal", "down"), "left": ("truck", "left"),
+          "right": ("truck", "right"), "towards": ("dolly", "in"), "away": ("dolly", "out"),
+          "forward": ("travel", "forward"), "backward": ("travel", "backward"),
+          "across": ("truck", "right")}  # fmt: skip
 
 
 class CameraReader:
-    """Collects camera moves; has the focus from the word "camera" to the next object."""
+    """Collects camera moves, view and framing."""
 
     def __init__(self) -> None:
-        self.has_focus = False
-        """Whether verbs and directions are about the camera."""
         self._moves: list[CameraMove] = []
         self._view: str | None = None
         self._framing: str | None = None
         self._target: int | None = None
-        self._pace: tuple[float, Phrase] | None = None
-        self._named: Phrase | None = None
+        self._phase = 0
 
-    def read(self, phrase: Phrase) -> bool:
-        """Take a phrase that is about the camera; return whether it was one."""
-        if phrase.role is Role.CAMERA:
-            self.has_focus, self._named = True, phrase
-            phrase.is_used = bool(self._moves)
-        elif phrase.role is Role.CAMERA_MOVE:
-            kind, direction = phrase.meaning.value
-            self._start(CameraMove(kind, direction), phrase)
-        elif phrase.role is Role.VIEW:
-            self._view, phrase.is_used = phrase.meaning.value, True
-        elif phrase.role is Role.FRAMING:
-            self._framing, phrase.is_used = phrase.meaning.value, True
-        elif not self.has_focus:
-            return False
-        elif phrase.role is Role.VERB:
-            self._read_verb(phrase)
-        elif phrase.role is Role.STILL:
-            self._start(CameraMove("static"), phrase)
-        elif phrase.role is Role.DIRECTION:
-            self._read_direction(phrase)
-        elif phrase.role is Role.PACE:
-            self._read_pace(phrase)
+    @property
+    def has_moves(self) -> bool:
+        """Whether any move was read."""
+        return bool(self._moves)
+
+    def read_word(self, word: Word) -> bool:
+        """Take a view, a framing or a move that stands alone: "close-up", "handheld"."""
+        if word.role is Role.VIEW:
+            self._view = word.meaning.value
+            if self._view == "back" and self._moves and self._moves[-1].kind == "follow":
+                self._moves[-1] = replace(self._moves[-1], direction="behind")
+                self._view = None
+            if self._view == "first person" and not self._moves:
+                self._moves.append(CameraMove("travel", "forward"))
+        elif word.role is Role.FRAMING:
+            self._framing = word.meaning.value
+        elif word.role is Role.CAMERA_MOVE:
+            kind, direction = word.meaning.value
+            self._add(CameraMove(kind, direction))
         else:
             return False
+        word.is_used = True
         return True
 
-    def aim(self, object_index: int, relation: str | None) -> bool:
-        """Point the camera at an object that its sentence names; return whether it does that."""
-        if not self._moves or not self.has_focus:
-            return False
-        last = self._moves[-1]
-        if last.kind not in ("follow", "orbit", "zoom", "dolly"):
-            return False
-        if last.kind == "follow" and relation in _SIDE_BY_RELATION:
-            self._moves[-1] = replace(last, direction=_SIDE_BY_RELATION[relation])
-        self._target, self.has_focus = object_index, False
-        return True
+    def read_attributes(self, attributes: Attributes) -> None:
+        """ "A slow pan", "a static shot"."""
+        for word in attributes.words:
+            self.read_word(word)
+
+    def read_clause(
+        self, clause: Clause, objects: Sequence[Referent], phrases: Sequence[tuple[PrepPhrase, Referent]]
+    ) -> None:
+        """A clause whose subject is the camera, the viewer or a shot."""
+        if clause.order == "after" and self._moves:
+            self._phase += 1
+        if clause.verb is not None:
+            self._read_verb(clause, clause.verb, phrases)
+        for group in clause.complements:
+            for word in group.words:
+                self.read_word(word)
+        for word in clause.adverbs:
+            self._read_adverb(word)
+        for phrase, referent in phrases:
+            self._read_phrase(phrase, referent)
+        for referent in objects:
+            self.aim(referent)
+
+    def _read_verb(
+        self, clause: Clause, word: Word, phrases: Sequence[tuple[PrepPhrase, Referent]]
+    ) -> None:
+        if clause.negation is not None:
+            self._add(CameraMove("static"))
+            word.is_used = clause.negation.is_used = True
+            return
+        means = TRAVEL_MEANS.get(word.lemma)
+        move = word.read_as(Role.CAMERA_MOVE)
+        if means is not None:
+            self._travel(word, means, clause, phrases)
+        elif move is not None and not self._goes_through(phrases):
+            kind, direction = move.value
+            self._add(CameraMove(kind, direction))
+            word.is_used = True
+        elif word.role is Role.VERB and isinstance(word.meaning.value, Verb):
+            self._read_motion(word, word.meaning.value, phrases)
+
+    def _goes_through(self, phrases: Sequence[tuple[PrepPhrase, Referent]]) -> bool:
+        return any(
+            phrase.preposition.text in ("through", "along") and one.kind in ("place", "things")
+            for phrase, one in phrases
+        )
+
+    def _travel(
+        self,
+        word: Word,
+        means: str,
+        clause: Clause,
+        phrases: Sequence[tuple[PrepPhrase, Referent]],
+    ) -> None:
+        follows = any(p.preposition.text in ("behind", "alongside", "beside") and r.is_things
+                      for p, r in phrases)  # fmt: skip
+        word.is_used = True
+        if follows:
+            self._add(CameraMove("follow"))
+            return
+        if means == "fly" and self._view is None:
+            self._view = "aerial"
+        self._add(CameraMove("travel", "forward", means=means))
+        del clause
+
+    def _read_motion(
+        self, word: Word, verb: Verb, phrases: Sequence[tuple[PrepPhrase, Referent]]
+    ) -> None:
+        if verb.relation == "follow":
+            self._add(CameraMove("follow", pace=verb.pace))
+        elif verb.kind == "turn":
+            self._add(CameraMove("pan"))
+        elif verb.kind in ("rise", "sink", "fall"):
+            self._add(CameraMove("pedestal", "up" if verb.kind == "rise" else "down"))
+        elif verb.kind == "stand":
+            self._add(CameraMove("static"))
+        elif verb.kind == "orbit":
+            self._add(CameraMove("orbit"))
+        elif verb.kind in ("spin", "roll"):
+            self._add(CameraMove("roll"))
+        elif verb.kind in _PLAIN_MOVE or self._goes_through(phrases):
+            is_towards = verb.direction == "towards"
+            self._add(CameraMove("dolly" if is_towards else "travel",
+                                 "in" if is_towards else "forward", verb.pace))  # fmt: skip
+        else:
+            return
+        word.is_used = True
+
+    def _add(self, move: CameraMove) -> None:
+        move = replace(move, phase=self._phase)
+        if self._moves and self._moves[-1].kind == "static" and self._phase == 0:
+            self._moves.pop()
+        if self._moves and self._moves[-1] == move:
+            return
+        self._moves.append(move)
+
+    def _read_adverb(self, word: Word) -> None:
+        if self.read_word(word):
+            return
+        if word.role is Role.STILL:
+            self._add(CameraMove("static"))
+            word.is_used = True
+        elif not self._moves:
+            return
+        elif word.role is Role.DIRECTION:
+            self._direct(word)
+        elif word.role is Role.PACE:
+            last = self._moves[-1]
+            self._moves[-1] = replace(last, pace=last.pace * word.meaning.value)
+            word.is_used = True
+        elif word.text in ("in", "out") and self._moves[-1].kind in ("zoom", "dolly"):
+            self._moves[-1] = replace(self._moves[-1], direction=word.text)
+            word.is_used = True
+
+    def _direct(self, word: Word) -> None:
+        last, said = self._moves[-1], word.meaning.value
+        kind, direction = last.kind, said
+        if kind == "travel" and said in ("left", "right", "up", "down", "towards", "away"):
+            if last.means is None:
+                kind, direction = _TRUCK[said]
+        elif kind in ("zoom", "dolly"):
+            direction = _IN_OUT.get(said, said)
+        elif kind == "truck":
+            kind, direction = _TRUCK.get(said, (kind, said))
+        elif kind in ("pan", "tilt", "orbit", "pedestal", "crane", "roll", "travel"):
+            direction = said
+        else:
+            return
+        self._moves[-1] = replace(last, kind=kind, direction=direction)
+        word.is_used = True
+
+    def _read_phrase(self, phrase: PrepPhrase, referent: Referent) -> None:
+        word = phrase.preposition
+        if referent.is_things:
+            if not self._moves:
+                return
+            last = self._moves[-1]
+            if last.kind == "follow" and word.text in _SIDES:
+                self._moves[-1] = replace(last, direction=_SIDES[word.text])
+            elif word.text == "around" and last.kind in ("travel", "truck"):
+                self._moves[-1] = replace(last, kind="orbit", direction=None, means=None)
+            elif word.text in ("towards", "toward", "to") and last.kind == "travel":
+                self._moves[-1] = replace(last, kind="dolly", direction="in", means=None)
+            word.is_used = True
+            self.aim(referent)
+        elif referent.kind == "place" and word.text in _TRAVEL_PREPOSITIONS | {"at", "on"}:
+            word.is_used = True
+
+    def aim(self, referent: Referent) -> None:
+        """Point the camera at an object that its clause names."""
+        if referent.is_things and referent.things and self._moves:
+            if self._moves[-1].kind in _AIMED and self._target is None:
+                self._target = referent.things[0]
 
     def build(self) -> Shot:
         """The shot as understood."""
         return Shot(tuple(self._moves), self._view, self._framing, self._target)
-
-    def _start(self, move: CameraMove, phrase: Phrase) -> None:
-        phrase.is_used = self.has_focus = True
-        if self._named is not None:
-            self._named.is_used = True
-        if self._pace is not None:
-            factor, said = self._pace
-            move = replace(move, pace=move.pace * factor)
-            said.is_used, self._pace = True, None
-        if move.kind != "static" and self._moves and self._moves[-1].kind == "static":
-            self._moves.pop()
-        self._moves.append(move)
-
-    def _read_verb(self, phrase: Phrase) -> None:
-        verb: Verb = phrase.meaning.value
-        if verb.relation == "follow":
-            kind: str | None = "follow"
-        else:
-            kind = vocabulary_scene.CAMERA_VERBS.get(verb.kind)
-        if kind is None:
-            return
-        direction = {"rise": "up", "sink": "down", "fall": "down"}.get(verb.kind)
-        if verb.direction is not None:
-            direction = _IN_OUT.get(verb.direction, verb.direction)
-            kind = "dolly" if direction in ("in", "out") else kind
-        self._start(CameraMove(kind, direction, verb.pace), phrase)
-
-    def _read_direction(self, phrase: Phrase) -> None:
-        if not self._moves:
-            return
-        last = self._moves[-1]
-        direction = _IN_OUT.get(phrase.meaning.value, phrase.meaning.value)
-        kind = last.kind
-        if kind == "truck" and direction in ("in", "out"):
-            kind = "dolly"
-        elif kind == "truck" and direction in ("up", "down"):
-            kind = "pedestal"
-        self._moves[-1] = replace(last, kind=kind, direction=direction)
-        phrase.is_used = True
-
-    def _read_pace(self, phrase: Phrase) -> None:
-        if not self._moves:
-            self._pace = (phrase.meaning.value, phrase)
-            return
-        self._moves[-1] = replace(self._moves[-1], pace=self._moves[-1].pace * phrase.meaning.value)
-        phrase.is_used = True

@@ -40,7 +40,13 @@ def complete_description(
     objects = description.objects
     said = replace(description.surroundings, place=choose_place(description, nouns))
     description = _give_usual_work(replace(description, surroundings=said))
-    if description.shot.is_moving or any(_is_moving(scene_object) for scene_object in objects):
+    is_active = any(relation.kind in ACTIVE for relation in description.relations)
+    if (
+        description.shot.is_moving
+        or is_active
+        or description.effects
+        or any(_is_moving(scene_object) for scene_object in objects)
+    ):
         return _rest_the_others(description)
     return _rest_the_others(_set_in_motion(description, nouns))
 
@@ -180,6 +186,10 @@ def _move_followed(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
         if relation.kind == "follow" and objects[target].motion is None and noun.motion != "stand":
             objects[target] = replace(objects[target], motion=ObjectMotion(noun.motion))
     return replace(description, objects=tuple(objects))
+
+
+ACTIVE = frozenset({"push", "pull", "kick", "hit", "throw", "catch"})
+"""Acts in which something moves."""
 
 
 def _is_moving(scene_object: SceneObject) -> bool:

@@ -1,15 +1,23 @@
-"""Every phrase the parser knows, with the roles it can have in a sentence."""
+"""Every phrase the reader knows, with the roles it can have in a sentence."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum, auto
 from functools import cached_property
 from typing import Any
 
-from texvent.scenes.inflection import list_finite_forms, list_participles, list_plurals
-from texvent.scenes.language import vocabulary_motion, vocabulary_objects, vocabulary_scene
+from texvent.scenes.inflection import list_plurals
+from texvent.scenes.language import (
+    vocabulary_function,
+    vocabulary_motion,
+    vocabulary_objects,
+    vocabulary_scene,
+)
+from texvent.scenes.language.words import Pos, VerbForm, list_verb_forms
+from texvent.scenes.models.effects import EFFECTS
+from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES
 from texvent.scenes.models.protocol import Noun
 
 
@@ -19,18 +27,14 @@ class Role(Enum):
     NOUN = auto()
     VERB = auto()
     COUNT = auto()
-    NUMBER = auto()
     COLOUR = auto()
     SHADE = auto()
     SIZE = auto()
-    NEGATION = auto()
-    DETERMINER = auto()
-    PRONOUN = auto()
-    AND = auto()
+    MATERIAL = auto()
     DIRECTION = auto()
     SIDE = auto()
     PACE = auto()
-    SPEED_UNIT = auto()
+    UNIT = auto()
     RELATION = auto()
     STILL = auto()
     PART = auto()
@@ -43,19 +47,19 @@ class Role(Enum):
     STEEP = auto()
     DUST = auto()
     FLICKER = auto()
-    HERTZ = auto()
     SHADOW = auto()
     GLOW = auto()
     CAMERA = auto()
     CAMERA_MOVE = auto()
     VIEW = auto()
     FRAMING = auto()
-    BREAK = auto()
+    EFFECT = auto()
+    ACTIVITY = auto()
+    ROAD = auto()
+    SCREEN = auto()
+    FUNCTION = auto()
+    """Words of grammar, which need no effect of their own."""
     UNKNOWN = auto()
-
-
-ADJECTIVES = frozenset({Role.COUNT, Role.NUMBER, Role.COLOUR, Role.SHADE, Role.SIZE, Role.PACE})
-"""Roles that may stand between a determiner and its noun."""
 
 
 @dataclass(frozen=True)
@@ -63,20 +67,41 @@ class Meaning:
     """One way to read a phrase."""
 
     role: Role
+    pos: Pos
     value: Any = None
-    form: str = ""
-    """Of nouns: "singular" or "plural"; of verbs: "finite" or "participle"."""
+    form: VerbForm | None = None
+    """Of verbs."""
+    is_plural: bool = False
+    """Of nouns."""
+    is_substitute: bool = False
+    """Of nouns: whether something else is shown, as a dog for a spaniel."""
+    can_be_both: bool = False
+    """Of nouns: whether it is singular and plural alike, as "deer"."""
 
 
 class Lexicon:
-    """Every phrase the grammar knows, by its words."""
+    """Every phrase the reader knows, by its words."""
 
     def __init__(self, nouns: Mapping[str, Noun]) -> None:
         self._meanings: dict[tuple[str, ...], list[Meaning]] = {}
         self._longest: dict[str, int] = {}
-        self._add_nouns(nouns)
-        self._add_verbs()
-        self._add_tables()
+        for noun in nouns.values():
+            self._add_noun(noun)
+        for verb in vocabulary_motion.VERBS:
+            for text, form in list_forms(verb.base):
+                self._add(text, Meaning(Role.VERB, Pos.VERB, verb, form))
+        for text, meaning in _list_table_entries():
+            self._add(text, meaning)
+        for kind, words in EFFECTS.items():
+            for noun_text in words.nouns:
+                for number, plural in enumerate((noun_text, *list_plurals(noun_text))):
+                    meaning = Meaning(Role.EFFECT, Pos.NOUN, kind, is_plural=number > 0)
+                    self._add(plural, meaning)
+            for text in words.adjectives:
+                self._add(text, Meaning(Role.EFFECT, Pos.ADJECTIVE, kind))
+        for base, value in _list_bare_verbs():
+            for text, form in list_forms(base):
+                self._add(text, Meaning(value[0], Pos.VERB, value[1], form))
 
     def find(self, words: Sequence[str]) -> tuple[int, list[Meaning]]:
         """The longest known phrase at the start of `words`: its length and its meanings.
@@ -90,7 +115,7 @@ class Lexicon:
                 return length, meanings
         return 0, []
 
-    @property
+    @cached_property
     def words(self) -> frozenset[str]:
         """Every word that is part of a known phrase."""
         return frozenset(word for phrase in self._meanings for word in phrase)
@@ -103,83 +128,99 @@ class Lexicon:
     def _add(self, text: str, meaning: Meaning) -> None:
         words = tuple(text.replace("-", " ").split())
         meanings = self._meanings.setdefault(words, [])
-        if all(known.role is not meaning.role for known in meanings):
+        if all((known.role, known.pos) != (meaning.role, meaning.pos) for known in meanings):
             meanings.append(meaning)
         self._longest[words[0]] = max(self._longest.get(words[0], 0), len(words))
 
-    def _add_nouns(self, nouns: Mapping[str, Noun]) -> None:
-        for name, noun in nouns.items():
-            for plural in noun.plurals:
-                self._add(plural, Meaning(Role.NOUN, name, "plural"))
-            for singular in (name, *noun.synonyms):
-                self._add_noun_forms(singular, name)
-        for word, name in vocabulary_scene.GENERIC_NOUNS.items():
-            if name in nouns and tuple(word.split()) not in self._meanings:
-                self._add_noun_forms(word, name)
-
-    def _add_noun_forms(self, singular: str, name: str) -> None:
-        self._add(singular, Meaning(Role.NOUN, name, "singular"))
-        for plural in list_plurals(singular):
-            self._add(plural, Meaning(Role.NOUN, name, "plural"))
-
-    def _add_verbs(self) -> None:
-        for verb in vocabulary_motion.VERBS:
-            head, *tail = verb.base.split()
-            finite: Iterable[str] = list_finite_forms(head)
-            participles: Iterable[str] = list_participles(head)
-            for forms, form in ((finite, "finite"), (participles, "participle")):
-                for word in forms:
-                    self._add(" ".join((word, *tail)), Meaning(Role.VERB, verb, form))
-            for word in verb.irregular:
-                self._add(word, Meaning(Role.VERB, verb, "participle"))
-
-    def _add_tables(self) -> None:
-        for role, table in _WORDS.items():
-            for text in table:
-                self._add(text, Meaning(role, text))
-        for role, meanings in _MEANINGS.items():
-            for value, texts in meanings.items():
-                for text in texts:
-                    forms = list_plurals(text) if role in _WITH_PLURALS else ()
-                    for form in (text, *forms):
-                        self._add(form, Meaning(role, value))
+    def _add_noun(self, noun: Noun) -> None:
+        names = (noun.name, *noun.synonyms)
+        for plural in noun.plurals:
+            both = plural in names
+            self._add(
+                plural,
+                Meaning(Role.NOUN, Pos.NOUN, noun.name, is_plural=not both, can_be_both=both),
+            )
+        for singular in (noun.name, *noun.synonyms):
+            self._add(singular, Meaning(Role.NOUN, Pos.NOUN, noun.name))
+            for plural in list_plurals(singular):
+                self._add(plural, Meaning(Role.NOUN, Pos.NOUN, noun.name, is_plural=True))
 
 
-_MEANINGS: dict[Role, Mapping[Any, Iterable[str]]] = {
-    Role.COUNT: vocabulary_objects.COUNTS,
-    Role.SIZE: vocabulary_objects.SIZES,
-    Role.DIRECTION: vocabulary_motion.DIRECTIONS,
-    Role.SIDE: vocabulary_motion.SIDES,
-    Role.PACE: vocabulary_motion.PACES,
-    Role.SPEED_UNIT: vocabulary_motion.SPEED_UNITS,
-    Role.RELATION: vocabulary_motion.RELATIONS,
-    Role.CLOUDS: vocabulary_scene.CLOUDS,
-    Role.HERTZ: vocabulary_scene.HERTZ,
-    Role.CAMERA_MOVE: vocabulary_scene.CAMERA_MOVES,
-    Role.VIEW: vocabulary_scene.VIEWS,
-    Role.FRAMING: vocabulary_scene.FRAMINGS,
-    Role.PLACE: vocabulary_scene.PLACES,
-    Role.LIGHT: vocabulary_scene.LIGHTS,
-    Role.WEATHER: vocabulary_scene.WEATHERS,
-}
-"""Role → meaning → phrases for it."""
-_WITH_PLURALS = (Role.PLACE, Role.LIGHT, Role.WEATHER)
-_WORDS: dict[Role, Iterable[str]] = {
-    Role.COLOUR: vocabulary_objects.COLOURS,
-    Role.SHADE: vocabulary_objects.SHADES,
-    Role.NEGATION: vocabulary_objects.NEGATIONS,
-    Role.DETERMINER: vocabulary_objects.DETERMINERS,
-    Role.PRONOUN: vocabulary_objects.PRONOUNS,
-    Role.AND: ("and", "or", "plus"),
-    Role.STILL: vocabulary_motion.STILL_WORDS,
-    Role.PART: vocabulary_scene.PART_WORDS,
-    Role.SNOW: vocabulary_scene.SNOWY,
-    Role.SKY: vocabulary_scene.SKY_WORDS,
-    Role.STEEP: vocabulary_scene.STEEP,
-    Role.DUST: vocabulary_scene.DUST,
-    Role.FLICKER: vocabulary_scene.FLICKERS,
-    Role.SHADOW: vocabulary_scene.SHADOW_WORDS,
-    Role.GLOW: vocabulary_scene.GLOW_WORDS,
-    Role.CAMERA: vocabulary_scene.CAMERA_WORDS,
-}
-"""Role → phrases that mean themselves."""
+def list_forms(base: str) -> Iterator[tuple[str, VerbForm]]:
+    """All forms of a verb of one or more words, such as "take off"."""
+    head, *tail = base.split()
+    for word, form in list_verb_forms(head):
+        yield " ".join((word, *tail)), form
+
+
+def _list_bare_verbs() -> Iterator[tuple[str, tuple[Role, Any]]]:
+    """Verbs of the camera, and those that only an activity or an effect knows."""
+    for move, bases in vocabulary_scene.CAMERA_VERBS.items():
+        for base in bases:
+            yield base, (Role.CAMERA_MOVE, move)
+    for base in vocabulary_scene.FLICKERS:
+        yield base, (Role.FLICKER, base)
+    for activity in (*ACTIVITIES.values(), *HAND_GESTURES.values()):
+        for text in activity.words:
+            head = text.replace("-", " ").split()[0]
+            yield head, (Role.ACTIVITY, head)
+    for words in EFFECTS.values():
+        for verb in words.verbs:
+            yield verb.split()[0], (Role.ACTIVITY, verb)
+
+
+def _list_table_entries() -> Iterator[tuple[str, Meaning]]:
+    for role, pos, table in _TABLES:
+        for value, texts in table.items():
+            for text in texts:
+                yield text, Meaning(role, pos, value)
+                if pos is Pos.NOUN:
+                    for plural in list_plurals(text):
+                        yield plural, Meaning(role, pos, value, is_plural=True)
+    for role, pos, words in _WORDS:
+        for text in words:
+            yield text, Meaning(role, pos, text)
+
+
+_TABLES: tuple[tuple[Role, Pos, Mapping[Any, Iterable[str]]], ...] = (
+    (Role.COUNT, Pos.NUMBER, vocabulary_objects.COUNTS),
+    (Role.SIZE, Pos.ADJECTIVE, vocabulary_objects.SIZES),
+    (Role.MATERIAL, Pos.ADJECTIVE, vocabulary_objects.MATERIALS),
+    (Role.DIRECTION, Pos.ADVERB, vocabulary_motion.DIRECTIONS),
+    (Role.SIDE, Pos.ADJUNCT, vocabulary_motion.SIDES),
+    (Role.PACE, Pos.ADVERB, vocabulary_motion.PACES),
+    (Role.PACE, Pos.ADJECTIVE, vocabulary_motion.PACE_ADJECTIVES),
+    (Role.UNIT, Pos.NOUN, vocabulary_motion.UNITS),
+    (Role.RELATION, Pos.PREPOSITION, vocabulary_motion.RELATIONS),
+    (Role.FUNCTION, Pos.PREPOSITION, vocabulary_motion.OTHER_PREPOSITIONS),
+    (Role.CAMERA_MOVE, Pos.ADJUNCT, vocabulary_scene.CAMERA_PHRASES),
+    (Role.CAMERA_MOVE, Pos.ADJECTIVE, vocabulary_scene.CAMERA_ADJECTIVES),
+    (Role.VIEW, Pos.ADJUNCT, vocabulary_scene.VIEWS),
+    (Role.FRAMING, Pos.ADJUNCT, vocabulary_scene.FRAMINGS),
+    (Role.PLACE, Pos.NOUN, vocabulary_scene.PLACES),
+    (Role.PLACE, Pos.ADJUNCT, vocabulary_scene.PLACE_ADVERBS),
+    (Role.ROAD, Pos.ADJECTIVE, vocabulary_scene.ROAD_SHAPES),
+    (Role.LIGHT, Pos.NOUN, vocabulary_scene.LIGHTS),
+    (Role.LIGHT, Pos.ADJECTIVE, vocabulary_scene.LIGHT_ADJECTIVES),
+    (Role.LIGHT, Pos.ADJUNCT, vocabulary_scene.LIGHT_PHRASES),
+    (Role.WEATHER, Pos.NOUN, vocabulary_scene.WEATHERS),
+    (Role.WEATHER, Pos.ADJECTIVE, vocabulary_scene.WEATHER_ADJECTIVES),
+    (Role.CLOUDS, Pos.ADJUNCT, vocabulary_scene.CLOUDS),
+)
+"""Role, part of speech, and meaning → phrases for it."""
+_WORDS: tuple[tuple[Role, Pos, Iterable[str]], ...] = (
+    (Role.COLOUR, Pos.ADJECTIVE, vocabulary_objects.COLOURS),
+    (Role.SHADE, Pos.ADJECTIVE, vocabulary_objects.SHADES),
+    (Role.STILL, Pos.ADVERB, vocabulary_motion.STILL_WORDS),
+    (Role.PART, Pos.NOUN, vocabulary_scene.PART_WORDS),
+    (Role.SNOW, Pos.ADJECTIVE, vocabulary_scene.SNOWY),
+    (Role.SNOW, Pos.NOUN, ("snow",)),
+    (Role.SKY, Pos.NOUN, vocabulary_scene.SKY_WORDS),
+    (Role.STEEP, Pos.ADJECTIVE, vocabulary_scene.STEEP),
+    (Role.DUST, Pos.NOUN, vocabulary_scene.DUST),
+    (Role.SHADOW, Pos.NOUN, vocabulary_scene.SHADOW_WORDS),
+    (Role.GLOW, Pos.NOUN, vocabulary_scene.GLOW_NOUNS),
+    (Role.CAMERA, Pos.NOUN, vocabulary_scene.CAMERA_WORDS),
+    *((Role.FUNCTION, pos, words) for pos, words in vocabulary_function.FUNCTION_WORDS.items()),
+)
+"""Role, part of speech, and phrases that mean themselves."""

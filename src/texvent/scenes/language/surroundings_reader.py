@@ -4,11 +4,18 @@ from __future__ import annotations
 
 from texvent.scenes.description import Illumination, NamedColour, Surroundings
 from texvent.scenes.language import vocabulary_scene
+from texvent.scenes.language.adjectives import Attributes
 from texvent.scenes.language.lexicon import Role
-from texvent.scenes.language.tagging import Phrase, mark_used
+from texvent.scenes.language.referents import Referent
+from texvent.scenes.language.tagging import Word, mark_used
 
 _BACKDROPS = ("mountain", "forest", "city")
 _OPEN_PLACES = ("road", "dirt road", "grass", "savanna", "sea", "sand", "snow", "mountain")
+_ROADS = ("road", "dirt road", "city")
+_SCENE_ROLES = frozenset(
+    {Role.WEATHER, Role.CLOUDS, Role.SNOW, Role.STEEP, Role.DUST, Role.FLICKER, Role.SHADOW,
+     Role.LIGHT, Role.PLACE, Role.ROAD, Role.SHADE}
+)  # fmt: skip
 
 
 class SurroundingsReader:
@@ -21,13 +28,52 @@ class SurroundingsReader:
         self._weather: str | None = None
         self._clouds: float | None = None
         self._backdrops: list[str] = []
+        self._road: str | None = None
         self._has_dust = False
         self._has_snow = False
         self._light: str | None = None
         self._flicker_hz: float | None = None
         self._shadows: bool | None = None
-        self._glows: list[Phrase] = []
-        self._hertz: tuple[float, list[Phrase]] | None = None
+        self._glows: list[Word] = []
+
+    def read_referent(self, one: Referent, *, is_negated: bool) -> bool:
+        """Take a place, light, sky or weather with its adjectives; whether it had an effect."""
+        head = one.group.head
+        if head is None:
+            return False
+        is_negated = is_negated or one.group.negation is not None
+        self.read_adjectives(one.attributes, one.kind)
+        if one.kind == "sky":
+            is_used = self._read_sky(one.attributes)
+        elif one.kind == "place":
+            is_used = self._read_place_referent(one)
+        elif one.kind == "glow":
+            self._glows.append(head)
+            is_used = False
+        else:
+            is_used = self.read(head, is_negated=is_negated, value=one.value)
+        head.is_used = head.is_used or is_used
+        if is_used and is_negated and one.group.negation is not None:
+            one.group.negation.is_used = True
+        return is_used
+
+    def _read_place_referent(self, one: Referent) -> bool:
+        colour = one.attributes.colours[0] if one.attributes.colours else None
+        named = colour[0] if colour is not None else None
+        is_used, is_coloured = self.read_place(str(one.value), named)
+        if is_coloured and colour is not None:
+            mark_used(colour[1])
+        return is_used
+
+    def read_adjectives(self, attributes: Attributes, kind: str) -> None:
+        """ "A foggy street", "dark water", "a winding road"."""
+        for word in attributes.words:
+            if word.role in _SCENE_ROLES and not word.is_used:
+                if word.role is Role.SHADE and not (word.text == "dark" and kind == "place"):
+                    continue
+                self.read(word, is_negated=False)
+            elif word.role is Role.VERB and kind == "place":
+                continue
 
     def read_place(self, place: str, colour: NamedColour | None) -> tuple[bool, bool]:
         """Take a place and its stated colour; return which of the two had an effect."""
@@ -48,9 +94,13 @@ class SurroundingsReader:
         natural = vocabulary_scene.NATURAL_COLOURS.get(place, ())
         return True, colour.name.split()[-1] in natural
 
-    def read_sky(self, colour: NamedColour) -> None:
-        """Take the colour of the sky."""
-        self._sky = colour
+    def _read_sky(self, attributes: Attributes) -> bool:
+        if attributes.colours:
+            self._sky, words = attributes.colours[0]
+            mark_used(words)
+        else:
+            self.read_place("sky", None)
+        return True
 
     def read_light(self, light: str) -> bool:
         """Take a time of day or a light; return whether it had an effect."""
@@ -60,37 +110,66 @@ class SurroundingsReader:
         pair = {self._light, light}
         return self._light == light or "lamp" in pair or pair <= {"day", "sunny"}
 
-    def read(self, phrase: Phrase, is_negated: bool) -> None:
-        """Take a word about weather, flicker or shadows."""
-        role, value = phrase.role, phrase.meaning.value
+    def read(self, word: Word, *, is_negated: bool, value: object = None) -> bool:
+        """Take a word about place, weather, light, flicker or shadows."""
+        role = word.role
+        meaning = word.meaning.value if value is None else value
+        is_used = True
         if role is Role.WEATHER:
-            phrase.is_used = self._read_weather(value, is_negated)
+            is_used = self.read_weather(str(meaning), is_negated)
         elif role is Role.CLOUDS:
-            self._clouds, phrase.is_used = (0.0 if is_negated else value), True
+            self._clouds = 0.0 if is_negated else float(meaning)  # type: ignore[arg-type]
         elif role is Role.SNOW:
-            self._has_snow, phrase.is_used = not is_negated, True
+            self._has_snow = not is_negated
         elif role is Role.STEEP:
             self._add_backdrop("mountain")
-            phrase.is_used = True
         elif role is Role.DUST:
-            self._has_dust, phrase.is_used = not is_negated, True
+            self._has_dust = not is_negated
         elif role is Role.FLICKER:
-            self._flicker_hz = None if is_negated else vocabulary_scene.DEFAULT_FLICKER_HZ
-            phrase.is_used = True
+            self.flicker()
         elif role is Role.SHADOW:
-            self._shadows, phrase.is_used = not is_negated, True
+            self._shadows = not is_negated
+        elif role is Role.LIGHT:
+            is_used = self.read_light(str(meaning))
+        elif role is Role.SHADE:
+            is_used = self.read_light(vocabulary_scene.DARK_PLACES_LIGHT)
+        elif role is Role.PLACE:
+            is_used = self.read_place(str(meaning), None)[0]
+        elif role is Role.ROAD:
+            self._road = str(meaning)
         elif role is Role.GLOW:
-            self._glows.append(phrase)
+            self._glows.append(word)
+            is_used = False
+        else:
+            is_used = False
+        word.is_used = word.is_used or is_used
+        return is_used
 
-    def read_hertz(self, frequency: float, phrases: list[Phrase]) -> None:
-        """Keep a frequency, Hz, until it is clear what flickers."""
-        self._hertz = (frequency, phrases)
+    def flicker(self) -> None:
+        """All light flickers."""
+        if self._flicker_hz is None:
+            self._flicker_hz = vocabulary_scene.DEFAULT_FLICKER_HZ
+
+    def curve_road(self) -> bool:
+        """The road bends; whether there is one."""
+        if self._place not in _ROADS:
+            return False
+        self._road = "curved"
+        return True
+
+    def darken(self) -> None:
+        """It is dark."""
+        self.read_light(vocabulary_scene.DARK_PLACES_LIGHT)
+
+    def read_hertz(self, frequency: float) -> bool:
+        """The frequency, Hz, of a light that flickers; whether one does."""
+        if self._flicker_hz is None and not self._is_lit():
+            return False
+        self._flicker_hz = frequency
+        return True
 
     def build(self) -> tuple[Surroundings, Illumination]:
         """The surroundings and the light as understood."""
-        if self._hertz is not None and (self._flicker_hz is not None or self._is_lit()):
-            self._flicker_hz, phrases = self._hertz
-            mark_used(phrases)
         if self._is_lit():
             mark_used(self._glows)
         surroundings = Surroundings(
@@ -100,6 +179,7 @@ class SurroundingsReader:
             weather=self._weather,
             clouds=self._clouds,
             backdrops=tuple(self._backdrops),
+            road=self._road,
             has_dust=self._has_dust,
             has_snow=self._has_snow or self._weather == "snow",
         )
@@ -108,7 +188,7 @@ class SurroundingsReader:
     def _is_lit(self) -> bool:
         return self._light is not None or self._flicker_hz is not None or bool(self._glows)
 
-    def _read_weather(self, weather: str, is_negated: bool) -> bool:
+    def read_weather(self, weather: str, is_negated: bool = False) -> bool:
         if is_negated:
             return True
         if self._weather is None:

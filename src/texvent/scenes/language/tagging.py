@@ -1,30 +1,44 @@
-"""Tokens to phrases: the longest entry of the lexicon wins, its neighbours decide between roles."""
+"""Tokens to words with a part of speech: the longest entry of the lexicon, then its neighbours."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence, Set
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
 
-from texvent.scenes.language.lexicon import ADJECTIVES, Lexicon, Meaning, Role
+from texvent.scenes.language.lexicon import Lexicon, Meaning, Role
 from texvent.scenes.language.tokens import Token
-
-_BEFORE_NOUN = ADJECTIVES | {Role.DETERMINER, Role.NEGATION, Role.RELATION, Role.AND, Role.BREAK}
-_LOCATIVE_PREPOSITIONS = frozenset(
-    {"in", "on", "through", "across", "along", "at", "into", "up", "down", "onto", "over"}
+from texvent.scenes.language.words import (
+    Pos,
+    VerbForm,
+    correct_spelling,
+    list_readings,
 )
-"""Prepositions after which a mountain is a place to be, not an object to look at."""
 
-_OWNERS = frozenset({"its", "it", "their", "his", "her"})
-"""Words before a part of the object that the sentence is about ("its wheels")."""
+_OPENS_NOUN = frozenset({Pos.DETERMINER, Pos.NUMBER, Pos.ADJECTIVE})
+"""After these a noun or one more adjective follows."""
+_NOMINAL = frozenset({Pos.NOUN, Pos.ADJECTIVE, Pos.NUMBER})
+_OPENS_CLAUSE = frozenset({Pos.SUBORDINATOR, Pos.RELATIVE, Pos.SIGN})
+_STARTS_GROUP = _OPENS_NOUN | {Pos.NOUN, Pos.PRONOUN}
 
 
 @dataclass(eq=False)
-class Phrase:
-    """Some tokens with their meaning, and whether it had an effect on the scene."""
+class Word:
+    """Some tokens of a prompt that belong together, with their reading."""
 
-    meaning: Meaning
     tokens: tuple[Token, ...]
+    meaning: Meaning
+    lemma: str
     is_used: bool = False
+    """Whether it had an effect on the scene, or needs none."""
+    shown_as: str | None = None
+    """What is shown in its place, if that is something else."""
+    others: tuple[Meaning, ...] = field(default=())
+    """Its other readings."""
+
+    @property
+    def pos(self) -> Pos:
+        """Its part of speech."""
+        return self.meaning.pos
 
     @property
     def role(self) -> Role:
@@ -36,81 +50,421 @@ class Phrase:
         """Its words, in lower case."""
         return " ".join(token.text for token in self.tokens)
 
+    @property
+    def written(self) -> str:
+        """Its words as the prompt has them."""
+        return " ".join(token.written for token in self.tokens)
 
-def mark_used(phrases: Iterable[Phrase]) -> None:
-    """These phrases had an effect."""
-    for phrase in phrases:
-        phrase.is_used = True
+    @property
+    def is_possessive(self) -> bool:
+        """Whether it owns what follows: "the dog's tail"."""
+        written = self.tokens[-1].written.casefold()
+        return written.endswith(("'s", "’s", "s'", "s’")) and self.tokens[-1].text not in _CONTRACTED
+
+    def read_as(self, role: Role) -> Meaning | None:
+        """Its meaning in that role, if it can have it."""
+        return next((one for one in (self.meaning, *self.others) if one.role is role), None)
 
 
-def tag_phrases(tokens: Sequence[Token], known: Lexicon) -> list[Phrase]:
-    """Cut the tokens into phrases, each with the meaning that suits its neighbours."""
-    phrases: list[Phrase] = []
+_CONTRACTED = frozenset({"it", "that", "there", "he", "she", "what", "who", "let", "here"})
+"""Words after which 's is "is"."""
+
+
+def mark_used(words: Iterable[Word]) -> None:
+    """These words had an effect."""
+    for word in words:
+        word.is_used = True
+
+
+def tag_words(tokens: Sequence[Token], known: Lexicon) -> tuple[list[Word], list[str]]:
+    """Cut the tokens into words, each with the reading that suits its neighbours.
+
+    Returns:
+        The words, and a note for each spelling that was corrected.
+    """
+    notes: list[str] = []
+    tokens = [_correct(token, known, notes) for token in tokens]
+    spans = list(_cut(_own(tokens, known), known))
+    tagger = _Tagger([candidates for _, candidates in spans])
+    words: list[Word] = []
+    for index, (span, candidates) in enumerate(spans):
+        chosen = tagger.choose(index)
+        others = tuple(one for one in candidates if one is not chosen)
+        text = " ".join(token.text for token in span)
+        lemma = next(
+            (one.lemma for one in list_readings(text) if one.pos is chosen.pos), text
+        )
+        words.append(Word(tuple(span), chosen, lemma, others=others))
+    return words, notes
+
+
+def _correct(token: Token, known: Lexicon, notes: list[str]) -> Token:
+    if token.is_punctuation or token.is_number or token.text in known.words:
+        return token
+    better = correct_spelling(token.text, known.words)
+    if better is None:
+        return token
+    notes.append(f"'{token.written}' is read as '{better}'")
+    return Token(better, token.written)
+
+
+def _own(tokens: Sequence[Token], known: Lexicon) -> list[Token]:
+    """ "it's tires" is "its tires"."""
+    found = list(tokens)
+    for index, token in enumerate(tokens[:-1]):
+        if token.written.casefold() in ("it's", "it’s"):
+            _, meanings = known.find([tokens[index + 1].text])
+            if any(one.role in (Role.PART, Role.NOUN) for one in meanings):
+                found[index] = Token("its", token.written)
+    return found
+
+
+def _cut(
+    tokens: Sequence[Token], known: Lexicon
+) -> Iterable[tuple[Sequence[Token], list[Meaning]]]:
+    """Longest phrases of the lexicon, each with all its readings."""
     start = 0
     while start < len(tokens):
         window = tokens[start : start + known.longest]
         length, meanings = known.find([token.text for token in window])
-        if length == 0:
-            length, meanings = 1, [_read_unlisted(tokens[start])]
-        stop = start + length
-        following = [token.text for token in tokens[stop : stop + known.longest]]
-        after = known.find(following)[1] if following else []
-        meaning = _choose(meanings, phrases, after)
-        phrases.append(Phrase(meaning, tuple(tokens[start:stop])))
-        start = stop
-    return phrases
+        length = _stop_at_sign(window, length)
+        length = _split_particle(window, length, known)
+        meanings = known.find([token.text for token in window[:length]])[1] if length else []
+        length = max(length, 1)
+        yield tokens[start : start + length], _complete(tokens[start : start + length], meanings)
+        start += length
 
 
-def _read_unlisted(token: Token) -> Meaning:
+def _split_particle(window: Sequence[Token], length: int, known: Lexicon) -> int:
+    """ "Speeds up a road" goes up a road; "speeds up" goes faster."""
+    if length != 2 or window[1].text not in _PARTICLES or len(window) < 3:
+        return length
+    _, meanings = known.find([token.text for token in window[:2]])
+    takes_object = any(
+        one.role is not Role.VERB or one.value.act or one.value.relation or one.value.object_kind
+        for one in meanings
+    )
+    _, after = known.find([window[2].text])
+    opens_group = any(one.pos is Pos.DETERMINER for one in after)
+    return 1 if opens_group and not takes_object else length
+
+
+_PARTICLES = frozenset({"up", "down", "over", "around", "off", "through", "by"})
+
+
+def _stop_at_sign(window: Sequence[Token], length: int) -> int:
+    """A possessive inside a phrase ends it: "a dog's tail" is not one word."""
+    for index, token in enumerate(window[: max(length - 1, 0)]):
+        if token.written.casefold().endswith(("'s", "’s")) and token.text not in _CONTRACTED:
+            return index + 1
+    return length
+
+
+def _complete(span: Sequence[Token], meanings: list[Meaning]) -> list[Meaning]:
+    """The lexicon's readings, and those of a dictionary for a single word."""
+    if len(span) > 1:
+        return meanings
+    token = span[0]
     if token.is_number:
-        return Meaning(Role.NUMBER, float(token.text.replace(",", ".")))
+        return [Meaning(Role.COUNT, Pos.NUMBER, float(token.text.replace(",", ".")))]
     if token.is_punctuation:
-        return Meaning(Role.BREAK, token.text)
-    return Meaning(Role.UNKNOWN)
+        return [Meaning(Role.FUNCTION, Pos.SIGN, token.text)]
+    if not token.text[0].isalpha():
+        return [Meaning(Role.UNKNOWN, Pos.ADVERB)]
+    found = list(meanings)
+    listed = {meaning.pos for meaning in found}
+    if listed and listed <= _CLOSED:
+        return found
+    for one in list_readings(token.text):
+        if one.pos not in listed:
+            both = one.pos is Pos.NOUN and token.text.endswith("s") and not one.is_plural
+            found.append(Meaning(Role.UNKNOWN, one.pos, None, one.form, one.is_plural, both))
+            listed.add(one.pos)
+    if not found:
+        found.append(Meaning(Role.UNKNOWN, Pos.NOUN))
+        if token.text.endswith("ing"):
+            found.append(Meaning(Role.UNKNOWN, Pos.VERB, None, VerbForm.ING))
+    return found
 
 
-def _choose(meanings: list[Meaning], before: list[Phrase], after: list[Meaning]) -> Meaning:
-    """The meaning that suits the phrases before and what may come after."""
-    by_role = {meaning.role: meaning for meaning in meanings}
-    next_roles = {meaning.role for meaning in after}
-    for first, second, is_first in _AMBIGUITIES:
-        if first in by_role and second in by_role:
-            return by_role[first if is_first(before, next_roles) else second]
-    if len(meanings) > 1 and Role.VERB in by_role and _follows_determiner(before):
-        return next(meaning for meaning in meanings if meaning.role is not Role.VERB)
-    return meanings[0]
+_CLOSED = frozenset(
+    {Pos.DETERMINER, Pos.PRONOUN, Pos.CONJUNCTION, Pos.SUBORDINATOR, Pos.AUXILIARY, Pos.TO,
+     Pos.RELATIVE, Pos.NEGATION, Pos.PREPOSITION, Pos.ADJUNCT}
+)  # fmt: skip
+"""Parts of speech whose words are listed in full: no dictionary adds to them."""
 
 
-def _expects_noun(before: list[Phrase]) -> bool:
-    return not before or before[-1].role in _BEFORE_NOUN
+class _Tagger:
+    """Chooses readings from left to right."""
 
+    def __init__(self, candidates: list[list[Meaning]]) -> None:
+        self._candidates = candidates
+        self._chosen: list[Meaning] = []
+        self._has_verb = False
+        """Whether the clause has a finite verb."""
+        self._is_plural: bool | None = False
+        """Whether the last noun group is plural; None = it can be either."""
+        self._counts_group = False
+        """Whether a number opened the noun group."""
+        self._subject_is_plural: bool | None = False
+        """The same of the subject: the first noun group of the clause."""
+        self._has_subject = False
 
-def _preposition(before: list[Phrase]) -> str | None:
-    """The relation word before the determiner and adjectives that came last."""
-    for phrase in reversed(before):
-        if phrase.role is Role.RELATION or phrase.text in _LOCATIVE_PREPOSITIONS:
-            return phrase.text
-        if phrase.role not in ADJECTIVES | {Role.DETERMINER, Role.STEEP, Role.SNOW}:
+    def choose(self, index: int) -> Meaning:
+        """The reading of word `index`, after those before it."""
+        options = self._candidates[index]
+        by_pos = {meaning.pos: meaning for meaning in reversed(options)}
+        chosen = by_pos[self._decide(index, by_pos)]
+        self._note(chosen)
+        self._chosen.append(chosen)
+        return chosen
+
+    def _note(self, meaning: Meaning) -> None:
+        if meaning.pos is Pos.SIGN and meaning.value in ".;!?:":
+            self._has_verb = False
+        elif meaning.pos in (Pos.SUBORDINATOR, Pos.RELATIVE):
+            self._has_verb = False
+        elif meaning.pos is Pos.AUXILIARY:
+            self._has_verb = True
+        elif meaning.pos is Pos.VERB and meaning.form is not VerbForm.ING:
+            self._has_verb = True
+        elif meaning.pos is Pos.NOUN:
+            self._is_plural = self._decide_plural(meaning)
+            if not self._has_subject:
+                self._subject_is_plural = self._is_plural
+        elif meaning.pos is Pos.PREPOSITION:
+            self._has_subject = True
+        elif meaning.pos is Pos.CONJUNCTION and not self._has_verb:
+            self._subject_is_plural = self._is_plural = None
+            self._has_subject = True
+        if meaning.pos in _OPENS_CLAUSE:
+            self._has_subject = False
+        self._counts_group = meaning.pos is Pos.NUMBER or (
+            self._counts_group and meaning.pos in _NOMINAL
+        )
+
+    def _decide_plural(self, meaning: Meaning) -> bool | None:
+        """"A flock of birds crosses" and "cross", "deer stands" and "stand"."""
+        if self._counts_group or meaning.can_be_both:
             return None
-    return None
+        return meaning.is_plural
 
+    def _before(self) -> Pos | None:
+        """Part of speech of the word before; None at the start of a sentence.
 
-def _is_owned(before: list[Phrase]) -> bool:
-    return bool(before) and before[-1].text in _OWNERS
+        Adjuncts ("the kid on the left jumps") and "not" after an auxiliary are passed over.
+        """
+        for number in range(len(self._chosen) - 1, -1, -1):
+            meaning = self._chosen[number]
+            if meaning.pos is Pos.SIGN and meaning.value in ".;!?:":
+                return None
+            is_not = meaning.pos is Pos.NEGATION and number > 0
+            if is_not and self._chosen[number - 1].pos is Pos.AUXILIARY:
+                continue
+            if meaning.pos is Pos.ADJUNCT and number > 0 and meaning.role is Role.SIDE:
+                continue
+            return meaning.pos
+        return None
 
+    def _after(self, index: int, steps: int = 1) -> frozenset[Pos]:
+        if index + steps >= len(self._candidates):
+            return frozenset()
+        return frozenset(meaning.pos for meaning in self._candidates[index + steps])
 
-def _follows_determiner(before: list[Phrase]) -> bool:
-    return bool(before) and before[-1].role is Role.DETERMINER
+    def _decide(self, index: int, by_pos: dict[Pos, Meaning]) -> Pos:
+        if len(by_pos) == 1:
+            return next(iter(by_pos))
+        for rule in (self._closed_class, self._verb_or_not, self._open_class):
+            found = rule(index, by_pos)
+            if found is not None:
+                return found
+        return next(iter(by_pos))
 
+    def _closed_class(self, index: int, by_pos: dict[Pos, Meaning]) -> Pos | None:
+        """Prepositions, adverbs, relatives and other words of grammar."""
+        before, after = self._before(), self._after(index)
+        if Pos.TO in by_pos:
+            coming = self._candidates[index + 1] if after else []
+            is_verb = any(one.pos is Pos.VERB and one.form is VerbForm.BASE for one in coming)
+            is_other = any(
+                one.pos is not Pos.VERB and one.role is not Role.UNKNOWN for one in coming
+            )
+            return Pos.TO if is_verb and not is_other else Pos.PREPOSITION
+        if Pos.RELATIVE in by_pos:
+            if before in (Pos.NOUN, Pos.PRONOUN, Pos.SIGN, Pos.PREPOSITION, Pos.ADJUNCT):
+                is_determiner = Pos.DETERMINER in by_pos and before is Pos.PREPOSITION
+                return Pos.DETERMINER if is_determiner else Pos.RELATIVE
+            return Pos.DETERMINER if Pos.DETERMINER in by_pos else Pos.RELATIVE
+        if Pos.DETERMINER in by_pos and Pos.PRONOUN in by_pos:
+            return Pos.DETERMINER if after & (_NOMINAL | {Pos.ADVERB}) else Pos.PRONOUN
+        if Pos.NUMBER in by_pos:
+            return Pos.NUMBER
+        if Pos.AUXILIARY in by_pos:
+            return Pos.AUXILIARY if after & {Pos.VERB, Pos.NEGATION} else Pos.VERB
+        if Pos.PREPOSITION in by_pos:
+            return self._preposition(by_pos, after)
+        if Pos.SUBORDINATOR in by_pos and Pos.ADVERB in by_pos:
+            return Pos.SUBORDINATOR if before in (None, Pos.SIGN, Pos.CONJUNCTION) else Pos.ADVERB
+        return None
 
-_AMBIGUITIES: tuple[tuple[Role, Role, Callable[[list[Phrase], Set[Role]], bool]], ...] = (
-    (Role.SHADE, Role.GLOW, lambda before, after: Role.COLOUR in after),
-    (Role.PART, Role.NOUN, lambda before, after: _is_owned(before)),
-    (Role.NOUN, Role.VERB, lambda before, after: _expects_noun(before)),
-    (
-        Role.PLACE,
-        Role.NOUN,
-        lambda before, after: Role.PLACE in after or _preposition(before) in _LOCATIVE_PREPOSITIONS,
-    ),
-)
-"""Two roles that a phrase can have, and (phrases before, roles after) → whether it is the first."""
+    def _preposition(self, by_pos: dict[Pos, Meaning], after: frozenset[Pos]) -> Pos | None:
+        before = self._before()
+        if before in (Pos.DETERMINER, Pos.NUMBER) and by_pos.keys() & _NOMINAL:
+            return None
+        opens_clause = Pos.SUBORDINATOR in by_pos and before in (None, Pos.SIGN)
+        if opens_clause and not after & {Pos.DETERMINER, Pos.NUMBER}:
+            return Pos.SUBORDINATOR
+        if after & (_STARTS_GROUP | {Pos.VERB, Pos.NEGATION, Pos.RELATIVE}):
+            return Pos.PREPOSITION
+        if Pos.ADVERB in by_pos:
+            return Pos.ADVERB
+        return Pos.PREPOSITION
+
+    def _verb_or_not(self, index: int, by_pos: dict[Pos, Meaning]) -> Pos | None:
+        """Whether a word that can be a verb is one."""
+        verb = by_pos.get(Pos.VERB)
+        if verb is None:
+            return None
+        others = by_pos.keys() - {Pos.VERB}
+        before, after = self._before(), self._after(index)
+        if not others:
+            return Pos.VERB
+        is_adverb = Pos.ADVERB in by_pos and by_pos[Pos.ADVERB].role is not Role.UNKNOWN
+        if is_adverb and (verb.role is Role.UNKNOWN or verb.form is VerbForm.PAST):
+            return None
+        if before is Pos.PRONOUN or before is Pos.RELATIVE or before is Pos.AUXILIARY:
+            return self._after_auxiliary(verb, others, after)
+        if before is Pos.TO:
+            return Pos.VERB
+        if verb.form is VerbForm.ING:
+            return self._gerund(index, verb, others)
+        if verb.form is VerbForm.PAST and before in _OPENS_NOUN | {None, Pos.SIGN, Pos.PREPOSITION}:
+            return self._attribute(others, after)
+        if before in _OPENS_NOUN or before in (Pos.PREPOSITION, Pos.VERB, Pos.NEGATION):
+            return None
+        if before is Pos.NOUN:
+            return self._after_noun(index, verb)
+        if before in (Pos.CONJUNCTION, Pos.SIGN, Pos.SUBORDINATOR, Pos.ADVERB):
+            return self._coordinated(index, verb, others)
+        if before is None and verb.form is VerbForm.BASE and not after & {Pos.VERB, Pos.AUXILIARY}:
+            is_order = after & {Pos.DETERMINER, Pos.NUMBER, Pos.ADVERB} and Pos.NOUN not in others
+            return Pos.VERB if is_order else None
+        return None
+
+    def _after_auxiliary(
+        self, verb: Meaning, others: set[Pos] | frozenset[Pos], after: frozenset[Pos]
+    ) -> Pos | None:
+        if Pos.ADJECTIVE in others and verb.form is VerbForm.BASE:
+            return Pos.ADJECTIVE
+        del after
+        return Pos.VERB
+
+    def _gerund(self, index: int, verb: Meaning, others: set[Pos] | frozenset[Pos]) -> Pos | None:
+        before, after = self._before(), self._after(index)
+        if Pos.NOUN in others and verb.role is Role.UNKNOWN and self._finite_follows(index):
+            return Pos.NOUN
+        if before in _OPENS_NOUN:
+            if after & _NOMINAL and not after & {Pos.PREPOSITION}:
+                return Pos.ADJECTIVE if Pos.ADJECTIVE in others else Pos.VERB
+            return Pos.NOUN if Pos.NOUN in others else Pos.VERB
+        if before is Pos.NOUN and Pos.NOUN in others and verb.role is Role.UNKNOWN:
+            is_head = after & {Pos.VERB, Pos.AUXILIARY} and not after & {Pos.NOUN}
+            return Pos.NOUN if is_head else Pos.VERB
+        return Pos.VERB
+
+    def _attribute(self, others: set[Pos] | frozenset[Pos], after: frozenset[Pos]) -> Pos | None:
+        """A past participle before its noun: "a parked car", "painted walls"."""
+        if after & _NOMINAL:
+            return Pos.ADJECTIVE if Pos.ADJECTIVE in others else Pos.VERB
+        return next(iter(others)) if others else Pos.VERB
+
+    def _after_noun(self, index: int, verb: Meaning) -> Pos | None:
+        """Subject and verb agree in number: "a dog barks", "dogs bark", but "dog barks"."""
+        after = self._after(index)
+        if verb.form is VerbForm.PAST:
+            return Pos.VERB
+        if self._has_verb and not self._opens_clause():
+            return None
+        if after & {Pos.AUXILIARY} or (self._finite_follows(index) and not after & _NOMINAL):
+            return None
+        is_singular = verb.form is VerbForm.THIRD
+        numbers = (self._is_plural, self._subject_is_plural)
+        agrees = any(plural is None or is_singular != plural for plural in numbers)
+        return Pos.VERB if agrees else None
+
+    def _finite_follows(self, index: int) -> bool:
+        """Whether the next word can be a verb in the third person."""
+        coming = self._candidates[index + 1] if index + 1 < len(self._candidates) else []
+        return any(one.pos is Pos.VERB and one.form is VerbForm.THIRD for one in coming)
+
+    def _opens_clause(self) -> bool:
+        """Whether a subordinator, comma or "and" came after the last finite verb."""
+        for meaning in reversed(self._chosen):
+            if meaning.pos in (Pos.SUBORDINATOR, Pos.RELATIVE, Pos.CONJUNCTION, Pos.SIGN):
+                return True
+            if meaning.pos is Pos.VERB:
+                return meaning.form is VerbForm.ING or meaning.form is VerbForm.PAST
+        return True
+
+    def _coordinated(
+        self, index: int, verb: Meaning, others: set[Pos] | frozenset[Pos]
+    ) -> Pos | None:
+        """After "and", a comma or an adverb: a verb like the one before, or else a noun."""
+        after = self._after(index)
+        if Pos.NOUN not in others and Pos.ADJECTIVE not in others:
+            return Pos.VERB
+        if after & {Pos.AUXILIARY} or (
+            verb.form is VerbForm.BASE and self._finite_follows(index)
+        ):
+            return None
+        form = self._last_verb_form()
+        is_parallel = form is not None and form is verb.form
+        if self._before() is Pos.ADVERB and form is None and verb.form is VerbForm.THIRD:
+            return Pos.VERB
+        return Pos.VERB if is_parallel else None
+
+    def _last_verb_form(self) -> VerbForm | None:
+        for meaning in reversed(self._chosen):
+            if meaning.pos is Pos.SIGN and meaning.value in ".;!?":
+                return None
+            if meaning.pos is Pos.AUXILIARY and meaning.value in ("is", "are"):
+                return VerbForm.THIRD if meaning.value == "is" else VerbForm.BASE
+            if meaning.pos is Pos.VERB and meaning.form in (VerbForm.THIRD, VerbForm.BASE):
+                return meaning.form
+        return None
+
+    def _open_class(self, index: int, by_pos: dict[Pos, Meaning]) -> Pos | None:
+        """Nouns, adjectives and adverbs."""
+        before, after = self._before(), self._after(index)
+        known = {pos: one for pos, one in by_pos.items() if one.role is not Role.UNKNOWN}
+        known.pop(Pos.VERB, None)
+        opens = before in _OPENS_NOUN or before in (Pos.PREPOSITION, None, Pos.NEGATION)
+        if len(known) == 1:
+            pos = next(iter(known))
+            is_substance = known[pos].role is Role.MATERIAL and Pos.NOUN in by_pos
+            if is_substance and not after & {Pos.NOUN, Pos.ADJECTIVE}:
+                return Pos.NOUN
+            if pos in _NOMINAL or not (opens and by_pos.keys() & {Pos.NOUN}):
+                return pos
+        if Pos.ADJECTIVE in by_pos and Pos.NOUN in by_pos:
+            if after & {Pos.NOUN, Pos.ADJECTIVE} and not self._ends_group(index):
+                return Pos.ADJECTIVE
+            return Pos.NOUN if before is not Pos.AUXILIARY else Pos.ADJECTIVE
+        if Pos.ADVERB in by_pos and Pos.ADJECTIVE in by_pos:
+            is_attribute = after & _NOMINAL and (opens or before is Pos.SIGN)
+            return Pos.ADJECTIVE if is_attribute else Pos.ADVERB
+        if Pos.NOUN in by_pos and (opens or before in (Pos.VERB, Pos.NOUN)):
+            return Pos.NOUN
+        rest = [pos for pos in by_pos if pos is not Pos.VERB]
+        return rest[0] if rest else Pos.VERB
+
+    def _ends_group(self, index: int) -> bool:
+        """Whether what follows is rather a verb: "the red leaves"."""
+        after = self._candidates[index + 1]
+        can_be_verb = any(
+            one.pos is Pos.VERB and (one.role is Role.VERB or one.form is VerbForm.THIRD)
+            for one in after
+        )
+        return can_be_verb and not any(
+            one.pos is Pos.NOUN and one.role is not Role.UNKNOWN for one in after
+        )

@@ -7,99 +7,147 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Verb:
-    """A verb and the motion it stands for."""
+    """A verb and what it means for its subject and its object."""
 
     base: str
     kind: str
-    """A `ObjectMotion.kind`, or "move" = the usual motion of whatever does it."""
+    """A `ObjectMotion.kind` of the subject; "move" = its usual motion; "" = none of its own."""
     pace: float = 1.0
     direction: str | None = None
     relation: str | None = None
-    """Relation to the noun that follows, as in "passes two trees"."""
-    irregular: tuple[str, ...] = ()
-    """Irregular past forms; usable before a noun ("a parked car")."""
+    """Relation of the subject to its object, as in "passes two trees"."""
+    act: str | None = None
+    """What the subject does to its object: a `Relation.kind` such as "hold"."""
+    object_kind: str | None = None
+    """Motion of the object, as in "spins a wheel"."""
+    end_pace: float | None = None
+    """As `ObjectMotion.end_pace`."""
 
 
-_REGULAR_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
+_PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
     "move": {
-        1.0: ("move", "head", "proceed", "advance", "journey", "enter"), 1.7: ("race",),
-        1.6: ("rush",), 1.8: ("zip",), 1.5: ("hurry",), 1.3: ("accelerate",),
+        1.0: ("move", "head", "proceed", "advance", "journey", "go", "travel", "shuffle"),
+        1.7: ("race", "speed"), 1.6: ("rush",), 1.8: ("zip",), 1.5: ("hurry",), 0.4: ("creep",),
+        1.2: ("weave",),
     },
-    "drive": {0.8: ("cruise",)},
-    "run": {1.4: ("dash", "sprint"), 0.8: ("jog",), 1.3: ("gallop", "charge"), 0.7: ("trot",)},
+    "drive": {0.8: ("cruise", "taxi")},
+    "run": {
+        1.4: ("dash", "sprint"), 0.8: ("jog",), 1.3: ("gallop", "charge", "flee", "bound"),
+        0.7: ("trot",),
+    },
     "walk": {
-        1.0: ("walk", "slither"), 0.7: ("stroll", "wander", "prowl"), 1.2: ("march",),
-        0.8: ("step",), 0.9: ("hike",), 0.4: ("crawl",),
+        1.0: ("walk", "slither", "waddle"), 0.7: ("stroll", "wander", "prowl", "roam"),
+        1.2: ("march", "stride"), 0.8: ("step",), 0.9: ("hike",),
     },
-    "fly": {1.0: ("soar",), 0.8: ("glide",), 0.7: ("flutter",), 0.4: ("drift",)},
+    "fly": {0.8: ("glide",), 0.7: ("flutter",), 0.4: ("drift",), 1.0: ("soar",)},
     "hover": {1.0: ("hover", "float")},
-    "sail": {1.0: ("sail",), 0.7: ("row",)},
-    "spin": {0.7: ("rotate",), 0.5: ("turn",), 1.2: ("twirl",), 1.5: ("whirl",)},
-    "roll": {1.0: ("roll", "tumble")},
-    "slide": {1.0: ("skate",), 1.5: ("ski",)},
-    "bounce": {1.0: ("bounce", "dribble")},
-    "fall": {1.0: ("drop", "plummet")},
-    "rise": {1.0: ("ascend", "lift off"), 0.6: ("climb", "lift"), 1.5: ("launch",)},
-    "sink": {1.0: ("descend",), 0.8: ("land",)},
+    "swim": {1.0: ("swim",)},
+    "slide": {1.0: ("slide", "slip", "glide over")},
+    "bounce": {1.0: ("bounce",)},
+    "fall": {1.0: ("plummet", "fall down", "fall over", "topple", "tumble down", "collapse")},
+    "rise": {1.0: ("ascend", "lift off", "take off", "rise", "blast off"), 1.5: ("launch",)},
+    "sink": {1.0: ("descend",), 0.8: ("land",), 0.7: ("sink",)},
     "swing": {1.0: ("oscillate",), 0.6: ("dangle",)},
-    "sway": {1.0: ("sway", "rock"), 1.5: ("wobble",), 4.0: ("tremble",)},
+    "sway": {1.0: ("sway", "rock"), 1.5: ("wobble",), 4.0: ("tremble", "vibrate"), 3.0: ("shiver",)},
     "dance": {1.0: ("dance",)},
-    "jump": {1.0: ("jump",), 0.7: ("hop",), 0.8: ("skip",)},
-    "throw": {1.0: ("kick", "hit"), 0.8: ("toss",)},
-    "work": {1.0: ("wave", "flap", "work", "operate")},
-    "stand": {1.0: ("park", "wait", "rest", "stop", "stay", "pause", "pose", "graze")},
+    "jump": {1.0: ("jump",), 0.7: ("hop",), 0.8: ("skip",), 1.2: ("leap",)},
+    "work": {1.0: ("flap", "work", "operate", "beat", "pulse")},
+    "stand": {
+        1.0: ("park", "wait", "rest", "stay", "pause", "pose", "graze", "stand", "hang", "remain",
+              "perch", "idle", "freeze"),
+    },
+    "sit": {1.0: ("sit", "sleep")},
+    "lie": {1.0: ("lie", "lie down", "doze")},
 }  # fmt: skip
 """Motion → pace → verbs of which there is nothing else to say."""
 
 VERBS: tuple[Verb, ...] = (
-    Verb("go", "move", irregular=("went", "gone")),
-    Verb("travel", "move", irregular=("travelling", "travelled")),
-    Verb("come", "move", direction="towards", irregular=("came",)),
+    Verb("come", "move", direction="towards"),
     Verb("approach", "move", direction="towards", relation="towards"),
     Verb("leave", "move", direction="away"),
     Verb("depart", "move", direction="away"),
     Verb("retreat", "move", direction="away"),
+    Verb("recede", "move", direction="away"),
+    Verb("back up", "move", direction="backward"),
+    Verb("reverse", "move", direction="backward"),
+    Verb("enter", "move", relation="in"),
     Verb("pass", "move", relation="past"),
+    Verb("pass by", "move", relation="past"),
+    Verb("overtake", "move", 1.5, relation="past"),
+    Verb("zoom past", "move", 1.8, relation="past"),
     Verb("cross", "move", direction="across", relation="on"),
     Verb("traverse", "move", direction="across", relation="on"),
-    Verb("drive", "drive", irregular=("drove", "driven")),
-    Verb("ride", "drive", irregular=("rode", "ridden")),
-    Verb("speed", "move", 1.7, irregular=("sped",)),
-    Verb("zoom past", "move", 1.8, relation="past"),
-    Verb("creep", "move", 0.4, irregular=("crept",)),
-    Verb("stride", "walk", 1.2, irregular=("strode",)),
-    Verb("run", "run", irregular=("ran",)),
-    Verb("flee", "run", 1.3, irregular=("fled", "fleeing")),
+    Verb("accelerate", "move", 0.5, end_pace=1.8),
+    Verb("speed up", "move", 0.5, end_pace=1.8),
+    Verb("brake", "move", 1.2, end_pace=0.2),
+    Verb("slow down", "move", 1.2, end_pace=0.2),
+    Verb("decelerate", "move", 1.2, end_pace=0.2),
+    Verb("stop", "stand"),
+    Verb("halt", "stand"),
+    Verb("come to a stop", "stand"),
+    Verb("turn", "turn", object_kind="spin"),
+    Verb("swerve", "turn", 1.3),
+    Verb("curve", "turn"),
+    Verb("veer", "turn", 1.2),
+    Verb("turn around", "turn around"),
+    Verb("u turn", "turn around"),
+    Verb("zigzag", "zigzag"),
+    Verb("drive", "drive", act="ride"),
+    Verb("ride", "drive", act="ride"),
+    Verb("steer", "drive", act="ride"),
+    Verb("fly", "fly", act="hold"),
+    Verb("run", "run"),
+    Verb("crawl", "crawl"),
     Verb("chase", "run", 1.2, relation="follow"),
-    Verb("follow", "move", relation="follow"),
     Verb("pursue", "run", 1.2, relation="follow"),
-    Verb("fly", "fly", irregular=("flew", "flown")),
+    Verb("follow", "move", relation="follow"),
     Verb("swoop", "fly", 1.4, direction="down"),
-    Verb("swim", "swim", irregular=("swam", "swum")),
-    Verb("dive", "swim", 1.2, direction="down", irregular=("dove",)),
-    Verb("spin", "spin", irregular=("spun",)),
-    Verb("slide", "slide", irregular=("slid",)),
-    Verb("fall", "fall", irregular=("fell", "fallen")),
-    Verb("rise", "rise", irregular=("rose", "risen")),
-    Verb("take off", "rise", irregular=("takes off", "taking off", "took off")),
-    Verb("sink", "sink", 0.7, irregular=("sank",)),
+    Verb("dive", "swim", 1.2, direction="down"),
+    Verb("sail", "sail"),
+    Verb("row", "sail", 0.7, act="ride"),
+    Verb("paddle", "sail", 0.7, act="ride"),
+    Verb("spin", "spin", object_kind="spin"),
+    Verb("rotate", "spin", 0.7, object_kind="spin"),
+    Verb("twirl", "spin", 1.2, object_kind="spin"),
+    Verb("whirl", "spin", 1.5, object_kind="spin"),
+    Verb("revolve", "spin", 0.7, relation="around"),
     Verb("orbit", "orbit", relation="around"),
     Verb("circle", "orbit", relation="around"),
-    Verb("revolve", "orbit", relation="around"),
-    Verb("swing", "swing", irregular=("swung",)),
-    Verb("shake", "sway", 3.0, irregular=("shook",)),
-    Verb("leap", "jump", 1.2, irregular=("leapt",)),
-    Verb("throw", "throw", irregular=("threw", "thrown")),
-    Verb("dig", "work", irregular=("dug",)),
-    Verb("blow", "work", irregular=("blew", "blown")),
-    Verb("stand", "stand", irregular=("stood",)),
-    Verb("sit", "sit", irregular=("sat", "seated")),
-    Verb("sleep", "sit", irregular=("slept", "asleep")),
-    Verb("lie", "stand", irregular=("lay", "lying")),
-    Verb("hang", "stand", irregular=("hung",)),
+    Verb("roll", "roll", object_kind="roll"),
+    Verb("tumble", "roll"),
+    Verb("skate", "skate"),
+    Verb("ski", "ski", 1.5),
+    Verb("surf", "surf"),
+    Verb("fall", "fall"),
+    Verb("drop", "fall", object_kind="fall"),
+    Verb("climb", "rise", 0.6),
+    Verb("lift", "rise", 0.6, act="hold", object_kind="rise"),
+    Verb("swing", "swing", object_kind="swing"),
+    Verb("shake", "sway", 3.0, object_kind="sway"),
+    Verb("tilt", "sway", object_kind="sway"),
+    Verb("throw", "throw", act="throw"),
+    Verb("toss", "throw", 0.8, act="throw"),
+    Verb("hurl", "throw", 1.3, act="throw"),
+    Verb("kick", "kick", act="kick"),
+    Verb("hit", "", act="hit"),
+    Verb("strike", "", act="hit"),
+    Verb("catch", "catch", act="catch"),
+    Verb("grab", "", act="hold"),
+    Verb("hold", "", act="hold"),
+    Verb("carry", "", act="carry"),
+    Verb("bring", "", act="carry"),
+    Verb("wear", "", act="wear"),
+    Verb("push", "", act="push"),
+    Verb("pull", "", act="pull"),
+    Verb("drag", "", act="pull"),
+    Verb("tow", "", act="pull"),
+    Verb("dribble", "dribble", object_kind="bounce"),
+    Verb("wave", "wave"),
+    Verb("dig", "work"),
+    Verb("blow", "work"),
     *(
         Verb(base, kind, pace)
-        for kind, by_pace in _REGULAR_VERBS.items()
+        for kind, by_pace in _PLAIN_VERBS.items()
         for pace, verbs in by_pace.items()
         for base in verbs
     ),
@@ -110,7 +158,7 @@ STILL_WORDS = ("still", "motionless", "stationary", "unmoving")
 DIRECTIONS: dict[str, tuple[str, ...]] = {
     "left": (
         "left", "leftward", "leftwards", "to the left", "to left", "towards the left",
-        "from right to left", "from the right to the left", "right to left",
+        "from right to left", "from the right to the left", "right to left", "to its left", "to their left", "to the left hand side",
     ),
     "right": (
         "right", "rightward", "rightwards", "to the right", "to right", "towards the right",
@@ -124,6 +172,9 @@ DIRECTIONS: dict[str, tuple[str, ...]] = {
         "away", "away from the camera", "away from us", "away from the viewer", "into the distance",
         "off into the distance",
     ),
+    "clockwise": ("clockwise",),
+    "counter-clockwise": ("counter clockwise", "counterclockwise", "anticlockwise",
+                          "anti clockwise"),
     "forward": ("forward", "forwards", "ahead", "straight ahead"),
     "backward": ("backward", "backwards"),
     "up": ("up", "upward", "upwards", "skyward"),
@@ -159,32 +210,66 @@ PACES: dict[float, tuple[str, ...]] = {
     2.0: ("at high speed", "at full speed", "wildly"),
 }  # fmt: skip
 
-SPEED_UNITS: dict[float, tuple[str, ...]] = {
-    1 / 3.6: ("km / h", "kmh", "kph", "kilometers per hour", "kilometres per hour", "km per hour"),
-    0.44704: ("mph", "miles per hour"),
-    1.0: ("m / s", "mps", "meters per second", "metres per second"),
-    0.514444: ("knots",),
+PACE_ADJECTIVES: dict[float, tuple[str, ...]] = {
+    0.5: ("slow",),
+    0.6: ("gentle",),
+    1.6: ("quick",),
+    1.7: ("fast", "speeding"),
+    1.8: ("rapid",),
+}
+UNITS: dict[tuple[str, float], tuple[str, ...]] = {
+    ("speed", 1 / 3.6): (
+        "km / h", "kmh", "kph", "kilometers per hour", "kilometres per hour", "km per hour",
+    ),
+    ("speed", 0.44704): ("mph", "miles per hour"),
+    ("speed", 1.0): ("m / s", "mps", "meters per second", "metres per second"),
+    ("speed", 0.514444): ("knots",),
+    ("rate", 1.0): ("hz", "hertz", "revolutions per second", "turns per second"),
+    ("rate", 1000.0): ("khz",),
+    ("rate", 1 / 60): ("rpm", "revolutions per minute"),
+    ("time", 1.0): ("second", "sec"),
+    ("time", 0.001): ("ms", "millisecond"),
 }  # fmt: skip
-"""m/s → units."""
+"""(Quantity, factor to m/s, Hz or s) → units."""
 
 RELATIONS: dict[str, tuple[str, ...]] = {
     "beside": (
-        "next to", "beside", "alongside", "near", "close to", "by", "across from", "at", "against",
+        "next to", "beside", "alongside", "near", "close to", "across from", "against",
         "opposite",
     ),
     "behind": ("behind", "in back of"),
     "front": ("in front of",),
-    "on": ("on", "on top of", "atop", "onto", "in", "inside"),
+    "on": ("on", "on top of", "atop", "onto", "upon"),
+    "in": ("in", "inside", "within", "into", "in the back of"),
     "above": ("above", "over"),
     "under": ("under", "underneath", "below", "beneath"),
     "between": ("between",),
-    "among": ("among", "amongst", "amid", "through"),
+    "among": ("among", "amongst", "amid"),
+    "through": ("through", "throughout"),
     "left of": ("left of", "to the left of", "on the left of"),
     "right of": ("right of", "to the right of", "on the right of"),
     "past": ("past", "along"),
     "around": ("around",),
     "surround": ("surrounded by", "lined with", "lined by"),
-    "towards": ("towards", "toward", "to", "into"),
+    "towards": ("towards", "toward", "to"),
     "with": ("with",),
-    "from": ("from",),
+    "from": ("from", "out of", "off of"),
 }  # fmt: skip
+
+OTHER_PREPOSITIONS: dict[str, tuple[str, ...]] = {
+    "of": ("of",),
+    "by": ("by",),
+    "at": ("at",),
+    "for": ("for",),
+    "like": ("like",),
+    "during": ("during",),
+    "via": ("via",),
+    "about": ("about",),
+    "up": ("up",),
+    "down": ("down",),
+    "off": ("off",),
+    "out": ("out",),
+    "across": ("across",),
+    "facing": ("facing",),
+}
+"""Prepositions that say no relation between two objects, or only with some of them."""

@@ -47,29 +47,6 @@ SIZES: dict[float, tuple[str, ...]] = {
     2.4: ("gigantic",),
 }  # fmt: skip
 
-NEGATIONS = (
-    "no",
-    "without",
-    "without any",
-    "with no",
-    "with no other",
-    "no other",
-    "without other",
-    "without any other",
-    "not any",
-    "not a",
-    "no more",
-    "not",
-    "never",
-    "free of",
-    "there are no",
-    "there is no",
-)
-
-CONTRASTS = frozenset({"but", "only", "just"})
-"""Words after which a negation no longer holds: "no cars, only bicycles"."""
-
-
 def decode_hex(code: str) -> Colour:
     """Linear-light RGB of an sRGB code such as "ff8000" (IEC 61966-2-1).
 
@@ -122,8 +99,8 @@ COLOURS: dict[str, Colour] = {
         "scarlet": "d62718",
         "bronze": "a9713a",
         "copper": "b8693a",
-        "wooden": "8a5c33",
-        "rusty": "8a4a2a",
+        "indigo": "3a3a9a",
+        "ochre": "b9822e",
     }.items()
 }
 
@@ -149,30 +126,22 @@ def shade_colour(rgb: Colour, shade: str) -> Colour:
     red, green, blue = (min(1.0, (c * factor) * (1.0 - white) + white) for c in rgb)
     return (red, green, blue)
 
-
-DETERMINERS = (
-    "a", "an", "the", "this", "that", "these", "those", "its", "their", "his", "her", "our", "my",
-    "your", "another", "each", "every", "all", "any", "other",
-)  # fmt: skip
-
-PRONOUNS = ("it", "they", "he", "she", "them", "him", "which", "who")
-
-STOP_WORDS = frozenset(
-    {
-        "a", "about", "along", "also", "an", "and", "any", "appear", "appears", "appearing", "are",
-        "around", "as", "at", "be", "beautiful", "because", "been", "being", "but", "by", "can",
-        "cinematic", "clip", "could", "create", "d", "depicting", "depicts", "depict", "did", "do",
-        "does", "during", "each", "feature", "featuring", "features", "footage", "for", "from",
-        "generate", "had", "has", "have", "having", "here", "how", "i", "if", "image", "in",
-        "into", "is", "its", "itself", "just", "kind", "let", "like", "ll", "m", "make", "may",
-        "me", "might", "must", "my", "nice", "of", "off", "on", "one's", "only", "onto", "or",
-        "other", "our", "out", "over", "per", "photo", "photograph", "photorealistic", "picture",
-        "please", "pretty", "quite", "re", "really", "realistic", "render", "rendered", "s",
-        "scene", "scenes", "see", "seen", "shot", "should", "show", "showing", "shown", "shows",
-        "sight", "so", "some", "sort", "such", "t", "than", "that", "the", "their", "themselves",
-        "then", "there", "these", "this", "those", "through", "to", "too", "type", "until", "upon",
-        "us", "ve", "very", "via", "video", "view", "visible", "was", "we", "were", "what", "when",
-        "where", "while", "why", "will", "with", "within", "would", "you", "your",
-    }
-)  # fmt: skip
-"""Words that may go without effect and without report."""
+MATERIALS: dict[str, tuple[str, ...]] = {
+    "wood": ("wooden", "wood", "oak", "pine wood"),
+    "brick": ("brick",),
+    "stone": ("stone", "cobblestone", "limestone"),
+    "marble": ("marble",),
+    "concrete": ("concrete", "cement"),
+    "metal": ("metal", "metallic", "steel", "iron", "tin", "aluminium", "aluminum", "chrome"),
+    "brass": ("brass",),
+    "glass": ("glass", "crystal"),
+    "plastic": ("plastic",),
+    "ceramic": ("ceramic", "porcelain", "clay"),
+    "cloth": ("cloth", "fabric", "woollen", "woolen", "cotton"),
+    "leather": ("leather",),
+    "rubber": ("rubber",),
+    "paper": ("paper", "cardboard"),
+    "rust": ("rusty", "rusted"),
+    "ice": ("ice",),
+}  # fmt: skip
+"""Material → words for it, before a noun."""

@@ -20,12 +20,11 @@ PLACES: dict[str, tuple[str, ...]] = {
     "savanna": ("savanna", "savannah", "grassland", "plain", "prairie", "steppe", "grasslands"),
     "forest": ("forest", "wood", "jungle", "rainforest", "woodland", "grove", "pine forest"),
     "sea": (
-        "sea", "ocean", "lake", "river", "pond", "water", "bay", "waves", "harbor", "harbour",
-        "open water", "open sea", "oceanic",
+        "sea", "ocean", "lake", "river", "pond", "water", "bay", "harbor", "harbour",
+        "open water", "open sea", "surf", "marina",
     ),
     "underwater": (
-        "underwater", "under water", "seabed", "reef", "coral reef", "aquarium", "coral",
-        "under the sea", "under the water", "deep sea", "beneath the waves", "fish tank",
+        "seabed", "reef", "coral reef", "coral", "deep sea",
     ),
     "sand": ("beach", "sand", "desert", "dune", "shore", "coast"),
     "snow": ("snowy field", "snowfield", "ice", "arctic", "snow covered ground", "glacier"),
@@ -34,13 +33,11 @@ PLACES: dict[str, tuple[str, ...]] = {
         "valley", "slope", "hillside",
     ),
     "indoor": (
-        "indoor", "indoors", "room", "living room", "kitchen", "house interior", "interior",
+        "room", "living room", "kitchen", "house interior", "interior",
         "office", "hall", "gym", "bedroom", "floor", "warehouse", "factory", "corridor", "studio",
         "classroom", "museum",
     ),
-    "sky": ("in the sky", "through the sky", "across the sky", "in the air", "through the air",
-            "in midair", "mid air", "in the clouds", "through the clouds"),
-    "space": ("space", "outer space", "galaxy", "in orbit"),
+    "space": ("space", "outer space", "galaxy"),
     "construction site": (
         "construction site", "building site", "construction zone", "construction work",
         "construction", "roadworks", "work site",
@@ -48,6 +45,23 @@ PLACES: dict[str, tuple[str, ...]] = {
     "plain": ("plain background", "background", "backdrop", "empty background", "plain ground"),
 }  # fmt: skip
 """Place → words for it, in the singular (regular plurals are understood too)."""
+
+PLACE_ADVERBS: dict[str, tuple[str, ...]] = {
+    "sky": ("in the sky", "through the sky", "across the sky", "in the air", "through the air",
+            "in midair", "mid air", "midair", "in the clouds", "through the clouds", "overhead"),
+    "underwater": ("underwater", "under water", "under the sea", "under the water",
+                   "beneath the waves"),
+    "indoor": ("indoor", "indoors"),
+    "space": ("in orbit",),
+    "city": ("downtown", "urban"),
+    "mountain": ("mountainous", "alpine"),
+}  # fmt: skip
+"""Place → phrases that need no preposition."""
+
+ROAD_SHAPES: dict[str, tuple[str, ...]] = {
+    "curved": ("curved", "winding", "curvy", "bending", "twisting"),
+    "straight": ("straight",),
+}
 
 COLOURABLE = frozenset({"grass", "savanna", "sand", "indoor", "plain"})
 """Places whose ground takes the colour that the prompt says."""
@@ -63,31 +77,51 @@ NATURAL_COLOURS: dict[str, tuple[str, ...]] = {
 """Colours that a place has anyway, so that naming them is understood."""
 
 LIGHTS: dict[str, tuple[str, ...]] = {
-    "day": ("day", "daytime", "daylight", "noon", "midday", "by day", "morning", "afternoon",
-            "well lit"),
-    "sunny": ("sunny", "sunlight", "sunshine", "sun", "sunlit", "bright day", "bright sun",
-              "bright sunlight", "clear day", "sunny day", "summer"),
-    "overcast": ("overcast", "gloomy", "grey day", "gray day", "cloudy day", "overcast sky"),
-    "dusk": ("dusk", "sunset", "evening", "twilight", "golden hour", "setting sun", "sundown"),
-    "dawn": ("dawn", "sunrise", "daybreak", "rising sun", "early morning"),
-    "night": ("night", "nighttime", "midnight", "at night", "in the dark", "darkness", "nightfall",
-              "night sky", "starry night", "starry", "low light", "dim", "dimly lit"),
-    "moonlight": ("moonlight", "moonlit", "moon", "full moon"),
+    "day": ("day", "daytime", "daylight", "noon", "midday", "morning", "afternoon"),
+    "sunny": ("sunlight", "sunshine", "sun", "bright sun", "bright sunlight", "summer",
+              "midday sun"),
+    "dusk": ("dusk", "sunset", "evening", "twilight", "golden hour", "setting sun", "sundown",
+             "low sun"),
+    "dawn": ("dawn", "sunrise", "daybreak", "rising sun", "early morning", "early sunlight"),
+    "night": ("night", "nighttime", "midnight", "darkness", "nightfall", "night sky", "dark"),
+    "moonlight": ("moonlight", "moon", "full moon"),
     "lamp": ("lamplight", "lamp light", "candlelight", "indoor light", "street light glow",
-             "artificial light", "spotlight", "neon", "neon light", "fluorescent",
-             "fluorescent light", "street lighting", "streetlight"),
+             "artificial light", "neon light", "fluorescent light", "street lighting",
+             "streetlight"),
 }  # fmt: skip
+LIGHT_ADJECTIVES: dict[str, tuple[str, ...]] = {
+    "day": ("well lit", "brightly lit"),
+    "sunny": ("sunny", "sunlit"),
+    "overcast": ("overcast", "gloomy", "cloudy day", "grey day", "gray day"),
+    "night": ("starry", "dim", "dimly lit", "unlit", "nocturnal", "low light"),
+    "moonlight": ("moonlit",),
+    "lamp": ("neon", "fluorescent", "candlelit", "lamplit", "gaslit"),
+}  # fmt: skip
+LIGHT_PHRASES: dict[str, tuple[str, ...]] = {
+    "day": ("by day", "during the day", "in daylight"),
+    "sunny": ("in the sun", "bright day", "sunny day", "clear day"),
+    "overcast": ("overcast sky", "under an overcast sky"),
+    "night": ("at night", "in the dark", "by night", "in darkness", "starry night"),
+}
 
 DARK_PLACES_LIGHT = "night"
 """Light that "dark" asks for before a place ("a dark street")."""
 
 WEATHERS: dict[str, tuple[str, ...]] = {
-    "fog": ("fog", "foggy", "mist", "misty", "haze", "hazy", "smog"),
-    "rain": ("rain", "rainy", "raining", "rainstorm", "storm", "stormy", "downpour", "in the rain",
-             "rains", "rain falls", "rain falling", "falling rain", "heavy rain"),
-    "snow": ("snowing", "snowfall", "snowflake", "falling snow", "blizzard", "snowstorm",
-             "snows", "snow falls", "snow falling"),
+    "fog": ("fog", "mist", "haze", "smog", "morning mist"),
+    "rain": ("rain", "rainstorm", "storm", "downpour", "heavy rain", "falling rain", "drizzle",
+             "rain shower"),
+    "snow": ("snowfall", "falling snow", "blizzard", "snowstorm"),
+}
+WEATHER_ADJECTIVES: dict[str, tuple[str, ...]] = {
+    "fog": ("foggy", "misty", "hazy"),
+    "rain": ("rainy", "raining", "stormy"),
+    "snow": ("snowing",),
+}
+WEATHER_VERBS: dict[str, str] = {
+    "rain": "rain", "rains": "rain", "raining": "rain", "snows": "snow", "snowing": "snow",
 }  # fmt: skip
+"""Verbs of "it": "it rains"."""
 
 CLOUDS: dict[float, tuple[str, ...]] = {
     0.8: ("cloudy", "cloudy sky"),
@@ -100,15 +134,14 @@ SNOWY = ("snow", "snowy", "snow covered", "winter", "wintry")
 """Words that mean snow on the ground."""
 
 STEEP = ("steep", "uphill", "downhill", "slope", "sloping", "hilly")
-DUST = ("dust", "dusty", "dust kicks up", "dust cloud", "dust clouds", "kicking up dust",
-        "kicks up dust", "dust trail")  # fmt: skip
+DUST = ("dust", "dust cloud", "dust clouds", "dust trail")
 
 SKY_WORDS = ("sky", "skies")
 
-FLICKERS = (
-    "flicker", "flickers", "flickering", "strobe", "strobing", "strobe light", "blinking",
-    "blinks", "blink", "pulsing", "pulsating", "flashing", "flashes",
-)  # fmt: skip
+FLICKERS = ("flicker", "strobe", "blink", "flash", "twinkle")
+"""Verbs of lights that go on and off."""
+DEFAULT_BLINK_HZ = 2.0
+"""Blinking of one lamp whose frequency is not said, Hz."""
 DEFAULT_FLICKER_HZ = 10.0
 """Flicker whose frequency is not said, Hz."""
 
@@ -116,81 +149,101 @@ HERTZ: dict[float, tuple[str, ...]] = {1.0: ("hz", "hertz"), 1000.0: ("khz",)}
 
 SHADOW_WORDS = ("shadow", "shadows", "casting shadows", "long shadows", "casts a shadow")
 
-GLOW_WORDS = ("light", "lights", "lit", "shine", "shines", "shining", "glow", "glows", "glowing",
-              "illuminated", "lighting", "illuminates")  # fmt: skip
+GLOW_NOUNS = ("light", "lights", "lighting", "glow")
 """Understood when a light is described; alone they change nothing and are reported."""
 
-CAMERA_WORDS = ("camera", "cameras", "viewpoint")
+EFFECTS: dict[str, tuple[str, ...]] = {}
 
-CAMERA_MOVES: dict[tuple[str, str | None], tuple[str, ...]] = {
-    ("pan", None): ("pan", "pans", "panning"),
-    ("tilt", None): ("tilt", "tilts", "tilting"),
-    ("zoom", None): ("zoom", "zooms", "zooming"),
-    ("zoom", "in"): ("zoom in", "zooms in", "zooming in"),
-    ("zoom", "out"): ("zoom out", "zooms out", "zooming out"),
-    ("dolly", None): ("dolly", "dollies", "dollying"),
-    ("dolly", "in"): ("dolly in", "dollies in", "push in", "pushes in"),
-    ("dolly", "out"): (
-        "dolly out", "dollies out", "pull back", "pulls back", "pull out", "pulls out",
-    ),
-    ("follow", None): ("tracking shot", "tracking", "tracks", "follow shot"),
-    ("handheld", None): ("handheld", "hand held", "shaky", "camera shake"),
-    ("orbit", None): ("orbiting shot",),
-    ("static", None): (
-        "static camera", "fixed camera", "still camera", "stationary camera", "static",
-        "static shot",
-    ),
+CAMERA_WORDS = ("camera", "cameras", "viewpoint", "viewer", "lens")
+
+CAMERA_PHRASES: dict[tuple[str, str | None], tuple[str, ...]] = {
+    ("pan", None): ("slow pan", "pan shot", "panning shot"),
+    ("dolly", "in"): ("dolly shot", "push in shot"),
+    ("dolly zoom", "in"): ("dolly zoom", "vertigo shot"),
+    ("crane", "up"): ("crane shot",),
+    ("follow", None): ("tracking shot", "follow shot", "chase cam"),
+    ("orbit", None): ("orbiting shot", "orbit shot"),
+    ("handheld", None): ("handheld", "hand held", "shaky", "camera shake", "handheld camera",
+                         "shaky camera"),
+    ("travel", "forward"): ("dashcam", "dash cam", "driving footage", "fpv", "egocentric",
+                            "dashcam footage"),
+    ("static", None): ("static camera", "fixed camera", "still camera", "stationary camera",
+                       "static shot", "locked off shot", "tripod shot"),
 }  # fmt: skip
-
-CAMERA_VERBS: dict[str, str] = {
-    **dict.fromkeys(("move", "drive", "fly", "walk", "run", "slide", "sail"), "truck"),
-    **dict.fromkeys(("hover", "stand"), "static"),
-    **dict.fromkeys(("orbit", "spin"), "orbit"),
-    **dict.fromkeys(("rise", "sink", "fall"), "pedestal"),
-    "sway": "handheld",
-    "swing": "pan",
+"""Camera move and direction → noun phrases for it."""
+CAMERA_VERBS: dict[tuple[str, str | None], tuple[str, ...]] = {
+    ("pan", None): ("pan",),
+    ("tilt", None): ("tilt",),
+    ("roll", None): ("roll", "rotate"),
+    ("zoom", None): ("zoom",),
+    ("zoom", "in"): ("zoom in",),
+    ("zoom", "out"): ("zoom out",),
+    ("dolly", None): ("dolly",),
+    ("dolly", "in"): ("dolly in", "push in", "move in", "move closer", "close in", "dolly forward"),
+    ("dolly", "out"): ("dolly out", "pull back", "pull out", "pull away", "move back",
+                       "dolly back", "back away"),
+    ("truck", None): ("truck", "slide"),
+    ("crane", "up"): ("crane up",),
+    ("crane", "down"): ("crane down",),
+    ("follow", None): ("follow", "track", "chase", "trail"),
+    ("orbit", None): ("orbit", "circle"),
+    ("handheld", None): ("shake", "wobble", "sway"),
+    ("static", None): ("remain", "stay", "stand", "stop", "rest", "hover"),
+}  # fmt: skip
+"""Camera move and direction → verbs for it."""
+CAMERA_ADJECTIVES: dict[tuple[str, str | None], tuple[str, ...]] = {
+    ("static", None): ("static", "fixed", "stationary", "motionless", "immobile", "steady"),
+    ("follow", None): ("tracking", "following"),
+    ("handheld", None): ("shaky",),
 }
-"""What a motion means when the camera does it."""
+TRAVEL_MEANS: dict[str, str] = {
+    "drive": "drive", "ride": "drive", "cycle": "cycle", "walk": "walk", "hike": "walk",
+    "stroll": "walk", "run": "run", "jog": "run", "fly": "fly", "glide": "fly", "soar": "fly",
+    "sail": "sail", "swim": "swim", "dive": "swim", "speed": "drive", "cruise": "drive",
+    "bike": "cycle", "ski": "run",
+}  # fmt: skip
+"""Verb → how a camera travels that does it."""
 
 VIEWS: dict[str, tuple[str, ...]] = {
     "aerial": (
         "aerial view", "aerial shot", "aerial", "drone view", "drone shot", "drone footage",
-        "bird eye view", "birds eye view", "bird eye", "from above", "seen from above",
-        "high angle", "from a drone", "by a drone",
+        "bird eye view", "birds eye view", "bird eye", "from above", "seen from above", "high angle", "from a drone",
+        "by a drone",
     ),
-    "top": ("overhead", "overhead view", "top view", "top down", "top down view"),
-    "low": ("low angle", "from below"),
+    "top": ("overhead view", "top view", "top down", "top down view", "directly above",
+            "from directly above", "birds eye"),
+    "low": ("low angle", "from below", "at floor level", "at ground level", "low angle shot"),
+    "first person": ("first person", "first person view", "point of view", "pov",
+                     "first person pov", "driver s view"),
     "side": ("side view", "from the side"),
     "front": ("front view", "from the front"),
     "back": ("rear view", "back view", "from behind"),
 }  # fmt: skip
 
 FRAMINGS: dict[str, tuple[str, ...]] = {
-    "close": ("close up", "close up of", "closeup", "close shot", "extreme close up", "macro"),
+    "close": ("close up", "close up of", "closeup", "close shot", "extreme close up",
+              "extreme close up of", "macro", "macro shot", "macro shot of"),
     "wide": ("wide shot", "wide angle", "wide view", "long shot", "panorama", "establishing shot"),
 }  # fmt: skip
 
-GENERIC_NOUNS: dict[str, str] = {
-    "vehicle": "car",
-    "animal": "dog",
-    "pet": "dog",
-    "insect": "butterfly",
-    "creature": "dog",
-    "human": "person",
-    "building": "skyscraper",
-    "furniture": "chair",
-    "aircraft": "airplane",
-    "toy": "ball",
-    "object": "cube",
-}
-"""Words for whole classes → the noun that stands for them, where the noun table has no better."""
-
-PARTS: dict[tuple[str, str], str] = {
+PARTS_SHOWN: dict[str, tuple[str, ...]] = {
+    "drive": ("tire", "tires", "tyre", "tyres", "wheel", "wheels", "window", "windows", "roof",
+              "windscreen", "windshield", "headlight", "headlights", "tail light", "tail lights"),
+    "suv": ("roof rack", "rack"),
+    "walk": ("leg", "legs", "head", "tail", "ear", "ears", "foot", "feet", "paw", "paws", "body"),
+    "swim": ("tail", "fin", "fins"),
+    "fly": ("wing", "wings", "tail"),
+    "sail": ("sail", "sails", "mast", "hull"),
+    "person": ("arm", "arms", "hand", "hands", "hair", "face", "head", "leg", "legs"),
+    "man": ("arm", "arms", "hand", "hands", "hair", "face", "head", "leg", "legs"),
+    "woman": ("arm", "arms", "hand", "hands", "hair", "face", "head", "leg", "legs"),
+    "child": ("arm", "arms", "hand", "hands", "hair", "face", "head", "leg", "legs"),
+    "tree": ("trunk", "branch", "branches", "leaves"),
+    "house": ("door", "window", "windows", "roof", "wall", "walls"),
+}  # fmt: skip
+"""Usual motion or name of a noun → parts that its model shows in any case."""
+PART_WORDS = tuple(sorted({part for parts in PARTS_SHOWN.values() for part in parts}))
+PART_COLOURS: dict[tuple[str, str], str] = {
     ("suv", "roof rack"): "black",
 }
 """(noun, part) that a model shows in any case → the colour it has."""
-VEHICLE_PARTS = ("tire", "tires", "tyre", "tyres", "wheels", "window", "windows", "roof")
-"""Parts that every vehicle shows, in their usual colours."""
-PART_WORDS = ("roof rack", "rack", "tire", "tires", "tyre", "tyres", "wheels", "headlight",
-              "headlights", "roof", "window", "windows", "door", "doors", "hair", "hat", "shirt",
-              "sail", "sails", "wings", "tail", "legs", "trunk", "leaves")  # fmt: skip

@@ -1,0 +1,69 @@
+"""Finds the activity of a person or a hand that a clause names: "waves with the right hand"."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import lru_cache
+
+from texvent.scenes.language.syntax import Clause, NounGroup
+from texvent.scenes.language.tagging import Word
+from texvent.scenes.language.vocabulary_function import DETERMINERS
+from texvent.scenes.language.vocabulary_motion import VERBS
+from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES, Activity
+
+Key = tuple[str, ...]
+
+
+def find_activity(clause: Clause, *, is_hand: bool) -> tuple[str, list[Word], bool] | None:
+    """The longest activity phrase that the clause's verb begins.
+
+    Returns:
+        Name of the activity, the words that say it, and whether more than the verb says it; None
+        if the clause names none.
+    """
+    assert clause.verb is not None
+    table = _phrases(is_hand)
+    said = _list_words(clause)
+    lemmas = tuple(word.lemma for word in said)
+    for length in range(len(said), 0, -1):
+        name = table.get(lemmas[:length])
+        if name is not None:
+            return name, said[:length], length > 1
+    name = table.get((*lemmas[:1], *lemmas[-1:])) if len(said) > 1 else None
+    if name is not None:
+        return name, [said[0], said[-1]], True
+    return None
+
+
+def _list_words(clause: Clause) -> list[Word]:
+    """The verb and what follows it, without determiners and owners."""
+    assert clause.verb is not None
+    said = [clause.verb]
+    for group in clause.objects:
+        said.extend(_plain(group))
+    for phrase in clause.phrases:
+        said.append(phrase.preposition)
+        for group in phrase.groups:
+            said.extend(_plain(group))
+    said.extend(clause.adverbs)
+    return said
+
+
+def _plain(group: NounGroup) -> list[Word]:
+    return [word for word in group.words if word is not group.determiner]
+
+
+@lru_cache(maxsize=2)
+def _phrases(is_hand: bool) -> Mapping[Key, str]:
+    """Phrases of base forms, without determiners → activity."""
+    table: Mapping[str, Activity] = HAND_GESTURES if is_hand else ACTIVITIES
+    plain = {verb.base for verb in VERBS if verb.act or verb.kind == "move" or verb.relation}
+    found: dict[Key, str] = {}
+    for name, activity in table.items():
+        for text in activity.words:
+            words = tuple(
+                word for word in text.replace("-", " ").split() if word not in DETERMINERS
+            )
+            if len(words) > 1 or words[0] not in plain:
+                found.setdefault(words, name)
+    return found

@@ -1,0 +1,268 @@
+"""Clauses about objects: what each subject does, to what, and where."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from texvent.scenes.description import SPIN_RATE_HZ, Effect, ObjectMotion
+from texvent.scenes.language.activities import find_activity
+from texvent.scenes.language.capabilities import can_do, is_hand, is_living, is_person
+from texvent.scenes.language.draft import Draft
+from texvent.scenes.language.lexicon import Role
+from texvent.scenes.language.referents import Referent
+from texvent.scenes.language.syntax import Clause
+from texvent.scenes.language.tagging import Word
+from texvent.scenes.language.vocabulary_motion import Verb
+from texvent.scenes.language.vocabulary_scene import DEFAULT_BLINK_HZ
+from texvent.scenes.language.words import VerbForm
+from texvent.scenes.models.effects import EFFECTS
+from texvent.scenes.models.lamps import LAMPS
+
+STAND = ObjectMotion("stand")
+_ACTED_BY_ANYTHING = frozenset({"push", "pull", "hit", "carry"})
+"""What a vehicle or a machine does to another object."""
+_ACTED_BY_LIVING = frozenset({"hold", "carry", "push", "pull", "kick", "hit", "throw", "catch"})
+_RIDEABLE = frozenset({"drive", "sail"})
+
+
+class ActReader:
+    """Gives the objects of a clause their motions, acts and effects."""
+
+    def __init__(self, draft: Draft) -> None:
+        self._draft = draft
+
+    def read(self, clause: Clause, subjects: list[int], objects: Sequence[Referent]) -> list[int]:
+        """Read the clause's verb.
+
+        Args:
+            clause: the clause.
+            subjects: objects that do it.
+            objects: what it is done to.
+
+        Returns:
+            The objects that its directions and speeds are about; empty if the verb is not shown.
+        """
+        word = clause.verb
+        assert word is not None
+        targets = [index for one in objects if one.is_things for index in one.things]
+        if clause.negation is not None:
+            return self._stand(clause, subjects)
+        movers = self._read_activity(clause, subjects, objects)
+        if movers:
+            return movers
+        if self._read_effect(clause, subjects):
+            return subjects
+        verb = word.meaning.value
+        if word.role is Role.FLICKER:
+            return self._blink(word, subjects)
+        if not isinstance(verb, Verb):
+            return []
+        if targets:
+            return self._do_to(clause, verb, subjects, targets)
+        return self._move(clause, verb, subjects)
+
+    def undergo(self, clause: Clause, subjects: list[int], agents: list[int]) -> list[int]:
+        """A passive: the subjects undergo the verb."""
+        word = clause.verb
+        assert word is not None
+        verb = word.meaning.value
+        if self._read_effect(clause, subjects):
+            return subjects
+        if not isinstance(verb, Verb):
+            return []
+        if agents:
+            return self._do_to(clause, verb, agents, subjects)
+        kind = verb.object_kind or (verb.kind if not verb.act else "")
+        return self._give(clause, replace(verb, kind=kind), subjects) if kind else []
+
+    def _stand(self, clause: Clause, subjects: list[int]) -> list[int]:
+        """ "does not move": only for verbs of motion."""
+        word, negation = clause.verb, clause.negation
+        assert word is not None and negation is not None
+        if not isinstance(word.meaning.value, Verb) or not word.meaning.value.kind:
+            return []
+        word.is_used = negation.is_used = True
+        for index in subjects:
+            self._add_motion(index, STAND, clause.order)
+        return subjects
+
+    def _read_activity(
+        self, clause: Clause, subjects: list[int], objects: Sequence[Referent]
+    ) -> list[int]:
+        people = [i for i in subjects if is_person(self._draft.noun(i))]
+        hands = [i for i in subjects if is_hand(self._draft.noun(i))]
+        if not people and not hands:
+            return []
+        found = find_activity(clause, is_hand=bool(hands))
+        if found is None:
+            return []
+        name, words, is_exact = found
+        if not is_exact and self._is_act(clause, objects):
+            return []
+        for word in words:
+            word.is_used = True
+        for index in hands or people:
+            self._add_motion(index, ObjectMotion(name), clause.order)
+        return hands or people
+
+    def _is_act(self, clause: Clause, objects: Sequence[Referent]) -> bool:
+        """Whether the verb acts on an object of the scene, or moves in a plain way."""
+        assert clause.verb is not None
+        verb = clause.verb.meaning.value
+        if not isinstance(verb, Verb):
+            return False
+        has_target = any(one.is_things for one in objects)
+        return has_target and bool(verb.act or verb.relation or verb.object_kind)
+
+    def _read_effect(self, clause: Clause, subjects: list[int]) -> bool:
+        """ "a balloon bursts", "a chimney smokes"."""
+        assert clause.verb is not None
+        kind = EFFECT_BY_VERB.get(clause.verb.lemma)
+        if kind is None or not subjects:
+            return False
+        clause.verb.is_used = True
+        for index in subjects:
+            self._draft.effects.append(Effect(kind, source=index))
+        return True
+
+    def _blink(self, word: Word, subjects: list[int]) -> list[int]:
+        lamps = [index for index in subjects if self._draft.objects[index].noun in LAMPS]
+        for index in lamps:
+            self._draft.objects[index].blink_hz = DEFAULT_BLINK_HZ
+            word.is_used = True
+        return lamps
+
+    def _do_to(
+        self, clause: Clause, verb: Verb, subjects: list[int], targets: list[int]
+    ) -> list[int]:
+        word = clause.verb
+        assert word is not None
+        act = self._choose_act(verb, subjects, targets)
+        if act is not None:
+            word.is_used = self._draft.relate(act, subjects, targets)
+            if act == "ride":
+                return self._ride(clause, verb, subjects, targets)
+            if verb.kind in ("fly", "rise") or not verb.kind:
+                return subjects
+            return subjects
+        if verb.relation is not None and verb.kind:
+            movers = self._give(clause, verb, subjects)
+            if movers:
+                self._draft.relate(verb.relation, movers, targets)
+            return movers
+        if verb.object_kind is not None:
+            return self._give(clause, replace(verb, kind=verb.object_kind), targets)
+        if verb.kind:
+            movers = self._give(clause, verb, subjects)
+            if movers:
+                self._draft.relate("with", movers, targets)
+            return movers
+        return []
+
+    def _choose_act(self, verb: Verb, subjects: list[int], targets: list[int]) -> str | None:
+        """The act, if these subjects can do it to these objects."""
+        act = verb.act
+        if act is None or not subjects:
+            return None
+        doer, target = self._draft.noun(subjects[0]), self._draft.noun(targets[0])
+        if act == "ride":
+            is_mount = target.motion in _RIDEABLE or is_living(target) or target.name in BOARDS
+            return "ride" if is_living(doer) and is_mount else None
+        if act == "wear":
+            return "wear" if is_living(doer) and target.name in WEARABLE else None
+        if is_living(doer) or is_hand(doer):
+            return act if act in _ACTED_BY_LIVING else None
+        return act if act in _ACTED_BY_ANYTHING else None
+
+    def _ride(
+        self, clause: Clause, verb: Verb, subjects: list[int], targets: list[int]
+    ) -> list[int]:
+        kind = "fly" if self._draft.noun(targets[0]).motion == "fly" else "move"
+        motion = ObjectMotion(kind, verb.direction, verb.pace)
+        for index in targets:
+            self._add_motion(index, motion, clause.order)
+        for index in subjects:
+            if not self._draft.objects[index].motions:
+                self._draft.objects[index].motions.append(ObjectMotion("sit"))
+        return targets
+
+    def _move(self, clause: Clause, verb: Verb, subjects: list[int]) -> list[int]:
+        if not verb.kind:
+            return []
+        return self._give(clause, verb, subjects)
+
+    def _give(self, clause: Clause, verb: Verb, things: list[int]) -> list[int]:
+        """Give a motion to the objects that can do it; the others are left as they are."""
+        word = clause.verb
+        assert word is not None
+        able = [index for index in things if can_do(self._draft.noun(index), verb.kind)]
+        if not able:
+            return []
+        motion = ObjectMotion(verb.kind, verb.direction, verb.pace, end_pace=verb.end_pace)
+        added = [index for index in able if self._add_motion(index, motion, clause.order)]
+        word.is_used = bool(added)
+        return added
+
+    def _add_motion(self, index: int, motion: ObjectMotion, order: str) -> bool:
+        """Add a motion after those that the object has; False if it comes at the same time."""
+        motions = self._draft.objects[index].motions
+        motion = self._name_kind(index, motion)
+        if not motions:
+            motions.append(motion)
+        elif order == "after":
+            motions.append(_carry_on(motions[-1], motion))
+        elif order == "before":
+            motions.insert(max(len(motions) - 1, 0), motion)
+        elif motions[-1].kind in ("sit", "stand", "lie") and motion.kind != motions[-1].kind:
+            return False
+        else:
+            return motions[-1].kind == motion.kind
+        return True
+
+    def _name_kind(self, index: int, motion: ObjectMotion) -> ObjectMotion:
+        if motion.kind != "move":
+            return motion
+        usual = self._draft.noun(index).motion
+        return replace(motion, kind=usual if usual != "stand" else "slide")
+
+    def set_rate(self, things: list[int], rate_hz: float) -> bool:
+        """Turns per second of what spins, or flashes per second of what blinks."""
+        is_used = False
+        for index in things:
+            item = self._draft.objects[index]
+            if item.blink_hz is not None:
+                item.blink_hz, is_used = rate_hz, True
+            elif item.motions and item.motions[-1].kind == "spin":
+                item.motions[-1] = replace(item.motions[-1], pace=rate_hz / SPIN_RATE_HZ)
+                is_used = True
+        return is_used
+
+
+def _carry_on(before: ObjectMotion, motion: ObjectMotion) -> ObjectMotion:
+    """What moves on keeps its direction."""
+    keeps = motion.direction is None and before.is_moving and motion.kind == before.kind
+    return replace(motion, direction=before.direction) if keeps else motion
+
+
+EFFECT_BY_VERB: dict[str, str] = {
+    verb: kind for kind, words in EFFECTS.items() for verb in words.verbs if " " not in verb
+}
+"""Verb of one word → the effect it means."""
+BOARDS = frozenset(
+    {"skateboard", "surfboard", "snowboard", "scooter", "skis", "wave", "sled", "carousel horse"}
+)
+"""What is ridden besides vehicles and animals."""
+WEARABLE = frozenset(
+    {"hat", "cap", "helmet", "backpack", "glasses", "scarf", "tie", "vest", "jacket", "dress",
+     "shirt", "skirt", "mask", "crown", "sunglasses", "coat", "glove", "boots", "shoe"}
+)  # fmt: skip
+"""What is worn."""
+
+
+def is_plain_past(word: Word) -> bool:
+    """Whether a past form stands for the present: "a man walked"; not for "a hoop held by"."""
+    verb = word.meaning.value
+    if word.meaning.form is not VerbForm.PAST or not isinstance(verb, Verb):
+        return False
+    return bool(verb.kind) and verb.act is None and verb.object_kind is None

@@ -1,0 +1,64 @@
+"""What the models can do: a verb that its subject cannot do is reported, not shown otherwise."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from texvent.scenes.models.people.activities import (
+    ACTIVITIES,
+    HAND_GESTURES,
+    HAND_NOUNS,
+    PERSON_NOUNS,
+)
+from texvent.scenes.models.protocol import Noun
+
+ANYTHING = frozenset(
+    {"move", "stand", "fall", "rise", "sink", "spin", "slide", "roll", "bounce", "swing", "sway",
+     "throw", "orbit", "hover", "enter", "leave", "appear", "jump", "fly", "lie"}
+)  # fmt: skip
+"""What every object can do: a path through the air or over the ground."""
+_TRAVELLER = frozenset({"turn", "reverse", "zigzag"})
+_ANIMAL = frozenset({"walk", "run", "sit", "swim", "dance", "eat", "crawl", "climb", "crouch"})
+_VEHICLE = frozenset({"drive"})
+_VESSEL = frozenset({"sail"})
+
+_BY_MOTION: Mapping[str, frozenset[str]] = MappingProxyType(
+    {"drive": _VEHICLE | _TRAVELLER, "sail": _VESSEL | _TRAVELLER, "walk": _ANIMAL | _TRAVELLER,
+     "run": _ANIMAL | _TRAVELLER, "swim": _ANIMAL | _TRAVELLER, "fly": _ANIMAL | _TRAVELLER,
+     "paddle": _ANIMAL | _VESSEL | _TRAVELLER, "jump": _ANIMAL | _TRAVELLER}
+)  # fmt: skip
+"""Usual motion of a noun → what else such a thing can do."""
+
+
+def is_person(noun: Noun) -> bool:
+    """Whether it is a person."""
+    return noun.name in PERSON_NOUNS
+
+
+def is_hand(noun: Noun) -> bool:
+    """Whether it is a hand that stands alone."""
+    return noun.name in HAND_NOUNS
+
+
+def is_living(noun: Noun) -> bool:
+    """Whether it is a person or an animal."""
+    return is_person(noun) or noun.motion in ("walk", "run", "jump", "swim", "paddle") or (
+        noun.motion == "fly" and noun.habitat == "air" and noun.speed_m_s < 30.0
+    )  # fmt: skip
+
+
+def can_do(noun: Noun, kind: str) -> bool:
+    """Whether its model can show a motion or activity.
+
+    Args:
+        noun: the object.
+        kind: an `ObjectMotion.kind`.
+    """
+    if kind in ANYTHING or kind == noun.motion:
+        return True
+    if is_person(noun):
+        return kind in ACTIVITIES or kind in _TRAVELLER or kind in _ANIMAL
+    if is_hand(noun):
+        return kind in HAND_GESTURES
+    return kind in _BY_MOTION.get(noun.motion, ())

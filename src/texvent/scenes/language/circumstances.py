@@ -1,0 +1,385 @@
+"""Adverbs and prepositional phrases of a clause: where, which way, how fast, when."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from texvent.scenes.description import Effect, ObjectMotion
+from texvent.scenes.language.acts import WEARABLE, ActReader
+from texvent.scenes.language.capabilities import is_living, is_person
+from texvent.scenes.language.draft import Draft
+from texvent.scenes.language.lexicon import Role
+from texvent.scenes.language.referents import OWNERS, Referent, Referents, list_parts_shown
+from texvent.scenes.language.surroundings_reader import SurroundingsReader
+from texvent.scenes.language.syntax import NounGroup, PrepPhrase
+from texvent.scenes.language.tagging import Word, mark_used
+from texvent.scenes.language.vocabulary_scene import PART_COLOURS
+from texvent.scenes.models.effects import EFFECTS
+
+_PLACE_PREPOSITIONS = frozenset(
+    {"in", "on", "at", "through", "across", "along", "into", "inside", "over", "by", "past", "down",
+     "up", "around", "near", "onto", "within", "throughout", "above", "upon", "next to", "beside",
+     "from", "to", "towards", "toward", "off", "under", "of", "against", "facing", "with",
+     "in front of", "behind", "during", "out of", "among", "surrounded by", "between", "amid",
+     "beneath", "below"}
+)  # fmt: skip
+"""Prepositions after which a place is where the scene is."""
+_LIGHT_PREPOSITIONS = frozenset(
+    {"in", "at", "by", "under", "during", "on", "with", "into", "of", "against", "before", "from",
+     "as", "through", "against"}
+)  # fmt: skip
+_MOTION_BY_PREPOSITION = {"across": "across", "up": "up", "down": "down"}
+_HELD_AT_MOST_M = 1.3
+"""A person "with" something up to this long holds it."""
+
+
+@dataclass
+class Scope:
+    """What the circumstances of a clause are about."""
+
+    subjects: list[int]
+    """Objects that relations are about."""
+    movers: list[int]
+    """Objects whose motion directions and speeds are about; empty = the verb is not shown."""
+    is_lost: bool = False
+    """Whether the clause is about something that is not shown."""
+    has_verb: bool = True
+    is_verb_shown: bool = True
+
+
+class CircumstanceReader:
+    """Reads what a clause says besides subject, verb and object."""
+
+    def __init__(
+        self, draft: Draft, referents: Referents, surroundings: SurroundingsReader, acts: ActReader
+    ) -> None:
+        self._draft = draft
+        self._referents = referents
+        self._surroundings = surroundings
+        self._acts = acts
+
+    def read_adverbs(self, adverbs: Sequence[Word], scope: Scope) -> None:
+        """Directions, paces, sides and times."""
+        for word in adverbs:
+            role = word.role
+            if word.is_used:
+                continue
+            if role is Role.DIRECTION:
+                self._read_direction(word, scope)
+            elif role is Role.PACE:
+                self._read_pace(word, scope)
+            elif role is Role.SIDE:
+                self._read_side(word, scope)
+            elif role is Role.STILL:
+                self._read_still(word, scope)
+            elif role is Role.FUNCTION and word.meaning.value not in _WEAK_PREPOSITIONS:
+                word.is_used = True
+            elif role in (Role.LIGHT, Role.CLOUDS, Role.PLACE, Role.WEATHER):
+                self._surroundings.read(word, is_negated=False)
+
+    def _read_direction(self, word: Word, scope: Scope) -> None:
+        direction = word.meaning.value
+        for index in scope.movers:
+            motions = self._draft.objects[index].motions
+            if not motions or motions[-1].kind in ("stand", "sit", "lie"):
+                continue
+            if direction != "across" or motions[-1].direction is None:
+                motions[-1] = replace(motions[-1], direction=direction)
+            word.is_used = True
+        if not scope.movers and not scope.has_verb and not scope.is_lost:
+            for index in scope.subjects:
+                if self._draft.noun(index).motion != "stand":
+                    self._draft.objects[index].motions = [ObjectMotion("move", direction)]
+                    word.is_used = True
+
+    def _read_pace(self, word: Word, scope: Scope) -> None:
+        for index in scope.movers:
+            motions = self._draft.objects[index].motions
+            if motions and motions[-1].is_moving:
+                pace = motions[-1].pace * word.meaning.value
+                motions[-1] = replace(motions[-1], pace=pace)
+                word.is_used = True
+
+    def _read_side(self, word: Word, scope: Scope) -> None:
+        for index in scope.subjects:
+            self._draft.objects[index].side = word.meaning.value
+            word.is_used = True
+
+    def _read_still(self, word: Word, scope: Scope) -> None:
+        for index in scope.subjects:
+            motions = self._draft.objects[index].motions
+            if not motions:
+                motions.append(ObjectMotion("stand"))
+            word.is_used = word.is_used or not motions[-1].is_moving or (
+                motions[-1].kind in ("sit", "lie")
+            )  # fmt: skip
+
+    def read_phrases(self, phrases: Sequence[PrepPhrase], scope: Scope) -> None:
+        """All prepositional phrases of a clause or a noun group."""
+        for phrase in phrases:
+            self.read_phrase(phrase, scope)
+
+    def read_phrase(self, phrase: PrepPhrase, scope: Scope) -> None:
+        """One prepositional phrase, and what hangs on its nouns."""
+        name = phrase.preposition.text
+        if self._is_likeness(phrase, scope):
+            return
+        if phrase.negation is not None:
+            for group in phrase.groups:
+                group.negation = phrase.negation
+        found = [self._referents.resolve(group, name) for group in phrase.groups]
+        things = [index for one in found if one.is_things for index in one.things]
+        if things:
+            self._read_things(phrase, things, scope)
+        for one in found:
+            if not one.is_things:
+                self._read_other(phrase, one, scope)
+            self.read_group_phrases(one, scope)
+
+    def _is_likeness(self, phrase: PrepPhrase, scope: Scope) -> bool:
+        """ "Shaped like a dragon", "curls into a ball": nothing of the sort is there."""
+        name = phrase.preposition.text
+        is_change = name == "into" and scope.has_verb and not scope.is_verb_shown
+        return name == "like" or is_change and not scope.is_lost
+
+    def read_group_phrases(
+        self, referent: Referent, scope: Scope, listed: Sequence[int] = ()
+    ) -> None:
+        """What hangs on a noun: "a table near a window".
+
+        Args:
+            referent: the noun.
+            scope: what the clause is about.
+            listed: all objects of a list that ends with the noun: "a cup and a bottle on a table".
+        """
+        group = referent.group
+        if group.owner is not None:
+            self._read_owner(group.owner, referent)
+        if referent.is_things:
+            inner = Scope(list(listed or referent.things), [], has_verb=False)
+        elif referent.kind in ("unknown", "part"):
+            inner = Scope([], [], is_lost=referent.kind == "unknown")
+        else:
+            inner = scope
+        for phrase in group.phrases:
+            if phrase.preposition.text == "of":
+                self._read_of(phrase, referent, scope)
+            else:
+                self.read_phrase(phrase, inner)
+
+    def _read_owner(self, owner: NounGroup, owned: Referent) -> None:
+        found = self._referents.resolve(owner)
+        if not found.is_things or not owned.is_things:
+            return
+        owners, things = found.things, owned.things
+        kind = "wear" if self._draft.noun(things[0]).name in WEARABLE else "with"
+        if is_living(self._draft.noun(owners[0])):
+            self._draft.relate(kind, owners if kind == "wear" else things,
+                               things if kind == "wear" else owners)  # fmt: skip
+
+    def _read_of(self, phrase: PrepPhrase, whole: Referent, scope: Scope) -> None:
+        """ "A bowl of soup", "a set of buckets", "the side of the road"."""
+        phrase.preposition.is_used = True
+        found = [self._referents.resolve(group, "of") for group in phrase.groups]
+        for one in found:
+            if one.is_things and whole.is_things:
+                self._draft.relate("in", one.things, whole.things)
+            elif not one.is_things:
+                self._read_other(phrase, one, scope)
+            self.read_group_phrases(one, scope)
+        parts = [index for one in found if one.is_things for index in one.things]
+        if whole.kind == "part" and list_parts_shown(self._draft, parts, str(whole.value)):
+            self._use_part(whole, parts)
+
+    def _read_things(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> None:
+        word = phrase.preposition
+        if word.text == "with" and scope.subjects:
+            word.is_used = self._read_with(things, scope)
+            return
+        kind = self._relation_kind(word, things)
+        if scope.has_verb and not scope.is_verb_shown and word.text not in _RESTING:
+            return
+        if kind is None or scope.is_lost or not scope.subjects:
+            if kind is not None and not scope.is_lost and not scope.subjects:
+                word.is_used = True
+            return
+        if kind in ("towards", "through", "past", "around", "from") and scope.has_verb:
+            if not scope.movers and kind != "around":
+                return
+        subjects = scope.movers if kind in _PATHS and scope.movers else scope.subjects
+        word.is_used = self._draft.relate(kind, subjects, things)
+
+    def _relation_kind(self, word: Word, things: list[int]) -> str | None:
+        if word.text == "in" and self._draft.noun(things[0]).name in WEARABLE:
+            return "wear"
+        if word.role is Role.RELATION:
+            return str(word.meaning.value)
+        return _WEAK_PREPOSITIONS.get(word.text)
+
+    def _read_with(self, things: list[int], scope: Scope) -> bool:
+        doer, item = self._draft.noun(scope.subjects[0]), self._draft.noun(things[0])
+        if item.name in WEARABLE and is_living(doer):
+            return self._draft.relate("wear", scope.subjects, things)
+        if is_person(doer) and item.motion == "stand" and self._is_small(things[0]):
+            return self._draft.relate("hold", scope.subjects, things)
+        return self._draft.relate("with", scope.subjects, things)
+
+    def _is_small(self, index: int) -> bool:
+        noun = self._draft.noun(index)
+        model = noun.build(colour=None, scale=self._draft.objects[index].scale, seed=0)
+        return max(model.length, model.width, model.height) <= _HELD_AT_MOST_M
+
+    def _read_other(self, phrase: PrepPhrase, one: Referent, scope: Scope) -> None:
+        word = phrase.preposition
+        is_negated = phrase.negation is not None
+        if one.kind == "absent":
+            word.is_used = True
+        elif one.kind == "unit":
+            self._read_unit(word, one, scope)
+        elif one.kind == "camera":
+            self._read_towards_camera(word, one, scope)
+        elif one.kind == "effect":
+            word.is_used = self.add_effect(one, scope)
+        elif one.kind == "part":
+            determiner = one.group.determiner
+            is_owned = determiner is not None and determiner.text in OWNERS
+            things = self._draft.subjects if is_owned and not scope.subjects else scope.subjects
+            if list_parts_shown(self._draft, things, str(one.value)):
+                word.is_used = True
+                self._use_part(one, things)
+        elif one.kind == "function":
+            self._read_style(one)
+            word.is_used = True
+        elif one.kind == "unknown":
+            self._read_worn_colour(word, one, scope)
+        elif one.kind != "things":
+            self._read_surroundings(word, one, scope, is_negated=is_negated)
+
+    def _read_surroundings(
+        self, word: Word, one: Referent, scope: Scope, *, is_negated: bool
+    ) -> None:
+        names = _PLACE_PREPOSITIONS if one.kind == "place" else _LIGHT_PREPOSITIONS
+        if word.text not in names and one.kind in ("place", "light"):
+            return
+        is_read = self._surroundings.read_referent(one, is_negated=is_negated)
+        word.is_used = is_read
+        direction = _MOTION_BY_PREPOSITION.get(word.text)
+        for index in scope.movers if is_read and direction == "across" else ():
+            motions = self._draft.objects[index].motions
+            if motions and motions[-1].direction is None and motions[-1].is_moving:
+                motions[-1] = replace(motions[-1], direction="across")
+
+    def _read_worn_colour(self, word: Word, one: Referent, scope: Scope) -> None:
+        """ "A defender in white": the colour of the clothes."""
+        if word.text != "in" or one.group.head is not None or not one.attributes.colours:
+            return
+        for index in scope.subjects:
+            if is_person(self._draft.noun(index)):
+                one.attributes.colour(self._draft.objects[index])
+                word.is_used = True
+
+    def _read_style(self, one: Referent) -> None:
+        """ "In slow motion"."""
+        pace = one.attributes.pace
+        if one.group.head is not None and one.group.head.text == "motion" and pace is not None:
+            self._draft.tempo, pace[1].is_used = 0.3, True
+
+    def _read_towards_camera(self, word: Word, one: Referent, scope: Scope) -> None:
+        direction = _BY_CAMERA.get(word.text)
+        if direction is None:
+            return
+        for index in scope.movers:
+            motions = self._draft.objects[index].motions
+            if motions:
+                motions[-1] = replace(motions[-1], direction=direction)
+                mark_used([word, *one.group.words])
+
+    def _read_unit(self, word: Word, one: Referent, scope: Scope) -> None:
+        """A number with a unit: a speed, a rate or a time."""
+        if self.read_quantity(one, scope, preposition=word.text):
+            word.is_used = True
+
+    def read_quantity(self, one: Referent, scope: Scope, preposition: str = "at") -> bool:
+        """Apply a speed, a rate or a time; return whether it had an effect."""
+        assert isinstance(one.value, tuple)
+        quantity, factor = one.value
+        attributes = one.attributes
+        number = attributes.number if attributes.number is not None else attributes.count
+        if number is None:
+            return False
+        value = float(number) * factor
+        is_used = False
+        if quantity == "speed":
+            is_used = self._set_speed(value, scope)
+        elif quantity == "rate":
+            is_used = self._acts.set_rate(scope.movers or scope.subjects, value)
+            is_used = is_used or self._surroundings.read_hertz(value)
+        elif quantity == "time" and preposition in ("after", "at"):
+            is_used = self._set_start(value, scope)
+        if is_used:
+            mark_used([*one.group.words, *attributes.numbers])
+        return is_used
+
+    def _set_speed(self, speed: float, scope: Scope) -> bool:
+        is_used = False
+        for index in scope.movers or ([] if scope.has_verb else scope.subjects):
+            motions = self._draft.objects[index].motions
+            if not motions and self._draft.noun(index).motion != "stand":
+                motions.append(ObjectMotion("move"))
+            if motions and motions[-1].is_moving:
+                motions[-1] = replace(motions[-1], pace=1.0, speed_m_s=speed)
+                self._draft.objects[index].pace = 1.0
+                is_used = True
+        return is_used
+
+    def _set_start(self, start: float, scope: Scope) -> bool:
+        for index in scope.movers:
+            motions = self._draft.objects[index].motions
+            motions[-1] = replace(motions[-1], start_s=start)
+        return bool(scope.movers)
+
+    def add_effect(self, one: Referent, scope: Scope) -> bool:
+        """Smoke, sparks ... that the clause's subjects have."""
+        kind = str(one.value)
+        source = scope.subjects[0] if scope.subjects else None
+        if source is None and EFFECTS[kind].needs_source:
+            return False
+        colours = one.attributes.colours
+        colour = colours[0][0] if colours else None
+        for _, words in colours[:1]:
+            mark_used(words)
+        self._draft.effects.append(Effect(kind, source, colour))
+        if one.group.head is not None:
+            one.group.head.is_used = True
+        return True
+
+    def _use_part(self, one: Referent, things: Sequence[int]) -> None:
+        """The part is shown; its colour too, if it is the usual one."""
+        if one.group.head is not None:
+            one.group.head.is_used = True
+        for colour, words in one.attributes.colours:
+            names = {PART_COLOURS.get((self._draft.objects[i].noun, str(one.value))) for i in things}
+            if names == {colour.name}:
+                mark_used(words)
+
+    def person(self) -> int | None:
+        """A person whom the prompt only implies: "juggling three oranges"."""
+        for index in range(len(self._draft.objects)):
+            if is_person(self._draft.noun(index)):
+                return index
+        return None
+
+
+_PATHS = frozenset({"past", "through", "towards", "from", "around", "follow", "above"})
+_WEAK_PREPOSITIONS: dict[object, str] = {
+    "at": "beside", "by": "beside", "across": "on", "along": "past",
+}  # fmt: skip
+"""Prepositions of many senses → the relation they mean between two objects."""
+_RESTING = frozenset(
+    {"on", "under", "beside", "next to", "behind", "in front of", "between", "near", "at", "by",
+     "above", "in", "inside", "among", "beneath", "below", "with", "on top of"}
+)  # fmt: skip
+"""Prepositions that say where something is, whatever it does there."""
+_BY_CAMERA = {"towards": "towards", "toward": "towards", "to": "towards", "past": "across",
+              "from": "away", "at": "towards"}  # fmt: skip

@@ -1,0 +1,330 @@
+"""What each clause means: to whom it belongs (camera, light, weather, objects), and what it adds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from texvent.scenes.description import SceneDescription
+from texvent.scenes.language.activities import find_activity
+from texvent.scenes.language.acts import ActReader, is_plain_past
+from texvent.scenes.language.camera_reader import CameraReader
+from texvent.scenes.language.circumstances import CircumstanceReader, Scope
+from texvent.scenes.language.draft import Draft, PartialObject
+from texvent.scenes.language.lexicon import Role
+from texvent.scenes.language.referents import PERSON, Referent, Referents
+from texvent.scenes.language.surroundings_reader import SurroundingsReader
+from texvent.scenes.language.syntax import Clause, NounGroup, PrepPhrase
+from texvent.scenes.language.tagging import Word
+from texvent.scenes.language.vocabulary_motion import Verb
+from texvent.scenes.language.vocabulary_scene import TRAVEL_MEANS, WEATHER_VERBS
+from texvent.scenes.language.words import VerbForm
+from texvent.scenes.models.protocol import Noun
+
+_OF_SCENE = frozenset(
+    {"place", "light", "weather", "sky", "snow", "dust", "shadow", "glow", "clouds"}
+)
+_SNOWS = ("fall", "blow", "swirl", "drift", "whirl")
+_PLAIN_WEATHER_VERBS = frozenset(
+    {"fall", "blow", "drift", "roll", "shine", "rise", "set", "hang", "kick", "kick up", "fly",
+     "float", "glitter", "cast", "cover", "fill", "pour", "come", "glow", "light", "move", "drop",
+     "descend", "billow", "swirl", "shower", "spray", "stream", "fly up"}
+)  # fmt: skip
+"""Verbs that say nothing new of rain, dust, light or smoke: "rain falls"."""
+
+
+class ClauseMeaning:
+    """Reads clauses in order and collects the scene."""
+
+    def __init__(self, nouns: Mapping[str, Noun]) -> None:
+        self._draft = Draft(nouns)
+        self._referents = Referents(self._draft)
+        self._camera = CameraReader()
+        self._surroundings = SurroundingsReader()
+        self._acts = ActReader(self._draft)
+        self._around = CircumstanceReader(
+            self._draft, self._referents, self._surroundings, self._acts
+        )
+        self._has_surroundings = False
+
+    @property
+    def is_anything_shown(self) -> bool:
+        """Whether the prompt says anything that the scene shows."""
+        surroundings, light = self._surroundings.build()
+        says_place = any(
+            (surroundings.place, surroundings.weather, surroundings.sky, surroundings.backdrops,
+             surroundings.has_dust, surroundings.has_snow, surroundings.clouds is not None,
+             light.kind, light.flicker_hz)
+        )  # fmt: skip
+        return bool(
+            self._draft.objects or self._draft.effects or says_place or self._camera.has_moves
+            or self._draft.absent
+        )  # fmt: skip
+
+    def build(self, prompt: str) -> SceneDescription:
+        """The description, before defaults are filled in."""
+        draft = self._draft
+        surroundings, light = self._surroundings.build()
+        return SceneDescription(
+            prompt=prompt,
+            objects=tuple(item.build(draft.tempo) for item in draft.objects),
+            relations=tuple(draft.relations),
+            effects=tuple(draft.effects),
+            shot=self._camera.build(),
+            light=light,
+            surroundings=surroundings,
+            absent=tuple(draft.absent),
+            notes=tuple(draft.notes),
+        )
+
+    def read(self, clause: Clause) -> None:
+        """Add what a clause says."""
+        for word in clause.adverbs:
+            if word.role in (Role.VIEW, Role.FRAMING, Role.CAMERA_MOVE):
+                self._camera.read_word(word)
+        if clause.opener is not None:
+            clause.opener.is_used = True
+        if clause.verb is not None and clause.verb.text in WEATHER_VERBS:
+            self._read_weather_verb(clause, clause.verb)
+            return
+        subjects = [self._referents.resolve(group) for group in clause.subjects]
+        if self._is_about_camera(clause, subjects):
+            self._read_camera(clause, subjects)
+        elif subjects and all(one.kind in _OF_SCENE for one in subjects):
+            self._read_scene(clause, subjects)
+        elif subjects and all(one.kind == "effect" for one in subjects):
+            self._read_effects(clause, subjects)
+        elif not subjects and clause.verb is not None:
+            self._read_subjectless(clause)
+        else:
+            self._read_objects(clause, subjects)
+
+    def _is_about_camera(self, clause: Clause, subjects: Sequence[Referent]) -> bool:
+        if any(one.kind in ("camera", "function") for one in subjects):
+            return True
+        if subjects or clause.verb is None:
+            return False
+        is_move = clause.verb.read_as(Role.CAMERA_MOVE) is not None
+        return is_move and (self._camera.has_moves or clause.verb.role is Role.CAMERA_MOVE)
+
+    def _read_camera(self, clause: Clause, subjects: Sequence[Referent]) -> None:
+        others = [one for one in subjects if one.kind not in ("camera", "function")]
+        for one in subjects:
+            if one.group.head is not None:
+                one.group.head.is_used = True
+            self._camera.read_attributes(one.attributes)
+            for phrase in one.group.phrases:
+                self._around.read_phrase(phrase, Scope([], [], has_verb=False))
+        phrases = self._resolve_phrases(clause.phrases)
+        objects = [self._referents.resolve(group) for group in clause.objects]
+        self._camera.read_clause(clause, objects, phrases)
+        for phrase, one in phrases:
+            if not one.is_things:
+                near = self._referents.resolve(phrase.near) if phrase.near is not None else None
+                things = near.things if near is not None else []
+                self._around.read_phrase(phrase, Scope(things, [], has_verb=False))
+            self._around.read_group_phrases(one, Scope([], []))
+        for one in (*objects, *others):
+            self._read_extra(one)
+        named = [*objects, *(one for _, one in phrases)]
+        self._keep_subjects([index for one in named if one.is_things for index in one.things][:1])
+        if clause.verb is not None and clause.verb.text in ("taken", "filmed", "shot", "seen"):
+            clause.verb.is_used = True
+
+    def _resolve_phrases(
+        self, phrases: Sequence[PrepPhrase]
+    ) -> list[tuple[PrepPhrase, Referent]]:
+        return [
+            (phrase, self._referents.resolve(group, phrase.preposition.text))
+            for phrase in phrases
+            for group in phrase.groups
+        ]
+
+    def _read_extra(self, one: Referent) -> None:
+        """What else is named: a place, or what hangs on an object."""
+        if one.kind in _OF_SCENE:
+            self._surroundings.read_referent(one, is_negated=False)
+        self._around.read_group_phrases(one, Scope(one.things, []))
+
+    def _read_scene(self, clause: Clause, subjects: Sequence[Referent]) -> None:
+        """Rain falls, the light flickers, the road curves, the room is dark."""
+        word = clause.verb
+        for one in subjects:
+            self._surroundings.read_referent(one, is_negated=clause.negation is not None)
+            self._around.read_group_phrases(one, Scope([], [], has_verb=False))
+        kinds = {one.kind for one in subjects}
+        if word is not None:
+            if word.role is Role.FLICKER and kinds & {"light", "glow"}:
+                self._surroundings.flicker()
+                word.is_used = True
+            elif word.lemma in ("curve", "wind", "bend", "twist") and "place" in kinds:
+                word.is_used = self._surroundings.curve_road()
+            elif word.lemma in _SNOWS and "snow" in kinds:
+                word.is_used = self._surroundings.read_weather("snow")
+            elif word.lemma in _PLAIN_WEATHER_VERBS and kinds - {"place"}:
+                word.is_used = True
+        for group in clause.complements:
+            one = self._referents.resolve(group)
+            self._surroundings.read_adjectives(one.attributes, "place")
+            for said in one.attributes.words:
+                if said.text == "dark":
+                    self._surroundings.darken()
+                    said.is_used = True
+        scope = Scope([], [], is_lost=False)
+        if word is not None and word.is_used:
+            for adverb in clause.adverbs:
+                adverb.is_used = adverb.is_used or adverb.role is Role.DIRECTION
+        self._around.read_adverbs(clause.adverbs, scope)
+        self._around.read_phrases(clause.phrases, scope)
+        for group in clause.objects:
+            self._read_extra(self._referents.resolve(group))
+
+    def _read_effects(self, clause: Clause, subjects: Sequence[Referent]) -> None:
+        """Smoke rises from a chimney."""
+        sources: list[int] = []
+        for phrase in (*clause.phrases, *(p for one in subjects for p in one.group.phrases)):
+            for group in phrase.groups:
+                found = self._referents.resolve(group, phrase.preposition.text)
+                if found.is_things:
+                    sources.extend(found.things)
+                    phrase.preposition.is_used = True
+                else:
+                    self._around.read_phrase(phrase, Scope([], []))
+                self._around.read_group_phrases(found, Scope(found.things, []))
+        for one in subjects:
+            self._around.add_effect(one, Scope(sources[:1], []))
+        word = clause.verb
+        if word is not None and (
+            word.lemma in _PLAIN_WEATHER_VERBS or isinstance(word.meaning.value, Verb)
+        ):
+            word.is_used = True
+            for adverb in clause.adverbs:
+                adverb.is_used = adverb.is_used or adverb.text in ("up", "out", "down")
+        self._around.read_adverbs(clause.adverbs, Scope(sources, []))
+
+    def _read_subjectless(self, clause: Clause) -> None:
+        """ "Driving through a tunnel", "juggling three oranges"."""
+        word = clause.verb
+        assert word is not None
+        is_gerund = word.meaning.form is VerbForm.ING
+        if is_gerund and word.lemma in TRAVEL_MEANS and not clause.objects:
+            self._read_camera(clause, [])
+            self._draft.note("the camera itself moves, as no one else is said to")
+            return
+        does = find_activity(clause, is_hand=False) is not None or (
+            isinstance(word.meaning.value, Verb) and bool(clause.objects)
+        )
+        if not does or word.role is Role.FUNCTION:
+            self._read_objects(clause, [])
+            return
+        index = self._around.person()
+        if index is None:
+            index = self._draft.add(PartialObject(PERSON))
+            self._draft.note(f"a person does it ({word.text}): no one is named")
+        person = Referent("things", clause.objects[0] if clause.objects else _NOBODY, [])
+        person.things = [] if index is None else [index]
+        self._read_objects(clause, [person])
+
+    def _read_weather_verb(self, clause: Clause, word: Word) -> None:
+        """ "It rains on a bus"."""
+        self._surroundings.read_weather(WEATHER_VERBS[word.text])
+        word.is_used = True
+        for phrase in clause.phrases:
+            for group in phrase.groups:
+                one = self._referents.resolve(group, phrase.preposition.text)
+                phrase.preposition.is_used = one.is_things
+                self._read_extra(one)
+
+    def _read_objects(self, clause: Clause, subjects: Sequence[Referent]) -> None:
+        """A clause about objects, or about something that is not shown."""
+        subjects = self._split_scene(subjects)
+        things = [index for one in subjects if one.is_things for index in one.things]
+        is_lost = bool(subjects) and not things
+        objects = [self._referents.resolve(group) for group in clause.objects]
+        agents = self._find_agents(clause)
+        movers: list[int] = []
+        if clause.verb is not None and things:
+            if clause.is_passive and not (clause.is_participle and is_plain_past(clause.verb)):
+                movers = self._acts.undergo(clause, things, agents)
+            else:
+                movers = self._acts.read(clause, things, objects)
+        has_verb = clause.verb is not None
+        is_shown = has_verb and clause.verb is not None and clause.verb.is_used
+        scope = Scope(things, movers, is_lost, has_verb, is_shown)
+        if has_verb and not is_shown:
+            self._lose_verb(things)
+        for one in subjects:
+            is_last_of_list = one is subjects[-1] and not has_verb and clause.is_listed
+            own = things if is_last_of_list else one.things
+            self._around.read_group_phrases(
+                one, Scope(one.things, [], not one.things, has_verb=False), own
+            )
+        for one in objects:
+            self._read_object(one, clause, scope)
+        self._read_complements(clause, scope)
+        self._around.read_adverbs(clause.adverbs, scope)
+        self._around.read_phrases(clause.phrases, scope)
+        self._keep_subjects(things)
+
+    def _lose_verb(self, things: Sequence[int]) -> None:
+        """What does something that is not shown stands still: it does nothing else either."""
+        for index in things:
+            self._draft.objects[index].is_verb_lost = True
+
+    def _read_object(self, one: Referent, clause: Clause, scope: Scope) -> None:
+        if one.kind == "unit":
+            self._around.read_quantity(one, scope)
+        elif one.kind in _OF_SCENE:
+            self._surroundings.read_referent(one, is_negated=False)
+            self._cross(one, clause, scope)
+        elif one.kind == "effect":
+            self._around.add_effect(one, scope)
+        self._around.read_group_phrases(one, Scope(one.things, [], not one.things, has_verb=False))
+
+    def _cross(self, one: Referent, clause: Clause, scope: Scope) -> None:
+        """ "Crosses the street": the place is where it goes."""
+        del one
+        if clause.verb is None or clause.verb.is_used or not scope.subjects:
+            return
+        scope.movers.extend(self._acts.read(clause, scope.subjects, []))
+
+    def _split_scene(self, subjects: Sequence[Referent]) -> list[Referent]:
+        """Read the places and lights in a list of subjects; return the rest."""
+        rest = []
+        for one in subjects:
+            if one.kind in _OF_SCENE:
+                self._read_extra(one)
+            elif one.kind == "effect":
+                self._around.add_effect(one, Scope([], []))
+            elif one.kind != "absent":
+                rest.append(one)
+        return rest
+
+    def _find_agents(self, clause: Clause) -> list[int]:
+        """ "Held by a boy"."""
+        agents: list[int] = []
+        for phrase in list(clause.phrases):
+            if phrase.preposition.text != "by" or not clause.is_passive:
+                continue
+            for group in phrase.groups:
+                found = self._referents.resolve(group, "by")
+                if found.is_things:
+                    agents.extend(found.things)
+                    phrase.preposition.is_used = True
+                    self._around.read_group_phrases(found, Scope(found.things, []))
+            if agents:
+                clause.phrases.remove(phrase)
+        return agents
+
+    def _read_complements(self, clause: Clause, scope: Scope) -> None:
+        """ "The car is red"; "painted orange"."""
+        for group in clause.complements:
+            one = self._referents.resolve(group)
+            for index in scope.subjects:
+                one.attributes.apply(self._draft.objects[index], self._draft.noun(index))
+
+    def _keep_subjects(self, things: Sequence[int]) -> None:
+        if things:
+            self._draft.subjects = list(things)
+
+
+_NOBODY = NounGroup()

@@ -1,0 +1,449 @@
+"""Words to clauses: every verb gets the subjects and objects of its own clause.
+
+The rules, in the order in which they apply to a verb:
+
+1. After "is", "are" ... it completes the clause.
+2. A clause with a subject and no verb takes it.
+3. A relative ("that", "who") gives it the noun before.
+4. After "and", a comma or "then" it has the subjects of the verb before, and comes after it.
+5. A participle after a comma has the subjects of the clause; directly after a noun, that noun.
+6. A finite verb after a participle or a relative clause has the subjects before that clause.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from texvent.scenes.language.lexicon import Role
+from texvent.scenes.language.noun_groups import read_group, starts_group
+from texvent.scenes.language.syntax import Clause, NounGroup, PrepPhrase
+from texvent.scenes.language.tagging import Word
+from texvent.scenes.language.vocabulary_function import (
+    SENTENCE_OPENERS,
+    TIME_ORDER,
+)
+from texvent.scenes.language.words import Pos, VerbForm
+
+_SENTENCE_SIGNS = frozenset(".;!?:\n")
+_JOINING_SIGNS = frozenset(",()[]")
+_FIRST = ("when", "after", "once", "whenever")
+"""Subordinators whose clause, at the start of a sentence, comes before the main clause."""
+
+
+def read_clauses(words: Sequence[Word]) -> list[Clause]:
+    """All clauses of a prompt, in order."""
+    return _ClauseReader(words).read()
+
+
+class _ClauseReader:
+    """One pass over the words."""
+
+    def __init__(self, words: Sequence[Word]) -> None:
+        self._words = words
+        self._at = 0
+        self._clauses: list[Clause] = []
+        self._clause = Clause()
+        self._outer: list[Clause] = []
+        """Clauses that were left open by a relative or a participle."""
+        self._last: NounGroup | None = None
+        """The noun group read last."""
+        self._is_joined: str = ""
+        """ "and" or "," if that came directly before."""
+        self._phrase: PrepPhrase | None = None
+        """The prepositional phrase that "and" may extend."""
+        self._anchor: NounGroup | None = None
+        """The noun group that prepositions other than "of" belong to."""
+        self._negation: Word | None = None
+        self._next_order = "same"
+        self._sentence = 0
+        """Number of clauses before the sentence."""
+
+    def read(self) -> list[Clause]:
+        """All clauses."""
+        while self._at < len(self._words):
+            self._step()
+        self._close()
+        return [clause for clause in self._clauses if not clause.is_empty]
+
+    def _step(self) -> None:
+        word = self._words[self._at]
+        if word.pos is Pos.SIGN:
+            self._read_sign(word)
+        elif word.pos is Pos.CONJUNCTION:
+            self._is_joined = "and"
+            if self._clause.verb is None:
+                self._clause.is_listed = True
+            if word.text in ("but", "only", "just"):
+                self._negation = None
+            self._skip(word)
+        elif word.pos is Pos.SUBORDINATOR:
+            self._open_subordinate(word)
+        elif word.pos is Pos.RELATIVE:
+            self._open_relative(word)
+        elif word.pos is Pos.NEGATION and word.text.split()[0] in ("without", "with", "free"):
+            self._read_preposition(word, negation=word)
+        elif word.pos is Pos.NEGATION:
+            self._negation = word
+            self._at += 1
+            if word.text in ("nobody", "no one", "nothing"):
+                self._add_group(NounGroup(head=word))
+        elif word.pos is Pos.AUXILIARY:
+            self._read_auxiliary(word)
+        elif word.pos is Pos.TO:
+            self._skip(word)
+            self._continue_with_same_subjects("after")
+        elif word.pos is Pos.PREPOSITION:
+            self._read_preposition(word)
+        elif word.pos is Pos.DETERMINER and self._is_before_adjunct():
+            self._skip(word)
+        elif self._starts_group():
+            group, self._at = read_group(self._words, self._at)
+            self._add_group(group)
+        elif word.pos is Pos.VERB:
+            self._read_verb(word)
+        else:
+            self._clause.adverbs.append(word)
+            self._at += 1
+
+    def _is_before_adjunct(self) -> bool:
+        """ "A close-up of": no noun follows."""
+        coming = self._words[self._at + 1 : self._at + 3]
+        return bool(coming) and coming[0].pos is Pos.ADJUNCT and (
+            len(coming) == 1 or coming[1].pos not in (Pos.NOUN, Pos.ADJECTIVE)
+        )  # fmt: skip
+
+    def _starts_group(self) -> bool:
+        before = self._words[self._at - 1].pos if self._at else None
+        awaits_noun = before in (None, Pos.SIGN, Pos.PREPOSITION, Pos.CONJUNCTION, Pos.SUBORDINATOR)
+        is_verb_wanted = bool(self._clause.auxiliaries) and self._clause.verb is None
+        is_subject_open = bool(self._clause.subjects) and self._clause.verb is None
+        is_opening = awaits_noun and not is_verb_wanted and not (
+            is_subject_open and before not in (Pos.PREPOSITION,)
+        )  # fmt: skip
+        return starts_group(self._words, self._at, is_opening=is_opening)
+
+    def _skip(self, word: Word) -> None:
+        word.is_used = True
+        self._at += 1
+
+    def _read_sign(self, word: Word) -> None:
+        self._at += 1
+        word.is_used = True
+        if word.text in _SENTENCE_SIGNS:
+            self._close()
+            self._sentence = len(self._clauses)
+            self._clause.order = "after" if any(c.verb for c in self._clauses) else "same"
+            self._outer = []
+            self._negation = None
+            self._last = self._anchor = None
+            self._is_joined = ""
+            self._next_order = "same"
+        elif word.text in _JOINING_SIGNS:
+            self._is_joined = ","
+
+    def _close(self) -> None:
+        self._clauses.append(self._clause)
+        self._clause = Clause(order=self._next_order)
+        self._next_order = "same"
+        self._phrase = None
+
+    def _open_subordinate(self, word: Word) -> None:
+        word.is_used = True
+        self._at += 1
+        is_first = self._clause.is_empty
+        subjects = self._clause.subjects
+        order = TIME_ORDER.get(word.text, "same")
+        if word.text in SENTENCE_OPENERS:
+            if is_first:
+                self._clause.order = "after" if self._clauses else "same"
+                self._clause.opener = word
+                return
+            if self._next_is_verb():
+                self._close()
+                self._clause = Clause(subjects=list(subjects), opener=word, order="after")
+                self._is_joined = ""
+                return
+        self._outer = []
+        if not is_first:
+            self._close()
+        self._clause.opener = word
+        self._clause.order = "same" if is_first else order
+        if is_first and word.text in _FIRST:
+            self._next_order = "after"
+        if self._next_is_verb():
+            self._clause.subjects = list(subjects)
+        self._is_joined = ""
+        self._last = self._anchor = None
+
+    def _next_is_verb(self) -> bool:
+        at = self._at
+        while at < len(self._words) and self._words[at].pos is Pos.ADVERB:
+            at += 1
+        return at < len(self._words) and self._words[at].pos is Pos.VERB
+
+    def _open_relative(self, word: Word) -> None:
+        self._skip(word)
+        antecedent = self._last
+        self._outer.append(self._clause)
+        self._close()
+        self._clause.subjects = [antecedent] if antecedent is not None else []
+        self._anchor = None
+        self._clause.is_relative, self._clause.opener = True, word
+        self._is_joined = ""
+
+    def _read_auxiliary(self, word: Word) -> None:
+        if self._clause.verb is not None:
+            outer = self._pop_outer()
+            if outer is not None:
+                self._close()
+                self._clause.subjects = list(outer.subjects)
+            else:
+                self._continue_with_same_subjects("same")
+        self._clause.auxiliaries.append(word)
+        word.is_used = True
+        self._clause.negation = self._clause.negation or self._take_negation()
+        self._is_joined = ""
+        self._at += 1
+
+    def _take_negation(self) -> Word | None:
+        negation, self._negation = self._negation, None
+        return negation
+
+    def _continue_with_same_subjects(self, order: str) -> None:
+        subjects = list(self._clause.subjects)
+        self._close()
+        self._clause.subjects, self._clause.order = subjects, order
+
+    def _pop_outer(self) -> Clause | None:
+        """The clause that a finite verb after a relative or participle belongs to."""
+        while self._outer:
+            outer = self._outer.pop()
+            if outer.subjects and (outer.verb is None or outer.is_participle):
+                return outer
+        return None
+
+    def _read_verb(self, word: Word) -> None:
+        form = word.meaning.form
+        is_participle = form in (VerbForm.ING, VerbForm.PAST)
+        self._split_list()
+        self._negation = None if self._clause.verb is not None else self._negation
+        clause = self._clause
+        if is_participle and clause.verb is None and self._is_small_clause():
+            self._outer.append(clause)
+            subject = self._last
+            self._close()
+            self._clause.subjects = [subject] if subject is not None else []
+            clause = self._clause
+        if clause.verb is None:
+            clause.is_participle = is_participle and not clause.auxiliaries
+        elif is_participle and self._is_joined != "and":
+            self._open_participle()
+            self._clause.is_participle = True
+        elif self._is_joined and not (is_participle and not clause.is_participle):
+            is_finite_after_participle = clause.is_participle and not is_participle
+            outer = self._find_finite() if is_finite_after_participle else None
+            subjects = list((outer or clause).subjects)
+            self._close()
+            self._clause.subjects = subjects
+            self._clause.order = "after"
+            self._clause.is_participle = is_participle
+        else:
+            self._resume_outer(is_participle)
+        self._clause.verb = word
+        self._clause.negation = self._clause.negation or self._take_negation()
+        self._is_joined, self._phrase = "", None
+        self._at += 1
+
+    def _is_small_clause(self) -> bool:
+        """ "A boat with dolphins jumping": the dolphins jump."""
+        clause = self._clause
+        if clause.auxiliaries or not clause.subjects or not clause.subjects[-1].phrases:
+            return False
+        phrase = clause.subjects[-1].phrases[-1]
+        return phrase.preposition.text == "with" and phrase.groups[-1] is self._last
+
+    def _split_list(self) -> None:
+        """ "A chair, the light flickers": only the last is the subject."""
+        clause = self._clause
+        if clause.verb is None and len(clause.subjects) > 1 and not clause.is_listed:
+            last = clause.subjects.pop()
+            phrases, clause.phrases = clause.phrases, []
+            auxiliaries, clause.auxiliaries = clause.auxiliaries, []
+            self._close()
+            self._clause.subjects, self._clause.phrases = [last], phrases
+            self._clause.auxiliaries = auxiliaries
+
+    def _find_finite(self) -> Clause | None:
+        """The clause that "and" after a participle clause goes on with."""
+        outer = self._pop_outer()
+        if outer is not None:
+            return outer
+        for clause in reversed(self._clauses[self._sentence :]):
+            if clause.verb is not None and not clause.is_participle and not clause.is_relative:
+                return clause
+        return None
+
+    def _open_participle(self) -> None:
+        """ ", leaving a wake" or "a dog chasing a cat"."""
+        before = self._words[self._at - 1]
+        has_noun_before = before.pos in (Pos.NOUN, Pos.PRONOUN) and self._last is not None
+        if not self._is_joined and has_noun_before and self._last is not None:
+            self._outer.append(self._clause)
+            subjects = [self._last]
+        else:
+            subjects = list(self._clause.subjects)
+        self._close()
+        self._clause.subjects = subjects
+
+    def _resume_outer(self, is_participle: bool) -> None:
+        """A verb without "and" after a complete clause."""
+        clause = self._clause
+        outer = self._pop_outer() if not is_participle else None
+        if outer is None and clause.is_participle and not is_participle and clause.subjects:
+            outer = clause
+        if outer is not None:
+            subjects = list(outer.subjects)
+        elif self._last is not None and self._last not in clause.subjects:
+            subjects = [self._last]
+        else:
+            subjects = list(clause.subjects)
+        self._close()
+        self._clause.subjects, self._clause.is_participle = subjects, is_participle
+
+    def _read_preposition(self, word: Word, negation: Word | None = None) -> None:
+        self._at += 1
+        if self._at < len(self._words) and self._words[self._at].pos is Pos.NEGATION:
+            negation = self._words[self._at]
+            self._at += 1
+        self._negation = None
+        if self._at < len(self._words) and self._words[self._at].pos is Pos.VERB:
+            if not starts_group(self._words, self._at, is_opening=True):
+                word.is_used = True
+                self._continue_with_same_subjects("same")
+                return
+        if not starts_group(self._words, self._at, is_opening=True):
+            self._clause.adverbs.append(word)
+            return
+        group, self._at = read_group(self._words, self._at)
+        is_of = word.text == "of"
+        if is_of and self._names_shot(word):
+            self._clause.subjects.append(group)
+            self._last = self._anchor = group
+            return
+        phrase = PrepPhrase(word, [group], self._last if is_of else self._anchor, negation)
+        self._attach(phrase)
+        self._phrase, self._last, self._is_joined = phrase, group, ""
+        if not is_of:
+            self._anchor = group
+
+    def _names_shot(self, word: Word) -> bool:
+        """ "A static shot of a dog": the dog is the subject of what follows."""
+        clause = self._clause
+        if clause.verb is not None:
+            return False
+        if not clause.subjects:
+            word.is_used = bool(clause.adverbs)
+            return bool(clause.adverbs)
+        head = clause.subjects[-1].head
+        if head is None or head.role is not Role.FUNCTION or self._last is not clause.subjects[-1]:
+            return False
+        word.is_used = True
+        self._close()
+        return True
+
+    def _attach(self, phrase: PrepPhrase) -> None:
+        """To the noun before it after "of" and before the verb; else to the clause."""
+        clause, near = self._clause, phrase.near
+        is_of = phrase.preposition.text == "of"
+        is_before_verb = clause.verb is None and bool(clause.subjects)
+        if near is not None and not self._is_joined and (is_of or is_before_verb):
+            near.phrases.append(phrase)
+        else:
+            clause.phrases.append(phrase)
+
+    def _add_group(self, group: NounGroup) -> None:
+        clause, joined = self._clause, self._is_joined
+        if joined and (group.determiner is not None or self._is_counted(group)):
+            self._negation = None if self._words_since_negation(group) else self._negation
+        group.negation = self._negation
+        if clause.verb is None:
+            self._add_subject(group, joined)
+        elif self._is_inverted():
+            clause.subjects.append(group)
+        elif joined and self._verb_follows(self._at):
+            self._open_clause_with(group)
+        elif group.head is None:
+            clause.complements.append(group)
+        elif joined and self._phrase is not None and not self._opens_after_comma(joined):
+            self._phrase.groups.append(group)
+        else:
+            clause.objects.append(group)
+        self._last = self._anchor = group
+        self._is_joined = ""
+
+    def _needs_second(self) -> bool:
+        """ "Between a house" waits for "and a tree"."""
+        phrase = self._phrase
+        return phrase is not None and phrase.preposition.text == "between" and (
+            len(phrase.groups) == 1
+        )  # fmt: skip
+
+    def _is_counted(self, group: NounGroup) -> bool:
+        return any(word.pos is Pos.NUMBER for word in group.modifiers)
+
+    def _words_since_negation(self, group: NounGroup) -> bool:
+        """Whether another noun came between the negation and this group."""
+        return self._negation is not None and group.words[:1] != [
+            self._words[self._words.index(self._negation) + 1]
+        ]
+
+    def _is_inverted(self) -> bool:
+        """ "Behind the house stands a cow"."""
+        clause = self._clause
+        return (
+            clause.verb is not None and not clause.subjects and not clause.is_participle
+            and bool(clause.phrases) and clause.verb.meaning.form is VerbForm.THIRD
+        )  # fmt: skip
+
+    def _opens_after_comma(self, joined: str) -> bool:
+        return joined == "," and self._clause.verb is not None
+
+    def _add_subject(self, group: NounGroup, joined: str) -> None:
+        clause = self._clause
+        is_intro = joined == "," and not clause.subjects
+        if clause.complements and joined and self._verb_follows(self._at):
+            self._open_clause_with(group)
+        elif clause.auxiliaries and clause.subjects:
+            clause.complements.append(group)
+        elif (
+            joined and not is_intro and self._phrase is not None
+            and (not self._verb_follows(self._at) or self._needs_second())
+        ):
+            self._phrase.groups.append(group)
+        elif joined or not clause.subjects:
+            self._phrase = None
+            clause.subjects.append(group)
+        else:
+            self._close()
+            self._clause.subjects.append(group)
+
+    def _open_clause_with(self, group: NounGroup) -> None:
+        order = self._next_order
+        self._close()
+        self._clause.subjects = [group]
+        self._clause.order = order
+
+    def _verb_follows(self, at: int) -> bool:
+        """Whether the noun group that ends at `at`, and what hangs on it, is followed by a verb."""
+        words = self._words
+        while at < len(words):
+            pos = words[at].pos
+            if pos in (Pos.VERB, Pos.AUXILIARY):
+                return True
+            if pos is Pos.PREPOSITION and starts_group(words, at + 1, is_opening=True):
+                _, at = read_group(words, at + 1)
+            elif pos is Pos.ADVERB:
+                at += 1
+            else:
+                return False
+        return False

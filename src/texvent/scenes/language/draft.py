@@ -1,0 +1,111 @@
+"""The scene while its sentence is being read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from texvent.scenes.description import (
+    STANDING,
+    Effect,
+    NamedColour,
+    ObjectMotion,
+    Picture,
+    Relation,
+    SceneObject,
+)
+from texvent.scenes.models.protocol import Noun
+
+MAX_OBJECTS = 12
+"""Most different things of a prompt that are shown."""
+
+
+@dataclass
+class PartialObject:
+    """An object that the reader is still reading about."""
+
+    noun: str
+    count: int = 1
+    is_plural: bool = False
+    colour: NamedColour | None = None
+    scale: float = 1.0
+    pace: float = 1.0
+    side: str | None = None
+    material: str | None = None
+    picture: Picture | None = None
+    blink_hz: float | None = None
+    is_lit: bool | None = None
+    motions: list[ObjectMotion] = field(default_factory=list)
+    is_verb_lost: bool = False
+    """Whether the prompt says that it does something that is not shown."""
+
+    def build(self, tempo: float) -> SceneObject:
+        """The object as understood; `tempo` multiplies every pace (slow motion)."""
+        motions = list(self.motions)
+        if not motions and self.is_verb_lost:
+            motions = [STANDING]
+        if not motions and self.pace != 1.0:
+            motions = [ObjectMotion("move")]
+        factor = self.pace * tempo
+        paced = [replace(one, pace=one.pace * factor) for one in motions]
+        return SceneObject(
+            self.noun, self.count, self.colour, self.scale, paced[0] if paced else None,
+            self.side, tuple(paced[1:]), self.material, self.picture, self.blink_hz, self.is_lit,
+        )  # fmt: skip
+
+
+class Draft:
+    """Objects, relations and effects named so far."""
+
+    def __init__(self, nouns: Mapping[str, Noun]) -> None:
+        self.nouns = nouns
+        self.objects: list[PartialObject] = []
+        self.relations: list[Relation] = []
+        self.effects: list[Effect] = []
+        self.absent: list[str] = []
+        self.notes: list[str] = []
+        self.subjects: list[int] = []
+        """What "it" and "they" mean."""
+        self.tempo = 1.0
+
+    def add(self, item: PartialObject) -> int | None:
+        """A new object's index; None if there are too many."""
+        if len(self.objects) >= MAX_OBJECTS:
+            self.note(f"only the first {MAX_OBJECTS} things are shown")
+            return None
+        self.objects.append(item)
+        return len(self.objects) - 1
+
+    def find(self, noun: str, is_plural: bool) -> int | None:
+        """The last object of that noun, singular or plural alike."""
+        for index in range(len(self.objects) - 1, -1, -1):
+            item = self.objects[index]
+            if item.noun == noun and (item.count > 1) == is_plural:
+                return index
+        return None
+
+    def noun(self, index: int) -> Noun:
+        """The model of an object."""
+        return self.nouns[self.objects[index].noun]
+
+    def relate(self, kind: str, subjects: Iterable[int], targets: Sequence[int]) -> bool:
+        """Relate every subject to the targets; whether there was anything to relate."""
+        is_related = False
+        for subject in subjects:
+            kept = tuple(target for target in targets if target != subject)
+            if kept:
+                relation = Relation(kind, subject, kept)
+                if relation not in self.relations:
+                    self.relations.append(relation)
+                is_related = True
+        return is_related
+
+    def note(self, text: str) -> None:
+        """Say something once."""
+        if text not in self.notes:
+            self.notes.append(text)
+
+    def exclude(self, noun: str) -> None:
+        """The prompt says that there is none of it."""
+        if noun not in self.absent:
+            self.absent.append(noun)

@@ -1,0 +1,111 @@
+"""Words to noun groups."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from texvent.scenes.language.lexicon import Role
+from texvent.scenes.language.syntax import NounGroup
+from texvent.scenes.language.tagging import Word
+from texvent.scenes.language.words import Pos, VerbForm
+
+_STARTS = frozenset({Pos.DETERMINER, Pos.NUMBER, Pos.ADJECTIVE, Pos.NOUN, Pos.PRONOUN})
+_NOMINAL = frozenset({Pos.NOUN, Pos.ADJECTIVE, Pos.NUMBER})
+_PARTICIPLES = (VerbForm.ING, VerbForm.PAST)
+
+
+def starts_group(words: Sequence[Word], at: int, *, is_opening: bool) -> bool:
+    """Whether a noun group starts at `words[at]`.
+
+    Args:
+        words: the prompt.
+        at: index.
+        is_opening: whether a participle there may be an attribute: at the start of a sentence or
+            after a preposition or comma, not after the subject.
+    """
+    if at >= len(words):
+        return False
+    if words[at].pos in _STARTS:
+        return True
+    if words[at].pos is Pos.ADJUNCT:
+        return is_opening and _is_attribute_phrase(words, at)
+    return is_opening and _is_attribute(words, at)
+
+
+def read_group(words: Sequence[Word], at: int) -> tuple[NounGroup, int]:
+    """The noun group at `words[at]` and the index after it."""
+    group = NounGroup()
+    while at < len(words):
+        word = words[at]
+        if word.pos is Pos.DETERMINER:
+            if group.words or group.owner:
+                break
+            group.determiner = word
+        elif word.pos is Pos.PRONOUN:
+            if not group.words:
+                group.head = word
+                at += 1
+            break
+        elif word.pos is Pos.NOUN:
+            if group.head is not None:
+                group.modifiers.append(group.head)
+            group.head = word
+            if word.is_possessive and _continues(words, at + 1):
+                group = NounGroup(owner=group)
+        elif word.pos in (Pos.NUMBER, Pos.ADJECTIVE):
+            if group.head is not None:
+                break
+            group.modifiers.append(word)
+        elif not _is_modifier(words, at, group):
+            break
+        else:
+            if group.head is not None:
+                group.modifiers.append(group.head)
+                group.head = None
+            group.modifiers.append(word)
+        at += 1
+    return group, at
+
+
+def _continues(words: Sequence[Word], at: int) -> bool:
+    return at < len(words) and words[at].pos in _NOMINAL
+
+
+def _is_modifier(words: Sequence[Word], at: int, group: NounGroup) -> bool:
+    """Whether another word belongs into the group, before its head."""
+    word = words[at]
+    if not _continues(words, at + 1):
+        return False
+    if word.pos is Pos.ADVERB:
+        return group.head is None and words[at + 1].pos is Pos.ADJECTIVE
+    if word.pos is Pos.CONJUNCTION:
+        return (
+            word.text == "and" and group.head is None and bool(group.modifiers)
+            and words[at + 1].pos is Pos.ADJECTIVE and _noun_follows(words, at + 2)
+        )  # fmt: skip
+    if word.pos is Pos.ADJUNCT:
+        return group.head is None and group.determiner is not None
+    if word.pos is not Pos.VERB or word.meaning.form not in _PARTICIPLES:
+        return False
+    if group.head is None or group.head.role is Role.UNIT:
+        return True
+    is_compound = word.meaning.form is VerbForm.PAST and words[at + 1].pos is Pos.NOUN
+    return is_compound and group.determiner is not None
+
+
+def _noun_follows(words: Sequence[Word], at: int) -> bool:
+    while at < len(words) and words[at].pos is Pos.ADJECTIVE:
+        at += 1
+    return at < len(words) and words[at].pos is Pos.NOUN
+
+
+def _is_attribute(words: Sequence[Word], at: int) -> bool:
+    """A participle before its noun: "spinning blue brushes", "glowing lava"."""
+    word = words[at]
+    if word.pos is not Pos.VERB or word.meaning.form not in _PARTICIPLES:
+        return False
+    return _noun_follows(words, at + 1)
+
+
+def _is_attribute_phrase(words: Sequence[Word], at: int) -> bool:
+    return at + 1 < len(words) and words[at + 1].pos in (Pos.NOUN, Pos.ADJECTIVE)

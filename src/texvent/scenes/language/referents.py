@@ -1,0 +1,207 @@
+"""Noun groups to what they mean: objects of the scene, the camera, a place, a light ..."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from texvent.scenes.language import vocabulary_scene
+from texvent.scenes.language.adjectives import Attributes, read_attributes
+from texvent.scenes.language.draft import Draft, PartialObject
+from texvent.scenes.language.lexicon import Role
+from texvent.scenes.language.syntax import NounGroup
+from texvent.scenes.language.tagging import Word, mark_used
+from texvent.scenes.language.vocabulary_function import (
+    DEFINITE,
+    NOBODY,
+    SOMEONE,
+    VIEWERS,
+)
+from texvent.scenes.language.vocabulary_objects import MAX_COUNT
+from texvent.scenes.language.words import Pos, list_readings
+
+PERSON = "person"
+OUR = ("our", "my")
+"""Owners that make a vehicle the camera's: "our car leaves a tunnel"."""
+_SURROUNDINGS = {
+    Role.PLACE: "place", Role.LIGHT: "light", Role.WEATHER: "weather", Role.SKY: "sky",
+    Role.SNOW: "snow", Role.DUST: "dust", Role.SHADOW: "shadow", Role.GLOW: "glow",
+    Role.CLOUDS: "clouds", Role.STEEP: "place",
+}  # fmt: skip
+_LOCATIVE = frozenset(
+    {"in", "on", "through", "across", "along", "at", "into", "up", "down", "onto", "over", "inside",
+     "to", "from", "past", "around", "within", "above", "towards", "toward"}
+)  # fmt: skip
+"""Prepositions after which a mountain is a place to be, not an object to look at."""
+
+
+@dataclass
+class Referent:
+    """What a noun group means."""
+
+    kind: str
+    """"things", "camera", "function" (a shot, a view), "place", "light", "weather", "sky", "snow",
+    "dust", "shadow", "glow", "clouds", "effect", "part", "unit", "nobody", "absent" or
+    "unknown"."""
+    group: NounGroup
+    things: list[int] = field(default_factory=list)
+    """Indices of objects."""
+    value: object = None
+    """Place, light, weather, effect or unit."""
+    attributes: Attributes = field(default_factory=Attributes)
+
+    @property
+    def is_things(self) -> bool:
+        """Whether it is objects of the scene."""
+        return self.kind == "things"
+
+
+class Referents:
+    """Gives noun groups their meaning, each once."""
+
+    def __init__(self, draft: Draft) -> None:
+        self._draft = draft
+        self._known: dict[int, Referent] = {}
+
+    def resolve(self, group: NounGroup, preposition: str | None = None) -> Referent:
+        """What a group means.
+
+        Args:
+            group: the noun group.
+            preposition: what stands before it, if any.
+        """
+        found = self._known.get(id(group))
+        if found is None:
+            found = self._read(group, preposition)
+            self._known[id(group)] = found
+        return found
+
+    def _read(self, group: NounGroup, preposition: str | None) -> Referent:
+        head = group.head
+        if head is None:
+            return Referent("unknown", group, attributes=read_attributes(group.modifiers))
+        if head.pos is Pos.PRONOUN:
+            return self._read_pronoun(group, head)
+        if head.pos is Pos.NEGATION or head.text in NOBODY:
+            return self._exclude(group, PERSON)
+        if head.role is Role.UNKNOWN and _is_no_head(head) and group.modifiers:
+            if group.modifiers[-1].read_as(Role.NOUN) is not None:
+                head = group.head = group.modifiers.pop()
+        attributes = read_attributes(group.modifiers)
+        if group.determiner is not None:
+            group.determiner.is_used = True
+        role = self._choose_role(head, preposition, group)
+        if role is Role.NOUN:
+            return self._read_thing(group, attributes)
+        if role is Role.CAMERA:
+            return Referent("camera", group, attributes=attributes)
+        if role is Role.UNIT:
+            return Referent("unit", group, value=head.meaning.value, attributes=attributes)
+        if role is Role.EFFECT:
+            return Referent("effect", group, value=head.meaning.value, attributes=attributes)
+        if role is Role.PART:
+            return Referent("part", group, value=head.text, attributes=attributes)
+        if role is Role.FUNCTION:
+            head.is_used = True
+            return Referent("function", group, attributes=attributes)
+        if role in _SURROUNDINGS:
+            meaning = head.read_as(role)
+            value = meaning.value if meaning is not None else None
+            return Referent(_SURROUNDINGS[role], group, value=value, attributes=attributes)
+        return Referent("unknown", group, attributes=attributes)
+
+    def _choose_role(self, head: Word, preposition: str | None, group: NounGroup) -> Role:
+        """A word that is a thing and a place, or a thing and a part of one."""
+        is_thing = head.read_as(Role.NOUN) is not None
+        if is_thing and head.read_as(Role.PLACE) is not None:
+            return Role.PLACE if preposition in _LOCATIVE else Role.NOUN
+        if is_thing and head.read_as(Role.PART) is not None:
+            is_owned = group.owner is not None or (
+                group.determiner is not None and group.determiner.text in OWNERS
+            )
+            return Role.PART if is_owned else Role.NOUN
+        if is_thing:
+            return Role.NOUN
+        return head.role
+
+    def _read_pronoun(self, group: NounGroup, head: Word) -> Referent:
+        head.is_used = True
+        if head.text in VIEWERS:
+            return Referent("camera", group)
+        if head.text in SOMEONE:
+            index = self._draft.add(PartialObject(PERSON))
+            return Referent("things", group, [] if index is None else [index])
+        if self._draft.subjects and head.text not in ("there", "here"):
+            return Referent("things", group, list(self._draft.subjects))
+        return Referent("function", group)
+
+    def _exclude(self, group: NounGroup, noun: str) -> Referent:
+        mark_used(group.words)
+        if group.negation is not None:
+            group.negation.is_used = True
+        self._draft.exclude(noun)
+        return Referent("absent", group)
+
+    def _read_thing(self, group: NounGroup, attributes: Attributes) -> Referent:
+        head = group.head
+        assert head is not None
+        meaning = head.read_as(Role.NOUN)
+        assert meaning is not None
+        noun = str(meaning.value)
+        if group.negation is not None or attributes.count == 0:
+            attributes.use_all()
+            return self._exclude(group, noun)
+        if group.determiner is not None and group.determiner.text in OUR:
+            if self._draft.nouns[noun].motion in ("drive", "sail", "fly"):
+                head.is_used = True
+                return Referent("camera", group, attributes=attributes)
+        is_plural = attributes.is_many or meaning.is_plural
+        index = self._recall(group, noun, is_plural, attributes)
+        if index is None:
+            index = self._add(noun, is_plural, attributes)
+        if index is None:
+            return Referent("unknown", group, attributes=attributes)
+        head.is_used = True
+        head.shown_as = noun if meaning.is_substitute else None
+        return Referent("things", group, [index], attributes=attributes)
+
+    def _recall(
+        self, group: NounGroup, noun: str, is_plural: bool, attributes: Attributes
+    ) -> int | None:
+        """The object that "the dog" was said of already."""
+        determiner = group.determiner
+        if determiner is None or determiner.text not in DEFINITE or attributes.is_new:
+            return None
+        return self._draft.find(noun, is_plural)
+
+    def _add(self, noun: str, is_plural: bool, attributes: Attributes) -> int | None:
+        count, note = attributes.decide_count(is_plural=is_plural)
+        if note is not None:
+            self._draft.note(note)
+        item = PartialObject(noun, min(count, MAX_COUNT), is_plural)
+        index = self._draft.add(item)
+        if index is not None:
+            attributes.apply(item, self._draft.nouns[noun])
+        return index
+
+
+def _is_no_head(head: Word) -> bool:
+    """Whether a dictionary knows the word, but not as a noun, or not at all."""
+    readings = list_readings(head.text)
+    return len(head.text) == 1 or all(one.pos is not Pos.NOUN for one in readings)
+
+
+OWNERS = ("its", "their", "his", "her")
+
+
+def list_parts_shown(draft: Draft, things: Sequence[int], part: str) -> bool:
+    """Whether the models of all these objects show a part in any case."""
+    return bool(things) and all(_shows(draft, index, part) for index in things)
+
+
+def _shows(draft: Draft, index: int, part: str) -> bool:
+    noun = draft.noun(index)
+    for category, parts in vocabulary_scene.PARTS_SHOWN.items():
+        if category in (noun.motion, noun.name) and part in parts:
+            return True
+    return False

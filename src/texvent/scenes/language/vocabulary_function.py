@@ -1,0 +1,91 @@
+"""Words of grammar: they join, point or introduce, and need no effect of their own."""
+
+from __future__ import annotations
+
+from texvent.scenes.language.words import Pos
+
+DETERMINERS = (
+    "a", "an", "the", "this", "that", "these", "those", "its", "their", "his", "her", "our", "my",
+    "your", "another", "each", "every", "all", "any", "other", "the other", "both", "one another",
+    "such",
+)  # fmt: skip
+INDEFINITE = ("a", "an", "another", "each", "every", "one")
+"""Determiners of a single new thing."""
+DEFINITE = ("the", "this", "that", "these", "those", "its", "their", "his", "her")
+"""Determiners of a thing that may have been named before."""
+
+PRONOUNS = (
+    "it", "they", "he", "she", "them", "him", "her", "itself", "themselves", "himself", "herself", "i",
+    "we", "us", "me", "you", "one another", "each other", "there", "here", "itself", "someone",
+    "somebody", "everyone",
+)  # fmt: skip
+VIEWERS = ("i", "we", "us", "me", "you")
+"""Pronouns of whoever looks: the camera."""
+SOMEONE = ("someone", "somebody", "everyone")
+"""Pronouns of a person who is not named."""
+NOBODY = ("nobody", "no one")
+
+NEGATIONS = (
+    "no", "without", "without any", "with no", "with no other", "no other", "without other",
+    "without any other", "not any", "not a", "no more", "not", "never", "free of", "neither",
+    "there are no", "there is no", "n't", "nobody", "no one", "nothing", "empty of",
+)  # fmt: skip
+CONTRASTS = ("but", "only", "just")
+"""Words after which a negation no longer holds: "no cars, only bicycles"."""
+
+FUNCTION_WORDS: dict[Pos, tuple[str, ...]] = {
+    Pos.DETERMINER: DETERMINERS,
+    Pos.PRONOUN: PRONOUNS,
+    Pos.NEGATION: NEGATIONS,
+    Pos.CONJUNCTION: ("and", "or", "plus", "but", "as well as", "nor", "only", "just"),
+    Pos.SUBORDINATOR: (
+        "while", "as", "when", "whenever", "until", "till", "because", "if", "though", "although",
+        "so that", "before", "after", "once", "since", "where", "whereas", "just as", "even as",
+        "so", "than", "then", "and then", "afterwards", "finally", "at first", "first", "next",
+        "later", "and finally", "followed by",
+    ),
+    Pos.RELATIVE: ("which", "who", "whose", "that", "whom"),
+    Pos.AUXILIARY: (
+        "is", "are", "was", "were", "be", "been", "being", "am", "has", "have", "had", "having",
+        "can", "could", "will", "would", "may", "might", "must", "should", "do", "does", "did",
+        "gets", "get", "getting", "got", "begins to", "begin to", "starts to", "start to", "begins",
+        "starts", "keeps", "keep",
+    ),
+    Pos.TO: ("to",),
+    Pos.NOUN: (
+        "scene", "shot", "view", "video", "clip", "footage", "image", "photo", "photograph",
+        "picture", "frame", "sight", "kind", "sort", "type", "sequence", "recording", "example",
+        "viewpoint", "perspective", "angle", "motion",
+    ),
+    Pos.ADJECTIVE: (
+        "beautiful", "cinematic", "nice", "photorealistic", "pretty", "realistic", "visible",
+        "detailed", "high quality", "high resolution",
+    ),
+    Pos.ADVERB: (
+        "also", "here", "how", "please", "quite", "really", "so", "too", "very", "why", "together",
+        "somewhat", "almost", "again",
+    ),
+    Pos.VERB: (
+        "show", "shows", "showing", "shown", "depicts", "depicting", "depict", "features",
+        "featuring", "feature", "create", "generate", "render", "see", "seen", "appears", "appear",
+        "filmed", "film", "captured", "capture", "captures", "taken", "recorded", "imagine",
+        "watch", "contains", "containing", "set", "located", "placed", "positioned", "there is",
+        "there are", "there s",
+    ),
+}  # fmt: skip
+"""Part of speech → words of it."""
+
+TIME_ORDER: dict[str, str] = {
+    **dict.fromkeys(
+        ("then", "and then", "afterwards", "finally", "next", "later", "until", "till", "before",
+         "and finally", "followed by"),
+        "after",
+    ),
+    **dict.fromkeys(("after", "once"), "before"),
+}  # fmt: skip
+"""Subordinator → whether the clause it opens comes "after" or "before" the one it belongs to;
+the others happen at the same time."""
+SENTENCE_OPENERS = ("first", "at first", "then", "and then", "next", "later", "finally")
+
+SILENT_TEXT = frozenset({"s", "d", "ll", "m", "re", "ve", "t"})
+"""What is left of contractions."""
