@@ -114,7 +114,7 @@ def test_a_prompt_becomes_a_moving_video_that_says_what_was_understood() -> None
 
 
 def test_a_flicker_faster_than_the_frames_fires_events_everywhere() -> None:
-    prompt = "in a room, the lamp flickers at 48 Hz"
+    prompt = "in a room, the light flickers at 48 Hz"
     events = texvent.generate(
         prompt, duration=0.125, fps=24, sensor="32x24", noise="none", multi_event=False
     )

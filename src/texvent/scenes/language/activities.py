@@ -21,7 +21,6 @@ def find_activity(clause: Clause, *, is_hand: bool) -> tuple[str, list[Word], bo
         Name of the activity, the words that say it, and whether more than the verb says it; None
         if the clause names none.
     """
-    assert clause.verb is not None
     table = _phrases(is_hand)
     said = _list_words(clause)
     lemmas = tuple(word.lemma for word in said)
@@ -37,8 +36,7 @@ def find_activity(clause: Clause, *, is_hand: bool) -> tuple[str, list[Word], bo
 
 def _list_words(clause: Clause) -> list[Word]:
     """The verb and what follows it, without determiners and owners."""
-    assert clause.verb is not None
-    said = [clause.verb]
+    said = [clause.verb_word]
     for group in clause.objects:
         said.extend(_plain(group))
     for phrase in clause.phrases:

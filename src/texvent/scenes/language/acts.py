@@ -43,8 +43,7 @@ class ActReader:
         Returns:
             The objects that its directions and speeds are about; empty if the verb is not shown.
         """
-        word = clause.verb
-        assert word is not None
+        word = clause.verb_word
         targets = [index for one in objects if one.is_things for index in one.things]
         if clause.negation is not None:
             return self._stand(clause, subjects)
@@ -64,8 +63,7 @@ class ActReader:
 
     def undergo(self, clause: Clause, subjects: list[int], agents: list[int]) -> list[int]:
         """A passive: the subjects undergo the verb."""
-        word = clause.verb
-        assert word is not None
+        word = clause.verb_word
         verb = word.meaning.value
         if self._read_effect(clause, subjects):
             return subjects
@@ -77,10 +75,13 @@ class ActReader:
         return self._give(clause, replace(verb, kind=kind), subjects) if kind else []
 
     def _stand(self, clause: Clause, subjects: list[int]) -> list[int]:
-        """ "does not move": only for verbs of motion."""
-        word, negation = clause.verb, clause.negation
-        assert word is not None and negation is not None
-        if not isinstance(word.meaning.value, Verb) or not word.meaning.value.kind:
+        """As in "does not move": only for verbs of motion."""
+        word, negation = clause.verb_word, clause.negation
+        if (
+            negation is None
+            or not isinstance(word.meaning.value, Verb)
+            or not word.meaning.value.kind
+        ):
             return []
         word.is_used = negation.is_used = True
         for index in subjects:
@@ -108,20 +109,18 @@ class ActReader:
 
     def _is_act(self, clause: Clause, objects: Sequence[Referent]) -> bool:
         """Whether the verb acts on an object of the scene, or moves in a plain way."""
-        assert clause.verb is not None
-        verb = clause.verb.meaning.value
+        verb = clause.verb_word.meaning.value
         if not isinstance(verb, Verb):
             return False
         has_target = any(one.is_things for one in objects)
         return has_target and bool(verb.act or verb.relation or verb.object_kind)
 
     def _read_effect(self, clause: Clause, subjects: list[int]) -> bool:
-        """ "a balloon bursts", "a chimney smokes"."""
-        assert clause.verb is not None
-        kind = EFFECT_BY_VERB.get(clause.verb.lemma)
+        """As in "a balloon bursts", "a chimney smokes"."""
+        kind = EFFECT_BY_VERB.get(clause.verb_word.lemma)
         if kind is None or not subjects:
             return False
-        clause.verb.is_used = True
+        clause.verb_word.is_used = True
         for index in subjects:
             self._draft.effects.append(Effect(kind, source=index))
         return True
@@ -136,8 +135,7 @@ class ActReader:
     def _do_to(
         self, clause: Clause, verb: Verb, subjects: list[int], targets: list[int]
     ) -> list[int]:
-        word = clause.verb
-        assert word is not None
+        word = clause.verb_word
         act = self._choose_act(verb, subjects, targets)
         if act is not None:
             word.is_used = self._draft.relate(act, subjects, targets)
@@ -194,8 +192,7 @@ class ActReader:
 
     def _give(self, clause: Clause, verb: Verb, things: list[int]) -> list[int]:
         """Give a motion to the objects that can do it; the others are left as they are."""
-        word = clause.verb
-        assert word is not None
+        word = clause.verb_word
         able = [index for index in things if can_do(self._draft.noun(index), verb.kind)]
         if not able:
             return []

@@ -53,8 +53,8 @@ class Attributes:
         for word in self.words:
             word.is_used = True
 
-    def decide_count(self, *, is_plural: bool) -> tuple[int, str | None]:
-        """How many, and a note where that is not what the prompt says."""
+    def decide_count(self, bare: int) -> tuple[int, str | None]:
+        """How many, `bare` if that is not said; and a note where fewer are shown than said."""
         for word in self.numbers:
             word.is_used = True
         if self.number is not None:
@@ -64,7 +64,7 @@ class Attributes:
             return max(round(self.number), 1), None
         if self.count is not None:
             return self.count, None
-        return (vocabulary_objects.PLURAL_COUNT if is_plural else 1), None
+        return bare, None
 
     def apply(self, item: PartialObject, noun: Noun) -> None:
         """Give an object what is said of it; what it cannot have stays unused."""
@@ -114,38 +114,41 @@ def read_attributes(modifiers: Sequence[Word]) -> Attributes:
     found = Attributes(list(modifiers))
     shade: Word | None = None
     for word in modifiers:
-        role, value = word.role, word.meaning.value
-        if role is Role.COUNT:
-            _read_number(found, word)
-        elif role is Role.SHADE:
+        role = word.role
+        if role is Role.SHADE:
             shade = word
-        elif role is Role.UNIT and found.numbers and value[0] == "rate":
-            _read_rate(found, word)
         elif role is Role.COLOUR:
             found.colours.append(_name_colour(word, shade))
             shade = None
-        elif role is Role.SIZE:
-            found.scale = (value, word)
-        elif role is Role.PACE:
-            found.pace = (value, word)
-        elif role is Role.MATERIAL:
-            found.material = (value, word)
-        elif role is Role.STILL:
-            found.still = word
-        elif role is Role.FLICKER:
-            found.flicker = word
-        elif role is Role.VERB and word.pos is Pos.VERB:
-            found.motion = (value, word)
-        elif word.text in _LIT:
-            found.lit = (_LIT[word.text], word)
-        elif role is Role.FUNCTION or word.text == "empty":
-            word.is_used = True
-    if shade is not None:
-        level = _GREY_LEVELS.get(shade.text)
-        if level is not None:
-            rgb = vocabulary_objects.COLOURS[level]
-            found.colours.append((NamedColour(shade.text, rgb), [shade]))
+        elif role is Role.UNIT and found.numbers and word.meaning.value[0] == "rate":
+            _read_rate(found, word)
+        elif role in _FIELDS:
+            setattr(found, _FIELDS[role], (word.meaning.value, word))
+        else:
+            _read_other(found, word)
+    level = _GREY_LEVELS.get(shade.text) if shade is not None else None
+    if shade is not None and level is not None:
+        rgb = vocabulary_objects.COLOURS[level]
+        found.colours.append((NamedColour(shade.text, rgb), [shade]))
     return found
+
+
+_FIELDS = {Role.SIZE: "scale", Role.PACE: "pace", Role.MATERIAL: "material"}
+
+
+def _read_other(found: Attributes, word: Word) -> None:
+    if word.role is Role.COUNT:
+        _read_number(found, word)
+    elif word.role is Role.STILL:
+        found.still = word
+    elif word.role is Role.FLICKER:
+        found.flicker = word
+    elif word.role is Role.VERB and word.pos is Pos.VERB:
+        found.motion = (word.meaning.value, word)
+    elif word.text in _LIT:
+        found.lit = (_LIT[word.text], word)
+    elif word.role is Role.FUNCTION or word.text == "empty":
+        word.is_used = True
 
 
 _LIT = {"lit": True, "glowing": True, "burning": True, "unlit": False, "shining": True}
@@ -161,7 +164,7 @@ def _read_number(found: Attributes, word: Word) -> None:
 
 
 def _read_rate(found: Attributes, word: Word) -> None:
-    """ "A 100 Hz flickering lamp"."""
+    """As in "A 100 Hz flickering lamp"."""
     number = found.number if found.number is not None else float(found.count or 1)
     found.rate_hz = (number * word.meaning.value[1], [found.numbers.pop(), word])
     found.number = found.count = None

@@ -65,12 +65,15 @@ class CameraReader:
         return True
 
     def read_attributes(self, attributes: Attributes) -> None:
-        """ "A slow pan", "a static shot"."""
+        """As in "A slow pan", "a static shot"."""
         for word in attributes.words:
             self.read_word(word)
 
     def read_clause(
-        self, clause: Clause, objects: Sequence[Referent], phrases: Sequence[tuple[PrepPhrase, Referent]]
+        self,
+        clause: Clause,
+        objects: Sequence[Referent],
+        phrases: Sequence[tuple[PrepPhrase, Referent]],
     ) -> None:
         """A clause whose subject is the camera, the viewer or a shot."""
         if clause.order == "after" and self._moves:
@@ -214,9 +217,9 @@ class CameraReader:
 
     def aim(self, referent: Referent) -> None:
         """Point the camera at an object that its clause names."""
-        if referent.is_things and referent.things and self._moves:
-            if self._moves[-1].kind in _AIMED and self._target is None:
-                self._target = referent.things[0]
+        can_aim = bool(self._moves) and self._moves[-1].kind in _AIMED and self._target is None
+        if can_aim and referent.things:
+            self._target = referent.things[0]
 
     def build(self) -> Shot:
         """The shot as understood."""

@@ -27,7 +27,7 @@ _PLACE_PREPOSITIONS = frozenset(
 """Prepositions after which a place is where the scene is."""
 _LIGHT_PREPOSITIONS = frozenset(
     {"in", "at", "by", "under", "during", "on", "with", "into", "of", "against", "before", "from",
-     "as", "through", "against"}
+     "as", "through"}
 )  # fmt: skip
 _MOTION_BY_PREPOSITION = {"across": "across", "up": "up", "down": "down"}
 _HELD_AT_MOST_M = 1.3
@@ -138,10 +138,10 @@ class CircumstanceReader:
             self.read_group_phrases(one, scope)
 
     def _is_likeness(self, phrase: PrepPhrase, scope: Scope) -> bool:
-        """ "Shaped like a dragon", "curls into a ball": nothing of the sort is there."""
+        """As in "Shaped like a dragon", "curls into a ball": nothing of the sort is there."""
         name = phrase.preposition.text
         is_change = name == "into" and scope.has_verb and not scope.is_verb_shown
-        return name == "like" or is_change and not scope.is_lost
+        return name == "like" or (is_change and not scope.is_lost)
 
     def read_group_phrases(
         self, referent: Referent, scope: Scope, listed: Sequence[int] = ()
@@ -179,7 +179,7 @@ class CircumstanceReader:
                                things if kind == "wear" else owners)  # fmt: skip
 
     def _read_of(self, phrase: PrepPhrase, whole: Referent, scope: Scope) -> None:
-        """ "A bowl of soup", "a set of buckets", "the side of the road"."""
+        """As in "A bowl of soup", "a set of buckets", "the side of the road"."""
         phrase.preposition.is_used = True
         found = [self._referents.resolve(group, "of") for group in phrase.groups]
         for one in found:
@@ -204,9 +204,8 @@ class CircumstanceReader:
             if kind is not None and not scope.is_lost and not scope.subjects:
                 word.is_used = True
             return
-        if kind in ("towards", "through", "past", "around", "from") and scope.has_verb:
-            if not scope.movers and kind != "around":
-                return
+        if kind in _JOURNEYS and scope.has_verb and not scope.movers:
+            return
         subjects = scope.movers if kind in _PATHS and scope.movers else scope.subjects
         word.is_used = self._draft.relate(kind, subjects, things)
 
@@ -271,7 +270,7 @@ class CircumstanceReader:
                 motions[-1] = replace(motions[-1], direction="across")
 
     def _read_worn_colour(self, word: Word, one: Referent, scope: Scope) -> None:
-        """ "A defender in white": the colour of the clothes."""
+        """As in "A defender in white": the colour of the clothes."""
         if word.text != "in" or one.group.head is not None or not one.attributes.colours:
             return
         for index in scope.subjects:
@@ -280,7 +279,7 @@ class CircumstanceReader:
                 word.is_used = True
 
     def _read_style(self, one: Referent) -> None:
-        """ "In slow motion"."""
+        """As in "In slow motion"."""
         pace = one.attributes.pace
         if one.group.head is not None and one.group.head.text == "motion" and pace is not None:
             self._draft.tempo, pace[1].is_used = 0.3, True
@@ -302,7 +301,8 @@ class CircumstanceReader:
 
     def read_quantity(self, one: Referent, scope: Scope, preposition: str = "at") -> bool:
         """Apply a speed, a rate or a time; return whether it had an effect."""
-        assert isinstance(one.value, tuple)
+        if not isinstance(one.value, tuple):
+            return False
         quantity, factor = one.value
         attributes = one.attributes
         number = attributes.number if attributes.number is not None else attributes.count
@@ -359,7 +359,9 @@ class CircumstanceReader:
         if one.group.head is not None:
             one.group.head.is_used = True
         for colour, words in one.attributes.colours:
-            names = {PART_COLOURS.get((self._draft.objects[i].noun, str(one.value))) for i in things}
+            names = {
+                PART_COLOURS.get((self._draft.objects[i].noun, str(one.value))) for i in things
+            }
             if names == {colour.name}:
                 mark_used(words)
 
@@ -371,6 +373,7 @@ class CircumstanceReader:
         return None
 
 
+_JOURNEYS = frozenset({"towards", "through", "past", "from"})
 _PATHS = frozenset({"past", "through", "towards", "from", "around", "follow", "above"})
 _WEAK_PREPOSITIONS: dict[object, str] = {
     "at": "beside", "by": "beside", "across": "on", "along": "past",

@@ -1,8 +1,8 @@
-"""What each clause means: to whom it belongs (camera, light, weather, objects), and what it adds."""
+"""What each clause means: whom it is about (camera, light, weather, objects), what it adds."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.language.activities import find_activity
@@ -23,6 +23,7 @@ from texvent.scenes.models.protocol import Noun
 _OF_SCENE = frozenset(
     {"place", "light", "weather", "sky", "snow", "dust", "shadow", "glow", "clouds"}
 )
+_BENDS = ("curve", "wind", "bend", "twist")
 _SNOWS = ("fall", "blow", "swirl", "drift", "whirl")
 _PLAIN_WEATHER_VERBS = frozenset(
     {"fall", "blow", "drift", "roll", "shine", "rise", "set", "hang", "kick", "kick up", "fly",
@@ -130,9 +131,7 @@ class ClauseMeaning:
         if clause.verb is not None and clause.verb.text in ("taken", "filmed", "shot", "seen"):
             clause.verb.is_used = True
 
-    def _resolve_phrases(
-        self, phrases: Sequence[PrepPhrase]
-    ) -> list[tuple[PrepPhrase, Referent]]:
+    def _resolve_phrases(self, phrases: Sequence[PrepPhrase]) -> list[tuple[PrepPhrase, Referent]]:
         return [
             (phrase, self._referents.resolve(group, phrase.preposition.text))
             for phrase in phrases
@@ -151,32 +150,37 @@ class ClauseMeaning:
         for one in subjects:
             self._surroundings.read_referent(one, is_negated=clause.negation is not None)
             self._around.read_group_phrases(one, Scope([], [], has_verb=False))
-        kinds = {one.kind for one in subjects}
         if word is not None:
-            if word.role is Role.FLICKER and kinds & {"light", "glow"}:
-                self._surroundings.flicker()
-                word.is_used = True
-            elif word.lemma in ("curve", "wind", "bend", "twist") and "place" in kinds:
-                word.is_used = self._surroundings.curve_road()
-            elif word.lemma in _SNOWS and "snow" in kinds:
-                word.is_used = self._surroundings.read_weather("snow")
-            elif word.lemma in _PLAIN_WEATHER_VERBS and kinds - {"place"}:
-                word.is_used = True
+            word.is_used = self._read_scene_verb(word, {one.kind for one in subjects})
         for group in clause.complements:
-            one = self._referents.resolve(group)
-            self._surroundings.read_adjectives(one.attributes, "place")
-            for said in one.attributes.words:
-                if said.text == "dark":
-                    self._surroundings.darken()
-                    said.is_used = True
-        scope = Scope([], [], is_lost=False)
+            self._read_scene_complement(self._referents.resolve(group))
         if word is not None and word.is_used:
             for adverb in clause.adverbs:
                 adverb.is_used = adverb.is_used or adverb.role is Role.DIRECTION
+        scope = Scope([], [])
         self._around.read_adverbs(clause.adverbs, scope)
         self._around.read_phrases(clause.phrases, scope)
         for group in clause.objects:
             self._read_extra(self._referents.resolve(group))
+
+    def _read_scene_verb(self, word: Word, kinds: Set[str]) -> bool:
+        """What light, weather or a place does; whether it is shown."""
+        if word.role is Role.FLICKER and kinds & {"light", "glow"}:
+            self._surroundings.flicker()
+            return True
+        if word.lemma in _BENDS and "place" in kinds:
+            return self._surroundings.curve_road()
+        if word.lemma in _SNOWS and "snow" in kinds:
+            return self._surroundings.read_weather("snow")
+        return word.lemma in _PLAIN_WEATHER_VERBS and bool(kinds - {"place"})
+
+    def _read_scene_complement(self, one: Referent) -> None:
+        """As in "the room is dark"."""
+        self._surroundings.read_adjectives(one.attributes, "place")
+        for said in one.attributes.words:
+            if said.text == "dark":
+                self._surroundings.darken()
+                said.is_used = True
 
     def _read_effects(self, clause: Clause, subjects: Sequence[Referent]) -> None:
         """Smoke rises from a chimney."""
@@ -202,9 +206,8 @@ class ClauseMeaning:
         self._around.read_adverbs(clause.adverbs, Scope(sources, []))
 
     def _read_subjectless(self, clause: Clause) -> None:
-        """ "Driving through a tunnel", "juggling three oranges"."""
-        word = clause.verb
-        assert word is not None
+        """As in "Driving through a tunnel", "juggling three oranges"."""
+        word = clause.verb_word
         is_gerund = word.meaning.form is VerbForm.ING
         if is_gerund and word.lemma in TRAVEL_MEANS and not clause.objects:
             self._read_camera(clause, [])
@@ -225,7 +228,7 @@ class ClauseMeaning:
         self._read_objects(clause, [person])
 
     def _read_weather_verb(self, clause: Clause, word: Word) -> None:
-        """ "It rains on a bus"."""
+        """As in "It rains on a bus"."""
         self._surroundings.read_weather(WEATHER_VERBS[word.text])
         word.is_used = True
         for phrase in clause.phrases:
@@ -281,7 +284,7 @@ class ClauseMeaning:
         self._around.read_group_phrases(one, Scope(one.things, [], not one.things, has_verb=False))
 
     def _cross(self, one: Referent, clause: Clause, scope: Scope) -> None:
-        """ "Crosses the street": the place is where it goes."""
+        """As in "Crosses the street": the place is where it goes."""
         del one
         if clause.verb is None or clause.verb.is_used or not scope.subjects:
             return
@@ -300,7 +303,7 @@ class ClauseMeaning:
         return rest
 
     def _find_agents(self, clause: Clause) -> list[int]:
-        """ "Held by a boy"."""
+        """As in "Held by a boy"."""
         agents: list[int] = []
         for phrase in list(clause.phrases):
             if phrase.preposition.text != "by" or not clause.is_passive:
@@ -316,7 +319,7 @@ class ClauseMeaning:
         return agents
 
     def _read_complements(self, clause: Clause, scope: Scope) -> None:
-        """ "The car is red"; "painted orange"."""
+        """As in "The car is red"; "painted orange"."""
         for group in clause.complements:
             one = self._referents.resolve(group)
             for index in scope.subjects:

@@ -12,13 +12,15 @@ The rules, in the order in which they apply to a verb:
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from texvent.scenes.language.lexicon import Role
 from texvent.scenes.language.noun_groups import read_group, starts_group
 from texvent.scenes.language.syntax import Clause, NounGroup, PrepPhrase
 from texvent.scenes.language.tagging import Word
 from texvent.scenes.language.vocabulary_function import (
+    CONTRASTS,
+    NOBODY,
     SENTENCE_OPENERS,
     TIME_ORDER,
 )
@@ -48,7 +50,7 @@ class _ClauseReader:
         self._last: NounGroup | None = None
         """The noun group read last."""
         self._is_joined: str = ""
-        """ "and" or "," if that came directly before."""
+        """As in "and" or "," if that came directly before."""
         self._phrase: PrepPhrase | None = None
         """The prepositional phrase that "and" may extend."""
         self._anchor: NounGroup | None = None
@@ -57,6 +59,16 @@ class _ClauseReader:
         self._next_order = "same"
         self._sentence = 0
         """Number of clauses before the sentence."""
+        self._readers: dict[Pos, Callable[[Word], None]] = {
+            Pos.SIGN: self._read_sign,
+            Pos.CONJUNCTION: self._read_conjunction,
+            Pos.SUBORDINATOR: self._open_subordinate,
+            Pos.RELATIVE: self._open_relative,
+            Pos.NEGATION: self._read_negation,
+            Pos.AUXILIARY: self._read_auxiliary,
+            Pos.TO: self._read_to,
+            Pos.PREPOSITION: self._read_preposition,
+        }
 
     def read(self) -> list[Clause]:
         """All clauses."""
@@ -67,33 +79,9 @@ class _ClauseReader:
 
     def _step(self) -> None:
         word = self._words[self._at]
-        if word.pos is Pos.SIGN:
-            self._read_sign(word)
-        elif word.pos is Pos.CONJUNCTION:
-            self._is_joined = "and"
-            if self._clause.verb is None:
-                self._clause.is_listed = True
-            if word.text in ("but", "only", "just"):
-                self._negation = None
-            self._skip(word)
-        elif word.pos is Pos.SUBORDINATOR:
-            self._open_subordinate(word)
-        elif word.pos is Pos.RELATIVE:
-            self._open_relative(word)
-        elif word.pos is Pos.NEGATION and word.text.split()[0] in ("without", "with", "free"):
-            self._read_preposition(word, negation=word)
-        elif word.pos is Pos.NEGATION:
-            self._negation = word
-            self._at += 1
-            if word.text in ("nobody", "no one", "nothing"):
-                self._add_group(NounGroup(head=word))
-        elif word.pos is Pos.AUXILIARY:
-            self._read_auxiliary(word)
-        elif word.pos is Pos.TO:
-            self._skip(word)
-            self._continue_with_same_subjects("after")
-        elif word.pos is Pos.PREPOSITION:
-            self._read_preposition(word)
+        read = self._readers.get(word.pos)
+        if read is not None:
+            read(word)
         elif word.pos is Pos.DETERMINER and self._is_before_adjunct():
             self._skip(word)
         elif self._starts_group():
@@ -105,8 +93,29 @@ class _ClauseReader:
             self._clause.adverbs.append(word)
             self._at += 1
 
+    def _read_conjunction(self, word: Word) -> None:
+        self._is_joined = "and"
+        if self._clause.verb is None:
+            self._clause.is_listed = True
+        if word.text in CONTRASTS:
+            self._negation = None
+        self._skip(word)
+
+    def _read_negation(self, word: Word) -> None:
+        if word.text.split()[0] in ("without", "with", "free"):
+            self._read_preposition(word, negation=word)
+            return
+        self._negation = word
+        self._at += 1
+        if word.text in NOBODY:
+            self._add_group(NounGroup(head=word))
+
+    def _read_to(self, word: Word) -> None:
+        self._skip(word)
+        self._continue_with_same_subjects("after")
+
     def _is_before_adjunct(self) -> bool:
-        """ "A close-up of": no noun follows."""
+        """As in "A close-up of": no noun follows."""
         coming = self._words[self._at + 1 : self._at + 3]
         return bool(coming) and coming[0].pos is Pos.ADJUNCT and (
             len(coming) == 1 or coming[1].pos not in (Pos.NOUN, Pos.ADJECTIVE)
@@ -255,7 +264,7 @@ class _ClauseReader:
         self._at += 1
 
     def _is_small_clause(self) -> bool:
-        """ "A boat with dolphins jumping": the dolphins jump."""
+        """As in "A boat with dolphins jumping": the dolphins jump."""
         clause = self._clause
         if clause.auxiliaries or not clause.subjects or not clause.subjects[-1].phrases:
             return False
@@ -263,7 +272,7 @@ class _ClauseReader:
         return phrase.preposition.text == "with" and phrase.groups[-1] is self._last
 
     def _split_list(self) -> None:
-        """ "A chair, the light flickers": only the last is the subject."""
+        """As in "A chair, the light flickers": only the last is the subject."""
         clause = self._clause
         if clause.verb is None and len(clause.subjects) > 1 and not clause.is_listed:
             last = clause.subjects.pop()
@@ -284,7 +293,7 @@ class _ClauseReader:
         return None
 
     def _open_participle(self) -> None:
-        """ ", leaving a wake" or "a dog chasing a cat"."""
+        """As in ", leaving a wake" or "a dog chasing a cat"."""
         before = self._words[self._at - 1]
         has_noun_before = before.pos in (Pos.NOUN, Pos.PRONOUN) and self._last is not None
         if not self._is_joined and has_noun_before and self._last is not None:
@@ -316,12 +325,13 @@ class _ClauseReader:
             negation = self._words[self._at]
             self._at += 1
         self._negation = None
-        if self._at < len(self._words) and self._words[self._at].pos is Pos.VERB:
-            if not starts_group(self._words, self._at, is_opening=True):
-                word.is_used = True
-                self._continue_with_same_subjects("same")
-                return
-        if not starts_group(self._words, self._at, is_opening=True):
+        opens_group = starts_group(self._words, self._at, is_opening=True)
+        is_verb = self._at < len(self._words) and self._words[self._at].pos is Pos.VERB
+        if is_verb and not opens_group:
+            word.is_used = True
+            self._continue_with_same_subjects("same")
+            return
+        if not opens_group:
             self._clause.adverbs.append(word)
             return
         group, self._at = read_group(self._words, self._at)
@@ -337,7 +347,7 @@ class _ClauseReader:
             self._anchor = group
 
     def _names_shot(self, word: Word) -> bool:
-        """ "A static shot of a dog": the dog is the subject of what follows."""
+        """As in "A static shot of a dog": the dog is the subject of what follows."""
         clause = self._clause
         if clause.verb is not None:
             return False
@@ -382,7 +392,7 @@ class _ClauseReader:
         self._is_joined = ""
 
     def _needs_second(self) -> bool:
-        """ "Between a house" waits for "and a tree"."""
+        """As in "Between a house" waits for "and a tree"."""
         phrase = self._phrase
         return phrase is not None and phrase.preposition.text == "between" and (
             len(phrase.groups) == 1
@@ -398,7 +408,7 @@ class _ClauseReader:
         ]
 
     def _is_inverted(self) -> bool:
-        """ "Behind the house stands a cow"."""
+        """As in "Behind the house stands a cow"."""
         clause = self._clause
         return (
             clause.verb is not None and not clause.subjects and not clause.is_participle
@@ -416,7 +426,9 @@ class _ClauseReader:
         elif clause.auxiliaries and clause.subjects:
             clause.complements.append(group)
         elif (
-            joined and not is_intro and self._phrase is not None
+            joined
+            and not is_intro
+            and self._phrase is not None
             and (not self._verb_follows(self._at) or self._needs_second())
         ):
             self._phrase.groups.append(group)

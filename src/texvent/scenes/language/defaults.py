@@ -193,7 +193,7 @@ ACTIVE = frozenset({"push", "pull", "kick", "hit", "throw", "catch"})
 
 
 def _is_moving(scene_object: SceneObject) -> bool:
-    return (
+    return scene_object.blink_hz is not None or (
         scene_object.motion is not None
         and scene_object.motion.is_moving
         and scene_object.motion.kind != "sit"

@@ -15,6 +15,8 @@ from texvent.scenes.language import (
     vocabulary_objects,
     vocabulary_scene,
 )
+from texvent.scenes.language.vocabulary_objects import GENERAL_KINDS
+from texvent.scenes.language.vocabulary_people import PEOPLE_KINDS
 from texvent.scenes.language.words import Pos, VerbForm, list_verb_forms
 from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES
@@ -87,21 +89,17 @@ class Lexicon:
         self._longest: dict[str, int] = {}
         for noun in nouns.values():
             self._add_noun(noun)
+        for kinds in (PEOPLE_KINDS, GENERAL_KINDS):
+            for name, words in kinds.items():
+                self._add_kinds(name, words if name in nouns else ())
         for verb in vocabulary_motion.VERBS:
             for text, form in list_forms(verb.base):
                 self._add(text, Meaning(Role.VERB, Pos.VERB, verb, form))
-        for text, meaning in _list_table_entries():
+        for text, meaning in (*_list_table_entries(), *_list_effects()):
             self._add(text, meaning)
-        for kind, words in EFFECTS.items():
-            for noun_text in words.nouns:
-                for number, plural in enumerate((noun_text, *list_plurals(noun_text))):
-                    meaning = Meaning(Role.EFFECT, Pos.NOUN, kind, is_plural=number > 0)
-                    self._add(plural, meaning)
-            for text in words.adjectives:
-                self._add(text, Meaning(Role.EFFECT, Pos.ADJECTIVE, kind))
-        for base, value in _list_bare_verbs():
+        for base, role, value in _list_bare_verbs():
             for text, form in list_forms(base):
-                self._add(text, Meaning(value[0], Pos.VERB, value[1], form))
+                self._add(text, Meaning(role, Pos.VERB, value, form))
 
     def find(self, words: Sequence[str]) -> tuple[int, list[Meaning]]:
         """The longest known phrase at the start of `words`: its length and its meanings.
@@ -145,6 +143,17 @@ class Lexicon:
             for plural in list_plurals(singular):
                 self._add(plural, Meaning(Role.NOUN, Pos.NOUN, noun.name, is_plural=True))
 
+    def _add_kinds(self, noun: str, words: Iterable[str]) -> None:
+        for singular in words:
+            for number, text in enumerate((singular, *list_plurals(singular))):
+                if tuple(text.split()) not in self._meanings:
+                    self._add(
+                        text,
+                        Meaning(
+                            Role.NOUN, Pos.NOUN, noun, is_plural=number > 0, is_substitute=True
+                        ),
+                    )
+
 
 def list_forms(base: str) -> Iterator[tuple[str, VerbForm]]:
     """All forms of a verb of one or more words, such as "take off"."""
@@ -153,20 +162,30 @@ def list_forms(base: str) -> Iterator[tuple[str, VerbForm]]:
         yield " ".join((word, *tail)), form
 
 
-def _list_bare_verbs() -> Iterator[tuple[str, tuple[Role, Any]]]:
-    """Verbs of the camera, and those that only an activity or an effect knows."""
+def _list_bare_verbs() -> Iterator[tuple[str, Role, Any]]:
+    """Verbs of the camera and of lights, and those that only an activity or an effect knows."""
     for move, bases in vocabulary_scene.CAMERA_VERBS.items():
         for base in bases:
-            yield base, (Role.CAMERA_MOVE, move)
+            yield base, Role.CAMERA_MOVE, move
     for base in vocabulary_scene.FLICKERS:
-        yield base, (Role.FLICKER, base)
+        yield base, Role.FLICKER, base
     for activity in (*ACTIVITIES.values(), *HAND_GESTURES.values()):
         for text in activity.words:
             head = text.replace("-", " ").split()[0]
-            yield head, (Role.ACTIVITY, head)
-    for words in EFFECTS.values():
-        for verb in words.verbs:
-            yield verb.split()[0], (Role.ACTIVITY, verb)
+            yield head, Role.ACTIVITY, head
+    for effect in EFFECTS.values():
+        for verb in effect.verbs:
+            yield verb.split()[0], Role.ACTIVITY, verb
+
+
+def _list_effects() -> Iterator[tuple[str, Meaning]]:
+    for kind, effect in EFFECTS.items():
+        for noun in effect.nouns:
+            yield noun, Meaning(Role.EFFECT, Pos.NOUN, kind)
+            for plural in list_plurals(noun):
+                yield plural, Meaning(Role.EFFECT, Pos.NOUN, kind, is_plural=True)
+        for text in effect.adjectives:
+            yield text, Meaning(Role.EFFECT, Pos.ADJECTIVE, kind)
 
 
 def _list_table_entries() -> Iterator[tuple[str, Meaning]]:

@@ -35,36 +35,36 @@ def starts_group(words: Sequence[Word], at: int, *, is_opening: bool) -> bool:
 def read_group(words: Sequence[Word], at: int) -> tuple[NounGroup, int]:
     """The noun group at `words[at]` and the index after it."""
     group = NounGroup()
-    while at < len(words):
+    if words[at].pos is Pos.PRONOUN:
+        return NounGroup(head=words[at]), at + 1
+    while at < len(words) and _belongs(words, at, group):
         word = words[at]
-        if word.pos is Pos.DETERMINER:
-            if group.words or group.owner:
-                break
-            group.determiner = word
-        elif word.pos is Pos.PRONOUN:
-            if not group.words:
-                group.head = word
-                at += 1
-            break
-        elif word.pos is Pos.NOUN:
-            if group.head is not None:
-                group.modifiers.append(group.head)
-            group.head = word
-            if word.is_possessive and _continues(words, at + 1):
-                group = NounGroup(owner=group)
-        elif word.pos in (Pos.NUMBER, Pos.ADJECTIVE):
-            if group.head is not None:
-                break
-            group.modifiers.append(word)
-        elif not _is_modifier(words, at, group):
-            break
-        else:
-            if group.head is not None:
-                group.modifiers.append(group.head)
-                group.head = None
-            group.modifiers.append(word)
         at += 1
+        if word.pos is Pos.DETERMINER:
+            group.determiner = word
+            continue
+        if group.head is not None:
+            group.modifiers.append(group.head)
+            group.head = None
+        if word.pos is not Pos.NOUN:
+            group.modifiers.append(word)
+            continue
+        group.head = word
+        if word.is_possessive and _continues(words, at):
+            group = NounGroup(owner=group)
     return group, at
+
+
+def _belongs(words: Sequence[Word], at: int, group: NounGroup) -> bool:
+    """Whether `words[at]` is part of the group begun before it."""
+    pos = words[at].pos
+    if pos is Pos.DETERMINER:
+        return not group.words and group.owner is None
+    if pos is Pos.NOUN:
+        return True
+    if pos in (Pos.NUMBER, Pos.ADJECTIVE):
+        return group.head is None
+    return pos is not Pos.PRONOUN and _is_modifier(words, at, group)
 
 
 def _continues(words: Sequence[Word], at: int) -> bool:

@@ -20,7 +20,6 @@ from texvent.scenes.language.defaults import complete_description
 from texvent.scenes.language.lexicon import Lexicon
 from texvent.scenes.language.tagging import Word, tag_words
 from texvent.scenes.language.tokens import tokenize_prompt
-from texvent.scenes.language.vocabulary_function import SILENT_TEXT
 from texvent.scenes.language.words import Pos
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Noun
@@ -110,15 +109,9 @@ def _account(
             continue
         elif word.is_used:
             shown[word.text] = None
-        elif not _is_silent(word):
+        elif word.pos is not Pos.PREPOSITION or word.text not in _SILENT_PREPOSITIONS:
             for token in word.tokens:
-                is_silent = token.text in SILENT_TEXT or token.is_punctuation
-                if not is_silent and (len(word.tokens) == 1 or token.text not in ("the", "a")):
+                is_article = len(word.tokens) > 1 and token.text in ("the", "a")
+                if not token.is_punctuation and not is_article:
                     unread[token.text] = None
     return tuple(shown), tuple(substituted.values()), tuple(unread)
-
-
-def _is_silent(word: Word) -> bool:
-    if word.pos is Pos.PREPOSITION:
-        return word.text in _SILENT_PREPOSITIONS
-    return word.text in SILENT_TEXT

@@ -17,22 +17,28 @@ from texvent.scenes.language.vocabulary_function import (
     SOMEONE,
     VIEWERS,
 )
-from texvent.scenes.language.vocabulary_objects import MAX_COUNT
+from texvent.scenes.language.vocabulary_objects import MAX_COUNT, PLURAL_COUNT, SURROUND_COUNT
 from texvent.scenes.language.words import Pos, list_readings
 
 PERSON = "person"
 OUR = ("our", "my")
 """Owners that make a vehicle the camera's: "our car leaves a tunnel"."""
-_SURROUNDINGS = {
-    Role.PLACE: "place", Role.LIGHT: "light", Role.WEATHER: "weather", Role.SKY: "sky",
-    Role.SNOW: "snow", Role.DUST: "dust", Role.SHADOW: "shadow", Role.GLOW: "glow",
-    Role.CLOUDS: "clouds", Role.STEEP: "place",
+_KINDS = {
+    Role.CAMERA: "camera", Role.UNIT: "unit", Role.EFFECT: "effect", Role.PART: "part",
+    Role.FUNCTION: "function", Role.PLACE: "place", Role.LIGHT: "light",
+    Role.WEATHER: "weather", Role.SKY: "sky", Role.SNOW: "snow", Role.DUST: "dust",
+    Role.SHADOW: "shadow", Role.GLOW: "glow", Role.CLOUDS: "clouds", Role.STEEP: "place",
 }  # fmt: skip
+"""Role of a head → kind of referent."""
 _LOCATIVE = frozenset(
     {"in", "on", "through", "across", "along", "at", "into", "up", "down", "onto", "over", "inside",
      "to", "from", "past", "around", "within", "above", "towards", "toward"}
 )  # fmt: skip
 """Prepositions after which a mountain is a place to be, not an object to look at."""
+
+
+_AROUND = ("surrounded by", "among", "amongst", "amid", "lined with", "lined by")
+"""Prepositions after which a bare plural means many."""
 
 
 @dataclass
@@ -84,31 +90,17 @@ class Referents:
             return self._read_pronoun(group, head)
         if head.pos is Pos.NEGATION or head.text in NOBODY:
             return self._exclude(group, PERSON)
-        if head.role is Role.UNKNOWN and _is_no_head(head) and group.modifiers:
-            if group.modifiers[-1].read_as(Role.NOUN) is not None:
-                head = group.head = group.modifiers.pop()
+        head = _find_head(group)
         attributes = read_attributes(group.modifiers)
-        if group.determiner is not None:
-            group.determiner.is_used = True
         role = self._choose_role(head, preposition, group)
         if role is Role.NOUN:
-            return self._read_thing(group, attributes)
-        if role is Role.CAMERA:
-            return Referent("camera", group, attributes=attributes)
-        if role is Role.UNIT:
-            return Referent("unit", group, value=head.meaning.value, attributes=attributes)
-        if role is Role.EFFECT:
-            return Referent("effect", group, value=head.meaning.value, attributes=attributes)
-        if role is Role.PART:
-            return Referent("part", group, value=head.text, attributes=attributes)
-        if role is Role.FUNCTION:
+            return self._read_thing(group, attributes, preposition)
+        kind = _KINDS.get(role, "unknown")
+        if kind == "function":
             head.is_used = True
-            return Referent("function", group, attributes=attributes)
-        if role in _SURROUNDINGS:
-            meaning = head.read_as(role)
-            value = meaning.value if meaning is not None else None
-            return Referent(_SURROUNDINGS[role], group, value=value, attributes=attributes)
-        return Referent("unknown", group, attributes=attributes)
+        meaning = head.read_as(role)
+        value = meaning.value if meaning is not None else None
+        return Referent(kind, group, value=value, attributes=attributes)
 
     def _choose_role(self, head: Word, preposition: str | None, group: NounGroup) -> Role:
         """A word that is a thing and a place, or a thing and a part of one."""
@@ -142,23 +134,23 @@ class Referents:
         self._draft.exclude(noun)
         return Referent("absent", group)
 
-    def _read_thing(self, group: NounGroup, attributes: Attributes) -> Referent:
-        head = group.head
-        assert head is not None
-        meaning = head.read_as(Role.NOUN)
-        assert meaning is not None
+    def _read_thing(
+        self, group: NounGroup, attributes: Attributes, preposition: str | None
+    ) -> Referent:
+        head = group.head_word
+        meaning = head.read_as(Role.NOUN) or head.meaning
         noun = str(meaning.value)
         if group.negation is not None or attributes.count == 0:
             attributes.use_all()
             return self._exclude(group, noun)
-        if group.determiner is not None and group.determiner.text in OUR:
-            if self._draft.nouns[noun].motion in ("drive", "sail", "fly"):
-                head.is_used = True
-                return Referent("camera", group, attributes=attributes)
+        is_ours = group.determiner is not None and group.determiner.text in OUR
+        if is_ours and self._draft.nouns[noun].motion in ("drive", "sail", "fly"):
+            head.is_used = True
+            return Referent("camera", group, attributes=attributes)
         is_plural = attributes.is_many or meaning.is_plural
         index = self._recall(group, noun, is_plural, attributes)
         if index is None:
-            index = self._add(noun, is_plural, attributes)
+            index = self._add(noun, is_plural, attributes, is_around=preposition in _AROUND)
         if index is None:
             return Referent("unknown", group, attributes=attributes)
         head.is_used = True
@@ -174,8 +166,11 @@ class Referents:
             return None
         return self._draft.find(noun, is_plural)
 
-    def _add(self, noun: str, is_plural: bool, attributes: Attributes) -> int | None:
-        count, note = attributes.decide_count(is_plural=is_plural)
+    def _add(
+        self, noun: str, is_plural: bool, attributes: Attributes, *, is_around: bool
+    ) -> int | None:
+        bare = SURROUND_COUNT if is_around else PLURAL_COUNT
+        count, note = attributes.decide_count(bare if is_plural else 1)
         if note is not None:
             self._draft.note(note)
         item = PartialObject(noun, min(count, MAX_COUNT), is_plural)
@@ -185,10 +180,15 @@ class Referents:
         return index
 
 
-def _is_no_head(head: Word) -> bool:
-    """Whether a dictionary knows the word, but not as a noun, or not at all."""
+def _find_head(group: NounGroup) -> Word:
+    """Its head; the known noun before it where the last word cannot be a noun: "a car blorp"."""
+    head = group.head_word
     readings = list_readings(head.text)
-    return len(head.text) == 1 or all(one.pos is not Pos.NOUN for one in readings)
+    is_noun = len(head.text) > 1 and any(one.pos is Pos.NOUN for one in readings)
+    is_lost = head.role in (Role.UNKNOWN, Role.UNIT) and not is_noun and bool(group.modifiers)
+    if is_lost and group.modifiers[-1].read_as(Role.NOUN) is not None:
+        group.head = group.modifiers.pop()
+    return group.head_word
 
 
 OWNERS = ("its", "their", "his", "her")

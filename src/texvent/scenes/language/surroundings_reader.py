@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from texvent.scenes.description import Illumination, NamedColour, Surroundings
 from texvent.scenes.language import vocabulary_scene
 from texvent.scenes.language.adjectives import Attributes
@@ -35,6 +37,19 @@ class SurroundingsReader:
         self._flicker_hz: float | None = None
         self._shadows: bool | None = None
         self._glows: list[Word] = []
+        self._readers: dict[Role, Callable[[object, bool], bool]] = {
+            Role.WEATHER: lambda said, no: self.read_weather(str(said), is_negated=no),
+            Role.LIGHT: lambda said, _: self.read_light(str(said)),
+            Role.PLACE: lambda said, _: self.read_place(str(said), None)[0],
+            Role.SHADE: lambda *_: self.read_light(vocabulary_scene.DARK_PLACES_LIGHT),
+            Role.CLOUDS: self._set_clouds,
+            Role.SNOW: self._set_snow,
+            Role.DUST: self._set_dust,
+            Role.SHADOW: self._set_shadows,
+            Role.STEEP: self._set_steep,
+            Role.ROAD: self._set_road,
+            Role.FLICKER: self._set_flicker,
+        }
 
     def read_referent(self, one: Referent, *, is_negated: bool) -> bool:
         """Take a place, light, sky or weather with its adjectives; whether it had an effect."""
@@ -66,7 +81,7 @@ class SurroundingsReader:
         return is_used
 
     def read_adjectives(self, attributes: Attributes, kind: str) -> None:
-        """ "A foggy street", "dark water", "a winding road"."""
+        """As in "A foggy street", "dark water", "a winding road"."""
         for word in attributes.words:
             if word.role in _SCENE_ROLES and not word.is_used:
                 if word.role is Role.SHADE and not (word.text == "dark" and kind == "place"):
@@ -112,38 +127,42 @@ class SurroundingsReader:
 
     def read(self, word: Word, *, is_negated: bool, value: object = None) -> bool:
         """Take a word about place, weather, light, flicker or shadows."""
-        role = word.role
-        meaning = word.meaning.value if value is None else value
-        is_used = True
-        if role is Role.WEATHER:
-            is_used = self.read_weather(str(meaning), is_negated)
-        elif role is Role.CLOUDS:
-            self._clouds = 0.0 if is_negated else float(meaning)  # type: ignore[arg-type]
-        elif role is Role.SNOW:
-            self._has_snow = not is_negated
-        elif role is Role.STEEP:
-            self._add_backdrop("mountain")
-        elif role is Role.DUST:
-            self._has_dust = not is_negated
-        elif role is Role.FLICKER:
-            self.flicker()
-        elif role is Role.SHADOW:
-            self._shadows = not is_negated
-        elif role is Role.LIGHT:
-            is_used = self.read_light(str(meaning))
-        elif role is Role.SHADE:
-            is_used = self.read_light(vocabulary_scene.DARK_PLACES_LIGHT)
-        elif role is Role.PLACE:
-            is_used = self.read_place(str(meaning), None)[0]
-        elif role is Role.ROAD:
-            self._road = str(meaning)
-        elif role is Role.GLOW:
+        said = word.meaning.value if value is None else value
+        if word.role is Role.GLOW:
             self._glows.append(word)
-            is_used = False
-        else:
-            is_used = False
+        read = self._readers.get(word.role)
+        is_used = read is not None and read(said, is_negated)
         word.is_used = word.is_used or is_used
         return is_used
+
+    def _set_clouds(self, said: object, is_negated: bool) -> bool:
+        self._clouds = 0.0 if is_negated or not isinstance(said, float) else said
+        return True
+
+    def _set_snow(self, _: object, is_negated: bool) -> bool:
+        self._has_snow = not is_negated
+        return True
+
+    def _set_dust(self, _: object, is_negated: bool) -> bool:
+        self._has_dust = not is_negated
+        return True
+
+    def _set_shadows(self, _: object, is_negated: bool) -> bool:
+        self._shadows = not is_negated
+        return True
+
+    def _set_steep(self, _: object, is_negated: bool) -> bool:
+        self._add_backdrop("mountain")
+        return not is_negated
+
+    def _set_road(self, said: object, _: bool) -> bool:
+        self._road = str(said) if said != "straight" else None
+        return True
+
+    def _set_flicker(self, _: object, is_negated: bool) -> bool:
+        if not is_negated:
+            self.flicker()
+        return True
 
     def flicker(self) -> None:
         """All light flickers."""
@@ -188,7 +207,8 @@ class SurroundingsReader:
     def _is_lit(self) -> bool:
         return self._light is not None or self._flicker_hz is not None or bool(self._glows)
 
-    def read_weather(self, weather: str, is_negated: bool = False) -> bool:
+    def read_weather(self, weather: str, *, is_negated: bool = False) -> bool:
+        """Take a weather; whether it had an effect: the first one wins."""
         if is_negated:
             return True
         if self._weather is None:

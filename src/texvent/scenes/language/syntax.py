@@ -30,6 +30,13 @@ class NounGroup:
         return [*first, *self.modifiers, *([self.head] if self.head else [])]
 
     @property
+    def head_word(self) -> Word:
+        """Its head; only for groups that have one."""
+        if self.head is None:
+            raise ValueError("the noun group has no head")
+        return self.head
+
+    @property
     def text(self) -> str:
         """Its own words, without its determiner."""
         return " ".join(word.text for word in (*self.modifiers, self.head) if word is not None)
@@ -80,6 +87,13 @@ class Clause:
         )  # fmt: skip
 
     @property
+    def verb_word(self) -> Word:
+        """Its verb; only for clauses that have one."""
+        if self.verb is None:
+            raise ValueError("the clause has no verb")
+        return self.verb
+
+    @property
     def is_empty(self) -> bool:
         """Whether nothing is in it."""
         return not (
@@ -88,4 +102,6 @@ class Clause:
         )  # fmt: skip
 
 
-_BE = frozenset({"is", "are", "was", "were", "be", "been", "being", "gets", "get", "got", "getting"})
+_BE = frozenset(
+    {"is", "are", "was", "were", "be", "been", "being", "gets", "get", "got", "getting"}
+)

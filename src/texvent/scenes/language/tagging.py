@@ -59,7 +59,8 @@ class Word:
     def is_possessive(self) -> bool:
         """Whether it owns what follows: "the dog's tail"."""
         written = self.tokens[-1].written.casefold()
-        return written.endswith(("'s", "’s", "s'", "s’")) and self.tokens[-1].text not in _CONTRACTED
+        is_owner = written.endswith(("'s", "’s", "s'", "s’"))
+        return is_owner and self.tokens[-1].text not in _CONTRACTED
 
     def read_as(self, role: Role) -> Meaning | None:
         """Its meaning in that role, if it can have it."""
@@ -91,9 +92,7 @@ def tag_words(tokens: Sequence[Token], known: Lexicon) -> tuple[list[Word], list
         chosen = tagger.choose(index)
         others = tuple(one for one in candidates if one is not chosen)
         text = " ".join(token.text for token in span)
-        lemma = next(
-            (one.lemma for one in list_readings(text) if one.pos is chosen.pos), text
-        )
+        lemma = next((one.lemma for one in list_readings(text) if one.pos is chosen.pos), text)
         words.append(Word(tuple(span), chosen, lemma, others=others))
     return words, notes
 
@@ -109,7 +108,7 @@ def _correct(token: Token, known: Lexicon, notes: list[str]) -> Token:
 
 
 def _own(tokens: Sequence[Token], known: Lexicon) -> list[Token]:
-    """ "it's tires" is "its tires"."""
+    """As in "it's tires" is "its tires"."""
     found = list(tokens)
     for index, token in enumerate(tokens[:-1]):
         if token.written.casefold() in ("it's", "it’s"):
@@ -136,7 +135,7 @@ def _cut(
 
 
 def _split_particle(window: Sequence[Token], length: int, known: Lexicon) -> int:
-    """ "Speeds up a road" goes up a road; "speeds up" goes faster."""
+    """As in "Speeds up a road" goes up a road; "speeds up" goes faster."""
     if length != 2 or window[1].text not in _PARTICLES or len(window) < 3:
         return length
     _, meanings = known.find([token.text for token in window[:2]])
@@ -220,13 +219,14 @@ class _Tagger:
         return chosen
 
     def _note(self, meaning: Meaning) -> None:
-        if meaning.pos is Pos.SIGN and meaning.value in ".;!?:":
+        if (meaning.pos is Pos.SIGN and meaning.value in ".;!?:") or meaning.pos in (
+            Pos.SUBORDINATOR,
+            Pos.RELATIVE,
+        ):
             self._has_verb = False
-        elif meaning.pos in (Pos.SUBORDINATOR, Pos.RELATIVE):
-            self._has_verb = False
-        elif meaning.pos is Pos.AUXILIARY:
-            self._has_verb = True
-        elif meaning.pos is Pos.VERB and meaning.form is not VerbForm.ING:
+        elif meaning.pos is Pos.AUXILIARY or (
+            meaning.pos is Pos.VERB and meaning.form is not VerbForm.ING
+        ):
             self._has_verb = True
         elif meaning.pos is Pos.NOUN:
             self._is_plural = self._decide_plural(meaning)
@@ -244,7 +244,7 @@ class _Tagger:
         )
 
     def _decide_plural(self, meaning: Meaning) -> bool | None:
-        """"A flock of birds crosses" and "cross", "deer stands" and "stand"."""
+        """None where both fit: "a flock of birds crosses" and "cross", "deer stands", "stand"."""
         if self._counts_group or meaning.can_be_both:
             return None
         return meaning.is_plural
@@ -326,38 +326,31 @@ class _Tagger:
         if verb is None:
             return None
         others = by_pos.keys() - {Pos.VERB}
-        before, after = self._before(), self._after(index)
-        if not others:
+        if not others or self._before() is Pos.TO:
             return Pos.VERB
-        is_adverb = Pos.ADVERB in by_pos and by_pos[Pos.ADVERB].role is not Role.UNKNOWN
+        adverb = by_pos.get(Pos.ADVERB)
+        is_adverb = adverb is not None and adverb.role is not Role.UNKNOWN
         if is_adverb and (verb.role is Role.UNKNOWN or verb.form is VerbForm.PAST):
             return None
-        if before is Pos.PRONOUN or before is Pos.RELATIVE or before is Pos.AUXILIARY:
-            return self._after_auxiliary(verb, others, after)
-        if before is Pos.TO:
-            return Pos.VERB
+        return self._verb_by_context(index, verb, others)
+
+    def _verb_by_context(
+        self, index: int, verb: Meaning, others: set[Pos] | frozenset[Pos]
+    ) -> Pos | None:
+        before, after = self._before(), self._after(index)
+        if before in (Pos.PRONOUN, Pos.RELATIVE, Pos.AUXILIARY):
+            is_adjective = Pos.ADJECTIVE in others and verb.form is VerbForm.BASE
+            return Pos.ADJECTIVE if is_adjective else Pos.VERB
         if verb.form is VerbForm.ING:
             return self._gerund(index, verb, others)
         if verb.form is VerbForm.PAST and before in _OPENS_NOUN | {None, Pos.SIGN, Pos.PREPOSITION}:
             return self._attribute(others, after)
-        if before in _OPENS_NOUN or before in (Pos.PREPOSITION, Pos.VERB, Pos.NEGATION):
-            return None
         if before is Pos.NOUN:
             return self._after_noun(index, verb)
         if before in (Pos.CONJUNCTION, Pos.SIGN, Pos.SUBORDINATOR, Pos.ADVERB):
             return self._coordinated(index, verb, others)
-        if before is None and verb.form is VerbForm.BASE and not after & {Pos.VERB, Pos.AUXILIARY}:
-            is_order = after & {Pos.DETERMINER, Pos.NUMBER, Pos.ADVERB} and Pos.NOUN not in others
-            return Pos.VERB if is_order else None
-        return None
-
-    def _after_auxiliary(
-        self, verb: Meaning, others: set[Pos] | frozenset[Pos], after: frozenset[Pos]
-    ) -> Pos | None:
-        if Pos.ADJECTIVE in others and verb.form is VerbForm.BASE:
-            return Pos.ADJECTIVE
-        del after
-        return Pos.VERB
+        is_order = before is None and verb.form is VerbForm.BASE and Pos.NOUN not in others
+        return Pos.VERB if is_order and not after & {Pos.VERB, Pos.AUXILIARY} else None
 
     def _gerund(self, index: int, verb: Meaning, others: set[Pos] | frozenset[Pos]) -> Pos | None:
         before, after = self._before(), self._after(index)
@@ -413,9 +406,7 @@ class _Tagger:
         after = self._after(index)
         if Pos.NOUN not in others and Pos.ADJECTIVE not in others:
             return Pos.VERB
-        if after & {Pos.AUXILIARY} or (
-            verb.form is VerbForm.BASE and self._finite_follows(index)
-        ):
+        if after & {Pos.AUXILIARY} or (verb.form is VerbForm.BASE and self._finite_follows(index)):
             return None
         form = self._last_verb_form()
         is_parallel = form is not None and form is verb.form

@@ -39,8 +39,20 @@ def tokenize_prompt(prompt: str) -> list[Token]:
         ['it', '3.5', 'km', '/', 'h', ',', 'close', 'up', '!']
     """
     normal = unicodedata.normalize("NFKC", prompt)
-    tokens = (Token(_fold(match[0]), match[0]) for match in _TOKEN.finditer(normal))
+    words = (part for match in _TOKEN.finditer(normal) for part in _expand(match[0]))
+    tokens = (Token(_fold(word), word) for word in words)
     return [token for token in tokens if unicodedata.category(token.text[0]) != "Pd"]
+
+
+def _expand(word: str) -> tuple[str, ...]:
+    """As in "doesn't" = "does not", "we're" = "we"."""
+    folded = word.casefold().replace("’", "'")
+    if folded.endswith("n't"):
+        return (word[:-3], "not")
+    for ending in ("'re", "'ll", "'ve", "'d", "'m"):
+        if folded.endswith(ending) and len(folded) > len(ending):
+            return (word[: -len(ending)],)
+    return (word,)
 
 
 def _fold(word: str) -> str:

@@ -15,15 +15,15 @@ DEFINITE = ("the", "this", "that", "these", "those", "its", "their", "his", "her
 """Determiners of a thing that may have been named before."""
 
 PRONOUNS = (
-    "it", "they", "he", "she", "them", "him", "her", "itself", "themselves", "himself", "herself", "i",
-    "we", "us", "me", "you", "one another", "each other", "there", "here", "itself", "someone",
+    "it", "they", "he", "she", "them", "him", "her", "itself", "themselves", "himself", "herself",
+    "i", "we", "us", "me", "you", "one another", "each other", "there", "here", "someone",
     "somebody", "everyone",
 )  # fmt: skip
 VIEWERS = ("i", "we", "us", "me", "you")
 """Pronouns of whoever looks: the camera."""
 SOMEONE = ("someone", "somebody", "everyone")
 """Pronouns of a person who is not named."""
-NOBODY = ("nobody", "no one")
+NOBODY = ("nobody", "no one", "nothing")
 
 NEGATIONS = (
     "no", "without", "without any", "with no", "with no other", "no other", "without other",
@@ -86,6 +86,3 @@ TIME_ORDER: dict[str, str] = {
 """Subordinator → whether the clause it opens comes "after" or "before" the one it belongs to;
 the others happen at the same time."""
 SENTENCE_OPENERS = ("first", "at first", "then", "and then", "next", "later", "finally")
-
-SILENT_TEXT = frozenset({"s", "d", "ll", "m", "re", "ve", "t"})
-"""What is left of contractions."""

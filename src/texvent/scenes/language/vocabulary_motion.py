@@ -48,7 +48,8 @@ _PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
     "rise": {1.0: ("ascend", "lift off", "take off", "rise", "blast off"), 1.5: ("launch",)},
     "sink": {1.0: ("descend",), 0.8: ("land",), 0.7: ("sink",)},
     "swing": {1.0: ("oscillate",), 0.6: ("dangle",)},
-    "sway": {1.0: ("sway", "rock"), 1.5: ("wobble",), 4.0: ("tremble", "vibrate"), 3.0: ("shiver",)},
+    "sway": {1.0: ("sway", "rock"), 1.5: ("wobble",), 4.0: ("tremble", "vibrate"),
+             3.0: ("shiver",)},
     "dance": {1.0: ("dance",)},
     "jump": {1.0: ("jump",), 0.7: ("hop",), 0.8: ("skip",), 1.2: ("leap",)},
     "work": {1.0: ("flap", "work", "operate", "beat", "pulse")},
@@ -158,7 +159,8 @@ STILL_WORDS = ("still", "motionless", "stationary", "unmoving")
 DIRECTIONS: dict[str, tuple[str, ...]] = {
     "left": (
         "left", "leftward", "leftwards", "to the left", "to left", "towards the left",
-        "from right to left", "from the right to the left", "right to left", "to its left", "to their left", "to the left hand side",
+        "from right to left", "from the right to the left", "right to left", "to its left",
+        "to their left",
     ),
     "right": (
         "right", "rightward", "rightwards", "to the right", "to right", "towards the right",

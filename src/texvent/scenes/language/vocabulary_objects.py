@@ -47,6 +47,7 @@ SIZES: dict[float, tuple[str, ...]] = {
     2.4: ("gigantic",),
 }  # fmt: skip
 
+
 def decode_hex(code: str) -> Colour:
     """Linear-light RGB of an sRGB code such as "ff8000" (IEC 61966-2-1).
 
@@ -126,6 +127,7 @@ def shade_colour(rgb: Colour, shade: str) -> Colour:
     red, green, blue = (min(1.0, (c * factor) * (1.0 - white) + white) for c in rgb)
     return (red, green, blue)
 
+
 MATERIALS: dict[str, tuple[str, ...]] = {
     "wood": ("wooden", "wood", "oak", "pine wood"),
     "brick": ("brick",),
@@ -145,3 +147,14 @@ MATERIALS: dict[str, tuple[str, ...]] = {
     "ice": ("ice",),
 }  # fmt: skip
 """Material → words for it, before a noun."""
+
+GENERAL_KINDS: dict[str, tuple[str, ...]] = {
+    "car": ("vehicle",),
+    "dog": ("animal", "pet", "creature"),
+    "butterfly": ("insect",),
+    "chair": ("furniture",),
+    "airplane": ("aircraft",),
+    "ball": ("toy",),
+    "cube": ("object",),
+}
+"""Noun → words for whole classes that it stands for."""

@@ -109,8 +109,16 @@ DARK_PLACES_LIGHT = "night"
 
 WEATHERS: dict[str, tuple[str, ...]] = {
     "fog": ("fog", "mist", "haze", "smog", "morning mist"),
-    "rain": ("rain", "rainstorm", "storm", "downpour", "heavy rain", "falling rain", "drizzle",
-             "rain shower"),
+    "rain": (
+        "rain",
+        "rainstorm",
+        "storm",
+        "downpour",
+        "heavy rain",
+        "falling rain",
+        "drizzle",
+        "rain shower",
+    ),
     "snow": ("snowfall", "falling snow", "blizzard", "snowstorm"),
 }
 WEATHER_ADJECTIVES: dict[str, tuple[str, ...]] = {
@@ -207,8 +215,8 @@ TRAVEL_MEANS: dict[str, str] = {
 VIEWS: dict[str, tuple[str, ...]] = {
     "aerial": (
         "aerial view", "aerial shot", "aerial", "drone view", "drone shot", "drone footage",
-        "bird eye view", "birds eye view", "bird eye", "from above", "seen from above", "high angle", "from a drone",
-        "by a drone",
+        "bird eye view", "birds eye view", "bird eye", "from above", "seen from above",
+        "high angle", "from a drone", "by a drone",
     ),
     "top": ("overhead view", "top view", "top down", "top down view", "directly above",
             "from directly above", "birds eye"),

@@ -128,7 +128,7 @@ def list_verb_forms(base: str) -> tuple[tuple[str, VerbForm], ...]:
         if base.endswith("l") and word.startswith(base) and word[len(base) : len(base) + 1] == "l":
             continue
         if base.endswith("l") and word in (f"{base}ing", f"{base}ed"):
-            forms.setdefault(f"{base}l{word[len(base):]}", forms[word])
+            forms.setdefault(f"{base}l{word[len(base) :]}", forms[word])
     return tuple(forms.items())
 
 

@@ -1,0 +1,51 @@
+"""Words for kinds of people, each shown as one of the people that the models know.
+
+The report names the substitution: "chef → person".
+"""
+
+from __future__ import annotations
+
+PEOPLE_KINDS: dict[str, tuple[str, ...]] = {
+    "person": (
+        "chef", "cook", "baker", "waiter", "barista", "bartender", "butcher", "farmer", "gardener",
+        "fisherman", "hunter", "shepherd", "driver", "pilot", "sailor", "captain", "astronaut",
+        "soldier", "officer", "policeman", "police officer", "guard", "lifeguard", "firefighter",
+        "fireman", "doctor", "nurse", "surgeon", "dentist", "patient", "scientist", "researcher",
+        "engineer", "technician", "mechanic", "electrician", "plumber", "carpenter", "welder",
+        "blacksmith", "potter", "painter", "artist", "sculptor", "musician", "drummer", "guitarist",
+        "violinist", "pianist", "singer", "conductor", "dancer", "actor", "clown", "magician",
+        "juggler", "acrobat", "gymnast", "athlete", "player", "teacher", "student", "professor",
+        "customer", "seller", "vendor", "shopkeeper", "cashier", "tourist", "traveller", "traveler",
+        "passenger", "commuter", "visitor", "guest", "spectator", "neighbour", "neighbor", "hiker",
+        "climber", "rock climber", "mountaineer", "camper", "diver", "scuba diver", "swimmer",
+        "surfer", "skier", "snowboarder", "skater", "skateboarder", "figure skater", "ice skater",
+        "boxer", "wrestler", "fencer", "archer", "golfer", "goalkeeper", "goalie", "batter",
+        "catcher", "pitcher", "referee", "coach", "cowboy", "knight", "monk", "priest", "bride",
+        "groom", "dad", "father", "grandfather", "parent", "uncle", "husband", "photographer",
+        "cameraman", "operator", "postman", "mailman", "courier", "delivery man", "thief",
+        "lumberjack", "miner", "janitor", "cleaner", "barber", "tailor", "librarian", "secretary",
+        "employee", "businessman", "manager", "boss", "lawyer", "judge", "detective", "spy",
+        "ninja",        "samurai", "pirate", "wizard", "robber", "zombie", "human", "human being", "figure",
+        "pedestrian", "passer by", "bystander", "stranger", "adult", "individual", "someone",
+        "football player", "soccer player", "basketball player", "tennis player", "hockey player",
+        "baseball player", "golf player", "volleyball player", "badminton player",
+        "table tennis player", "lamplighter", "apprentice", "sprinter", "hurdler", "gymnast",
+        "sailor", "rower", "paddler", "rider", "jockey", "friend", "couple member",
+    ),
+    "woman": (
+        "waitress", "actress", "ballerina", "mother", "mom", "mum", "grandmother", "grandma",
+        "aunt", "wife", "queen", "princess", "nun", "housewife", "businesswoman", "policewoman",
+        "bridesmaid", "witch", "lady", "cheerleader", "stewardess", "young woman", "old woman",
+    ),
+    "man": ("king", "prince", "grandpa", "guy", "gentleman", "young man", "old man", "santa claus",
+            "dude", "bloke"),
+    "child": (
+        "toddler", "baby", "infant", "teenager", "teen", "schoolboy", "schoolgirl", "pupil", "son",
+        "daughter", "brother", "sister", "little boy", "little girl", "young boy", "young girl",
+        "twin", "newborn", "youngster",
+    ),
+    "worker": ("lineman", "road worker", "roofer", "builder", "bricklayer", "ground crew member",
+               "warehouse worker", "factory worker", "labourer", "laborer"),
+    "runner": ("jogger", "marathon runner", "sprinter"),
+}  # fmt: skip
+"""Noun of the models → words for kinds of people."""
