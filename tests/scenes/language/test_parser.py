@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 from texvent.errors import InputError
 from texvent.scenes.description import SceneDescription
-from texvent.scenes.language.lexicon import Lexicon
 from texvent.scenes.language.draft import MAX_OBJECTS
+from texvent.scenes.language.lexicon import Lexicon
 from texvent.scenes.language.parser import parse_prompt
 from texvent.scenes.language.tokens import tokenize_prompt
 from texvent.scenes.language.vocabulary_objects import MAX_COUNT

@@ -102,10 +102,12 @@ class ClauseMeaning:
     def _is_about_camera(self, clause: Clause, subjects: Sequence[Referent]) -> bool:
         if any(one.kind in ("camera", "function") for one in subjects):
             return True
-        if subjects or clause.verb is None:
+        if clause.verb is None:
             return False
+        if clause.verb.role is Role.CAMERA_MOVE:
+            return True
         is_move = clause.verb.read_as(Role.CAMERA_MOVE) is not None
-        return is_move and (self._camera.has_moves or clause.verb.role is Role.CAMERA_MOVE)
+        return is_move and not subjects and self._camera.has_moves
 
     def _read_camera(self, clause: Clause, subjects: Sequence[Referent]) -> None:
         others = [one for one in subjects if one.kind not in ("camera", "function")]
