@@ -74,6 +74,8 @@ class Actor:
     enters: bool = False
     """Whether it comes into the picture only after the clip has begun."""
     leaves: bool = False
+    headroom_m: float = 0.0
+    """Room above it that the image should show too: for smoke, m."""
 
     @property
     def size_m(self) -> float:
@@ -124,6 +126,7 @@ class Actor:
     def corners(self, time_s: float, limit_m: float = np.inf) -> Float64Array:
         """[8, 3] corners of its box in the world, m; extents above `limit_m` are cut to it."""
         low, high = self._box(time_s)
+        high[2] += self.headroom_m
         middle = 0.5 * (low + high)
         middle[:2] = np.where(high[:2] - low[:2] > limit_m, 0.0, middle[:2])
         half = 0.5 * np.minimum(high - low, limit_m)

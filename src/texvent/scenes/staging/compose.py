@@ -13,13 +13,14 @@ from texvent.scenes.description import Relation, SceneDescription
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.scene import (
+    PUFF_COLUMNS,
     Camera,
     Environment,
     Ground,
     Primitives,
 )
 from texvent.scenes.staging.actors import Actor, seeded
-from texvent.scenes.staging.assemble import assemble, join_primitives
+from texvent.scenes.staging.assemble import PlacedModel, assemble, join_primitives
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.camera_placement import place_camera
 from texvent.scenes.staging.camera.journey import plan_travel
@@ -30,6 +31,13 @@ from texvent.scenes.staging.environment import (
     choose_lighting,
 )
 from texvent.scenes.staging.lamps import LampPlan, list_still_lamps, plan_lamps
+from texvent.scenes.staging.particles.choose import (
+    Setting,
+    Staged,
+    gone,
+    stage_effects,
+    with_headroom,
+)
 from texvent.scenes.staging.placement.object_placement import SCENIC, ObjectPlacer
 from texvent.scenes.staging.road import RoadLine
 from texvent.scenes.staging.scenery import (
@@ -41,13 +49,6 @@ from texvent.scenes.staging.scenery import (
     scatter,
 )
 from texvent.scenes.staging.scenery_along import line_route
-from texvent.scenes.staging.weather import (
-    DustTrail,
-    FallingParticles,
-    make_dust,
-    make_rain,
-    make_snow,
-)
 from texvent.sensor import SensorSize
 
 VIEW_INSTANTS = 7
@@ -61,7 +62,8 @@ class ComposedScene:
     actors: tuple[Actor, ...]
     still: Primitives
     """Scenery: the same at every instant."""
-    effects: tuple[FallingParticles | DustTrail, ...]
+    particles: Staged
+    """Weather, smoke, sparks, pieces ..."""
     camera_path: CameraPath
     animated_environment: AnimatedEnvironment
     lamps: LampPlan
@@ -72,11 +74,18 @@ class ComposedScene:
 
     def primitives(self, time_s: float) -> Primitives:
         """All shapes at that instant: actors, then scenery, then weather."""
-        acting = assemble([self.lamps.place(actor, time_s) for actor in self.actors])
-        weather = [effect.at(time_s) for effect in self.effects]
-        shapes = join_primitives([acting, self.still, *weather])
+        acting = assemble([self._place(actor, time_s) for actor in self.actors])
+        small = [effect.at(time_s) for effect in self.particles.effects]
+        shapes = join_primitives([acting, self.still, *small])
         factor = np.float32(self.animated_environment.flicker(time_s))
         return replace(shapes, emission=shapes.emission * factor)
+
+    def _place(self, actor: Actor, time_s: float) -> PlacedModel:
+        """An object in the world, unless it has burst or broken."""
+        placed = self.lamps.place(actor, time_s)
+        if time_s < self.particles.ends_s.get(actor.instance, math.inf):
+            return placed
+        return replace(placed, to_world=gone(placed.to_world))
 
     def camera(self, time_s: float) -> Camera:
         """The camera at that instant."""
@@ -84,9 +93,14 @@ class ComposedScene:
 
     def environment(self, time_s: float) -> Environment:
         """Surroundings and light at that instant."""
-        lamps = self.lamps.rows(time_s)
+        effects = self.particles.effects
+        lamps = np.concatenate(
+            [self.lamps.rows(time_s), *(effect.lamps(time_s) for effect in effects)]
+        )
         lamps[:, 3:6] *= self.animated_environment.flicker(time_s)
-        return replace(self.animated_environment.at(time_s), lamps=lamps)
+        puffs = [np.zeros((0, PUFF_COLUMNS)), *(effect.puffs(time_s) for effect in effects)]
+        surroundings = self.animated_environment.at(time_s)
+        return replace(surroundings, lamps=lamps, puffs=np.concatenate(puffs))
 
     @property
     def flicker_hz(self) -> float | None:
@@ -96,8 +110,10 @@ class ComposedScene:
 
     @property
     def has_moving_light(self) -> bool:
-        """Whether light moves that belongs to no surface: beams and glow of lamps."""
-        return self.lamps.is_moving
+        """Whether light moves that belongs to no surface: beams and glow of lamps, smoke, fire."""
+        return self.lamps.is_moving or any(
+            len(effect.puffs(0.0)) or len(effect.lamps(0.0)) for effect in self.particles.effects
+        )
 
 
 def compose_scene(
@@ -132,7 +148,7 @@ def compose_scene(
     placer = ObjectPlacer(
         description, nouns, seed=seed, duration_s=duration_s, level_m=levels, travel=travel
     )
-    actors = placer.place_all()
+    actors = with_headroom(description, placer.place_all())
     ground = PLACES[place].ground
     camera_path = place_camera(
         description, actors, place, seed=seed, aspect=size.height / size.width,
@@ -158,9 +174,10 @@ def compose_scene(
         focus=np.asarray(camera_path.framing.target, dtype=np.float64),
         still=list_still_lamps(place, strength, actors, items, camera_path.framing),
     )  # fmt: skip
-    effects = _make_effects(description, actors, camera_path, seed)
+    setting = Setting(actors, camera_path.framing, place, duration_s, seed)
+    particles = stage_effects(description, setting)
     return ComposedScene(
-        tuple(actors), assemble(placed), effects, camera_path, animated_environment, lamps, names
+        tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names
     )
 
 
@@ -265,22 +282,3 @@ def _scatter_all(
         far = [rule for rule in rules if rule.is_metres]
         return lined + scatter(far, view, actors, unsaid, rng=rng, taken=taken), around
     return scatter(rules, view, actors, unsaid, rng=rng, taken=taken), around
-
-
-def _make_effects(
-    description: SceneDescription, actors: Sequence[Actor], path: CameraPath, seed: int
-) -> tuple[FallingParticles | DustTrail, ...]:
-    said = description.surroundings
-    effects: list[FallingParticles | DustTrail] = []
-    base = np.array([path.framing.target[0], path.framing.target[1], 0.0])
-    extent = 1.4 * path.framing.distance_m
-    if said.weather == "rain":
-        effects.append(make_rain(base, extent, seeded(seed, "rain")))
-    elif said.weather == "snow":
-        effects.append(make_snow(base, extent, seeded(seed, "snow")))
-    if said.has_dust:
-        for actor in actors:
-            if actor.is_mover and actor.noun.habitat == "ground":
-                rng = seeded(seed, "dust", actor.instance)
-                effects.append(make_dust(actor.trajectory, actor.model.length, rng))
-    return tuple(effects)

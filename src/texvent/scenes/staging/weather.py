@@ -1,28 +1,24 @@
-"""Rain, snow and dust as small shapes whose paths are functions of time."""
+"""Rain and snow as small shapes whose paths are functions of time."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 
-from texvent.scenes.scene import (
-    Float64Array,
-    Primitives,
-    Shape,
-    Texture,
-)
-from texvent.scenes.staging.trajectories.trajectory import Trajectory
+from texvent.scenes.scene import Float64Array, Primitives, Shape
+from texvent.scenes.staging.particles.shapes import SolidEffect, many_shapes
 
 RAIN_DROPS = 130
 SNOW_FLAKES = 170
-DUST_PUFFS = 44
 _DEPTH_BELOW_M = 0.6
 """Drops return to the top when they are this far under the ground, out of sight."""
 
 
 @dataclass(frozen=True)
-class FallingParticles:
+class FallingParticles(SolidEffect):
     """Objects that fall through a box around what the camera looks at."""
 
     places: Float64Array
@@ -45,35 +41,7 @@ class FallingParticles:
         maps = np.zeros((len(self.places), 3, 4))
         maps[:, [0, 1, 2], [0, 1, 2]] = self.half
         maps[:, :, 3] = np.column_stack([x, self.places[:, 1], fallen]) + self.base
-        return uniform_primitives(maps, self.shape, self.colour)
-
-
-@dataclass(frozen=True)
-class DustTrail:
-    """Puffs that a moving object leaves behind: each rises, grows, and is used again."""
-
-    source: Trajectory
-    back_m: float
-    """From the middle of the object to where the dust rises, m."""
-    size_m: float
-    seeds: Float64Array
-    """[n, 3] in 0..1: sideways, size, and time of birth."""
-    life_s: float = 0.9
-
-    def at(self, time_s: float) -> Primitives:
-        """All puffs at that instant; one that is just born or about to go has no size."""
-        maps = np.zeros((len(self.seeds), 3, 4))
-        for row, (side, size, birth) in enumerate(self.seeds):
-            age = (time_s / self.life_s + birth) % 1.0
-            born = self.source.at(time_s - age * self.life_s)
-            place = born.to_world() @ np.array(
-                [-self.back_m, 1.1 * self.size_m * (side - 0.5), 0.0, 1.0]
-            )
-            radius = max(self.size_m * (0.012 + 0.026 * size) * 4.0 * age * (1.0 - age), 1e-4)
-            maps[row, :, :3] = radius * np.diag([1.2, 1.2, 0.8])
-            place[2] += self.size_m * (0.05 + 0.28 * age * size)
-            maps[row, :, 3] = place
-        return uniform_primitives(maps, Shape.ELLIPSOID, (0.46, 0.33, 0.20))
+        return many_shapes(maps, self.shape, self.colour)
 
 
 def make_rain(base: Float64Array, extent_m: float, rng: np.random.Generator) -> FallingParticles:
@@ -98,31 +66,15 @@ def make_snow(base: Float64Array, extent_m: float, rng: np.random.Generator) -> 
     )  # fmt: skip
 
 
-def make_dust(source: Trajectory, length_m: float, rng: np.random.Generator) -> DustTrail:
-    """Dust behind an object of that length, m."""
-    return DustTrail(source, 0.45 * length_m, 0.5 * length_m, rng.uniform(size=(DUST_PUFFS, 3)))
-
-
-def uniform_primitives(
-    maps: Float64Array, shape: Shape, colour: tuple[float, float, float]
-) -> Primitives:
-    """Shapes of one kind and colour, scenery without an id."""
-    count = len(maps)
-    return Primitives(
-        shape=np.full(count, shape, dtype=np.int8),
-        to_world=maps,
-        colour=np.tile(np.array(colour, dtype=np.float32), (count, 1)),
-        second_colour=np.zeros((count, 3), dtype=np.float32),
-        texture=np.full(count, Texture.PLAIN, dtype=np.int8),
-        texture_scale=np.ones(count, dtype=np.float32),
-        emission=np.zeros(count, dtype=np.float32),
-        instance=np.zeros(count, dtype=np.int32),
-    )
-
-
 def _scatter(
     count: int, extent_m: float, height_m: float, rng: np.random.Generator
 ) -> Float64Array:
     low = np.array([-0.5 * extent_m, -0.5 * extent_m, 0.0])
     high = np.array([0.5 * extent_m, 0.5 * extent_m, height_m])
     return np.asarray(rng.uniform(low, high, size=(count, 3)))
+
+
+WEATHERS: Mapping[str, Callable[[Float64Array, float, np.random.Generator], FallingParticles]] = (
+    MappingProxyType({"rain": make_rain, "snow": make_snow})
+)
+"""Weather that falls."""

@@ -99,8 +99,6 @@ def _puff_light(world: World, puff: Record, direction: Vector, place: Vector) ->
     """
     instant = world.instant[0]
     colour = triple(puff.colour)
-    if puff.emission > 0.0:
-        return scaled(colour, puff.emission)
     m = puff.inverse
     view = turned(m, direction)
     back = math.sqrt(max(1.0 - dot(place, place), 0.0) / dot(view, view))
@@ -118,7 +116,12 @@ def _puff_light(world: World, puff: Record, direction: Vector, place: Vector) ->
         distance = puff.depth + puff.radius
         point = along(triple(instant.origin), direction, distance)
         light = along(light, light_through(world, point), 0.5)
-    return colour[0] * light[0], colour[1] * light[1], colour[2] * light[2]
+    glow = puff.emission
+    return (
+        colour[0] * (light[0] + glow),
+        colour[1] * (light[1] + glow),
+        colour[2] * (light[2] + glow),
+    )
 
 
 @jit(error_model="numpy")

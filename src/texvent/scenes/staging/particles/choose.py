@@ -1,0 +1,244 @@
+"""Effects of a description → particle systems at their places."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from texvent.scenes.description import Effect, SceneDescription
+from texvent.scenes.models.effects import EFFECTS
+from texvent.scenes.scene import Colour, Float64Array
+from texvent.scenes.staging.actors import Actor, seeded
+from texvent.scenes.staging.camera.framing import Framing
+from texvent.scenes.staging.particles.bursts import Fireball, Fireworks, Pieces, Splash
+from texvent.scenes.staging.particles.clouds import PLUMES, Plume, make_bank
+from texvent.scenes.staging.particles.flakes import FLAKES, Falling
+from texvent.scenes.staging.particles.jets import JETS, WATER, Dripping, Jet
+from texvent.scenes.staging.particles.motion import Source
+from texvent.scenes.staging.particles.shapes import ParticleEffect
+from texvent.scenes.staging.weather import WEATHERS
+
+BURNING = ("campfire", "fire", "bonfire", "fireplace", "torch")
+"""Nouns that burn unless they are said to be out."""
+ONCE_AT = 0.4
+"""When what happens once does so, if nothing says when: share of the clip."""
+_FALL_STEPS = 240
+_NO_GROUND = ("sky", "space", "underwater")
+
+_REAR = (-1.0, -0.55, 0.16)
+_ANCHORS: dict[tuple[str, str], tuple[float, float, float]] = {
+    **{
+        (kind, noun): _REAR
+        for kind in ("smoke", "steam")
+        for noun in ("car", "suv", "van", "pickup", "taxi", "police car", "bus", "motorcycle")
+    },
+    ("smoke", "truck"): (0.45, 0.5, 1.0),
+    ("smoke", "train"): (0.8, 0.0, 1.0),
+    ("steam", "train"): (0.8, 0.0, 1.0),
+    ("smoke", "airplane"): (-1.0, 0.0, 0.5),
+    ("smoke", "rocket"): (0.0, 0.0, 0.0),
+    ("smoke", "house"): (0.3, 0.35, 1.0),
+    ("smoke", "ship"): (0.1, 0.0, 1.0),
+}
+"""(effect, noun) → where it comes from: x and y in half extents, z in heights from below."""
+_USUAL_ANCHOR: dict[str, tuple[float, float, float]] = {
+    "drip": (0.9, 0.0, 0.85),
+    "pour": (0.9, 0.0, 0.92),
+    "spray": (0.9, 0.0, 0.9),
+    "sparks": (0.6, 0.0, 0.6),
+    "dust": (-0.7, 0.0, 0.0),
+    "fire": (0.0, 0.0, 0.25),
+    "splash": (0.0, 0.0, 0.0),
+    "confetti": (0.0, 0.0, 1.0),
+}
+_SIZES: dict[str, float] = {"fire": 0.75, "smoke": 0.32, "steam": 0.7, "dust": 0.55, "drip": 0.35,
+                            "pour": 0.45, "fountain": 0.9, "sparks": 0.6}  # fmt: skip
+"""Size of an effect by that of the object it comes from."""
+_ALONE: dict[str, float] = {"smoke": 0.15, "steam": 0.12, "fire": 0.2, "dust": 0.2, "drip": 0.16,
+                            "pour": 0.3, "fountain": 0.42, "sparks": 0.3, "embers": 0.25,
+                            "spray": 0.3, "bubbles": 0.25}  # fmt: skip
+"""Size of an effect that comes from no object, by the distance of the camera."""
+_HEADROOM = {"smoke": 3.0, "steam": 1.8, "fire": 1.5, "fountain": 1.1, "embers": 1.5, "sparks": 0.4,
+             "bubbles": 1.0, "spray": 0.5}  # fmt: skip
+"""Room that an effect needs above its object, by its size."""
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What effects need to know about the scene."""
+
+    actors: Sequence[Actor]
+    framing: Framing
+    place: str
+    duration_s: float
+    seed: int
+
+    @property
+    def floor_m(self) -> float:
+        """Height of the ground, m; -inf where there is none."""
+        return -np.inf if self.place in _NO_GROUND else 0.0
+
+
+@dataclass(frozen=True)
+class Staged:
+    """The particle systems of a scene, and which objects end when."""
+
+    effects: tuple[ParticleEffect, ...]
+    ends_s: dict[int, float]
+    """Instance of an object → when it is gone, s."""
+
+
+def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
+    """All effects of a description.
+
+    Nouns that burn get their fire. An effect whose object has several copies is at each of them.
+    """
+    said = list(description.effects)
+    has_fire = {effect.source for effect in said if effect.kind == "fire"}
+    for index, one in enumerate(description.objects):
+        if one.noun in BURNING and one.is_lit is not False and index not in has_fire:
+            said.append(Effect("fire", index))
+    effects = _weather(description, setting)
+    ends: dict[int, float] = {}
+    for number, effect in enumerate(said):
+        actors: Sequence[Actor | None] = [None]
+        if effect.source is not None:
+            actors = [one for one in setting.actors if one.object_index == effect.source] or [None]
+        for copy, actor in enumerate(actors):
+            rng = seeded(setting.seed, "effect", effect.kind, number, copy)
+            effects.extend(_make(effect, actor, setting, rng))
+            if actor is not None and EFFECTS[effect.kind].ends_source:
+                ends[actor.instance] = _start(effect, actor, setting)
+    return Staged(tuple(effects), ends)
+
+
+def _weather(description: SceneDescription, setting: Setting) -> list[ParticleEffect]:
+    """Rain and snow, and the dust behind what drives."""
+    said, framing = description.surroundings, setting.framing
+    base = np.array([framing.target[0], framing.target[1], 0.0])
+    made: list[ParticleEffect] = []
+    if said.weather is not None and said.weather in WEATHERS:
+        rng = seeded(setting.seed, said.weather)
+        made.append(WEATHERS[said.weather](base, 1.4 * framing.distance_m, rng))
+    if said.has_dust:
+        for actor in setting.actors:
+            if actor.is_mover and actor.noun.habitat == "ground":
+                rng = seeded(setting.seed, "dust", actor.instance)
+                made.append(Plume.of("dust", _source("dust", actor, setting), rng))
+    return made
+
+
+def with_headroom(description: SceneDescription, actors: Sequence[Actor]) -> list[Actor]:
+    """The objects, with room in the image for what rises from them."""
+    room: dict[int, float] = {}
+    for effect in description.effects:
+        if effect.source is not None and effect.kind in _HEADROOM:
+            needed = _HEADROOM[effect.kind] * _SIZES.get(effect.kind, 0.5)
+            room[effect.source] = max(needed, room.get(effect.source, 0.0))
+    return [
+        replace(actor, headroom_m=room[actor.object_index] * _bulk(actor))
+        if actor.object_index in room
+        else actor
+        for actor in actors
+    ]
+
+
+def _bulk(actor: Actor) -> float:
+    """Size of an object, m: the side of a cube as large as the box around it."""
+    model = actor.model
+    return float(np.cbrt(model.length * model.width * model.height))
+
+
+def _make(
+    effect: Effect, actor: Actor | None, setting: Setting, rng: np.random.Generator
+) -> list[ParticleEffect]:
+    kind = effect.kind
+    colour = None if effect.colour is None else effect.colour.rgb
+    base = np.array([setting.framing.target[0], setting.framing.target[1], 0.0])
+    reach = setting.framing.distance_m
+    if kind in ("mist", "sand"):
+        return [make_bank(kind, base, 3.0 * reach, rng, colour)]
+    if kind in FLAKES:
+        return [Falling.of(kind, base, 1.4 * reach, rng, colour)]
+    if kind == "fireworks":
+        behind = -1.1 * reach * setting.framing.offset * [1.0, 1.0, 0.0]
+        middle = base + behind + np.array([0.0, 0.0, 0.75 * reach])
+        return [Fireworks.of(middle, 0.3 * reach, rng)]
+    if EFFECTS[kind].happens_once:
+        return _happen_once(effect, actor, setting, rng)
+    source = _source(kind, actor, setting)
+    if kind == "drip":
+        start = source.at(np.zeros(1))[0]
+        height = max(float(start[2]), 0.05) if np.isfinite(setting.floor_m) else reach
+        return [Dripping.of(source, height, rng, colour or WATER)]
+    made: list[ParticleEffect] = []
+    if kind in PLUMES:
+        made.append(Plume.of(kind, source, rng, colour=colour, start_s=effect.start_s))
+    if kind in JETS:
+        jet = Jet.of(kind, source, rng, colour=colour, start_s=effect.start_s)
+        made.append(jet.until_ground() if kind == "pour" else jet)
+    if kind == "fire" and actor is not None and actor.noun.name not in BURNING:
+        made.append(Plume.of("black smoke", source, rng, start_s=effect.start_s))
+    return made
+
+
+def _happen_once(
+    effect: Effect, actor: Actor | None, setting: Setting, rng: np.random.Generator
+) -> list[ParticleEffect]:
+    start = _start(effect, actor, setting)
+    size = _size_of(actor, setting)
+    target = np.asarray(setting.framing.target, dtype=np.float64)
+    if effect.kind == "splash":
+        middle = target.copy() if actor is None else actor.middle(start)
+        middle[2] = 0.0
+        colour: Colour = WATER if effect.colour is None else effect.colour.rgb
+        return [Splash.of(middle, 0.9 * size, start, rng, colour)]
+    made: list[ParticleEffect] = []
+    middle = target if actor is None else actor.middle(start)
+    if actor is not None:
+        made.append(Pieces.of(actor, effect.kind, start, rng, setting.floor_m))
+    if effect.kind == "explode":
+        made.append(Fireball.of(middle, 0.7 * size, start, rng))
+    return made
+
+
+def _start(effect: Effect, actor: Actor | None, setting: Setting) -> float:
+    """When what happens once does so, s: as stated, when its object meets the ground, or early."""
+    if effect.start_s is not None:
+        return effect.start_s
+    if actor is not None and effect.kind in ("splash", "break"):
+        lift = 0.5 * actor.model.height if actor.is_centred else 0.0
+        times = np.linspace(0.0, setting.duration_s, _FALL_STEPS)
+        heights = np.array([actor.trajectory.at(float(t)).position[2] - lift for t in times])
+        down = np.flatnonzero((heights[1:] <= 0.01) & (heights[:-1] > 0.01))
+        if len(down):
+            return float(times[down[0] + 1])
+    return ONCE_AT * setting.duration_s
+
+
+def _size_of(actor: Actor | None, setting: Setting) -> float:
+    """Size of what an effect comes from, m."""
+    return 0.16 * setting.framing.distance_m if actor is None else _bulk(actor)
+
+
+def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
+    """Where an effect comes from."""
+    size = _SIZES.get(kind, 0.5) * _size_of(actor, setting)
+    if actor is None:
+        target = np.asarray(setting.framing.target, dtype=np.float64)
+        lifted = kind in ("drip", "sparks", "pour", "spray")
+        reach = setting.framing.distance_m
+        height = target[2] + 0.22 * reach if lifted else 0.0
+        return Source(_ALONE.get(kind, 0.15) * reach, np.array([target[0], target[1], height]))
+    model = actor.model
+    x, y, z = _ANCHORS.get((kind, actor.noun.name), _USUAL_ANCHOR.get(kind, (0.0, 0.0, 1.0)))
+    low = -0.5 * model.height if actor.is_centred else 0.0
+    place = np.array([0.5 * x * model.length, 0.5 * y * model.width, low + z * model.height])
+    return Source(size, place, actor)
+
+
+def gone(to_world: Float64Array) -> Float64Array:
+    """[3, 4] the pose of an object that is no more: too small to be seen."""
+    return np.column_stack([1e-6 * to_world[:, :3], to_world[:, 3]])

@@ -1,0 +1,124 @@
+"""How particles are born and move: closed forms of time, so that any instant can be drawn."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from texvent.scenes.scene import Float64Array
+from texvent.scenes.staging.actors import Actor
+
+GRAVITY = 9.81
+GENERATIONS = 16
+"""Lives of a particle that differ; then they repeat."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """The point that particles come from: on an object, or fixed."""
+
+    size_m: float
+    """What lengths of the effect are multiples of."""
+    fixed: Float64Array
+    """[3] the point, m, where there is no object; else in the object's body coordinates."""
+    actor: Actor | None = None
+
+    def at(self, times_s: Float64Array) -> Float64Array:
+        """[n, 3] where the point is at [n] times, m."""
+        if self.actor is None:
+            return np.tile(self.fixed, (len(times_s), 1))
+        maps = [self.actor.trajectory.at(float(time)).to_world() for time in times_s]
+        return np.array([one[:, :3] @ self.fixed + one[:, 3] for one in maps]).reshape(-1, 3)
+
+    def velocity(self, time_s: float) -> Float64Array:
+        """[3] how it moves, m/s."""
+        before, after = self.at(np.array([time_s - 5e-3, time_s + 5e-3]))
+        return np.asarray((after - before) / 1e-2)
+
+
+@dataclass(frozen=True)
+class Lives:
+    """Particles that are born one after the other, live, and are born again elsewhere."""
+
+    draws: Float64Array
+    """[n, GENERATIONS, 8] in 0..1; the last one is never a new draw: when it is first born."""
+    life_s: float
+
+    @classmethod
+    def of(cls, count: int, life_s: float, rng: np.random.Generator) -> Lives:
+        """`count` particles, born at even steps of time."""
+        draws = rng.uniform(size=(count, GENERATIONS, 8))
+        draws[:, :, 7] = ((np.arange(count) + 0.5) / count)[:, None]
+        return cls(draws, life_s)
+
+    def at(self, time_s: float) -> tuple[Float64Array, Float64Array]:
+        """Age of each particle, [n] in 0..1 of its life, and its draws in this life, [n, 8]."""
+        cycles = time_s / self.life_s + self.draws[:, 0, 7]
+        number = np.floor(cycles)
+        rows = np.arange(len(cycles))
+        return cycles - number, self.draws[rows, number.astype(np.int64) % GENERATIONS]
+
+
+def flight(
+    age_s: Float64Array, velocity: Float64Array, drag_s: float, pull: Float64Array
+) -> Float64Array:
+    """Way of bodies with linear drag: [n, 3] from [n] ages and [n, 3] first velocities.
+
+    Args:
+        age_s: since they started, s.
+        velocity: at the start, m/s.
+        drag_s: time in which drag takes all but 37 % of a velocity, s; inf = no drag.
+        pull: [3] constant acceleration, such as gravity, m/s².
+
+    Solution of dv/dt = pull - v / drag.
+    """
+    age = age_s[:, None]
+    if math.isinf(drag_s):
+        return np.asarray(velocity * age + 0.5 * pull * age * age)
+    grown = drag_s * (1.0 - np.exp(-age / drag_s))
+    final = pull * drag_s
+    return np.asarray(final * age + (velocity - final) * grown)
+
+
+def flight_velocity(
+    age_s: Float64Array, velocity: Float64Array, drag_s: float, pull: Float64Array
+) -> Float64Array:
+    """[n, 3] velocity of what `flight` moves."""
+    age = age_s[:, None]
+    if math.isinf(drag_s):
+        return np.asarray(velocity + pull * age)
+    final = pull * drag_s
+    return np.asarray(final + (velocity - final) * np.exp(-age / drag_s))
+
+
+def turbulence(place: Float64Array, time_s: float, scale_m: float, speed: float) -> Float64Array:
+    """[n, 3] displacement in eddies, in multiples of `scale_m`, about -1..1: sums of sines.
+
+    Neighbours move alike, so that a plume bends and curls as a whole.
+
+    Args:
+        place: [n, 3] m.
+        time_s: s.
+        scale_m: size of the eddies, m.
+        speed: turns per second.
+    """
+    x, y, z = (place / scale_m).T
+    turn = 2.0 * math.pi * speed * time_s
+    return np.stack(
+        [
+            0.6 * np.sin(0.9 * z - turn + 1.3) + 0.4 * np.sin(1.7 * z + 1.1 * y - 1.6 * turn),
+            0.6 * np.sin(0.8 * z - 1.1 * turn + 4.0) + 0.4 * np.sin(1.9 * z - x - 1.7 * turn),
+            0.5 * np.sin(1.1 * z + 0.7 * x - 0.9 * turn),
+        ],
+        axis=1,
+    )
+
+
+def directions(draws: Float64Array, half_angle: float) -> Float64Array:
+    """[n, 3] unit vectors within an angle (radians) of straight up, evenly over the cap."""
+    height = 1.0 - draws[:, 0] * (1.0 - math.cos(half_angle))
+    around = 2.0 * math.pi * draws[:, 1]
+    flat = np.sqrt(np.maximum(1.0 - height * height, 0.0))
+    return np.stack([flat * np.cos(around), flat * np.sin(around), height], axis=1)

@@ -1,0 +1,155 @@
+"""Arrays of many small shapes and puffs."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+
+from texvent.scenes.scene import (
+    LAMP_COLUMNS,
+    PUFF_COLUMNS,
+    Colour,
+    Float64Array,
+    Primitives,
+    Shape,
+    Texture,
+)
+
+TINY_M = 5e-6
+"""Half extent of a particle that is not there at the moment: the caster leaves it out."""
+
+
+class ParticleEffect(Protocol):
+    """An effect as a function of time."""
+
+    def at(self, time_s: float) -> Primitives:
+        """Its solid shapes at that instant: always as many, in the same order."""
+        ...
+
+    def puffs(self, time_s: float) -> Float64Array:
+        """[k, 19] its translucent puffs, as in `Environment.puffs`."""
+        ...
+
+    def lamps(self, time_s: float) -> Float64Array:
+        """[m, 15] the light it sheds, as in `Environment.lamps`."""
+        ...
+
+
+class SolidEffect:
+    """An effect without puffs and light."""
+
+    def puffs(self, time_s: float) -> Float64Array:
+        """No puffs."""
+        del time_s
+        return np.zeros((0, PUFF_COLUMNS))
+
+    def lamps(self, time_s: float) -> Float64Array:
+        """No light."""
+        del time_s
+        return np.zeros((0, LAMP_COLUMNS))
+
+
+class PuffEffect:
+    """An effect without solid shapes and light."""
+
+    def at(self, time_s: float) -> Primitives:
+        """No shapes."""
+        del time_s
+        return many_shapes(np.zeros((0, 3, 4)), Shape.ELLIPSOID, np.zeros((0, 3)))
+
+    def lamps(self, time_s: float) -> Float64Array:
+        """No light."""
+        del time_s
+        return np.zeros((0, LAMP_COLUMNS))
+
+
+def many_shapes(
+    maps: Float64Array,
+    shape: Shape,
+    colours: Float64Array | Colour,
+    emission: Float64Array | float = 0.0,
+) -> Primitives:
+    """Shapes of one kind, scenery without an id.
+
+    Args:
+        maps: [n, 3, 4] unit shape → world.
+        shape: the kind.
+        colours: [n, 3], or one for all.
+        emission: [n], or one for all.
+    """
+    count = len(maps)
+    return Primitives(
+        shape=np.full(count, shape, dtype=np.int8),
+        to_world=maps,
+        colour=np.broadcast_to(np.asarray(colours, dtype=np.float32), (count, 3)).copy(),
+        second_colour=np.zeros((count, 3), dtype=np.float32),
+        texture=np.full(count, Texture.PLAIN, dtype=np.int8),
+        texture_scale=np.ones(count, dtype=np.float32),
+        emission=np.broadcast_to(np.asarray(emission, dtype=np.float32), (count,)).copy(),
+        instance=np.zeros(count, dtype=np.int32),
+    )
+
+
+def along(places: Float64Array, heading: Float64Array, half: Float64Array) -> Float64Array:
+    """[n, 3, 4] maps of shapes whose local z points along a heading.
+
+    Args:
+        places: [n, 3] m.
+        heading: [n, 3], any length.
+        half: [n, 3] half extents along local x, y, z, m.
+    """
+    length = np.linalg.norm(heading, axis=1, keepdims=True)
+    z = np.where(length > 1e-9, heading / np.maximum(length, 1e-9), [0.0, 0.0, 1.0])
+    helper = np.where(np.abs(z[:, :1]) < 0.7, [[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]])
+    x = np.cross(helper, z)
+    x /= np.linalg.norm(x, axis=1, keepdims=True)
+    turn = np.stack([x, np.cross(z, x), z], axis=2)
+    return np.concatenate([turn * half[:, None, :], places[:, :, None]], axis=2)
+
+
+def tumbling(places: Float64Array, angles: Float64Array, half: Float64Array) -> Float64Array:
+    """[n, 3, 4] maps of shapes turned by [n, 3] angles about x, then z; half extents [n, 3], m."""
+    cx, sx = np.cos(angles[:, 0]), np.sin(angles[:, 0])
+    cz, sz = np.cos(angles[:, 2]), np.sin(angles[:, 2])
+    zero = np.zeros_like(cx)
+    turn = np.stack(
+        [
+            np.stack([cz, -sz * cx, sz * sx], axis=1),
+            np.stack([sz, cz * cx, -cz * sx], axis=1),
+            np.stack([zero, sx, cx], axis=1),
+        ],
+        axis=1,
+    )
+    return np.concatenate([turn * half[:, None, :], places[:, :, None]], axis=2)
+
+
+def puff_rows(
+    places: Float64Array,
+    radius: Float64Array,
+    colours: Float64Array | Colour,
+    thickness: Float64Array,
+    *,
+    emission: Float64Array | float = 0.0,
+    detail: float = 0.0,
+    seeds: Float64Array | float = 0.0,
+) -> Float64Array:
+    """[n, 19] puffs with axes along x, y, z.
+
+    Args:
+        places: [n, 3] m.
+        radius: [n, 3] half extents, m.
+        colours: [n, 3], or one for all.
+        thickness: [n] optical depth through the middle.
+        emission: light given off as a multiple of the colour; 0 = it reflects light.
+        detail: how much detail modulates it, 0..1.
+        seeds: [n] tell the detail of one from that of others.
+    """
+    rows = np.zeros((len(places), PUFF_COLUMNS))
+    maps = np.zeros((len(places), 3, 4))
+    maps[:, [0, 1, 2], [0, 1, 2]] = np.maximum(radius, TINY_M)
+    maps[:, :, 3] = places
+    rows[:, :12] = maps.reshape(-1, 12)
+    rows[:, 12:15], rows[:, 15], rows[:, 16] = colours, thickness, emission
+    rows[:, 17], rows[:, 18] = detail, seeds
+    return rows
