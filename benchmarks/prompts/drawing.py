@@ -20,6 +20,8 @@ LINE_PX, LETTERS = 15, 158
 """Height of a line of text, and its letters at most."""
 MOST_LINES = 9
 COLUMNS = 2
+TILE, LABEL_PX, TILES_PER_ROW = (86, 65), 12, 8
+"""Size of a still in the mosaic, height of its label, px, and prompts in a row."""
 WIDTH = STILLS * SIZE.width + (STILLS - 1) * GAP_PX
 _FONT, _SCALE = cv2.FONT_HERSHEY_SIMPLEX, 0.38
 _PLAIN = {"→": "->", "’": "'", "‘": "'", "“": '"', "”": '"', "–": "-", "—": "-"}
@@ -58,9 +60,32 @@ def draw_page(strips: Sequence[Image]) -> Image:
     return np.concatenate(rows)
 
 
+def draw_tile(strip: Image, name: str) -> Image:
+    """The second and the last but one still of a strip, small, with the name of the prompt."""
+    stills = []
+    for number in (1, STILLS - 2):
+        left = number * (SIZE.width + GAP_PX)
+        still = strip[: SIZE.height, left : left + SIZE.width]
+        stills.append(cv2.resize(still, TILE, interpolation=cv2.INTER_AREA))
+    label = np.full((LABEL_PX, 2 * TILE[0], 3), 255, np.uint8)
+    cv2.putText(label, _ascii(name), (2, LABEL_PX - 3), _FONT, 0.3, (0, 0, 0), 1, cv2.LINE_AA)
+    return np.concatenate([np.concatenate(stills, axis=1), label])
+
+
+def draw_grid(tiles: Sequence[Image]) -> Image:
+    """Tiles of one size, in rows of `TILES_PER_ROW`."""
+    blank = np.full_like(tiles[0], 255)
+    filled = [*tiles, *[blank] * (-len(tiles) % TILES_PER_ROW)]
+    rows = [
+        np.concatenate(filled[start : start + TILES_PER_ROW], axis=1)
+        for start in range(0, len(filled), TILES_PER_ROW)
+    ]
+    return np.concatenate(rows)
+
+
 def write_image(path: Path, image: Image) -> None:
-    """Write RGB as PNG, whole or not at all."""
-    is_made, data = cv2.imencode(".png", image[..., ::-1])
+    """Write RGB as PNG or JPEG, by the name, whole or not at all."""
+    is_made, data = cv2.imencode(path.suffix, image[..., ::-1])
     if not is_made:
         raise OutputError(f"cannot encode {path}")
     with atomic_file(path, overwrite=True) as part:

@@ -170,6 +170,26 @@ def write_pages(folder: Path, prompts: Sequence[Prompt]) -> None:
         drawing.write_image(folder / f"contact-{number:02d}.png", drawing.draw_page(strips))
 
 
+def write_mosaic(options: argparse.Namespace) -> None:
+    """Two stills of every prompt of a sheet, with its id, in one JPEG.
+
+    Raises:
+        InputError: the folder holds no sheet, or the name does not end in .jpg.
+    """
+    if options.out.suffix != ".jpg":
+        raise InputError(f"{options.out} is to hold a JPEG; its name must end in .jpg")
+    try:
+        text = (options.folder / "reports.json").read_text(encoding="utf-8")
+        names = [str(one["id"]) for one in json.loads(text)["prompts"]]
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise InputError(f"{options.folder} holds no sheet; make it with sheet") from error
+    tiles = [
+        drawing.draw_tile(drawing.read_image(options.folder / "strips" / f"{name}.png"), name)
+        for name in names
+    ]
+    drawing.write_image(options.out, drawing.draw_grid(tiles))
+
+
 def summarise(results: Sequence[dict[str, Any]]) -> dict[str, Any]:
     """Figures over all prompts."""
     tally = ReportTally()

@@ -17,6 +17,7 @@ from texvent.config import CaptureConfig
 from texvent.errors import visible
 from texvent.event_packets import EventPackets
 from texvent.io.files import event_extensions, find_folder_codec
+from texvent.scenes.report import REPORT_KEY, PromptReport
 from texvent.video import MICROSECONDS, FrameStream
 
 DESCRIPTION = """Say what an event file or a video holds, and how it was made. The whole file is
@@ -30,7 +31,16 @@ MEASURED = (
     "events_per_second", "pixels",
 )  # fmt: skip
 """What was counted."""
-ORIGIN = ("complete", "prompt", "source", "seed", "simulator", "generator", "texvent_version")
+ORIGIN = (
+    "complete",
+    "prompt",
+    REPORT_KEY,
+    "source",
+    "seed",
+    "simulator",
+    "generator",
+    "texvent_version",
+)
 """What is said first of how a file was made."""
 
 
@@ -70,6 +80,9 @@ def run(arguments: Sequence[str]) -> int:
 def _main_facts(facts: Mapping[str, Any]) -> dict[str, Any]:
     """The first facts, what the reader wants to know of their origin before the rest."""
     single = {name: value for name, value in facts.items() if not isinstance(value, Mapping)}
+    report = PromptReport.of_metadata(facts)
+    if report is not None and not report.is_faithful:
+        single[REPORT_KEY] = "; ".join(report.faults())
     measured = [name for name in single if name in MEASURED]
     origin = [name for name in ORIGIN if name in single]
     names = dict.fromkeys([*measured, *origin, *single])
