@@ -6,6 +6,7 @@
     python -m benchmarks.prompts coverage
     python -m benchmarks.prompts structure GOLD.json
 
-`sheet` draws what a grader judges, `mosaic` makes one small image of all of it, `score` sums a grader's table, `coverage` counts which names of
-COCO and ImageNet are shown, and `structure` compares what is read with annotated sentences.
+`sheet` draws what a grader judges, `mosaic` makes one small image of all of it, `score` sums a
+grader's table, `coverage` counts which names of COCO and ImageNet are shown, and `structure`
+compares what is read with annotated sentences.
 """

@@ -32,6 +32,8 @@ SETTINGS: dict[str, Any] = {
     "size": str(SIZE), "duration_s": DURATION_S, "stills": STILLS, "seed": SEED,
     "presets": PRESETS,
 }  # fmt: skip
+LEAST_SHARE = 0.002
+"""Share of the image, at its largest, below which a thing is hardly in view: 45 pixels."""
 CONTRAST_PX = 9
 """Side of the window of the local contrast."""
 
@@ -60,8 +62,12 @@ def measure_prompt(
             REPORT_KEY: video.metadata[REPORT_KEY],
             "is_camera_moving": parse_prompt(prompt).shot.is_moving,
             "in_view": in_view,
-            "never_in_view": sorted(
-                {name for name in video.class_names.values() if name not in in_view}
+            "hardly_in_view": sorted(
+                {
+                    name
+                    for name in video.class_names.values()
+                    if in_view.get(name, 0.0) < LEAST_SHARE
+                }
             ),
             "contrast": round(local_contrast([luma_bt601(frame) for frame in frames]), 4),
         }

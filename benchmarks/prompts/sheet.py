@@ -198,8 +198,8 @@ def summarise(results: Sequence[dict[str, Any]]) -> dict[str, Any]:
         tally.add(None if report is None else PromptReport.from_json(report))
     drawn = [one for one in results if one["error"] is None]
     summary: dict[str, Any] = {"prompts": tally.line()}
-    unseen = [one for one in drawn if one["never_in_view"]]
-    summary["a thing never in view"] = str(Share(len(unseen), len(drawn)))
+    unseen = [one for one in drawn if one["hardly_in_view"]]
+    summary["a thing hardly in view"] = str(Share(len(unseen), len(drawn)))
     contrasts = [one["contrast"] for one in drawn]
     if contrasts:
         summary["local log-contrast, median"] = round(statistics.median(contrasts), 3)

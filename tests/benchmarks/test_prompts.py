@@ -120,7 +120,7 @@ def test_strips_are_drawn_and_the_same_command_goes_on(tmp_path, monkeypatch, ca
     drawn, refused = reports["prompts"]
     assert "wug" in drawn["prompt_report"]["not_understood"]
     assert drawn["in_view"]["ball"] > 0
-    assert drawn["never_in_view"] == []
+    assert drawn["hardly_in_view"] == []
     assert "nothing in the prompt was understood" in refused["error"]
     strip = cv2.imread(str(tmp_path / "out" / "strips" / "a1.png"))
     assert strip.shape[1] == 6 * 173 + 5 * 2

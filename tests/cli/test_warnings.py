@@ -66,6 +66,14 @@ def test_words_without_effect_are_a_line_of_their_own(capsys):
     assert caught[0].filename == __file__
 
 
+def test_info_says_what_is_not_shown_of_the_prompt(capsys):
+    words = ["a wug and a red ball bounce", "--duration", 0.1, "-o", "a.h5", *SMALL]
+    assert run("generate", *words) == 0
+    capsys.readouterr()
+    assert run("info", "a.h5") == 0
+    assert "prompt_report      not understood: wug" in capsys.readouterr().out
+
+
 def test_strict_refuses_what_is_not_shown_as_it_says(capsys):
     said = error_of(capsys, "generate", "a wug and a red ball", "--strict", "-o", "a.h5", *SMALL)
     assert "not understood: wug" in said
