@@ -33,6 +33,8 @@ class Shape(IntEnum):
     """x² + y² <= 1, |z| <= 1, with caps."""
     CONE = 3
     """Apex at z = 1, base of radius 1 at z = -1, with base."""
+    MESH = 4
+    """Triangles within |x|, |y|, |z| <= 1; see `scenes.mesh`."""
 
 
 class Texture(IntEnum):
@@ -114,6 +116,14 @@ class Primitives:
     """[n] light given off, added to what is reflected, as a multiple of colour (lamps)."""
     instance: NDArray[np.int32]
     """[n] id of the object it belongs to: 1, 2, ...; 0 is scenery without an id of its own."""
+    mesh: NDArray[np.object_] | None = None
+    """[n] `Mesh` of each `Shape.MESH`, None elsewhere; None: there are no meshes. A mesh that
+    deforms is another one at every instant, with the same `Mesh.origin`. `colour` multiplies its
+    own."""
+    image: NDArray[np.object_] | None = None
+    """[n] `SurfaceImage` that a face of a box shows, or None; None: there are no images."""
+    image_face: NDArray[np.int8] | None = None
+    """[n] the face that shows it: 0..5 = -x, +x, -y, +y, -z, +z."""
 
 
 @dataclass(frozen=True)

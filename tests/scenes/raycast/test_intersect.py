@@ -13,6 +13,8 @@ from texvent.scenes.raycast.intersect import hit_shape, local_normal
 from texvent.scenes.raycast.intersect_reference import hit_shape_reference
 from texvent.scenes.scene import Shape
 
+UNIT_SHAPES = [shape for shape in Shape if shape is not Shape.MESH]
+
 
 @pytest.mark.parametrize(
     ("shape", "origin", "direction", "depth", "face"),
@@ -42,7 +44,7 @@ def test_a_ray_meets_each_shape_where_geometry_says(
     assert found == face
 
 
-@pytest.mark.parametrize("shape", list(Shape))
+@pytest.mark.parametrize("shape", UNIT_SHAPES)
 def test_a_ray_that_starts_inside_or_points_away_meets_nothing(shape: Shape) -> None:
     assert hit_shape(int(shape), (0.0, 0.0, -0.5), (0.3, 0.2, 0.1), 0.0)[0] == math.inf
     assert hit_shape(int(shape), (0.0, 0.0, -3.0), (0.1, 0.2, -1.0), 0.0)[0] == math.inf
@@ -60,7 +62,7 @@ def rays(seed: int, count: int) -> tuple[np.ndarray, np.ndarray]:
     return origins, (targets - origins) * generator.uniform(0.1, 2.0, size=(count, 1))
 
 
-@pytest.mark.parametrize("shape", list(Shape))
+@pytest.mark.parametrize("shape", UNIT_SHAPES)
 def test_the_kernel_equals_the_reference_on_random_rays(shape: Shape) -> None:
     origins, directions = rays(int(shape), 3000)
     expected = hit_shape_reference(shape, origins, directions)
@@ -78,7 +80,7 @@ def test_the_kernel_equals_the_reference_on_random_rays(shape: Shape) -> None:
 
 
 @given(
-    shape=st.sampled_from(list(Shape)),
+    shape=st.sampled_from(UNIT_SHAPES),
     origin=st.tuples(*[st.floats(-5, 5)] * 3),
     direction=st.tuples(*[st.floats(-2, 2)] * 3),
 )

@@ -13,6 +13,8 @@ from typing import Literal, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.scenes.image import SurfaceImage
+from texvent.scenes.mesh import Mesh
 from texvent.scenes.scene import Colour, Shape, Texture
 
 Habitat = Literal["ground", "air", "water", "fixed"]
@@ -31,6 +33,14 @@ class ModelPart:
     texture: Texture = Texture.PLAIN
     texture_scale: float = 1.0
     emission: float = 0.0
+    mesh: Mesh | None = None
+    """Its triangles, for `Shape.MESH`; the same one, or one with the same `Mesh.origin`, at every
+    pose. `colour` multiplies the mesh's own."""
+    picture_face: int = -1
+    """Face of a box that shows a picture where the prompt names one: 0..5 = -x, +x, -y, +y, -z,
+    +z; -1: none."""
+    image: SurfaceImage | None = None
+    """What `picture_face` shows now."""
 
 
 @dataclass(frozen=True)

@@ -47,6 +47,16 @@ def box(material: Material, centre: Point, size: Point, *, lean: float = 0.0) ->
     return part(Shape.BOX, material, to_body)
 
 
+def showing(part_of_model: ModelPart, face: int) -> ModelPart:
+    """A box whose face shows a picture where the prompt names one.
+
+    Args:
+        part_of_model: a box.
+        face: 0..5 = -x, +x, -y, +y, -z, +z.
+    """
+    return replace(part_of_model, picture_face=face)
+
+
 def ball(material: Material, centre: Point, size: Point) -> ModelPart:
     """An ellipsoid with axes along x, y, z."""
     return part(Shape.ELLIPSOID, material, _upright(centre, size))
@@ -212,7 +222,7 @@ def half_extents(shape: Shape, to_body: Affine) -> tuple[Affine, Affine]:
     if shape is Shape.ELLIPSOID:
         reach = np.linalg.norm(linear, axis=1)
         return middle - reach, middle + reach
-    if shape is Shape.BOX:
+    if shape in (Shape.BOX, Shape.MESH):
         reach = np.abs(linear).sum(axis=1)
         return middle - reach, middle + reach
     round_reach = np.hypot(linear[:, 0], linear[:, 1])

@@ -14,17 +14,21 @@ from numpy.typing import NDArray
 
 from texvent.scenes.lens import Lens, lens_reach
 from texvent.scenes.projection import Rays
+from texvent.scenes.raycast.meshes.packing import describe_surfaces
+from texvent.scenes.raycast.meshes.tree import tree_of
 from texvent.scenes.raycast.records import (
     GLOW_RECORD,
     INSTANT_RECORD,
     PUFF_RECORD,
     SHAPE_RECORD,
+    OwnedWorld,
     World,
     describe_lens,
     describe_materials,
     describe_rays,
     describe_surroundings,
     ground_surfaces,
+    own_world,
 )
 from texvent.scenes.raycast.surfaces.catalogue import build_tiles
 from texvent.scenes.scene import (
@@ -171,7 +175,7 @@ def build_world(
     shadows: bool,
     samples: int,
     lens: Lens | None = None,
-) -> World:
+) -> World | OwnedWorld:
     """Everything the kernels need to draw one instant but lamps and puffs: see `lamps.light_up`.
 
     Args:
@@ -194,6 +198,7 @@ def build_world(
     describe_rays(instant[0], rays)
     describe_surroundings(instant[0], environment, shadows)
     describe_materials(shapes, primitives)
+    surfaces = describe_surfaces(shapes, primitives)
     inverse, exists = invert_maps(np.asarray(primitives.to_world, dtype=np.float64))
     bounds, depth = screen_bounds(primitives, rays, plane_size)
     shapes["kind"] = primitives.shape
@@ -205,6 +210,7 @@ def build_world(
     wanted = _wanted_widths(primitives, rays, coarseness[0] * THIN_PROBES / samples)
     shapes["shrink"] = np.minimum(shapes["extent"] / wanted[:, None], 1.0)
     shapes["is_thin"] = (shapes["shrink"] < 1.0).any(axis=1)
+    shapes["is_thin"] |= _mesh_widths(primitives, shapes["extent"]) < wanted
     corner = instant["plane_corner"][0][[0, 0, 1, 1]]
     tiles = _tile_lists(shapes["window"] - corner, depth, exists, plane_size)
     sun = instant["sun"][0]
@@ -217,7 +223,7 @@ def build_world(
     instant["tile_columns"], instant["tile_rows"] = tiles.columns, tiles.rows
     instant["sun_cells"] = len(tiles.start)
     textures = {*np.unique(shapes["texture"]).tolist(), *ground_surfaces(environment)}
-    return World(
+    world = World(
         instant,
         shapes,
         _join_lists(tiles, sun_cells),
@@ -226,6 +232,7 @@ def build_world(
         puffs=np.zeros(0, dtype=PUFF_RECORD),
         glows=np.zeros(0, dtype=GLOW_RECORD),
     )
+    return world if surfaces is None else own_world(world, *surfaces[:4])
 
 
 def _describe_distortion(
@@ -266,6 +273,15 @@ def _wanted_widths(primitives: Primitives, rays: Rays, pixels: float) -> Float64
     distance = np.linalg.norm(primitives.to_world[:, :, 3] - rays.origin, axis=1)
     half = np.linalg.norm(primitives.to_world[:, :, :3], axis=1).max(axis=1)
     return np.asarray(pixels * np.linalg.norm(rays.right) * (distance + half) + 1e-12)
+
+
+def _mesh_widths(primitives: Primitives, half: Float64Array) -> Float64Array:
+    """[n] half-thickness of the thin parts of meshes, metres, from [n, 3] half extents."""
+    widths = np.full(len(half), np.inf)
+    if primitives.mesh is not None:
+        for index in np.flatnonzero(primitives.shape == Shape.MESH):
+            widths[index] = tree_of(primitives.mesh[index]).half_width * half[index].max()
+    return widths
 
 
 def _sun_plane(sun: Float64Array) -> Float64Array:

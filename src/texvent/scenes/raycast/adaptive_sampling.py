@@ -19,16 +19,20 @@ from texvent.scenes.raycast.acceleration import TILE
 from texvent.scenes.raycast.lamps.glow import add_glows
 from texvent.scenes.raycast.lamps.shadows import LIT_BITS, lamps_reach
 from texvent.scenes.raycast.puffs.compositing import through_puffs
-from texvent.scenes.raycast.records import World
+from texvent.scenes.raycast.records import OwnedWorld, World
 from texvent.scenes.raycast.shading.lighting import shade_hit
 from texvent.scenes.raycast.trace import (
+    CODES,
     ROOM,
     SKY,
     background_hit,
     first_hit,
     hit_again,
     ray_direction,
+    shadow_point,
+    shows_code,
     sun_reaches,
+    surface_code,
     surface_normal,
 )
 from texvent.scenes.raycast.uncounted import uncounted_world
@@ -61,6 +65,7 @@ def _lit_by(world: World, x: float, y: float, hit: tuple[float, int, int]) -> tu
         return 0, False
     point = along(triple(instant.origin), ray_direction(instant, x, y), depth)
     normal = surface_normal(world, number, face, point)
+    point = shadow_point(world, number, face, point)
     is_sunlit, thin = False, False
     if number != ROOM:
         is_sunlit, thin = sun_reaches(world, point, normal)
@@ -77,7 +82,7 @@ def _probe(world: World, x: float, y: float) -> int:
     """What is at image point (x, y), as one number: surface, face, and what it is lit by."""
     depth, number, face, _ = first_hit(world, x, y)
     lit = _lit_by(world, x, y, (depth, number, face))[0]
-    return ((number * 8 + face) << LIT_BITS) + lit
+    return (surface_code(world, number, face) << LIT_BITS) + lit
 
 
 @jit(error_model="numpy")
@@ -98,7 +103,7 @@ def _expose(world: World, light: Colour) -> Colour:
 @jit(error_model="numpy")
 def _shade(world: World, x: float, y: float, probe: int) -> Colour:
     """Exposed light at image point (x, y), where the surface `probe` is."""
-    number, lit = probe >> (LIT_BITS + 3), probe & ((1 << LIT_BITS) - 1)
+    number, lit = (probe >> LIT_BITS) // CODES, probe & ((1 << LIT_BITS) - 1)
     depth, face = math.inf, 0
     if number >= 0:
         depth, face = hit_again(world, x, y, number)
@@ -117,7 +122,7 @@ def _add_share(
 ) -> int:
     """Add a piece of a pixel, at `place`, to the surface it shows; the new number of surfaces.
 
-    `shares` is [k, 4]: probe, share, and share · x and share · y summed.
+    `shares` is [k, 6]: probe, share, share · x and share · y summed, and x and y of one piece.
     """
     group = 0
     while group < count and shares[group, 0] != probe:
@@ -127,6 +132,7 @@ def _add_share(
     elif group == count:
         shares[group, 0] = probe
         shares[group, 1] = shares[group, 2] = shares[group, 3] = 0.0
+        shares[group, 4], shares[group, 5] = place
         count += 1
     shares[group, 1] += share
     shares[group, 2] += share * place[0]
@@ -143,8 +149,11 @@ def _mean_light(world: World, shares: Float64Array, count: int) -> Colour:
     red, green, blue, total = 0.0, 0.0, 0.0, 0.0
     for group in range(count):
         share = shares[group, 1]
+        probe = int(shares[group, 0])
         x, y = shares[group, 2] / share, shares[group, 3] / share
-        light = _shade(world, x, y, int(shares[group, 0]))
+        if not shows_code(world, x, y, probe >> LIT_BITS):
+            x, y = shares[group, 4], shares[group, 5]
+        light = _shade(world, x, y, probe)
         red += share * light[0]
         green += share * light[1]
         blue += share * light[2]
@@ -189,7 +198,7 @@ def _find_edge(
         x, y = _between(ends[0], ends[1], middle)
         if by_surface:  # no need to know about shadow
             _, number, face, _ = first_hit(world, x, y)
-            is_same = number * 8 + face == probes[0] >> LIT_BITS
+            is_same = surface_code(world, number, face) == probes[0] >> LIT_BITS
         else:
             is_same = _probe(world, x, y) == probes[0]
         if is_same:
@@ -235,7 +244,7 @@ def _split_pixel(
 ) -> Colour:
     """Mean light over a pixel with an edge in it.
 
-    `probes` [k, k] is what is at the lattice points in and around the pixel, `shares` [any, 4]
+    `probes` [k, k] is what is at the lattice points in and around the pixel, `shares` [any, 6]
     scratch space. The pixel is cut into lines between lattice points, in the direction that
     crosses more edges; on each line the edge is found by bisection. So coverage grows
     continuously as an edge moves, where counted samples would jump.
@@ -295,7 +304,7 @@ def _probe_tile(
                 continue
             x, y = left + i / samples, top + j / samples
             depth, number, face, thin = first_hit(world, x, y)
-            surface = number * 8 + face
+            surface = surface_code(world, number, face)
             is_odd = (i + j) % 2 == 1
             if not thin and i > 0 and is_odd and probes[j, i - 1] >> LIT_BITS == surface:
                 probes[j, i] = probes[j, i - 1]
@@ -342,7 +351,7 @@ def _any_thin(probes: NDArray[np.int64], top: int, left: int, samples: int) -> b
 
 @jit(error_model="numpy")
 def render_rows(
-    owner: World,
+    owner: World | OwnedWorld,
     rows: tuple[int, int],
     samples: int,
     pattern: Float64Array,
@@ -363,7 +372,7 @@ def render_rows(
     width = image.shape[1]
     top, bottom = rows
     probes = np.empty((TILE * samples + 1, TILE * samples + 1), dtype=np.int64)
-    shares = np.empty((_MAX_SURFACES, 4), dtype=np.float64)
+    shares = np.empty((_MAX_SURFACES, 6), dtype=np.float64)
     around = np.empty((samples + 1, samples + 1), dtype=np.int64)
     for left in range(0, width, TILE):
         right = min(left + TILE, width)

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.scenes.image import MOST_LEVELS
 from texvent.scenes.lens import Lens
 from texvent.scenes.projection import Rays
 from texvent.scenes.scene import Environment, Float64Array, Ground, Primitives, Texture
@@ -70,6 +71,11 @@ INSTANT_RECORD = np.dtype(
         ("exposure", "f8"),
         ("room", "f8"),  # half the side of the room, metres
         ("time", "f8"),
+        # Addresses of the arrays of `OwnedWorld`.
+        ("nodes", "i8"),
+        ("triangles", "i8"),
+        ("images", "i8"),
+        ("texels", "i8"),
     ],
     align=True,
 )
@@ -97,10 +103,54 @@ SHAPE_RECORD = np.dtype(
         ("emission", "f8"),
         ("colour", "f8", 3),
         ("second_colour", "f8", 3),
+        ("root", "i8"),  # of a mesh: its first node
+        ("image", "i8"),  # what a face shows, index into `images`; -1 = nothing
+        ("image_face", "i8"),
+        ("image_fit", "f8", 2),  # face coordinates 0..1, from the middle, to those of the image
     ],
     align=True,
 )
 """One shape: geometry and material."""
+
+NODE_RECORD = np.dtype(
+    [
+        ("low", "f8", 3),
+        ("high", "f8", 3),
+        ("first", "i4"),  # of a leaf: its first triangle
+        ("count", "i4"),  # its triangles; 0 = it has two children, the first is the next node
+        ("second", "i4"),  # the second child
+        ("parent", "i4"),  # -1 at the root
+        ("axis", "i8"),  # along which the children are apart
+    ],
+    align=True,
+)
+"""One box of a mesh's tree."""
+
+TRIANGLE_RECORD = np.dtype(
+    [
+        ("corner", "f8", (3, 3)),
+        ("normal", "f4", (3, 3)),
+        ("colour", "f4", (3, 3)),
+        ("uv", "f4", (3, 2)),
+        ("image", "i4"),  # index into `images`, -1 = none
+        ("code", "i4"),  # tells it apart from other parts of its mesh, see meshes.tree.FACE_CODES
+    ],
+    align=True,
+)
+"""One triangle of a mesh."""
+
+IMAGE_RECORD = np.dtype(
+    [
+        ("width", "i8"),
+        ("height", "i8"),
+        ("levels", "i8"),
+        ("repeats", "i8"),
+        ("checks", "i8", 2),  # columns and rows of a checkerboard; 0 = it has texels
+        ("start", "i8", MOST_LEVELS),  # where each level begins in `texels`
+    ],
+    align=True,
+)
+"""One image of `scenes.image`."""
 
 
 PUFF_RECORD = np.dtype(
@@ -154,6 +204,58 @@ class World(NamedTuple):
     """[k] `PUFF_RECORD`."""
     glows: NDArray[Any]
     """[g] `GLOW_RECORD`."""
+
+
+class MeshWorld(NamedTuple):
+    """A `World` with meshes or images, which its instant has the addresses of.
+
+    A type of its own: kernels are compiled for each type, so that scenes without meshes do not pay
+    for them; and every array that kernels pass on makes them slower.
+    """
+
+    instant: NDArray[Any]
+    shapes: NDArray[Any]
+    lists: NDArray[np.int32]
+    lamps: Float64Array
+    tiles: NDArray[np.float32]
+    surfaces: Float64Array
+    puffs: NDArray[Any]
+    glows: NDArray[Any]
+
+
+class OwnedWorld(NamedTuple):
+    """A `MeshWorld` with its arrays, as kernels are given it."""
+
+    instant: NDArray[Any]
+    shapes: NDArray[Any]
+    lists: NDArray[np.int32]
+    lamps: Float64Array
+    tiles: NDArray[np.float32]
+    surfaces: Float64Array
+    puffs: NDArray[Any]
+    glows: NDArray[Any]
+    nodes: NDArray[Any]
+    """`NODE_RECORD`: the trees of all meshes, one after the other."""
+    triangles: NDArray[Any]
+    """`TRIANGLE_RECORD`: the triangles of all meshes."""
+    images: NDArray[Any]
+    """`IMAGE_RECORD`: what surfaces show."""
+    texels: NDArray[np.float32]
+    """Linear RGB of all images, level by level."""
+
+
+def own_world(
+    world: World,
+    nodes: NDArray[Any],
+    triangles: NDArray[Any],
+    images: NDArray[Any],
+    texels: NDArray[np.float32],
+) -> OwnedWorld:
+    """A world with its meshes and images; their addresses are written into its instant."""
+    instant = world.instant[0]
+    instant["nodes"], instant["triangles"] = nodes.ctypes.data, triangles.ctypes.data
+    instant["images"], instant["texels"] = images.ctypes.data, texels.ctypes.data
+    return OwnedWorld(*world, nodes, triangles, images, texels)
 
 
 def describe_lens(instant: NDArray[Any], lens: Lens, corner: tuple[float, float]) -> None:

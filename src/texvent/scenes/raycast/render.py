@@ -15,14 +15,14 @@ from texvent.scenes.projection import camera_rays
 from texvent.scenes.raycast.acceleration import TILE, build_world
 from texvent.scenes.raycast.adaptive_sampling import render_rows
 from texvent.scenes.raycast.lamps.light_up import light_up
-from texvent.scenes.raycast.records import World
+from texvent.scenes.raycast.records import OwnedWorld, World
 from texvent.scenes.scene import Float32Array, Float64Array, Scene
 from texvent.sensor import SensorSize
 
 
 def world_at(
     scene: Scene, time_s: float, size: SensorSize, *, shadows: bool = True, samples: int = 2
-) -> World:
+) -> World | OwnedWorld:
     """What the kernels read about one instant of a scene."""
     camera = scene.camera(time_s)
     rays = camera_rays(camera, size)
@@ -118,7 +118,7 @@ def render_light(
 
 
 def light_of_rows(
-    world: World,
+    world: World | OwnedWorld,
     rows: tuple[int, int],
     size: SensorSize,
     *,

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from texvent.runtime.threads import count_threads, run_parts, split
 from texvent.scenes.projection import place_in_image
-from texvent.scenes.raycast.records import World
+from texvent.scenes.raycast.meshes.motion import deforming_shapes, follow_triangles
+from texvent.scenes.raycast.records import OwnedWorld, World
 from texvent.scenes.raycast.render import world_at
 from texvent.scenes.raycast.trace import SKY
 from texvent.scenes.raycast.visibility import cast_points, see_from
@@ -22,7 +23,7 @@ from texvent.video import Motion
 class Seen:
     """What the pixel centres show at one instant."""
 
-    world: World
+    world: World | OwnedWorld
     """The scene at that instant."""
     points: Float64Array
     """[H · W, 2] image points, pixels."""
@@ -63,14 +64,14 @@ def frame_motion(
     )
 
 
-def cast_centres(world: World, size: SensorSize) -> Seen:
+def cast_centres(world: World | OwnedWorld, size: SensorSize) -> Seen:
     """What the pixel centres show."""
     row, column = np.indices(size.shape)
     points = np.stack([column.ravel() + 0.5, row.ravel() + 0.5], axis=1)
     return Seen(world, points, *cast(world, points))
 
 
-def cast(world: World, points: Float64Array) -> tuple[Float64Array, NDArray[np.int32]]:
+def cast(world: World | OwnedWorld, points: Float64Array) -> tuple[Float64Array, NDArray[np.int32]]:
     """Depth, m, and shape number of the first surface behind [k, 2] image points."""
     depth = np.empty(len(points), dtype=np.float64)
     number = np.empty(len(points), dtype=np.int32)
@@ -86,8 +87,8 @@ def move_to(
 
     Its depth is not positive where it is beside or behind the camera, and ± inf for the sky.
     """
-    start = scene.primitives(times_s[0]).to_world
-    stop = scene.primitives(times_s[1]).to_world
+    shapes = scene.primitives(times_s[0]), scene.primitives(times_s[1])
+    start, stop = shapes[0].to_world, shapes[1].to_world
     # What takes the surface of each shape from t0 to t1: one matrix and one shift.
     turn = stop[:, :, :3] @ np.linalg.inv(start[:, :, :3])
     shift = stop[:, :, 3] - (turn @ start[:, :, 3:])[..., 0]
@@ -105,6 +106,11 @@ def move_to(
         see_from(seen.world, *arrays, (turn, shift), pose, place[one])
 
     run_parts(work, split(len(place), count_threads()))
+    for number in deforming_shapes(*shapes):
+        own = np.flatnonzero(seen.number == number)
+        if len(own):
+            moved = follow_triangles(seen.world, seen.points[own], int(number), *shapes)
+            place[own] = (moved - after.position) @ after.rotation.T
     place = place_in_image(after, size, place)
     far = seen.number == SKY
     place[far, 2] = np.where(place[far, 2] > 0.0, np.inf, -np.inf)

@@ -8,7 +8,9 @@ from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import NEAR_M, SUN_CELLS, TILE
 from texvent.scenes.raycast.intersect import hit_shape, local_normal
 from texvent.scenes.raycast.lens_kernel import plane_point
+from texvent.scenes.raycast.meshes.hit import hit_mesh, mesh_normals, smooth_point
 from texvent.scenes.raycast.records import Record, World
+from texvent.scenes.raycast.uncounted import has_meshes, triangle_at
 from texvent.scenes.raycast.vectors import (
     Vector,
     along,
@@ -26,6 +28,9 @@ SKY = -2
 ROOM = -3
 NOTHING = -4
 """What a ray may meet besides shape number 0, 1, ...; NOTHING: the lens lets no ray through."""
+CODES = 64
+"""Numbers that `surface_code` keeps for each shape."""
+BOX, MESH = 1, 4
 _NO_GROUND = 10
 _FLOOR = 6
 SHADOW_BIAS_M = 2e-3
@@ -50,25 +55,48 @@ def plane_direction(rays: Record, x: float, y: float) -> Vector:
 
 
 @jit(error_model="numpy")
-def _hit_one(shape: Record, direction: Vector) -> tuple[float, int, Vector]:
-    """Where a camera ray meets one shape: depth, face, and the local direction."""
+def _hit_one(world: World, shape: Record, direction: Vector) -> tuple[float, int, Vector]:
+    """Where a camera ray meets one shape: depth, face (of a mesh: triangle), local direction."""
     d = turned(shape.inverse, direction)
-    t, face = hit_shape(shape.kind, triple(shape.eye), d, NEAR_M)
+    if has_meshes(world) and shape.kind == MESH:
+        t, face = hit_mesh(world, shape.root, triple(shape.eye), d, NEAR_M, False)
+    else:
+        t, face = hit_shape(shape.kind, triple(shape.eye), d, NEAR_M)
     return t, face, d
 
 
 @jit(error_model="numpy")
 def hit_again(world: World, x: float, y: float, number: int) -> tuple[float, int]:
     """(depth, face) where the ray through (x, y) meets shape `number`, as if it stood alone."""
-    t, face, _ = _hit_one(world.shapes[number], ray_direction(world.instant[0], x, y))
+    t, face, _ = _hit_one(world, world.shapes[number], ray_direction(world.instant[0], x, y))
     return t, face
 
 
 @jit(error_model="numpy")
 def widened_hit(shape: Record, o: Vector, d: Vector, near: float) -> float:
-    """Where the ray from `o` meets a thin shape, widened; inf if even that misses."""
+    """Where the ray from `o` meets a thin shape, widened; inf if even that misses.
+
+    Of a mesh with thin parts the box around it is met.
+    """
     s = triple(shape.shrink)
-    return hit_shape(shape.kind, times(o, s), times(d, s), near)[0]
+    kind = BOX if shape.kind == MESH else shape.kind
+    return hit_shape(kind, times(o, s), times(d, s), near)[0]
+
+
+@jit(error_model="numpy")
+def is_between(world: World, shape: Record, o: Vector, d: Vector, far: float) -> bool:
+    """Whether the ray `o + t · d`, in the shape's coordinates, meets it at 0 < t < `far`."""
+    if has_meshes(world) and shape.kind == MESH:
+        return hit_mesh(world, shape.root, o, d, 0.0, far == math.inf)[0] < far
+    return hit_shape(shape.kind, o, d, 0.0)[0] < far
+
+
+@jit(error_model="numpy")
+def surface_code(world: World, number: int, face: int) -> int:
+    """One number for what was hit, which differs between neighbouring surfaces."""
+    if has_meshes(world) and number >= 0 and world.shapes[number].kind == MESH:
+        face = triangle_at(world.instant[0].triangles, face).code
+    return number * CODES + face
 
 
 @jit(error_model="numpy")
@@ -78,6 +106,20 @@ def tile_at(instant: Record, x: float, y: float) -> int:
     column = min(max(int(x - corner[0]) // TILE, 0), instant.tile_columns - 1)
     row = min(max(int(y - corner[1]) // TILE, 0), instant.tile_rows - 1)
     return int(row * instant.tile_columns + column)
+
+
+@jit(error_model="numpy")
+def shows_code(world: World, x: float, y: float, code: int) -> bool:
+    """Whether a mesh shows the surface of a `surface_code` at (x, y).
+
+    In the middle between two legs of a chair it does not. Unit shapes are convex: the middle of
+    their pieces is on them.
+    """
+    number = code // CODES
+    if not has_meshes(world) or number < 0 or world.shapes[number].kind != MESH:
+        return True
+    depth, face = hit_again(world, x, y, number)
+    return depth < math.inf and surface_code(world, number, face) == code
 
 
 @jit(error_model="numpy")
@@ -103,7 +145,7 @@ def first_hit(world: World, x: float, y: float) -> tuple[float, int, int, bool]:
         window = shape.window
         if x < window[0] or x > window[1] or y < window[2] or y > window[3]:
             continue
-        t, face, d = _hit_one(shape, direction)
+        t, face, d = _hit_one(world, shape, direction)
         if t < best:
             best, found, best_face = t, int(lists[index]), face
         if shape.is_thin:
@@ -148,7 +190,7 @@ def _blocked_in_cell(world: World, cell: int, point: Vector, place: Vector) -> t
         if place[1] < window[2] or place[1] > window[3]:
             continue
         o, d = mapped(shape.inverse, point), triple(shape.sun)
-        if hit_shape(shape.kind, o, d, 0.0)[0] < math.inf:
+        if is_between(world, shape, o, d, math.inf):
             return True, thin
         if shape.is_thin and not thin:
             thin = widened_hit(shape, o, d, 0.0) < math.inf
@@ -181,6 +223,8 @@ def surface_normal(world: World, number: int, face: int, point: Vector) -> Vecto
         return (0.0, 0.0, 1.0)
     if number == ROOM:
         return on_axis(face, -1.0 if face == 2 or point[face] > 0.0 else 1.0)
+    if has_meshes(world) and world.shapes[number].kind == MESH:
+        return mesh_normals(world, number, face, point)[0]
     m = world.shapes[number].inverse
     x, y, z = local_normal(world.shapes[number].kind, face, mapped(m, point))
     normal = (
@@ -189,6 +233,14 @@ def surface_normal(world: World, number: int, face: int, point: Vector) -> Vecto
         m[0, 2] * x + m[1, 2] * y + m[2, 2] * z,
     )
     return scaled(normal, 1.0 / math.sqrt(dot(normal, normal) + 1e-300))
+
+
+@jit(error_model="numpy")
+def shadow_point(world: World, number: int, face: int, point: Vector) -> Vector:
+    """Where shadow rays of a surface start: at its point, for a mesh where it would be smooth."""
+    if has_meshes(world) and number >= 0 and world.shapes[number].kind == MESH:
+        return smooth_point(world, number, face, point)
+    return point
 
 
 @jit(error_model="numpy")

@@ -6,15 +6,24 @@ through several small functions per ray, and the counting would take most of the
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
+import numba
+import numpy as np
+from numba import types
 from numba.core import cgutils
 from numba.core.imputils import impl_ret_untracked
-from numba.extending import intrinsic
+from numba.extending import intrinsic, overload
 from numba.np.arrayobj import make_array
 
-from texvent.runtime.jit import jit
-from texvent.scenes.raycast.records import World
+from texvent.scenes.raycast.records import (
+    IMAGE_RECORD,
+    NODE_RECORD,
+    TRIANGLE_RECORD,
+    MeshWorld,
+    OwnedWorld,
+    World,
+)
 
 _null_of: Any = cgutils.get_null_value
 _array_view: Any = make_array
@@ -37,16 +46,73 @@ uncounted: Any = intrinsic(_build_view)
 """`uncounted(array)`, in a kernel: the same array without an owner, valid while its owner lives."""
 
 
-@jit(error_model="numpy")
-def uncounted_world(world: World) -> World:
-    """The same scene in arrays without an owner."""
-    return World(
-        uncounted(world.instant),
-        uncounted(world.shapes),
-        uncounted(world.lists),
-        uncounted(world.lamps),
-        uncounted(world.tiles),
-        uncounted(world.surfaces),
-        uncounted(world.puffs),
-        uncounted(world.glows),
-    )
+def uncounted_world(owner: World | OwnedWorld) -> World:
+    """In a kernel: the same scene in arrays without an owner, meshes and images by address."""
+    kind: Any = World if isinstance(owner, World) else MeshWorld
+    return cast(World, kind(*owner[: len(World._fields)]))
+
+
+@overload(uncounted_world, strict=False)
+def _overload_uncounted_world(owner: Any) -> Any:
+    kind = World if owner.instance_class is World else MeshWorld
+
+    def build(owner: Any) -> Any:
+        return kind(
+            uncounted(owner.instant),
+            uncounted(owner.shapes),
+            uncounted(owner.lists),
+            uncounted(owner.lamps),
+            uncounted(owner.tiles),
+            uncounted(owner.surfaces),
+            uncounted(owner.puffs),
+            uncounted(owner.glows),
+        )
+
+    return build
+
+
+def has_meshes(world: World) -> bool:
+    """In a kernel: whether the scene has meshes or images; known when it is compiled."""
+    return not isinstance(world, World)
+
+
+@overload(has_meshes, strict=False)
+def _overload_has_meshes(world: Any) -> Any:
+    if world.instance_class is World:
+        return lambda world: False
+    return lambda world: True
+
+
+def _record_reader(dtype: np.dtype[Any]) -> Any:
+    """`read(address, index)`, in a kernel: one record of an array at an address."""
+    kind: Any = numba.from_dtype(dtype)
+    size = dtype.itemsize
+
+    def build_reader(typing_context: Any, address: Any, index: Any) -> Any:
+        def build(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+            offset = builder.mul(arguments[1], arguments[1].type(size))
+            place = builder.add(arguments[0], offset)
+            return builder.inttoptr(place, context.get_value_type(kind))
+
+        return kind(types.int64, types.int64), build
+
+    return intrinsic(build_reader)
+
+
+node_at: Any = _record_reader(NODE_RECORD)
+triangle_at: Any = _record_reader(TRIANGLE_RECORD)
+image_at: Any = _record_reader(IMAGE_RECORD)
+
+
+def _build_texel(typing_context: Any, address: Any, index: Any) -> Any:
+    def build(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        value = context.get_value_type(types.float32)
+        place = builder.inttoptr(arguments[0], value.as_pointer())
+        texel = builder.load(builder.gep(place, [arguments[1]]))
+        return builder.fpext(texel, context.get_value_type(types.float64))
+
+    return types.float64(types.int64, types.int64), build
+
+
+texel_at: Any = intrinsic(_build_texel)
+"""`texel_at(address, index)`, in a kernel: one number of the texels."""

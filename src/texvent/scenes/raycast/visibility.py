@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.lens_kernel import plane_point
-from texvent.scenes.raycast.records import World
+from texvent.scenes.raycast.records import OwnedWorld, World
 from texvent.scenes.raycast.trace import (
     SKY,
     background_hit,
@@ -24,7 +24,7 @@ from texvent.scenes.scene import Float64Array
 
 @jit(error_model="numpy")
 def cast_points(
-    owner: World, points: Float64Array, depth: Float64Array, number: NDArray[np.int32]
+    owner: World | OwnedWorld, points: Float64Array, depth: Float64Array, number: NDArray[np.int32]
 ) -> None:
     """First surface behind each image point.
 
@@ -42,7 +42,7 @@ def cast_points(
 
 @jit(error_model="numpy")
 def see_from(
-    owner: World,
+    owner: World | OwnedWorld,
     points: Float64Array,
     depth: Float64Array,
     number: NDArray[np.int32],
@@ -85,7 +85,11 @@ def see_from(
 
 @jit(error_model="numpy")
 def count_unoccluded(
-    owner: World, instance: NDArray[np.int32], height: int, width: int, counts: NDArray[np.int64]
+    owner: World | OwnedWorld,
+    instance: NDArray[np.int32],
+    height: int,
+    width: int,
+    counts: NDArray[np.int64],
 ) -> None:
     """How many pixels each instance would cover if no other object stood before it.
 

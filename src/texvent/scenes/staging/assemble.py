@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.scene import Float64Array, Primitives
@@ -50,12 +52,36 @@ def assemble(placed: Sequence[PlacedModel]) -> Primitives:
         texture_scale=np.array([part.texture_scale for part in parts], dtype=np.float32),
         emission=np.array([part.emission for part in parts], dtype=np.float32),
         instance=np.repeat(np.array([model.instance for model in placed], dtype=np.int32), sizes),
+        mesh=_objects([part.mesh for part in parts]),
+        image=_objects([part.image for part in parts]),
+        image_face=np.array([part.picture_face for part in parts], dtype=np.int8),
     )
+
+
+def _objects(values: Sequence[object]) -> NDArray[np.object_] | None:
+    """The values as an array; None where all are None."""
+    if all(value is None for value in values):
+        return None
+    array = np.empty(len(values), dtype=np.object_)
+    array[:] = values
+    return array
 
 
 def join_primitives(groups: Sequence[Primitives]) -> Primitives:
     """The shapes of all groups, in order."""
     names = [field.name for field in fields(Primitives)]
-    return Primitives(
-        **{name: np.concatenate([getattr(group, name) for group in groups]) for name in names}
+    return Primitives(**{name: _join(groups, name) for name in names})
+
+
+def _join(groups: Sequence[Primitives], name: str) -> Any:
+    """One field of all groups; what only some groups have is empty for the others."""
+    values = [getattr(group, name) for group in groups]
+    if all(value is None for value in values):
+        return None
+    empty = -1 if name == "image_face" else None
+    return np.concatenate(
+        [
+            np.full(len(group.shape), empty) if value is None else value
+            for group, value in zip(groups, values, strict=True)
+        ]
     )

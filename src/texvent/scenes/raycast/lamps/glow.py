@@ -14,12 +14,11 @@ import numpy as np
 from texvent.runtime.jit import jit
 from texvent.scenes.projection import Rays
 from texvent.scenes.raycast.acceleration import NEAR_M
-from texvent.scenes.raycast.intersect import hit_shape
 from texvent.scenes.raycast.lamps.light import BEAM, DARK, FULL, GLOWS, LIGHT, RADIUS
 from texvent.scenes.raycast.lens_kernel import plane_point
 from texvent.scenes.raycast.puffs.compositing import optical_depth
-from texvent.scenes.raycast.records import GLOW_RECORD, Record, World
-from texvent.scenes.raycast.trace import background_hit, plane_direction, tile_at
+from texvent.scenes.raycast.records import GLOW_RECORD, OwnedWorld, Record, World
+from texvent.scenes.raycast.trace import background_hit, is_between, plane_direction, tile_at
 from texvent.scenes.raycast.uncounted import uncounted_world
 from texvent.scenes.raycast.vectors import triple, turned
 from texvent.scenes.scene import Colour, Float64Array
@@ -38,7 +37,7 @@ _PROBES = 48
 """Points of a lamp that are looked at to tell how much of it is hidden."""
 
 
-def see_glows(world: World, rays: Rays) -> np.ndarray:
+def see_glows(world: World | OwnedWorld, rays: Rays) -> np.ndarray:
     """The lamps that the camera sees as glows, [g] `GLOW_RECORD`, with what stands before them."""
     lamps = world.lamps[world.lamps[:, GLOWS] > 0.0]
     if not len(lamps):
@@ -103,7 +102,7 @@ def _disc(count: int) -> Float64Array:
 
 @jit(error_model="numpy")
 def see_lamps(
-    owner: World,
+    owner: World | OwnedWorld,
     lamps: Float64Array,
     places: Float64Array,
     depths: Float64Array,
@@ -149,7 +148,7 @@ def _is_hidden(world: World, x: float, y: float, depth: float) -> bool:
         if shape.depth >= depth:
             break
         d = turned(shape.inverse, direction)
-        if hit_shape(shape.kind, triple(shape.eye), d, NEAR_M)[0] < depth:
+        if is_between(world, shape, triple(shape.eye), d, depth):
             return True
     return False
 

@@ -9,18 +9,18 @@ from texvent.scenes.raycast.acceleration import Bins
 from texvent.scenes.raycast.lamps.bins import list_casters, order_lamps
 from texvent.scenes.raycast.lamps.glow import see_glows
 from texvent.scenes.raycast.puffs.bins import describe_puffs
-from texvent.scenes.raycast.records import World
+from texvent.scenes.raycast.records import OwnedWorld, World
 from texvent.scenes.scene import Environment, Primitives
 
 
 def light_up(
-    world: World,
+    world: World | OwnedWorld,
     primitives: Primitives,
     environment: Environment,
     rays: Rays,
     *,
     shadows: bool,
-) -> World:
+) -> World | OwnedWorld:
     """The world with its lamps, their shadows and glow, and its puffs.
 
     Args:

@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 
 from texvent.runtime.jit import jit
-from texvent.scenes.raycast.intersect import hit_shape
 from texvent.scenes.raycast.lamps.bins import LATITUDES, LONGITUDES, MOST_SHADOW_LAMPS
 from texvent.scenes.raycast.lamps.light import falloff, towards_lamp
 from texvent.scenes.raycast.records import World
-from texvent.scenes.raycast.trace import SHADOW_BIAS_M, widened_hit
+from texvent.scenes.raycast.trace import SHADOW_BIAS_M, is_between, widened_hit
 from texvent.scenes.raycast.vectors import Vector, along, dot, mapped, turned
 
 LIT_BITS = 1 + MOST_SHADOW_LAMPS
@@ -43,7 +42,7 @@ def _blocked(
             break
         shape = world.shapes[lists[index]]
         o, d = mapped(shape.inverse, point), turned(shape.inverse, towards)
-        if hit_shape(shape.kind, o, d, 0.0)[0] < near:
+        if is_between(world, shape, o, d, near):
             return True, thin
         if shape.is_thin and not thin:
             thin = widened_hit(shape, o, d, 0.0) < near

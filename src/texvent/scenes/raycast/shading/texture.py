@@ -6,9 +6,12 @@ import math
 
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.records import World
+from texvent.scenes.raycast.shading.image import mesh_colour, shown_colour
 from texvent.scenes.raycast.shading.material import patch_axes, sample_material
 from texvent.scenes.raycast.shading.sky import mix
 from texvent.scenes.raycast.shading.value_noise import square_wave
+from texvent.scenes.raycast.trace import MESH
+from texvent.scenes.raycast.uncounted import has_meshes
 from texvent.scenes.raycast.vectors import (
     Vector,
     along,
@@ -74,6 +77,11 @@ def surface_look(
     shape = world.shapes[number]
     plain = triple(shape.colour)
     normal, right, down = look
+    if has_meshes(world):
+        if shape.kind == MESH:
+            return mesh_colour(world, number, face, point, (right, down)), normal
+        if shape.image >= 0 and face == shape.image_face:
+            return shown_colour(world, number, face, point, (right, down)), normal
     if shape.texture == _PLAIN:
         return plain, normal
     m = shape.inverse

@@ -1,0 +1,292 @@
+"""Bounding-volume hierarchy of a mesh: built once, refitted where the mesh deforms (Numba).
+
+A binary tree in depth-first order: a node's first child follows it. Splits come from the surface
+area heuristic over bins (Wald, On fast Construction of SAH-based Bounding Volume Hierarchies,
+2007), so the same mesh always has the same tree.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+from weakref import WeakKeyDictionary
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.runtime.jit import jit
+from texvent.scenes.mesh import Float64Array, Mesh, triangle_normals
+from texvent.scenes.raycast.records import NODE_RECORD, TRIANGLE_RECORD
+
+LEAF_TRIANGLES = 4
+"""Triangles in a leaf at most, unless they cannot be told apart."""
+_BINS = 16
+_THIN_SHARE = 0.15
+"""A mesh counts as thin as this share of its surface: chair legs count, a door handle does not."""
+FACE_CODES = 60
+"""Numbers that tell neighbouring parts of a mesh apart: 6 directions, 10 patches."""
+_AXES = 6
+
+
+@dataclass(frozen=True, eq=False)
+class MeshTree:
+    """A mesh as the kernels read it, on its own: indices count from its first node or triangle."""
+
+    nodes: NDArray[Any]
+    """[k] `NODE_RECORD`."""
+    triangles: NDArray[Any]
+    """[t] `TRIANGLE_RECORD`, in the order of `order`."""
+    order: NDArray[np.int64]
+    """[t] number in the mesh of each triangle of the tree."""
+    half_width: float
+    """Half the thickness of what is thin in it, as a share of its largest half extent."""
+
+
+_TREES: WeakKeyDictionary[Mesh, MeshTree] = WeakKeyDictionary()
+
+
+def tree_of(mesh: Mesh) -> MeshTree:
+    """The tree of a mesh; that of a deformed one is its rest pose's, refitted."""
+    found = _TREES.get(mesh)
+    if found is None:
+        found = _build(mesh) if mesh.rest is None else _refit(mesh, tree_of(mesh.rest))
+        _TREES[mesh] = found
+    return found
+
+
+def _build(mesh: Mesh) -> MeshTree:
+    corners = np.ascontiguousarray(mesh.vertices[mesh.triangles])
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    nodes = np.zeros(2 * len(corners), dtype=NODE_RECORD)
+    order = np.arange(len(corners))
+    count = build_nodes(low, high, 0.5 * (low + high), order, nodes)
+    triangles = np.zeros(len(corners), dtype=TRIANGLE_RECORD)
+    patches = patch_numbers(mesh)
+    flat = triangle_normals(mesh.vertices, mesh.triangles)
+    axis = np.abs(flat).argmax(axis=1)
+    direction = 2 * axis + (np.take_along_axis(flat, axis[:, None], 1)[:, 0] > 0.0)
+    triangles["corner"] = corners[order]
+    triangles["normal"] = mesh.normals[order]
+    triangles["uv"], triangles["colour"] = mesh.uv[order], mesh.colours[order]
+    triangles["image"] = mesh.image[order]
+    triangles["code"] = (direction + _AXES * (patches % (FACE_CODES // _AXES)))[order]
+    return MeshTree(nodes[:count].copy(), triangles, order, _half_width(mesh, corners, patches))
+
+
+def _refit(mesh: Mesh, tree: MeshTree) -> MeshTree:
+    nodes, triangles = tree.nodes.copy(), tree.triangles.copy()
+    triangles["corner"] = mesh.vertices[mesh.triangles][tree.order]
+    triangles["normal"] = mesh.normals[tree.order]
+    refit_nodes(nodes, triangles["corner"])
+    return MeshTree(nodes, triangles, tree.order, tree.half_width)
+
+
+def _half_width(mesh: Mesh, unit_corners: Float64Array, patches: NDArray[np.int64]) -> float:
+    """Half thickness that `_THIN_SHARE` of the surface is at most, from its patches' boxes."""
+    corners = unit_corners * (np.array(mesh.half) / max(mesh.half))
+    count = int(patches.max()) + 1
+    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+    np.minimum.at(low, patches, corners.min(axis=1))
+    np.maximum.at(high, patches, corners.max(axis=1))
+    sides = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    area = np.bincount(patches, np.linalg.norm(sides, axis=1), count)
+    # Of the three extents the middle one: a patch is flat, a leg's side is long and narrow.
+    width = 0.5 * np.sort(high - low, axis=1)[:, 1]
+    rank = np.argsort(width, kind="stable")
+    share = np.cumsum(area[rank]) / area.sum()
+    return float(width[rank[np.searchsorted(share, _THIN_SHARE)]])
+
+
+def patch_numbers(mesh: Mesh) -> NDArray[np.int64]:
+    """[t] number of the smooth patch each triangle belongs to; creases and images bound patches."""
+    _, places = np.unique(mesh.vertices.round(9), axis=0, return_inverse=True)
+    corner = places.reshape(-1)[mesh.triangles]
+    start, stop = corner[:, [0, 1, 2]], corner[:, [1, 2, 0]]
+    swapped = start > stop
+    edges = np.stack([np.minimum(start, stop), np.maximum(start, stop)], axis=-1).reshape(-1, 2)
+    normals = np.stack([mesh.normals[:, [0, 1, 2]], mesh.normals[:, [1, 2, 0]]], axis=2)
+    normals = np.where(swapped[..., None, None], normals[:, :, ::-1], normals).reshape(-1, 6)
+    order = np.lexsort((edges[:, 1], edges[:, 0]))
+    first, second = order[:-1], order[1:]
+    owner = np.repeat(np.arange(len(corner)), 3)
+    joined = (edges[first] == edges[second]).all(axis=1)
+    joined &= np.abs(normals[first] - normals[second]).max(axis=1) < 1e-3
+    joined &= mesh.image[owner[first]] == mesh.image[owner[second]]
+    label = np.arange(len(corner))
+    join_labels(label, owner[first[joined]], owner[second[joined]])
+    return np.unique(label, return_inverse=True)[1].reshape(-1)
+
+
+@jit(error_model="numpy")
+def join_labels(
+    label: NDArray[np.int64], first: NDArray[np.int64], second: NDArray[np.int64]
+) -> None:
+    """Give joined items the same label: the least item of their group (union-find)."""
+    for index in range(len(first)):
+        a, b = first[index], second[index]
+        while label[a] != a:
+            label[a] = label[label[a]]
+            a = label[a]
+        while label[b] != b:
+            label[b] = label[label[b]]
+            b = label[b]
+        if a < b:
+            label[b] = a
+        else:
+            label[a] = b
+    for item in range(len(label)):
+        label[item] = label[label[item]]
+
+
+@jit(error_model="numpy")
+def _area(low: Float64Array, high: Float64Array) -> float:
+    x, y, z = high[0] - low[0], high[1] - low[1], high[2] - low[2]
+    return float(x * y + y * z + z * x)
+
+
+@jit(error_model="numpy")
+def _grow(low: Float64Array, high: Float64Array, by_low: Float64Array, by_high: Any) -> None:
+    for axis in range(3):
+        low[axis] = min(low[axis], by_low[axis])
+        high[axis] = max(high[axis], by_high[axis])
+
+
+@jit(error_model="numpy")
+def _bin_of(place: float, bottom: float, width: float) -> int:
+    return min(max(int((place - bottom) / width * _BINS), 0), _BINS - 1)
+
+
+@jit(error_model="numpy")
+def _fill_bins(
+    low: Float64Array,
+    high: Float64Array,
+    middle: Float64Array,
+    order: NDArray[np.int64],
+    extent: tuple[float, float],
+    count: NDArray[np.int64],
+    bounds: Float64Array,
+) -> None:
+    """Count the triangles whose middles are in each bin of an axis, and bound them.
+
+    `extent` is the lowest middle and how far the others reach from it.
+    """
+    count[:], bounds[0], bounds[1] = 0, math.inf, -math.inf
+    for item in order:
+        one = _bin_of(middle[item], extent[0], extent[1])
+        count[one] += 1
+        _grow(bounds[0, one], bounds[1, one], low[item], high[item])
+
+
+@jit(error_model="numpy")
+def _best_split(
+    low: Float64Array, high: Float64Array, middle: Float64Array, order: NDArray[np.int64]
+) -> tuple[int, int, float, float]:
+    """Axis and bin after which to split the triangles of `order`: (-1, ...) = all in one place.
+
+    Returns:
+        Axis, last bin of the first part, and lowest middle and extent along the axis.
+    """
+    best, best_axis, best_bin, best_bottom, best_width = math.inf, -1, 0, 0.0, 1.0
+    count = np.empty(_BINS, dtype=np.int64)
+    bounds = np.empty((2, _BINS, 3))
+    behind = np.empty(_BINS)
+    for axis in range(3):
+        bottom, top = math.inf, -math.inf
+        for item in order:
+            bottom, top = min(bottom, middle[item, axis]), max(top, middle[item, axis])
+        if not top > bottom:
+            continue
+        width = top - bottom
+        _fill_bins(low, high, middle[:, axis], order, (bottom, width), count, bounds)
+        around = np.empty((2, 3))
+        around[0], around[1] = math.inf, -math.inf
+        number = 0
+        for one in range(_BINS - 1, 0, -1):
+            number += count[one]
+            if count[one]:
+                _grow(around[0], around[1], bounds[0, one], bounds[1, one])
+            behind[one] = number * _area(around[0], around[1]) if number else 0.0
+        around[0], around[1] = math.inf, -math.inf
+        number = 0
+        for one in range(_BINS - 1):
+            number += count[one]
+            if count[one]:
+                _grow(around[0], around[1], bounds[0, one], bounds[1, one])
+            if number in (0, len(order)):
+                continue
+            cost = number * _area(around[0], around[1]) + behind[one + 1]
+            if cost < best:
+                best, best_axis, best_bin = cost, axis, one
+                best_bottom, best_width = bottom, width
+    return best_axis, best_bin, best_bottom, best_width
+
+
+@jit(error_model="numpy")
+def build_nodes(
+    low: Float64Array,
+    high: Float64Array,
+    middle: Float64Array,
+    order: NDArray[np.int64],
+    nodes: NDArray[Any],
+) -> int:
+    """Build the tree of boxes.
+
+    Args:
+        low: [t, 3] least corner of each triangle's box.
+        high: [t, 3] its greatest corner.
+        middle: [t, 3] its middle.
+        order: [t] triangle numbers; is sorted so that each leaf owns a range.
+        nodes: [at least 2 t - 1] `NODE_RECORD` is written.
+
+    Returns:
+        How many nodes there are.
+    """
+    pending = np.empty((128, 3), dtype=np.int64)  # first, one past the last, parent · 2 + is second
+    pending[0, 0], pending[0, 1], pending[0, 2] = 0, len(order), -1
+    height, count = 1, 0
+    while height:
+        height -= 1
+        start, stop, link = pending[height, 0], pending[height, 1], pending[height, 2]
+        node = nodes[count]
+        node.parent = link >> 1 if link >= 0 else -1
+        if link >= 0 and link & 1:
+            nodes[link >> 1].second = count
+        node.low[:], node.high[:] = math.inf, -math.inf
+        for item in order[start:stop]:
+            _grow(node.low, node.high, low[item], high[item])
+        part = order[start:stop]
+        axis, last, bottom, width = -1, 0, 0.0, 1.0
+        if stop - start > LEAF_TRIANGLES and height < len(pending) - 2:
+            axis, last, bottom, width = _best_split(low, high, middle, part)
+        if axis < 0:
+            node.first, node.count = start, stop - start
+        else:
+            node.axis = axis
+            is_second = np.empty(len(part), dtype=np.int64)
+            for index in range(len(part)):
+                is_second[index] = _bin_of(middle[part[index], axis], bottom, width) > last
+            sorted_part = part[np.argsort(is_second, kind="mergesort")]
+            part[:] = sorted_part
+            cut = stop - is_second.sum()
+            pending[height, 0], pending[height, 1], pending[height, 2] = cut, stop, 2 * count + 1
+            height += 1
+            pending[height, 0], pending[height, 1], pending[height, 2] = start, cut, 2 * count
+            height += 1
+        count += 1
+    return count
+
+
+@jit(error_model="numpy")
+def refit_nodes(nodes: NDArray[Any], corners: Float64Array) -> None:
+    """Fit the boxes of a tree to moved triangles, [t, 3, 3] corners in the tree's order."""
+    for number in range(len(nodes) - 1, -1, -1):
+        node = nodes[number]
+        node.low[:], node.high[:] = math.inf, -math.inf
+        for triangle in range(node.first, node.first + node.count):
+            for corner in range(3):
+                _grow(node.low, node.high, corners[triangle, corner], corners[triangle, corner])
+        if node.count == 0:
+            first, second = nodes[number + 1], nodes[node.second]
+            _grow(node.low, node.high, first.low, first.high)
+            _grow(node.low, node.high, second.low, second.high)

@@ -1,0 +1,224 @@
+"""Images on meshes and on faces of boxes, averaged over what one pixel covers (Numba)."""
+
+from __future__ import annotations
+
+import math
+
+from texvent.runtime.jit import jit
+from texvent.scenes.raycast.meshes.hit import slopes_of, weights_at
+from texvent.scenes.raycast.records import Record, World
+from texvent.scenes.raycast.shading.sky import mix
+from texvent.scenes.raycast.uncounted import image_at, texel_at, triangle_at
+from texvent.scenes.raycast.vectors import Vector, along, mapped, scaled, times, triple, turned
+from texvent.scenes.scene import Colour
+
+MOST_TAPS = 16
+"""Samples along the longer side of a pixel's footprint at most."""
+_CHECK_TAPS = 3
+_BLACK, _WHITE = 0.03, 0.85
+"""Reflectance of a printed board."""
+Footprint = tuple[tuple[float, float], tuple[float, float]]
+"""Change of (u, v) from one pixel to the next, to the right and down."""
+
+
+@jit(error_model="numpy")
+def mesh_colour(
+    world: World, number: int, face: int, point: Vector, patch: tuple[Vector, Vector]
+) -> Colour:
+    """Reflectance of a mesh at a world point: colour of its corners times its image.
+
+    Args:
+        world: the scene.
+        number: shape number.
+        face: triangle that was hit.
+        point: metres.
+        patch: what one pixel covers there, from `surface_patch`.
+    """
+    shape, triangle = world.shapes[number], triangle_at(world.instant[0].triangles, face)
+    a, b, c = weights_at(triangle, mapped(shape.inverse, point))
+    corners = triangle.colour
+    colour = (
+        a * corners[0, 0] + b * corners[1, 0] + c * corners[2, 0],
+        a * corners[0, 1] + b * corners[1, 1] + c * corners[2, 1],
+        a * corners[0, 2] + b * corners[1, 2] + c * corners[2, 2],
+    )
+    colour = times(colour, triple(shape.colour))
+    if triangle.image < 0:
+        return colour
+    uv = triangle.uv
+    u = a * uv[0, 0] + b * uv[1, 0] + c * uv[2, 0]
+    v = a * uv[0, 1] + b * uv[1, 1] + c * uv[2, 1]
+    right = slopes_of(triangle, turned(shape.inverse, patch[0]))
+    down = slopes_of(triangle, turned(shape.inverse, patch[1]))
+    u1, u2, v1, v2 = uv[1, 0] - uv[0, 0], uv[2, 0] - uv[0, 0], uv[1, 1] - uv[0, 1], 0.0
+    v2 = uv[2, 1] - uv[0, 1]
+    footprint = (
+        (right[0] * u1 + right[1] * u2, right[0] * v1 + right[1] * v2),
+        (down[0] * u1 + down[1] * u2, down[0] * v1 + down[1] * v2),
+    )
+    return times(colour, image_colour(world, triangle.image, u, v, footprint))
+
+
+@jit(error_model="numpy")
+def shown_colour(
+    world: World, number: int, face: int, point: Vector, patch: tuple[Vector, Vector]
+) -> Colour:
+    """Colour of a box's face that shows an image, its own colour around the image.
+
+    Arguments as for `mesh_colour`.
+    """
+    shape = world.shapes[number]
+    p = mapped(shape.inverse, point)
+    right, down = turned(shape.inverse, patch[0]), turned(shape.inverse, patch[1])
+    fit = shape.image_fit
+    u, v = _face_place(face, p)
+    u, v = 0.5 + 0.5 * u * fit[0], 0.5 + 0.5 * v * fit[1]
+    first, second = _face_place(face, right), _face_place(face, down)
+    footprint = (
+        (0.5 * fit[0] * first[0], 0.5 * fit[1] * first[1]),
+        (0.5 * fit[0] * second[0], 0.5 * fit[1] * second[1]),
+    )
+    colour = image_colour(world, shape.image, u, v, footprint)
+    share = _overlap(u, abs(footprint[0][0]) + abs(footprint[1][0]))
+    share *= _overlap(v, abs(footprint[0][1]) + abs(footprint[1][1]))
+    return mix(triple(shape.colour), colour, share)
+
+
+@jit(error_model="numpy")
+def _face_place(face: int, p: Vector) -> tuple[float, float]:
+    """The image's right and down, of a point or a vector in a box's coordinates, seen from outside.
+
+    Images stand upright on the sides; on the top and the bottom their foot is towards +x.
+    """
+    if face == 0:
+        return -p[1], -p[2]
+    if face == 1:
+        return p[1], -p[2]
+    if face == 2:
+        return p[0], -p[2]
+    if face == 3:
+        return -p[0], -p[2]
+    if face == 4:
+        return p[1], -p[0]
+    return p[1], p[0]
+
+
+@jit(error_model="numpy")
+def _overlap(place: float, width: float) -> float:
+    """Share of an interval of a width around a place that lies within 0..1."""
+    half = 0.5 * max(width, 1e-12)
+    inside = min(place + half, 1.0) - max(place - half, 0.0)
+    return min(max(inside / (2.0 * half), 0.0), 1.0)
+
+
+@jit(error_model="numpy")
+def image_colour(world: World, number: int, u: float, v: float, footprint: Footprint) -> Colour:
+    """Mean of an image over a pixel's footprint.
+
+    Trilinear samples of the mip pyramid, several along the longer side of the footprint: a simple
+    form of Feline (McCormack et al. 1999). A checkerboard is integrated exactly per tap.
+    """
+    image = image_at(world.instant[0].images, number)
+    if image.checks[0] > 0:
+        return _checks_colour(image, u, v, footprint)
+    width, height = float(image.width), float(image.height)
+    right = math.hypot(footprint[0][0] * width, footprint[0][1] * height)
+    down = math.hypot(footprint[1][0] * width, footprint[1][1] * height)
+    longest, shortest = max(right, down), min(right, down)
+    along_u, along_v = footprint[0] if right >= down else footprint[1]
+    across = max(shortest, longest / MOST_TAPS, 1e-6)
+    taps = min(max(math.ceil(longest / max(across, 1.0)), 1), MOST_TAPS)
+    level = max(math.log2(max(across, 1.0)), 0.0)
+    total = (0.0, 0.0, 0.0)
+    for tap in range(taps):
+        share = (tap + 0.5) / taps - 0.5
+        sample = _trilinear(world, image, u + share * along_u, v + share * along_v, level)
+        total = along(total, sample, 1.0)
+    return scaled(total, 1.0 / taps)
+
+
+@jit(error_model="numpy")
+def _trilinear(world: World, image: Record, u: float, v: float, level: float) -> Colour:
+    level = min(level, image.levels - 1.0)
+    low = int(level)
+    colour = _bilinear(world, image, u, v, low)
+    if level > low:
+        colour = mix(colour, _bilinear(world, image, u, v, low + 1), level - low)
+    return colour
+
+
+@jit(error_model="numpy")
+def _bilinear(world: World, image: Record, u: float, v: float, level: int) -> Colour:
+    width, height = max(image.width >> level, 1), max(image.height >> level, 1)
+    x, y = u * width - 0.5, v * height - 0.5
+    left, top = math.floor(x), math.floor(y)
+    share_x, share_y = x - left, y - top
+    i0, i1 = _texel(int(left), width, image.repeats), _texel(int(left) + 1, width, image.repeats)
+    j0, j1 = _texel(int(top), height, image.repeats), _texel(int(top) + 1, height, image.repeats)
+    start = image.start[level]
+    upper = mix(
+        _at(world, start + 3 * (j0 * width + i0)),
+        _at(world, start + 3 * (j0 * width + i1)),
+        share_x,
+    )
+    lower = mix(
+        _at(world, start + 3 * (j1 * width + i0)),
+        _at(world, start + 3 * (j1 * width + i1)),
+        share_x,
+    )
+    return mix(upper, lower, share_y)
+
+
+@jit(error_model="numpy")
+def _texel(index: int, count: int, repeats: int) -> int:
+    if repeats:
+        return index % count
+    return min(max(index, 0), count - 1)
+
+
+@jit(error_model="numpy")
+def _at(world: World, index: int) -> Colour:
+    texels = world.instant[0].texels
+    return texel_at(texels, index), texel_at(texels, index + 1), texel_at(texels, index + 2)
+
+
+@jit(error_model="numpy")
+def _checks_colour(image: Record, u: float, v: float, footprint: Footprint) -> Colour:
+    columns, rows = image.checks[0], image.checks[1]
+    across, tall = columns + 2.0, rows + 2.0
+    step_x = (abs(footprint[0][0]) + abs(footprint[1][0])) * across / _CHECK_TAPS
+    step_y = (abs(footprint[0][1]) + abs(footprint[1][1])) * tall / _CHECK_TAPS
+    black = 0.0
+    for j in range(_CHECK_TAPS):
+        for i in range(_CHECK_TAPS):
+            a, b = (i + 0.5) / _CHECK_TAPS - 0.5, (j + 0.5) / _CHECK_TAPS - 0.5
+            x = (u + a * footprint[0][0] + b * footprint[1][0]) * across - 1.0
+            y = (v + a * footprint[0][1] + b * footprint[1][1]) * tall - 1.0
+            inside = _mean_within(x, step_x, columns) * _mean_within(y, step_y, rows)
+            signs = _mean_sign(x, step_x, columns) * _mean_sign(y, step_y, rows)
+            black += 0.5 * (inside + signs)
+    share = black / _CHECK_TAPS**2
+    grey = _WHITE + share * (_BLACK - _WHITE)
+    return grey, grey, grey
+
+
+@jit(error_model="numpy")
+def _mean_within(place: float, width: float, count: int) -> float:
+    """Mean over an interval of what is 1 in 0..count and 0 beside it."""
+    half = 0.5 * max(width, 1e-9)
+    low, high = min(max(place - half, 0.0), count), min(max(place + half, 0.0), count)
+    return (high - low) / (2.0 * half)
+
+
+@jit(error_model="numpy")
+def _mean_sign(place: float, width: float, count: int) -> float:
+    """Mean over an interval of what is +1 and -1 by turns in 0..count, and 0 beside it."""
+    half = 0.5 * max(width, 1e-9)
+    low, high = min(max(place - half, 0.0), count), min(max(place + half, 0.0), count)
+    return (_sign_sum(high) - _sign_sum(low)) / (2.0 * half)
+
+
+@jit(error_model="numpy")
+def _sign_sum(place: float) -> float:
+    rest = place % 2.0
+    return min(rest, 2.0 - rest)

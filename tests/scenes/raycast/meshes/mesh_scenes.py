@@ -1,0 +1,100 @@
+"""Meshes and scenes with one mesh, made by hand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from tests.scenes.hand_scenes import day, look_at
+
+from texvent.scenes.image import SurfaceImage
+from texvent.scenes.mesh import Mesh, make_mesh, smooth_normals
+from texvent.scenes.scene import Camera, Environment, Float64Array, Primitives, Shape
+
+
+def ball(across: int = 24, down: int = 12) -> tuple[Float64Array, np.ndarray]:
+    """A sphere of radius 1: [v, 3] vertices and [t, 3] triangles."""
+    turn = 2.0 * np.pi * np.arange(across) / across
+    rise = np.pi * np.arange(1, down) / down
+    ring = np.stack(
+        [
+            np.outer(np.sin(rise), np.cos(turn)),
+            np.outer(np.sin(rise), np.sin(turn)),
+            np.outer(np.cos(rise), np.ones(across)),
+        ],
+        axis=-1,
+    ).reshape(-1, 3)
+    vertices = np.concatenate([ring, [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]])
+    top, bottom = len(vertices) - 2, len(vertices) - 1
+    triangles = []
+    for i in range(across):
+        j = (i + 1) % across
+        triangles.append((top, i, j))
+        for row in range(down - 2):
+            a, b = row * across + i, row * across + j
+            triangles += [(a, a + across, b + across), (a, b + across, b)]
+        last = (down - 2) * across
+        triangles.append((bottom, last + j, last + i))
+    return vertices, np.array(triangles)
+
+
+def ball_mesh(across: int = 24, down: int = 12) -> tuple[Mesh, Float64Array]:
+    vertices, triangles = ball(across, down)
+    return make_mesh(vertices, triangles, normals=smooth_normals(vertices, triangles))
+
+
+def sheet(image: SurfaceImage) -> tuple[Mesh, Float64Array]:
+    """A square in x and z, |x|, |z| <= 1, facing -y, that shows an image upright."""
+    vertices = np.array([[-1.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 0.0, -1.0], [-1.0, 0.0, -1.0]])
+    triangles = np.array([[0, 2, 1], [0, 3, 2]])
+    places = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]], dtype=np.float32)
+    return make_mesh(
+        vertices,
+        triangles,
+        colours=(1.0, 1.0, 1.0),
+        uv=places[triangles],
+        image=np.zeros(2, dtype=int),
+        images=[image],
+    )
+
+
+def front(time_s: float) -> Camera:
+    del time_s
+    return look_at((0.0, -4.0, 1.0), (0.0, 0.0, 1.0))
+
+
+@dataclass(frozen=True)
+class MeshScene:
+    """One mesh at a height of 1 m; `mesh_at` gives it and its map to coordinates around it."""
+
+    mesh_at: Callable[[float], tuple[Mesh, Float64Array]]
+    move: Callable[[float], Float64Array] = lambda time: np.eye(3, 4)
+    camera_at: Callable[[float], Camera] = front
+    surroundings: Environment = field(default_factory=day)
+    class_names: dict[int, str] = field(default_factory=lambda: {1: "thing"})
+
+    def primitives(self, time_s: float) -> Primitives:
+        mesh, to_body = self.mesh_at(time_s)
+        move = self.move(time_s)
+        to_world = move[:, :3] @ to_body
+        to_world[:, 3] += move[:, 3] + [0.0, 0.0, 1.0]
+        meshes = np.empty(1, dtype=object)
+        meshes[0] = mesh
+        return Primitives(
+            shape=np.array([Shape.MESH], dtype=np.int8),
+            to_world=to_world[None],
+            colour=np.ones((1, 3), dtype=np.float32),
+            second_colour=np.ones((1, 3), dtype=np.float32),
+            texture=np.zeros(1, dtype=np.int8),
+            texture_scale=np.ones(1, dtype=np.float32),
+            emission=np.zeros(1, dtype=np.float32),
+            instance=np.ones(1, dtype=np.int32),
+            mesh=meshes,
+        )
+
+    def camera(self, time_s: float) -> Camera:
+        return self.camera_at(time_s)
+
+    def environment(self, time_s: float) -> Environment:
+        return replace(self.surroundings, time_s=time_s)

@@ -1,0 +1,221 @@
+"""Meshes in the ray caster: hits against brute force, no cracks, exact motion, pictures."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tests.scenes.raycast.meshes.mesh_scenes import MeshScene, ball, ball_mesh
+
+from texvent.errors import InputError
+from texvent.runtime.jit import jit
+from texvent.scenes.mesh import deformed, make_mesh, recoloured, smooth_normals
+from texvent.scenes.raycast.ground_truth import ground_truth
+from texvent.scenes.raycast.meshes.hit import hit_mesh
+from texvent.scenes.raycast.meshes.reference import hit_mesh_reference
+from texvent.scenes.raycast.meshes.tree import tree_of
+from texvent.scenes.raycast.render import render, world_at
+from texvent.scenes.raycast.uncounted import uncounted_world
+from texvent.scenes.scene import Ground
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(48, 36)
+
+
+@jit(error_model="numpy")
+def cast_many(owner, origins, directions, any_hit, depth, triangle):
+    world = uncounted_world(owner)
+    for k in range(len(origins)):
+        o = (origins[k, 0], origins[k, 1], origins[k, 2])
+        d = (directions[k, 0], directions[k, 1], directions[k, 2])
+        depth[k], triangle[k] = hit_mesh(world, 0, o, d, 0.0, any_hit)
+
+
+def cast(mesh, origins, directions, *, any_hit=False):
+    world = world_at(MeshScene(lambda time: (mesh, np.eye(3, 4))), 0.0, SIZE)
+    depth, triangle = np.empty(len(origins)), np.empty(len(origins), dtype=np.int64)
+    cast_many(world, origins, directions, any_hit, depth, triangle)
+    return depth, triangle
+
+
+def soup(seed, count):
+    """Random triangles, some of them flat along an axis, some with a side in common."""
+    rng = np.random.default_rng(seed)
+    vertices = rng.normal(size=(count + 2, 3))
+    vertices[rng.random(vertices.shape) < 0.15] = 0.5
+    triangles = np.stack([rng.permutation(count + 2)[:3] for _ in range(count)])
+    return make_mesh(vertices, triangles)[0]
+
+
+def rays(seed, count):
+    rng = np.random.default_rng([seed, 1])
+    origins = rng.normal(size=(count, 3)) * 2.0
+    directions = rng.uniform(-1.0, 1.0, size=(count, 3)) - origins
+    directions[rng.random(directions.shape) < 0.05] = 0.0
+    directions[(directions == 0.0).all(axis=1)] = (0.0, 0.0, 1.0)
+    return origins, directions
+
+
+@given(seed=st.integers(0, 2**32 - 1), count=st.integers(1, 60))
+@settings(max_examples=40)
+def test_the_tree_finds_what_all_triangles_say(seed: int, count: int) -> None:
+    mesh = soup(seed, count)
+    origins, directions = rays(seed, 60)
+    depth, triangle = cast(mesh, origins, directions)
+    expected = hit_mesh_reference(mesh, origins, directions)
+    same = np.isclose(depth, expected, rtol=1e-9, atol=1e-12) | (depth == expected)
+    # A ray that grazes an edge may be decided either way by rounding.
+    nudged = hit_mesh_reference(mesh, origins + 1e-9, directions)
+    assert (same | (np.isinf(expected) != np.isinf(nudged)) | ~np.isclose(expected, nudged)).all()
+    assert ((triangle >= 0) & (triangle < len(mesh.triangles))).all()
+    blocked = cast(mesh, origins, directions, any_hit=True)[0]
+    np.testing.assert_array_equal(np.isinf(blocked), np.isinf(depth))
+
+
+def test_no_ray_slips_between_triangles_at_vertices_and_edges() -> None:
+    mesh, _ = ball_mesh(16, 8)
+    corners = mesh.vertices[mesh.triangles]
+    targets = np.concatenate(
+        [mesh.vertices, corners.mean(axis=1), 0.5 * (corners[:, 0] + corners[:, 1])]
+    )
+    targets = 0.98 * targets
+    for origin in ((0.0, 0.0, 0.0), (0.1, 0.2, -0.3)):
+        origins = np.broadcast_to(np.array(origin), targets.shape).copy()
+        depth, _ = cast(mesh, origins, targets - origins)
+        assert np.isfinite(depth).all()
+
+
+def test_tree_is_the_same_every_time_and_lists_every_triangle_once() -> None:
+    vertices, triangles = ball(40, 20)
+    first, second = (tree_of(make_mesh(vertices, triangles)[0]) for _ in range(2))
+    np.testing.assert_array_equal(first.nodes, second.nodes)
+    np.testing.assert_array_equal(np.sort(first.order), np.arange(len(triangles)))
+    assert first.nodes["count"].sum() == len(triangles)
+    assert first.nodes["count"].max() <= 4
+
+
+def test_a_flat_mesh_and_one_of_equal_triangles_have_trees() -> None:
+    corners = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+    mesh, to_body = make_mesh(corners, np.tile([0, 1, 2], (9, 1)))
+    assert len(tree_of(mesh).nodes) == 1
+    np.testing.assert_allclose(to_body[:2, 3], [0.5, 0.5])
+    assert to_body[2, 2] > 0.0
+
+
+def test_meshes_that_are_none_are_refused_in_one_line() -> None:
+    corners = np.eye(3)
+    with pytest.raises(InputError, match="no triangle has an area"):
+        make_mesh(corners, np.array([[0, 1, 1]]))
+    with pytest.raises(InputError, match="vertex outside"):
+        make_mesh(corners, np.array([[0, 1, 3]]))
+    with pytest.raises(InputError, match="not a finite number"):
+        make_mesh(corners * np.nan, np.array([[0, 1, 2]]))
+
+
+def test_a_fine_ball_of_triangles_looks_like_the_sphere() -> None:
+    mesh, to_body = ball_mesh(96, 48)
+    scene = MeshScene(lambda time: (mesh, to_body))
+    primitives = scene.primitives(0.0)
+
+    class Sphere(MeshScene):
+        def primitives(self, time_s):
+            from dataclasses import replace
+
+            return replace(
+                primitives,
+                shape=np.zeros(1, dtype=np.int8),
+                mesh=None,
+                colour=np.full((1, 3), 0.5, dtype=np.float32),
+            )
+
+    drawn = render(scene, 0.0, SensorSize(96, 72))
+    smooth = render(Sphere(scene.mesh_at), 0.0, SensorSize(96, 72))
+    difference = np.abs(drawn - smooth).max(axis=2)
+    assert np.median(difference[difference > 0.0]) < 1.0
+    assert np.quantile(difference, 0.995) < 8.0
+
+
+def turning(time_s):
+    c, s = math.cos(time_s), math.sin(time_s)
+    return np.array([[c, -s, 0.0, 0.2 * time_s], [s, c, 0.0, 0.0], [0.0, 0.0, 1.0, -0.1 * time_s]])
+
+
+def bulging(time_s):
+    """A ball whose upper half grows: a mesh that deforms."""
+    vertices, triangles = ball()
+    rest, _ = REST
+    grown = vertices * (1.0 + 0.3 * time_s * np.maximum(vertices[:, 2:], 0.0))
+    return deformed(rest, grown, smooth_normals(grown, triangles))
+
+
+REST = ball_mesh()
+
+
+def project(camera, points, size):
+    seen = (points - camera.position) @ camera.rotation.T
+    scale = camera.focal * size.width
+    return seen[:, :2] / seen[:, 2:] * scale + [0.5 * size.width, 0.5 * size.height]
+
+
+def test_flow_of_a_rigid_mesh_follows_its_triangles() -> None:
+    mesh, to_body = ball_mesh()
+    scene = MeshScene(lambda time: (mesh, to_body), turning)
+    check_flow(scene)
+
+
+def test_flow_of_a_deforming_mesh_follows_its_triangles() -> None:
+    scene = MeshScene(bulging, turning)
+    check_flow(scene)
+
+
+def first_triangle(corners, origin, direction):
+    """Triangle, weights and depth where a ray first meets [t, 3, 3] corners, by brute force."""
+    sides = np.stack([corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]], axis=2)
+    minus = np.broadcast_to(-direction[:, None], (len(corners), 3, 1))
+    matrices = np.concatenate([sides, minus], axis=2)
+    u, v, t = np.linalg.solve(matrices, (origin - corners[:, 0])[..., None])[..., 0].T
+    met = (u >= 0.0) & (v >= 0.0) & (u + v <= 1.0) & (t > 0.0)
+    one = int(np.argmin(np.where(met, t, np.inf)))
+    return one, np.array([1.0 - u[one] - v[one], u[one], v[one]]), t[one]
+
+
+def world_corners(scene, time):
+    primitives = scene.primitives(time)
+    to_world, mesh = primitives.to_world[0], primitives.mesh[0]
+    return (mesh.vertices @ to_world[:, :3].T + to_world[:, 3])[mesh.triangles]
+
+
+def check_flow(scene) -> None:
+    """Flow and depth of pixel centres, against points followed by brute force."""
+    size, times = SensorSize(40, 30), (0.0, 0.25)
+    truth = ground_truth(scene, *times, size)
+    start, stop = (world_corners(scene, time) for time in times)
+    camera = scene.camera(0.0)
+    rows, columns = np.nonzero(truth.instance == 1)
+    assert len(rows) > 100
+    for row, column in zip(rows[::7], columns[::7], strict=True):
+        place = (np.array([column, row]) + 0.5 - [20.0, 15.0]) / (camera.focal * size.width)
+        direction = np.array([*place, 1.0]) @ camera.rotation
+        one, weights, depth = first_triangle(start, camera.position, direction)
+        assert truth.depth[row, column] == pytest.approx(depth, rel=1e-6)
+        moved = project(scene.camera(times[1]), (weights @ stop[one])[None], size)[0]
+        expected = moved - [column + 0.5, row + 0.5]
+        np.testing.assert_allclose(truth.flow[row, column], expected, atol=1e-4)
+
+
+def test_a_recoloured_mesh_keeps_its_shading_and_takes_the_colour() -> None:
+    mesh, _ = ball_mesh()
+    red = recoloured(mesh, (0.6, 0.0, 0.0))
+    np.testing.assert_allclose(red.colours, np.broadcast_to([0.6, 0.0, 0.0], red.colours.shape))
+
+
+def test_shadow_of_a_mesh_falls_on_the_ground() -> None:
+    mesh, to_body = ball_mesh()
+    scene = MeshScene(lambda time: (mesh, to_body))
+    assert scene.environment(0.0).ground is Ground.GRASS
+    lit = render(scene, 0.0, SIZE, shadows=False)
+    shaded = render(scene, 0.0, SIZE)
+    assert (lit.mean(axis=2) - shaded.mean(axis=2) > 10.0).sum() > 20
