@@ -23,6 +23,8 @@ STAND = ObjectMotion("stand")
 _ACTED_BY_ANYTHING = frozenset({"push", "pull", "hit", "carry"})
 """What a vehicle or a machine does to another object."""
 _ACTED_BY_LIVING = frozenset({"hold", "carry", "push", "pull", "kick", "hit", "throw", "catch"})
+_TAKES_ANY_OBJECT = frozenset({"walk", "run", "swim", "dance", "jump", "move", "drive", "climb"})
+"""Motions that are the subject's own, whatever their object: "runs a race"."""
 _RIDEABLE = frozenset({"drive", "sail"})
 
 
@@ -59,7 +61,10 @@ class ActReader:
             return []
         if targets:
             return self._do_to(clause, verb, subjects, targets)
-        return self._move(clause, verb, subjects)
+        acts_on_unshown = any(one.kind in ("unknown", "part") for one in objects)
+        if not verb.kind or (acts_on_unshown and verb.kind not in _TAKES_ANY_OBJECT):
+            return []
+        return self._give(clause, verb, subjects)
 
     def undergo(self, clause: Clause, subjects: list[int], agents: list[int]) -> list[int]:
         """A passive: the subjects undergo the verb."""
@@ -85,7 +90,7 @@ class ActReader:
             return []
         word.is_used = negation.is_used = True
         for index in subjects:
-            self._add_motion(index, STAND, clause.order)
+            self._add_motion(index, STAND, clause)
         return subjects
 
     def _read_activity(
@@ -104,7 +109,7 @@ class ActReader:
         for word in words:
             word.is_used = True
         for index in hands or people:
-            self._add_motion(index, ObjectMotion(name), clause.order)
+            self._add_motion(index, ObjectMotion(name), clause)
         return hands or people
 
     def _is_act(self, clause: Clause, objects: Sequence[Referent]) -> bool:
@@ -179,31 +184,38 @@ class ActReader:
         kind = "fly" if self._draft.noun(targets[0]).motion == "fly" else "move"
         motion = ObjectMotion(kind, verb.direction, verb.pace)
         for index in targets:
-            self._add_motion(index, motion, clause.order)
+            self._add_motion(index, motion, clause)
         for index in subjects:
             if not self._draft.objects[index].motions:
                 self._draft.objects[index].motions.append(ObjectMotion("sit"))
         return targets
 
-    def _move(self, clause: Clause, verb: Verb, subjects: list[int]) -> list[int]:
-        if not verb.kind:
-            return []
-        return self._give(clause, verb, subjects)
-
     def _give(self, clause: Clause, verb: Verb, things: list[int]) -> list[int]:
         """Give a motion to the objects that can do it; the others are left as they are."""
         word = clause.verb_word
+        things = [self._mount(index) for index in things]
         able = [index for index in things if can_do(self._draft.noun(index), verb.kind)]
         if not able:
             return []
         motion = ObjectMotion(verb.kind, verb.direction, verb.pace, end_pace=verb.end_pace)
-        added = [index for index in able if self._add_motion(index, motion, clause.order)]
+        added = [index for index in able if self._add_motion(index, motion, clause)]
         word.is_used = bool(added)
         return added
 
-    def _add_motion(self, index: int, motion: ObjectMotion, order: str) -> bool:
+    def _mount(self, index: int) -> int:
+        """What the object rides, which moves in its place: "a man on a horse gallops"."""
+        for relation in self._draft.relations:
+            if relation.kind == "ride" and relation.subject == index:
+                return relation.targets[0]
+        return index
+
+    def _add_motion(self, index: int, motion: ObjectMotion, clause: Clause) -> bool:
         """Add a motion after those that the object has; False if it comes at the same time."""
-        motions = self._draft.objects[index].motions
+        item = self._draft.objects[index]
+        motions, order = item.motions, clause.order
+        if order == "same" and item.sentence < clause.sentence:
+            order = "after"
+        item.sentence = clause.sentence
         motion = self._name_kind(index, motion)
         if not motions:
             motions.append(motion)

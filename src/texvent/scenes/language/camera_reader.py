@@ -39,6 +39,7 @@ class CameraReader:
         self._framing: str | None = None
         self._target: int | None = None
         self._phase = 0
+        self._sentence = 0
 
     @property
     def has_moves(self) -> bool:
@@ -76,8 +77,10 @@ class CameraReader:
         phrases: Sequence[tuple[PrepPhrase, Referent]],
     ) -> None:
         """A clause whose subject is the camera, the viewer or a shot."""
-        if clause.order == "after" and self._moves:
+        is_later = clause.order == "after" or clause.sentence > self._sentence
+        if is_later and self._moves and clause.verb is not None:
             self._phase += 1
+        self._sentence = clause.sentence
         if clause.verb is not None:
             self._read_verb(clause, clause.verb, phrases)
         for group in clause.complements:

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from texvent.scenes.description import Effect, ObjectMotion
-from texvent.scenes.language.acts import WEARABLE, ActReader
-from texvent.scenes.language.capabilities import is_living, is_person
+from texvent.scenes.language.acts import BOARDS, WEARABLE, ActReader
+from texvent.scenes.language.capabilities import is_hand, is_living, is_person
+from texvent.scenes.language.defaults import HAS_RIDER
 from texvent.scenes.language.draft import Draft
 from texvent.scenes.language.lexicon import Role
 from texvent.scenes.language.referents import OWNERS, Referent, Referents, list_parts_shown
@@ -46,6 +47,7 @@ class Scope:
     """Whether the clause is about something that is not shown."""
     has_verb: bool = True
     is_verb_shown: bool = True
+    has_object: bool = False
 
 
 class CircumstanceReader:
@@ -169,14 +171,22 @@ class CircumstanceReader:
                 self.read_phrase(phrase, inner)
 
     def _read_owner(self, owner: NounGroup, owned: Referent) -> None:
-        found = self._referents.resolve(owner)
-        if not found.is_things or not owned.is_things:
+        """As in "a tourist's backpack"; "its mother's tail" shows no mother."""
+        if not owned.is_things:
             return
-        owners, things = found.things, owned.things
-        kind = "wear" if self._draft.noun(things[0]).name in WEARABLE else "with"
-        if is_living(self._draft.noun(owners[0])):
-            self._draft.relate(kind, owners if kind == "wear" else things,
-                               things if kind == "wear" else owners)  # fmt: skip
+        item = self._draft.noun(owned.things[0])
+        if is_hand(item):
+            mark_used(owner.words)
+            return
+        if is_living(item):
+            return
+        found = self._referents.resolve(owner)
+        if not found.is_things:
+            return
+        if item.name in WEARABLE:
+            self._draft.relate("wear", found.things, owned.things)
+        else:
+            self._draft.relate("with", owned.things, found.things)
 
     def _read_of(self, phrase: PrepPhrase, whole: Referent, scope: Scope) -> None:
         """As in "A bowl of soup", "a set of buckets", "the side of the road"."""
@@ -193,21 +203,49 @@ class CircumstanceReader:
             self._use_part(whole, parts)
 
     def _read_things(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> None:
+        """Relate the clause's subjects to the things; report what cannot be honoured."""
         word = phrase.preposition
-        if word.text == "with" and scope.subjects:
-            word.is_used = self._read_with(things, scope)
+        scope = self._narrow(phrase, things, scope)
+        if not scope.subjects:
+            word.is_used = not scope.is_lost
+            word.is_lost = scope.is_lost
             return
+        is_used = False
         kind = self._relation_kind(word, things)
-        if scope.has_verb and not scope.is_verb_shown and word.text not in _RESTING:
-            return
-        if kind is None or scope.is_lost or not scope.subjects:
-            if kind is not None and not scope.is_lost and not scope.subjects:
-                word.is_used = True
-            return
-        if kind in _JOURNEYS and scope.has_verb and not scope.movers:
-            return
-        subjects = scope.movers if kind in _PATHS and scope.movers else scope.subjects
-        word.is_used = self._draft.relate(kind, subjects, things)
+        if scope.has_verb and not scope.is_verb_shown:
+            is_used = self._rest(word, kind, things, scope)
+        elif word.text == "with":
+            is_used = self._read_with(things, scope)
+        elif kind is not None and not self._is_journey_of_none(kind, scope):
+            subjects = scope.movers if kind in _PATHS and scope.movers else scope.subjects
+            is_used = self._relate(kind, subjects, things)
+        word.is_used, word.is_lost = is_used, not is_used
+
+    def _narrow(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> Scope:
+        """As in "zebras with a giraffe behind them": the giraffe is behind them."""
+        if phrase.near is None or set(things) != set(scope.subjects) or not things:
+            return scope
+        near = self._referents.resolve(phrase.near)
+        if not near.is_things or set(near.things) == set(things):
+            return scope
+        return Scope(near.things, [], has_verb=False)
+
+    def _rest(self, word: Word, kind: str | None, things: list[int], scope: Scope) -> bool:
+        """What does something that is not shown is where it is, if it acts on nothing."""
+        if kind is None or word.text not in _RESTING or scope.has_object:
+            return False
+        return self._relate(kind, scope.subjects, things)
+
+    def _is_journey_of_none(self, kind: str, scope: Scope) -> bool:
+        return kind in _JOURNEYS and scope.has_verb and not scope.movers
+
+    def _relate(self, kind: str, subjects: Sequence[int], things: Sequence[int]) -> bool:
+        """Sitting "on" a bicycle is riding it."""
+        first = self._draft.objects[things[0]].noun
+        is_rider = bool(subjects) and is_person(self._draft.noun(subjects[0]))
+        if kind == "on" and is_rider and (first in HAS_RIDER or first in BOARDS):
+            kind = "ride"
+        return self._draft.relate(kind, subjects, things)
 
     def _relation_kind(self, word: Word, things: list[int]) -> str | None:
         if word.text == "in" and self._draft.noun(things[0]).name in WEARABLE:

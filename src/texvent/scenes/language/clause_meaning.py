@@ -246,6 +246,7 @@ class ClauseMeaning:
         is_lost = bool(subjects) and not things
         objects = [self._referents.resolve(group) for group in clause.objects]
         agents = self._find_agents(clause)
+        self._read_subject_phrases(clause, subjects, things)
         movers: list[int] = []
         if clause.verb is not None and things:
             if clause.is_passive and not (clause.is_participle and is_plain_past(clause.verb)):
@@ -254,21 +255,25 @@ class ClauseMeaning:
                 movers = self._acts.read(clause, things, objects)
         has_verb = clause.verb is not None
         is_shown = has_verb and clause.verb is not None and clause.verb.is_used
-        scope = Scope(things, movers, is_lost, has_verb, is_shown)
+        has_object = bool(clause.objects)
+        scope = Scope(things, movers, is_lost, has_verb, is_shown, has_object)
         if has_verb and not is_shown:
             self._lose_verb(things)
-        for one in subjects:
-            is_last_of_list = one is subjects[-1] and not has_verb and clause.is_listed
-            own = things if is_last_of_list else one.things
-            self._around.read_group_phrases(
-                one, Scope(one.things, [], not one.things, has_verb=False), own
-            )
         for one in objects:
             self._read_object(one, clause, scope)
         self._read_complements(clause, scope)
         self._around.read_adverbs(clause.adverbs, scope)
         self._around.read_phrases(clause.phrases, scope)
         self._keep_subjects(things)
+
+    def _read_subject_phrases(
+        self, clause: Clause, subjects: Sequence[Referent], things: Sequence[int]
+    ) -> None:
+        for one in subjects:
+            is_list = one is subjects[-1] and clause.verb is None and clause.is_listed
+            own = things if is_list else one.things
+            scope = Scope(one.things, [], not one.things, has_verb=False)
+            self._around.read_group_phrases(one, scope, own)
 
     def _lose_verb(self, things: Sequence[int]) -> None:
         """What does something that is not shown stands still: it does nothing else either."""

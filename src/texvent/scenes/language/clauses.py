@@ -141,7 +141,7 @@ class _ClauseReader:
         if word.text in _SENTENCE_SIGNS:
             self._close()
             self._sentence = len(self._clauses)
-            self._clause.order = "after" if any(c.verb for c in self._clauses) else "same"
+            self._clause.sentence += 1
             self._outer = []
             self._negation = None
             self._last = self._anchor = None
@@ -152,7 +152,7 @@ class _ClauseReader:
 
     def _close(self) -> None:
         self._clauses.append(self._clause)
-        self._clause = Clause(order=self._next_order)
+        self._clause = Clause(order=self._next_order, sentence=self._clause.sentence)
         self._next_order = "same"
         self._phrase = None
 
@@ -169,7 +169,8 @@ class _ClauseReader:
                 return
             if self._next_is_verb():
                 self._close()
-                self._clause = Clause(subjects=list(subjects), opener=word, order="after")
+                self._clause.subjects, self._clause.opener = list(subjects), word
+                self._clause.order = "after"
                 self._is_joined = ""
                 return
         self._outer = []

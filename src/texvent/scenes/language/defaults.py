@@ -9,7 +9,6 @@ from texvent.scenes.description import (
     STANDING,
     CameraMove,
     ObjectMotion,
-    Relation,
     SceneDescription,
     SceneObject,
 )
@@ -31,7 +30,7 @@ def complete_description(
     nothing moves, objects that can move do what they usually do; when none can, the camera pans.
     """
     description = _add_crew(description, nouns)
-    description = _limit_bodies(_move_to_background(_drop_riders(description), nouns))
+    description = _limit_bodies(_move_to_background(description, nouns))
     objects = tuple(
         _decide_motion(scene_object, nouns[scene_object.noun])
         for scene_object in description.objects
@@ -103,28 +102,6 @@ def _give_usual_work(description: SceneDescription) -> SceneDescription:
 
 HAS_RIDER = frozenset({"bicycle", "motorcycle"})
 """Nouns whose models come with the person who rides them."""
-
-
-def _drop_riders(description: SceneDescription) -> SceneDescription:
-    """Leave out the person on a bicycle, which has its rider already."""
-    riders = {
-        relation.subject
-        for relation in description.relations
-        if relation.kind == "on" and description.objects[relation.targets[0]].noun in HAS_RIDER
-    }
-    if not riders:
-        return description
-    kept = [index for index in range(len(description.objects)) if index not in riders]
-    new = {old: position for position, old in enumerate(kept)}
-    relations = tuple(
-        Relation(r.kind, new[r.subject], tuple(new[t] for t in r.targets))
-        for r in description.relations
-        if riders.isdisjoint({r.subject, *r.targets})
-    )
-    target = description.shot.target
-    shot = replace(description.shot, target=new.get(target) if target is not None else None)
-    objects = tuple(description.objects[index] for index in kept)
-    return replace(description, objects=objects, relations=relations, shot=shot)
 
 
 TOWERING = frozenset(

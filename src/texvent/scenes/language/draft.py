@@ -36,6 +36,8 @@ class PartialObject:
     blink_hz: float | None = None
     is_lit: bool | None = None
     motions: list[ObjectMotion] = field(default_factory=list)
+    sentence: int = 0
+    """Number of the sentence that said its last motion."""
     is_verb_lost: bool = False
     """Whether the prompt says that it does something that is not shown."""
 

@@ -109,7 +109,7 @@ def _account(
             continue
         elif word.is_used:
             shown[word.text] = None
-        elif word.pos is not Pos.PREPOSITION or word.text not in _SILENT_PREPOSITIONS:
+        elif word.is_lost or word.text not in _SILENT_PREPOSITIONS:
             for token in word.tokens:
                 is_article = len(word.tokens) > 1 and token.text in ("the", "a")
                 if not token.is_punctuation and not is_article:

@@ -72,6 +72,8 @@ class Clause:
     """The subordinator or relative that opened it."""
     order: str = "same"
     """When: at the "same" time as the clause before it, "after" it or "before" it."""
+    sentence: int = 0
+    """Number of its sentence."""
     is_participle: bool = False
     """Whether its verb is a participle without auxiliary."""
     is_relative: bool = False

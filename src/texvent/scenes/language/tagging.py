@@ -30,6 +30,8 @@ class Word:
     lemma: str
     is_used: bool = False
     """Whether it had an effect on the scene, or needs none."""
+    is_lost: bool = False
+    """Whether it says something of things that are shown, which the scene does not honour."""
     shown_as: str | None = None
     """What is shown in its place, if that is something else."""
     others: tuple[Meaning, ...] = field(default=())

@@ -59,7 +59,7 @@ FUNCTION_WORDS: dict[Pos, tuple[str, ...]] = {
     ),
     Pos.ADJECTIVE: (
         "beautiful", "cinematic", "nice", "photorealistic", "pretty", "realistic", "visible",
-        "detailed", "high quality", "high resolution",
+        "detailed", "high quality", "high resolution", "plain",
     ),
     Pos.ADVERB: (
         "also", "here", "how", "please", "quite", "really", "so", "too", "very", "why", "together",

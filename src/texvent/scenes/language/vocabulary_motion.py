@@ -30,7 +30,7 @@ _PLAIN_VERBS: dict[str, dict[float, tuple[str, ...]]] = {
         1.7: ("race", "speed"), 1.6: ("rush",), 1.8: ("zip",), 1.5: ("hurry",), 0.4: ("creep",),
         1.2: ("weave",),
     },
-    "drive": {0.8: ("cruise", "taxi")},
+    "drive": {0.8: ("cruise",), 0.6: ("plough", "plow"), 1.0: ("pedal", "cycle")},
     "run": {
         1.4: ("dash", "sprint"), 0.8: ("jog",), 1.3: ("gallop", "charge", "flee", "bound"),
         0.7: ("trot",),
@@ -93,6 +93,7 @@ VERBS: tuple[Verb, ...] = (
     Verb("turn around", "turn around"),
     Verb("u turn", "turn around"),
     Verb("zigzag", "zigzag"),
+    Verb("taxi", "roll"),
     Verb("drive", "drive", act="ride"),
     Verb("ride", "drive", act="ride"),
     Verb("steer", "drive", act="ride"),

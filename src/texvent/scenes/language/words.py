@@ -90,7 +90,13 @@ def list_readings(word: str) -> tuple[Reading, ...]:
             found.append(Reading(pos, lemma, decide_form(word, lemma)))
         else:
             found.append(Reading(pos, lemma, is_plural=pos is Pos.NOUN and word != lemma))
+    if word in _UNLISTED_NOUNS:
+        found.append(Reading(Pos.NOUN, word))
     return tuple(found)
+
+
+_UNLISTED_NOUNS = frozenset({"pan", "trunk"})
+"""Common nouns that the dictionary lacks."""
 
 
 def decide_form(word: str, lemma: str) -> VerbForm:
