@@ -112,6 +112,8 @@ class ClauseMeaning:
     def _read_camera(self, clause: Clause, subjects: Sequence[Referent]) -> None:
         others = [one for one in subjects if one.kind not in ("camera", "function")]
         for one in subjects:
+            if one in others:
+                continue
             if one.group.head is not None:
                 one.group.head.is_used = True
             self._camera.read_attributes(one.attributes)
@@ -126,7 +128,7 @@ class ClauseMeaning:
                 things = near.things if near is not None else []
                 self._around.read_phrase(phrase, Scope(things, [], has_verb=False))
             self._around.read_group_phrases(one, Scope([], []))
-        for one in (*objects, *others):
+        for one in (*objects, *self._split_scene(others)):
             self._read_extra(one)
         named = [*objects, *(one for _, one in phrases)]
         self._keep_subjects([index for one in named if one.is_things for index in one.things][:1])
