@@ -28,6 +28,7 @@ _NOUNS: tuple[str, ...] = (
     "street lamp", "suv", "table", "taxi", "tennis ball", "tiger", "tractor", "traffic cone",
     "traffic light", "train", "tree", "truck", "turtle", "ufo", "umbrella", "van", "whale",
     "wheel", "wind turbine", "windmill", "wolf", "woman", "worker", "zebra",
+    "hand",
 )  # fmt: skip
 CLASS_IDS: Mapping[str, int] = MappingProxyType(
     {name: number for number, name in enumerate(_NOUNS, start=1)}

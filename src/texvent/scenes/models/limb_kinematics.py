@@ -69,7 +69,8 @@ def bend(start: Point, end: Point, upper: float, lower: float, towards: Point) -
     span = (end[0] - start[0], end[1] - start[1], end[2] - start[2])
     reach = max(math.sqrt(sum(v * v for v in span)), 1e-9)
     along = (span[0] / reach, span[1] / reach, span[2] / reach)
-    near = min(max((reach * reach + upper * upper - lower * lower) / (2.0 * reach), 0.0), reach)
+    near = (reach * reach + upper * upper - lower * lower) / (2.0 * reach)
+    near = min(max(near, -upper), reach)
     out = math.sqrt(max(upper * upper - near * near, 0.0))
     slope = sum(a * t for a, t in zip(along, towards, strict=True))
     side = [t - slope * a for a, t in zip(along, towards, strict=True)]

@@ -27,7 +27,7 @@ from texvent.scenes.models.objects import (
     street,
     toys,
 )
-from texvent.scenes.models.people import person
+from texvent.scenes.models.people import hand, person
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.vehicles import aircraft, boats, cars, construction, cycles, heavy
 
@@ -39,6 +39,7 @@ _FAMILIES: tuple[tuple[Noun, ...], ...] = (
     boats.NOUNS,
     construction.NOUNS,
     person.NOUNS,
+    hand.NOUNS,
     quadrupeds.NOUNS,
     walking_birds.NOUNS,
     flying_birds.NOUNS,

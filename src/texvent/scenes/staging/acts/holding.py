@@ -10,7 +10,6 @@ from types import MappingProxyType
 import numpy as np
 
 from texvent.scenes.models.people.activities import PERSON_NOUNS
-from texvent.scenes.models.people.posture import UPPER_ARM
 from texvent.scenes.models.protocol import Model
 from texvent.scenes.models.shapes import Affine
 from texvent.scenes.scene import Float64Array
@@ -183,11 +182,17 @@ def shoulder_height(actor: Actor) -> float:
     return 1.38 * size_of(actor.model) if is_person(actor) else 0.75 * actor.model.height
 
 
-def arm_reach(actor: Actor) -> float:
-    """How far ahead of its middle a pusher's hands are, m."""
-    if is_person(actor):
-        return size_of(actor.model) * (UPPER_ARM + 0.27)
-    return 0.5 * actor.model.length
+def arm_reach(actor: Actor, height_m: float) -> float:
+    """How far ahead of its middle a pusher's hands are at that height, m."""
+    if not is_person(actor):
+        return 0.5 * actor.model.length
+    size = size_of(actor.model)
+    drop = 1.34 - height_m / size
+    return size * (0.10 + math.sqrt(max(_STRETCH**2 - drop**2, 0.04)))
+
+
+_STRETCH = 0.60
+"""From the shoulder to the palm of an arm that is nearly straight, m."""
 
 
 def offset_of_worn(place: str, thing: Actor) -> Float64Array:

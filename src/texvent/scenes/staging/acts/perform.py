@@ -198,26 +198,26 @@ def _move_along(kind: str, subject: Actor, target: Actor) -> tuple[Actor, Actor]
     size, model = size_of(subject.model), target.model
     floor = subject.trajectory.at(0.0).position[2]
     lift = 0.5 * model.height if target.is_centred else 0.0
-    tether = target.tether
     grips: tuple[tuple[str, Vector], ...]
     if kind == "push":
-        reach = arm_reach(subject)
-        along = reach + 0.02 + 0.5 * model.length
         height = min(0.85 * model.height, 0.95 * shoulder_height(subject))
-        height = max(height, 0.55 * shoulder_height(subject))
+        height = max(height, 0.64 * shoulder_height(subject))
+        reach = arm_reach(subject, height)
+        along = reach + 0.02 + 0.5 * model.length
         side = min(0.16 * size, 0.45 * model.width)
         grips = (("left hand", (reach, side, height)), ("right hand", (reach, -side, height)))
     else:
         along = -(0.9 * size + 0.5 * model.length)
-        hand: Vector = (-0.34 * size, -0.20 * size, 0.92 * size)
-        grips = (("right hand", hand),)
-        tether = Tether(subject, "right hand", (0.5 * model.length, 0.0, 0.5 * model.height), 0.012)
-    activity = f"{kind} along" if is_person(subject) else None
-    path = Performed(subject.trajectory, activity, grips if is_person(subject) else ())
-    subject = replace(subject, trajectory=path)
+        grips = (("right hand", (-0.34 * size, -0.20 * size, 0.92 * size)),)
+    if is_person(subject):
+        path = Performed(subject.trajectory, f"{kind} along", grips)
+        subject = replace(subject, trajectory=path)
     moved = MovedAlong(subject.trajectory, along, floor + lift)
-    target = replace(target, trajectory=moved, lead_m=subject.lead_m, tether=tether)
-    return subject, replace(target, is_mover=subject.is_mover)
+    target = replace(target, trajectory=moved, lead_m=subject.lead_m, is_mover=subject.is_mover)
+    if kind == "pull":
+        end = (0.5 * model.length, 0.0, 0.5 * model.height - lift)
+        target = replace(target, tether=Tether(subject, "right hand", end, 0.012))
+    return subject, target
 
 
 def _wear(subject: Actor, target: Actor) -> tuple[Actor, Actor]:

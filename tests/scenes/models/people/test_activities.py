@@ -1,0 +1,224 @@
+"""What people do: continuous, periodic, feet planted, hands that meet; the words for it."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.scenes.models.people import person, posture
+from texvent.scenes.models.people.activities import (
+    ACTIVITIES,
+    DVS_GESTURES,
+    HAND_GESTURES,
+    PERSON_NOUNS,
+    TRAVELLING,
+)
+from texvent.scenes.models.people.gestures import GESTURES, PALM_HALF
+from texvent.scenes.models.people.hand import build_hand
+from texvent.scenes.models.people.hand_gestures import HAND_MOVEMENTS
+from texvent.scenes.models.people.outfit import ADULT
+from texvent.scenes.models.people.posture import LOWER_ARM, SHIN, THIGH, UPPER_ARM, Skeleton
+from texvent.scenes.models.people.props import PROPS
+from texvent.scenes.models.people.sports import KICK_FOOT, SINGLE_ACTS
+from texvent.scenes.models.people.timing import ease, follow_keys, pulse
+from texvent.scenes.models.protocol import Pose
+
+STEP_S = 1e-3
+MOVING = sorted(set(ACTIVITIES) - {"walk", "run", "jump"})
+
+
+def joints(activity: str, time_s: float, speed: float = 0.0) -> Skeleton:
+    return person.pose_joints(Pose(time_s, speed * time_s, speed, activity))
+
+
+def points(body: Skeleton) -> np.ndarray:
+    limbs = (body.shoulders, body.elbows, body.hands, body.hips, body.knees, body.ankles)
+    return np.array([point for pair in limbs for point in pair])
+
+
+def test_every_activity_has_a_posture_and_every_word_one_activity() -> None:
+    stepping = {"walk", "run", "crawl", "jump"}
+    assert set(ACTIVITIES) - set(person.MOVEMENTS) == stepping
+    assert set(HAND_GESTURES) == set(HAND_MOVEMENTS)
+    assert set(PROPS) <= set(ACTIVITIES)
+    assert {"walk", "run", "crawl", "swim", "surf"} <= TRAVELLING
+    owner: dict[str, str] = {}
+    for name, activity in ACTIVITIES.items():
+        for word in activity.words:
+            assert owner.setdefault(word, name) == name, word
+
+
+def test_the_eleven_classes_of_dvs_gesture_are_there() -> None:
+    assert len(DVS_GESTURES) == 11
+    assert set(DVS_GESTURES.values()) <= set(GESTURES)
+
+
+@pytest.mark.parametrize("activity", MOVING)
+def test_a_millisecond_moves_no_joint_far(activity: str) -> None:
+    for time_s in np.arange(0.0, 5.0, 0.113):
+        before, after = joints(activity, float(time_s)), joints(activity, float(time_s) + STEP_S)
+        # A thrown hand moves at 12 m/s, the foot of a kick at 10 m/s.
+        assert np.abs(points(after) - points(before)).max() < 0.02, time_s
+
+
+@pytest.mark.parametrize("activity", MOVING)
+def test_bones_keep_their_length(activity: str) -> None:
+    for time_s in (0.1, 0.43, 0.9, 1.7):
+        body = joints(activity, time_s)
+        for side in (0, 1):
+            upper = math.dist(body.shoulders[side], body.elbows[side])
+            lower = math.dist(body.elbows[side], body.hands[side])
+            assert upper + lower == pytest.approx(UPPER_ARM + LOWER_ARM, abs=1e-6)
+            thigh = math.dist(body.hips[side], body.knees[side])
+            shin = math.dist(body.knees[side], body.ankles[side])
+            assert thigh + shin == pytest.approx(THIGH + SHIN, abs=1e-6)
+
+
+@pytest.mark.parametrize("activity", MOVING)
+def test_nothing_reaches_into_the_ground(activity: str) -> None:
+    model = person.build_person(ADULT, colour=None, scale=1.0, seed=0)
+    for time_s in (0.0, 0.3, 0.8, 1.4):
+        body = joints(activity, time_s)
+        low = -0.6 if activity == "swim" else -0.01
+        assert points(body)[:, 2].min() > low
+        count = len(model.parts(Pose(time_s, 0.0, 0.0, activity)))
+        assert count == len(model.parts(Pose(0.0, 0.0, 0.0, "stand")))
+
+
+@pytest.mark.parametrize(
+    ("activity", "period_s"),
+    [("clap", 1.0), ("wave", 1.25), ("jumping jack", 1.0), ("arm roll", 1 / 1.3), ("bow", 2.4),
+     ("right arm clockwise", 1 / 0.9), ("air drums", 2.0), ("push-up", 1 / 0.7), ("dance", 2.0)],
+)  # fmt: skip
+@given(time_s=st.floats(0.0, 3.0))
+def test_gestures_repeat(activity: str, period_s: float, time_s: float) -> None:
+    once, again = joints(activity, time_s), joints(activity, time_s + period_s)
+    np.testing.assert_allclose(points(once), points(again), atol=1e-9)
+
+
+def test_palms_meet_in_a_clap_twice_a_second() -> None:
+    gaps = []
+    for time_s in np.arange(0.0, 1.0, 0.01):
+        left, right = joints("clap", float(time_s)).hands
+        gaps.append(math.dist(left, right) - 2.0 * PALM_HALF)
+    assert min(gaps) == pytest.approx(0.0, abs=1e-6)
+    assert max(gaps) > 0.4
+    assert sum(gap < 1e-9 for gap in gaps) == 2
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+@pytest.mark.parametrize(("sense", "sign"), [("clockwise", 1.0), ("counter-clockwise", -1.0)])
+def test_arm_circles_turn_as_the_viewer_sees_them(side: str, sense: str, sign: float) -> None:
+    index = 0 if side == "left" else 1
+    hands = [joints(f"{side} arm {sense}", t).hands[index] for t in np.arange(0.0, 1.0, 0.05)]
+    # Who faces the person sees body y to the right and z up; clockwise angles fall.
+    middle = np.mean(hands, axis=0)
+    angles = np.unwrap([math.atan2(z - middle[2], y - middle[1]) for _, y, z in hands])
+    assert sign * (angles[-1] - angles[0]) < -4.0
+
+
+@pytest.mark.parametrize("activity", ["squat", "push-up", "lunge", "box", "dance", "dig", "lift"])
+def test_feet_do_not_slide_in_place(activity: str) -> None:
+    ankles = np.array([joints(activity, t).ankles for t in np.arange(0.0, 3.0, 0.05)])
+    assert np.ptp(ankles[:, :, :2], axis=0).max() < 1e-6
+
+
+@given(time_s=st.floats(0.0, 20.0))
+def test_hands_and_knees_of_a_crawler_do_not_slide(time_s: float) -> None:
+    speed = 0.4
+    before, after = joints("crawl", time_s, speed), joints("crawl", time_s + STEP_S, speed)
+    for pair, again, ground in ((before.hands, after.hands, 0.05),
+                                (before.ankles, after.ankles, 0.09)):  # fmt: skip
+        for a, b in zip(pair, again, strict=True):
+            if a[2] == pytest.approx(ground, abs=1e-9) == b[2]:
+                assert b[0] - a[0] == pytest.approx(-speed * STEP_S, abs=1e-9)
+
+
+def test_a_gesture_while_walking_leaves_the_legs_to_the_gait() -> None:
+    walking, waving = joints("move", 1.3, 1.4), joints("wave", 1.3, 1.4)
+    assert walking.ankles == waving.ankles
+    assert walking.hands[1] != waving.hands[1]
+
+
+@pytest.mark.parametrize("act", sorted(SINGLE_ACTS))
+def test_a_single_act_begins_and_ends_at_rest(act: str) -> None:
+    for time_s in (-3.0, 3.0):
+        still = SINGLE_ACTS[act](time_s), SINGLE_ACTS[act](time_s + 0.1)
+        base = person.step(person.WALK, 0.0, 0.0)
+        a, b = (posture.solve(posture.fill(each, base)) for each in still)
+        np.testing.assert_allclose(points(a), points(b), atol=1e-6)
+
+
+def test_the_foot_is_at_the_ball_at_the_instant_of_the_kick() -> None:
+    body = person.pose_joints(Pose(0.0, 0.0, 0.0, "kick", act_s=0.0))
+    assert body.ankles[1] == pytest.approx(KICK_FOOT, abs=1e-6)
+
+
+def test_grips_hold_hands_and_feet() -> None:
+    hand, foot = (0.35, -0.15, 1.0), (0.1, 0.12, 0.3)
+    grips = (("right hand", hand), ("left foot", foot))
+    body = person.pose_joints(Pose(0.4, 0.0, 0.0, "stand", grips=grips))
+    assert body.hands[1] == pytest.approx(hand)
+    assert body.ankles[0] == pytest.approx(foot)
+
+
+def test_a_hand_out_of_reach_is_drawn_at_the_end_of_the_arm() -> None:
+    body = person.pose_joints(Pose(0.0, 0.0, 0.0, "stand", grips=(("left hand", (5.0, 0.2, 1.3)),)))
+    reach = math.dist(body.shoulders[0], body.hands[0])
+    assert reach == pytest.approx(UPPER_ARM + LOWER_ARM)
+
+
+def test_places_of_a_body_have_upright_right_handed_axes() -> None:
+    model = person.build_person(ADULT, colour=None, scale=1.3, seed=0)
+    names = ("right hand", "left hand", "hands", "crown", "face", "mouth", "neck", "torso", "back",
+             "chest", "seat", "ground", "right foot", "left foot")  # fmt: skip
+    for name in names:
+        for activity in ("stand", "play guitar", "push-up"):
+            axes = model.anchor(name, Pose(0.3, 0.0, 0.0, activity))
+            assert axes is not None
+            np.testing.assert_allclose(axes[:, :3] @ axes[:, :3].T, np.eye(3), atol=1e-9)
+            assert np.linalg.det(axes[:, :3]) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("gesture", sorted(HAND_MOVEMENTS))
+def test_a_hand_moves_smoothly_and_keeps_its_parts(gesture: str) -> None:
+    model = build_hand(colour=None, scale=1.0, seed=0)
+    count = len(model.parts(Pose(0.0, 0.0, 0.0, "stand")))
+    for time_s in np.arange(0.0, 4.0, 0.37):
+        before = model.parts(Pose(float(time_s), 0.0, 0.0, gesture))
+        after = model.parts(Pose(float(time_s) + STEP_S, 0.0, 0.0, gesture))
+        assert len(before) == count
+        for a, b in zip(before, after, strict=True):
+            assert np.abs(b.to_body[:, 3] - a.to_body[:, 3]).max() < 5e-3
+
+
+def test_all_fingers_bend_into_the_fist_and_the_thumb_points_up() -> None:
+    fist = HAND_MOVEMENTS["fist"](1.2)
+    assert min(fist.bent) > 0.85
+    thumb = HAND_MOVEMENTS["thumbs up"](0.0)
+    assert thumb.bent[0] == 0.0
+    assert thumb.roll == pytest.approx(-0.5 * math.pi)
+
+
+@given(time_s=st.floats(-2.0, 5.0))
+def test_keys_are_met_and_slopes_continuous(time_s: float) -> None:
+    keys = [(0.0, (0.0, 1.0)), (0.5, (2.0, 0.0)), (1.5, (-1.0, 3.0))]
+    for when, values in keys:
+        assert follow_keys(when, keys) == pytest.approx(values)
+        assert follow_keys(when + 4.0, keys, 2.0) == pytest.approx(values, abs=1e-9)
+    h = 1e-5
+    left = np.subtract(follow_keys(time_s, keys, 2.0), follow_keys(time_s - h, keys, 2.0)) / h
+    right = np.subtract(follow_keys(time_s + h, keys, 2.0), follow_keys(time_s, keys, 2.0)) / h
+    np.testing.assert_allclose(left, right, atol=5e-3)
+
+
+def test_ease_and_pulse_by_hand() -> None:
+    assert (ease(0.0, 1.0, 2.0), ease(1.5, 1.0, 2.0), ease(3.0, 1.0, 2.0)) == (0.0, 0.5, 1.0)
+    assert pulse(0.25, 2.0) == pytest.approx(1.0)
+    assert pulse(0.5, 2.0) == pytest.approx(0.0)
+
+
+def test_people_nouns_are_those_with_limbs() -> None:
+    assert {noun.name for noun in person.NOUNS} == PERSON_NOUNS
