@@ -272,6 +272,8 @@ class SceneDescription:
             words.append(f"{scene_object.scale:g} times its usual size")
         if scene_object.motion is not None:
             words.append(_describe_motion(scene_object.motion, is_plural=scene_object.count > 1))
+        for motion in scene_object.then:
+            words.append(f"then {_describe_motion(motion, is_plural=scene_object.count > 1)}")
         if scene_object.side is not None:
             words.append(_SIDES[scene_object.side])
         if scene_object.is_lit is not None:

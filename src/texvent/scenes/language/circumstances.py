@@ -81,7 +81,7 @@ class CircumstanceReader:
                 self._surroundings.read(word, is_negated=False)
 
     def _read_direction(self, word: Word, scope: Scope) -> None:
-        direction = word.meaning.value
+        direction = str(word.meaning.value).strip()
         for index in scope.movers:
             motions = self._draft.objects[index].motions
             if not motions or motions[-1].kind in ("stand", "sit", "lie"):

@@ -157,6 +157,10 @@ class _ClauseReader:
         self._phrase = None
 
     def _open_subordinate(self, word: Word) -> None:
+        coming = self._words[self._at + 1 : self._at + 3]
+        if [one.pos for one in coming] == [Pos.NUMBER, Pos.NOUN] and coming[1].role is Role.UNIT:
+            self._read_preposition(word)
+            return
         word.is_used = True
         self._at += 1
         is_first = self._clause.is_empty

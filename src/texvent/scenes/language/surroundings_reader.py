@@ -78,6 +78,9 @@ class SurroundingsReader:
         is_used, is_coloured = self.read_place(str(one.value), named)
         if is_coloured and colour is not None:
             mark_used(colour[1])
+        head = one.group.head
+        if is_used and head is not None and head.text in vocabulary_scene.CROSSINGS:
+            self._road = "crossing"
         return is_used
 
     def read_adjectives(self, attributes: Attributes, kind: str) -> None:

@@ -10,7 +10,9 @@ PLACES: dict[str, tuple[str, ...]] = {
     "dirt road": ("dirt road", "dirt track", "gravel road", "trail", "dirt path", "path", "mud"),
     "city": (
         "city", "street", "town", "downtown", "urban", "avenue", "sidewalk", "pavement",
-        "city street", "intersection", "crossing", "crossroads", "parking lot", "square",
+        "city street", "intersection", "crossing", "crossroads", "junction", "parking lot",
+        "square",
+        "street crossing", "road junction", "street corner",
     ),
     "grass": (
         "grass", "field", "meadow", "lawn", "park", "garden", "pasture", "farm", "yard",
@@ -58,6 +60,9 @@ PLACE_ADVERBS: dict[str, tuple[str, ...]] = {
 }  # fmt: skip
 """Place → phrases that need no preposition."""
 
+CROSSINGS = ("intersection", "crossing", "crossroads", "junction", "street crossing",
+             "road junction", "street corner")  # fmt: skip
+"""Places where another road crosses."""
 ROAD_SHAPES: dict[str, tuple[str, ...]] = {
     "curved": ("curved", "winding", "curvy", "bending", "twisting"),
     "straight": ("straight",),

@@ -154,7 +154,7 @@ def compose_scene(
         description, actors, place, seed=seed, aspect=size.height / size.width,
         duration_s=duration_s, travel=travel,
     )  # fmt: skip
-    view = _describe_view(place, camera_path, actors, duration_s)
+    view = _describe_view(place, camera_path, actors, duration_s, description.surroundings.road)
     if travel is not None:
         view = replace(view, road=travel.road, travel=travel)
     items, surrounding = _scatter_all(description, place, view, actors, nouns, seed)
@@ -208,7 +208,11 @@ def choose_levels(
 
 
 def _describe_view(
-    place: str, path: CameraPath, actors: Sequence[Actor], duration_s: float
+    place: str,
+    path: CameraPath,
+    actors: Sequence[Actor],
+    duration_s: float,
+    road_shape: str | None,
 ) -> ViewClearance:
     times = [duration_s * step / (VIEW_INSTANTS - 1) for step in range(VIEW_INSTANTS)]
     has_road = PLACES[place].ground in (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY)
@@ -218,9 +222,24 @@ def _describe_view(
     ]
     return ViewClearance(
         [path.at(t) for t in times], points, path.framing.distance_m,
-        PLACES[place].road_half_width if has_road else None, _road_line(actors, path),
+        PLACES[place].road_half_width if has_road else None,
+        _shape_road(_road_line(actors, path), road_shape),
         path.room_m,
     )  # fmt: skip
+
+
+_BEND_PER_M = 1.0 / 50.0
+_CROSSING_AHEAD_M = 7.0
+
+
+def _shape_road(road: RoadLine, shape: str | None) -> RoadLine:
+    """The road as the prompt says: bent, or with another one that crosses it."""
+    if shape == "curved":
+        return replace(road, curvature=_BEND_PER_M)
+    if shape == "crossing":
+        x, y, angle = road.at(_CROSSING_AHEAD_M)
+        return replace(road, crossings=((x, y, angle + 0.5 * math.pi),))
+    return road
 
 
 def _road_line(actors: Sequence[Actor], path: CameraPath) -> RoadLine:
