@@ -67,7 +67,6 @@ LAMPS: Mapping[str, tuple[Lamp, ...]] = MappingProxyType({
                      "motorcycle", "bicycle", "scooter", "tram", "ambulance truck", "go-kart",
                      "limousine", "race car"), _VEHICLE),
     **dict.fromkeys(("police car", "fire engine", "ambulance"), (*_BEACONS, *_VEHICLE)),
-    "excavator": (Lamp(1.5, hue="amber", blink_hz=2.0, wave="rotating", boost=2.0), *_VEHICLE),
     "street lamp": _STREET,
     "traffic light": (Lamp(0.6, (1.0, 0.0, 0.0), 80.0, 1.0, boost=2.0, own_hz=1.0),),
     "barrier": (Lamp(0.4, boost=2.0, own_hz=1.0),),

@@ -30,7 +30,7 @@ from texvent.scenes.staging.environment import (
     build_environment,
     choose_lighting,
 )
-from texvent.scenes.staging.lamps import LampPlan, list_still_lamps, plan_lamps
+from texvent.scenes.staging.lamps import LampPlan, plan_lamps
 from texvent.scenes.staging.particles.choose import (
     Setting,
     Staged,
@@ -171,8 +171,7 @@ def compose_scene(
     strength = choose_lighting(place, description.light).lamps
     lamps = plan_lamps(
         description, actors, strength=strength, instant_s=0.5 * duration_s,
-        focus=np.asarray(camera_path.framing.target, dtype=np.float64),
-        still=list_still_lamps(place, strength, actors, items, camera_path.framing),
+        framing=camera_path.framing, items=items,
     )  # fmt: skip
     setting = Setting(actors, camera_path.framing, place, duration_s, seed)
     particles = stage_effects(description, setting)

@@ -23,7 +23,9 @@ MAINS_HZ = 20.0
 """From this frequency on, lamps on mains beat as a sine instead of going on and off."""
 FLAME_SHARES = ((1.0, 0.13), (1.83, 0.09), (3.17, 0.06))
 """Sines that make a flame flicker: multiple of its frequency, and amplitude."""
-_LIGHTS_A_ROOM = 1.0
+_UNLIT = ("sky", "space", "underwater", "sea")
+"""Places without lamps out of sight."""
+_LIGHTS_A_ROOM = 0.1
 """A lamp without a beam that is at least this bright lights its surroundings."""
 _DIMMEST_CASTER = 0.5
 """Lamps whose light at 1 m is less than this cast no shadows."""
@@ -217,8 +219,8 @@ def plan_lamps(
     *,
     strength: float,
     instant_s: float,
-    focus: Float64Array,
-    still: Float64Array,
+    framing: Framing,
+    items: Sequence[SceneryItem],
 ) -> LampPlan:
     """Which lamps are on, and which of them cast shadows.
 
@@ -227,8 +229,9 @@ def plan_lamps(
         actors: the objects.
         strength: of artificial light, 0..1; above 0 it is dark.
         instant_s: when the lamps that cast shadows are chosen, s.
-        focus: [3] what the camera looks at, m: the lamps that light it most cast shadows.
-        still: [m, 15] lamps that stay as they are.
+        framing: what the camera looks at: the lamps that light it most cast shadows, and where
+            none lights it, one does that is out of sight.
+        items: the scenery, whose lamps are on at night.
     """
     lit = []
     for actor in actors:
@@ -245,22 +248,46 @@ def plan_lamps(
         )
         if is_on or said.is_lit is False:
             lit.append(LitActor(actor, switch, brightest, casts=False))
+    rows = _still_lamps(items, strength)
+    place = description.surroundings.place
+    if strength > 0.0 and place not in _UNLIT and not rows and not any(map(_lights_around, lit)):
+        rows.append(_hidden_lamp(framing, strength))
+    still = np.array(rows, dtype=np.float64).reshape(-1, LAMP_COLUMNS)
     if description.light.shadows is not False:
+        focus = np.asarray(framing.target, dtype=np.float64)
         lit, still = _choose_casters(lit, still, instant_s, focus)
     return LampPlan(tuple(lit), still)
+
+
+def _lights_around(one: LitActor) -> bool:
+    """Whether an object has a lamp that lights what is around it."""
+    steady = replace(one, switch=replace(one.switch, blink_hz=1e-9))
+    rows = steady.rows(one.actor.place(0.0), 0.0)
+    return any(row[10] < -1.0 and row[3:6].max() >= _LIGHTS_A_ROOM for row in rows)
+
+
+def _still_lamps(items: Sequence[SceneryItem], strength: float) -> list[Float64Array]:
+    """Lamps of the scenery that are on."""
+    rows = []
+    for item in items if strength > 0.0 else ():
+        placed = item.place(0)
+        for part in placed.parts:
+            lamp = lamp_of(item.noun, part.colour) if part.emission > 0.0 else None
+            if lamp is not None and not lamp.hue:
+                rows.append(lamp_row(lamp, part, placed.to_world, strength))
+    return rows
 
 
 def _brightest(actor: Actor) -> tuple[float, ...]:
     """Greatest emission of each part of an object over a few seconds, where it is a lamp."""
     levels = []
-    for step in range(_LEVEL_INSTANTS):
+    changes = any(lamp.own_hz > 0.0 for lamp in LAMPS.get(actor.noun.name, ()))
+    for step in range(_LEVEL_INSTANTS if changes else 1):
         parts = actor.place(_LEVEL_SPAN_S * step / _LEVEL_INSTANTS).parts
         levels.append([
             part.emission if lamp_of(actor.noun.name, part.colour) is not None else 0.0
             for part in parts
         ])  # fmt: skip
-        if not any(levels[0]):
-            break
     return tuple(max(column) for column in zip(*levels, strict=True))
 
 
@@ -297,41 +324,11 @@ def _choose_casters(
     return lit, still
 
 
-def hidden_lamp(position: tuple[float, float, float]) -> Float64Array:
+def _hidden_lamp(framing: Framing, strength: float) -> Float64Array:
     """[15] warm light from a lamp out of sight, bright enough for the ground below it."""
-    height = max(position[2], 0.7)
-    row = np.zeros(LAMP_COLUMNS)
-    row[:3], row[3:6] = position, 1.1 * height**2 * np.array(WARM)
+    reach, row = framing.distance_m, np.zeros(LAMP_COLUMNS)
+    row[:3] = np.asarray(framing.target) + reach * np.array([-0.25, -0.25, 0.55])
+    height = max(float(row[2]), 0.7)
+    row[3:6] = 1.1 * strength * height**2 * np.array(WARM)
     row[6], row[10], row[11], row[12] = 5.0 * height, -2.0, -2.0, 0.3
     return row
-
-
-def list_still_lamps(
-    place: str,
-    strength: float,
-    actors: Sequence[Actor],
-    items: Sequence[SceneryItem],
-    framing: Framing,
-) -> Float64Array:
-    """[m, 15] lamps of the scenery; one out of sight where none would light the scene."""
-    rows = []
-    if strength > 0.0:
-        for item in items:
-            placed = item.place(0)
-            for part in placed.parts:
-                lamp = lamp_of(item.noun, part.colour) if part.emission > 0.0 else None
-                if lamp is not None and not lamp.hue:
-                    rows.append(lamp_row(lamp, part, placed.to_world, strength))
-    own = any(
-        lamp.intensity >= _LIGHTS_A_ROOM and lamp.direction is None
-        for actor in actors
-        for lamp in LAMPS.get(actor.noun.name, ())
-    )
-    is_lit = own or bool(rows)
-    if strength > 0.0 and not is_lit and place not in ("sky", "space", "underwater", "sea"):
-        x, y, z = (float(value) for value in framing.target)
-        reach = framing.distance_m
-        row = hidden_lamp((x - 0.25 * reach, y - 0.25 * reach, z + 0.55 * reach))
-        row[3:6] *= strength
-        rows.append(row)
-    return np.array(rows, dtype=np.float64).reshape(-1, LAMP_COLUMNS)

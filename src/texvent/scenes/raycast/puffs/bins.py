@@ -19,6 +19,8 @@ from texvent.scenes.raycast.records import PUFF_RECORD
 from texvent.scenes.scene import PUFF_COLUMNS, Float64Array, Shape
 from texvent.sensor import SensorSize
 
+WIDENED_PX = 1.5
+"""Half extent of the smallest puff, pixels: one sample per pixel then sees all of it."""
 _MASS = 15.0 / 16.0
 """1 / ∫ (1 - s²)² ds over -1..1: density in the middle for an optical depth of 1."""
 
@@ -31,7 +33,7 @@ class _Balls(NamedTuple):
 def describe_puffs(puffs: Float64Array, rays: Rays, instant: Any) -> tuple[NDArray[Any], Bins]:
     """Records of the puffs, and which may be seen in each screen tile.
 
-    A puff narrower than a pixel is widened by a pixel, and thinned as much.
+    Puffs are widened as a lens of `WIDENED_PX` would blur them, and thinned as much.
 
     Args:
         puffs: [k, 19] as in `Environment.puffs`.
@@ -43,7 +45,7 @@ def describe_puffs(puffs: Float64Array, rays: Rays, instant: Any) -> tuple[NDArr
     to_world = rows[:, :12].reshape(-1, 3, 4).copy()
     pixel = float(instant["step"]) * np.linalg.norm(to_world[:, :, 3] - rays.origin, axis=1)
     half = np.maximum(np.linalg.norm(to_world[:, :, :3], axis=1), 1e-9)
-    wide = np.hypot(half, pixel[:, None])
+    wide = np.hypot(half, WIDENED_PX * pixel[:, None])
     to_world[:, :, :3] *= (wide / half)[:, None, :]
     records = np.zeros(len(rows), dtype=PUFF_RECORD)
     inverse, exists = invert_maps(to_world)

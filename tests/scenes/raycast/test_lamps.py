@@ -1,0 +1,175 @@
+"""Lamps: light, beams, shadows and glow."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from texvent.scenes.raycast.lamps.bins import MOST_SHADOW_LAMPS, order_lamps
+from texvent.scenes.raycast.lamps.light import lamp_light
+from texvent.scenes.raycast.lamps.shadows import lamps_reach
+from texvent.scenes.raycast.render import render_light, world_at
+from texvent.scenes.scene import Environment, Float64Array, Ground, Shape
+from texvent.sensor import SensorSize
+
+from ..hand_scenes import HandScene, MovingShape, day, lamp_row, look_at, still
+
+SMALL = SensorSize(96, 72)
+
+
+def dark(*lamps: Float64Array, ground: Ground = Ground.PLAIN) -> Environment:
+    black = np.zeros(3, dtype=np.float32)
+    return replace(
+        day(ground), sky_top=black, sky_horizon=black, sun_colour=black, ambient=black,
+        lamps=np.concatenate(lamps) if lamps else day().lamps,
+    )  # fmt: skip
+
+
+def scene_of(environment: Environment, *shapes: MovingShape) -> HandScene:
+    return HandScene(shapes, environment_base=environment)
+
+
+@pytest.mark.parametrize("height", [0.5, 1.0, 3.0])
+def test_light_falls_with_the_square_of_the_distance(height):
+    world = world_at(scene_of(dark(lamp_row((0, 0, height), radius=0.2, reach=1e6))), 0.0, SMALL)
+    light = lamp_light(world, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 0)
+    np.testing.assert_allclose(light, 2.0 / (height**2 + 0.2**2), rtol=1e-6)
+    aside = lamp_light(world, (height, 0.0, 0.0), (0.0, 0.0, 1.0), 0)
+    np.testing.assert_allclose(aside, 2.0 / np.sqrt(2.0) / (2.0 * height**2 + 0.04), rtol=1e-6)
+
+
+def test_a_beam_has_a_soft_edge_and_nothing_outside():
+    beam = lamp_row((0, 0, 2), beam=(0, 0, -1), cosines=(np.cos(0.2), np.cos(0.4)), reach=1e6)
+    world = world_at(scene_of(dark(beam)), 0.0, SMALL)
+    angles = np.linspace(0.0, 0.6, 61)
+    light = [lamp_light(world, (2 * np.tan(a), 0, 0), (0, 0, 1), 0)[0] for a in angles]
+    assert light[0] == pytest.approx(0.5, rel=1e-3)
+    assert all(np.diff(light) <= 0.0)
+    assert light[19] > 0.4
+    assert light[41] == 0.0
+    assert np.abs(np.diff(light)).max() < 0.06
+
+
+def unit_hit(kind: int, start: Float64Array, way: Float64Array) -> bool:
+    """Whether a segment in unit-shape coordinates is in the shape anywhere: by 20,000 points."""
+    t = np.linspace(0.0, 1.0, 20_001)[:, None]
+    x, y, z = (start + t * way).T
+    inside = {
+        Shape.ELLIPSOID: x * x + y * y + z * z < 1.0,
+        Shape.BOX: np.maximum(np.maximum(abs(x), abs(y)), abs(z)) < 1.0,
+        Shape.CYLINDER: (x * x + y * y < 1.0) & (abs(z) < 1.0),
+        Shape.CONE: (x * x + y * y < (0.5 * (1.0 - z)) ** 2) & (abs(z) < 1.0),
+    }[Shape(kind)]
+    return bool(inside.any())
+
+
+def test_shadows_are_those_of_all_shapes_tested_one_by_one():
+    rng = np.random.default_rng(3)
+    shapes = tuple(
+        MovingShape(
+            Shape(k % 4),
+            tuple(rng.uniform(0.1, 0.8, 3)) if k % 3 else (0.08, 0.08, 2.0),
+            still(*rng.uniform(-4.0, 4.0, 2), rng.uniform(0.5, 3.0)),
+        )
+        for k in range(40)
+    )
+    lamps = [
+        lamp_row((0.3, 0.2, 4.5), casts=True),
+        lamp_row((-3.0, 2.0, 2.0), casts=True),
+        lamp_row((3.0, -3.0, 0.4), casts=True),
+    ]
+    scene = scene_of(dark(*lamps), *shapes)
+    world = world_at(scene, 0.0, SMALL)
+    assert world.instant["shadow_lamps"][0] == 3
+    primitives = scene.primitives(0.0)
+    wrong = blocked = 0
+    for _ in range(150):
+        point = np.append(rng.uniform(-5.0, 5.0, 2), 0.0)
+        lifted = np.append(point[:2], 2e-3)
+        seen, _ = lamps_reach(world, tuple(point), (0.0, 0.0, 1.0))
+        for number, lamp in enumerate(lamps):
+            expected = True
+            for kind, inverse in zip(primitives.shape, world.shapes["inverse"], strict=True):
+                start = inverse[:, :3] @ lifted + inverse[:, 3]
+                way = inverse[:, :3] @ (lamp[0, :3] - lifted)
+                holds = unit_hit(kind, inverse[:, :3] @ lamp[0, :3] + inverse[:, 3], np.zeros(3))
+                if not holds and unit_hit(kind, start, way):
+                    expected = False
+            blocked += not expected
+            wrong += expected != bool(seen >> number & 1)
+    assert blocked > 100
+    assert wrong <= 2  # a ray that grazes a shape between two of the points
+
+
+def test_a_shape_casts_a_lamps_shadow_and_its_edge_moves_smoothly():
+    lamp = lamp_row((0.0, 0.0, 4.0), (8.0, 8.0, 8.0), casts=True)
+
+    def image(x: float) -> Float64Array:
+        ball = MovingShape(Shape.ELLIPSOID, (0.5, 0.5, 0.5), still(x, 0.0, 2.0))
+        return render_light(scene_of(dark(lamp), ball), 0.0, SMALL)
+
+    base = image(0.0)
+    bare = render_light(scene_of(dark(lamp)), 0.0, SMALL)
+    assert (bare - base)[45:60, 40:56].max() > 0.05
+    steps = [np.abs(image(0.004 * k) - image(0.004 * (k - 1))).max() for k in range(1, 6)]
+    assert max(steps) < 0.15 * bare.max()
+
+
+def test_without_shadows_lamps_shine_through():
+    lamp = lamp_row((0.0, 0.0, 4.0), (8.0, 8.0, 8.0), casts=True)
+    ball = MovingShape(Shape.ELLIPSOID, (0.5, 0.5, 0.5), still(0.0, 0.0, 2.0))
+    scene = scene_of(dark(lamp), ball)
+    ground = np.s_[50:60, 40:56]
+    lit = render_light(scene, 0.0, SMALL, shadows=False)[ground]
+    np.testing.assert_allclose(lit, render_light(scene_of(dark(lamp)), 0.0, SMALL)[ground])
+
+
+def test_no_more_lamps_cast_shadows_than_there_are_bits():
+    lamps = np.concatenate([lamp_row((k, 0.0, 1.0), casts=k % 2 == 1) for k in range(12)])
+    rows, count = order_lamps(lamps, shadows=True)
+    assert count == MOST_SHADOW_LAMPS
+    assert len(rows) == 12
+    assert (rows[:count, 13] > 0.0).all()
+    assert order_lamps(lamps, shadows=False)[1] == 0
+
+
+SKY = 0.1
+
+
+def glow_energy(place: tuple[float, float, float], intensity: float, radius: float) -> float:
+    """Light of a lamp before a grey sky, summed over the image, before it fills up to white."""
+    lamp = lamp_row(place, (intensity,) * 3, radius=radius, glows=True)
+    grey = np.full(3, SKY, dtype=np.float32)
+    sky = replace(dark(lamp, ground=Ground.NONE), sky_top=grey, sky_horizon=grey)
+    camera = look_at((0.0, -2.0, 1.0), (0.0, 0.0, 1.0))
+    image = render_light(replace(scene_of(sky), camera_at=lambda time: camera), 0.0, SMALL)
+    return float(-np.log((1.0 - image[..., 0]) / (1.0 - np.float64(grey[0]))).sum())
+
+
+@pytest.mark.parametrize("x", [0.0, 0.003, 0.01, 0.017])
+@pytest.mark.parametrize("radius", [0.0001, 0.002, 0.02])
+def test_the_light_of_a_lamp_in_the_image_does_not_depend_on_its_size_and_place(x, radius):
+    expected = np.pi * 1e-4 * (96.0 / 2.0) ** 2
+    assert glow_energy((x, 0.0, 1.0), 1e-4, radius) == pytest.approx(expected, rel=0.02)
+
+
+def test_the_light_of_a_lamp_in_the_image_falls_with_the_square_of_its_distance():
+    near, far = glow_energy((0, 0, 1), 1e-4, 0.002), glow_energy((0, 2.0, 1), 1e-4, 0.002)
+    assert near / far == pytest.approx(4.0, rel=0.04)
+
+
+def test_what_stands_before_a_lamp_hides_its_glow_bit_by_bit():
+    lamp = lamp_row((0.0, 0.0, 1.0), (1e-3,) * 3, radius=0.05, glows=True)
+
+    def energy(edge: float) -> float:
+        wall = MovingShape(Shape.BOX, (1.0, 0.05, 1.0), still(edge - 1.0, -1.0, 1.0))
+        glows = world_at(scene_of(dark(lamp, ground=Ground.NONE), wall), 0.0, SMALL).glows
+        return float(glows["core_light"].sum())
+
+    shown = np.array([energy(edge) for edge in np.linspace(-0.1, 0.1, 9)])
+    assert shown[0] > 0.0
+    assert shown[-1] == 0.0
+    assert 0.3 * shown[0] < shown[4] < 0.7 * shown[0]
+    assert (np.diff(shown) <= 1e-9).all()

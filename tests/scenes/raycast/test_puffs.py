@@ -1,0 +1,177 @@
+"""Translucent puffs: exact along a ray, smooth at the rim, the same in any order."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.scenes.projection import camera_rays
+from texvent.scenes.raycast.lamps.light_up import light_up
+from texvent.scenes.raycast.puffs.bins import WIDENED_PX
+from texvent.scenes.raycast.puffs.compositing import density_integral, optical_depth
+from texvent.scenes.raycast.render import render_light, world_at
+from texvent.scenes.scene import PUFF_COLUMNS, Environment, Float64Array, Ground, Shape
+from texvent.sensor import SensorSize
+
+from ..hand_scenes import HandScene, MovingShape, day, look_at, still
+
+SMALL = SensorSize(96, 72)
+SKY = 0.3
+
+
+def puff(
+    place: tuple[float, float, float],
+    radius: tuple[float, float, float] = (0.8, 0.8, 0.8),
+    *,
+    thickness: float = 1.0,
+    colour: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    emission: float = 0.0,
+    detail: float = 0.0,
+) -> Float64Array:
+    row = np.zeros(PUFF_COLUMNS)
+    row[:12] = np.column_stack([np.diag(radius), place]).ravel()
+    row[12:15], row[15], row[16], row[17] = colour, thickness, emission, detail
+    return row
+
+
+def air(*puffs: Float64Array) -> Environment:
+    """Sky of one brightness, no light but what puffs give off."""
+    black, grey = np.zeros(3, dtype=np.float32), np.full(3, SKY, dtype=np.float32)
+    return replace(
+        day(Ground.NONE), sky_top=grey, sky_horizon=grey, sun_colour=black, ambient=black,
+        puffs=np.array(puffs).reshape(-1, PUFF_COLUMNS),
+    )  # fmt: skip
+
+
+def scene_of(*puffs: Float64Array, shapes: tuple[MovingShape, ...] = ()) -> HandScene:
+    return HandScene(
+        shapes,
+        camera_at=lambda time: look_at((0.0, -6.0, 0.0), (0.0, 0.0, 0.0)),
+        environment_base=air(*puffs),
+    )
+
+
+def numeric_depth(row: Float64Array, scene: HandScene, point: tuple[float, float], stop: float):
+    """Optical depth by summing the density (1 - r²)² of the puff, widened by a pixel."""
+    camera = scene.camera(0.0)
+    rays = camera_rays(camera, SMALL)
+    direction = rays.corner + point[0] * rays.right + point[1] * rays.down
+    centre, half = row[[3, 7, 11]], row[[0, 5, 10]]
+    pixel = np.linalg.norm(rays.right) * np.linalg.norm(centre - rays.origin)
+    wide = np.hypot(half, WIDENED_PX * pixel)
+    t = (np.arange(200_000) + 0.5) / 200_000 * min(stop, 20.0)
+    place = rays.origin + t[:, None] * direction
+    square = (((place - centre) / wide) ** 2).sum(axis=1)
+    density = np.where(square < 1.0, (1.0 - np.minimum(square, 1.0)) ** 2, 0.0)
+    thinned = np.cbrt((half / wide).prod()) ** 2 * row[15] * 15.0 / 16.0 / np.cbrt(wide.prod())
+    return thinned * density.mean() * min(stop, 20.0) * np.linalg.norm(direction)
+
+
+@given(half=st.floats(0.0, 1.0), start=st.floats(-1.5, 1.5), length=st.floats(0.0, 3.0))
+def test_the_density_along_a_chord_is_its_integral(half: float, start: float, length: float):
+    s = start + (np.arange(4000) + 0.5) / 4000 * length
+    numeric = (np.maximum(half * half - s * s, 0.0) ** 2).mean() * length
+    assert density_integral(half, start, start + length) == pytest.approx(numeric, abs=1e-4)
+
+
+@pytest.mark.parametrize("point", [(48.0, 36.0), (52.5, 40.25), (40.0, 30.0), (20.0, 36.0)])
+@pytest.mark.parametrize("stop", [np.inf, 6.1, 5.6, 2.0])
+def test_optical_depth_is_the_integral_of_the_density(point, stop):
+    row = puff((0.1, 0.2, -0.1), (0.8, 0.6, 1.1), thickness=1.7)
+    scene = scene_of(row)
+    seen = optical_depth(world_at(scene, 0.0, SMALL), *point, stop)
+    assert seen == pytest.approx(numeric_depth(row, scene, point, stop), abs=2e-4)
+
+
+def test_a_camera_inside_a_puff_sees_what_lies_before_it():
+    row = puff((0.0, -6.0, 0.0), (2.0, 2.0, 2.0))
+    scene = scene_of(row)
+    seen = optical_depth(world_at(scene, 0.0, SMALL), 48.0, 36.0, np.inf)
+    assert seen == pytest.approx(0.5, abs=0.01)
+    assert seen == pytest.approx(numeric_depth(row, scene, (48.0, 36.0), np.inf), abs=2e-4)
+
+
+def test_a_black_puff_dims_what_is_behind_it_and_hides_nothing_before_it():
+    row = puff((0.0, 0.0, 0.0), thickness=1.0)
+    wall = MovingShape(Shape.BOX, (3.0, 0.1, 3.0), still(0.0, -2.0, 0.0), emission=0.5)
+    behind = replace(wall, place=still(0.0, 3.0, 0.0))
+    for shape, share in ((wall, 1.0), (behind, np.exp(-1.0))):
+        bare = render_light(scene_of(shapes=(shape,)), 0.0, SMALL)[36, 48]
+        smoky = render_light(scene_of(row, shapes=(shape,)), 0.0, SMALL)[36, 48]
+        np.testing.assert_allclose(smoky, share * bare, rtol=0.03)
+
+
+def test_a_glowing_puff_tends_to_its_own_light():
+    thin, thick = (
+        render_light(
+            scene_of(puff((0, 0, 0), thickness=t, colour=(0.5, 0.25, 0.1), emission=1.0)),
+            0.0, SMALL,
+        )[36, 48]
+        for t in (0.5, 12.0)
+    )  # fmt: skip
+    np.testing.assert_allclose(thick, [0.5, 0.25, 0.1], atol=1e-3)
+    np.testing.assert_allclose(
+        thin, np.exp(-0.5) * SKY + (1 - np.exp(-0.5)) * np.array([0.5, 0.25, 0.1]), rtol=0.02
+    )
+
+
+def test_overlapping_puffs_of_one_colour_solve_the_equation_of_transfer():
+    rows = [puff((x, y, 0.0), thickness=t, colour=(0.4,) * 3, emission=1.0)
+            for x, y, t in ((-0.3, -0.4, 0.7), (0.2, 0.3, 1.1), (0.0, 0.0, 0.4))]  # fmt: skip
+    scene = scene_of(*rows)
+    depth = sum(numeric_depth(row, scene, (48.5, 36.5), np.inf) for row in rows)
+    expected = np.exp(-depth) * SKY + (1.0 - np.exp(-depth)) * 0.4
+    np.testing.assert_allclose(render_light(scene, 0.0, SMALL)[36, 48], expected, rtol=1e-3)
+
+
+def test_the_order_of_puffs_changes_nothing():
+    rng = np.random.default_rng(0)
+    rows = np.array([
+        puff(tuple(rng.uniform(-1, 1, 3)), colour=tuple(rng.uniform(0, 1, 3)), emission=1.0,
+             thickness=rng.uniform(0.2, 2.0), detail=0.7)
+        for _ in range(12)
+    ])  # fmt: skip
+    first = render_light(scene_of(*rows), 0.0, SMALL)
+    second = render_light(scene_of(*rows[::-1]), 0.0, SMALL)
+    np.testing.assert_allclose(first, second, atol=1e-12)
+
+
+@pytest.mark.parametrize("detail", [0.0, 1.0])
+def test_a_moving_puff_changes_no_pixel_by_a_jump(detail):
+    """1/32 pixel of motion: no pixel may change by more than 1/10 of what a whole pixel changes."""
+    step = 6.0 / 96.0 / 32.0
+    images = [
+        render_light(scene_of(puff((k * step, 0.0, 0.0), thickness=2.0, detail=detail)), 0.0, SMALL)
+        for k in (0, 1, 2, 3, 32)
+    ]
+    whole = np.abs(images[-1] - images[0]).max()
+    for before, after in pairwise(images[:4]):
+        assert np.abs(after - before).max() < 0.1 * whole
+
+
+def test_a_puff_smaller_than_a_pixel_hides_as_much_wherever_it_is():
+    """What it takes from the image does not depend on where in a pixel it stands."""
+    lost = [
+        (SKY - render_light(scene_of(puff((x, 0.0, 0.0), (0.02,) * 3)), 0.0, SMALL)).sum()
+        for x in (0.0, 0.02, 0.04)
+    ]
+    np.testing.assert_allclose(lost, lost[0], rtol=0.05)
+    assert lost[0] > 0.0
+
+
+def test_a_scene_without_lamps_and_puffs_is_left_as_it_is():
+    scene = scene_of(shapes=(MovingShape(Shape.BOX, (1.0, 1.0, 1.0), still(0.0, 0.0, 0.0)),))
+    world = world_at(scene, 0.0, SMALL)
+    rays = camera_rays(scene.camera(0.0), SMALL)
+    again = light_up(world, scene.primitives(0.0), scene.environment(0.0), rays, shadows=True)
+    assert again is world
+    unseen = puff((0.0, -60.0, 0.0))
+    np.testing.assert_array_equal(
+        render_light(scene, 0.0, SMALL),
+        render_light(replace(scene, environment_base=air(unseen)), 0.0, SMALL),
+    )

@@ -1,0 +1,192 @@
+"""Effects: functions of time with a constant number of shapes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from texvent.scenes.description import (
+    Effect,
+    NamedColour,
+    ObjectMotion,
+    SceneDescription,
+    SceneObject,
+    Surroundings,
+)
+from texvent.scenes.models.effects import EFFECTS
+from texvent.scenes.raycast.ground_truth import ground_truth
+from texvent.scenes.raycast.render import render
+from texvent.scenes.scene import Float64Array
+from texvent.scenes.staging.compose import ComposedScene, compose_scene
+from texvent.scenes.staging.particles.motion import flight, flight_velocity
+from texvent.scenes.staging.particles.shapes import TINY_M, along
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(64, 48)
+BOX = SceneObject("box")
+
+
+def staged(*effects: Effect, objects: tuple[SceneObject, ...] = (BOX,), seed: int = 0,
+           place: str = "grass") -> ComposedScene:  # fmt: skip
+    description = SceneDescription(
+        "", objects=objects, effects=effects, surroundings=Surroundings(place)
+    )
+    return compose_scene(description, seed=seed, size=SIZE, duration_s=1.0)
+
+
+def small(scene: ComposedScene, time_s: float) -> Float64Array:
+    """[n, 3, 4] maps of all small shapes."""
+    return np.concatenate([one.at(time_s).to_world for one in scene.particles.effects])
+
+
+CASES = [
+    (kind, source)
+    for kind, words in EFFECTS.items()
+    for source in (0, None)
+    if source == 0 or not words.needs_source
+]
+
+
+@pytest.mark.parametrize(("kind", "source"), CASES)
+def test_every_effect_is_a_function_of_time_with_as_many_shapes_at_every_instant(kind, source):
+    scene, again = (staged(Effect(kind, source)) for _ in range(2))
+    other = staged(Effect(kind, source), seed=1)
+    count = len(small(scene, 0.0))
+    puffs = len(scene.environment(0.0).puffs)
+    assert count or puffs
+    moved = 0.0
+    for time_s in (0.0, 0.137, 0.4, 0.401, 0.7, 5.3):
+        maps, cloud = small(scene, time_s), scene.environment(time_s).puffs
+        assert (len(maps), len(cloud)) == (count, puffs)
+        assert np.isfinite(maps).all()
+        assert np.isfinite(cloud).all()
+        assert (cloud[:, 15] >= 0.0).all()
+        np.testing.assert_array_equal(maps, small(again, time_s))
+        np.testing.assert_array_equal(cloud, again.environment(time_s).puffs)
+        moved += np.abs(maps - small(scene, 0.01)).sum()
+        moved += np.abs(cloud - scene.environment(0.01).puffs).sum()
+    assert moved > 0.0
+    late = 0.7
+    assert not np.array_equal(small(scene, late), small(other, late)) or not np.array_equal(
+        scene.environment(late).puffs, other.environment(late).puffs
+    )
+
+
+@pytest.mark.parametrize(("kind", "source"), CASES)
+def test_what_is_seen_of_an_effect_moves_without_jumps(kind, source):
+    """In 0.1 ms, nothing moves by more than a hundredth of the scene; births are too small to see.
+
+    At the instant at which a thing breaks, its pieces appear: that is a jump.
+    """
+    scene = staged(Effect(kind, source))
+    reach = scene.camera_path.framing.distance_m
+    start = 0.0 if EFFECTS[kind].happens_once else 0.2
+    for time_s in np.linspace(start, start + 0.35, 36):
+        first, second = small(scene, time_s), small(scene, time_s + 1e-4)
+        way = np.linalg.norm(second[:, :, 3] - first[:, :, 3], axis=1)
+        size = np.minimum(
+            np.linalg.norm(first[:, :, :3], axis=(1, 2)),
+            np.linalg.norm(second[:, :, :3], axis=(1, 2)),
+        )
+        above = np.minimum(first[:, 2, 3] + size, second[:, 2, 3] + size) > 0.0
+        seen = (size > 0.004 * reach) & above
+        assert way[seen].max(initial=0.0) < 0.01 * reach
+        clouds = [scene.environment(t).puffs for t in (time_s, time_s + 1e-4)]
+        drift = np.linalg.norm(clouds[1][:, [3, 7, 11]] - clouds[0][:, [3, 7, 11]], axis=1)
+        thick = np.minimum(clouds[0][:, 15], clouds[1][:, 15])
+        assert drift[thick > 0.02].max(initial=0.0) < 0.01 * reach
+        assert np.abs(clouds[1][:, 15] - clouds[0][:, 15]).max(initial=0.0) < 0.05
+
+
+@pytest.mark.parametrize("kind", [kind for kind, words in EFFECTS.items() if words.ends_source])
+def test_what_bursts_is_gone_and_its_pieces_fly(kind):
+    scene = staged(Effect(kind, 0, start_s=0.5))
+    for time_s, is_there in ((0.499, True), (0.501, False)):
+        shapes = scene.primitives(time_s)
+        size = np.abs(shapes.to_world[shapes.instance == 1, :, :3]).max()
+        assert (size > 1e-3) == is_there
+        pieces = np.abs(scene.particles.effects[0].at(time_s).to_world[:, :, :3]).max()
+        assert (pieces > 10 * TINY_M) != is_there
+    later = scene.particles.effects[0].at(0.8).to_world[:, :, 3]
+    spread = np.ptp(later, axis=0)
+    assert spread.max() > 1.2 * max(scene.actors[0].model.length, scene.actors[0].model.width)
+    assert (later[:, 2] > -0.2).all()
+
+
+def test_what_falls_breaks_when_it_meets_the_ground():
+    cup = SceneObject("cup", motion=ObjectMotion("fall"))
+    scene = staged(Effect("break", 0), objects=(cup,))
+    end = scene.particles.ends_s[1]
+    assert scene.actors[0].trajectory.at(end).position[2] == pytest.approx(0.0, abs=0.02)
+    assert scene.actors[0].trajectory.at(end - 0.1).position[2] > 0.02
+
+
+def test_an_effect_takes_the_colour_it_is_said_to_have():
+    red = NamedColour("red", (0.8, 0.02, 0.02))
+    puffs = staged(Effect("smoke", 0, red)).environment(0.3).puffs
+    np.testing.assert_allclose(puffs[:, 12:15], np.tile(red.rgb, (len(puffs), 1)))
+
+
+def test_smoke_comes_from_where_its_source_was():
+    car = SceneObject("car", motion=ObjectMotion("drive", "left"))
+    scene = staged(Effect("smoke", 0), objects=(car,), place="road")
+    puffs = scene.environment(0.5).puffs
+    rear = scene.actors[0].trajectory.at(0.5).position[0] + 2.0
+    assert puffs[:, 3].min() > rear - 1.0
+    assert puffs[:, 3].max() > rear + 3.0
+
+
+def test_what_burns_has_flames_unless_it_is_out():
+    from texvent.scenes.models.nouns import NOUNS
+    from texvent.scenes.staging.particles.choose import BURNING
+
+    for noun in set(BURNING) & set(NOUNS):
+        assert len(staged(objects=(SceneObject(noun),)).environment(0.0).puffs)
+        out = staged(objects=(SceneObject(noun, is_lit=False),))
+        assert not len(out.environment(0.0).puffs)
+
+
+def test_ground_truth_belongs_to_the_surface_behind_the_smoke():
+    bare, smoky = staged(), staged(Effect("mist"))
+    smoky = ComposedScene(**{**vars(bare), "particles": smoky.particles})
+    first, second = (ground_truth(scene, 0.2, 0.25, SIZE) for scene in (bare, smoky))
+    np.testing.assert_array_equal(first.depth, second.depth)
+    np.testing.assert_array_equal(first.instance, second.instance)
+    assert np.abs(render(bare, 0.2, SIZE) - render(smoky, 0.2, SIZE)).max() > 2.0
+
+
+def test_ground_truth_of_drops_is_finite():
+    truth = ground_truth(staged(Effect("fountain")), 0.3, 0.31, SIZE)
+    assert np.isfinite(truth.flow).all()
+    assert np.abs(truth.flow).max() < 60.0
+
+
+@pytest.mark.parametrize("drag_s", [0.3, 2.0, np.inf])
+def test_flight_solves_its_equation_of_motion(drag_s):
+    velocity = np.array([[3.0, -1.0, 5.0]])
+    pull = np.array([0.4, 0.0, -9.81])
+    place, speed, steps = np.zeros(3), velocity[0].copy(), 20_000
+    for _ in range(steps):
+        middle = speed + 0.5 * (0.9 / steps) * (pull - speed / drag_s)
+        place += 0.9 / steps * middle
+        speed += 0.9 / steps * (pull - middle / drag_s)
+    age = np.array([0.9])
+    np.testing.assert_allclose(flight(age, velocity, drag_s, pull)[0], place, atol=1e-4)
+    np.testing.assert_allclose(flight_velocity(age, velocity, drag_s, pull)[0], speed, atol=1e-4)
+
+
+def test_shapes_are_laid_along_their_flight():
+    heading = np.array([[1.0, 2.0, -0.5], [0.0, 0.0, 3.0], [0.0, 0.0, 0.0]])
+    maps = along(np.zeros((3, 3)), heading, np.tile([0.1, 0.1, 0.4], (3, 1)))
+    assert (np.linalg.det(maps[:, :, :3]) > 0.0).all()
+    unit = heading[:2] / np.linalg.norm(heading[:2], axis=1, keepdims=True)
+    np.testing.assert_allclose(maps[:2, :, 2], 0.4 * unit, atol=1e-12)
+
+
+def test_no_word_names_two_effects():
+    words = [word for one in EFFECTS.values() for word in (*one.nouns, *one.verbs)]
+    twice = {word for word in words if words.count(word) > 1}
+    assert all(word == word.lower() for word in words)
+    # A noun and the verb of the same effect may be one word: "smoke".
+    for word in twice:
+        assert sum(word in (*one.nouns, *one.verbs) for one in EFFECTS.values()) == 1
