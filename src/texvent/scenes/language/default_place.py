@@ -63,6 +63,8 @@ def _choose_usual(members: Sequence[Noun]) -> str:
         for place, names in _USUAL_PLACES.items():
             if noun.name in names:
                 return place
+        if noun.place:
+            return noun.place
     if all(noun.habitat == "air" and noun.speed_m_s >= _FAST_FLYER_M_S for noun in members):
         return "sky"
     return "grass"

@@ -179,7 +179,7 @@ def _is_moving(scene_object: SceneObject) -> bool:
 
 def _decide_motion(scene_object: SceneObject, noun: Noun) -> SceneObject:
     motion = scene_object.motion
-    if scene_object.noun in WORKING and (
+    if (scene_object.noun in WORKING or noun.is_working) and (
         motion is None or motion.kind in ("stand", "swing", "spin")
     ):
         return replace(scene_object, motion=ObjectMotion("work"))

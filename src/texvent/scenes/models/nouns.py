@@ -27,6 +27,13 @@ from texvent.scenes.models.objects import (
     street,
     toys,
 )
+from texvent.scenes.models.objects.home import electronics, furnishing, lights, personal, screens
+from texvent.scenes.models.objects.kitchen import appliances, food, tableware
+from texvent.scenes.models.objects.outdoors import street_furniture, structures, wild
+from texvent.scenes.models.objects.play import music
+from texvent.scenes.models.objects.play import toys as playthings
+from texvent.scenes.models.objects.sport import balls, gear
+from texvent.scenes.models.objects.work import machines, tools
 from texvent.scenes.models.people import hand, person
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.vehicles import aircraft, boats, cars, construction, cycles, heavy
@@ -53,6 +60,23 @@ _FAMILIES: tuple[tuple[Noun, ...], ...] = (
     solids.NOUNS,
     furniture.NOUNS,
     household.NOUNS,
+    food.NOUNS,
+    appliances.NOUNS,
+    screens.NOUNS,
+    electronics.NOUNS,
+    furnishing.NOUNS,
+    lights.NOUNS,
+    personal.NOUNS,
+    balls.NOUNS,
+    music.NOUNS,
+    tools.NOUNS,
+    machines.NOUNS,
+    street_furniture.NOUNS,
+    structures.NOUNS,
+    wild.NOUNS,
+    playthings.NOUNS,
+    gear.NOUNS,
+    tableware.NOUNS,
 )
 
 NOUNS: Mapping[str, Noun] = MappingProxyType(

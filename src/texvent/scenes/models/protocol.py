@@ -102,6 +102,10 @@ class Noun:
     """Other singular names, such as ("automobile", "sedan")."""
     plurals: tuple[str, ...] = ()
     """Irregular plurals, such as ("people",)."""
+    place: str = ""
+    """Place where it usually is, such as "indoor"; empty = no usual place of its own."""
+    is_working: bool = False
+    """Whether it stays in place and moves by itself, as a metronome does."""
 
 
 def fixed_noun(

@@ -103,13 +103,14 @@ def _checks(colour: Colour | None, seed: int) -> Material:
 
 
 NOUNS = (
-    Noun("sphere", build_sphere, "ground", 1.5, "roll", ("globe", "orb", "marble")),
-    fixed_noun("cube", partial(build_upright, box, (0.8, 0.8, 0.8)), ("block", "dice"), ("dice",)),
+    Noun("sphere", build_sphere, "ground", 1.5, "roll", ("orb",)),
+    fixed_noun("cube", partial(build_upright, box, (0.8, 0.8, 0.8)), ("block",)),
     fixed_noun(
-        "cylinder", partial(build_upright, post, (0.7, 0.7, 1.0)), ("barrel", "pillar", "column")
+        "cylinder",
+        partial(build_upright, post, (0.7, 0.7, 1.0)),
     ),
     fixed_noun("cone", partial(build_upright, peak, (0.9, 0.9, 1.0))),
     fixed_noun("pyramid", build_pyramid),
-    fixed_noun("box", build_crate, ("crate", "package", "parcel")),
+    fixed_noun("box", build_crate, ("package", "parcel", "cardboard box", "carton")),
     Noun("wheel", build_wheel, "ground", 2.5, "roll", ("tyre", "tire")),
 )

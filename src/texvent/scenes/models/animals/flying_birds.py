@@ -180,5 +180,5 @@ NOUNS = (
         ("hawk", "falcon", "vulture", "bird of prey", "condor"), ("birds of prey",),
     ),
     Noun("gull", partial(build_flier, GULL), "air", 8.0, "fly", ("seagull", "albatross", "tern")),
-    Noun("duck", build_duck, "water", 0.6, "paddle", ("mallard", "duckling", "rubber duck")),
+    Noun("duck", build_duck, "water", 0.6, "paddle", ("mallard", "duckling")),
 )  # fmt: skip

@@ -210,10 +210,10 @@ def _mill(rigid: list[ModelPart], rotor: _Rotor, *, scale: float, seed: int) -> 
 
 
 NOUNS = (
-    fixed_noun("house", build_house, ("home", "cottage", "farmhouse", "cabin", "hut", "villa")),
+    fixed_noun("house", build_house, ("home", "cottage", "farmhouse", "cabin", "villa")),
     fixed_noun(
         "building", build_high_rise,
-        ("skyscraper", "high-rise", "tower", "tower block", "office", "apartment", "hotel"),
+        ("skyscraper", "high-rise", "tower block", "office", "apartment", "hotel"),
     ),
     fixed_noun("barn", build_barn, ("shed",)),
     fixed_noun("windmill", build_windmill, ("mill",)),

@@ -110,10 +110,10 @@ def build_bench(*, colour: Colour | None, scale: float, seed: int) -> Articulate
 
 
 NOUNS = (
-    fixed_noun("table", build_table, ("desk", "dining table", "coffee table")),
+    fixed_noun("table", build_table, ("dining table", "coffee table", "kitchen table")),
     fixed_noun("chair", build_chair, ("wooden chair", "kitchen chair")),
     fixed_noun("sofa", build_sofa, ("couch", "settee")),
     fixed_noun("bed", build_bed, ("double bed",)),
-    fixed_noun("bookshelf", build_shelf, ("bookcase", "shelf")),
+    fixed_noun("bookshelf", build_shelf, ("bookcase",)),
     fixed_noun("bench", build_bench, ("park bench",)),
 )

@@ -200,12 +200,12 @@ def build_umbrella(*, colour: Colour | None, scale: float, seed: int) -> Articul
 
 
 NOUNS = (
-    fixed_noun("cup", build_cup, ("mug", "coffee cup", "teacup")),
-    fixed_noun("bottle", build_bottle, ("wine bottle", "flask")),
+    fixed_noun("cup", build_cup, ("coffee cup", "teacup", "espresso cup")),
+    fixed_noun("bottle", build_bottle, ("wine bottle", "glass bottle")),
     fixed_noun("clock", build_clock, ("alarm clock", "wall clock")),
-    fixed_noun("lamp", build_lamp, ("floor lamp", "desk lamp")),
+    fixed_noun("lamp", build_lamp, ("floor lamp", "standing lamp")),
     fixed_noun("candle", build_candle),
-    fixed_noun("fan", build_fan, ("propeller", "ventilator", "rotor")),
+    fixed_noun("fan", build_fan, ("ventilator", "electric fan", "table fan")),
     fixed_noun("pendulum", build_pendulum, (), ("pendula",)),
     fixed_noun("umbrella", build_umbrella, ("parasol",)),
 )

@@ -175,6 +175,6 @@ NOUNS = (
     ),
     fixed_noun("palm", build_palm, ("palm tree", "coconut tree")),
     fixed_noun("bush", build_bush, ("shrub", "hedge")),
-    fixed_noun("flower", build_flower, ("sunflower", "daisy", "tulip", "rose")),
+    fixed_noun("flower", build_flower, ("blossom",)),
     fixed_noun("cactus", build_cactus, (), ("cacti",)),
 )  # fmt: skip

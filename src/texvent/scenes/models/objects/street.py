@@ -172,14 +172,13 @@ def build_bridge(*, colour: Colour | None, scale: float, seed: int) -> Articulat
 
 
 NOUNS = (
-    fixed_noun("traffic cone", build_traffic_cone, ("road cone", "safety cone", "pylon")),
+    fixed_noun("traffic cone", build_traffic_cone, ("road cone", "safety cone", "traffic pylon")),
     fixed_noun(
         "street lamp", build_street_lamp,
         ("streetlight", "street light", "lamp post", "lamppost", "streetlamp"),
     ),
     fixed_noun("barrier", build_barrier, ("road block", "roadblock", "barricade")),
     fixed_noun("fence", build_fence, ("picket fence",)),
-    fixed_noun("sign", build_sign, ("stop sign", "traffic sign", "road sign", "street sign")),
     fixed_noun("flag", build_flag, ("banner", "flagpole")),
     fixed_noun("bridge", build_bridge, ("overpass",)),
     fixed_noun("traffic light", build_traffic_light, ("stoplight", "stop light")),

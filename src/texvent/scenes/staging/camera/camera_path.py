@@ -175,7 +175,7 @@ class CameraPath:
     def _keep_inside(self, position: Float64Array) -> Float64Array:
         position = np.asarray(position, dtype=np.float64)
         if self.has_floor:
-            position[2] = max(position[2], LOWEST_M)
+            position[2] = max(position[2], min(LOWEST_M, 0.4 * self.framing.distance_m))
         if math.isfinite(self.room_m):
             wall = self.room_m - 0.4
             position[:2] = np.clip(position[:2], -wall, wall)

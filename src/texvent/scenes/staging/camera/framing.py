@@ -9,6 +9,9 @@ import numpy as np
 
 from texvent.scenes.scene import Camera, Float64Array
 
+NEAREST_M = 0.04
+"""Least distance from the camera to what it looks at, m."""
+
 
 @dataclass(frozen=True)
 class Framing:
@@ -85,14 +88,14 @@ def fit(
         distance = float(
             np.max(np.maximum(np.abs(sideways), np.abs(upwards) / aspect) * wide - further)
         )
-        distance = max(distance, 0.3)
+        distance = max(distance, NEAREST_M)
         depth = np.maximum(distance + further, 1e-3)
         shift_right = 0.5 * ((sideways / depth).min() + (sideways / depth).max()) * distance
         shift_up = 0.5 * ((upwards / depth).min() + (upwards / depth).max()) * distance
         target = target + shift_right * right + shift_up * up
     local = points - target
     asked = np.maximum(np.abs(local @ right), np.abs(local @ up) / aspect) * 2.0 * focal / fill
-    distance = max(float(np.max(asked + local @ back)), 0.3)
+    distance = max(float(np.max(asked + local @ back)), NEAREST_M)
     half_height = 0.5 * aspect / focal
     lowest = float(np.min((local @ up) / (distance - local @ back))) / half_height
     raised = min(lift, max(fill + lowest, 0.0))

@@ -14,6 +14,8 @@ FLAT = 0.3
 """What stays in place and is flatter than this share of its length is looked down upon."""
 _ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02, "first person": 0.05}
 _AZIMUTHS = {"side": 0.0, "front": 0.0, "back": math.pi}
+_FLAT_MOST_M = 3.0
+"""What extends further is not looked down upon: a bridge."""
 _FLAT_ELEVATION = 0.85
 _FOLLOW_ELEVATIONS = {"behind": 0.22, "front": 0.22, "above": 0.7}
 _PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04, "indoor": 0.24}
@@ -58,7 +60,8 @@ def _choose_elevation(
     if follow is not None and follow.direction in _FOLLOW_ELEVATIONS:
         return _FOLLOW_ELEVATIONS[follow.direction]
     widest = max(main.model.length, main.model.width)
-    if main.noun.habitat == "fixed" and main.model.height < FLAT * widest:
+    is_flat = widest < _FLAT_MOST_M and main.model.height < FLAT * widest
+    if main.noun.habitat == "fixed" and is_flat:
         return _FLAT_ELEVATION
     if place in _PLACE_ELEVATIONS:
         return _PLACE_ELEVATIONS[place]

@@ -1,0 +1,1 @@
+"""Models of what is found in a kitchen."""

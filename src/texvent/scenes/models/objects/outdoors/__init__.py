@@ -1,0 +1,1 @@
+"""Models of what stands in streets, gardens and landscapes, and in the sky."""

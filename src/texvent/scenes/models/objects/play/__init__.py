@@ -1,0 +1,1 @@
+"""Models of toys, playgrounds and musical instruments."""

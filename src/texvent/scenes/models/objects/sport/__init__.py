@@ -1,0 +1,1 @@
+"""Models of what is used in sports and games."""

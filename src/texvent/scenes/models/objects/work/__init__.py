@@ -1,0 +1,1 @@
+"""Models of tools, machines, robots and what goods are moved with."""
