@@ -243,8 +243,9 @@ class ProceduralGenerator:
 
         Args:
             prompt: as `generate` takes it.
-            is_staged: whether the scene is built, which takes 50 to 100 ms, so that words that it
-                cannot show are found too; False: the sentence is only read.
+            is_staged: whether the scene is built, which takes 0.1 s, so that words that it cannot
+                show and things that are never in view are found too; False: the sentence is only
+                read.
 
         Raises:
             InputError: as `generate`.
@@ -257,6 +258,7 @@ class ProceduralGenerator:
 
     def _stage(self, prompt: str) -> tuple[ComposedScene, PromptReport]:
         # Imported here: the vocabulary and all models are only needed to make a scene.
+        from texvent.generate.seen_things import list_unseen
         from texvent.scenes.language.parser import parse_prompt
         from texvent.scenes.staging.compose import compose_scene
 
@@ -265,7 +267,9 @@ class ProceduralGenerator:
         scene = compose_scene(
             description, seed=self.seed, size=self.size, duration_s=self.config.duration
         )
-        return scene, self._accepted(description.report(scene.not_shown))
+        unseen = list_unseen(scene, self.size, self.config.duration)
+        hidden = (f"{noun} (out of view, hidden or too small)" for noun in unseen)
+        return scene, self._accepted(description.report((*scene.not_shown, *hidden)))
 
     def _accepted(self, report: PromptReport) -> PromptReport:
         """The report, unless `strict` refuses the prompt."""

@@ -73,7 +73,7 @@ def report_prompt(
     Args:
         prompt: what to show.
         settings: all options.
-        is_staged: whether the scene is built too, which finds more and takes 50 to 100 ms.
+        is_staged: whether the scene is built too, which finds more and takes 0.1 s.
 
     Returns:
         The report; None for a learned generator, which gives none.

@@ -245,8 +245,10 @@ class SceneDescription:
         """What becomes of the prompt's words.
 
         Args:
-            not_shown: words that are understood but that the staged scene does not show.
+            not_shown: words that are understood but that the staged scene does not show, perhaps
+                with a reason, as "dog (hidden)".
         """
+        hidden = {words.partition(" (")[0] for words in not_shown}
         lines = [self._describe_object(index) for index in range(len(self.objects))]
         lines.extend(self._describe_effect(effect) for effect in self.effects)
         lines.append(f"place: {_describe_surroundings(self.surroundings)}")
@@ -256,7 +258,7 @@ class SceneDescription:
             lines.append(f"left out as asked: {', '.join(self.absent)}")
         return PromptReport(
             scene=tuple(lines),
-            shown=self.shown,
+            shown=tuple(word for word in self.shown if word not in hidden),
             substituted=self.substituted,
             not_shown=not_shown,
             not_understood=self.not_understood,
