@@ -160,6 +160,10 @@ class Ground(IntEnum):
     """Sea bed; everything fades into blue, light ripples on it."""
     NONE = 10
     """No ground: only sky (objects in the air or in space)."""
+    RIVER = 11
+    """Water that flows along the road's line, `road_half_width` to each side, through grass."""
+    LAKE = 12
+    """Water to the left of the road's line, grass to its right."""
 
 
 LAMP_COLUMNS = 15
@@ -226,6 +230,8 @@ class Environment:
     """Material of a room's walls."""
     puffs: Float64Array = field(default_factory=lambda: np.zeros((0, PUFF_COLUMNS)))
     """[k, 19] translucent ellipsoids of smoke, steam, mist or flame; see `PUFF_COLUMNS`."""
+    wall_colour: Colour = (0.75, 0.69, 0.61)
+    """Linear RGB of a room's walls."""
 
 
 class Scene(Protocol):

@@ -140,6 +140,8 @@ MATERIALS: dict[str, NamedMaterial] = {
     "metal": NamedMaterial(Texture.METAL, (0.34, 0.35, 0.37)),
     "gold": NamedMaterial(Texture.METAL, (0.60, 0.38, 0.07)),
     "silver": NamedMaterial(Texture.METAL, (0.52, 0.53, 0.55)),
+    "brass": NamedMaterial(Texture.METAL, (0.50, 0.33, 0.08)),
+    "ceramic": NamedMaterial(Texture.WORN, (0.70, 0.67, 0.62)),
     "copper": NamedMaterial(Texture.METAL, (0.48, 0.20, 0.09)),
     "rust": NamedMaterial(Texture.RUST, None, (0.26, 0.09, 0.03)),
     "glass": NamedMaterial(Texture.WORN, (0.10, 0.15, 0.17)),
@@ -160,21 +162,6 @@ MATERIALS: dict[str, NamedMaterial] = {
     "grass": NamedMaterial(Texture.GRASS, (0.055, 0.14, 0.022), (0.13, 0.21, 0.045)),
     "leaf": NamedMaterial(Texture.FOLIAGE, (0.06, 0.17, 0.03)),
 }
-"""Material → what it looks like; `SceneObject.material` is one of these or a `MATERIAL_WORDS`."""
-
-MATERIAL_WORDS: dict[str, str] = {
-    "wooden": "wood", "timber": "wood", "oak": "wood", "bamboo": "wood", "rock": "stone",
-    "rocky": "stone", "granite": "stone", "sandstone": "sand", "metallic": "metal",
-    "steel": "metal", "iron": "metal", "aluminium": "metal", "aluminum": "metal",
-    "chrome": "silver", "tin": "metal", "golden": "gold", "brass": "gold", "bronze": "copper",
-    "rusty": "rust", "rusted": "rust", "plastered": "plaster", "fabric": "cloth",
-    "cotton": "cloth", "silk": "cloth", "denim": "cloth", "textile": "cloth", "woollen": "wool",
-    "woolen": "wool", "knitted": "wool", "furry": "fur", "fluffy": "fur", "feathered": "feathers",
-    "carton": "cardboard", "ceramic": "clay", "porcelain": "marble", "terracotta": "clay",
-    "tiled": "tile", "icy": "ice", "leafy": "leaf", "grassy": "grass", "sandy": "sand",
-    "bricks": "brick",
-}  # fmt: skip
-"""Word of a prompt → key of `MATERIALS`."""
 
 
 def mottled(colour: Colour, *, contrast: float = 0.45, scale: float = 3.0) -> Material:

@@ -27,10 +27,8 @@ from texvent.scenes.raycast.records import (
     describe_materials,
     describe_rays,
     describe_surroundings,
-    ground_surfaces,
     own_world,
 )
-from texvent.scenes.raycast.surfaces.catalogue import build_tiles
 from texvent.scenes.scene import (
     LAMP_COLUMNS,
     Environment,
@@ -197,7 +195,7 @@ def build_world(
     shapes = np.zeros(len(primitives.shape), dtype=SHAPE_RECORD)
     describe_rays(instant[0], rays)
     describe_surroundings(instant[0], environment, shadows)
-    describe_materials(shapes, primitives)
+    describe_materials(instant, shapes, primitives, environment)
     surfaces = describe_surfaces(shapes, primitives)
     inverse, exists = invert_maps(np.asarray(primitives.to_world, dtype=np.float64))
     bounds, depth = screen_bounds(primitives, rays, plane_size)
@@ -222,13 +220,11 @@ def build_world(
     instant["sun_plane"], instant["sun_grid"] = plane, grid
     instant["tile_columns"], instant["tile_rows"] = tiles.columns, tiles.rows
     instant["sun_cells"] = len(tiles.start)
-    textures = {*np.unique(shapes["texture"]).tolist(), *ground_surfaces(environment)}
     world = World(
         instant,
         shapes,
         _join_lists(tiles, sun_cells),
         np.zeros((0, LAMP_COLUMNS)),
-        *build_tiles(textures),
         puffs=np.zeros(0, dtype=PUFF_RECORD),
         glows=np.zeros(0, dtype=GLOW_RECORD),
     )

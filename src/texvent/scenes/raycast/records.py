@@ -15,12 +15,16 @@ from numpy.typing import NDArray
 from texvent.scenes.image import MOST_LEVELS
 from texvent.scenes.lens import Lens
 from texvent.scenes.projection import Rays
+from texvent.scenes.raycast.surfaces.catalogue import SURFACE_COUNT, surface_rows
 from texvent.scenes.scene import Environment, Float64Array, Ground, Primitives, Texture
 
 NIGHT_SKY = 0.06
 """Stars show where the sky at the zenith is darker than this (linear luma)."""
 SUN_RADIUS = 0.022
 """Angular radius of the sun or moon, radians: about five times the real one, as in photographs."""
+
+MAX_CROSSINGS = 4
+"""Roads that may cross the main one."""
 
 INSTANT_RECORD = np.dtype(
     [
@@ -56,6 +60,14 @@ INSTANT_RECORD = np.dtype(
         ("ground_surface", "i8"),  # `Texture` of what lies beside the road, of the road, of walls
         ("road_surface", "i8"),
         ("wall_surface", "i8"),
+        # Of each material in use, by `Texture` less `FIRST_SURFACE`: address of its tile and of its
+        # large patches' tile; tiles per metre, strength of the large patches, and theirs.
+        ("surface_tiles", "i8", (SURFACE_COUNT, 2)),
+        ("surface_sizes", "f8", (SURFACE_COUNT, 3)),
+        ("wall_colour", "f8", 3),
+        ("road_curvature", "f8"),
+        ("crossing_count", "i8"),
+        ("crossings", "f8", (MAX_CROSSINGS, 4)),  # point (x, y), cosine and sine
         ("road", "f8", 5),  # cosine and sine of its direction, half width, x and y on it
         ("sky_top", "f8", 3),
         ("sky_horizon", "f8", 3),
@@ -196,10 +208,6 @@ class World(NamedTuple):
     """Shape numbers by screen tile and by sun cell; see `INSTANT_RECORD`."""
     lamps: Float64Array
     """[m, 15] as in `Environment.lamps`; those that cast shadows come first."""
-    tiles: NDArray[np.float32]
-    """[k, texels, channels] tiles of the materials in use; see `surfaces.catalogue.build_tiles`."""
-    surfaces: Float64Array
-    """[materials, 5] what each material is like; see `surfaces.catalogue.build_tiles`."""
     puffs: NDArray[Any]
     """[k] `PUFF_RECORD`."""
     glows: NDArray[Any]
@@ -217,8 +225,6 @@ class MeshWorld(NamedTuple):
     shapes: NDArray[Any]
     lists: NDArray[np.int32]
     lamps: Float64Array
-    tiles: NDArray[np.float32]
-    surfaces: Float64Array
     puffs: NDArray[Any]
     glows: NDArray[Any]
 
@@ -230,8 +236,6 @@ class OwnedWorld(NamedTuple):
     shapes: NDArray[Any]
     lists: NDArray[np.int32]
     lamps: Float64Array
-    tiles: NDArray[np.float32]
-    surfaces: Float64Array
     puffs: NDArray[Any]
     glows: NDArray[Any]
     nodes: NDArray[Any]
@@ -284,15 +288,18 @@ _GROUND_SURFACES = {
     Ground.SNOW: (Texture.SNOW, Texture.SNOW),
     Ground.UNDERWATER: (Texture.SAND, Texture.SAND),
     Ground.NONE: (Texture.PLAIN, Texture.PLAIN),
+    Ground.RIVER: (Texture.GRASS, Texture.WATER),
+    Ground.LAKE: (Texture.GRASS, Texture.WATER),
 }
 """What each ground is usually made of, and the road on it."""
 
 
 def ground_surfaces(environment: Environment) -> tuple[int, int, int]:
-    """Materials of the ground, of the road on it, and of a room's walls, as `Texture`."""
+    """Materials of the ground, of the road on it, and of the walls if it is a room's."""
     usual = _GROUND_SURFACES[environment.ground]
     ground = usual[0] if environment.ground_surface is None else environment.ground_surface
-    return int(ground), int(usual[1]), int(environment.wall_surface)
+    wall = environment.wall_surface if environment.ground is Ground.FLOOR else Texture.PLAIN
+    return int(ground), int(usual[1]), int(wall)
 
 
 def describe_surroundings(instant: NDArray[Any], environment: Environment, shadows: bool) -> None:
@@ -311,6 +318,12 @@ def describe_surroundings(instant: NDArray[Any], environment: Environment, shado
         environment.road_half_width,
         *environment.road_offset,
     )
+    instant["road_curvature"] = environment.road_curvature
+    crossings = np.asarray(environment.road_crossings, dtype=np.float64)[:MAX_CROSSINGS]
+    instant["crossing_count"] = len(crossings)
+    for number, (x, y, direction) in enumerate(crossings):
+        row = (x, y, math.cos(direction), math.sin(direction))
+        instant["crossings"][0, number] = row
     instant["stars"] = np.clip(1.5 * (1.0 - luma / NIGHT_SKY), 0.0, 1.0)
     instant["sun"] = sun / np.linalg.norm(sun)
     instant["sun_radius"] = SUN_RADIUS
@@ -318,13 +331,23 @@ def describe_surroundings(instant: NDArray[Any], environment: Environment, shado
     instant["fog"] = 1.0 / float(environment.fog_distance)
     instant["room"] = environment.room_half_size
     instant["time"] = environment.time_s
-    for name in ("sky_top", "sky_horizon", "clouds", "sun_colour", "ambient", "fog_colour"):
+    for name in (
+        "sky_top",
+        "sky_horizon",
+        "clouds",
+        "sun_colour",
+        "ambient",
+        "fog_colour",
+        "wall_colour",
+    ):
         instant[name] = getattr(environment, name)
     instant["exposure"] = environment.exposure
 
 
-def describe_materials(shapes: NDArray[Any], primitives: Primitives) -> None:
-    """Write what shapes are made of into their records.
+def describe_materials(
+    instant: NDArray[Any], shapes: NDArray[Any], primitives: Primitives, environment: Environment
+) -> None:
+    """Write what shapes are made of into their records, and where the tiles of that are.
 
     `Texture.MOTTLED` follows the size of its shape: it is a material at another fineness.
     """
@@ -335,3 +358,7 @@ def describe_materials(shapes: NDArray[Any], primitives: Primitives) -> None:
     largest = np.maximum(shapes["extent"][mottled].max(axis=1, initial=0.0), 1e-9)
     shapes["texture"][mottled] = Texture.SPOTS
     shapes["texture_scale"][mottled] = 0.25 * primitives.texture_scale[mottled] / largest
+    used = {*np.unique(shapes["texture"]).tolist(), *ground_surfaces(environment)}
+    if environment.ground is Ground.FLOOR:
+        used.add(Texture.PLASTER)  # the ceiling
+    instant["surface_tiles"], instant["surface_sizes"] = surface_rows(frozenset(used))

@@ -62,8 +62,6 @@ def _overload_uncounted_world(owner: Any) -> Any:
             uncounted(owner.shapes),
             uncounted(owner.lists),
             uncounted(owner.lamps),
-            uncounted(owner.tiles),
-            uncounted(owner.surfaces),
             uncounted(owner.puffs),
             uncounted(owner.glows),
         )

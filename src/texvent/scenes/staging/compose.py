@@ -40,15 +40,10 @@ from texvent.scenes.staging.particles.choose import (
 )
 from texvent.scenes.staging.placement.object_placement import SCENIC, ObjectPlacer
 from texvent.scenes.staging.road import RoadLine
-from texvent.scenes.staging.scenery import (
-    BACKDROPS,
-    SCENERY,
-    ScatterRule,
-    SceneryItem,
-    ViewClearance,
-    scatter,
-)
+from texvent.scenes.staging.scenery import SceneryItem, ViewClearance, scatter
 from texvent.scenes.staging.scenery_along import line_route
+from texvent.scenes.staging.scenery_tables import BACKDROPS, SCENERY, ScatterRule
+from texvent.scenes.staging.waterside import STRIPS, WATERSIDE, water_line
 from texvent.sensor import SensorSize
 
 VIEW_INSTANTS = 7
@@ -197,7 +192,7 @@ def choose_levels(
     levels = {"air": 1.5, "water": 0.0, "clear": 8.0 if place in _HIGH_PLACES else 0.0}
     if place == "underwater":
         levels["water"] = 0.9
-    elif place == "sea":
+    elif place == "sea" or place in WATERSIDE:
         levels.update({noun.name: -0.18 for noun in nouns.values() if noun.habitat == "water"})
         levels.update(dict.fromkeys(AFLOAT, 0.0))
     else:
@@ -214,16 +209,19 @@ def _describe_view(
     road_shape: str | None,
 ) -> ViewClearance:
     times = [duration_s * step / (VIEW_INSTANTS - 1) for step in range(VIEW_INSTANTS)]
-    has_road = PLACES[place].ground in (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY)
+    has_road = PLACES[place].ground in STRIPS
+    if place in WATERSIDE:
+        road = water_line(place, actors, path, PLACES[place].road_half_width)
+    else:
+        road = _shape_road(_road_line(actors, path), road_shape)
     points = [
         np.vstack([actor.corners(t)[::2] for actor in actors]) if actors else np.zeros((0, 3))
         for t in times
     ]
     return ViewClearance(
         [path.at(t) for t in times], points, path.framing.distance_m,
-        PLACES[place].road_half_width if has_road else None,
-        _shape_road(_road_line(actors, path), road_shape),
-        path.room_m,
+        PLACES[place].road_half_width if has_road else None, road,
+        path.room_m, has_shore=place == "lake",
     )  # fmt: skip
 
 

@@ -15,6 +15,7 @@ from texvent.scenes.scene import (
     Environment,
     Float32Array,
     Ground,
+    Texture,
 )
 from texvent.scenes.staging.road import RoadLine
 
@@ -30,12 +31,25 @@ class GroundAppearance:
     colour: Colour
     second_colour: Colour
     road_half_width: float = 3.4
+    surface: Texture | None = None
+    """Material of the ground; None = the usual one of `ground`."""
+    walls: Texture = Texture.PLASTER
+    """Material of a room's walls."""
+    wall_colour: Colour = (0.75, 0.69, 0.61)
+
+
+def _room(
+    surface: Texture, floor: tuple[Colour, Colour], walls: Texture, wall_colour: Colour
+) -> GroundAppearance:
+    return GroundAppearance(Ground.FLOOR, *floor, 3.4, surface, walls, wall_colour)
 
 
 _SNOW: Colour = (0.78, 0.82, 0.88)
-_SNOWED_OVER = (Ground.GRASS, Ground.ROAD, Ground.DIRT_ROAD)
+_SNOWED_OVER = (Ground.GRASS, Ground.ROAD, Ground.DIRT_ROAD, Ground.RIVER, Ground.LAKE)
 """Grounds whose grass is white when snow lies on it."""
 _MEADOW: tuple[Colour, Colour] = ((0.055, 0.14, 0.022), (0.13, 0.21, 0.045))
+_WATER: Colour = (0.016, 0.055, 0.065)
+_OAK: tuple[Colour, Colour] = ((0.36, 0.20, 0.10), (0.46, 0.28, 0.15))
 _ASPHALT: Colour = (0.04, 0.04, 0.043)
 
 PLACES: dict[str, GroundAppearance] = {
@@ -44,19 +58,70 @@ PLACES: dict[str, GroundAppearance] = {
     "city": GroundAppearance(Ground.CITY, (0.3, 0.3, 0.3), _ASPHALT, 4.5),
     "grass": GroundAppearance(Ground.GRASS, *_MEADOW),
     "savanna": GroundAppearance(Ground.GRASS, (0.30, 0.22, 0.075), (0.42, 0.33, 0.13)),
-    "forest": GroundAppearance(Ground.GRASS, (0.05, 0.075, 0.02), (0.12, 0.09, 0.04)),
+    "forest": GroundAppearance(
+        Ground.GRASS, (0.085, 0.065, 0.028), (0.17, 0.095, 0.03), surface=Texture.LEAVES
+    ),
+    "gravel": GroundAppearance(
+        Ground.PLAIN, (0.26, 0.25, 0.23), (0.36, 0.34, 0.30), surface=Texture.GRAVEL
+    ),
+    "soil": GroundAppearance(
+        Ground.PLAIN, (0.20, 0.125, 0.07), (0.29, 0.20, 0.12), surface=Texture.SOIL
+    ),
+    "river": GroundAppearance(Ground.RIVER, _MEADOW[0], _WATER, 4.5),
+    "lake": GroundAppearance(Ground.LAKE, _MEADOW[0], _WATER),
     "sea": GroundAppearance(Ground.SEA, (0.012, 0.07, 0.11), (0.03, 0.13, 0.16)),
     "underwater": GroundAppearance(Ground.UNDERWATER, (0.34, 0.31, 0.22), (0.5, 0.47, 0.36)),
     "sand": GroundAppearance(Ground.SAND, (0.56, 0.43, 0.25), (0.68, 0.55, 0.35)),
     "snow": GroundAppearance(Ground.SNOW, (0.80, 0.83, 0.88), (0.85, 0.88, 0.92)),
-    "mountain": GroundAppearance(Ground.GRASS, (0.10, 0.13, 0.05), (0.20, 0.19, 0.10)),
-    "indoor": GroundAppearance(Ground.FLOOR, (0.36, 0.20, 0.10), (0.46, 0.28, 0.15)),
+    "mountain": GroundAppearance(Ground.GRASS, (0.10, 0.13, 0.05), (0.22, 0.20, 0.12)),
+    "indoor": _room(Texture.BOARDS, _OAK, Texture.PLASTER, (0.75, 0.69, 0.61)),
+    "living room": _room(Texture.BOARDS, _OAK, Texture.WALLPAPER, (0.62, 0.60, 0.48)),
+    "bedroom": _room(
+        Texture.CARPET,
+        ((0.30, 0.27, 0.33), (0.42, 0.38, 0.42)),
+        Texture.WALLPAPER,
+        (0.55, 0.62, 0.70),
+    ),
+    "kitchen": _room(
+        Texture.TILES, ((0.62, 0.60, 0.55), (0.30, 0.29, 0.28)), Texture.TILES, (0.74, 0.74, 0.72)
+    ),
+    "office": _room(
+        Texture.CARPET,
+        ((0.12, 0.14, 0.18), (0.20, 0.22, 0.26)),
+        Texture.PLASTER,
+        (0.72, 0.72, 0.70),
+    ),
+    "workshop": _room(
+        Texture.CONCRETE,
+        ((0.30, 0.29, 0.28), (0.22, 0.21, 0.20)),
+        Texture.BRICK,
+        (0.36, 0.15, 0.10),
+    ),
+    "warehouse": _room(
+        Texture.CONCRETE,
+        ((0.36, 0.36, 0.35), (0.27, 0.27, 0.26)),
+        Texture.CONCRETE,
+        (0.46, 0.45, 0.43),
+    ),
+    "gym": _room(
+        Texture.BOARDS,
+        ((0.50, 0.33, 0.16), (0.58, 0.40, 0.21)),
+        Texture.BRICK,
+        (0.60, 0.57, 0.50),
+    ),
     "sky": GroundAppearance(Ground.NONE, (0.3, 0.3, 0.3), (0.3, 0.3, 0.3)),
     "space": GroundAppearance(Ground.NONE, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)),
-    "construction site": GroundAppearance(Ground.SAND, (0.36, 0.27, 0.18), (0.44, 0.34, 0.23)),
+    "construction site": GroundAppearance(
+        Ground.SAND, (0.36, 0.27, 0.18), (0.44, 0.34, 0.23), surface=Texture.SOIL
+    ),
     "plain": GroundAppearance(Ground.PLAIN, (0.42, 0.42, 0.42), (0.48, 0.48, 0.48)),
 }
 """Ground of every place the grammar knows."""
+
+
+def is_room(place: str) -> bool:
+    """Whether a place has walls and a ceiling."""
+    return PLACES[place].ground is Ground.FLOOR
 
 
 @dataclass(frozen=True)
@@ -161,7 +226,7 @@ def choose_lighting(place: str, light: Illumination) -> Lighting:
             chosen = replace(chosen, sun=(0.14, 0.22, 0.26), ambient=(0.05, 0.11, 0.16))
     elif place == "space":
         chosen = _SPACE
-    elif place == "indoor" and kind in ("day", "sunny", "overcast", "dawn", "dusk"):
+    elif is_room(place) and kind in ("day", "sunny", "overcast", "dawn", "dusk"):
         chosen = _INDOOR_DAY
     elif place == "sky" and kind == "night":
         chosen = LIGHTINGS["moonlight"]  # no lamps up there: without a moon one sees nothing
@@ -195,6 +260,7 @@ def build_environment(
     lighting = choose_lighting(place, description.light)
     said = description.surroundings
     colour, second = _ground_colours(ground, said)
+    is_white = said.has_snow and ground.ground in _SNOWED_OVER
     sky_top, horizon = lighting.sky_top, lighting.sky_horizon
     if said.sky is not None:
         sky_top, horizon = said.sky.rgb, mix(said.sky.rgb, horizon, 0.5)
@@ -224,6 +290,9 @@ def build_environment(
         lamps=np.zeros((0, LAMP_COLUMNS)),
         time_s=0.0,
         room_half_size=room_m,
+        ground_surface=Texture.SNOW if is_white else ground.surface,
+        wall_surface=ground.walls,
+        wall_colour=ground.wall_colour,
         road_curvature=road.curvature,
         road_crossings=np.array(road.crossings, dtype=np.float64).reshape(-1, 3),
     )

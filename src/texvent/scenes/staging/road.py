@@ -38,6 +38,19 @@ class RoadLine:
         y -= (math.cos(heading) - math.cos(self.angle)) / self.curvature
         return x, y, heading
 
+    def across(self, spot: Float64Array) -> float:
+        """Metres from the main road's line to a ground point [2], positive on its left."""
+        if self.curvature == 0.0:
+            x, y = spot[0] - self.offset[0], spot[1] - self.offset[1]
+            return float(y * math.cos(self.angle) - x * math.sin(self.angle))
+        radius = 1.0 / self.curvature
+        centre = (
+            self.offset[0] - radius * math.sin(self.angle),
+            self.offset[1] + radius * math.cos(self.angle),
+        )
+        gap = abs(radius) - math.hypot(spot[0] - centre[0], spot[1] - centre[1])
+        return math.copysign(1.0, radius) * gap
+
     def distance(self, points: Float64Array) -> Float64Array:
         """[n] metres from each ground point [n, 2] to the nearest centre line."""
         points = np.asarray(points, dtype=np.float64)

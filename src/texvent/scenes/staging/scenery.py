@@ -13,29 +13,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from texvent.scenes.models.protocol import Model, Noun, Pose
-from texvent.scenes.scene import Camera, Colour, Float64Array
+from texvent.scenes.scene import Camera, Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.assemble import PlacedModel
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.road import RoadLine
+from texvent.scenes.staging.scenery_tables import ScatterRule
 from texvent.scenes.staging.trajectories.trajectory import BodyState
-
-
-@dataclass(frozen=True)
-class ScatterRule:
-    """How many of one noun to scatter, in a band of distances from the camera."""
-
-    noun: str
-    count: int
-    near: float
-    """Nearest distance, in camera distances behind what the camera looks at."""
-    far: float
-    scale: tuple[float, float] = (0.8, 1.2)
-    colours: tuple[Colour | None, ...] = (None,)
-    fits_view: bool = False
-    """Whether its size follows the camera distance, so that it neither towers nor vanishes."""
-    is_metres: bool = False
-    """Whether `near` and `far` are metres from the camera instead."""
 
 
 @dataclass(frozen=True)
@@ -53,66 +37,9 @@ class ViewClearance:
     room_m: float = math.inf
     travel: TravelPlan | None = None
     """The route of a camera that travels."""
+    has_shore: bool = False
+    """Whether water lies to the left of the road's line."""
 
-
-_PINK: Colour = (0.75, 0.25, 0.30)
-_CORAL: tuple[Colour, ...] = (_PINK, (0.80, 0.40, 0.12), (0.55, 0.20, 0.50), (0.75, 0.65, 0.20))
-_DRY: Colour = (0.25, 0.22, 0.06)
-
-_MOUNTAINS = ScatterRule("mountain", 7, 190.0, 330.0, (0.9, 1.5), is_metres=True)
-
-SCENERY: dict[str, tuple[ScatterRule, ...]] = {
-    "road": (
-        ScatterRule("house", 1, 1.6, 2.6, (1.0, 1.2)),
-        ScatterRule("tree", 5, 0.5, 3.5, (0.8, 1.3)),
-        ScatterRule("bush", 6, 0.25, 2.0, (0.6, 1.1)),
-    ),
-    "dirt road": (ScatterRule("bush", 7, 0.2, 2.0, (0.5, 1.1)), ScatterRule("tree", 4, 0.7, 3.0),
-                  ScatterRule("rock", 5, 0.2, 2.0, (0.4, 1.0))),
-    "city": (
-        ScatterRule("street lamp", 4, 0.2, 1.5, (1.0, 1.0)),
-        ScatterRule("building", 7, 0.9, 3.5, (0.45, 0.9)),
-        ScatterRule("tree", 3, 0.3, 1.0, (0.6, 0.8)),
-    ),
-    "grass": (
-        ScatterRule("bush", 5, 0.6, 3.0, (0.6, 1.2)),
-        ScatterRule("tree", 5, 1.0, 4.0),
-        ScatterRule("flower", 8, 0.1, 0.8, (0.8, 1.3)),
-    ),
-    "savanna": (
-        ScatterRule("tree", 5, 1.2, 4.5, (0.9, 1.3)),
-        ScatterRule("bush", 9, 0.4, 3.0, (0.4, 0.9), (_DRY,)),
-    ),
-    "forest": (
-        ScatterRule("pine", 12, 0.25, 3.0, (0.8, 1.4)),
-        ScatterRule("tree", 8, 0.35, 2.5, (0.9, 1.4)),
-        ScatterRule("bush", 5, 0.2, 1.0, (0.5, 1.0)),
-    ),
-    "underwater": (
-        ScatterRule("rock", 6, 0.2, 1.4, (0.5, 1.5), fits_view=True),
-        ScatterRule("bush", 8, 0.15, 1.2, (0.3, 0.8), _CORAL, fits_view=True),
-    ),
-    "sand": (ScatterRule("palm", 3, 0.7, 2.5), ScatterRule("rock", 4, 0.3, 2.0, (0.4, 1.0))),
-    "snow": (ScatterRule("pine", 8, 0.7, 3.5, (0.7, 1.2)),),
-    "mountain": (
-        _MOUNTAINS,
-        ScatterRule("pine", 10, 0.6, 3.5, (0.7, 1.2)),
-        ScatterRule("rock", 5, 0.2, 1.5, (0.4, 1.2)),
-    ),
-    "construction site": (
-        ScatterRule("barrier", 3, 0.25, 0.8, (1.0, 1.0)),
-        ScatterRule("building frame", 1, 0.9, 1.4, (1.0, 1.0)),
-        ScatterRule("box", 4, 0.3, 1.0, (0.8, 1.4)),
-    ),
-}  # fmt: skip
-"""Place → what stands around there."""
-
-BACKDROPS: dict[str, tuple[ScatterRule, ...]] = {
-    "mountain": (_MOUNTAINS,
-                 ScatterRule("pine", 6, 0.8, 3.0, (0.8, 1.2))),
-    "forest": SCENERY["forest"],
-    "city": SCENERY["city"],
-}  # fmt: skip
 
 _USUAL_DISTANCE_M = 16.0
 ATTEMPTS = 40
@@ -129,6 +56,7 @@ class SceneryItem:
     yaw: float
     height_m: float = 0.0
     """Of its origin, m."""
+    is_at_wall: bool = False
 
     @property
     def radius_m(self) -> float:
@@ -210,6 +138,11 @@ def _find_place(
 ) -> SceneryItem | None:
     for _ in range(ATTEMPTS):
         camera = view.cameras[int(rng.integers(len(view.cameras)))]
+        if rule.is_at_wall:
+            item = _stand_at_wall(rule, model, camera, view.room_m, rng)
+            if _is_free(item, view, bodies, items):
+                return item
+            continue
         share = float(rng.uniform(-0.62, 0.62))
         reach = _draw_reach(rule, camera, view, rng)
         forward = camera.rotation[2, :2]
@@ -222,6 +155,21 @@ def _find_place(
         if _is_free(item, view, bodies, items):
             return item
     return None
+
+
+def _stand_at_wall(
+    rule: ScatterRule, model: Model, camera: Camera, room_m: float, rng: np.random.Generator
+) -> SceneryItem:
+    """Somewhere along a wall that the camera sees, with its back to it."""
+    forward = camera.rotation[2, :2]
+    sizes = np.abs(forward) / max(float(np.abs(forward).sum()), 1e-9)
+    axis = 0 if rng.uniform() < sizes[0] else 1
+    side = 1.0 if forward[axis] >= 0.0 else -1.0
+    spot = [0.0, 0.0]
+    spot[axis] = side * (room_m - 0.5 * model.length - 0.04)
+    spot[1 - axis] = float(rng.uniform(-0.9, 0.9)) * (room_m - 0.5 * model.width)
+    yaw = math.pi * (0.5 * axis + (1.0 if side > 0.0 else 0.0))
+    return SceneryItem(rule.noun, model, (spot[0], spot[1]), yaw, is_at_wall=True)
 
 
 def _draw_reach(
@@ -256,7 +204,10 @@ def _is_free(
         clear = view.road_half_width + radius + 0.4
         if float(view.road.distance(spot[None])[0]) < clear:
             return False
-    if np.max(np.abs(spot)) + radius > view.room_m:
+    room = view.room_m + (radius if item.is_at_wall else 0.0)
+    if np.max(np.abs(spot)) + radius > room:
+        return False
+    if view.has_shore and view.road.across(spot) > -radius - 1.0:
         return False
     if len(bodies) and np.any(np.hypot(*(bodies[:, :2] - spot).T) < bodies[:, 2] + radius + 0.4):
         return False

@@ -105,7 +105,7 @@ def _ground_light(
     if instant.ground == _SEA:
         light = sea_light(instant, point, unit(direction), footprint)
     else:
-        colour, slope_x, slope_y = ground_look(world, point, patch)
+        colour, slope_x, slope_y = ground_look(world, point, patch, unit(direction)[2])
         normal = unit((-slope_x, -slope_y, 1.0))
         light = _reflected(world, colour, point, normal, footprint[2], lit)
     if instant.ground == _UNDERWATER:

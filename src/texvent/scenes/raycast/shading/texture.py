@@ -103,7 +103,7 @@ def _material_look(
     world: World, number: int, point: Vector, look: tuple[Vector, Vector, Vector]
 ) -> tuple[Colour, Vector]:
     """As `surface_look`, for a material: seen along the local axes that the surface faces."""
-    shape = world.shapes[number]
+    shape, instant = world.shapes[number], world.instant[0]
     normal, right, down = look
     m, extent = shape.inverse, triple(shape.extent)
     place = times(mapped(m, point), extent)
@@ -118,17 +118,17 @@ def _material_look(
     bent = normal
     if shares[0] > 0.0:
         axes = patch_axes((right[1], right[2], down[1], down[2]))
-        one = sample_material(world, shape.texture, place[1] + shift, place[2], axes, fine)
+        one = sample_material(instant, shape.texture, place[1] + shift, place[2], axes, fine)
         first, second = shares[0] * one[0], shares[0] * one[1]
         bent = along(along(bent, y_axis, -shares[0] * one[2]), z_axis, -shares[0] * one[3])
     if shares[1] > 0.0:
         axes = patch_axes((right[0], right[2], down[0], down[2]))
-        one = sample_material(world, shape.texture, place[0] + shift, place[2], axes, fine)
+        one = sample_material(instant, shape.texture, place[0] + shift, place[2], axes, fine)
         first, second = first + shares[1] * one[0], second + shares[1] * one[1]
         bent = along(along(bent, x_axis, -shares[1] * one[2]), z_axis, -shares[1] * one[3])
     if shares[2] > 0.0:
         axes = patch_axes((right[0], right[1], down[0], down[1]))
-        one = sample_material(world, shape.texture, place[0], place[1] + shift, axes, fine)
+        one = sample_material(instant, shape.texture, place[0], place[1] + shift, axes, fine)
         first, second = first + shares[2] * one[0], second + shares[2] * one[1]
         bent = along(along(bent, x_axis, -shares[2] * one[2]), y_axis, -shares[2] * one[3])
     colour = along(scaled(triple(shape.colour), first), triple(shape.second_colour), second)

@@ -21,7 +21,7 @@ def worn() -> Pattern:
     """Paint, plastic, glass: almost even, with dirt and scratches."""
     scratches = strokes(60, 211, length=0.2, width=1, ground=0.0)
     dirt = fractal(3, 7, 212, gain=0.9)
-    return Pattern(exponential(0.055 * dirt - 0.10 * scratches), 0.0 * dirt, 0.0 * dirt)
+    return Pattern(exponential(0.07 * dirt - 0.12 * scratches), 0.0 * dirt, 0.0 * dirt)
 
 
 def stone() -> Pattern:
@@ -42,7 +42,7 @@ def concrete() -> Pattern:
     streaks = fractal(2, 5, 232, gain=0.9, stretch=4)
     rough = fractal(3, 7, 233, gain=0.95)
     inside, _ = courses(1, 4, (0.004, 0.012), is_staggered=False, salt=234)
-    factor = exponential(0.15 * rough + 0.08 * streaks - 0.7 * pore - 0.35 * (1.0 - inside))
+    factor = exponential(0.19 * rough + 0.09 * streaks - 0.7 * pore - 0.35 * (1.0 - inside))
     return Pattern(factor, smooth_step(streaks, 0.0, 2.0), 0.3 * rough - pore)
 
 
@@ -53,7 +53,7 @@ def plaster() -> Pattern:
     crack = 1.0 - smooth_step(gap - middle + 0.05 * rough, 0.004, 0.02)
     crack = crack * smooth_step(noise(3, 243), 0.2, 0.8)
     stains = smooth_step(fractal(2, 6, 244, gain=0.8), 0.5, 1.8)
-    return Pattern(exponential(0.12 * rough - 0.5 * crack - 0.15 * stains), stains, 0.6 * rough)
+    return Pattern(exponential(0.11 * rough - 0.22 * crack - 0.06 * stains), stains, 0.6 * rough)
 
 
 def brick() -> Pattern:
@@ -84,7 +84,7 @@ def wallpaper() -> Pattern:
     petals = 0.09 * (1.0 + 4.0 * across * across * up * up / (square * square + 1e-9))
     figure = 1.0 - smooth_step(np.sqrt(square), 0.8 * petals, 1.2 * petals + 0.02)
     rough = fractal(4, 6, 271, gain=0.9)
-    factor = exponential(0.06 * rough - 0.12 * stripes)
+    factor = exponential(0.10 * rough - 0.22 * stripes)
     return Pattern(factor, figure, 0.1 * rough)
 
 
@@ -129,7 +129,7 @@ def fur() -> Pattern:
     """Hairs along v in tufts."""
     hairs = strokes(9000, 321, length=0.09, lean=0.16, width=1, ground=0.3)
     tufts = fractal(3, 6, 322, gain=0.85, stretch=2)
-    return Pattern(exponential(0.5 * (hairs - 0.4) + 0.17 * tufts),
+    return Pattern(exponential(0.75 * (hairs - 0.4) + 0.25 * tufts),
                    smooth_step(tufts, 0.2, 2.0), 0.6 * hairs + 0.5 * tufts)  # fmt: skip
 
 
@@ -138,7 +138,7 @@ def feathers() -> Pattern:
     middle, gap, name = cells(14, 331, 10)
     barbs = strokes(5000, 332, length=0.05, lean=0.25, width=1, ground=0.4)
     edge = 1.0 - smooth_step(gap - middle, 0.03, 0.25)
-    factor = exponential(0.35 * (barbs - 0.4) + 0.35 * (name - 0.5) - 0.5 * edge)
+    factor = exponential(0.5 * (barbs - 0.4) + 0.45 * (name - 0.5) - 0.6 * edge)
     return Pattern(factor, edge, 1.0 - middle)
 
 
@@ -146,7 +146,7 @@ def cloth() -> Pattern:
     """Weave and folds."""
     weave = fractal(60, 2, 341, gain=1.0) + 0.5 * noise(128, 342, 8) + 0.5 * noise(8, 343, 128)
     folds = fractal(3, 5, 344, gain=0.75, stretch=2)
-    return Pattern(exponential(0.07 * weave + 0.14 * folds), smooth_step(folds, 0.5, 2.0), folds)
+    return Pattern(exponential(0.10 * weave + 0.20 * folds), smooth_step(folds, 0.5, 2.0), folds)
 
 
 def skin() -> Pattern:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 
@@ -37,46 +37,50 @@ class SurfaceKind:
     wear: float = 0.6
     """Strength of patches larger than the tile."""
     large: Texture = Texture.VARIATION
-    """Pattern of those patches on the ground."""
+    """Pattern of those patches."""
+    larger: float = 25.0
+    """How much larger than the tile theirs is."""
 
 
 SURFACES: dict[Texture, SurfaceKind] = {
     Texture.VARIATION: SurfaceKind(grounds.variation, 1.0),
     Texture.CRACKED: SurfaceKind(grounds.cracked, 1.0),
     Texture.WORN: SurfaceKind(bodies.worn, 1.6, wear=0.0),
-    Texture.ASPHALT: SurfaceKind(grounds.asphalt, 1.1, 0.25, 1.0, Texture.CRACKED),
-    Texture.GRASS: SurfaceKind(grounds.grass, 1.7, 0.35, 0.9),
+    Texture.ASPHALT: SurfaceKind(grounds.asphalt, 1.1, 0.25, 1.0, Texture.CRACKED, 13.7),
+    Texture.GRASS: SurfaceKind(grounds.grass, 1.7, 0.35, 1.0),
     Texture.SOIL: SurfaceKind(grounds.soil, 1.6, 0.7, 0.8),
-    Texture.SAND: SurfaceKind(grounds.sand, 2.2, 0.45, 0.5),
+    Texture.SAND: SurfaceKind(grounds.sand, 2.2, 0.5, 0.8),
     Texture.GRAVEL: SurfaceKind(grounds.gravel, 1.3, 0.9, 0.6),
     Texture.LEAVES: SurfaceKind(grounds.leaves, 1.9, 0.4, 0.8),
-    Texture.SNOW: SurfaceKind(grounds.snow, 4.0, 0.55, 0.25),
+    Texture.SNOW: SurfaceKind(grounds.snow, 3.0, 0.8, 0.35),
     Texture.PAVING: SurfaceKind(grounds.paving, 3.0, 0.8, 0.8),
-    Texture.TILES: SurfaceKind(grounds.tiles, 2.4, 0.4, 0.3),
-    Texture.BOARDS: SurfaceKind(grounds.boards, 1.9, 0.3, 0.4),
-    Texture.CARPET: SurfaceKind(grounds.carpet, 1.8, 0.3, 0.4),
-    Texture.WATER: SurfaceKind(grounds.water, 3.5, 0.3, 0.3),
+    Texture.TILES: SurfaceKind(grounds.tiles, 1.6, 0.4, 0.5),
+    Texture.BOARDS: SurfaceKind(grounds.boards, 1.9, 0.3, 0.6),
+    Texture.CARPET: SurfaceKind(grounds.carpet, 1.8, 0.3, 0.7),
+    Texture.WATER: SurfaceKind(grounds.water, 3.5, 0.3, 0.9),
     Texture.STONE: SurfaceKind(bodies.stone, 1.5, 0.9),
     Texture.CONCRETE: SurfaceKind(bodies.concrete, 2.6, 0.4, 0.7),
-    Texture.PLASTER: SurfaceKind(bodies.plaster, 3.2, 0.3, 0.5),
+    Texture.PLASTER: SurfaceKind(bodies.plaster, 3.2, 0.35, 0.25),
     Texture.BRICK: SurfaceKind(bodies.brick, 2.0, 0.8, 0.5),
     Texture.ROOFING: SurfaceKind(bodies.roofing, 2.5, 0.4),
     Texture.WALLPAPER: SurfaceKind(bodies.wallpaper, 1.6, 0.2, 0.3),
-    Texture.WOOD: SurfaceKind(bodies.wood, 0.9, 0.2, 0.3),
-    Texture.BARK: SurfaceKind(bodies.bark, 0.9, 0.9, 0.3),
-    Texture.FOLIAGE: SurfaceKind(bodies.foliage, 1.8, 0.45, 0.4),
-    Texture.NEEDLES: SurfaceKind(bodies.needles, 1.5, 0.45, 0.4),
-    Texture.FUR: SurfaceKind(bodies.fur, 0.6, 0.35, 0.3),
-    Texture.FEATHERS: SurfaceKind(bodies.feathers, 0.5, 0.3, 0.3),
+    Texture.WOOD: SurfaceKind(bodies.wood, 0.9, 0.2, 0.0),
+    Texture.BARK: SurfaceKind(bodies.bark, 0.9, 0.9, 0.0),
+    Texture.FOLIAGE: SurfaceKind(bodies.foliage, 1.8, 0.45, 0.5, larger=4.3),
+    Texture.NEEDLES: SurfaceKind(bodies.needles, 1.5, 0.45, 0.5, larger=4.3),
+    Texture.FUR: SurfaceKind(bodies.fur, 0.6, 0.35, 0.0),
+    Texture.FEATHERS: SurfaceKind(bodies.feathers, 0.5, 0.3, 0.0),
     Texture.CLOTH: SurfaceKind(bodies.cloth, 0.7, 0.35, 0.0),
     Texture.SKIN: SurfaceKind(bodies.skin, 0.35, 0.2, 0.0),
-    Texture.METAL: SurfaceKind(bodies.metal, 1.0, 0.1, 0.2),
-    Texture.RUST: SurfaceKind(bodies.rust, 0.9, 0.4, 0.3),
-    Texture.LEATHER: SurfaceKind(bodies.leather, 0.6, 0.5, 0.2),
+    Texture.METAL: SurfaceKind(bodies.metal, 1.0, 0.1, 0.0),
+    Texture.RUST: SurfaceKind(bodies.rust, 0.9, 0.4, 0.0),
+    Texture.LEATHER: SurfaceKind(bodies.leather, 0.6, 0.5, 0.0),
     Texture.SPOTS: SurfaceKind(bodies.spots, 1.0, 0.2, 0.0),
-    Texture.SCALES: SurfaceKind(bodies.scales, 0.5, 0.4, 0.2),
+    Texture.SCALES: SurfaceKind(bodies.scales, 0.5, 0.4, 0.0),
 }
 """Every material."""
+SURFACE_COUNT = max(SURFACES) - FIRST_SURFACE + 1
+"""Rows of a table by texture less `FIRST_SURFACE`."""
 
 
 @cache
@@ -91,7 +95,8 @@ def build_tile(texture: Texture) -> NDArray[np.float32]:
         texture: one of `SURFACES`.
 
     Returns:
-        [TEXELS, CHANNELS]; level l begins at `level_start(l)`, rows along v.
+        [TEXELS, CHANNELS], kept while the process runs; level l begins at `level_start(l)`, with
+        rows along v.
     """
     kind = SURFACES[texture]
     pattern = kind.pattern()
@@ -119,36 +124,28 @@ def level_start(level: int) -> int:
     return int((4 * SIDE * SIDE - (4 * SIDE * SIDE >> (2 * level))) // 3)
 
 
-def build_tiles(textures: Iterable[int]) -> tuple[NDArray[np.float32], NDArray[np.float64]]:
-    """Tiles of the materials in use, and what the kernels need to know about each material.
+@cache
+def surface_rows(textures: frozenset[int]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """What the kernels need to know about the materials in use.
 
     Args:
         textures: values of `Texture`; those without a tile are passed over.
 
     Returns:
-        Tiles [k, TEXELS, CHANNELS] and rows [materials, 5] by texture less `FIRST_SURFACE`:
-        number of its tile, of its large pattern's tile, tiles per metre, wear, and whether it
-        has relief. What is not in use has tile 0.
+        By texture less `FIRST_SURFACE`: addresses [SURFACE_COUNT, 2] of a material's tile and of
+        its large patches' tile, and [SURFACE_COUNT, 3] tiles per metre, strength of those
+        patches and their tiles per metre. Rows of materials that are not in use are 0.
     """
-    used = {Texture(value) for value in textures if value >= FIRST_SURFACE}
-    used |= {SURFACES[texture].large for texture in used}
-    return _join_tiles(tuple(sorted(used)))
-
-
-@cache
-def _join_tiles(used: tuple[Texture, ...]) -> tuple[NDArray[np.float32], NDArray[np.float64]]:
-    numbers = {texture: number for number, texture in enumerate(used)}
-    rows = np.zeros((max(SURFACES) - FIRST_SURFACE + 1, 5))
-    for texture, kind in SURFACES.items():
-        rows[texture - FIRST_SURFACE] = (
-            numbers.get(texture, 0),
-            numbers.get(kind.large, 0),
-            1.0 / kind.side_m,
-            kind.wear,
-            float(kind.relief > 0.0),
-        )
-    tiles = [build_tile(texture) for texture in used] or [np.zeros((TEXELS, CHANNELS), np.float32)]
-    return np.stack(tiles), rows
+    addresses = np.zeros((SURFACE_COUNT, 2), dtype=np.int64)
+    sizes = np.zeros((SURFACE_COUNT, 3))
+    for value in sorted(textures):
+        if value < FIRST_SURFACE:
+            continue
+        kind = SURFACES[Texture(value)]
+        row = value - FIRST_SURFACE
+        addresses[row] = [build_tile(each).ctypes.data for each in (Texture(value), kind.large)]
+        sizes[row] = 1.0 / kind.side_m, kind.wear, 1.0 / (kind.larger * kind.side_m)
+    return addresses, sizes
 
 
 def _slope(height: Field, axis: int, relief: float) -> Field:

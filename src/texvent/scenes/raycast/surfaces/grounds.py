@@ -12,6 +12,7 @@ from texvent.scenes.raycast.surfaces.fields import (
     courses,
     exponential,
     fractal,
+    grid,
     noise,
     smooth_step,
     strokes,
@@ -31,7 +32,7 @@ class Pattern(NamedTuple):
 
 def variation() -> Pattern:
     """Patches of all sizes, of one colour."""
-    return Pattern(exponential(0.24 * fractal(2, 7, 11, gain=0.9)), _half(), 0.0 * _half())
+    return Pattern(exponential(0.30 * fractal(2, 7, 11, gain=0.95)), _half(), 0.0 * _half())
 
 
 def asphalt() -> Pattern:
@@ -61,7 +62,7 @@ def grass() -> Pattern:
     """Blades over darker ground, in tufts."""
     blades = strokes(9000, 41, length=0.055, lean=0.6, width=2, ground=0.12)
     tufts = fractal(4, 5, 42, gain=0.85)
-    factor = exponential(1.05 * (blades - 0.4) + 0.20 * tufts)
+    factor = exponential(1.5 * (blades - 0.4) + 0.32 * tufts)
     return Pattern(factor, smooth_step(blades + 0.2 * tufts, 0.25, 0.95), blades + 0.3 * tufts)
 
 
@@ -78,8 +79,10 @@ def sand() -> Pattern:
     """Grains, wind ripples, footprints smoothed by wind."""
     grains = fractal(24, 4, 61, gain=1.0)
     ripples = fractal(3, 3, 62, gain=0.5, stretch=1)
+    spots, _, chance = cells(26, 65)
+    shells = (1.0 - smooth_step(spots, 0.10, 0.25)) * (smooth_step(chance, 0.8, 0.82) - 0.5)
     waves = noise(2, 63, 22) + 0.7 * noise(5, 64, 34)
-    factor = exponential(0.13 * grains + 0.05 * ripples)
+    factor = exponential(0.20 * grains + 0.10 * ripples - 0.5 * shells)
     return Pattern(factor, smooth_step(waves, -1.5, 1.5), 0.22 * grains + 0.9 * waves + ripples)
 
 
@@ -111,7 +114,9 @@ def leaves() -> Pattern:
 def snow() -> Pattern:
     """Drifts and crusts."""
     drifts = fractal(2, 7, 91, gain=0.72)
-    return Pattern(exponential(0.035 * fractal(16, 4, 92)), smooth_step(drifts, -1.5, 1.5), drifts)
+    return Pattern(
+        exponential(0.11 * fractal(4, 6, 92, gain=0.95)), smooth_step(drifts, -1.5, 1.5), drifts
+    )
 
 
 def paving() -> Pattern:
@@ -142,24 +147,26 @@ def boards() -> Pattern:
     long_grain = _grain(124).T
     knots, _, chance = cells(7, 125)
     knot = (1.0 - smooth_step(knots, 0.06, 0.20)) * smooth_step(chance, 0.6, 0.65)
-    factor = exponential(0.16 * long_grain + 0.06 * grain + 0.04 * rings + 0.4 * (name - 0.5)
+    factor = exponential(0.24 * long_grain + 0.10 * grain + 0.06 * rings + 0.4 * (name - 0.5)
                          - 0.8 * knot - 1.1 * (1.0 - inside))  # fmt: skip
     return Pattern(factor, name, inside + 0.05 * long_grain)
 
 
 def carpet() -> Pattern:
-    """Tufts of yarn with a woven figure."""
+    """Tufts of yarn, worn in places, with a woven lattice of rhombs."""
     tufts, _, name = cells(100, 131)
-    rough = fractal(3, 7, 132, gain=0.9)
-    figure, gap, kind = cells(6, 133)
-    shape = smooth_step(gap - figure, 0.10, 0.14) * smooth_step(kind, 0.3, 0.33)
-    factor = exponential(0.55 * (name - 0.5) - 0.4 * tufts + 0.13 * rough)
-    return Pattern(factor, shape, 0.5 - tufts)
+    rough = fractal(3, 7, 132, gain=0.95)
+    x, y = grid()
+    first = np.abs((9.0 * x + 6.0 * y) % 1.0 - 0.5)
+    second = np.abs((9.0 * x - 6.0 * y) % 1.0 - 0.5)
+    lines = 1.0 - smooth_step(np.minimum(first, second), 0.05, 0.09)
+    factor = exponential(0.6 * (name - 0.5) - 0.5 * tufts + 0.2 * rough)
+    return Pattern(factor, lines, 0.5 - tufts)
 
 
 def water() -> Pattern:
     """Ripples and the sky that they mirror."""
-    ripples = fractal(5, 5, 141, gain=0.75) + 0.5 * fractal(3, 5, 142, gain=0.8)
+    ripples = fractal(8, 5, 141, gain=0.8)
     glints = smooth_step(fractal(6, 5, 143, gain=0.8), 0.9, 1.9)
     return Pattern(exponential(0.35 * ripples), glints, ripples)
 

@@ -16,6 +16,7 @@ from texvent.scenes.staging.camera.framed_points import INSTANTS, choose_points
 from texvent.scenes.staging.camera.framing import Framing, fit
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.camera.view_angles import choose_angles
+from texvent.scenes.staging.environment import is_room
 
 SKY_LIFT = 0.2
 """How far the camera looks above what matters outdoors, in half image heights."""
@@ -64,7 +65,7 @@ def place_camera(
     moves = _plan_moves(description, main, duration_s)
     path = _frame(description, actors, main, moves, place, (seed, aspect, duration_s))
     path = _keep_in_view(path, main, actors, aspect)
-    if place == "indoor":
+    if is_room(place):
         near = [a for a in actors if description.objects[a.object_index].side != "far"]
         points = np.vstack([a.corners(float(t)) for a in near or actors
                             for t in np.linspace(0.0, duration_s, INSTANTS)])  # fmt: skip
@@ -83,7 +84,7 @@ def _frame(
     """The nearest camera that shows what matters; alone or followed, what would else be tiny."""
     seed, aspect, duration_s = how
     has_floor = place not in ("sky", "space")
-    is_open = has_floor and place not in ("underwater", "indoor")
+    is_open = has_floor and place != "underwater" and not is_room(place)
     is_said = bool(description.shot.moves) or description.shot.framing == "wide"
     attempts = [(False, moves)]
     if main.is_mover:
@@ -204,7 +205,7 @@ def _travel(
     framing = Framing(target, heading - 0.5 * math.pi, 0.05, max(16.0, 0.8 * travel.length_m), 0.9)
     moves = tuple(move for move in description.shot.moves if move.kind != "static")
     room = math.inf
-    if place == "indoor":
+    if is_room(place):
         corners = [actor.corners(0.5 * duration_s)[:, :2] for actor in actors]
         spread = float(np.abs(np.vstack(corners)).max()) + 0.8 if corners else 0.0
         room = max(0.5 * travel.length_m + 3.5, spread)

@@ -9,6 +9,7 @@ import numpy as np
 
 from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.staging.actors import Actor, seeded
+from texvent.scenes.staging.environment import is_room
 
 FLAT = 0.3
 """What stays in place and is flatter than this share of its length is looked down upon."""
@@ -18,7 +19,8 @@ _FLAT_MOST_M = 3.0
 """What extends further is not looked down upon: a bridge."""
 _FLAT_ELEVATION = 0.85
 _FOLLOW_ELEVATIONS = {"behind": 0.22, "front": 0.22, "above": 0.7}
-_PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04, "indoor": 0.24}
+_PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04}
+_ROOM_ELEVATION = 0.24
 
 
 def choose_angles(
@@ -65,6 +67,8 @@ def _choose_elevation(
         return _FLAT_ELEVATION
     if place in _PLACE_ELEVATIONS:
         return _PLACE_ELEVATIONS[place]
+    if is_room(place):
+        return _ROOM_ELEVATION
     if main.noun.habitat == "air":
         return -0.03
     if not main.is_mover and main.model.height > 5.0:

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from texvent.scenes.description import STANDING, Relation, SceneDescription
+from texvent.scenes.models.material_override import in_material
 from texvent.scenes.models.materials import Material
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.props import PROPS, Prop
@@ -89,7 +90,11 @@ class ObjectPlacer:
         rng = seeded(self._seed, "thing", index, scene_object.noun)
         colour = scene_object.colour.rgb if scene_object.colour is not None else None
         models = [
-            noun.build(colour=colour, scale=scene_object.scale, seed=int(rng.integers(2**31)))
+            in_material(
+                noun.build(colour=colour, scale=scene_object.scale, seed=int(rng.integers(2**31))),
+                scene_object.material,
+                colour,
+            )
             for _ in range(scene_object.count)
         ]
         motions = (scene_object.motion or STANDING, *scene_object.then)

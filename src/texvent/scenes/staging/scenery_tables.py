@@ -1,0 +1,132 @@
+"""What stands around in each place: tables for `scenery.scatter`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from texvent.scenes.scene import Colour
+
+
+@dataclass(frozen=True)
+class ScatterRule:
+    """How many of one noun to scatter, in a band of distances from the camera."""
+
+    noun: str
+    count: int
+    near: float
+    """Nearest distance, in camera distances behind what the camera looks at."""
+    far: float
+    scale: tuple[float, float] = (0.8, 1.2)
+    colours: tuple[Colour | None, ...] = (None,)
+    fits_view: bool = False
+    """Whether its size follows the camera distance, so that it neither towers nor vanishes."""
+    is_metres: bool = False
+    """Whether `near` and `far` are metres from the camera instead."""
+    is_at_wall: bool = False
+    """Whether it stands against a wall of the room; `near` and `far` do not count."""
+
+
+def _along_walls(*furniture: tuple[str, int]) -> tuple[ScatterRule, ...]:
+    """Furniture against the walls; nouns that there is no model of are left out."""
+    return tuple(
+        ScatterRule(noun, count, 0.0, 0.0, (0.95, 1.1), is_at_wall=True)
+        for noun, count in furniture
+    )
+
+
+_PINK: Colour = (0.75, 0.25, 0.30)
+_CORAL: tuple[Colour, ...] = (_PINK, (0.80, 0.40, 0.12), (0.55, 0.20, 0.50), (0.75, 0.65, 0.20))
+_DRY: Colour = (0.25, 0.22, 0.06)
+
+_MOUNTAINS = ScatterRule("mountain", 7, 190.0, 330.0, (0.9, 1.5), is_metres=True)
+
+SCENERY: dict[str, tuple[ScatterRule, ...]] = {
+    "road": (
+        ScatterRule("house", 1, 1.6, 2.6, (1.0, 1.2)),
+        ScatterRule("tree", 5, 0.5, 3.5, (0.8, 1.3)),
+        ScatterRule("bush", 6, 0.25, 2.0, (0.6, 1.1)),
+    ),
+    "dirt road": (ScatterRule("bush", 7, 0.2, 2.0, (0.5, 1.1)), ScatterRule("tree", 4, 0.7, 3.0),
+                  ScatterRule("rock", 5, 0.2, 2.0, (0.4, 1.0))),
+    "city": (
+        ScatterRule("street lamp", 4, 0.2, 1.5, (1.0, 1.0)),
+        ScatterRule("building", 7, 0.9, 3.5, (0.45, 0.9)),
+        ScatterRule("tree", 3, 0.3, 1.0, (0.6, 0.8)),
+    ),
+    "grass": (
+        ScatterRule("bush", 5, 0.6, 3.0, (0.6, 1.2)),
+        ScatterRule("tree", 5, 1.0, 4.0),
+        ScatterRule("flower", 8, 0.1, 0.8, (0.8, 1.3)),
+    ),
+    "savanna": (
+        ScatterRule("tree", 5, 1.2, 4.5, (0.9, 1.3)),
+        ScatterRule("bush", 9, 0.4, 3.0, (0.4, 0.9), (_DRY,)),
+    ),
+    "forest": (
+        ScatterRule("pine", 12, 0.25, 3.0, (0.8, 1.4)),
+        ScatterRule("tree", 8, 0.35, 2.5, (0.9, 1.4)),
+        ScatterRule("bush", 5, 0.2, 1.0, (0.5, 1.0)),
+    ),
+    "underwater": (
+        ScatterRule("rock", 6, 0.2, 1.4, (0.5, 1.5), fits_view=True),
+        ScatterRule("bush", 8, 0.15, 1.2, (0.3, 0.8), _CORAL, fits_view=True),
+    ),
+    "sand": (ScatterRule("palm", 3, 0.7, 2.5), ScatterRule("rock", 4, 0.3, 2.0, (0.4, 1.0))),
+    "snow": (ScatterRule("pine", 8, 0.7, 3.5, (0.7, 1.2)),),
+    "mountain": (
+        _MOUNTAINS,
+        ScatterRule("pine", 10, 0.6, 3.5, (0.7, 1.2)),
+        ScatterRule("rock", 5, 0.2, 1.5, (0.4, 1.2)),
+    ),
+    "river": (
+        ScatterRule("tree", 5, 0.3, 3.0, (0.7, 1.2)),
+        ScatterRule("bush", 9, 0.15, 2.0, (0.4, 1.0)),
+        ScatterRule("rock", 6, 0.1, 1.5, (0.2, 0.6)),
+    ),
+    "lake": (
+        ScatterRule("tree", 3, 0.2, 1.0, (0.7, 1.2)),
+        ScatterRule("bush", 7, 0.1, 1.0, (0.3, 0.8)),
+        ScatterRule("rock", 5, 0.1, 1.0, (0.2, 0.5)),
+    ),
+    "gravel": (ScatterRule("rock", 6, 0.2, 2.0, (0.2, 0.6)),
+               ScatterRule("bush", 4, 0.5, 2.5, (0.4, 0.8))),
+    "soil": (ScatterRule("rock", 6, 0.2, 2.0, (0.15, 0.5)),
+             ScatterRule("bush", 4, 0.6, 2.5, (0.4, 0.8))),
+    "indoor": _along_walls(("bookshelf", 1), ("chair", 2), ("lamp", 1)),
+    "living room": _along_walls(
+        ("sofa", 1), ("bookshelf", 2), ("lamp", 1), ("television", 1), ("armchair", 1),
+        ("cabinet", 1), ("potted plant", 2), ("chair", 1),
+    ),
+    "kitchen": _along_walls(
+        ("refrigerator", 1), ("oven", 1), ("sink", 1), ("cabinet", 3), ("dishwasher", 1),
+        ("table", 1), ("chair", 2),
+    ),
+    "bedroom": _along_walls(
+        ("bed", 1), ("wardrobe", 1), ("nightstand", 1), ("lamp", 1), ("dresser", 1),
+        ("bookshelf", 1), ("chair", 1),
+    ),
+    "office": _along_walls(
+        ("desk", 2), ("office chair", 2), ("bookshelf", 2), ("cabinet", 1), ("potted plant", 1),
+        ("printer", 1), ("chair", 2),
+    ),
+    "workshop": _along_walls(
+        ("workbench", 2), ("toolbox", 2), ("cabinet", 1), ("ladder", 1), ("box", 3), ("barrel", 2),
+        ("table", 1),
+    ),
+    "warehouse": _along_walls(("shelf", 3), ("box", 8), ("barrel", 3), ("pallet", 2),
+                              ("cylinder", 2)),
+    "gym": _along_walls(("bench", 3), ("treadmill", 2), ("dumbbell", 2), ("basketball", 2)),
+    "construction site": (
+        ScatterRule("barrier", 3, 0.25, 0.8, (1.0, 1.0)),
+        ScatterRule("building frame", 1, 0.9, 1.4, (1.0, 1.0)),
+        ScatterRule("box", 4, 0.3, 1.0, (0.8, 1.4)),
+    ),
+}  # fmt: skip
+"""Place → what stands around there."""
+
+BACKDROPS: dict[str, tuple[ScatterRule, ...]] = {
+    "mountain": (_MOUNTAINS,
+                 ScatterRule("pine", 6, 0.8, 3.0, (0.8, 1.2))),
+    "forest": SCENERY["forest"],
+    "city": SCENERY["city"],
+}  # fmt: skip

@@ -1,0 +1,48 @@
+"""Where a river or a lake lies: through what floats on it, or behind what stands beside it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from texvent.scenes.scene import Ground
+from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.camera.camera_path import CameraPath
+from texvent.scenes.staging.road import RoadLine
+
+STRIPS = (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY, Ground.RIVER)
+"""Grounds with a strip that scenery keeps off."""
+WATERSIDE = ("river", "lake")
+"""Places with water beside land."""
+_GAP = 0.22
+"""Land between what the camera looks at and the water, as a share of the camera's distance."""
+
+
+def water_line(
+    place: str, actors: Sequence[Actor], path: CameraPath, half_width: float
+) -> RoadLine:
+    """The middle of a river, or the shore of a lake with the water on its left.
+
+    Args:
+        place: one of `WATERSIDE`.
+        actors: the objects of the prompt.
+        path: the camera's.
+        half_width: of the river, m.
+    """
+    forward = path.at(0.0).rotation[2, :2]
+    angle = math.atan2(float(forward[1]), float(forward[0])) - 0.5 * math.pi
+    x, y = float(path.framing.target[0]), float(path.framing.target[1])
+    swimmers = [actor for actor in actors if actor.noun.habitat == "water"]
+    distance = path.framing.distance_m
+    if not swimmers:
+        gap = _GAP * distance + (half_width if place == "river" else 0.0) + 1.0
+    elif place == "river":
+        gap = 0.0
+        state = swimmers[0].trajectory.at(0.0)
+        if swimmers[0].is_mover:
+            angle = state.yaw
+        x, y = float(state.position[0]), float(state.position[1])
+    else:
+        gap = -0.45 * distance
+    across = angle + 0.5 * math.pi
+    return RoadLine(angle, (x + gap * math.cos(across), y + gap * math.sin(across)))
