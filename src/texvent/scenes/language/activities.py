@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
 from texvent.scenes.language.syntax import Clause, NounGroup
 from texvent.scenes.language.tagging import Word
 from texvent.scenes.language.vocabulary_function import DETERMINERS
 from texvent.scenes.language.vocabulary_motion import VERBS
+from texvent.scenes.language.words import Pos, list_readings
 from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES, Activity
 
 Key = tuple[str, ...]
@@ -23,7 +24,7 @@ def find_activity(clause: Clause, *, is_hand: bool) -> tuple[str, list[Word], bo
     """
     table = _phrases(is_hand)
     said = _list_words(clause)
-    lemmas = tuple(word.lemma for word in said)
+    lemmas = tuple(_normalise(word.text) for word in said)
     for length in range(len(said), 0, -1):
         name = table.get(lemmas[:length])
         if name is not None:
@@ -51,6 +52,37 @@ def _plain(group: NounGroup) -> list[Word]:
     return [word for word in group.words if word is not group.determiner]
 
 
+def name_activity(words: Sequence[Word]) -> tuple[str, str] | None:
+    """Who does what, where words name an activity and nobody: "jumping jacks", "thumbs up".
+
+    Returns:
+        Noun and activity; None if they name none.
+    """
+    key = tuple(
+        _normalise(part)
+        for word in words
+        for part in word.text.split()
+        if part not in DETERMINERS and part not in ("gesture", "gestures")
+    )
+    if not key:
+        return None
+    if key in (found := _phrases(is_hand=True)):
+        return "hand", found[key]
+    people = _phrases(is_hand=False)
+    is_hand_of_person = key[:1] == ("hand",) and key[1:] in found
+    if is_hand_of_person:
+        return "hand", found[key[1:]]
+    return ("person", people[key]) if key in people else None
+
+
+@lru_cache(maxsize=1024)
+def _normalise(word: str) -> str:
+    """Base form of a word, of its verb if it can be one."""
+    readings = list_readings(word)
+    verbs = [one.lemma for one in readings if one.pos is Pos.VERB]
+    return (verbs or [one.lemma for one in readings] or [word])[0]
+
+
 @lru_cache(maxsize=2)
 def _phrases(is_hand: bool) -> Mapping[Key, str]:
     """Phrases of base forms, without determiners → activity."""
@@ -59,9 +91,7 @@ def _phrases(is_hand: bool) -> Mapping[Key, str]:
     found: dict[Key, str] = {}
     for name, activity in table.items():
         for text in activity.words:
-            words = tuple(
-                word for word in text.replace("-", " ").split() if word not in DETERMINERS
-            )
+            words = [word for word in text.replace("-", " ").split() if word not in DETERMINERS]
             if len(words) > 1 or words[0] not in plain:
-                found.setdefault(words, name)
+                found.setdefault(tuple(_normalise(word) for word in words), name)
     return found

@@ -8,6 +8,7 @@ from dataclasses import replace
 from texvent.scenes.description import SPIN_RATE_HZ, Effect, ObjectMotion
 from texvent.scenes.language.activities import find_activity
 from texvent.scenes.language.capabilities import can_do, is_hand, is_living, is_person
+from texvent.scenes.language.defaults import WORKING
 from texvent.scenes.language.draft import Draft
 from texvent.scenes.language.lexicon import Role
 from texvent.scenes.language.referents import Referent
@@ -114,11 +115,9 @@ class ActReader:
 
     def _is_act(self, clause: Clause, objects: Sequence[Referent]) -> bool:
         """Whether the verb acts on an object of the scene, or moves in a plain way."""
-        verb = clause.verb_word.meaning.value
-        if not isinstance(verb, Verb):
+        if not isinstance(clause.verb_word.meaning.value, Verb):
             return False
-        has_target = any(one.is_things for one in objects)
-        return has_target and bool(verb.act or verb.relation or verb.object_kind)
+        return any(one.is_things for one in objects)
 
     def _read_effect(self, clause: Clause, subjects: list[int]) -> bool:
         """As in "a balloon bursts", "a chimney smokes"."""
@@ -160,6 +159,7 @@ class ActReader:
             movers = self._give(clause, verb, subjects)
             if movers:
                 self._draft.relate("with", movers, targets)
+                self._give(clause, verb, [i for i in targets if is_living(self._draft.noun(i))])
             return movers
         return []
 
@@ -194,6 +194,8 @@ class ActReader:
         """Give a motion to the objects that can do it; the others are left as they are."""
         word = clause.verb_word
         things = [self._mount(index) for index in things]
+        if verb.kind == "wave" and any(self._draft.objects[i].noun in WORKING for i in things):
+            verb = replace(verb, kind="work")
         able = [index for index in things if can_do(self._draft.noun(index), verb.kind)]
         if not able:
             return []

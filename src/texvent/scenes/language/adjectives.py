@@ -36,6 +36,7 @@ class Attributes:
     flicker: Word | None = None
     still: Word | None = None
     numbers: list[Word] = field(default_factory=list)
+    effect: tuple[str, Word] | None = None
     rate_hz: tuple[float, list[Word]] | None = None
 
     @property
@@ -115,7 +116,10 @@ def read_attributes(modifiers: Sequence[Word]) -> Attributes:
     shade: Word | None = None
     for word in modifiers:
         role = word.role
-        if role is Role.SHADE:
+        effect = word.read_as(Role.EFFECT)
+        if effect is not None:
+            found.effect = (effect.value, word)
+        elif role is Role.SHADE:
             shade = word
         elif role is Role.COLOUR:
             found.colours.append(_name_colour(word, shade))

@@ -46,6 +46,11 @@ class CameraReader:
         """Whether any move was read."""
         return bool(self._moves)
 
+    @property
+    def is_first_person(self) -> bool:
+        """Whether the camera is somebody's eyes."""
+        return self._view == "first person"
+
     def read_word(self, word: Word) -> bool:
         """Take a view, a framing or a move that stands alone: "close-up", "handheld"."""
         if word.role is Role.VIEW:

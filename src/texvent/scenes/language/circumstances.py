@@ -31,6 +31,7 @@ _LIGHT_PREPOSITIONS = frozenset(
      "as", "through"}
 )  # fmt: skip
 _MOTION_BY_PREPOSITION = {"across": "across", "up": "up", "down": "down"}
+_HELD = frozenset({"umbrella", "kite", "balloon", "flag", "surfboard", "racket", "skis"})
 _HELD_AT_MOST_M = 1.3
 """A person "with" something up to this long holds it."""
 
@@ -190,8 +191,15 @@ class CircumstanceReader:
 
     def _read_of(self, phrase: PrepPhrase, whole: Referent, scope: Scope) -> None:
         """As in "A bowl of soup", "a set of buckets", "the side of the road"."""
+        head = whole.group.head
+        if head is not None and head.lemma in LIKENESSES:
+            phrase.preposition.is_lost = True
+            return
         phrase.preposition.is_used = True
         found = [self._referents.resolve(group, "of") for group in phrase.groups]
+        for one in found:
+            if one.kind == "unknown" and whole.is_things:
+                self._referents.add_effect(one.attributes, whole.things)
         for one in found:
             if one.is_things and whole.is_things:
                 self._draft.relate("in", one.things, whole.things)
@@ -258,7 +266,8 @@ class CircumstanceReader:
         doer, item = self._draft.noun(scope.subjects[0]), self._draft.noun(things[0])
         if item.name in WEARABLE and is_living(doer):
             return self._draft.relate("wear", scope.subjects, things)
-        if is_person(doer) and item.motion == "stand" and self._is_small(things[0]):
+        is_held = item.name in _HELD or (item.motion == "stand" and self._is_small(things[0]))
+        if is_person(doer) and is_held:
             return self._draft.relate("hold", scope.subjects, things)
         return self._draft.relate("with", scope.subjects, things)
 
@@ -411,6 +420,12 @@ class CircumstanceReader:
         return None
 
 
+LIKENESSES = frozenset(
+    {"poster", "picture", "painting", "photo", "photograph", "drawing", "statue", "sculpture",
+     "figurine", "model", "portrait", "logo", "silhouette", "reflection", "map", "toy", "image",
+     "replica", "costume", "shadow"}
+)  # fmt: skip
+"""What shows a thing without its being there: "a statue of a horse"."""
 _JOURNEYS = frozenset({"towards", "through", "past", "from"})
 _PATHS = frozenset({"past", "through", "towards", "from", "around", "follow", "above"})
 _WEAK_PREPOSITIONS: dict[object, str] = {

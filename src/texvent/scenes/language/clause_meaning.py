@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence, Set
 
-from texvent.scenes.description import SceneDescription
-from texvent.scenes.language.activities import find_activity
+from texvent.scenes.description import ObjectMotion, SceneDescription
+from texvent.scenes.language.activities import find_activity, name_activity
 from texvent.scenes.language.acts import ActReader, is_plain_past
 from texvent.scenes.language.camera_reader import CameraReader
+from texvent.scenes.language.capabilities import is_living
 from texvent.scenes.language.circumstances import CircumstanceReader, Scope
 from texvent.scenes.language.draft import Draft, PartialObject
 from texvent.scenes.language.lexicon import Role
 from texvent.scenes.language.referents import PERSON, Referent, Referents
 from texvent.scenes.language.surroundings_reader import SurroundingsReader
 from texvent.scenes.language.syntax import Clause, NounGroup, PrepPhrase
-from texvent.scenes.language.tagging import Word
+from texvent.scenes.language.tagging import Word, mark_used
 from texvent.scenes.language.vocabulary_motion import Verb
 from texvent.scenes.language.vocabulary_scene import TRAVEL_MEANS, WEATHER_VERBS
 from texvent.scenes.language.words import VerbForm
@@ -23,6 +24,7 @@ from texvent.scenes.models.protocol import Noun
 _OF_SCENE = frozenset(
     {"place", "light", "weather", "sky", "snow", "dust", "shadow", "glow", "clouds"}
 )
+_SUN = {"set": "dusk", "rise": "dawn"}
 _BENDS = ("curve", "wind", "bend", "twist")
 _SNOWS = ("fall", "blow", "swirl", "drift", "whirl")
 _PLAIN_WEATHER_VERBS = frozenset(
@@ -174,6 +176,8 @@ class ClauseMeaning:
             return True
         if word.lemma in _BENDS and "place" in kinds:
             return self._surroundings.curve_road()
+        if word.lemma in _SUN and "light" in kinds:
+            return self._surroundings.read_light(_SUN[word.lemma], is_sure=True)
         if word.lemma in _SNOWS and "snow" in kinds:
             return self._surroundings.read_weather("snow")
         return word.lemma in _PLAIN_WEATHER_VERBS and bool(kinds - {"place"})
@@ -213,7 +217,11 @@ class ClauseMeaning:
         """As in "Driving through a tunnel", "juggling three oranges"."""
         word = clause.verb_word
         is_gerund = word.meaning.form is VerbForm.ING
-        if is_gerund and word.lemma in TRAVEL_MEANS and not clause.objects:
+        is_viewer = self._camera.is_first_person or not clause.objects
+        if is_gerund and word.lemma in TRAVEL_MEANS and is_viewer:
+            for group in clause.objects:
+                mark_used(group.words)
+            clause.objects = []
             self._read_camera(clause, [])
             self._draft.note("the camera itself moves, as no one else is said to")
             return
@@ -246,8 +254,11 @@ class ClauseMeaning:
         subjects = self._split_scene(subjects)
         things = [index for one in subjects if one.is_things for index in one.things]
         is_lost = bool(subjects) and not things
+        self._referents.has_body = any(is_living(self._draft.noun(index)) for index in things)
         objects = [self._referents.resolve(group) for group in clause.objects]
         agents = self._find_agents(clause)
+        if clause.verb is None and not things and self._read_named_activity(clause):
+            return
         self._read_subject_phrases(clause, subjects, things)
         movers: list[int] = []
         if clause.verb is not None and things:
@@ -266,7 +277,21 @@ class ClauseMeaning:
         self._read_complements(clause, scope)
         self._around.read_adverbs(clause.adverbs, scope)
         self._around.read_phrases(clause.phrases, scope)
+        self._referents.has_body = False
         self._keep_subjects(things)
+
+    def _read_named_activity(self, clause: Clause) -> bool:
+        """As in "jumping jacks", "right arm clockwise", "thumbs up"."""
+        words = [word for group in clause.subjects for word in group.words]
+        found = name_activity([*words, *clause.adverbs])
+        if found is None:
+            return False
+        noun, activity = found
+        mark_used([*words, *clause.adverbs])
+        item = PartialObject(noun, motions=[ObjectMotion(activity)])
+        if self._draft.add(item) is not None:
+            self._draft.note(f"a {noun} does it ({activity}): no one is named")
+        return True
 
     def _read_subject_phrases(
         self, clause: Clause, subjects: Sequence[Referent], things: Sequence[int]

@@ -27,6 +27,10 @@ from texvent.scenes.language.vocabulary_function import (
 from texvent.scenes.language.words import Pos, VerbForm
 
 _SENTENCE_SIGNS = frozenset(".;!?:\n")
+_AWAITS_NOUN = frozenset(
+    {None, Pos.SIGN, Pos.PREPOSITION, Pos.CONJUNCTION, Pos.SUBORDINATOR, Pos.VERB}
+)
+"""Parts of speech after which a participle may open a noun group."""
 _JOINING_SIGNS = frozenset(",()[]")
 _FIRST = ("when", "after", "once", "whenever")
 """Subordinators whose clause, at the start of a sentence, comes before the main clause."""
@@ -123,7 +127,7 @@ class _ClauseReader:
 
     def _starts_group(self) -> bool:
         before = self._words[self._at - 1].pos if self._at else None
-        awaits_noun = before in (None, Pos.SIGN, Pos.PREPOSITION, Pos.CONJUNCTION, Pos.SUBORDINATOR)
+        awaits_noun = before in _AWAITS_NOUN
         is_verb_wanted = bool(self._clause.auxiliaries) and self._clause.verb is None
         is_subject_open = bool(self._clause.subjects) and self._clause.verb is None
         is_opening = awaits_noun and not is_verb_wanted and not (

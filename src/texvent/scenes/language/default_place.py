@@ -51,10 +51,14 @@ def choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> st
         return "city"
     if said.has_snow:
         return "snow"
-    return _choose_usual(members)
+    rests = all(
+        one.motion is not None and one.motion.kind in ("stand", "sit", "lie")
+        for one in description.objects
+    )
+    return _choose_usual(members, rests=rests)
 
 
-def _choose_usual(members: Sequence[Noun]) -> str:
+def _choose_usual(members: Sequence[Noun], *, rests: bool) -> str:
     if not members:
         return "grass"
     if {noun.habitat for noun in members} == {"water"}:
@@ -66,5 +70,5 @@ def _choose_usual(members: Sequence[Noun]) -> str:
         if noun.place:
             return noun.place
     if all(noun.habitat == "air" and noun.speed_m_s >= _FAST_FLYER_M_S for noun in members):
-        return "sky"
+        return "grass" if rests else "sky"
     return "grass"

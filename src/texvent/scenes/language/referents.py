@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from texvent.scenes.description import Effect
 from texvent.scenes.language import vocabulary_scene
 from texvent.scenes.language.adjectives import Attributes, read_attributes
 from texvent.scenes.language.draft import Draft, PartialObject
@@ -68,6 +69,8 @@ class Referents:
     def __init__(self, draft: Draft) -> None:
         self._draft = draft
         self._known: dict[int, Referent] = {}
+        self.has_body = False
+        """Whether the clause is about people or animals: "claps hands" shows no further hands."""
 
     def resolve(self, group: NounGroup, preposition: str | None = None) -> Referent:
         """What a group means.
@@ -107,6 +110,8 @@ class Referents:
         is_thing = head.read_as(Role.NOUN) is not None
         if is_thing and head.read_as(Role.PLACE) is not None:
             return Role.PLACE if preposition in _LOCATIVE else Role.NOUN
+        if is_thing and self.has_body and head.lemma in BODY_PARTS:
+            return Role.PART
         if is_thing and head.read_as(Role.PART) is not None:
             is_owned = group.owner is not None or (
                 group.determiner is not None and group.determiner.text in OWNERS
@@ -177,7 +182,15 @@ class Referents:
         index = self._draft.add(item)
         if index is not None:
             attributes.apply(item, self._draft.nouns[noun])
+            self.add_effect(attributes, [index])
         return index
+
+    def add_effect(self, attributes: Attributes, things: Sequence[int]) -> None:
+        """As in "a steaming cup", "a cup of steaming coffee"."""
+        if attributes.effect is not None and things:
+            kind, word = attributes.effect
+            self._draft.effects.append(Effect(kind, source=things[0]))
+            word.is_used = True
 
 
 def _find_head(group: NounGroup) -> Word:
@@ -191,6 +204,7 @@ def _find_head(group: NounGroup) -> Word:
     return group.head_word
 
 
+BODY_PARTS = frozenset({"hand", "finger", "fist", "arm", "head", "leg", "foot", "tail", "wing"})
 OWNERS = ("its", "their", "his", "her")
 
 

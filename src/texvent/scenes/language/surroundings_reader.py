@@ -120,9 +120,14 @@ class SurroundingsReader:
             self.read_place("sky", None)
         return True
 
-    def read_light(self, light: str) -> bool:
-        """Take a time of day or a light; return whether it had an effect."""
-        if self._light is None or self._light == "day":
+    def read_light(self, light: str, *, is_sure: bool = False) -> bool:
+        """Take a time of day or a light; return whether it had an effect: the first one wins.
+
+        Args:
+            light: key of the lights.
+            is_sure: whether it replaces what was said: "the sun sets".
+        """
+        if is_sure or self._light is None or self._light == "day":
             self._light = light
             return True
         pair = {self._light, light}
