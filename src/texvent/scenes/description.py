@@ -327,8 +327,11 @@ def _describe_count(scene_object: SceneObject) -> str:
 
 
 def _describe_motion(motion: ObjectMotion, *, is_plural: bool) -> str:
-    verb, *rest = _PHRASES.get(motion.kind, motion.kind).split()
-    words = [verb if is_plural else list_finite_forms(verb)[1], *rest]
+    if motion.kind in _NAMED or " " in motion.kind:
+        words = [f"{'do' if is_plural else 'does'} '{motion.kind}'"]
+    else:
+        verb, *rest = _PHRASES.get(motion.kind, motion.kind).split()
+        words = [verb if is_plural else list_finite_forms(verb)[1], *rest]
     if motion.direction is not None:
         words.append(_DIRECTIONS.get(motion.direction, motion.direction))
     if motion.speed_m_s is not None:
@@ -338,6 +341,8 @@ def _describe_motion(motion: ObjectMotion, *, is_plural: bool) -> str:
     return " ".join(words)
 
 
+_NAMED = ("push-up", "sit-up", "phone", "fist", "victory", "ok")
+"""Activities named by a noun."""
 _PHRASES = {"throw": "fly through the air", "work": "move in place", "stand": "stand still"}
 
 

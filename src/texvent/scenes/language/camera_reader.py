@@ -24,6 +24,8 @@ _TRAVEL_PREPOSITIONS = frozenset(
 )  # fmt: skip
 _AIMED = frozenset({"follow", "orbit", "zoom", "dolly", "dolly zoom", "crane", "tilt", "pan"})
 _PLAIN_MOVE = frozenset({"move", "slide", "hover", "rise", "sink", "fall"})
+_OWN_TRAVEL = CameraMove("travel", "forward")
+"""What "first person" alone means."""
 _TRUCK = {"up": ("pedestal", "up"), "down": ("pedestal", "down"), "left": ("truck", "left"),
           "right": ("truck", "right"), "towards": ("dolly", "in"), "away": ("dolly", "out"),
           "forward": ("travel", "forward"), "backward": ("travel", "backward"),
@@ -169,6 +171,8 @@ class CameraReader:
             self._moves.pop()
         if self._moves and self._moves[-1] == move:
             return
+        if self._moves and move.kind == "travel" and self._moves[-1] == _OWN_TRAVEL:
+            self._moves.pop()
         self._moves.append(move)
 
     def _read_adverb(self, word: Word) -> None:

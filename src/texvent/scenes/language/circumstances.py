@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from texvent.scenes.description import Effect, ObjectMotion
 from texvent.scenes.language.acts import BOARDS, WEARABLE, ActReader
+from texvent.scenes.language.adjectives import read_attributes
 from texvent.scenes.language.capabilities import is_hand, is_living, is_person
 from texvent.scenes.language.defaults import HAS_RIDER
 from texvent.scenes.language.draft import Draft
@@ -196,10 +197,13 @@ class CircumstanceReader:
             phrase.preposition.is_lost = True
             return
         phrase.preposition.is_used = True
+        for group in phrase.groups:
+            if whole.is_things and group.head is not None and group.head.lemma in LIQUIDS:
+                group.head.is_used = True
+                attributes = read_attributes(group.modifiers)
+                self._referents.add_effect(attributes, whole.things)
+                return
         found = [self._referents.resolve(group, "of") for group in phrase.groups]
-        for one in found:
-            if one.kind == "unknown" and whole.is_things:
-                self._referents.add_effect(one.attributes, whole.things)
         for one in found:
             if one.is_things and whole.is_things:
                 self._draft.relate("in", one.things, whole.things)
@@ -231,9 +235,9 @@ class CircumstanceReader:
 
     def _narrow(self, phrase: PrepPhrase, things: list[int], scope: Scope) -> Scope:
         """As in "zebras with a giraffe behind them": the giraffe is behind them."""
-        if phrase.near is None or set(things) != set(scope.subjects) or not things:
+        near = self._referents.recall(phrase.near)
+        if near is None or set(things) != set(scope.subjects) or not things:
             return scope
-        near = self._referents.resolve(phrase.near)
         if not near.is_things or set(near.things) == set(things):
             return scope
         return Scope(near.things, [], has_verb=False)
@@ -420,6 +424,10 @@ class CircumstanceReader:
         return None
 
 
+LIQUIDS = frozenset(
+    {"coffee", "tea", "water", "milk", "juice", "soup", "beer", "wine", "lemonade", "cocoa"}
+)
+"""What fills a vessel: "a cup of coffee" is one thing."""
 LIKENESSES = frozenset(
     {"poster", "picture", "painting", "photo", "photograph", "drawing", "statue", "sculpture",
      "figurine", "model", "portrait", "logo", "silhouette", "reflection", "map", "toy", "image",

@@ -18,7 +18,7 @@ from texvent.scenes.language.syntax import Clause, NounGroup, PrepPhrase
 from texvent.scenes.language.tagging import Word, mark_used
 from texvent.scenes.language.vocabulary_motion import Verb
 from texvent.scenes.language.vocabulary_scene import TRAVEL_MEANS, WEATHER_VERBS
-from texvent.scenes.language.words import VerbForm
+from texvent.scenes.language.words import Pos, VerbForm
 from texvent.scenes.models.protocol import Noun
 
 _OF_SCENE = frozenset(
@@ -89,6 +89,8 @@ class ClauseMeaning:
         if clause.verb is not None and clause.verb.text in WEATHER_VERBS:
             self._read_weather_verb(clause, clause.verb)
             return
+        if clause.verb is None and self._read_named_activity(clause):
+            return
         subjects = [self._referents.resolve(group) for group in clause.subjects]
         if self._is_about_camera(clause, subjects):
             self._read_camera(clause, subjects)
@@ -126,7 +128,7 @@ class ClauseMeaning:
         self._camera.read_clause(clause, objects, phrases)
         for phrase, one in phrases:
             if not one.is_things:
-                near = self._referents.resolve(phrase.near) if phrase.near is not None else None
+                near = self._referents.recall(phrase.near)
                 things = near.things if near is not None else []
                 self._around.read_phrase(phrase, Scope(things, [], has_verb=False))
             self._around.read_group_phrases(one, Scope([], []))
@@ -257,8 +259,6 @@ class ClauseMeaning:
         self._referents.has_body = any(is_living(self._draft.noun(index)) for index in things)
         objects = [self._referents.resolve(group) for group in clause.objects]
         agents = self._find_agents(clause)
-        if clause.verb is None and not things and self._read_named_activity(clause):
-            return
         self._read_subject_phrases(clause, subjects, things)
         movers: list[int] = []
         if clause.verb is not None and things:
@@ -283,7 +283,8 @@ class ClauseMeaning:
     def _read_named_activity(self, clause: Clause) -> bool:
         """As in "jumping jacks", "right arm clockwise", "thumbs up"."""
         words = [word for group in clause.subjects for word in group.words]
-        found = name_activity([*words, *clause.adverbs])
+        said = [w for w in (*words, *clause.adverbs) if w.pos is not Pos.DETERMINER]
+        found = name_activity(said) if len(" ".join(w.text for w in said).split()) > 1 else None
         if found is None:
             return False
         noun, activity = found

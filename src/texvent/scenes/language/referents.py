@@ -85,6 +85,10 @@ class Referents:
             self._known[id(group)] = found
         return found
 
+    def recall(self, group: NounGroup | None) -> Referent | None:
+        """What a group was found to mean; None if it was not asked before."""
+        return self._known.get(id(group)) if group is not None else None
+
     def _read(self, group: NounGroup, preposition: str | None) -> Referent:
         head = group.head
         if head is None:

@@ -55,7 +55,7 @@ FUNCTION_WORDS: dict[Pos, tuple[str, ...]] = {
     Pos.NOUN: (
         "scene", "shot", "view", "video", "clip", "footage", "image", "photo", "photograph",
         "picture", "frame", "sight", "kind", "sort", "type", "sequence", "recording", "example",
-        "viewpoint", "perspective", "angle", "motion",
+        "viewpoint", "perspective", "angle", "motion", "gesture",
     ),
     Pos.ADJECTIVE: (
         "beautiful", "cinematic", "nice", "photorealistic", "pretty", "realistic", "visible",
