@@ -36,11 +36,10 @@ class ModelPart:
     mesh: Mesh | None = None
     """Its triangles, for `Shape.MESH`; the same one, or one with the same `Mesh.origin`, at every
     pose. `colour` multiplies the mesh's own."""
-    picture_face: int = -1
-    """Face of a box that shows a picture where the prompt names one: 0..5 = -x, +x, -y, +y, -z,
-    +z; -1: none."""
     image: SurfaceImage | None = None
-    """What `picture_face` shows now."""
+    """What a face of a box shows now."""
+    image_face: int = 1
+    """That face: 0..5 = -x, +x, -y, +y, -z, +z."""
 
 
 @dataclass(frozen=True)

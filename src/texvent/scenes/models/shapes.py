@@ -47,16 +47,6 @@ def box(material: Material, centre: Point, size: Point, *, lean: float = 0.0) ->
     return part(Shape.BOX, material, to_body)
 
 
-def showing(part_of_model: ModelPart, face: int) -> ModelPart:
-    """A box whose face shows a picture where the prompt names one.
-
-    Args:
-        part_of_model: a box.
-        face: 0..5 = -x, +x, -y, +y, -z, +z.
-    """
-    return replace(part_of_model, picture_face=face)
-
-
 def ball(material: Material, centre: Point, size: Point) -> ModelPart:
     """An ellipsoid with axes along x, y, z."""
     return part(Shape.ELLIPSOID, material, _upright(centre, size))

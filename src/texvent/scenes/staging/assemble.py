@@ -54,7 +54,7 @@ def assemble(placed: Sequence[PlacedModel]) -> Primitives:
         instance=np.repeat(np.array([model.instance for model in placed], dtype=np.int32), sizes),
         mesh=_objects([part.mesh for part in parts]),
         image=_objects([part.image for part in parts]),
-        image_face=np.array([part.picture_face for part in parts], dtype=np.int8),
+        image_face=np.array([part.image_face for part in parts], dtype=np.int8),
     )
 
 

@@ -13,7 +13,7 @@ from texvent.scenes.raycast.vectors import Vector, along, mapped, scaled, times,
 from texvent.scenes.scene import Colour
 
 MOST_TAPS = 16
-"""Samples along the longer side of a pixel's footprint at most."""
+"""A footprint is taken to be at most this many times as long as wide."""
 _CHECK_TAPS = 3
 _BLACK, _WHITE = 0.03, 0.85
 """Reflectance of a printed board."""
@@ -115,8 +115,9 @@ def _overlap(place: float, width: float) -> float:
 def image_colour(world: World, number: int, u: float, v: float, footprint: Footprint) -> Colour:
     """Mean of an image over a pixel's footprint.
 
-    Trilinear samples of the mip pyramid, several along the longer side of the footprint: a simple
-    form of Feline (McCormack et al. 1999). A checkerboard is integrated exactly per tap.
+    Trilinear samples of the mip pyramid, two to a pixel across the footprint's shorter side and as
+    dense along its longer one: a simple form of Feline (McCormack et al. 1999). A checkerboard is
+    integrated exactly per tap.
     """
     image = image_at(world.instant[0].images, number)
     if image.checks[0] > 0:
@@ -124,17 +125,23 @@ def image_colour(world: World, number: int, u: float, v: float, footprint: Footp
     width, height = float(image.width), float(image.height)
     right = math.hypot(footprint[0][0] * width, footprint[0][1] * height)
     down = math.hypot(footprint[1][0] * width, footprint[1][1] * height)
+    is_wide = right >= down
     longest, shortest = max(right, down), min(right, down)
-    along_u, along_v = footprint[0] if right >= down else footprint[1]
-    across = max(shortest, longest / MOST_TAPS, 1e-6)
-    taps = min(max(math.ceil(longest / max(across, 1.0)), 1), MOST_TAPS)
-    level = max(math.log2(max(across, 1.0)), 0.0)
+    long_step = footprint[0] if is_wide else footprint[1]
+    short_step = footprint[1] if is_wide else footprint[0]
+    cell = max(0.5 * max(shortest, longest / MOST_TAPS), 1.0)
+    level = math.log2(cell)
+    columns = min(max(math.ceil(longest / cell), 1), 2 * MOST_TAPS)
+    rows = 2 if shortest > 1.0 else 1
     total = (0.0, 0.0, 0.0)
-    for tap in range(taps):
-        share = (tap + 0.5) / taps - 0.5
-        sample = _trilinear(world, image, u + share * along_u, v + share * along_v, level)
-        total = along(total, sample, 1.0)
-    return scaled(total, 1.0 / taps)
+    for row in range(rows):
+        b = (row + 0.5) / rows - 0.5
+        for column in range(columns):
+            a = (column + 0.5) / columns - 0.5
+            x = u + a * long_step[0] + b * short_step[0]
+            y = v + a * long_step[1] + b * short_step[1]
+            total = along(total, _trilinear(world, image, x, y, level), 1.0)
+    return scaled(total, 1.0 / (rows * columns))
 
 
 @jit(error_model="numpy")

@@ -15,6 +15,7 @@ from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.props import PROPS, Prop
 from texvent.scenes.models.protocol import Model, ModelPart, Noun
 from texvent.scenes.models.shapes import post
+from texvent.scenes.pictures import PicturedModel, can_show
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.acts.attached import Performed
@@ -89,7 +90,7 @@ class ObjectPlacer:
         noun = self._nouns[scene_object.noun]
         rng = seeded(self._seed, "thing", index, scene_object.noun)
         colour = scene_object.colour.rgb if scene_object.colour is not None else None
-        models = [
+        models: list[Model] = [
             in_material(
                 noun.build(colour=colour, scale=scene_object.scale, seed=int(rng.integers(2**31))),
                 scene_object.material,
@@ -97,6 +98,8 @@ class ObjectPlacer:
             )
             for _ in range(scene_object.count)
         ]
+        if scene_object.picture is not None and can_show(noun.name):
+            models = [PicturedModel(one, noun.name, scene_object.picture) for one in models]
         motions = (scene_object.motion or STANDING, *scene_object.then)
         plan = plan_motion(motions, noun, models[0], self._duration_s, rng)
         offsets = place_copies(models, plan, noun, rng)

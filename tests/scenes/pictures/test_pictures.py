@@ -1,0 +1,132 @@
+"""Pictures on surfaces: files, videos by their own times, boards, text; bad ones in a line."""
+
+from __future__ import annotations
+
+import pickle
+from fractions import Fraction
+from pathlib import Path
+
+import av
+import cv2
+import numpy as np
+import pytest
+
+from texvent.errors import FileFormatError, InputError
+from texvent.scenes.description import Picture, SceneDescription, SceneObject, Surroundings
+from texvent.scenes.models.nouns import NOUNS
+from texvent.scenes.models.objects.home.screens import PICTURE_FACES
+from texvent.scenes.models.protocol import Pose
+from texvent.scenes.pictures import PicturedModel, can_show, check_picture, load_picture
+from texvent.scenes.pictures.source import draw_text
+from texvent.scenes.pictures.video import PlayedVideo
+from texvent.scenes.staging.compose import compose_scene
+from texvent.sensor import SensorSize
+
+
+def write_video(path: Path, levels: list[int], pts: list[int]) -> Path:
+    with av.open(str(path), "w") as container:
+        stream = container.add_stream("ffv1", rate=10)
+        stream.width, stream.height, stream.pix_fmt = 16, 16, "bgr0"
+        stream.codec_context.time_base = Fraction(1, 100)
+        for level, time in zip(levels, pts, strict=True):
+            frame = av.VideoFrame.from_ndarray(np.full((16, 16, 3), level, np.uint8), "rgb24")
+            frame.pts, frame.time_base = time, Fraction(1, 100)
+            container.mux(stream.encode(frame))
+        container.mux(stream.encode())
+    return path
+
+
+def test_a_video_is_shown_by_its_own_times_and_plays_again(tmp_path: Path) -> None:
+    path = write_video(tmp_path / "clip.mkv", [0, 255, 128, 64], [0, 10, 40, 50])
+    source = load_picture(Picture("file", str(path)))
+
+    def level(time_s: float) -> float:
+        return float(source(time_s).levels[0].mean())
+
+    assert level(0.0) == pytest.approx(0.0, abs=0.01)
+    assert level(0.11) == pytest.approx(1.0, abs=0.01)
+    assert level(0.39) == pytest.approx(1.0, abs=0.01)
+    assert level(0.41) == pytest.approx(0.216, abs=0.01)
+    assert level(0.05) == pytest.approx(0.0, abs=0.01)
+    assert level(0.61) == pytest.approx(0.0, abs=0.01)
+    assert source(0.11) is source(0.2)
+
+
+def test_a_played_video_travels_to_other_processes(tmp_path: Path) -> None:
+    video = PlayedVideo(write_video(tmp_path / "clip.mkv", [10, 200], [0, 10]))
+    again = pickle.loads(pickle.dumps(video))
+    np.testing.assert_array_equal(again.at(0.1).levels[0], video.at(0.1).levels[0])
+
+
+def test_an_image_file_is_read_in_linear_light(tmp_path: Path) -> None:
+    path = tmp_path / "grey.png"
+    cv2.imwrite(str(path), np.full((5, 7, 3), 188, dtype=np.uint8))
+    image = load_picture(Picture("file", str(path)))(0.0)
+    assert image.levels[0].shape == (5, 7, 3)
+    assert image.levels[0].mean() == pytest.approx(0.503, abs=1e-3)
+
+
+def test_text_is_dark_on_white_and_wraps() -> None:
+    short, long = draw_text("7"), draw_text("a long text that needs more than a single line")
+    assert long.shape[0] > short.shape[0]
+    for image in (short, long):
+        assert image[0, 0, 0] > 0.8
+        assert image.min() < 0.1
+        assert 0.02 < (image < 0.4).mean() < 0.5
+
+
+@pytest.mark.parametrize(
+    ("picture", "message"),
+    [
+        (Picture("file", "no-such.png"), "does not exist"),
+        (Picture("checkerboard", "9 by 6"), "such as 9x6"),
+        (Picture("checkerboard", "1x6"), "such as 9x6"),
+        (Picture("text", " "), "0 characters"),
+        (Picture("text", "x" * 300), "300 characters"),
+        (Picture("text", "Größe"), "ASCII"),
+        (Picture("hologram", "x"), "hologram"),
+    ],
+)
+def test_a_bad_picture_is_one_clear_line(picture: Picture, message: str) -> None:
+    with pytest.raises(InputError, match=message) as caught:
+        check_picture(picture)
+    assert "\n" not in str(caught.value)
+
+
+def test_damaged_files_are_one_clear_line(tmp_path: Path) -> None:
+    image, video, other = (tmp_path / name for name in ("a.png", "b.mp4", "c.txt"))
+    for path in (image, video, other):
+        path.write_bytes(b"nothing of the kind")
+    for path in (image, other):
+        with pytest.raises(InputError, match="no image"):
+            load_picture(Picture("file", str(path)))
+    with pytest.raises(FileFormatError, match="no video that can be decoded"):
+        load_picture(Picture("file", str(video)))
+
+
+def test_nouns_with_a_face_for_pictures_say_so() -> None:
+    assert all(can_show(name) for name in PICTURE_FACES)
+    assert PICTURE_FACES.keys() <= NOUNS.keys()
+    assert not can_show("car")
+
+
+@pytest.mark.parametrize("noun", sorted(PICTURE_FACES))
+def test_a_picture_takes_the_place_of_what_is_usually_printed(noun: str) -> None:
+    model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
+    pictured = PicturedModel(model, noun, Picture("checkerboard", "9x6"))
+    pose = Pose(0.0, 0.0, 0.0)
+    parts = pictured.parts(pose)
+    assert [part.image is not None for part in parts] == [True] + [False] * (len(parts) - 1)
+    assert 1 <= len(parts) <= len(model.parts(pose))
+    assert len(parts) == len(pictured.parts(Pose(1.0, 0.0, 0.0)))
+
+
+def test_a_scene_shows_the_picture() -> None:
+    board = SceneObject("whiteboard", picture=Picture("checkerboard", "9x6"))
+    description = SceneDescription(
+        "a board", objects=(board,), surroundings=Surroundings(place="grass")
+    )
+    scene = compose_scene(description, seed=0, size=SensorSize(64, 48), duration_s=1.0)
+    primitives = scene.primitives(0.0)
+    assert primitives.image is not None
+    assert [one.checks for one in primitives.image if one is not None] == [(9, 6)]
