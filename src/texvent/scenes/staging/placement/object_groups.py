@@ -39,6 +39,10 @@ class ObjectGroup:
     grips: tuple[tuple[str, Vector], ...] = ()
     """`Pose.grips` of those who rest on something."""
     orbits: ObjectGroup | None = None
+    yaws: list[float] | None = None
+    """Heading of each copy, where they differ."""
+    lag: tuple[ObjectGroup, float] | None = None
+    """Whose line it follows, and how far behind, m."""
 
     @property
     def size_m(self) -> float:

@@ -15,6 +15,7 @@ from texvent.scenes.staging.placement.object_groups import (
     ObjectGroup,
 )
 from texvent.scenes.staging.placement.resting import rest_in, rest_on
+from texvent.scenes.staging.trajectories.phases import PATH_KINDS
 
 
 class Goal(NamedTuple):
@@ -51,11 +52,27 @@ def place_on_targets(
 
 
 def _place_around(group: ObjectGroup, targets: list[ObjectGroup], height: float) -> Goal:
-    target = group.orbits = targets[0]
+    """What moves circles its target; what stays stands in a ring and faces it."""
+    target = targets[0]
     x, y, level = target.centre
+    if group.plan.motion.kind not in PATH_KINDS | {"orbit", "spin"}:
+        _stand_in_ring(group, target)
+        return Goal(np.array([x, y, height]), _FIXED)
+    group.orbits = target
     if group.noun.habitat == "air":
         level += 0.8 * _top(target)
     return Goal(np.array([x, y, max(level, 0.0)]), _FIXED)
+
+
+def _stand_in_ring(group: ObjectGroup, target: ObjectGroup) -> None:
+    count, own = len(group.models), group.models[0]
+    radius = max(target.models[0].length, target.models[0].width) * 0.5 + 0.6 * own.length + 0.1
+    wide = 0.5 * count * 1.15 * own.width / math.pi
+    radius = max(radius, wide)
+    angles = [2.0 * math.pi * (number + 0.5) / count for number in range(count)]
+    group.offsets = [(radius * math.cos(a), radius * math.sin(a), 0.0) for a in angles]
+    group.yaws = [a + math.pi for a in angles]
+    group.half = np.array([radius + own.length, radius + own.length, 0.5 * own.height])
 
 
 def _place_above(group: ObjectGroup, targets: list[ObjectGroup], height: float) -> Goal:
@@ -73,7 +90,25 @@ def _place_above(group: ObjectGroup, targets: list[ObjectGroup], height: float) 
 
 
 def _place_under(group: ObjectGroup, targets: list[ObjectGroup], height: float) -> Goal:
-    return Goal(targets[0].centre * _ON_GROUND + [0.0, -0.9, height], -_AWAY)
+    """On the ground below: between the legs, beside a trunk, or in the shade of a wing."""
+    target, own = targets[0], group.models[0]
+    base = targets[0].centre * _ON_GROUND + [0.0, 0.0, height]
+    if target.noun.name in _TRUNKS:
+        aside = 0.6 + 0.5 * max(own.length, own.width)
+        return Goal(base + [0.3 * aside, -aside, 0.0], _FIXED)
+    lowest = target.centre[2] - (0.5 * target.models[0].height if is_centred(target.noun) else 0.0)
+    clearance = lowest + _UNDERSIDES.get(target.noun.name, 0.8) * target.models[0].height
+    if lowest > own.height or own.height < clearance:
+        return Goal(base, _FIXED)
+    return Goal(base + [0.0, -(target.half[1] + group.half[1] + 0.3), 0.0], -_AWAY)
+
+
+_TRUNKS = frozenset({"tree", "pine", "palm", "street lamp", "traffic light", "sign", "flag",
+                     "windmill", "wind turbine", "umbrella"})  # fmt: skip
+"""Nouns that one stands under beside what holds them up."""
+_UNDERSIDES = {"chair": 0.42, "sofa": 0.15, "bed": 0.25, "bench": 0.42, "bridge": 0.3, "car": 0.12,
+               "house": 0.0, "building": 0.0}  # fmt: skip
+"""Share of an object's height that is free below it."""
 
 
 def _place_between(group: ObjectGroup, targets: list[ObjectGroup], height: float) -> Goal:
@@ -132,7 +167,18 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
             return Goal(_shift(here, ahead * math.cos(yaw), y + 0.1), _AWAY)
         if goes_sideways:
             return Goal(_shift(here, 0.0, y + 0.3), _AWAY)
+    if kind == "appear":
+        start = -(subject.half[0] - 0.5 * subject.models[0].length) * math.cos(yaw)
+        nearer = 0.5 * (subject.models[0].width + group.models[0].width) + 0.3
+        return Goal(_shift(here, start, -nearer), _FIXED)
+    if kind == "through":
+        group.plan = replace(group.plan, yaw=yaw)
+        return Goal(here, _FIXED)
+    away = (-x * math.cos(yaw), -y * math.sin(yaw), _AWAY)
     goals = {
+        "from": away,
+        "away from": away,
+        "overtake": (0.0, y + 0.3, _AWAY),
         "past": (x + 0.3, 0.0, _ALONG_X),
         "behind": (-0.55 * x, -y, -_AWAY),
         "front": (0.0, y, _AWAY),
