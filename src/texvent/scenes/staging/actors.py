@@ -50,6 +50,12 @@ class Tether:
 _STRING = Material((0.5, 0.5, 0.48))
 
 
+def lowest_point(model: Model) -> float:
+    """Height of its lowest point above its origin when it stands, m."""
+    parts = model.parts(Pose(0.0, 0.0, 0.0, "stand"))
+    return float(min(half_extents(part.shape, part.to_body)[0][2] for part in parts))
+
+
 @dataclass(frozen=True)
 class Actor:
     """One copy of an object of the prompt."""

@@ -39,7 +39,9 @@ from texvent.scenes.staging.particles.choose import (
     with_headroom,
 )
 from texvent.scenes.staging.placement.object_placement import SCENIC, ObjectPlacer
-from texvent.scenes.staging.road import RoadLine
+from texvent.scenes.staging.placement.relation_checks import list_not_shown
+from texvent.scenes.staging.preparation import prepare
+from texvent.scenes.staging.road_choice import find_road
 from texvent.scenes.staging.scenery import SceneryItem, ViewClearance, scatter
 from texvent.scenes.staging.scenery_along import line_route
 from texvent.scenes.staging.scenery_tables import BACKDROPS, SCENERY, ScatterRule
@@ -137,6 +139,7 @@ def compose_scene(
     """
     if not (math.isfinite(duration_s) and duration_s > 0.0):
         raise InputError(f"duration is {duration_s} s; it must be a positive number of seconds")
+    description, missing = prepare(description, nouns, duration_s)
     place = description.surroundings.place or "grass"
     levels = choose_levels(place, description, nouns)
     travel = plan_travel(description, place, duration_s)
@@ -153,6 +156,8 @@ def compose_scene(
     if travel is not None:
         view = replace(view, road=travel.road, travel=travel)
     items, surrounding = _scatter_all(description, place, view, actors, nouns, seed)
+    missing += list_not_shown(description, actors, duration_s)
+    missing += _list_missing_scenery(description, surrounding)
     first_free = len(actors) + 1
     placed = [item.place(0) for item in items]
     placed += [item.place(first_free + number) for number, (_, item) in enumerate(surrounding)]
@@ -171,8 +176,9 @@ def compose_scene(
     setting = Setting(actors, camera_path.framing, place, duration_s, seed)
     particles = stage_effects(description, setting)
     return ComposedScene(
-        tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names
-    )
+        tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
+        tuple(dict.fromkeys(missing)),
+    )  # fmt: skip
 
 
 _HIGH_PLACES = ("mountain", "forest", "city")
@@ -189,7 +195,11 @@ def choose_levels(
     if place in ("sky", "space"):
         everything = {nouns[scene_object.noun].name: 0.0 for scene_object in description.objects}
         return {"air": 2.0, "water": 0.0, **everything}
-    levels = {"air": 1.5, "water": 0.0, "clear": 8.0 if place in _HIGH_PLACES else 0.0}
+    levels = {
+        "air": 1.5,
+        "water": 0.0,
+        "clear": 8.0 if place in _HIGH_PLACES else 0.0,
+    }
     if place == "underwater":
         levels["water"] = 0.9
     elif place == "sea" or place in WATERSIDE:
@@ -209,11 +219,12 @@ def _describe_view(
     road_shape: str | None,
 ) -> ViewClearance:
     times = [duration_s * step / (VIEW_INSTANTS - 1) for step in range(VIEW_INSTANTS)]
+    half = PLACES[place].road_half_width
     has_road = PLACES[place].ground in STRIPS
     if place in WATERSIDE:
-        road = water_line(place, actors, path, PLACES[place].road_half_width)
+        road = water_line(place, actors, path, half)
     else:
-        road = _shape_road(_road_line(actors, path), road_shape)
+        road = find_road(actors, float(path.framing.target[1]), 0.5 * half, road_shape)
     points = [
         np.vstack([actor.corners(t)[::2] for actor in actors]) if actors else np.zeros((0, 3))
         for t in times
@@ -223,32 +234,6 @@ def _describe_view(
         PLACES[place].road_half_width if has_road else None, road,
         path.room_m, has_shore=place == "lake",
     )  # fmt: skip
-
-
-_BEND_PER_M = 1.0 / 50.0
-_CROSSING_AHEAD_M = 7.0
-
-
-def _shape_road(road: RoadLine, shape: str | None) -> RoadLine:
-    """The road as the prompt says: bent, or with another one that crosses it."""
-    if shape == "curved":
-        return replace(road, curvature=_BEND_PER_M)
-    if shape == "crossing":
-        x, y, angle = road.at(_CROSSING_AHEAD_M)
-        return replace(road, crossings=((x, y, angle + 0.5 * math.pi),))
-    return road
-
-
-def _road_line(actors: Sequence[Actor], path: CameraPath) -> RoadLine:
-    """The road runs along the path of the first object on the ground that moves."""
-    for actor in actors:
-        if actor.is_mover and actor.noun.habitat == "ground":
-            state = actor.trajectory.at(0.0)
-            return RoadLine(state.yaw % math.pi, (state.position[0], state.position[1]))
-    for actor in actors:
-        if actor.noun.habitat == "ground":
-            return RoadLine(offset=(0.0, actor.trajectory.at(0.0).position[1]))
-    return RoadLine(offset=(0.0, float(path.framing.target[1])))
 
 
 def _scatter_all(
@@ -298,3 +283,17 @@ def _scatter_all(
         far = [rule for rule in rules if rule.is_metres]
         return lined + scatter(far, view, actors, unsaid, rng=rng, taken=taken), around
     return scatter(rules, view, actors, unsaid, rng=rng, taken=taken), around
+
+
+def _list_missing_scenery(
+    description: SceneDescription, found: Sequence[tuple[Relation, SceneryItem]]
+) -> list[str]:
+    """What should stand around and found no place."""
+    shown = {item.noun for _, item in found}
+    return [
+        f"{relation.kind} {description.objects[target].noun}"
+        for relation in description.relations
+        if relation.kind in SCENIC
+        for target in relation.targets
+        if description.objects[target].noun not in shown
+    ]

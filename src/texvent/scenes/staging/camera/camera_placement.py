@@ -24,9 +24,10 @@ TRACKING_LENGTHS = 4.5
 """An object that covers more of its own lengths in the clip is followed from the side."""
 LEAST_SHARE = 0.16
 """Share of the image's width that a moving subject extends over at least, on average."""
-_LEAVES_AT = 0.55
-"""Share of the clip after which what leaves need not be in the picture."""
-_ENTERS_AT = (0.35, 0.45, 0.55, 0.65, 0.75)
+_WORTH = 1.15
+"""How much larger the subject must become for less of the rest to be shown."""
+_OUTSIDE_SHARES = (0.3, 0.38, 0.46, 0.54, 0.62, 0.7)
+"""Shares of the clip at whose beginning or end what enters or leaves may be out of the picture."""
 _VISIBLE_SHARE = 0.92
 """Share of the clip in which the subject's middle is in the image at least."""
 _CHECKS = 41
@@ -82,43 +83,79 @@ def _frame(
     how: tuple[int, float, float],
 ) -> CameraPath:
     """The nearest camera that shows what matters; alone or followed, what would else be tiny."""
-    seed, aspect, duration_s = how
-    has_floor = place not in ("sky", "space")
-    is_open = has_floor and place != "underwater" and not is_room(place)
+    duration_s = how[2]
     is_said = bool(description.shot.moves) or description.shot.framing == "wide"
-    attempts = [(False, moves)]
-    if main.is_mover:
-        attempts.append((True, moves))
-    if main.is_mover and not is_said and sum(actor.is_mover for actor in actors) == 1:
+    attempts = [(True, moves)] if main.is_mover else []
+    if main.is_mover and not is_said and _stay_together(actors, main, duration_s):
         attempts.append((True, (CameraMove("follow", "side"),)))
-    for is_alone, tried in attempts:
-        azimuth, elevation = choose_angles(description, main, tried, place, seed)
-        lift = SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
-        for times in _instants(main, duration_s):
-            points, fill = choose_points(description, actors, main, tried, times, is_alone=is_alone)
-            framing = fit(
-                points, azimuth=azimuth, elevation=elevation, aspect=aspect, fill=fill, lift=lift
-            )
-            path = CameraPath(
-                framing, tried, duration_s, main.trajectory, main.noun.habitat != "ground",
-                has_floor, subject_corners=main.corners,
-            )  # fmt: skip
-            if not main.enters or _is_outside(path, main, aspect):
-                break
-        if _share_of_image(path, main) >= LEAST_SHARE:
+    path = _fit_path(description, actors, main, (False, moves), place, how)
+    share = _share_of_image(path, main)
+    for attempt in attempts:
+        if share >= LEAST_SHARE:
             break
+        tried = _fit_path(description, actors, main, attempt, place, how)
+        if _share_of_image(tried, main) > _WORTH * share:
+            path, share = tried, _share_of_image(tried, main)
     return path
 
 
+def _fit_path(
+    description: SceneDescription,
+    actors: Sequence[Actor],
+    main: Actor,
+    attempt: tuple[bool, tuple[CameraMove, ...]],
+    place: str,
+    how: tuple[int, float, float],
+) -> CameraPath:
+    """The nearest camera for an attempt: whether only what moves counts, and the moves.
+
+    `how` are the seed, the image's height over its width, and the length of the clip, s.
+    """
+    seed, aspect, duration_s = how
+    is_alone, moves = attempt
+    has_floor = place not in ("sky", "space")
+    is_open = has_floor and place != "underwater" and not is_room(place)
+    azimuth, elevation = choose_angles(description, main, moves, place, seed)
+    lift = SKY_LIFT if is_open and abs(elevation) < 0.3 else 0.0
+    paths: list[CameraPath] = []
+    for times in _instants(main, duration_s):
+        points, fill = choose_points(description, actors, main, moves, times, is_alone=is_alone)
+        framing = fit(
+            points, azimuth=azimuth, elevation=elevation, aspect=aspect, fill=fill, lift=lift
+        )
+        path = CameraPath(
+            framing, moves, duration_s, main.trajectory, main.noun.habitat != "ground",
+            has_floor, subject_corners=main.corners,
+        )  # fmt: skip
+        paths.append(path)
+        if _begins_and_ends_outside(path, main, aspect):
+            break
+    return paths[-1]
+
+
+def _stay_together(actors: Sequence[Actor], main: Actor, duration_s: float) -> bool:
+    """Whether all that moves keeps its place relative to the subject, about."""
+    movers = [actor for actor in actors if actor.is_mover and actor is not main]
+    drifts = [
+        np.linalg.norm(
+            actor.middle(duration_s) - main.middle(duration_s)
+            - actor.middle(0.0) + main.middle(0.0)
+        )
+        for actor in movers
+    ]  # fmt: skip
+    return all(float(drift) < 2.0 * main.size_m for drift in drifts)
+
+
 def _instants(main: Actor, duration_s: float) -> list[Float64Array]:
-    """Instants at which everything must be in the picture; choices for what enters it."""
-    first, last = 0.0, duration_s
-    if main.leaves:
-        last = _LEAVES_AT * duration_s
-    if main.enters:
-        starts = [share * duration_s for share in _ENTERS_AT]
-        return [np.linspace(start, max(last, start), INSTANTS) for start in starts]
-    return [np.linspace(first, last, INSTANTS)]
+    """Instants at which everything must be in the picture; choices for what enters or leaves."""
+    if not (main.enters or main.leaves):
+        return [np.linspace(0.0, duration_s, INSTANTS)]
+    choices = []
+    for share in _OUTSIDE_SHARES:
+        first = share * duration_s if main.enters else 0.0
+        last = (1.0 - share) * duration_s if main.leaves else duration_s
+        choices.append(np.linspace(min(first, last), max(first, last), INSTANTS))
+    return choices
 
 
 def _project(path: CameraPath, points: Float64Array, time_s: float) -> Float64Array:
@@ -129,12 +166,16 @@ def _project(path: CameraPath, points: Float64Array, time_s: float) -> Float64Ar
     return np.hstack([camera.focal * seen[:, :2] / depth, seen[:, 2:]])
 
 
-def _is_outside(path: CameraPath, main: Actor, aspect: float) -> bool:
-    """Whether the subject is out of the picture when the clip begins."""
-    seen = _project(path, main.corners(0.0), 0.0)
-    low, high = seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
+def _begins_and_ends_outside(path: CameraPath, main: Actor, aspect: float) -> bool:
+    """Whether what enters begins out of the picture, and what leaves ends there."""
+    instants = [0.0] * main.enters + [path.duration_s] * main.leaves
     half = np.array([0.5, 0.5 * aspect])
-    return bool(np.any(low > half) or np.any(high < -half))
+    for time in instants:
+        seen = _project(path, main.corners(time), time)
+        low, high = seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
+        if not (np.any(low > half) or np.any(high < -half)):
+            return False
+    return True
 
 
 def _share_of_image(path: CameraPath, main: Actor) -> float:

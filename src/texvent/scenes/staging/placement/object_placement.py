@@ -17,7 +17,7 @@ from texvent.scenes.models.protocol import Model, ModelPart, Noun
 from texvent.scenes.models.shapes import post
 from texvent.scenes.pictures import PicturedModel, can_show
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import Actor, seeded
+from texvent.scenes.staging.actors import Actor, is_centred, lowest_point, seeded
 from texvent.scenes.staging.acts.attached import Performed
 from texvent.scenes.staging.acts.perform import perform_acts, settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
@@ -35,11 +35,15 @@ from texvent.scenes.staging.placement.spatial_relations import (
 )
 from texvent.scenes.staging.trajectories.action_trajectories import Swing
 from texvent.scenes.staging.trajectories.choose_trajectory import choose_trajectory, plan_motion
+from texvent.scenes.staging.trajectories.steered_path import Lagging, SteeredPath
 from texvent.scenes.staging.trajectories.trajectory import Circle, Riding, Trajectory, Vector
 
 ON_TARGET = frozenset({"on", "in", "above", "around", "under", "between", "follow"})
 """Relations in which the subject's place follows from the target's; in the others the target's
 follows from the subject's."""
+OVERTAKEN = 0.4
+"""Speed of what is overtaken, as a share of what overtakes it."""
+_RESTING = frozenset({"stand", "sit", "lie"})
 SCENIC = frozenset({"surround", "among"})
 """Relations whose targets stand around as scenery; `scenery` places them."""
 
@@ -131,9 +135,14 @@ class ObjectPlacer:
         self.groups[index] = group
 
     def _align(self, group: ObjectGroup, related: list[Relation]) -> None:
-        """Give a follower or companion the heading and speed of its partner."""
+        """Give a follower or companion the heading and speed of its partner.
+
+        What is overtaken goes the same way at less than half the speed.
+        """
         for relation in self._description.relations:
             partner = None
+            if group.index in relation.targets and relation.kind in ("overtake", "past"):
+                self._slow_down(group, self.groups.get(relation.subject))
             if relation.subject == group.index and relation.kind == "follow":
                 partner = self.groups.get(relation.targets[0])
             elif group.index in relation.targets and relation.kind == "with":
@@ -141,6 +150,16 @@ class ObjectPlacer:
             if partner is not None and partner.plan.is_path and group.plan.is_path:
                 group.plan = replace(partner.plan, motion=group.plan.motion)
                 group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
+
+    def _slow_down(self, group: ObjectGroup, faster: ObjectGroup | None) -> None:
+        if faster is None or not (faster.plan.is_path and group.plan.is_path):
+            return
+        motion = group.plan.motion
+        if motion.direction is not None or motion.speed_m_s is not None:
+            return
+        speed = OVERTAKEN * faster.plan.speed_m_s
+        group.plan = replace(group.plan, yaw=faster.plan.yaw, speed_m_s=speed)
+        group.half = half_extents_over_clip(group.models, group.offsets, group.plan)
 
     def _choose_goal(self, group: ObjectGroup, related: list[Relation]) -> Goal:
         """Where the prompt wants a group."""
@@ -157,7 +176,10 @@ class ObjectPlacer:
         for relation in self._description.relations:
             if group.index in relation.targets and relation.subject in self.groups:
                 subject = self.groups[relation.subject]
-                return place_by_subject(group, relation.kind, subject, height)
+                kind = relation.kind
+                if subject.plan.motion.kind == "appear" and kind in ("behind", "from"):
+                    kind = "appear"
+                return place_by_subject(group, kind, subject, height)
         if self._along is not None:
             is_goal = self._description.shot.target == group.index
             return Goal(self._along.place(group, height, is_goal=is_goal), np.zeros(3))
@@ -193,6 +215,9 @@ class ObjectPlacer:
     def _height(self, group: ObjectGroup) -> float:
         """Height of the group's origin, m."""
         kind = group.plan.motion.kind
+        rests = kind in _RESTING and group.noun.name not in self._level_m
+        if rests and is_centred(group.noun) and group.noun.habitat == "air":
+            return -lowest_point(group.models[0])
         if group.noun.name in self._level_m:
             return self._level_m[group.noun.name] * group.models[0].height
         level = self._level_m.get(group.noun.habitat, 0.0)
@@ -231,7 +256,8 @@ class ObjectPlacer:
             trajectory = self._choose(group, model, (home[0], home[1], home[2]), number, rng)
             actors.append(
                 Actor(
-                    group.index, group.noun, model, trajectory, group.plan.motion.is_moving,
+                    group.index, group.noun, model, trajectory,
+                    any(motion.is_moving for motion in said),
                     before + number + 1, float(rng.uniform(0.0, 1.0)) if number else 0.0,
                     _rope(trajectory, model), self._choose_props(group),
                     enters=said[0].kind == "enter", leaves=said[-1].kind == "leave",
@@ -254,6 +280,11 @@ class ObjectPlacer:
     ) -> Trajectory:
         if group.orbits is not None:
             return _orbit(group, group.orbits, number, self._duration_s)
+        if group.lag is not None:
+            leader, gap = group.lag
+            path = self._choose(leader, leader.models[0], _tuple(leader), 0, rng)
+            if isinstance(path, SteeredPath):
+                return Lagging(path, gap + number * 1.3 * model.length)
         if group.carrier is not None:
             carrier = self._choose(group.carrier, group.carrier.models[0], _tuple(group.carrier), 0,
                                    seeded(self._seed, "lead", group.carrier.index,
@@ -262,7 +293,8 @@ class ObjectPlacer:
             turned = _unturn(offset, group.carrier.plan.yaw)
             activity = group.plan.gesture or "sit"
             return _gripping(Riding(carrier, turned, activity), group)
-        path = choose_trajectory(group.plan, model, home, rng, clear_m=group.clear_m)
+        plan = group.plan if group.yaws is None else replace(group.plan, yaw=group.yaws[number])
+        path = choose_trajectory(plan, model, home, rng, clear_m=group.clear_m)
         return _gripping(path, group)
 
 
@@ -296,7 +328,7 @@ def _orbit(group: ObjectGroup, around: ObjectGroup, number: int, duration_s: flo
     model = group.models[number]
     radius = float(np.max(around.half[:2])) + 0.9 * group.size_m + 0.1 * around.size_m
     rate = 2.0 * math.pi / max(duration_s, 2.0) * group.plan.motion.pace
-    if group.plan.motion.direction == "right":
+    if group.plan.motion.direction in ("right", "clockwise"):
         rate = -rate
     phase = 2.0 * math.pi * number / len(group.models)
     x, y, _ = around.centre

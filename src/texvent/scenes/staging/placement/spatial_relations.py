@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -95,12 +96,12 @@ def _place_under(group: ObjectGroup, targets: list[ObjectGroup], height: float) 
     base = targets[0].centre * _ON_GROUND + [0.0, 0.0, height]
     if target.noun.name in _TRUNKS:
         aside = 0.6 + 0.5 * max(own.length, own.width)
-        return Goal(base + [0.3 * aside, -aside, 0.0], _FIXED)
+        return Goal(_shift(base, 0.3 * aside, -aside), _FIXED)
     lowest = target.centre[2] - (0.5 * target.models[0].height if is_centred(target.noun) else 0.0)
     clearance = lowest + _UNDERSIDES.get(target.noun.name, 0.8) * target.models[0].height
     if lowest > own.height or own.height < clearance:
         return Goal(base, _FIXED)
-    return Goal(base + [0.0, -(target.half[1] + group.half[1] + 0.3), 0.0], -_AWAY)
+    return Goal(_shift(base, target.half[0] + group.half[0] + 0.3, 0.0), _ALONG_X)
 
 
 _TRUNKS = frozenset({"tree", "pine", "palm", "street lamp", "traffic light", "sign", "flag",
@@ -124,6 +125,8 @@ def _place_behind(group: ObjectGroup, targets: list[ObjectGroup], height: float)
     reach = 0.5 * (target.models[0].length + own.length)
     wanted = target.centre[:2] - heading * min(1.6 * reach + 0.4, float(sizes.max()) + reach)
     group.half = 0.5 * np.array([own.length, own.width, own.height])
+    if target.plan.path is not None:
+        group.lag = (target, 1.3 * reach + 0.4)
     return Goal(np.array([*wanted, height]), _FIXED)
 
 
@@ -156,7 +159,8 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         height: of the target's origin, m.
     """
     x, y, _ = subject.half + group.half + GAP_M * min(subject.size_m, group.size_m)
-    yaw, is_path = subject.plan.yaw, subject.plan.is_path
+    yaw = subject.plan.yaw
+    is_path = subject.plan.is_path or subject.plan.path is not None
     here = subject.centre * _ON_GROUND + [0.0, 0.0, height]
     if is_path and kind in ("past", "beside", "with"):
         goes_sideways = abs(math.cos(yaw)) > 0.5
@@ -168,7 +172,10 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
         if goes_sideways:
             return Goal(_shift(here, 0.0, y + 0.3), _AWAY)
     if kind == "appear":
-        start = -(subject.half[0] - 0.5 * subject.models[0].length) * math.cos(yaw)
+        # It comes out past the edge of what hides it after a third of its way.
+        way = 2.0 * subject.half[0] - subject.models[0].length
+        shown = -0.5 * way + 0.3 * way - 0.5 * max(group.models[0].length, group.models[0].width)
+        start = shown * math.copysign(1.0, math.cos(yaw))
         nearer = 0.5 * (subject.models[0].width + group.models[0].width) + 0.3
         return Goal(_shift(here, start, -nearer), _FIXED)
     if kind == "through":

@@ -32,6 +32,8 @@ NO_FLOOR_M = -1e4
 QUARTER = 0.5 * math.pi
 TURN_SHARE = 0.6
 """Share of a turn's phase that it turns, where it is all that happens: it comes and goes on."""
+MOST_HASTE = 2.5
+"""Most multiple of its usual speed at which an object does what its time is short for."""
 _RAMP_S = 0.3
 _BRAKING_M_S2 = 6.0
 _CLIMB = 0.45
@@ -157,14 +159,19 @@ def sample_places(path: SteeredPath, duration_s: float) -> np.ndarray:
 
 def _fast_enough(phases: Sequence[Phase], noun: Noun, model: Model, usual_m_s: float) -> float:
     """A usual speed at which every turn is a quarter circle of a plausible radius."""
+    needed = usual_m_s
     for phase in phases:
         motion = phase.motion
-        if motion.speed_m_s is None and (motion.kind == "turn" or motion.direction == "around"):
+        if motion.speed_m_s is not None:
+            continue
+        if motion.kind in ("enter", "leave"):
+            needed = max(needed, 2.0 * model.length / phase.duration_s)
+        if motion.kind == "turn" or motion.direction == "around":
             turning = phase.duration_s * (TURN_SHARE if len(phases) == 1 else 0.8)
             angle = math.pi if motion.direction == "around" else QUARTER
             radius = max(least_radius(model, noun), 0.3 * model.length)
-            usual_m_s = max(usual_m_s, min(radius * angle / turning, 2.5 * usual_m_s))
-    return usual_m_s
+            needed = max(needed, radius * angle / turning)
+    return min(needed, MOST_HASTE * usual_m_s)
 
 
 class _Builder:

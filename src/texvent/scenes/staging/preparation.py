@@ -1,0 +1,60 @@
+"""What staging must settle before anything is placed: a followed subject moves."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from texvent.scenes.description import ObjectMotion, SceneDescription
+from texvent.scenes.models.protocol import Noun
+from texvent.scenes.staging.trajectories.phases import left_out
+
+_PLACES_TO_GO = frozenset(
+    {"drive", "walk", "run", "fly", "swim", "sail", "paddle", "roll", "float"}
+)
+
+
+def prepare(
+    description: SceneDescription, nouns: Mapping[str, Noun], duration_s: float
+) -> tuple[SceneDescription, list[str]]:
+    """The description as it is staged, and words of it that cannot be shown.
+
+    A camera that follows something which stays in its place would show nothing: the subject does
+    what it usually does, and what cannot move is passed by the camera instead.
+    """
+    missing = []
+    for scene_object in description.objects:
+        said = [*filter(None, [scene_object.motion]), *scene_object.then]
+        for motion in left_out(said, duration_s):
+            missing.append(
+                f"the {scene_object.noun}'s {motion.kind} after {motion.start_s:g} s "
+                f"(the clip ends at {duration_s:g} s)"
+            )
+    follows = any(move.kind == "follow" for move in description.shot.moves)
+    if not follows or not description.objects:
+        return description, missing
+    index = description.shot.target
+    if index is None:
+        movers = [n for n, one in enumerate(description.objects) if _moves_on(one.motion)]
+        index = movers[0] if movers else 0
+    subject = description.objects[index]
+    if _moves_on(subject.motion) or subject.then:
+        return description, missing
+    if subject.motion is not None and subject.motion.kind not in ("stand", "move"):
+        return description, missing
+    usual = nouns[subject.noun].motion
+    if usual in _PLACES_TO_GO:
+        objects = list(description.objects)
+        objects[index] = replace(subject, motion=ObjectMotion(usual))
+        shot = replace(description.shot, target=index)
+        return replace(description, objects=tuple(objects), shot=shot), missing
+    moves = tuple(
+        replace(move, kind="truck", direction="right") if move.kind == "follow" else move
+        for move in description.shot.moves
+    )
+    missing.append(f"following the {subject.noun}, which does not move")
+    return replace(description, shot=replace(description.shot, moves=moves)), missing
+
+
+def _moves_on(motion: ObjectMotion | None) -> bool:
+    return motion is not None and motion.is_moving

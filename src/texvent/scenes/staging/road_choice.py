@@ -1,0 +1,71 @@
+"""Where the road runs: along the way of what drives on it, with a crossing where that turns."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.road import RoadLine
+from texvent.scenes.staging.trajectories.steered_path import SteeredPath
+
+_LEAST_TURN = 0.9
+"""Least change of heading, radians, after which a road goes off there."""
+
+
+_CROSSING_AHEAD_M = 7.0
+ROAD_BEND_PER_M = 1.0 / 50.0
+"""Curvature of a road that bends."""
+
+
+def find_road(
+    actors: Sequence[Actor], usual_y: float, lane_m: float, shape: str | None = None
+) -> RoadLine:
+    """The road along the path of the first object on the ground that moves.
+
+    Args:
+        actors: the objects of the prompt.
+        usual_y: where it runs if nothing stands on the ground, m.
+        lane_m: from its centre line to the middle of a lane.
+        shape: "curved", "crossing" (another road crosses it) or None.
+    """
+    road = _straight_road(actors, usual_y, lane_m)
+    if shape == "curved" and not road.crossings:
+        return replace(road, curvature=ROAD_BEND_PER_M)
+    if shape == "crossing" and not road.crossings:
+        x, y, angle = road.at(_CROSSING_AHEAD_M)
+        return replace(road, crossings=((x, y, angle + 0.5 * math.pi),))
+    return road
+
+
+def _straight_road(actors: Sequence[Actor], usual_y: float, lane_m: float) -> RoadLine:
+    grounded = [actor for actor in actors if actor.noun.habitat == "ground"]
+    movers = [actor for actor in grounded if actor.is_mover]
+    if movers:
+        return _road_of(movers, lane_m)
+    if grounded:
+        return RoadLine(offset=(0.0, grounded[0].trajectory.at(0.0).position[1]))
+    return RoadLine(offset=(0.0, usual_y))
+
+
+def _road_of(movers: Sequence[Actor], lane_m: float) -> RoadLine:
+    first = movers[0]
+    state = first.trajectory.at(0.0)
+    x, y, _ = state.position
+    is_alone = len(movers) == 1 and first.noun.motion == "drive"
+    lane = lane_m if is_alone and lane_m > 0.6 * first.model.width else 0.0
+    # Traffic keeps to the right: the centre line is on its left.
+    offset = (x - lane * math.sin(state.yaw), y + lane * math.cos(state.yaw))
+    crossings: list[tuple[float, float, float]] = []
+    if isinstance(first.trajectory, SteeredPath):
+        for time in (0.5 * first.trajectory.duration_s, first.trajectory.duration_s):
+            later = first.trajectory.at(time)
+            turned = math.remainder(later.yaw - state.yaw, math.pi)
+            if abs(turned) > _LEAST_TURN and not crossings:
+                cx, cy, _ = later.position
+                crossings.append(
+                    (cx - lane * math.sin(later.yaw), cy + lane * math.cos(later.yaw), later.yaw)
+                )
+    angle = state.yaw % math.pi if lane == 0.0 else state.yaw
+    return RoadLine(angle, offset, crossings=tuple(crossings))

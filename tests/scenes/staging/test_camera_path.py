@@ -1,0 +1,158 @@
+"""Camera moves: smooth, in phases, with the subject in view and of the right size."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from texvent.scenes.description import (
+    CameraMove,
+    ObjectMotion,
+    SceneDescription,
+    SceneObject,
+    Shot,
+    Surroundings,
+)
+from texvent.scenes.scene import Camera, Float64Array
+from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.camera.move_channels import MoveChannels
+from texvent.scenes.staging.compose import ComposedScene, compose_scene
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(173, 130)
+DURATION_S = 2.0
+KINDS = ("pan", "tilt", "roll", "zoom", "dolly", "truck", "pedestal", "orbit", "crane",
+         "dolly zoom", "handheld", "follow")  # fmt: skip
+DIRECTIONS = ("left", "right", "up", "down", "in", "out", "clockwise", "behind", "side")
+moves = st.lists(
+    st.builds(
+        CameraMove, st.sampled_from(KINDS), st.sampled_from(DIRECTIONS),
+        st.sampled_from([0.5, 1.0, 2.0]), st.integers(0, 2),
+    ),
+    min_size=1, max_size=3,
+)  # fmt: skip
+
+
+def film(
+    *shot: CameraMove, noun: str = "dog", motion: ObjectMotion | None = None, place: str = "grass"
+) -> ComposedScene:
+    subject = SceneObject(noun, motion=motion or ObjectMotion("stand"))
+    description = SceneDescription(
+        "", (subject,), shot=Shot(shot), surroundings=Surroundings(place)
+    )
+    return compose_scene(description, seed=0, size=SIZE, duration_s=DURATION_S)
+
+
+def image_of(camera: Camera, points: Float64Array) -> Float64Array:
+    """[n, 2] places in image widths from the middle."""
+    seen = (points - camera.position) @ camera.rotation.T
+    assert np.all(seen[:, 2] > 0.0)
+    return np.asarray(camera.focal * seen[:, :2] / seen[:, 2:])
+
+
+def extent(scene: ComposedScene, actor: Actor, time_s: float) -> float:
+    image = image_of(scene.camera(time_s), actor.corners(time_s))
+    return float(np.ptp(image, axis=0).max())
+
+
+@settings(max_examples=30)
+@given(moves, st.sampled_from(["stand", "walk"]))
+def test_every_combination_is_smooth_and_keeps_its_subject(
+    shot: list[CameraMove], kind: str
+) -> None:
+    scene = film(*shot, motion=ObjectMotion(kind))
+    inside = []
+    for time in np.linspace(0.0, DURATION_S, 13):
+        before, after = scene.camera(float(time)), scene.camera(float(time) + 1e-3)
+        assert np.abs(before.position - after.position).max() < 0.05
+        assert np.abs(before.rotation - after.rotation).max() < 0.02
+        assert abs(math.log(after.focal / before.focal)) < 0.02
+        assert before.position[2] >= 0.25
+        middle = scene.actors[0].middle(float(time))[None]
+        x, y = image_of(before, middle)[0]
+        inside.append(abs(x) < 0.5 and abs(y) < 0.5 * SIZE.height / SIZE.width)
+    assert np.mean(inside) > 0.85
+
+
+@pytest.mark.parametrize("direction", ["behind", "front", "side", "above"])
+@pytest.mark.parametrize("motion", [("run", None), ("walk", "away"), ("walk", "circle")])
+def test_a_followed_subject_keeps_its_place_and_size(
+    direction: str, motion: tuple[str, str | None]
+) -> None:
+    scene = film(CameraMove("follow", direction), motion=ObjectMotion(*motion))
+    dog = scene.actors[0]
+    times = np.linspace(0.0, DURATION_S, 9)
+    depths = []
+    for time in times:
+        camera = scene.camera(float(time))
+        depths.append(float(camera.rotation[2] @ (dog.middle(float(time)) - camera.position)))
+    assert max(depths) / min(depths) < 1.1
+    way = np.diff([scene.camera(float(t)).position[:2] for t in times], axis=0)
+    assert np.hypot(*way.T).sum() > 1.0
+
+
+def test_a_camera_behind_its_subject_goes_round_the_bend_with_it() -> None:
+    scene = film(CameraMove("follow", "behind"), noun="car", place="city",
+                 motion=ObjectMotion("turn", "left"))  # fmt: skip
+    car = scene.actors[0]
+    for time in (0.0, 1.0, 2.0):
+        heading = car.trajectory.at(time).to_world()[:2, 0]
+        assert float(heading @ scene.camera(time).rotation[2, :2]) > 0.9
+    sizes = [extent(scene, car, time) for time in (0.0, 1.0, 2.0)]
+    assert max(sizes) / min(sizes) < 1.1
+
+
+@pytest.mark.parametrize("direction", ["in", "out"])
+def test_a_dolly_zoom_keeps_the_subject_and_changes_the_background(direction: str) -> None:
+    scene = film(CameraMove("dolly zoom", direction), noun="man")
+    man = scene.actors[0]
+    sizes = [extent(scene, man, float(t)) for t in np.linspace(0.0, DURATION_S, 9)]
+    assert max(sizes) / min(sizes) < 1.02
+    behind = man.middle(0.0) + np.array([[-4.0, 30.0, 0.0], [4.0, 30.0, 0.0]])
+    spans = [np.ptp(image_of(scene.camera(t), behind)[:, 0]) for t in (0.0, DURATION_S)]
+    assert max(spans) / min(spans) > 1.4
+    ways = [np.linalg.norm(scene.camera(t).position - man.middle(0.0)) for t in (0.0, 2.0)]
+    assert (ways[1] < ways[0]) == (direction == "in")
+
+
+def test_phases_follow_one_another() -> None:
+    scene = film(CameraMove("pan", "left"), CameraMove("tilt", "up", phase=1), noun="house")
+    axes = [scene.camera(t).rotation[2] for t in (0.0, 0.9, 1.1, 2.0)]
+    bearings = [math.atan2(axis[0], axis[1]) for axis in axes]
+    assert bearings[1] < bearings[0] - 0.25
+    assert bearings[3] == pytest.approx(bearings[2], abs=0.02)
+    assert axes[1][2] == pytest.approx(axes[0][2], abs=0.02)
+    assert axes[3][2] > axes[2][2] + 0.1
+
+
+def test_a_roll_turns_the_picture_about_its_middle() -> None:
+    scene = film(CameraMove("roll", "clockwise"), noun="chair", place="indoor")
+    first, last = scene.camera(0.0), scene.camera(DURATION_S)
+    np.testing.assert_allclose(first.rotation[2], last.rotation[2], atol=1e-12)
+    np.testing.assert_allclose(first.position, last.position)
+    assert last.rotation[0, 2] < -0.2 < 0.2 < first.rotation[0, 2]
+
+
+def test_an_orbit_keeps_a_walking_subject_in_the_middle() -> None:
+    scene = film(CameraMove("orbit", "right"), motion=ObjectMotion("walk", "right"))
+    places = [
+        image_of(scene.camera(t), scene.actors[0].middle(t)[None])[0] for t in (0.0, 1.0, 2.0)
+    ]
+    assert np.abs(places).max() < 0.15
+
+
+@given(moves, st.floats(0.0, 1.0))
+def test_channels_have_no_jumps_and_stay_in_their_range(
+    shot: list[CameraMove], share: float
+) -> None:
+    channels = MoveChannels(tuple(shot))
+    for move in shot:
+        step = channels.centred(move.kind, share + 1e-4) - channels.centred(move.kind, share)
+        assert abs(step) < 6e-3
+        total = sum(m.pace for m in shot if m.kind == move.kind)
+        assert abs(channels.centred(move.kind, share)) <= 0.5 * total + 1e-9
+        assert channels.below_most(move.kind, share) <= 1e-9
